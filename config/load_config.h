@@ -1,0 +1,25 @@
+// The one reader of configuration, calibration and body tables.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "core/body/body_model.h"
+#include "core/reconstruction/camera_model.h"
+
+namespace mocap {
+
+/// Reads the daemon's TOML. Relative paths are made relative to the file.
+/// @throws SetupError  naming file, line and key, what was found and what is wanted; unknown keys too.
+Config LoadConfig(const std::filesystem::path& file);
+
+/// Reads calibration.toml, cameras in the order of the file.
+/// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without size.
+std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file);
+
+/// Finds a body table: one of those built in ("mikic2003", "full") or a TOML file's path.
+BodyTable LoadBodyTable(const std::string& name_or_path);
+
+}  // namespace mocap

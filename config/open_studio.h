@@ -1,0 +1,26 @@
+// From names in a file to cameras that deliver.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "drivers/studio.h"
+
+namespace mocap {
+
+/// Opens whatever source the configuration names.
+Studio OpenStudio(const Config& config);
+
+struct TakeOptions {
+  ReplayRate rate = ReplayRate::kFast;
+  bool loop = false;
+  std::vector<std::string> cameras;  ///< Empty: all.
+};
+
+/// Opens a take: its take.toml, calibration, videos, tables and background.
+/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its last whole frame.
+Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
+
+}  // namespace mocap

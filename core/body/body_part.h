@@ -1,0 +1,62 @@
+// §5, §6: the names of body parts and of the 23 measured points. Enumerators keep the paper's
+// numbers.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace mocap {
+
+/// The ten parts of the body; 0 to 9 as in the paper's Fig. 17 and Table 2.
+enum class BodyPart {
+  kTorso = 0,
+  kHead,
+  kUpperArmL,
+  kUpperArmR,
+  kThighL,
+  kThighR,
+  kLowerArmL,
+  kLowerArmR,
+  kCalfL,
+  kCalfR
+};
+inline constexpr int kBodyPartCount = 10;
+
+/// The 23 points of Table 2. The first ten are the parts' centroids.
+enum class Point {
+  kTorso = 0,
+  kHead,
+  kUpperArmL,
+  kUpperArmR,
+  kThighL,
+  kThighR,
+  kLowerArmL,
+  kLowerArmR,
+  kCalfL,
+  kCalfR,
+  kNeck,
+  kShoulderL,
+  kShoulderR,
+  kHipL,
+  kHipR,
+  kElbowL,
+  kElbowR,
+  kFingertipsL,
+  kFingertipsR,
+  kKneeL,
+  kKneeR,
+  kFootL,
+  kFootR
+};
+inline constexpr int kPointCount = 23;
+
+inline constexpr std::array<std::string_view, kPointCount> kPointNames = {
+    "torso",        "head",        "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r",
+    "lower_arm_l",  "lower_arm_r", "calf_l",      "calf_r",      "neck",    "shoulder_l",
+    "shoulder_r",   "hip_l",       "hip_r",       "elbow_l",     "elbow_r", "fingertips_l",
+    "fingertips_r", "knee_l",      "knee_r",      "foot_l",      "foot_r"};
+
+/// Number of rotation axes of the paper's body (Table 1).
+inline constexpr int kPaperAngleCount = 16;
+
+}  // namespace mocap

@@ -1,0 +1,60 @@
+// The paper's Fig. 1 from voxels on: acquire the body, track it, lose it, acquire again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/body/body_part.h"
+#include "core/body/pose_state.h"
+#include "core/reconstruction/voxel_grid.h"
+
+namespace mocap {
+
+/// What the system knows of the person: nobody there; body being measured; body followed; body no
+/// longer matched.
+enum class CaptureState { kSearching = 0, kAcquiring = 1, kTracking = 2, kLost = 3 };
+
+inline constexpr std::array<std::string_view, 4> kCaptureStateNames = {"searching", "acquiring",
+                                                                       "tracking", "lost"};
+
+/// The outcome of one frame set.
+struct CaptureResult {
+  CaptureState state = CaptureState::kSearching;
+  PoseState pose;  ///< Meaningful unless searching.
+  Eigen::Matrix<double, 3, kPointCount>
+      points_W;  ///< p_WQ of the 23 model points after the filter [mm].
+  Eigen::Matrix<double, 1, kPointCount>
+      point_std_mm;           ///< Standard deviation of each, along its worst axis [mm].
+  double residual_mm = 0;     ///< Mean distance between measured and model points.
+  int voxels = 0;             ///< Of the person.
+  bool body_changed = false;  ///< The sizes in body() are new with this frame.
+};
+
+/// Follows one person through voxel grids, measuring the body first. Same input, same output, bit
+/// for bit.
+class MotionCapture {
+ public:
+  explicit MotionCapture(const BodyTable& table);
+  ~MotionCapture();
+
+  /// Takes the next frame set.
+  /// @param capture_ns  time of exposure; must not go back.
+  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns);
+
+  /// The body as it is known now.
+  const BodyModel& body() const;
+  /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before
+  /// that.
+  int acquisition_frames() const;
+  /// The part of each voxel of the last frame, in the order of a scan of the grid; -1: none.
+  const std::vector<std::int8_t>& labels() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,79 @@
+// §4: the camera. Lens models map between the undistorted sensor plane, divided by the focal length
+// (Xu/f, Yu/f), and pixels; the pose X_CW is kept apart from them, so that a lens serves every pan
+// and tilt.
+//
+// Camera frame: x right, y down, z forward. Pixel centres lie at whole numbers.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/geometry.h"
+
+namespace mocap {
+
+/// Tsai's lens (1987): Xu = Xd (1 + κ1 (Xd² + Yd²)); Xf = sx Xd / dx + Cx; Yf = Yd / dy + Cy. Mikić
+/// et al. 2003, §4.
+struct TsaiLens {
+  double focal_mm = 0;
+  double kappa1 = 0;  ///< [1/mm²], distorted -> undistorted.
+  double sx = 1;
+  Vector2 center_px = Vector2::Zero();
+  Vector2 pitch_mm = Vector2::Zero();  ///< dx, dy.
+};
+
+/// OpenCV's pinhole with radial and tangential distortion, undistorted -> distorted.
+struct OpenCvLens {
+  Matrix3 K = Matrix3::Identity();     ///< [px].
+  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3.
+};
+
+/// OpenCV's fisheye (Kannala and Brandt, 2006).
+struct FisheyeLens {
+  Matrix3 K = Matrix3::Identity();     ///< [px].
+  std::array<double, 4> distortion{};  ///< k1 k2 k3 k4.
+};
+
+using Lens = std::variant<TsaiLens, OpenCvLens, FisheyeLens>;
+
+/// Maps undistorted sensor-plane coordinates (Xu/f, Yu/f) to a pixel. Empty where the lens shows no
+/// such direction (the polynomial has turned back).
+std::optional<Vector2> PixelFromNormalized(const Lens& lens, const Vector2& normalized);
+
+/// Maps a pixel to undistorted sensor-plane coordinates (Xu/f, Yu/f); the inverse of
+/// PixelFromNormalized.
+std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixel);
+
+/// Where a pan-tilt head points at the moment of exposure [rad].
+struct PanTiltAngles {
+  double pan_rad = 0;
+  double tilt_rad = 0;
+  friend bool operator==(const PanTiltAngles&, const PanTiltAngles&) = default;
+};
+
+/// The two axes of a pan-tilt head at pan = tilt = 0, in the world frame; they need not pass
+/// through the lens.
+struct PanTiltHead {
+  Vector3 pan_axis_W = Vector3::UnitZ();
+  Vector3 pan_point_W = Vector3::Zero();
+  Vector3 tilt_axis_W = Vector3::UnitX();
+  Vector3 tilt_point_W = Vector3::Zero();
+};
+
+/// One calibrated camera.
+struct CameraCalibration {
+  std::string name;
+  int width_px = 0;
+  int height_px = 0;
+  Lens lens;
+  RigidTransform X_CW;              ///< At pan = tilt = 0.
+  std::optional<PanTiltHead> head;  ///< Only for a camera on a head.
+
+  /// Gives the pose for a direction of the head: X_CW M⁻¹ with M = M_pan M_tilt. Without a head it
+  /// is X_CW.
+  RigidTransform PoseAt(const PanTiltAngles& angles) const;
+};
+
+}  // namespace mocap

@@ -1,0 +1,44 @@
+// §4: the person's outline in one camera, one bit a pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace mocap {
+
+/// A binary picture, 64 pixels a word; row y begins at word y * words_per_row(), pixel x is bit x %
+/// 64 of word x / 64.
+class Silhouette {
+ public:
+  Silhouette() = default;
+  Silhouette(int width, int height)
+      : width_(width),
+        height_(height),
+        words_per_row_((width + 63) / 64),
+        words_(static_cast<std::size_t>(words_per_row_) * height) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int words_per_row() const { return words_per_row_; }
+  bool Test(int x, int y) const {
+    return words_[static_cast<std::size_t>(y) * words_per_row_ + (x >> 6)] >> (x & 63) & 1;
+  }
+  void Set(int x, int y) {
+    words_[static_cast<std::size_t>(y) * words_per_row_ + (x >> 6)] |= std::uint64_t{1} << (x & 63);
+  }
+  std::uint64_t* row(int y) { return words_.data() + static_cast<std::size_t>(y) * words_per_row_; }
+  const std::uint64_t* row(int y) const {
+    return words_.data() + static_cast<std::size_t>(y) * words_per_row_;
+  }
+  const std::vector<std::uint64_t>& words() const { return words_; }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  int words_per_row_ = 0;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace mocap

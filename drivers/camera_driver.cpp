@@ -1,0 +1,1 @@
+#include "drivers/camera_driver.h"
