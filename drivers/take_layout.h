@@ -22,8 +22,12 @@ struct TakeLayout {
 
   std::filesystem::path Description() const { return folder / "take.toml"; }
   std::filesystem::path Calibration() const { return folder / "calibration.toml"; }
-  std::filesystem::path Video(const std::string& camera) const { return folder / (camera + ".mkv"); }
-  std::filesystem::path Table(const std::string& camera) const { return folder / (camera + ".csv"); }
+  std::filesystem::path Video(const std::string& camera) const {
+    return folder / (camera + ".mkv");
+  }
+  std::filesystem::path Table(const std::string& camera) const {
+    return folder / (camera + ".csv");
+  }
   std::filesystem::path BackgroundVideo(const std::string& camera) const {
     return folder / "background" / (camera + ".mkv");
   }

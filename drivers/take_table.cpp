@@ -17,7 +17,6 @@ constexpr std::string_view kHeadHeader = "frame,timestamp_ns,pan_rad,tilt_rad";
 
 // Far beyond any recording, yet safe to add and to multiply.
 constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;
-constexpr std::int64_t kLongest_ns = std::int64_t{7} * 24 * 3600 * 1'000'000'000;
 constexpr std::uint64_t kLastFrame = 1'000'000'000'000;
 
 /// Where in the file one is, for messages.
@@ -75,7 +74,8 @@ TakeRow ParseRow(std::string_view line, bool has_angles, const Place& place) {
   return row;
 }
 
-void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row, const Place& place) {
+void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row,
+                const Place& place) {
   if (row.frame <= before.frame) {
     place.Fail("frame " + std::to_string(row.frame) + " follows " + std::to_string(before.frame) +
                "; frame numbers must increase");
@@ -84,7 +84,7 @@ void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row,
     place.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
                std::to_string(before.timestamp_ns) + "; times must increase");
   }
-  if (row.timestamp_ns - first.timestamp_ns > kLongest_ns) {
+  if (row.timestamp_ns - first.timestamp_ns > kLongestTake_ns) {
     place.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
                " is more than a week after the first; a shorter take is wanted");
   }

@@ -9,6 +9,9 @@
 
 namespace mocap {
 
+/// More than any take lasts; keeps sums of times far from their limits.
+inline constexpr std::int64_t kLongestTake_ns = std::int64_t{7} * 24 * 3600 * 1'000'000'000;
+
 /// One recorded frame.
 struct TakeRow {
   std::uint64_t frame = 0;  ///< As the camera counted; a gap is a frame that it missed.

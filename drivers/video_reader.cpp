@@ -30,7 +30,8 @@ InputPtr OpenInput(const std::filesystem::path& file) {
   AVDictionary* options = nullptr;
   // Without a whitelist a playlist in disguise could reach for the network.
   av_dict_set(&options, "protocol_whitelist", "file", 0);
-  const int result = avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
+  const int result =
+      avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
   av_dict_free(&options);
   if (result < 0) Fail(file, "is not a video that FFmpeg knows; a Matroska file is wanted");
   InputPtr input(raw);
@@ -105,7 +106,8 @@ class VideoReader::Impl {
   }
 
  private:
-  // A recording may begin with frames whose key frame was not recorded: they are none of the take's.
+  // A recording may begin with frames whose key frame was not recorded: they are none of the
+  // take's.
   bool DecodeFirst() {
     VideoStatus status = VideoStatus::kBroken;
     while (status == VideoStatus::kBroken) status = Decode();
