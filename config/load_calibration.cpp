@@ -17,10 +17,11 @@ Matrix3 ReadRotation(TomlSection& camera) {
   const Matrix3 R = camera.Matrix("rotation");
   const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kRotationTolerance)) {
-    camera.Fail("rotation", "is no rotation: its rows are not perpendicular unit vectors");
+    camera.Fail("rotation",
+                "is no rotation; three rows that are perpendicular unit vectors are wanted");
   }
   if (R.determinant() < 0) {
-    camera.Fail("rotation", "is no rotation but a reflection: its determinant is -1");
+    camera.Fail("rotation", "is a reflection; a rotation, whose determinant is +1, is wanted");
   }
   // Inverses are taken by transposing, so digits that a person left out are put back.
   const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
