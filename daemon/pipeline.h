@@ -22,7 +22,7 @@
 namespace mocap {
 
 struct PipelineOptions {
-  SegmentationOptions segmentation;
+  SegmentationOptions segmentation{};
   double voxel_mm = 25;
   /// kWait: every set is tracked, and the poses depend on the frames alone, not on the threads.
   /// kDropOldest: the newest set counts, stale ones go, and a camera that is late is gone on
