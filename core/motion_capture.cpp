@@ -25,10 +25,12 @@ class MotionCapture::Impl {
   explicit Impl(const BodyTable& table)
       : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns) {
+  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
+                              UpdateObserver* observer) {
     const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
     last_ns_ = capture_ns;
     cloud_.Build(grid);
+    if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = cloud_.size();
     if (cloud_.volume_litres() < kLeastLitres) {
@@ -38,6 +40,7 @@ class MotionCapture::Impl {
       SomebodyThere(dt_s);
     }
     Report();
+    if (observer) observer->OnStageEnd(UpdateStage::kFilter);
     return result_;
   }
 
@@ -150,8 +153,9 @@ BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
 MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MotionCapture::~MotionCapture() = default;
 
-const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::int64_t capture_ns) {
-  return impl_->Update(grid, capture_ns);
+const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::int64_t capture_ns,
+                                           UpdateObserver* observer) {
+  return impl_->Update(grid, capture_ns, observer);
 }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
