@@ -7,9 +7,9 @@
 namespace mocap::simulation {
 namespace {
 
-// Shares of stature for an average man; breadths, depths and girths from ANSUR (Gordon et al. 1989):
-// at 1755 mm chest 320 × 240, waist 310 × 225, hips 345 × 245, thigh 597 around, knee 386, calf 378,
-// ankle 222, upper arm 335, forearm 300, wrist 173, neck 380.
+// Shares of stature for an average man; breadths, depths and girths from ANSUR (Gordon et al.
+// 1989): at 1755 mm chest 320 × 240, waist 310 × 225, hips 345 × 245, thigh 597 around, knee 386,
+// calf 378, ankle 222, upper arm 335, forearm 300, wrist 173, neck 380.
 // clang-format off
 constexpr std::array<Section, 15> kTorso = {{
     // s      cx      cy  front  back   outer  inner
@@ -105,8 +105,8 @@ double Bump(double s, double middle, double half_width) {
 }
 
 Section Scaled(Section section, double scale) {
-  for (double* v : {&section.cx, &section.cy, &section.front, &section.back, &section.outer,
-                    &section.inner})
+  for (double* v :
+       {&section.cx, &section.cy, &section.front, &section.back, &section.outer, &section.inner})
     *v *= scale;
   return section;
 }
@@ -141,8 +141,8 @@ Section Interpolate(std::span<const Section> table, double s) {
   const double after = i + 2 < table.size() ? d.s - c.s : width;
   Section result;
   result.s = s;
-  for (double Section::* v : {&Section::cx, &Section::cy, &Section::front, &Section::back,
-                              &Section::outer, &Section::inner})
+  for (double Section::*v : {&Section::cx, &Section::cy, &Section::front, &Section::back,
+                             &Section::outer, &Section::inner})
     result.*v = Spline(a.*v, b.*v, c.*v, d.*v, before, width, after, u);
   return result;
 }
@@ -154,8 +154,8 @@ Section TorsoSection(const Anthropometry& body, double s) {
   section = Thickened(section, 1 + 0.10 * g * trunk + 0.04 * g);
   section.front *= 1 + std::max(g, 0.0) * 0.30 * Bump(s, 0.28, 0.4) + 0.16 * f * Bump(s, 0.62, 0.2);
   section.back *= 1 + 0.06 * f * Bump(s, -0.02, 0.2);
-  const double side = 1 + f * (0.05 * Bump(s, 0, 0.25) - 0.10 * Bump(s, 0.36, 0.25) -
-                               0.05 * Bump(s, 0.8, 0.3));
+  const double side =
+      1 + f * (0.05 * Bump(s, 0, 0.25) - 0.10 * Bump(s, 0.36, 0.25) - 0.05 * Bump(s, 0.8, 0.3));
   section.outer *= side;
   section.inner *= side;
   return section;

@@ -43,13 +43,12 @@ FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double ya
   // The pivot moves quickly, not at once, from heel to ball: soles and heels are round.
   const double forward = 0.5 + 0.5 * std::tanh(pitch / 0.04);
   const double heel = -0.8 * body.heel_mm;
-  const Vector3 pivot(heel + (body.ball_mm - heel) * forward, 0,
-                      0.012 * body.stature_mm * forward);
+  const Vector3 pivot(heel + (body.ball_mm - heel) * forward, 0, 0.012 * body.stature_mm * forward);
   const Matrix3 R_WYaw = Turn(Vector3::UnitZ(), yaw);
   FootTarget target;
   target.R_WFoot = R_WYaw * Turn(Vector3::UnitY(), pitch);
-  target.p_WAnkle = p_WSole + R_WYaw * pivot +
-                    target.R_WFoot * (Vector3(0, 0, body.ankle_to_sole_mm) - pivot);
+  target.p_WAnkle =
+      p_WSole + R_WYaw * pivot + target.R_WFoot * (Vector3(0, 0, body.ankle_to_sole_mm) - pivot);
   target.toes_rad = toe_grip * pitch * forward;
   return target;
 }
@@ -82,8 +81,8 @@ void BendTrunk(double flexion, double bend, double twist, double gaze, BodyPose&
 void FollowWithClavicles(BodyPose& pose) {
   for (ArmAngles& arm : pose.arms) {
     // Elevation: the angle between upper arm and trunk, whatever the direction.
-    const double elevation = std::acos(
-        std::clamp(std::cos(arm.flexion) * std::cos(arm.abduction), -1.0, 1.0));
+    const double elevation =
+        std::acos(std::clamp(std::cos(arm.flexion) * std::cos(arm.abduction), -1.0, 1.0));
     arm.clavicle_up = 0.28 * std::max(0.0, elevation - 0.3);
     arm.clavicle_forward = 0.15 * std::sin(arm.flexion) * std::cos(arm.abduction);
   }
@@ -130,8 +129,7 @@ GaitStyle RunningStyle(const Anthropometry& body) {
   return style;
 }
 
-Gait::Gait(const Anthropometry& body, const GaitStyle& style,
-           std::function<Track(double)> track)
+Gait::Gait(const Anthropometry& body, const GaitStyle& style, std::function<Track(double)> track)
     : body_(body), style_(style), track_(std::move(track)) {}
 
 double Gait::PhaseOf(int side, double t_s) const {
@@ -159,8 +157,7 @@ FootTarget Gait::FootAt(int side, double t_s) const {
   const double cycle = std::floor(cycles), phase = cycles - cycle;
   const Plant here = PlantOf(side, cycle), next = PlantOf(side, cycle + 1);
   const double effort_next = EffortBetween(here, next);
-  const double effort =
-      phase < 0.2 ? EffortBetween(PlantOf(side, cycle - 1), here) : effort_next;
+  const double effort = phase < 0.2 ? EffortBetween(PlantOf(side, cycle - 1), here) : effort_next;
   const double pitch = effort * Evaluate(style_.roll, phase, 1);
   if (phase < style_.duty) return RollFoot(body_, here.p_WSole, here.yaw, pitch);
   const double u = (phase - style_.duty) / (1 - style_.duty);
@@ -191,11 +188,12 @@ BodyPose Gait::PoseAt(double t_s) const {
   const Vector3 up = Vector3(lean.x(), lean.y(), 1).normalized();
   const Matrix3 R_lean =
       Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up).toRotationMatrix();
-  pose.R_WPelvis = R_lean *
-                   Turn(Vector3::UnitZ(), track.yaw - effort * style_.hip_yaw * stride) *
-                   Turn(Vector3::UnitY(), 0.4 * effort * style_.lean) *
-                   Turn(Vector3::UnitX(), effort * style_.hip_list * std::cos(kTurn * (phase - 0.2)));
-  BendTrunk(0.6 * effort * style_.lean, 0.6 * effort * style_.hip_list * std::cos(kTurn * (phase - 0.2)),
+  pose.R_WPelvis =
+      R_lean * Turn(Vector3::UnitZ(), track.yaw - effort * style_.hip_yaw * stride) *
+      Turn(Vector3::UnitY(), 0.4 * effort * style_.lean) *
+      Turn(Vector3::UnitX(), effort * style_.hip_list * std::cos(kTurn * (phase - 0.2)));
+  BendTrunk(0.6 * effort * style_.lean,
+            0.6 * effort * style_.hip_list * std::cos(kTurn * (phase - 0.2)),
             effort * 2.2 * style_.hip_yaw * stride, 1, pose);
   for (const int side : {kLeft, kRight}) {
     const double swing = -SideSign(side) * effort * std::cos(kTurn * (phase - 0.03));

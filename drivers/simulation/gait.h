@@ -38,8 +38,8 @@ struct Track {
 };
 
 struct GaitStyle {
-  double step_s = 0.55;     ///< From one foot's contact to the other's.
-  double duty = 0.62;       ///< Share of its cycle that a foot is on the ground; below 0.5: running.
+  double step_s = 0.55;  ///< From one foot's contact to the other's.
+  double duty = 0.62;    ///< Share of its cycle that a foot is on the ground; below 0.5: running.
   double full_step_mm = 0;  ///< Step length at which the foot rolls fully.
   double half_width_mm = 0, toe_out = 0, lift_mm = 0;
   std::span<const Key> roll;  ///< The foot's pitch over its cycle [rad]; 0 is the contact.

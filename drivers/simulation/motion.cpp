@@ -20,11 +20,11 @@ class Rounds : public Motion {
  public:
   Rounds(const Anthropometry& body, const GaitStyle& style, double speed_mm_s, double radius_mm,
          std::uint64_t seed)
-      : gait_(body, style, [path = OvalPath(Vector2::Zero(), radius_mm, seed),
-                            speed_mm_s](double t_s) {
-          const double distance = speed_mm_s * t_s;
-          return Track{path.PositionAt(distance), path.HeadingAt(distance)};
-        }) {}
+      : gait_(body, style,
+              [path = OvalPath(Vector2::Zero(), radius_mm, seed), speed_mm_s](double t_s) {
+                const double distance = speed_mm_s * t_s;
+                return Track{path.PositionAt(distance), path.HeadingAt(distance)};
+              }) {}
   BodyPose PoseAt(double t_s) const override { return gait_.PoseAt(t_s); }
 
  private:
@@ -35,7 +35,8 @@ class Rounds : public Motion {
 class Dance : public Motion {
  public:
   Dance(const Anthropometry& body, std::uint64_t seed)
-      : body_(body), seed_phase_(Random(Mix(seed, 0x64616e6365)).Uniform(0, kTurn)),
+      : body_(body),
+        seed_phase_(Random(Mix(seed, 0x64616e6365)).Uniform(0, kTurn)),
         gait_(body, Style(body), [this](double t_s) { return TrackAt(t_s); }) {}
 
   BodyPose PoseAt(double t_s) const override {
@@ -49,7 +50,8 @@ class Dance : public Motion {
       const double sign = SideSign(side);
       ArmAngles& arm = pose.arms[side];
       const double wave = std::sin(beat + sign * 0.8 + slow);
-      arm.abduction = 0.45 + 1.75 * Smoothstep(0, 1, raised + 0.15 * sign * std::sin(slow)) + 0.25 * wave;
+      arm.abduction =
+          0.45 + 1.75 * Smoothstep(0, 1, raised + 0.15 * sign * std::sin(slow)) + 0.25 * wave;
       arm.flexion = 0.35 + 0.35 * std::sin(beat - sign * 0.7);
       arm.rotation = 0.3 * std::sin(beat + sign);
       arm.elbow = 0.75 + 0.45 * std::sin(beat + 0.5 + sign * 1.2);
@@ -108,13 +110,20 @@ class Visit : public Motion {
     Random random(Mix(seed, 0x7669736974));
     const double x = kDoorX_mm - kDoorJamb_mm - 0.5 * kCorridorDepth_mm;
     const double r = random.Uniform(0.9, 1.1);
-    return {{x, kDoorY_mm - kHidingPlace_mm}, {x, kDoorY_mm - 900},
-            {x + 200, kDoorY_mm - 250},       {kDoorX_mm - 150, kDoorY_mm - 60},
-            {kDoorX_mm + 700, kDoorY_mm - 150}, {-900 * r, -700 * r},
-            {300 * r, -1350 * r},             {1350 * r, -200 * r},
-            {700 * r, 1200 * r},              {-800 * r, 1150 * r},
-            {kDoorX_mm + 700, kDoorY_mm + 50}, {kDoorX_mm - 150, kDoorY_mm + 60},
-            {x + 200, kDoorY_mm + 250},       {x, kDoorY_mm + 900},
+    return {{x, kDoorY_mm - kHidingPlace_mm},
+            {x, kDoorY_mm - 900},
+            {x + 200, kDoorY_mm - 250},
+            {kDoorX_mm - 150, kDoorY_mm - 60},
+            {kDoorX_mm + 700, kDoorY_mm - 150},
+            {-900 * r, -700 * r},
+            {300 * r, -1350 * r},
+            {1350 * r, -200 * r},
+            {700 * r, 1200 * r},
+            {-800 * r, 1150 * r},
+            {kDoorX_mm + 700, kDoorY_mm + 50},
+            {kDoorX_mm - 150, kDoorY_mm + 60},
+            {x + 200, kDoorY_mm + 250},
+            {x, kDoorY_mm + 900},
             {x, kDoorY_mm + kHidingPlace_mm}};
   }
 
@@ -141,8 +150,7 @@ class Visit : public Motion {
     if (t_s >= walk_s) return path_.length_mm();
     if (t_s < kEase_s) return speed_mm_s_ * t_s * t_s / (2 * kEase_s);
     const double left_s = walk_s - t_s;
-    if (left_s < kEase_s)
-      return path_.length_mm() - speed_mm_s_ * left_s * left_s / (2 * kEase_s);
+    if (left_s < kEase_s) return path_.length_mm() - speed_mm_s_ * left_s * left_s / (2 * kEase_s);
     return speed_mm_s_ * (t_s - kEase_s / 2);
   }
 

@@ -26,8 +26,7 @@ struct Spot {
 
 Spot RandomSpot(std::uint64_t seed) {
   Random random(Mix(seed, 0x73706f74));
-  return {Vector2(random.Uniform(-400, 400), random.Uniform(-400, 400)),
-          random.Uniform(0, kTurn)};
+  return {Vector2(random.Uniform(-400, 400), random.Uniform(-400, 400)), random.Uniform(0, kTurn)};
 }
 
 void PlacePelvis(const Spot& spot, double forward_mm, double left_mm, double pitch, double roll,
@@ -96,12 +95,27 @@ class Jump : public Motion {
     const double in_air = t - kTakeOff_s;
     const bool flying = in_air > 0 && in_air < flight_s_;
 
-    const double crouch = Curve(t, {{{0, 0}, {0.25, 0}, {0.72, 1}, {0.95, 0}, {landed, 0},
-                                     {landed + 0.2, 0.85}, {landed + 0.75, 0}}});
-    const double heels = Curve(t, {{{0, 0}, {0.78, 0}, {0.95, 0.75}, {landed, 0.5},
-                                    {landed + 0.10, 0}, {landed + 0.3, 0}, {landed + 0.75, 0}}});
-    const double arms = Curve(t, {{{0, 0}, {0.25, 0}, {0.62, -0.85}, {0.97, 2.5}, {landed, 1.5},
-                                   {landed + 0.25, 0.2}, {landed + 0.75, 0}}});
+    const double crouch = Curve(t, {{{0, 0},
+                                     {0.25, 0},
+                                     {0.72, 1},
+                                     {0.95, 0},
+                                     {landed, 0},
+                                     {landed + 0.2, 0.85},
+                                     {landed + 0.75, 0}}});
+    const double heels = Curve(t, {{{0, 0},
+                                    {0.78, 0},
+                                    {0.95, 0.75},
+                                    {landed, 0.5},
+                                    {landed + 0.10, 0},
+                                    {landed + 0.3, 0},
+                                    {landed + 0.75, 0}}});
+    const double arms = Curve(t, {{{0, 0},
+                                   {0.25, 0},
+                                   {0.62, -0.85},
+                                   {0.97, 2.5},
+                                   {landed, 1.5},
+                                   {landed + 0.25, 0.2},
+                                   {landed + 0.75, 0}}});
     const double fly = flying ? kGravity / 2 * in_air * (flight_s_ - in_air) : 0;
     // Feet are drawn up a little in the air.
     const double tuck = flying ? std::pow(std::sin(std::numbers::pi * in_air / flight_s_), 2) : 0;
@@ -232,8 +246,8 @@ class Step : public Motion {
     const double shift = 0.022 * h * sign * Evaluate(side, beat);
     const double climbing = Evaluate(rise, beat), moving = std::sin(std::numbers::pi * climbing);
     BodyPose pose;
-    PlacePelvis(spot_, up_mm_ * Evaluate(forward, beat) + 0.012 * h, shift, 0.05 + 0.08 * moving,
-                0, 0, pose);
+    PlacePelvis(spot_, up_mm_ * Evaluate(forward, beat) + 0.012 * h, shift, 0.05 + 0.08 * moving, 0,
+                0, pose);
     BendTrunk(0.05 + 0.14 * moving, 0, 0, 0.6, pose);
     for (const int k : {kLeft, kRight}) {
       ArmAngles& arm = pose.arms[k];
@@ -273,11 +287,17 @@ class Step : public Motion {
       hop = Smoothstep(0, 0.3, falling) * (1 - Smoothstep(0.3, 0.9, falling));
     }
     // Going up the heel leaves the floor last by its toes; coming down the toes touch first.
-    const std::array<Key, 9> pitch = {{{up - 0.25, 0}, {up + 0.1, 0.7}, {up + 0.55, 0.1},
-                                       {up + 0.8, -0.05}, {up + 0.95, 0}, {down - 0.1, 0},
-                                       {down + 0.4, 0.25}, {down + 0.95, 0.45}, {down + 1.25, 0}}};
-    const Vector3 p = spot_.At(up_mm_ * way, SideSign(side) * 0.055 * h,
-                               block_mm_ * height + 0.035 * h * hop);
+    const std::array<Key, 9> pitch = {{{up - 0.25, 0},
+                                       {up + 0.1, 0.7},
+                                       {up + 0.55, 0.1},
+                                       {up + 0.8, -0.05},
+                                       {up + 0.95, 0},
+                                       {down - 0.1, 0},
+                                       {down + 0.4, 0.25},
+                                       {down + 0.95, 0.45},
+                                       {down + 1.25, 0}}};
+    const Vector3 p =
+        spot_.At(up_mm_ * way, SideSign(side) * 0.055 * h, block_mm_ * height + 0.035 * h * hop);
     return RollFoot(body_, p, spot_.yaw - SideSign(side) * 0.1, Evaluate(pitch, beat));
   }
 

@@ -27,7 +27,8 @@ class Folds {
   }
   double At(double angle, double s) const {
     double sum = 0;
-    for (const Wave& wave : waves_) sum += std::sin(wave.around * angle + wave.along * s + wave.phase);
+    for (const Wave& wave : waves_)
+      sum += std::sin(wave.around * angle + wave.along * s + wave.phase);
     return sum / std::size(waves_);
   }
 
@@ -106,7 +107,8 @@ class Builder {
     std::array<double, kBoneCount> weights = ring.weights;
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const int bone = static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+      const int bone =
+          static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
       vertex.bones[k] = static_cast<std::uint8_t>(bone);
       vertex.weights[k] = static_cast<float>(weights[bone]);
       sum += weights[bone];
@@ -212,15 +214,16 @@ void AddHead(Builder& builder, const Anthropometry& body, const BonePoses& rest)
 
 void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, int side,
             const BonePoses& rest) {
-  TubeStyle style{.rings = 40, .sectors = 12, .side = SideSign(side), .fold = 0.015, .material = {}};
+  TubeStyle style{
+      .rings = 40, .sectors = 12, .side = SideSign(side), .fold = 0.015, .material = {}};
   style.material = [&outfit](double s, double) {
     if (s > outfit.sleeve_end) return kSkin;
     return outfit.striped && std::fmod(s * 5 + 10, 2) < 1 ? kStripe : kShirt;
   };
   builder.AddTube(-0.2, 3, style, [&](double s) {
-    const double z = -(std::min(s, 1.0) * body.upper_arm_mm +
-                       std::clamp(s - 1, 0.0, 1.0) * body.forearm_mm +
-                       std::clamp(s - 2, 0.0, 1.0) * body.hand_mm);
+    const double z =
+        -(std::min(s, 1.0) * body.upper_arm_mm + std::clamp(s - 1, 0.0, 1.0) * body.forearm_mm +
+          std::clamp(s - 2, 0.0, 1.0) * body.hand_mm);
     Ring ring;
     ring.X_WRing = rest[kUpperArmL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
     ring.section = ArmSection(body, s);
@@ -254,8 +257,11 @@ void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
 
 void AddLeg(Builder& builder, const Anthropometry& body, const Outfit& outfit, int side,
             const BonePoses& rest) {
-  TubeStyle style{.rings = 34, .sectors = 14, .side = SideSign(side), .fold = 0.015, .material = {}};
-  style.material = [&outfit](double s, double) { return s > outfit.trouser_end ? kSkin : kTrousers; };
+  TubeStyle style{
+      .rings = 34, .sectors = 14, .side = SideSign(side), .fold = 0.015, .material = {}};
+  style.material = [&outfit](double s, double) {
+    return s > outfit.trouser_end ? kSkin : kTrousers;
+  };
   builder.AddTube(-0.14, 2.06, style, [&](double s) {
     const double z = -(std::min(s, 1.0) * body.thigh_mm + std::max(s - 1, 0.0) * body.shank_mm);
     Ring ring;
@@ -282,8 +288,7 @@ void AddFoot(Builder& builder, const Anthropometry& body, int side, const BonePo
   builder.AddTube(0, 1, style, [&](double s) {
     const double x = s * body.foot_mm - body.heel_mm;
     Ring ring;
-    ring.X_WRing =
-        rest[kFootL + side] * RigidTransform{R_FootRing, {x, 0, -body.ankle_to_sole_mm}};
+    ring.X_WRing = rest[kFootL + side] * RigidTransform{R_FootRing, {x, 0, -body.ankle_to_sole_mm}};
     ring.section = FootSection(body, s);
     // The oval stands on the sole: its middle is low and its lower half flat.
     const double top = ring.section.front;

@@ -42,18 +42,15 @@ void PlaceArm(const Anthropometry& body, const ArmAngles& arm, int side, BonePos
       bones[kThorax] *
       RigidTransform{TurnX(sign * arm.clavicle_up) * TurnZ(-sign * arm.clavicle_forward), inner};
   bones[kUpperArmL + side] =
-      bones[kClavicleL + side] *
-      RigidTransform{Matrix3::Identity(), shoulder - inner};
+      bones[kClavicleL + side] * RigidTransform{Matrix3::Identity(), shoulder - inner};
   // Shoulder angles are against the thorax; the clavicle only carries the joint.
   bones[kUpperArmL + side].R =
       bones[kThorax].R * LimbRotation(arm.flexion, arm.abduction, arm.rotation, sign);
-  bones[kForearmL + side] =
-      bones[kUpperArmL + side] *
-      RigidTransform{TurnY(-arm.elbow), Vector3(0, 0, -body.upper_arm_mm)};
-  bones[kHandL + side] =
-      bones[kForearmL + side] *
-      RigidTransform{TurnZ(-sign * arm.pronation) * TurnX(-sign * arm.wrist),
-                     Vector3(0, 0, -body.forearm_mm)};
+  bones[kForearmL + side] = bones[kUpperArmL + side] *
+                            RigidTransform{TurnY(-arm.elbow), Vector3(0, 0, -body.upper_arm_mm)};
+  bones[kHandL + side] = bones[kForearmL + side] *
+                         RigidTransform{TurnZ(-sign * arm.pronation) * TurnX(-sign * arm.wrist),
+                                        Vector3(0, 0, -body.forearm_mm)};
 }
 
 void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, BonePoses& bones) {
@@ -61,8 +58,8 @@ void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, Bo
   bones[kThighL + side] =
       bones[kPelvis] * RigidTransform{LimbRotation(leg.flexion, leg.abduction, leg.rotation, sign),
                                       Vector3(0, sign * body.hip_half_mm, 0)};
-  bones[kShankL + side] = bones[kThighL + side] *
-                          RigidTransform{TurnY(leg.knee), Vector3(0, 0, -body.thigh_mm)};
+  bones[kShankL + side] =
+      bones[kThighL + side] * RigidTransform{TurnY(leg.knee), Vector3(0, 0, -body.thigh_mm)};
   bones[kFootL + side] =
       bones[kShankL + side] *
       RigidTransform{LimbRotation(leg.ankle, -leg.inversion, leg.foot_turn, sign),
@@ -80,16 +77,14 @@ BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose) {
   bones[kPelvis] = {pose.R_WPelvis, pose.p_WPelvis};
   bones[kLumbar] =
       bones[kPelvis] * RigidTransform{RotationOf(pose.lumbar), Vector3(0, 0, body.lumbar_mm)};
-  bones[kThorax] =
-      bones[kLumbar] *
-      RigidTransform{RotationOf(pose.thorax), Vector3(0, 0, body.thorax_mm - body.lumbar_mm)};
-  bones[kNeck] =
-      bones[kThorax] *
-      RigidTransform{RotationOf(pose.neck),
-                     Vector3(-0.008 * body.stature_mm, 0, body.torso_mm - body.thorax_mm)};
-  bones[kHead] = bones[kNeck] * RigidTransform{RotationOf(pose.head),
-                                               Vector3(0.012 * body.stature_mm, 0,
-                                                       body.skull_base_mm)};
+  bones[kThorax] = bones[kLumbar] * RigidTransform{RotationOf(pose.thorax),
+                                                   Vector3(0, 0, body.thorax_mm - body.lumbar_mm)};
+  bones[kNeck] = bones[kThorax] *
+                 RigidTransform{RotationOf(pose.neck), Vector3(-0.008 * body.stature_mm, 0,
+                                                               body.torso_mm - body.thorax_mm)};
+  bones[kHead] =
+      bones[kNeck] * RigidTransform{RotationOf(pose.head),
+                                    Vector3(0.012 * body.stature_mm, 0, body.skull_base_mm)};
   for (const int side : {kLeft, kRight}) {
     PlaceArm(body, pose.arms[side], side, bones);
     PlaceLegBones(body, pose.legs[side], side, bones);
@@ -99,8 +94,7 @@ BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose) {
 
 Vector3 HeadCenterInHead(const Anthropometry& body) {
   const double vertex_above_neck = body.stature_mm - body.hip_height_mm() - body.torso_mm;
-  return {0.006 * body.stature_mm, 0,
-          vertex_above_neck - body.head_mm / 2 - body.skull_base_mm};
+  return {0.006 * body.stature_mm, 0, vertex_above_neck - body.head_mm / 2 - body.skull_base_mm};
 }
 
 TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones) {
@@ -132,7 +126,8 @@ void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, Bod
   const double a = body.thigh_mm, b = body.shank_mm;
   const double distance = std::clamp(reach.norm(), 0.3 * (a + b), 0.9999 * (a + b));
   // Law of cosines: the triangle of hip, knee and ankle.
-  const double knee = std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b));
+  const double knee =
+      std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b));
   const double at_hip = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
 
   // The leg's plane holds the line to the ankle and the direction of the foot, which may point

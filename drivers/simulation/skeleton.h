@@ -113,9 +113,9 @@ enum class TruthPoint {
 inline constexpr int kTruthPointCount = 19;
 
 inline constexpr std::array<std::string_view, kTruthPointCount> kTruthPointNames = {
-    "pelvis",       "neck",    "head",    "shoulder_l", "shoulder_r", "elbow_l",      "elbow_r",
-    "wrist_l",      "wrist_r", "fingertips_l", "fingertips_r", "hip_l", "hip_r", "knee_l",
-    "knee_r",       "ankle_l", "ankle_r", "toe_l",      "toe_r"};
+    "pelvis",  "neck",    "head",         "shoulder_l",   "shoulder_r", "elbow_l", "elbow_r",
+    "wrist_l", "wrist_r", "fingertips_l", "fingertips_r", "hip_l",      "hip_r",   "knee_l",
+    "knee_r",  "ankle_l", "ankle_r",      "toe_l",        "toe_r"};
 
 /// p_WQ of every truth point [mm].
 using TruePoints = std::array<Vector3, kTruthPointCount>;
