@@ -60,7 +60,8 @@ void EmptyViewRenderer::Render(const Room& room, const RigidTransform& X_CW, int
                                   0.25f * (d[0].y() + d[1].y() + d[2].y() + d[3].y()));
       const Room::Hit hit = room.Cast(p_WC, ray);
       view.nearness(x, y) = 1 / hit.distance;
-      view.floor(x, y) = hit.on_floor ? PlaceOf(p_WC + hit.distance * ray) : FloorPlace{kNoFloor, 0};
+      view.floor(x, y) =
+          hit.on_floor ? PlaceOf(p_WC + hit.distance * ray) : FloorPlace{kNoFloor, 0};
       if (samples == 1) {
         view.image(x, y) = Rounded(hit.bgr);
         continue;

@@ -10,12 +10,13 @@
 namespace mocap::simulation {
 namespace {
 
-constexpr float kCell_mm = 25;
+// A cell is 256 units of FloorPlace: its number and the place in it are a byte each.
+constexpr float kCell_mm = 256 / kFloorUnitsPerMm;
 constexpr int kColumns = static_cast<int>(kRoomX_mm / kCell_mm) + 1;
 constexpr int kRows = static_cast<int>(kRoomY_mm / kCell_mm) + 1;
-constexpr int kBlurCells = 2;
-// The lamps' share of the light; the rest comes from everywhere.
-constexpr std::array<float, 4> kLightLost = {0, 0.14f, 0.27f, 0.38f};
+constexpr int kBlurCells = 1;
+// What is left of full light, 256, with lamps hidden; the rest comes from everywhere.
+constexpr std::array<std::uint16_t, 4> kLightLeft = {256, 220, 187, 159};
 const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3700),
                                                  Eigen::Vector3f(1600, -700, 3700),
                                                  Eigen::Vector3f(-200, 1500, 3700)};
@@ -23,28 +24,27 @@ const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3
 }  // namespace
 
 FloorShadow::FloorShadow()
-    : lamps_hidden_(kColumns * kRows, 0), light_(kColumns * kRows, 1), scratch_(kColumns * kRows) {}
+    : lamps_hidden_(kColumns * kRows, 0),
+      light_(kColumns * kRows, kLightLeft[0]),
+      scratch_(kColumns * kRows),
+      columns_(kColumns) {}
 
-Eigen::Vector2f FloorShadow::low_W() const {
-  return Eigen::Vector2f(float(x0_), float(y0_)) * kCell_mm -
-         Eigen::Vector2f(float(kRoomX_mm), float(kRoomY_mm)) / 2;
-}
-
-Eigen::Vector2f FloorShadow::high_W() const {
-  return Eigen::Vector2f(float(x1_ + 1), float(y1_ + 1)) * kCell_mm -
-         Eigen::Vector2f(float(kRoomX_mm), float(kRoomY_mm)) / 2;
+bool FloorShadow::Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const {
+  const Eigen::Vector2f corner(float(kRoomX_mm / 2), float(kRoomY_mm / 2));
+  low_W = Eigen::Vector2f(float(x0_), float(y0_)) * kCell_mm - corner;
+  high_W = Eigen::Vector2f(float(x1_ + 1), float(y1_ + 1)) * kCell_mm - corner;
+  return x0_ <= x1_ && y0_ <= y1_;
 }
 
 void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W) {
   for (int y = y0_; y <= y1_; ++y) {
     std::fill_n(&lamps_hidden_[y * kColumns + x0_], x1_ - x0_ + 1, 0);
-    std::fill_n(&light_[y * kColumns + x0_], x1_ - x0_ + 1, 1.0f);
+    std::fill_n(&light_[y * kColumns + x0_], x1_ - x0_ + 1, kLightLeft[0]);
   }
   x0_ = kColumns, y0_ = kRows, x1_ = y1_ = -1;
   for (std::size_t i = 0; i < kLamps_W.size(); ++i)
     CastFrom(kLamps_W[i], static_cast<std::uint8_t>(1 << i), mesh, p_W);
-  empty_ = x1_ < x0_;
-  if (empty_) return;
+  if (x1_ < x0_) return;
   x0_ = std::max(0, x0_ - 2 * kBlurCells);
   y0_ = std::max(0, y0_ - 2 * kBlurCells);
   x1_ = std::min(kColumns - 1, x1_ + 2 * kBlurCells);
@@ -55,13 +55,13 @@ void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f
 void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, const PersonMesh& mesh,
                            const std::vector<Eigen::Vector3f>& p_W) {
   const Eigen::Vector2f corner(float(kRoomX_mm / 2), float(kRoomY_mm / 2));
-  projected_.resize(p_W.size());
-  for (std::size_t i = 0; i < p_W.size(); ++i) {
-    const float t = lamp_W.z() / (lamp_W.z() - std::min(p_W[i].z(), lamp_W.z() - 300));
-    projected_[i] =
-        (lamp_W.head<2>() + t * (p_W[i].head<2>() - lamp_W.head<2>()) + corner) / kCell_mm;
+  projected_.resize(mesh.coarse_vertices.size());
+  for (std::size_t i = 0; i < mesh.coarse_vertices.size(); ++i) {
+    const Eigen::Vector3f& p = p_W[mesh.coarse_vertices[i]];
+    const float t = lamp_W.z() / (lamp_W.z() - std::min(p.z(), lamp_W.z() - 300));
+    projected_[i] = (lamp_W.head<2>() + t * (p.head<2>() - lamp_W.head<2>()) + corner) / kCell_mm;
   }
-  for (const auto& triangle : mesh.coarse) {
+  for (const auto& triangle : mesh.coarse_triangles) {
     const Eigen::Vector2f a = projected_[triangle[0]], b = projected_[triangle[1]],
                           c = projected_[triangle[2]];
     // Either half of the closed surface casts the same shadow.
@@ -72,17 +72,22 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
     const int high_x = std::min(kColumns - 1, static_cast<int>(std::max({a.x(), b.x(), c.x()})));
     const int high_y = std::min(kRows - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
     if (low_x > high_x || low_y > high_y) continue;
+    // Twice the areas opposite to the corners, linear in x.
     const auto side = [](const Eigen::Vector2f& p, const Eigen::Vector2f& q, float x, float y) {
       return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
     };
+    const float step_a = b.y() - c.y(), step_b = c.y() - a.y(), step_c = a.y() - b.y();
     bool any = false;
-    for (int y = low_y; y <= high_y; ++y)
-      for (int x = low_x; x <= high_x; ++x) {
-        const float mx = float(x) + 0.5f, my = float(y) + 0.5f;
-        if (side(a, b, mx, my) < 0 || side(b, c, mx, my) < 0 || side(c, a, mx, my) < 0) continue;
-        lamps_hidden_[y * kColumns + x] |= bit;
+    for (int y = low_y; y <= high_y; ++y) {
+      const float mx = float(low_x) + 0.5f, my = float(y) + 0.5f;
+      float at_a = side(b, c, mx, my), at_b = side(c, a, mx, my), at_c = side(a, b, mx, my);
+      std::uint8_t* hidden = &lamps_hidden_[y * kColumns];
+      for (int x = low_x; x <= high_x; ++x, at_a += step_a, at_b += step_b, at_c += step_c) {
+        if (std::min({at_a, at_b, at_c}) < 0) continue;
+        hidden[x] |= bit;
         any = true;
       }
+    }
     if (!any) continue;
     x0_ = std::min(x0_, low_x), y0_ = std::min(y0_, low_y);
     x1_ = std::max(x1_, high_x), y1_ = std::max(y1_, high_y);
@@ -93,33 +98,22 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
 void FloorShadow::Blur() {
   for (int y = y0_; y <= y1_; ++y)
     for (int x = x0_; x <= x1_; ++x)
-      light_[y * kColumns + x] = 1 - kLightLost[std::popcount(lamps_hidden_[y * kColumns + x])];
-  const auto pass = [this](const std::vector<float>& from, std::vector<float>& to, int dx, int dy) {
+      light_[y * kColumns + x] = kLightLeft[std::popcount(lamps_hidden_[y * kColumns + x])];
+  const auto pass = [this](const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to,
+                           int dx, int dy) {
     for (int y = y0_; y <= y1_; ++y)
       for (int x = x0_; x <= x1_; ++x) {
-        float sum = 0;
+        int sum = kBlurCells;
         for (int k = -kBlurCells; k <= kBlurCells; ++k)
           sum +=
               from[std::clamp(y + k * dy, y0_, y1_) * kColumns + std::clamp(x + k * dx, x0_, x1_)];
-        to[y * kColumns + x] = sum / (2 * kBlurCells + 1);
+        to[y * kColumns + x] = static_cast<std::uint16_t>(sum / (2 * kBlurCells + 1));
       }
   };
   for (int i = 0; i < 2; ++i) {
     pass(light_, scratch_, 1, 0);
     pass(scratch_, light_, 0, 1);
   }
-}
-
-float FloorShadow::LightAt(FloorPlace place) const {
-  constexpr float kScale = 1 / (kFloorUnitsPerMm * kCell_mm);
-  const float fx = float(place.x) * kScale - 0.5f, fy = float(place.y) * kScale - 0.5f;
-  const int x = std::clamp(static_cast<int>(fx), 0, kColumns - 2);
-  const int y = std::clamp(static_cast<int>(fy), 0, kRows - 2);
-  const float u = fx - float(x), v = fy - float(y);
-  const float* row = &light_[y * kColumns + x];
-  const float top = row[0] + u * (row[1] - row[0]);
-  const float bottom = row[kColumns] + u * (row[kColumns + 1] - row[kColumns]);
-  return top + v * (bottom - top);
 }
 
 }  // namespace mocap::simulation

@@ -16,13 +16,20 @@ class FloorShadow {
 
   /// Projects the mesh from each lamp to the floor.
   void Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W);
-  /// True when no light is missing anywhere.
-  bool empty() const { return empty_; }
-  /// World rectangle that holds the shadow [mm].
-  Eigen::Vector2f low_W() const;
-  Eigen::Vector2f high_W() const;
-  /// Share of the light that arrives at a place, 1 without shadow.
-  float LightAt(FloorPlace place) const;
+  /// World rectangle that holds the shadow [mm]; false when there is none.
+  bool Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const;
+  /// Light that arrives at a place: 256 without shadow.
+  int LightAt(FloorPlace place) const {
+    // Between the centres of four cells.
+    const int px = place.x - 128, py = place.y - 128;
+    const int x = px >> 8, y = py >> 8;
+    if (x < x0_ || y < y0_ || x >= x1_ || y >= y1_) return 256;
+    const int u = px & 255, v = py & 255;
+    const std::uint16_t* row = &light_[y * columns_ + x];
+    const int top = row[0] * (256 - u) + row[1] * u;
+    const int bottom = row[columns_] * (256 - u) + row[columns_ + 1] * u;
+    return (top * (256 - v) + bottom * v) >> 16;
+  }
 
  private:
   void CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, const PersonMesh& mesh,
@@ -30,10 +37,10 @@ class FloorShadow {
   void Blur();
 
   std::vector<std::uint8_t> lamps_hidden_;  // A bit a lamp.
-  std::vector<float> light_, scratch_;
+  std::vector<std::uint16_t> light_, scratch_;
   std::vector<Eigen::Vector2f> projected_;
+  int columns_;
   int x0_ = 0, y0_ = 0, x1_ = -1, y1_ = -1;  // Cells in use, inclusive.
-  bool empty_ = true;
 };
 
 }  // namespace mocap::simulation

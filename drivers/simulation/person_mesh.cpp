@@ -71,6 +71,7 @@ class Builder {
     }
     AddCap(ring_at(first), base, style, false, style.material(first, 0));
     AddSides(base, first, last, style);
+    AddCoarseSides(base, style);
     AddCap(ring_at(last), base + (style.rings - 1) * style.sectors, style, true,
            style.material(last, 0));
   }
@@ -142,14 +143,27 @@ class Builder {
         AddTriangle(b, d, e, material);
       }
     }
-    for (int r = 0; r + 1 < style.rings; r += 2)
-      for (int c = 0; c < style.sectors; c += 2) {
-        const int r2 = std::min(r + 2, style.rings - 1), c2 = (c + 2) % style.sectors;
-        const auto id = [&](int row, int column) {
-          return static_cast<std::uint16_t>(base + row * style.sectors + column);
+  }
+
+  // Every third ring and second sector.
+  void AddCoarseSides(int base, const TubeStyle& style) {
+    const int first = static_cast<int>(mesh_.coarse_vertices.size());
+    const int columns = style.sectors / 2;
+    int rows = 0;
+    for (int r = 0; r < style.rings;
+         r = r + 3 < style.rings || r == style.rings - 1 ? r + 3 : style.rings - 1) {
+      for (int c = 0; c < columns; ++c)
+        mesh_.coarse_vertices.push_back(
+            static_cast<std::uint16_t>(base + r * style.sectors + 2 * c));
+      ++rows;
+    }
+    for (int r = 0; r + 1 < rows; ++r)
+      for (int c = 0; c < columns; ++c) {
+        const auto at = [&](int row, int column) {
+          return static_cast<std::uint16_t>(first + row * columns + column % columns);
         };
-        mesh_.coarse.push_back({id(r, c), id(r2, c), id(r, c2)});
-        mesh_.coarse.push_back({id(r, c2), id(r2, c), id(r2, c2)});
+        mesh_.coarse_triangles.push_back({at(r, c), at(r + 1, c), at(r, c + 1)});
+        mesh_.coarse_triangles.push_back({at(r, c + 1), at(r + 1, c), at(r + 1, c + 1)});
       }
   }
 

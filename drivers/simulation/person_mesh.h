@@ -40,8 +40,10 @@ struct PersonMesh {
   };
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;  ///< Counter-clockwise seen from outside.
-  /// Every fourth triangle's worth of the same surface, for shadows.
-  std::vector<std::array<std::uint16_t, 3>> coarse;
+  /// The same surface with a sixth of the triangles, for shadows: indices of vertices, and
+  /// triangles of places in that list.
+  std::vector<std::uint16_t> coarse_vertices;
+  std::vector<std::array<std::uint16_t, 3>> coarse_triangles;
   BonePoses rest;
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/simulation/room_plan.h"
-
 namespace mocap::simulation {
 namespace {
 
@@ -112,7 +110,7 @@ void PersonRenderer::Draw(const PersonMesh& mesh, const Outfit& outfit, const Bo
 
   SkinMesh(mesh, bones, p_W_, n_W_);
   shadow_.Cast(mesh, p_W_);
-  if (!shadow_.empty()) DrawShadow(view, X_CW, canvas);
+  DrawShadow(view, X_CW, canvas);
   Project(mesh, X_CW);
   if (person_.empty()) return;
   for (int y = person_.y0; y < person_.y1; ++y)
@@ -127,7 +125,8 @@ void PersonRenderer::Draw(const PersonMesh& mesh, const Outfit& outfit, const Bo
 
 void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_CW,
                                 Image<Bgr>& canvas) {
-  const Eigen::Vector2f low = shadow_.low_W(), high = shadow_.high_W();
+  Eigen::Vector2f low, high;
+  if (!shadow_.Bounds(low, high)) return;
   const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
   const Vector3f p_CW = X_CW.p.cast<float>();
   // The rectangle's image is bounded by that of its rim; where the lens does not see it all, the
@@ -152,23 +151,19 @@ void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_C
            std::min(height_px_, static_cast<int>(std::min(high_y, 1e5f)) + 3)};
   if (box.empty()) return;
 
-  const Eigen::Vector2f corner(-float(kRoomX_mm / 2), -float(kRoomY_mm / 2));
-  const Eigen::Vector2f first = (low - corner) * kFloorUnitsPerMm;
-  const Eigen::Vector2f last = (high - corner) * kFloorUnitsPerMm;
-  for (int y = box.y0; y < box.y1; ++y)
+  for (int y = box.y0; y < box.y1; ++y) {
+    const FloorPlace* floor = view.floor.row(y);
+    Bgr* pixels = canvas.row(y);
     for (int x = box.x0; x < box.x1; ++x) {
-      const FloorPlace place = view.floor(x, y);
-      if (place.x == kNoFloor || float(place.x) < first.x() || float(place.x) > last.x() ||
-          float(place.y) < first.y() || float(place.y) > last.y())
-        continue;
-      const float light = shadow_.LightAt(place);
-      if (light > 0.999f) continue;
-      const auto gain = static_cast<int>(light * 256);
-      Bgr& pixel = canvas(x, y);
-      pixel = {static_cast<std::uint8_t>((pixel.b * gain) >> 8),
-               static_cast<std::uint8_t>((pixel.g * gain) >> 8),
-               static_cast<std::uint8_t>((pixel.r * gain) >> 8)};
+      if (floor[x].x == kNoFloor) continue;
+      const int light = shadow_.LightAt(floor[x]);
+      if (light == 256) continue;
+      Bgr& pixel = pixels[x];
+      pixel = {static_cast<std::uint8_t>((pixel.b * light) >> 8),
+               static_cast<std::uint8_t>((pixel.g * light) >> 8),
+               static_cast<std::uint8_t>((pixel.r * light) >> 8)};
     }
+  }
   Include(dirty_, box);
 }
 

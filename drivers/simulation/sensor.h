@@ -19,7 +19,7 @@ class Sensor {
   void Expose(const Image<Bgr>& light, double gain, std::uint64_t key, Image<Bgr>& picture) const;
 
  private:
-  std::vector<std::int16_t> noise_;  // Standard deviation 4096.
+  std::vector<std::int8_t> noise_;  // Standard deviation 16.
 };
 
 /// Brightness of mains lamps at a moment: about 1 %, at twice 50 Hz.
