@@ -1,18 +1,11 @@
 #include "tools/evaluation_text.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include <cmath>
-#include <sstream>
+#include "tools/json_object.h"
 
 namespace mocap {
 namespace {
-
-double Rounded(double value, int decimals) {
-  const double scale = std::pow(10, decimals);
-  return std::round(value * scale) / scale;
-}
 
 std::string PointName(int scored) {
   return std::string(kPointNames[static_cast<int>(kScoredPoints[scored])]);
@@ -55,51 +48,45 @@ std::string LengthsText(const Evaluation& evaluation) {
   return text;
 }
 
-toml::table PrecisionJson(const Precision& precision) {
-  toml::table angles, points;
+JsonObject PrecisionJson(const Precision& precision) {
+  JsonObject angles, points, json;
   for (int i = 0; i < kPaperAngleCount; ++i) {
-    angles.insert(fmt::format("theta_{}", i + 1),
-                  Rounded(precision.angle_rad[i] * kDegreesPerRadian, 3));
+    angles.Add(fmt::format("theta_{}", i + 1), precision.angle_rad[i] * kDegreesPerRadian, 3);
   }
-  for (int i = 0; i < kPointCount; ++i) {
-    points.insert(kPointNames[i], Rounded(precision.point_mm[i], 2));
-  }
-  return toml::table{{"frames", precision.frames},
-                     {"angle_mean_deg", Rounded(precision.mean_angle_rad * kDegreesPerRadian, 3)},
-                     {"angle_mean_without_twist_deg",
-                      Rounded(precision.mean_angle_without_twist_rad * kDegreesPerRadian, 3)},
-                     {"point_mean_mm", Rounded(precision.mean_point_mm, 2)},
-                     {"angles_deg", std::move(angles)},
-                     {"points_mm", std::move(points)}};
+  for (int i = 0; i < kPointCount; ++i) points.Add(kPointNames[i], precision.point_mm[i], 2);
+  json.Add("frames", precision.frames);
+  json.Add("angle_mean_deg", precision.mean_angle_rad * kDegreesPerRadian, 3);
+  json.Add("angle_mean_without_twist_deg",
+           precision.mean_angle_without_twist_rad * kDegreesPerRadian, 3);
+  json.Add("point_mean_mm", precision.mean_point_mm, 2);
+  json.Add("angles_deg", angles);
+  json.Add("points_mm", points);
+  return json;
 }
 
-void AddAccuracy(const Evaluation& evaluation, toml::table& json) {
+void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
   const Accuracy& accuracy = *evaluation.accuracy;
-  json.insert_or_assign("frames", accuracy.truth_frames);
-  json.insert_or_assign("tracked_share", Rounded(accuracy.tracked_share, 4));
   if (accuracy.frames.empty()) return;
-  toml::table angles, points, lengths;
+  JsonObject angles, points, lengths;
   for (int i = 0; i < kScoredAngleCount; ++i) {
-    angles.insert(kScoredAngleNames[i], Rounded(accuracy.angle_rad[i] * kDegreesPerRadian, 2));
+    angles.Add(kScoredAngleNames[i], accuracy.angle_rad[i] * kDegreesPerRadian, 2);
   }
-  for (int i = 0; i < kScoredPointCount; ++i) {
-    points.insert(PointName(i), Rounded(accuracy.point_mm[i], 1));
-  }
+  for (int i = 0; i < kScoredPointCount; ++i) points.Add(PointName(i), accuracy.point_mm[i], 1);
   for (const LengthPair& pair : evaluation.lengths) {
-    lengths.insert(pair.name + "_mm", Rounded(pair.acquired_mm - pair.true_mm, 1));
+    lengths.Add(pair.name + "_mm", pair.acquired_mm - pair.true_mm, 1);
   }
   const DistanceSummary& d = accuracy.distance_mm;
-  json.insert_or_assign("first_tracked_frame", accuracy.first_tracked_frame);
-  json.insert_or_assign("mpjpe_mm", Rounded(d.mean, 1));
-  json.insert_or_assign("median_mm", Rounded(d.median, 1));
-  json.insert_or_assign("p95_mm", Rounded(d.p95, 1));
-  json.insert_or_assign("worst_mm", Rounded(d.worst, 1));
-  json.insert_or_assign("spread_mm", Rounded(accuracy.spread_mm, 1));
-  json.insert_or_assign("head_found_share", Rounded(accuracy.head_found_share, 4));
-  json.insert_or_assign("angle_mae_deg", Rounded(accuracy.mean_angle_rad * kDegreesPerRadian, 2));
-  json.insert_or_assign("angles_deg", std::move(angles));
-  json.insert_or_assign("points_mm", std::move(points));
-  json.insert_or_assign("length_error_mm", std::move(lengths));
+  json.Add("first_tracked_frame", accuracy.first_tracked_frame);
+  json.Add("mpjpe_mm", d.mean, 1);
+  json.Add("median_mm", d.median, 1);
+  json.Add("p95_mm", d.p95, 1);
+  json.Add("worst_mm", d.worst, 1);
+  json.Add("spread_mm", accuracy.spread_mm, 1);
+  json.Add("head_found_share", accuracy.head_found_share, 4);
+  json.Add("angle_mae_deg", accuracy.mean_angle_rad * kDegreesPerRadian, 2);
+  json.Add("angles_deg", angles);
+  json.Add("points_mm", points);
+  json.Add("length_error_mm", lengths);
 }
 
 }  // namespace
@@ -134,29 +121,29 @@ std::string EvaluationText(const Evaluation& evaluation) {
 }
 
 std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
-  toml::table states;
+  const auto& accuracy = evaluation.accuracy;
+  JsonObject json, states;
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
-    states.insert(kCaptureStateNames[i], evaluation.frames_in_state[i]);
+    states.Add(kCaptureStateNames[i], evaluation.frames_in_state[i]);
   }
-  toml::table json{{"take", evaluation.take},
-                   {"body", evaluation.result.body.model},
-                   {"stature_mm", Rounded(evaluation.result.body.stature_mm, 1)},
-                   {"frames", static_cast<std::int64_t>(evaluation.result.poses.size())},
-                   {"states", std::move(states)},
-                   {"tracked_share", Rounded(evaluation.tracked_share, 4)},
-                   {"residual_mm", Rounded(evaluation.mean_residual_mm, 2)}};
-  if (evaluation.accuracy) AddAccuracy(evaluation, json);
-  if (evaluation.precision) json.insert("precision", PrecisionJson(*evaluation.precision));
+  json.Add("take", evaluation.take);
+  json.Add("body", evaluation.result.body.model);
+  json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
+  json.Add("frames",
+           accuracy ? accuracy->truth_frames : static_cast<int>(evaluation.result.poses.size()));
+  json.Add("states", states);
+  json.Add("tracked_share", accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
+  json.Add("residual_mm", evaluation.mean_residual_mm, 2);
+  if (accuracy) AddAccuracy(evaluation, json);
+  if (evaluation.precision) json.Add("precision", PrecisionJson(*evaluation.precision));
   if (!overlaps.empty()) {
-    toml::table iou;
+    JsonObject iou;
     for (const CameraOverlap& overlap : overlaps) {
-      if (overlap.frames() > 0) iou.insert(overlap.camera, Rounded(overlap.mean(), 4));
+      if (overlap.frames() > 0) iou.Add(overlap.camera, overlap.mean(), 4);
     }
-    json.insert("hull_iou", std::move(iou));
+    json.Add("hull_iou", iou);
   }
-  std::ostringstream out;
-  out << toml::json_formatter(json) << '\n';
-  return out.str();
+  return json.Text() + '\n';
 }
 
 }  // namespace mocap

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "core/errors.h"
@@ -56,7 +57,7 @@ void WriteBvhOf(const Result& result, const std::filesystem::path& source, std::
 void Export(const ExportArguments& arguments) {
   const Result result = ReadResult(arguments.result);
   std::ofstream out(arguments.out, std::ios::binary);
-  if (!out) throw SetupError(arguments.out.string() + ": cannot be written");
+  if (!out) throw SetupError("--out: " + arguments.out.string() + " cannot be written");
   if (arguments.format == "bvh") {
     WriteBvhOf(result, arguments.result, out);
   } else if (arguments.format == "trc") {
@@ -65,7 +66,7 @@ void Export(const ExportArguments& arguments) {
     WriteCsv(result, out);
   }
   out.close();
-  if (!out) throw std::runtime_error(arguments.out.string() + ": could not be written to its end");
+  if (!out) throw std::runtime_error(arguments.out.string() + ": not written to its end");
 }
 
 }  // namespace
@@ -73,15 +74,15 @@ void Export(const ExportArguments& arguments) {
 void AddExportCommand(CLI::App& app) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
-      app.add_subcommand("export", "Write a result for animation, biomechanics or a spreadsheet");
-  command->add_option("result", arguments->result, "Folder of `mocap track`, or an LCM log")
+      app.add_subcommand("export", "Writes a result for animation, biomechanics or a spreadsheet");
+  command->add_option("RESULT", arguments->result, "folder of mocap track, or an LCM log")
       ->required();
   command
       ->add_option("--format", arguments->format,
                    "bvh (cm, y up), trc (mm, y up) or csv (mm, z up as in the studio)")
       ->required()
       ->check(CLI::IsMember({"bvh", "trc", "csv"}));
-  command->add_option("--out", arguments->out, "File to write")->required();
+  command->add_option("--out", arguments->out, "file to write")->required();
   command->callback([arguments] { Export(*arguments); });
 }
 
