@@ -17,7 +17,8 @@ Matrix3 ReadRotation(TomlSection& camera) {
   const Matrix3 R = camera.Matrix("rotation");
   const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kRotationTolerance)) {
-    camera.Fail("rotation", "is no rotation; three rows that are perpendicular unit vectors are wanted");
+    camera.Fail("rotation",
+                "is no rotation; three rows that are perpendicular unit vectors are wanted");
   }
   if (R.determinant() < 0) {
     camera.Fail("rotation", "is a reflection; a rotation, whose determinant is +1, is wanted");

@@ -20,7 +20,8 @@ struct TakeOptions {
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background.
-/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its last whole frame.
+/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its
+/// last whole frame.
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
 
 }  // namespace mocap

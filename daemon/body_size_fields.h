@@ -10,7 +10,7 @@ namespace mocap {
 
 struct BodySizeField {
   std::string_view name;  ///< Without its unit, millimetres.
-  double BodySizes::* value;
+  double BodySizes::*value;
 };
 
 inline constexpr std::array kBodySizeFields = {

@@ -1,10 +1,11 @@
+#include <toml++/toml.h>
+
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <toml++/toml.h>
 
 #include "core/errors.h"
 #include "daemon/body_size_fields.h"
@@ -98,8 +99,9 @@ std::vector<PoseRow> ReadPoses(const std::filesystem::path& file) {
   for (const std::string& column : columns) header += (header.empty() ? "" : ",") + column;
   std::string line;
   if (!std::getline(stream, line) || line != header) {
-    throw SetupError(file.string() + ":1: other columns than mocap track writes, wanted frame,"
-                                     "timestamp_ns,state,… as the contract has them");
+    throw SetupError(file.string() +
+                     ":1: other columns than mocap track writes, wanted frame,"
+                     "timestamp_ns,state,… as the contract has them");
   }
   std::vector<PoseRow> rows;
   for (int number = 2; std::getline(stream, line); ++number) {
