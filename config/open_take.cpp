@@ -14,6 +14,10 @@
 namespace mocap {
 namespace {
 
+// Enough for the statistics of a still picture; an hour of it would not fit into memory. A head
+// needs all it has.
+constexpr std::size_t kMostStillFrames = 200;
+
 /// What take.toml says that replaying needs; it may say more.
 struct TakeHeader {
   std::string name;
@@ -95,7 +99,8 @@ std::vector<BackgroundFrame> ReadBackground(const std::filesystem::path& file,
   VideoReader video = OpenVideo(file, camera);
   std::vector<BackgroundFrame> frames;
   ImageView<const Bgr> view;
-  for (std::size_t i = 0; !camera.head || i < rows.size(); ++i) {
+  const std::size_t most = camera.head ? rows.size() : kMostStillFrames;
+  for (std::size_t i = 0; i < most; ++i) {
     const VideoStatus status = video.Read(view);
     if (status == VideoStatus::kEnd) break;
     if (status == VideoStatus::kBroken) continue;

@@ -27,8 +27,8 @@ class Calibration : public ::testing::Test {
 
   static std::vector<CameraCalibration> AllModels() {
     const testing::SmallTake take{.heads = true};
-    std::vector<CameraCalibration> cameras = {SmallCamera(take, 0), SmallCamera({}, 1),
-                                              SmallCamera({}, 2)};
+    std::vector<CameraCalibration> cameras = {
+        testing::SmallCamera(take, 0), testing::SmallCamera({}, 1), testing::SmallCamera({}, 2)};
     OpenCvLens opencv;
     opencv.K << 490.756439, 0, 334.690674, 0, 493.26358, 222.39888, 0, 0, 1;
     opencv.distortion = {-0.368704915, 0.203186616, 1e-20, 1.78072587e-05, -0.1};
