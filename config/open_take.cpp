@@ -6,6 +6,7 @@
 #include "config/open_studio.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/quoted.h"
 #include "drivers/take_driver.h"
 #include "drivers/take_layout.h"
 #include "drivers/take_table.h"
@@ -54,7 +55,7 @@ std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std:
   for (const std::string& name : header.cameras) all += (all.empty() ? "" : ", ") + name;
   for (const std::string& name : wanted) {
     if (!Contains(header.cameras, name)) {
-      throw SetupError(take.string() + ": has no camera \"" + name + "\"; it has " + all);
+      throw SetupError(take.string() + ": has no camera " + Quoted(name) + "; it has " + all);
     }
   }
   std::vector<std::string> chosen;

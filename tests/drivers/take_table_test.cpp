@@ -67,6 +67,7 @@ TEST_F(TakeTableFile, DamageIsNamedWithFileAndLine) {
       {"frame,timestamp_ns\n", 1, "no rows"},
       {"frame,timestamp_ns\n0,1\nx,2\n", 3, "\"x\""},
       {"frame,timestamp_ns\n0,1\n1,two\n", 3, "\"two\""},
+      {"frame,timestamp_ns\n0,1\n1,2\r3\xff\n", 3, "\"2?3?\""},
       {"frame,timestamp_ns\n0,1\n1,2.5\n", 3, "\"2.5\""},
       {"frame,timestamp_ns\n0,1\n1, 2\n", 3, "\" 2\""},
       {"frame,timestamp_ns\n0,1\n1,\n", 3, "timestamp_ns"},
