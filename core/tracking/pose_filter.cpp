@@ -61,6 +61,8 @@ void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double 
   ForgetVelocity();
 }
 
+void PoseFilter::Jump(const PoseState& pose) { Reset(pose, 30, 0.3); }
+
 void PoseFilter::ForgetVelocity() {
   const int n = pose_.dof();
   velocity_.setZero(n);

@@ -37,9 +37,9 @@ class UpdateEquations {
 struct MotionNoise {
   bool constant_velocity = true;   ///< False: F is the identity, as in the paper.
   double velocity_decay_s = 0.25;  ///< Without news a motion dies out in this time.
-  double translation_mm = 9000;    ///< [mm/s²/√Hz]
-  double rotation_rad = 30;        ///< [rad/s²/√Hz]
-  double joint_rad = 70;           ///< [rad/s²/√Hz]
+  double translation_mm = 3000;    ///< [mm/s²/√Hz]
+  double rotation_rad = 10;        ///< [rad/s²/√Hz]
+  double joint_rad = 20;           ///< [rad/s²/√Hz]
 };
 
 /// Estimates pose and its rate from measurements. Allocates nothing.
@@ -64,10 +64,13 @@ class PoseFilter {
   const PoseState& pose() const { return pose_; }
   const PoseCovariance& covariance() const { return P_; }
 
-  /// Stops at the current pose: velocity is unknown again.
-  void ForgetVelocity();
+  /// Goes to a pose that was found by other means: what was correlated with the old one is unknown
+  /// again.
+  void Jump(const PoseState& pose);
 
  private:
+  void ForgetVelocity();
+
   MotionNoise noise_;
   PoseState pose_;
   PoseStep velocity_;

@@ -10,7 +10,25 @@ namespace {
 using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
 // Places along each core that should lie in flesh.
+constexpr double kUnexplainedMm = 80;
 constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
+
+bool IsLowerArm(BodyPart part) {
+  return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;
+}
+bool IsCalf(BodyPart part) { return part == BodyPart::kCalfL || part == BodyPart::kCalfR; }
+
+// Whether a limb's end can run into a part at all: forearms into trunk, head and thighs, a calf
+// into the other leg.
+bool MayOverlap(BodyPart limb, BodyPart other) {
+  if (limb == other) return false;
+  const bool thigh = other == BodyPart::kThighL || other == BodyPart::kThighR;
+  if (IsLowerArm(limb)) {
+    return other == BodyPart::kTorso || other == BodyPart::kHead || thigh || IsLowerArm(other);
+  }
+  const BodyPart own_thigh = limb == BodyPart::kCalfL ? BodyPart::kThighL : BodyPart::kThighR;
+  return IsCalf(limb) && (IsCalf(other) || (thigh && other != own_thigh));
+}
 
 }  // namespace
 
@@ -69,6 +87,26 @@ void SurfaceFit::ForEachHollow(const BodyModel& body, const Visit& visit) const 
 }
 
 template <typename Visit>
+void SurfaceFit::ForEachOverlap(const BodyModel& body, const Visit& visit) const {
+  // Flesh gives way a little, and the capsules are rounder than the parts.
+  constexpr double kGives = 0.85;
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    const BodyPart limb = body.shape()[i].part;
+    if (!IsLowerArm(limb) && !IsCalf(limb)) continue;
+    for (const double share : kCoreShares) {
+      const Vector3 p_W = posed_[i].a_W + share * (posed_[i].b_W - posed_[i].a_W);
+      for (std::size_t j = 0; j < posed_.size(); ++j) {
+        if (!MayOverlap(limb, body.shape()[j].part)) continue;
+        const PosedCapsule::Distance distance = posed_[j].DistanceTo(p_W);
+        const double radius = posed_[i].radius_a_mm;
+        const double depth_mm = kGives * radius - distance.outside_mm - (1 - kGives) * radius;
+        if (depth_mm > 0) visit(body.shape()[i], p_W, body.shape()[j], distance, depth_mm);
+      }
+    }
+  }
+}
+
+template <typename Visit>
 void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) const {
   JacobianBlock J(3, body.dof());
   SurfaceResidual residual;
@@ -112,6 +150,16 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
     body.PointJacobian(posture_, capsule.carrier, p_W, J);
     equations.AddPoint(J, pull, 4 * options_.noise_mm * options_.noise_mm);
   });
+  JacobianBlock J_other(3, body.dof());
+  ForEachOverlap(body, [&](const Capsule& limb, const Vector3& p_W, const Capsule& other,
+                           const PosedCapsule::Distance& distance, double depth_mm) {
+    const Vector3 offset = p_W - distance.core_W;
+    if (offset.norm() < 1) return;
+    body.PointJacobian(posture_, limb.carrier, p_W, J);
+    body.PointJacobian(posture_, other.carrier, distance.core_W, J_other);
+    equations.Add(offset.normalized().transpose() * (J - J_other), depth_mm,
+                  options_.noise_mm * options_.noise_mm);
+  });
 }
 
 SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& pose) {
@@ -119,10 +167,14 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   SurfaceFitQuality quality;
   for (const Sample& sample : samples_) {
     const Match match = BestMatch(sample);
-    quality.surface_mm +=
+    const double distance_mm =
         match.capsule < 0 ? options_.reach_mm : std::abs(match.distance.outside_mm);
+    quality.surface_mm += distance_mm;
+    if (distance_mm > kUnexplainedMm) quality.unexplained_share += 1;
   }
-  quality.surface_mm /= static_cast<double>(std::max<std::size_t>(1, samples_.size()));
+  const double count = static_cast<double>(std::max<std::size_t>(1, samples_.size()));
+  quality.surface_mm /= count;
+  quality.unexplained_share /= count;
   int places = 0;
   ForEachHollow(body, [&](const Capsule&, const Vector3& p_W, const Sample* nearest) {
     ++places;
@@ -131,6 +183,10 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
     }
   });
   quality.hollow_mm /= std::max(1, places);
+  ForEachOverlap(body,
+                 [&](const Capsule&, const Vector3&, const Capsule&, const PosedCapsule::Distance&,
+                     double depth_mm) { quality.overlap_mm += depth_mm; });
+  quality.overlap_mm /= std::max(1, places);
   return quality;
 }
 

@@ -25,7 +25,9 @@ struct SurfaceFitQuality {
   double surface_mm = 0;  ///< Mean distance of the surface to the model, each cut at the reach.
   double hollow_mm =
       0;  ///< Mean distance of the model's bones to the voxels, each cut at the reach.
-  double Cost() const { return surface_mm + hollow_mm; }
+  double unexplained_share = 0;  ///< Of the surface that lies far from every part.
+  double overlap_mm = 0;         ///< Mean depth to which limbs stick in other parts.
+  double Cost() const { return surface_mm + hollow_mm + overlap_mm; }
 };
 
 /// One surface voxel against the model.
@@ -43,6 +45,11 @@ class SurfaceFit {
  public:
   explicit SurfaceFit(const SurfaceFitOptions& options) : options_(options) {}
 
+  /// Widens or narrows what counts as the model's neighbourhood.
+  void SetReach(double reach_mm, double outlier_mm) {
+    options_.reach_mm = reach_mm;
+    options_.outlier_mm = outlier_mm;
+  }
   /// Chooses the samples of a new frame.
   void SetVoxels(const VoxelCloud& cloud);
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
@@ -67,6 +74,9 @@ class SurfaceFit {
   const Sample* NearestSample(const Vector3& p_W) const;
   template <typename Visit>
   void ForEachHollow(const BodyModel& body, const Visit& visit) const;
+
+  template <typename Visit>
+  void ForEachOverlap(const BodyModel& body, const Visit& visit) const;
 
   SurfaceFitOptions options_;
   const VoxelCloud* cloud_ = nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_model.h"
+#include "core/tracking/limb_recovery.h"
 #include "core/tracking/pose_filter.h"
 #include "core/tracking/surface_fit.h"
 #include "core/tracking/voxel_cloud.h"
@@ -26,9 +27,12 @@ class Tracker {
   const SurfaceFitQuality& quality() const { return quality_; }
 
  private:
+  void Draw();
+
   BodyModel body_;
   PoseFilter filter_;
   SurfaceFit surface_fit_;
+  LimbRecovery limb_recovery_;
   SurfaceFitQuality quality_;
 };
 
