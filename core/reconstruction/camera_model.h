@@ -46,6 +46,10 @@ std::optional<Vector2> PixelFromNormalized(const Lens& lens, const Vector2& norm
 /// PixelFromNormalized.
 std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixel);
 
+/// Gives how far from the axis a lens sees, as a length of (Xu/f, Yu/f); at most tan of 85°, beyond
+/// which the sensor plane is no map of directions any more.
+double FieldRadius(const Lens& lens);
+
 /// Where a pan-tilt head points at the moment of exposure [rad].
 struct PanTiltAngles {
   double pan_rad = 0;

@@ -1,23 +1,15 @@
 // §4: from silhouettes to voxels.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/sensor_plane_table.h"
-#include "core/reconstruction/silhouette.h"
+#include "core/reconstruction/carving_view.h"
+#include "core/reconstruction/distance_map.h"
 #include "core/reconstruction/voxel_grid.h"
 
 namespace mocap {
-
-/// What one camera contributes to a set: its outline and where it stood at that moment. Borrowed
-/// for the call.
-struct CarvingView {
-  const SensorPlaneTable* table = nullptr;
-  const Silhouette* silhouette = nullptr;
-  RigidTransform X_CW;
-};
 
 struct CarvingOptions {
   double voxel_mm = 25;
@@ -25,8 +17,10 @@ struct CarvingOptions {
 
 /// Carves the person out of the volume of interest that the silhouettes span.
 ///
-/// A voxel is sampled uniformly and kept when the majority of its samples agrees with all
-/// silhouettes; a camera that cannot see a place does not carve it. Mikić et al. 2003, §4.
+/// A voxel is sampled at 2 × 2 × 2 places and kept when the majority of them agrees with all
+/// silhouettes. A camera that cannot see a place does not carve it, but at least two cameras, and
+/// half of those in the set, must see it. A camera whose silhouette is empty is taken for one that
+/// cannot see the person. Mikić et al. 2003, §4.
 /// Thread-bound; reuses its memory.
 class Carver {
  public:
@@ -37,7 +31,12 @@ class Carver {
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
 
  private:
+  struct Block;
+  class Walk;
+
   CarvingOptions options_;
+  std::vector<CarvingView> seeing_;
+  std::vector<DistanceMap> distances_;
 };
 
 }  // namespace mocap

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/image.h"
 
 namespace mocap {
+
+/// A rectangle of pixels, its last column and row included.
+struct PixelBox {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+  friend bool operator==(const PixelBox&, const PixelBox&) = default;
+};
 
 /// A binary picture, 64 pixels a word; row y begins at word y * words_per_row(), pixel x is bit x %
 /// 64 of word x / 64.
@@ -18,6 +28,14 @@ class Silhouette {
         height_(height),
         words_per_row_((width + 63) / 64),
         words_(static_cast<std::size_t>(words_per_row_) * height) {}
+
+  /// Sets the size and empties every pixel; keeps the memory it has.
+  void Reset(int width, int height) {
+    width_ = width;
+    height_ = height;
+    words_per_row_ = (width + 63) / 64;
+    words_.assign(static_cast<std::size_t>(words_per_row_) * height, 0);
+  }
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -32,6 +50,8 @@ class Silhouette {
   const std::uint64_t* row(int y) const {
     return words_.data() + static_cast<std::size_t>(y) * words_per_row_;
   }
+  /// The smallest box that holds every pixel that is set; empty when none is.
+  std::optional<PixelBox> BoundingBox() const;
   const std::vector<std::uint64_t>& words() const { return words_; }
 
  private:
