@@ -46,6 +46,12 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   }
   joint.min_rad = limits_deg[0] * kRadPerDeg;
   joint.max_rad = limits_deg[1] * kRadPerDeg;
+  if (section.Has("rest_deg")) {
+    const std::vector<double> rest_deg = section.Numbers("rest_deg", 2);
+    if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; [mean, spread] is wanted");
+    joint.rest_rad = rest_deg[0] * kRadPerDeg;
+    joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
+  }
   if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
   for (const JointAxis& other : joints) {
     if (other.name == joint.name) section.Fail("name", "is \"" + joint.name + "\" a second time");

@@ -1,1 +1,13 @@
-int main() {}
+// mocap: everything a person types.
+#include <CLI/CLI.hpp>
+
+#include "daemon/run_program.h"
+#include "tools/track_command.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Markerless motion capture from recorded takes", "mocap");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", MOCAP_VERSION);
+  mocap::AddTrackCommand(app);
+  return mocap::RunProgram(app, argc, argv);
+}

@@ -1,0 +1,30 @@
+// How long a frame lasts, from the stamps alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mocap {
+
+/// Estimates one camera's frame period from the times between its latest frames.
+///
+/// Takes the lower quartile: missing frames make some intervals too long, never too short, and
+/// jitter moves it little. Same stamps, same estimate.
+class PeriodEstimator {
+ public:
+  /// Takes the next frame's time, later than the one before.
+  void Add(std::int64_t capture_ns);
+  /// The period [ns]; 0 before the second frame.
+  std::int64_t period_ns() const { return period_ns_; }
+
+ private:
+  static constexpr std::size_t kIntervals = 16;
+
+  std::array<std::int64_t, kIntervals> intervals_{};
+  std::size_t count_ = 0;  ///< Of all frames so far.
+  std::int64_t last_ns_ = 0;
+  std::int64_t period_ns_ = 0;
+};
+
+}  // namespace mocap
