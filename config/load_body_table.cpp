@@ -5,6 +5,7 @@
 #include "config/load_config.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -21,7 +22,8 @@ int FindJoint(TomlSection& section, const std::string& key, const std::vector<Jo
   const auto joint = std::find_if(joints.begin(), joints.end(),
                                   [&name](const JointAxis& j) { return j.name == name; });
   if (joint == joints.end()) {
-    section.Fail(key, "is \"" + name + "\"; a joint further up or \"\" for the torso is wanted");
+    section.Fail(key,
+                 "is " + Quoted(name) + "; a joint further up or \"\" for the torso is wanted");
   }
   return static_cast<int>(joint - joints.begin());
 }
@@ -54,9 +56,10 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   }
   if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
   for (const JointAxis& other : joints) {
-    if (other.name == joint.name) section.Fail("name", "is \"" + joint.name + "\" a second time");
+    if (other.name == joint.name)
+      section.Fail("name", "is " + Quoted(joint.name) + " a second time");
     if (joint.paper_angle > 0 && other.paper_angle == joint.paper_angle) {
-      section.Fail("angle", "is the same as that of \"" + other.name + "\"");
+      section.Fail("angle", "is the same as that of " + Quoted(other.name));
     }
   }
   section.RejectUnknownKeys();
@@ -94,7 +97,7 @@ BodyTable LoadBodyTable(const std::string& name_or_path) {
     known += '"' + std::string(table.name) + "\" or ";
   }
   if (!std::filesystem::is_regular_file(name_or_path)) {
-    throw SetupError("body \"" + name_or_path + "\" is not known; " + known +
+    throw SetupError("body " + Quoted(name_or_path) + " is not known; " + known +
                      "the path of a body table is wanted");
   }
   return ReadBodyTable(TomlSection::ReadFile(name_or_path));

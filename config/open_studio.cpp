@@ -9,7 +9,8 @@ Studio OpenStudio(const Config& config) {
   if (source.driver == "take") {
     return OpenTake(source.take, {.rate = source.rate, .loop = source.loop, .cameras = {}});
   }
-  throw SetupError("source.driver is \"" + source.driver + "\"; this build has \"take\"");
+  throw SetupError("source.driver is \"" + source.driver +
+                   "\", which this build lacks; \"take\" is wanted");
 }
 
 }  // namespace mocap

@@ -6,6 +6,7 @@
 #include "config/open_studio.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/quoted.h"
 #include "drivers/take_driver.h"
 #include "drivers/take_layout.h"
 #include "drivers/take_table.h"
@@ -13,6 +14,10 @@
 
 namespace mocap {
 namespace {
+
+// Enough for the statistics of a still picture; an hour of it would not fit into memory. A head
+// needs all it has.
+constexpr std::size_t kMostStillFrames = 200;
 
 /// What take.toml says that replaying needs; it may say more.
 struct TakeHeader {
@@ -50,7 +55,7 @@ std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std:
   for (const std::string& name : header.cameras) all += (all.empty() ? "" : ", ") + name;
   for (const std::string& name : wanted) {
     if (!Contains(header.cameras, name)) {
-      throw SetupError(take.string() + ": has no camera \"" + name + "\"; it has " + all);
+      throw SetupError(take.string() + ": has no camera " + Quoted(name) + "; it has " + all);
     }
   }
   std::vector<std::string> chosen;
@@ -95,7 +100,8 @@ std::vector<BackgroundFrame> ReadBackground(const std::filesystem::path& file,
   VideoReader video = OpenVideo(file, camera);
   std::vector<BackgroundFrame> frames;
   ImageView<const Bgr> view;
-  for (std::size_t i = 0; !camera.head || i < rows.size(); ++i) {
+  const std::size_t most = camera.head ? rows.size() : kMostStillFrames;
+  for (std::size_t i = 0; i < most; ++i) {
     const VideoStatus status = video.Read(view);
     if (status == VideoStatus::kEnd) break;
     if (status == VideoStatus::kBroken) continue;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -19,7 +20,7 @@ std::string Shown(double value) {
 
 // What a value looks like in a message: short, and on one line.
 std::string Shown(const toml::node& node) {
-  if (const auto* text = node.as_string()) return '"' + text->get().substr(0, 40) + '"';
+  if (const auto* text = node.as_string()) return Quoted(text->get());
   if (const auto* number = node.as_floating_point()) return Shown(number->get());
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
@@ -49,10 +50,8 @@ TomlSection TomlSection::ReadText(std::string_view text, const std::string& name
     const toml::table* table = root.get();
     return {std::move(root), table, name, ""};
   } catch (const toml::parse_error& error) {
-    std::string what(error.description());
-    std::replace(what.begin(), what.end(), '\n', ' ');
     throw SetupError(name + ":" + std::to_string(error.source().begin.line) +
-                     ": is no TOML: " + what);
+                     ": is no TOML: " + Printable(error.description()));
   }
 }
 
@@ -129,7 +128,7 @@ std::size_t TomlSection::Choice(const std::string& key, const std::vector<std::s
     for (const std::string& choice : choices) {
       wanted += (wanted.empty() ? "\"" : " or \"") + choice + '"';
     }
-    Fail(key, "is \"" + found.substr(0, 40) + "\"; " + wanted + " is wanted");
+    Fail(key, "is " + Quoted(found) + "; " + wanted + " is wanted");
   }
   return static_cast<std::size_t>(place - choices.begin());
 }
@@ -214,8 +213,8 @@ void TomlSection::RejectUnknownKeys() const {
 void TomlSection::Fail(const std::string& key, const std::string& what) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? node->source() : table_->source()).begin.line;
-  throw SetupError(file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + PathOf(key) + " " +
-                   what);
+  throw SetupError(file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
+                   Printable(PathOf(key)) + " " + what);
 }
 
 const toml::node* TomlSection::Find(const std::string& key) {

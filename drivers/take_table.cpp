@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -43,8 +44,7 @@ Number ParseField(std::string_view& rest, const char* column, const Place& place
   Number value{};
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    place.Fail(std::string(column) + " is \"" + std::string(field.substr(0, 40)) +
-               "\"; a number is wanted");
+    place.Fail(std::string(column) + " is " + Quoted(field) + "; a number is wanted");
   }
   return value;
 }

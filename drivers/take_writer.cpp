@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "drivers/calibration_file.h"
+#include "drivers/quoted.h"
 #include "drivers/take_layout.h"
 #include "drivers/toml_text.h"
 #include "drivers/video_writer.h"
@@ -84,10 +85,10 @@ void CheckNames(const TakeDescription& description) {
   std::set<std::string> seen;
   for (const CameraCalibration& camera : description.cameras) {
     if (!IsCameraName(camera.name)) {
-      throw SetupError("camera \"" + camera.name + "\": letters, digits, _ and - make a name");
+      throw SetupError("camera " + Quoted(camera.name) + ": letters, digits, _ and - make a name");
     }
     if (!seen.insert(camera.name).second) {
-      throw SetupError("camera \"" + camera.name + "\": is there twice");
+      throw SetupError("camera " + Quoted(camera.name) + ": is there twice");
     }
   }
 }
