@@ -17,8 +17,11 @@ CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchroniz
 }
 
 void CarveStage::Offer(int camera, SegmentedFrame& frame) {
+  if (frame.capture_ns < wanted_from_ns()) return;
   Camera& offering = cameras_[camera];
-  if (synchronizer_.Offer(camera, frame.capture_ns)) std::swap(offering.front, frame);
+  if (synchronizer_.Offer(camera, frame.capture_ns, frame.sequence)) {
+    std::swap(offering.front, frame);
+  }
   offering.late.store(synchronizer_.late(camera), std::memory_order_relaxed);
 }
 
@@ -31,6 +34,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   if (verdict != Synchronizer::Verdict::kSet) return verdict;
   const std::int64_t begin_ns = SteadyNs();
   Gather(set);
+  if (lag_control_) ControlLag(set);
   carver_.Carve(views_, set.grid);
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
   set.work_ns += carve_ns;
@@ -39,6 +43,12 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   const bool complete = views_.size() == cameras_.size();
   (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
   return verdict;
+}
+
+void CarveStage::ControlLag(const CarvedSet& set) {
+  lag_control_->Add(set.capture_ns, set.complete_ns, EpochNs(), synchronizer_.PeriodNs());
+  wanted_from_ns_.store(lag_control_->wanted_from_ns(), std::memory_order_relaxed);
+  skipped_sets_.store(lag_control_->skipped(), std::memory_order_relaxed);
 }
 
 void CarveStage::Gather(CarvedSet& set) {

@@ -4,11 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/reconstruction/carver.h"
 #include "core/reconstruction/sensor_plane_table.h"
 #include "daemon/camera_worker.h"
+#include "daemon/lag_control.h"
 #include "daemon/stage.h"
 #include "daemon/synchronizer.h"
 
@@ -27,23 +30,30 @@ struct CarvedSet {
   std::uint64_t cameras = 0;     ///< Bit i: camera i is in.
 };
 
-/// Matches silhouettes by time and carves each set. One thread; counters: any.
+/// Matches silhouettes by time and carves each set. One thread; counters and wanted_from_ns: any.
 class CarveStage {
  public:
   CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
              const CarvingOptions& options, StageRecorders& recorders);
+  /// Leaves out frames when sets grow old. Without it, every set is carved.
+  void BoundLag() { lag_control_.emplace(); }
 
   int camera_count() const { return static_cast<int>(cameras_.size()); }
   bool NeedsFrame(int camera) const { return !synchronizer_.has_front(camera); }
-  /// Takes a camera's next frame; the silhouettes change places, so that memory goes round.
+  /// Takes a camera's next frame; the silhouettes change places, so that memory goes round. What is
+  /// older than LagControl wants is dropped.
   void Offer(int camera, SegmentedFrame& frame);
   Synchronizer& synchronizer() { return synchronizer_; }
+  /// Frames captured before this are not worth segmenting.
+  std::int64_t wanted_from_ns() const { return wanted_from_ns_.load(std::memory_order_relaxed); }
 
   /// Takes the synchronizer's next decision; a set is carved into `set`.
   Synchronizer::Verdict Next(CarvedSet& set);
 
   std::int64_t complete_sets() const { return complete_sets_.load(std::memory_order_relaxed); }
   std::int64_t partial_sets() const { return partial_sets_.load(std::memory_order_relaxed); }
+  /// Sets that were left out because too much time had gone by.
+  std::int64_t skipped_sets() const { return skipped_sets_.load(std::memory_order_relaxed); }
   std::int64_t late(int camera) const {
     return cameras_[camera].late.load(std::memory_order_relaxed);
   }
@@ -59,13 +69,17 @@ class CarveStage {
   };
 
   void Gather(CarvedSet& set);
+  void ControlLag(const CarvedSet& set);
 
   std::deque<Camera> cameras_;  // Cameras with counters do not move.
   Synchronizer synchronizer_;
+  std::optional<LagControl> lag_control_;
   Carver carver_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
   std::int64_t next_frame_ = 0;
+  std::atomic<std::int64_t> wanted_from_ns_{std::numeric_limits<std::int64_t>::min()};
+  std::atomic<std::int64_t> skipped_sets_{0};
   std::atomic<std::int64_t> complete_sets_{0};
   std::atomic<std::int64_t> partial_sets_{0};
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kFramesQueued = 4;
 constexpr std::size_t kSetsQueued = 2;
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.
-constexpr double kPatiencePeriods = 2;
+constexpr double kPatiencePeriods = 3;
 
 /// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
 std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
@@ -63,6 +63,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
                                         CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
+  if (options.overflow == Overflow::kDropOldest) carve_->BoundLag();
   std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
     lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
@@ -116,7 +117,8 @@ void Pipeline::Join() {
 void Pipeline::RunCamera(CameraLine& line) {
   line.worker.Start();
   while (!stop_.load(std::memory_order_relaxed)) {
-    const CameraWorker::Outcome outcome = line.worker.Next(line.queue.back());
+    const CameraWorker::Outcome outcome =
+        line.worker.Next(carve_->wanted_from_ns(), line.queue.back());
     if (outcome == CameraWorker::Outcome::kEnd) break;
     if (outcome == CameraWorker::Outcome::kFrame) {
       line.queue.Push();
@@ -132,10 +134,12 @@ bool Pipeline::FeedFromQueues() {
   bool all_ended = true;
   for (int i = 0; i < carve_->camera_count(); ++i) {
     CameraLine& line = *lines_[i];
+    // First what is on the way, then what has come: whatever comes in between rings the bell.
     const bool is_closed = line.queue.closed();
+    const Expectation expectation = line.worker.expectation();
     while (carve_->NeedsFrame(i) && line.queue.TryPop()) carve_->Offer(i, line.queue.front());
     line.ended = is_closed && carve_->NeedsFrame(i);
-    carve_->synchronizer().SetAwaited(i, !line.ended && line.worker.state() != CameraState::kLost);
+    carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : expectation);
     carve_->synchronizer().NoteNewest(line.worker.newest_ns());
     all_ended &= line.ended;
   }
@@ -173,11 +177,12 @@ bool Pipeline::FeedSerially() {
   for (int i = 0; i < carve_->camera_count(); ++i) {
     CameraLine& line = *lines_[i];
     while (carve_->NeedsFrame(i) && !line.ended) {
-      const CameraWorker::Outcome outcome = line.worker.Next(line.queue.back());
+      const CameraWorker::Outcome outcome =
+          line.worker.Next(carve_->wanted_from_ns(), line.queue.back());
       if (outcome == CameraWorker::Outcome::kFrame) carve_->Offer(i, line.queue.back());
       line.ended = outcome == CameraWorker::Outcome::kEnd || stop_.load(std::memory_order_relaxed);
     }
-    carve_->synchronizer().SetAwaited(i, !line.ended);
+    carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : Expectation::kCertain);
     all_ended &= line.ended && carve_->NeedsFrame(i);
   }
   return all_ended;
@@ -198,7 +203,8 @@ PipelineStatus Pipeline::Status() const {
   status.state = track_.state();
   status.sets_complete = carve_->complete_sets();
   status.sets_partial = carve_->partial_sets();
-  status.sets_dropped = sets_.dropped();
+  status.sets_dropped = sets_.dropped() + carve_->skipped_sets();
+  status.sets_tracked = track_.sets();
   for (int i = 0; i < carve_->camera_count(); ++i) {
     CameraStatus& camera = status.cameras.emplace_back(lines_[i]->worker.Status());
     camera.late = carve_->late(i);

@@ -92,8 +92,8 @@ class Watch {
     spdlog::info(
         "{} sets, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
         "ms",
-        status.sets_complete + status.sets_partial, status.sets_partial, status.sets_dropped,
-        latency.PercentileMs(0.5), latency.PercentileMs(0.99));
+        status.sets_tracked, status.sets_partial, status.sets_dropped, latency.PercentileMs(0.5),
+        latency.PercentileMs(0.99));
   }
 
  private:
