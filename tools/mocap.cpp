@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/run_program.h"
+#include "tools/evaluate.h"
+#include "tools/export.h"
 #include "tools/track_command.h"
 
 int main(int argc, char** argv) {
@@ -9,5 +11,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::AddTrackCommand(app);
+  mocap::AddEvaluateCommand(app);
+  mocap::AddExportCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }
