@@ -21,7 +21,7 @@ constexpr double kRounding_px = 0.05;
 
 // Half the width of the gaps in a silhouette that may be holes [px], and of how many cameras one
 // may be wrong about them.
-constexpr int kGap_px = 12;
+constexpr int kGap_px = 6;
 constexpr int kCamerasPerDoubt = 5;
 
 // kGap: not in the silhouette, but in a gap that it nearly surrounds.

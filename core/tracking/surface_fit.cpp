@@ -164,17 +164,18 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
 
 SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& pose) {
   PoseCapsules(body, pose);
+  unexplained_W_.clear();
   SurfaceFitQuality quality;
   for (const Sample& sample : samples_) {
     const Match match = BestMatch(sample);
     const double distance_mm =
         match.capsule < 0 ? options_.reach_mm : std::abs(match.distance.outside_mm);
     quality.surface_mm += distance_mm;
-    if (distance_mm > kUnexplainedMm) quality.unexplained_share += 1;
+    if (distance_mm > kUnexplainedMm) unexplained_W_.push_back(sample.p_W);
   }
   const double count = static_cast<double>(std::max<std::size_t>(1, samples_.size()));
   quality.surface_mm /= count;
-  quality.unexplained_share /= count;
+  quality.unexplained_share = static_cast<double>(unexplained_W_.size()) / count;
   int places = 0;
   ForEachHollow(body, [&](const Capsule&, const Vector3& p_W, const Sample* nearest) {
     ++places;

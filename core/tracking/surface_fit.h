@@ -17,7 +17,7 @@ struct SurfaceFitOptions {
   double reach_mm = 150;      ///< Voxels farther from the model than this do not count.
   double noise_mm = 25;       ///< Spread of the surface about the model.
   double outlier_mm = 45;     ///< Residuals beyond this lose weight quickly.
-  double independent = 0.12;  ///< Share of the samples that are news: neighbours err alike.
+  double independent = 0.2;  ///< Share of the samples that are news: neighbours err alike.
 };
 
 /// How well a posed body explains the voxels.
@@ -55,6 +55,8 @@ class SurfaceFit {
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
   void Linearize(const BodyModel& body, const PoseState& pose, UpdateEquations& equations);
   SurfaceFitQuality QualityAt(const BodyModel& body, const PoseState& pose);
+  /// Surface voxels that no part came near when the quality was last measured [mm].
+  const std::vector<Vector3>& unexplained_W() const { return unexplained_W_; }
   /// The residuals of the frame's samples, without those that no part comes near.
   std::vector<SurfaceResidual> ResidualsAt(const BodyModel& body, const PoseState& pose);
 
@@ -83,6 +85,7 @@ class SurfaceFit {
   std::vector<Sample> samples_;
   Posture posture_;
   std::vector<PosedCapsule> posed_;
+  std::vector<Vector3> unexplained_W_;
 };
 
 }  // namespace mocap
