@@ -167,7 +167,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "walk")
     return std::make_unique<Rounds>(body, WalkingStyle(body), 1080 * pace, 1250, seed);
   if (name == "run")
-    return std::make_unique<Rounds>(body, RunningStyle(body), 1750 * pace, 1450, seed);
+    return std::make_unique<Rounds>(body, RunningStyle(body), 1700 * pace, 1500, seed);
   if (name == "dance") return std::make_unique<Dance>(body, seed);
   if (name == "visit") return std::make_unique<Visit>(body, seed);
   if (name == "jump") return MakeJump(body, seed);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <sstream>
 
 #include "core/errors.h"
 #include "drivers/simulation/camera_rig.h"
@@ -14,9 +14,10 @@ namespace {
 constexpr double kJitter_ns = 300'000;
 
 const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
-  const auto refuse = [](const std::string& name, double found, const std::string& wanted) {
-    throw SetupError("simulated studio: " + name + " is " + std::to_string(found) + "; wanted is " +
-                     wanted);
+  const auto refuse = [](const char* name, double found, const char* wanted) {
+    std::ostringstream message;
+    message << "simulated studio: " << name << " is " << found << "; wanted is " << wanted;
+    throw SetupError(message.str());
   };
   if (!(options.stature_mm >= 1000 && options.stature_mm <= 2100))
     refuse("stature_mm", options.stature_mm, "1000 to 2100");
@@ -27,7 +28,7 @@ const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
   if (options.height_px < 16 || options.height_px > 8192)
     refuse("height_px", options.height_px, "16 to 8192");
   if (!(options.seconds >= 0 && options.seconds < 1e6))
-    refuse("seconds", options.seconds, "0 or more");
+    refuse("seconds", options.seconds, "0 to 1000000");
   return options;
 }
 
