@@ -25,7 +25,7 @@ struct Spot {
 };
 
 Spot RandomSpot(std::uint64_t seed) {
-  Random random(Mix(seed, 0x73706f74));
+  Random random(Mix(seed, Tag("spot")));
   return {Vector2(random.Uniform(-400, 400), random.Uniform(-400, 400)), random.Uniform(0, kTurn)};
 }
 
@@ -43,7 +43,7 @@ constexpr double kToeOut = 0.14;
 class Stand : public Motion {
  public:
   Stand(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
-    Random random(Mix(seed, 0x7374616e64));
+    Random random(Mix(seed, Tag("stand")));
     for (double& phase : phases_) phase = random.Uniform(0, kTurn);
   }
 
@@ -83,7 +83,7 @@ class Stand : public Motion {
 class Jump : public Motion {
  public:
   Jump(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
-    Random random(Mix(seed, 0x6a756d70));
+    Random random(Mix(seed, Tag("jump")));
     const double apex_mm = random.Uniform(0.12, 0.16) * body.stature_mm;
     // Whoever is smaller jumps faster: times go with the root of the stature, and gravity, counted
     // in such times, with the stature.

@@ -69,7 +69,7 @@ std::int64_t Scene::NominalTime(std::int64_t frame) const {
 }
 
 std::int64_t Scene::CaptureTime(int camera, std::int64_t frame) const {
-  Random random(Mix(options_.seed, 0x6a6974746572, static_cast<std::uint64_t>(camera),
+  Random random(Mix(options_.seed, Tag("jitter"), static_cast<std::uint64_t>(camera),
                     static_cast<std::uint64_t>(frame)));
   return NominalTime(frame) + std::llround(random.Uniform(-kJitter_ns, kJitter_ns));
 }
@@ -134,7 +134,7 @@ std::vector<BackgroundFrame> SceneView::Background(int frames) const {
     if (calibration().head) RenderView(sweep[i], turned);
     const EmptyView& view = calibration().head ? turned : fixed_view();
     scene_->sensor().Expose(view.image, LampGain(capture_ns),
-                            Mix(scene_->options().seed, 0x656d707479,
+                            Mix(scene_->options().seed, Tag("empty"),
                                 static_cast<std::uint64_t>(camera_), static_cast<std::uint64_t>(i)),
                             background[i].image);
     background[i].angles = sweep[i];
@@ -157,7 +157,7 @@ void ScenePainter::Paint(std::int64_t capture_ns) {
                camera.PoseAt(angles_), !fresh_ && !turned, canvas_);
   scene.sensor().Expose(
       canvas_, LampGain(capture_ns),
-      Mix(scene.options().seed, 0x6672616d65, static_cast<std::uint64_t>(view_->camera()),
+      Mix(scene.options().seed, Tag("frame"), static_cast<std::uint64_t>(view_->camera()),
           static_cast<std::uint64_t>(capture_ns)),
       picture_);
   fresh_ = false;
