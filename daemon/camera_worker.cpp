@@ -26,7 +26,11 @@ void CameraWorker::Stop() {
   state_.store(CameraState::kEnded, std::memory_order_relaxed);
 }
 
-CameraWorker::Outcome CameraWorker::Next(SegmentedFrame& out) {
+CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted_from_ns,
+                                         SegmentedFrame& out) {
+  if (expectation() == Expectation::kCertain) {
+    expectation_.store(Expectation::kPossible, std::memory_order_release);
+  }
   Frame frame;
   switch (camera_.driver->Grab(frame, kGrabTimeout)) {
     case GrabStatus::kFrame:
@@ -38,16 +42,23 @@ CameraWorker::Outcome CameraWorker::Next(SegmentedFrame& out) {
       return Outcome::kNothing;
     case GrabStatus::kLost:
       state_.store(CameraState::kLost, std::memory_order_relaxed);
+      expectation_.store(Expectation::kNone, std::memory_order_release);
       std::this_thread::sleep_for(kLostPause);
       return Outcome::kNothing;
     case GrabStatus::kEnd:
       return Outcome::kEnd;
   }
+  CountFrame(frame.sequence);
+  if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    expectation_.store(Expectation::kPossible, std::memory_order_release);
+    return Outcome::kNothing;
+  }
+  expectation_.store(Expectation::kCertain, std::memory_order_release);
   out.arrival_ns = EpochNs();
   out.capture_ns = frame.capture_ns;
+  out.sequence = frame.sequence;
   out.angles = frame.angles;
-  CountGap(frame.sequence);
-  state_.store(CameraState::kStreaming, std::memory_order_relaxed);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
   out.segment_ns = SteadyNs() - begin_ns;
@@ -56,7 +67,8 @@ CameraWorker::Outcome CameraWorker::Next(SegmentedFrame& out) {
   return Outcome::kFrame;
 }
 
-void CameraWorker::CountGap(std::uint64_t sequence) {
+void CameraWorker::CountFrame(std::uint64_t sequence) {
+  state_.store(CameraState::kStreaming, std::memory_order_relaxed);
   // The first frame's number means nothing, and a camera that came back counts from anew.
   const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
   if (!is_first && sequence > next_sequence_) {
@@ -69,7 +81,7 @@ void CameraWorker::CountGap(std::uint64_t sequence) {
 CameraStatus CameraWorker::Status() const {
   CameraStatus status;
   status.name = camera_.calibration.name;
-  status.state = state();
+  status.state = state_.load(std::memory_order_relaxed);
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);
   status.torn = torn_.load(std::memory_order_relaxed);

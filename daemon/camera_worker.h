@@ -9,6 +9,7 @@
 #include "core/reconstruction/segmenter.h"
 #include "core/reconstruction/silhouette.h"
 #include "daemon/stage.h"
+#include "daemon/synchronizer.h"
 #include "drivers/studio.h"
 
 namespace mocap {
@@ -18,6 +19,7 @@ struct SegmentedFrame {
   Silhouette silhouette;
   PanTiltAngles angles;
   std::int64_t capture_ns = 0;
+  std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.
   std::int64_t segment_ns = 0;  ///< How long segmentation took.
 };
@@ -45,24 +47,28 @@ class CameraWorker {
   void Stop();
 
   enum class Outcome { kFrame, kNothing, kEnd };
-  /// Waits a moment for the next frame and segments it into `frame`.
-  Outcome Next(SegmentedFrame& frame);
+  /// Waits a moment for the next frame and segments it into `frame`; one captured before
+  /// `wanted_from_ns`, as it is by then, is dropped instead.
+  Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame);
 
   const CameraCalibration& calibration() const { return camera_.calibration; }
-  CameraState state() const { return state_.load(std::memory_order_relaxed); }
-  /// Time of the newest frame.
+  /// Whether another frame is to come. It stays kCertain until the next call of Next, so that a
+  /// frame's owner has time to pass it on.
+  Expectation expectation() const { return expectation_.load(std::memory_order_acquire); }
+  /// Time of the newest segmented frame.
   std::int64_t newest_ns() const { return newest_ns_.load(std::memory_order_relaxed); }
   /// What the worker itself has counted.
   CameraStatus Status() const;
 
  private:
-  void CountGap(std::uint64_t sequence);
+  void CountFrame(std::uint64_t sequence);
 
   StudioCamera camera_;
   Segmenter segmenter_;
   StageRecorders& recorders_;
   std::uint64_t next_sequence_ = 0;
   std::atomic<CameraState> state_{CameraState::kStarting};
+  std::atomic<Expectation> expectation_{Expectation::kPossible};
   std::atomic<std::int64_t> newest_ns_;
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> dropped_{0};

@@ -4,9 +4,14 @@
 
 namespace mocap {
 
-void PeriodEstimator::Add(std::int64_t capture_ns) {
-  if (count_ > 0) intervals_[(count_ - 1) % kIntervals] = capture_ns - last_ns_;
+void PeriodEstimator::Add(std::int64_t capture_ns, std::uint64_t sequence) {
+  if (count_ > 0) {
+    const auto frames =
+        sequence > last_sequence_ ? static_cast<std::int64_t>(sequence - last_sequence_) : 1;
+    intervals_[(count_ - 1) % kIntervals] = (capture_ns - last_ns_) / frames;
+  }
   last_ns_ = capture_ns;
+  last_sequence_ = sequence;
   ++count_;
   const std::size_t known = std::min(count_ - 1, kIntervals);
   if (known == 0) return;

@@ -36,7 +36,8 @@ struct PipelineStatus {
   CaptureState state = CaptureState::kSearching;
   std::int64_t sets_complete = 0;  ///< With every camera.
   std::int64_t sets_partial = 0;   ///< Went on without some camera.
-  std::int64_t sets_dropped = 0;   ///< Let go because the tracker was behind.
+  std::int64_t sets_dropped = 0;   ///< Let go because the pipeline was behind.
+  std::int64_t sets_tracked = 0;   ///< Handed on.
   std::vector<CameraStatus> cameras;
   StageHistograms stages;
 };

@@ -15,8 +15,7 @@ StatusReport StatusWindow::Add(PipelineStatus status, std::int64_t now_ns) {
       return seconds > 0 ? static_cast<double>(now - before) / seconds : 0;
     };
     report.recent = status.stages.Since(then.stages);
-    report.sets_per_second = rate(status.sets_complete + status.sets_partial - status.sets_dropped,
-                                  then.sets_complete + then.sets_partial - then.sets_dropped);
+    report.sets_per_second = rate(status.sets_tracked, then.sets_tracked);
     for (std::size_t i = 0; i < status.cameras.size(); ++i) {
       report.frames_per_second[i] = rate(status.cameras[i].frames, then.cameras[i].frames);
     }

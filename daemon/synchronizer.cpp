@@ -15,17 +15,25 @@ Synchronizer::Synchronizer(int cameras, std::int64_t nominal_period_ns, double p
   times_.reserve(cameras);
 }
 
-bool Synchronizer::Offer(int camera, std::int64_t capture_ns) {
+bool Synchronizer::Offer(int camera, std::int64_t capture_ns, std::uint64_t sequence) {
   Camera& offering = cameras_[camera];
   MOCAP_CHECK(!offering.has_front);
   if (capture_ns <= offering.last_ns) {
     ++offering.late;
     return false;
   }
-  offering.period.Add(capture_ns);
+  offering.period.Add(capture_ns, sequence);
   offering.has_front = true;
+  offering.given_up = false;
   offering.front_ns = offering.last_ns = capture_ns;
   NoteNewest(capture_ns);
+  return true;
+}
+
+bool Synchronizer::LetGoBefore(int camera, std::int64_t capture_ns) {
+  Camera& holder = cameras_[camera];
+  if (!holder.has_front || holder.front_ns >= capture_ns) return false;
+  holder.has_front = false;
   return true;
 }
 
@@ -62,10 +70,12 @@ std::int64_t Synchronizer::PeriodNs() const {
 }
 
 bool Synchronizer::MustWait(std::int64_t reference_ns, std::int64_t period_ns) const {
-  const bool all_here = std::ranges::all_of(
-      cameras_, [](const Camera& camera) { return camera.has_front || !camera.awaited; });
   const auto ahead_ns = static_cast<double>(newest_ns_ - reference_ns);
-  return !all_here && ahead_ns <= patience_periods_ * static_cast<double>(period_ns);
+  const bool is_patient = ahead_ns <= patience_periods_ * static_cast<double>(period_ns);
+  return std::ranges::any_of(cameras_, [&](const Camera& camera) {
+    if (camera.has_front || camera.expectation == Expectation::kNone) return false;
+    return camera.expectation == Expectation::kCertain || (is_patient && !camera.given_up);
+  });
 }
 
 Synchronizer::Verdict Synchronizer::LetGo(int camera) {
@@ -88,6 +98,7 @@ Synchronizer::Verdict Synchronizer::FormSet(std::int64_t reference_ns,
     return LetGo(static_cast<int>(alone - cameras_.begin()));
   }
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!cameras_[i].has_front) cameras_[i].given_up = true;
     members_[i] = cameras_[i].has_front && cameras_[i].front_ns <= end_ns;
     if (members_[i]) cameras_[i].has_front = false;
   }

@@ -29,6 +29,7 @@ void TrackStage::Process(const CarvedSet& set) {
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
   recorders_[Stage::kLatency].Record(EpochNs() - from_ns);
+  sets_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void TrackStage::OnStageEnd(UpdateStage stage) {

@@ -18,13 +18,14 @@ enum class LatencyOrigin {
   kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
 };
 
-/// Tracks set after set and hands each on. One thread; state(): any.
+/// Tracks set after set and hands each on. One thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:
   TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
              StageRecorders& recorders);
 
   void Process(const CarvedSet& set);
+  std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
@@ -36,6 +37,7 @@ class TrackStage : private UpdateObserver {
   StageRecorders& recorders_;
   std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.
+  std::atomic<std::int64_t> sets_{0};
   std::atomic<CaptureState> state_{CaptureState::kSearching};
 };
 

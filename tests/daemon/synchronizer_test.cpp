@@ -28,15 +28,16 @@ std::vector<Set> Match(std::vector<std::deque<std::int64_t>> streams,
   const int cameras = static_cast<int>(streams.size());
   Synchronizer synchronizer(cameras, kPeriod, Synchronizer::kWaitForever);
   std::vector<std::int64_t> fronts(cameras);
+  std::vector<std::uint64_t> sequences(cameras);
   std::vector<Set> sets;
   for (;;) {
     for (int i = 0; i < cameras; ++i) {
       while (!synchronizer.has_front(i) && !streams[i].empty()) {
         fronts[i] = streams[i].front();
         streams[i].pop_front();
-        synchronizer.Offer(i, fronts[i]);
+        synchronizer.Offer(i, fronts[i], sequences[i]++);
       }
-      if (!synchronizer.has_front(i)) synchronizer.SetAwaited(i, false);
+      if (!synchronizer.has_front(i)) synchronizer.Expect(i, Expectation::kNone);
     }
     const Synchronizer::Verdict verdict = synchronizer.Decide();
     if (verdict == Synchronizer::Verdict::kWait) break;
@@ -145,9 +146,9 @@ TEST(Synchronizer, LearnsAPeriodThatIsNotTheNominalOne) {
 
 TEST(Synchronizer, SaysHowFarTheTimesOfASetLieApart) {
   Synchronizer synchronizer(3, kPeriod, Synchronizer::kWaitForever);
-  synchronizer.Offer(0, 100 * kMs);
-  synchronizer.Offer(1, 103 * kMs);
-  synchronizer.Offer(2, 98 * kMs);
+  synchronizer.Offer(0, 100 * kMs, 0);
+  synchronizer.Offer(1, 103 * kMs, 0);
+  synchronizer.Offer(2, 98 * kMs, 0);
   ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
   EXPECT_EQ(synchronizer.spread_ns(), 5 * kMs);
   EXPECT_EQ(synchronizer.set_ns(), 100 * kMs);
@@ -155,8 +156,8 @@ TEST(Synchronizer, SaysHowFarTheTimesOfASetLieApart) {
 
 TEST(Synchronizer, WaitsForASilentCameraUntilTheOthersHaveRunAhead) {
   Synchronizer synchronizer(3, kPeriod, 2.0);
-  synchronizer.Offer(0, 0);
-  synchronizer.Offer(1, 0);
+  synchronizer.Offer(0, 0, 0);
+  synchronizer.Offer(1, 0, 0);
   EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
   synchronizer.NoteNewest(2 * kPeriod);
   EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
@@ -165,17 +166,39 @@ TEST(Synchronizer, WaitsForASilentCameraUntilTheOthersHaveRunAhead) {
   EXPECT_THAT(synchronizer.members(), ElementsAre(true, true, false));
 }
 
+TEST(Synchronizer, WaitsForAFrameThatIsUnderWayHoweverFarTheOthersAre) {
+  Synchronizer synchronizer(3, kPeriod, 2.0);
+  synchronizer.Offer(0, 0, 0);
+  synchronizer.Offer(1, 0, 0);
+  synchronizer.Expect(2, Expectation::kCertain);
+  synchronizer.NoteNewest(100 * kPeriod);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
+}
+
+TEST(Synchronizer, DoesNotWaitAgainForACameraThatStaysSilent) {
+  Synchronizer synchronizer(3, kPeriod, 2.0);
+  for (int i : {0, 1}) synchronizer.Offer(i, 0, 0);
+  synchronizer.NoteNewest(3 * kPeriod);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  for (int i : {0, 1}) synchronizer.Offer(i, 3 * kPeriod, 3);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  for (int i : {0, 1, 2}) synchronizer.Offer(i, 4 * kPeriod, 4);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  for (int i : {0, 1}) synchronizer.Offer(i, 5 * kPeriod, 5);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait) << "it had come back";
+}
+
 TEST(Synchronizer, LetsFramesGoWhoseSetWentWithoutThem) {
   Synchronizer synchronizer(4, kPeriod, 0.5);
-  synchronizer.Offer(0, 0);
-  synchronizer.Offer(1, 1 * kMs);
+  synchronizer.Offer(0, 0, 0);
+  synchronizer.Offer(1, 1 * kMs, 0);
   synchronizer.NoteNewest(kPeriod);
   ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
-  for (int i : {0, 1}) synchronizer.Offer(i, kPeriod);
-  for (int i : {2, 3}) synchronizer.Offer(i, 2 * kMs);
+  for (int i : {0, 1}) synchronizer.Offer(i, kPeriod, 0);
+  for (int i : {2, 3}) synchronizer.Offer(i, 2 * kMs, 0);
   for (int i = 0; i < 2; ++i) {
     ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kLetGo);
-    synchronizer.Offer(synchronizer.camera(), kPeriod);
+    synchronizer.Offer(synchronizer.camera(), kPeriod, 0);
   }
   ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
   EXPECT_THAT(synchronizer.members(), Each(true));
@@ -185,9 +208,9 @@ TEST(Synchronizer, LetsFramesGoWhoseSetWentWithoutThem) {
 
 TEST(Synchronizer, RefusesTimesThatGoBack) {
   Synchronizer synchronizer(1, kPeriod, Synchronizer::kWaitForever);
-  EXPECT_TRUE(synchronizer.Offer(0, 5));
+  EXPECT_TRUE(synchronizer.Offer(0, 5, 0));
   ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
-  EXPECT_FALSE(synchronizer.Offer(0, 5));
+  EXPECT_FALSE(synchronizer.Offer(0, 5, 0));
   EXPECT_FALSE(synchronizer.has_front(0));
   EXPECT_EQ(synchronizer.late(0), 1);
 }
