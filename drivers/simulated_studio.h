@@ -25,7 +25,7 @@ struct SimulatedStudioOptions {
   int width_px = 640, height_px = 480;
   bool pan_tilt = false;   ///< Heads follow the person; slower to render.
   std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
-  bool realtime = false;   ///< Frames come when they are due by the system clock; none at once.
+  bool realtime = false;   ///< Frames come when the system clock says that they are due.
   double seconds = 0;      ///< Length unless realtime; 0: without end.
   /// Capture time at which the motion begins. In real time it may stay 0: then the motion follows
   /// the clock, and any process with these options knows the truth of a capture time.

@@ -14,7 +14,7 @@ namespace mocap::simulation {
 // ratio .555 at 1.1 m against .52; Bogin and Varela-Silva 2010) and its head is nearly as large as
 // an adult's (195 mm at 1.15 m, 228 mm at 1.755 m; Snyder et al. 1977, ANSUR).
 Anthropometry MakeAnthropometry(double stature_mm, std::uint64_t seed) {
-  Random random(Mix(seed, 0x6275696c64));
+  Random random(Mix(seed, Tag("build")));
   const double h = stature_mm;
   const double childhood = std::clamp((1600 - h) / 500, 0.0, 1.0);
   const double leg_share = (1 - 0.07 * childhood) * (1 + 0.012 * random.Uniform(-1, 1));

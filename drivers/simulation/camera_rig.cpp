@@ -29,7 +29,7 @@ Vector3 Slightly(Random& random, double size) {
 }  // namespace
 
 std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
-  Random random(Mix(options.seed, 0x726967));
+  Random random(Mix(options.seed, Tag("rig")));
   std::vector<CameraCalibration> rig;
   const double first = random.Uniform(0.1, 0.9);
   for (int i = 0; i < options.cameras; ++i) {

@@ -96,7 +96,7 @@ double FloorPath::HeadingAt(double distance_mm) const {
 }
 
 FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed) {
-  Random random(Mix(seed, 0x6f76616c));
+  Random random(Mix(seed, Tag("oval")));
   const double direction = random.Uniform(0, 1) < 0.5 ? 1 : -1;
   const double phase2 = random.Uniform(0, 2 * std::numbers::pi);
   const double phase3 = random.Uniform(0, 2 * std::numbers::pi);

@@ -39,9 +39,9 @@ Matrix3 Turn(const Vector3& axis, double angle) {
 }  // namespace
 
 FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double yaw, double pitch,
-                    double toe_grip) {
+                    double toe_grip, double rounding) {
   // The pivot moves quickly, not at once, from heel to ball: soles and heels are round.
-  const double forward = 0.5 + 0.5 * std::tanh(pitch / 0.04);
+  const double forward = 0.5 + 0.5 * std::tanh(pitch / rounding);
   const double heel = -0.8 * body.heel_mm;
   const Vector3 pivot(heel + (body.ball_mm - heel) * forward, 0, 0.012 * body.stature_mm * forward);
   const Matrix3 R_WYaw = Turn(Vector3::UnitZ(), yaw);
@@ -59,7 +59,7 @@ FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double ya
 void StandOn(const Anthropometry& body, const std::array<FootTarget, 2>& feet,
              double wanted_height_mm, BodyPose& pose) {
   constexpr double kSoft_mm = 8;
-  const double reach = 0.9985 * body.leg_mm();
+  const double reach = 0.997 * body.leg_mm();
   double sum = std::exp(0.0);
   for (const int side : {kLeft, kRight}) {
     const Vector3 hip = pose.R_WPelvis * Vector3(0, SideSign(side) * body.hip_half_mm, 0);
@@ -121,7 +121,7 @@ GaitStyle RunningStyle(const Anthropometry& body) {
   style.lift_mm = 0.09 * h;
   style.roll = kRunningRoll;
   style.height_mm = body.hip_height_mm() - 0.014 * h;
-  style.bounce_mm = 0.016 * h;
+  style.bounce_mm = 0.014 * h;
   style.sway_mm = 0.004 * h;
   style.hip_yaw = 0.12;
   style.lean = 0.16;
@@ -169,8 +169,9 @@ FootTarget Gait::FootAt(int side, double t_s) const {
   Vector3 p = here.p_WSole + way * (next.p_WSole - here.p_WSole);
   const double up = std::sin(std::numbers::pi * u);
   p.z() += std::sqrt(effort) * style_.lift_mm * up * up;
+  // In the air nothing fixes the pivot, and moving it gently spares the knee.
   return RollFoot(body_, p, here.yaw + way * (next.yaw - here.yaw), pitch,
-                  1 - Smoothstep(0, 0.5, u));
+                  1 - Smoothstep(0, 0.5, u), 0.04 + 0.2 * up * up);
 }
 
 BodyPose Gait::PoseAt(double t_s) const {
@@ -212,7 +213,7 @@ BodyPose Gait::PoseAt(double t_s) const {
   FollowWithClavicles(pose);
   const double bounce = -std::cos(2 * kTurn * (phase - style_.duty / 2));
   StandOn(body_, {FootAt(kLeft, t_s), FootAt(kRight, t_s)},
-          style_.height_mm + style_.bounce_mm * bounce, pose);
+          (style_.height_mm + style_.bounce_mm * bounce) * up.z(), pose);
   return pose;
 }
 

@@ -17,8 +17,9 @@ namespace mocap::simulation {
 /// @param yaw       where the toes point [rad].
 /// @param pitch     heel up [rad]: rolls about the ball then; negative: toes up, about the heel.
 /// @param toe_grip  1: the toes stay flat when the heel is up; 0: they point with the foot.
+/// @param rounding  how far the pitch goes while the pivot moves between heel and ball [rad].
 FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double yaw, double pitch,
-                    double toe_grip = 1);
+                    double toe_grip = 1, double rounding = 0.04);
 
 /// Sets the pelvis' height as wanted or, smoothly, as far as both legs reach, then places the legs.
 void StandOn(const Anthropometry& body, const std::array<FootTarget, 2>& feet,

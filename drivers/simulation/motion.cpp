@@ -36,7 +36,7 @@ class Dance : public Motion {
  public:
   Dance(const Anthropometry& body, std::uint64_t seed)
       : body_(body),
-        seed_phase_(Random(Mix(seed, 0x64616e6365)).Uniform(0, kTurn)),
+        seed_phase_(Random(Mix(seed, Tag("dance"))).Uniform(0, kTurn)),
         gait_(body, Style(body), [this](double t_s) { return TrackAt(t_s); }) {}
 
   BodyPose PoseAt(double t_s) const override {
@@ -107,7 +107,7 @@ class Visit : public Motion {
   static constexpr double kHidden_s = 3, kEase_s = 0.8;
 
   static std::vector<Vector2> Waypoints(std::uint64_t seed) {
-    Random random(Mix(seed, 0x7669736974));
+    Random random(Mix(seed, Tag("visit")));
     const double x = kDoorX_mm - kDoorJamb_mm - 0.5 * kCorridorDepth_mm;
     const double r = random.Uniform(0.9, 1.1);
     return {{x, kDoorY_mm - kHidingPlace_mm},
@@ -167,7 +167,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "walk")
     return std::make_unique<Rounds>(body, WalkingStyle(body), 1080 * pace, 1250, seed);
   if (name == "run")
-    return std::make_unique<Rounds>(body, RunningStyle(body), 1750 * pace, 1450, seed);
+    return std::make_unique<Rounds>(body, RunningStyle(body), 1700 * pace, 1500, seed);
   if (name == "dance") return std::make_unique<Dance>(body, seed);
   if (name == "visit") return std::make_unique<Visit>(body, seed);
   if (name == "jump") return MakeJump(body, seed);

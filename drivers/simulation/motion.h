@@ -15,6 +15,9 @@ namespace mocap::simulation {
 /// A motion that goes on for ever. Reentrant.
 class Motion {
  public:
+  Motion() = default;
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
   virtual ~Motion() = default;
   /// The pose at a time [s]; a smooth function of it.
   virtual BodyPose PoseAt(double t_s) const = 0;

@@ -25,7 +25,7 @@ struct Spot {
 };
 
 Spot RandomSpot(std::uint64_t seed) {
-  Random random(Mix(seed, 0x73706f74));
+  Random random(Mix(seed, Tag("spot")));
   return {Vector2(random.Uniform(-400, 400), random.Uniform(-400, 400)), random.Uniform(0, kTurn)};
 }
 
@@ -43,7 +43,7 @@ constexpr double kToeOut = 0.14;
 class Stand : public Motion {
  public:
   Stand(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
-    Random random(Mix(seed, 0x7374616e64));
+    Random random(Mix(seed, Tag("stand")));
     for (double& phase : phases_) phase = random.Uniform(0, kTurn);
   }
 
@@ -83,28 +83,32 @@ class Stand : public Motion {
 class Jump : public Motion {
  public:
   Jump(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
-    Random random(Mix(seed, 0x6a756d70));
+    Random random(Mix(seed, Tag("jump")));
     const double apex_mm = random.Uniform(0.12, 0.16) * body.stature_mm;
-    speed_mm_s_ = std::sqrt(2 * kGravity * apex_mm);
-    flight_s_ = 2 * speed_mm_s_ / kGravity;
+    // Whoever is smaller jumps faster: times go with the root of the stature, and gravity, counted
+    // in such times, with the stature.
+    pace_ = std::sqrt(body.stature_mm / 1750);
+    gravity_ = kGravity * pace_ * pace_;
+    speed_ = std::sqrt(2 * gravity_ * apex_mm);
+    flight_ = 2 * speed_ / gravity_;
     standing_mm_ = body.hip_height_mm() - 0.008 * body.stature_mm;
     on_toes_mm_ = body.hip_height_mm() + 0.022 * body.stature_mm;
   }
 
   BodyPose PoseAt(double t_s) const override {
-    const double landed = kTakeOff_s + flight_s_, t = Wrap(t_s, landed + kLanding_s);
-    const double in_air = t - kTakeOff_s, h = body_.stature_mm;
-    const bool flying = in_air > 0 && in_air < flight_s_;
+    const double landed = kTakeOff + flight_, t = Wrap(t_s / pace_, landed + kLanding);
+    const double in_air = t - kTakeOff, h = body_.stature_mm;
+    const bool flying = in_air > 0 && in_air < flight_;
     const double crouch = Curve(t, {{{0, 0},
                                      {0.25, 0},
-                                     {kDeepest_s, 1},
-                                     {kTakeOff_s, 0},
+                                     {kDeepest, 1},
+                                     {kTakeOff, 0},
                                      {landed, 0.1},
-                                     {landed + kAbsorb_s, 0.9},
+                                     {landed + kAbsorb, 0.9},
                                      {landed + 0.9, 0}}});
     const double heels = Curve(t, {{{0, 0},
                                     {0.75, 0},
-                                    {kTakeOff_s, 0.75},
+                                    {kTakeOff, 0.75},
                                     {landed, 0.5},
                                     {landed + 0.13, 0},
                                     {landed + 0.3, 0},
@@ -117,8 +121,11 @@ class Jump : public Motion {
                                    {landed + 0.5, 0.1},
                                    {landed + 0.9, 0}}});
     // Feet are drawn up a little in the air.
-    const double tuck = flying ? std::pow(std::sin(std::numbers::pi * in_air / flight_s_), 2) : 0;
-    const double rise = flying ? kGravity / 2 * in_air * (flight_s_ - in_air) : 0;
+    const double tuck = flying ? std::pow(std::sin(std::numbers::pi * in_air / flight_), 2) : 0;
+    // The toes leave the floor and meet it again softly.
+    constexpr double kSoft_mm = 20;
+    const double fall = gravity_ / 2 * in_air * (flight_ - in_air);
+    const double rise = 0.5 * (fall + std::hypot(fall, kSoft_mm));
 
     BodyPose pose;
     PlacePelvis(spot_, (0.015 - 0.055 * crouch) * h, 0, 0.03 + 0.45 * crouch, 0, 0, pose);
@@ -140,29 +147,29 @@ class Jump : public Motion {
   }
 
  private:
-  static constexpr double kDeepest_s = 0.65, kTakeOff_s = 0.95, kAbsorb_s = 0.26, kLanding_s = 1.3;
+  static constexpr double kDeepest = 0.65, kTakeOff = 0.95, kAbsorb = 0.26, kLanding = 1.3;
   static double Curve(double t, const std::array<Key, 7>& keys) { return Evaluate(keys, t); }
 
   // Down, up with a constant push, a free flight, and the same push on landing.
   double HipHeightAt(double t) const {
-    const double landed = kTakeOff_s + flight_s_;
-    const auto pushed = [this](double push_s, double left_s) {
-      return on_toes_mm_ - speed_mm_s_ * left_s * (1 - left_s / (2 * push_s));
+    const double landed = kTakeOff + flight_;
+    const auto pushed = [this](double push, double left) {
+      return on_toes_mm_ - speed_ * left * (1 - left / (2 * push));
     };
-    constexpr double kPush_s = kTakeOff_s - kDeepest_s;
-    if (t < kDeepest_s)
-      return standing_mm_ +
-             (pushed(kPush_s, kPush_s) - standing_mm_) * Smoothstep(0.2, kDeepest_s, t);
-    if (t < kTakeOff_s) return pushed(kPush_s, kTakeOff_s - t);
-    if (t < landed) return on_toes_mm_ + kGravity / 2 * (t - kTakeOff_s) * (landed - t);
-    if (t < landed + kAbsorb_s) return pushed(kAbsorb_s, t - landed);
-    return pushed(kAbsorb_s, kAbsorb_s) + (standing_mm_ - pushed(kAbsorb_s, kAbsorb_s)) *
-                                              Smoothstep(landed + kAbsorb_s, landed + 0.9, t);
+    constexpr double kPush = kTakeOff - kDeepest;
+    if (t < kDeepest)
+      return standing_mm_ + (pushed(kPush, kPush) - standing_mm_) * Smoothstep(0.2, kDeepest, t);
+    if (t < kTakeOff) return pushed(kPush, kTakeOff - t);
+    if (t < landed) return on_toes_mm_ + gravity_ / 2 * (t - kTakeOff) * (landed - t);
+    if (t < landed + kAbsorb) return pushed(kAbsorb, t - landed);
+    return pushed(kAbsorb, kAbsorb) + (standing_mm_ - pushed(kAbsorb, kAbsorb)) *
+                                          Smoothstep(landed + kAbsorb, landed + 0.9, t);
   }
 
   Anthropometry body_;
   Spot spot_;
-  double speed_mm_s_ = 0, flight_s_ = 0, standing_mm_ = 0, on_toes_mm_ = 0;
+  double pace_ = 1, gravity_ = 0, speed_ = 0, flight_ = 0;
+  double standing_mm_ = 0, on_toes_mm_ = 0;
 };
 
 class Sit : public Motion {

@@ -39,7 +39,7 @@ Bgr Cloth(Random& random, Bgr wall) {
 }  // namespace
 
 Outfit MakeOutfit(std::uint64_t seed, Bgr wall) {
-  Random random(Mix(seed, 0x6f7574666974));
+  Random random(Mix(seed, Tag("outfit")));
   Outfit outfit;
   const double tan = random.Uniform(0, 1);
   outfit.colors[kSkin] = Color(225 - 130 * tan, 180 - 120 * tan, 155 - 115 * tan);

@@ -7,15 +7,11 @@
 
 #include "core/errors.h"
 #include "drivers/simulation/body_profiles.h"
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
 namespace {
-
-double Smoothstep(double low, double high, double s) {
-  const double u = std::clamp((s - low) / (high - low), 0.0, 1.0);
-  return u * u * (3 - 2 * u);
-}
 
 // Smooth folds: a sum of waves around and along a part.
 class Folds {
@@ -331,7 +327,7 @@ BodyPose RestPose(const Anthropometry& body) {
 PersonMesh BuildPersonMesh(const Anthropometry& body, const Outfit& outfit, std::uint64_t seed) {
   PersonMesh mesh;
   mesh.rest = PlaceBones(body, RestPose(body));
-  Builder builder(mesh, Mix(seed, 0x666f6c6473));
+  Builder builder(mesh, Mix(seed, Tag("folds")));
   AddTorso(builder, body, outfit, mesh.rest);
   AddHead(builder, body, mesh.rest);
   for (const int side : {kLeft, kRight}) {

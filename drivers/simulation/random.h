@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 namespace mocap::simulation {
 
@@ -20,6 +21,13 @@ constexpr std::uint64_t Mix(std::uint64_t x) {
 template <typename... More>
 constexpr std::uint64_t Mix(std::uint64_t first, std::uint64_t second, More... more) {
   return Mix(Mix(first) ^ second, static_cast<std::uint64_t>(more)...);
+}
+
+/// Names what random numbers are for, so that different uses of one seed do not repeat each other.
+constexpr std::uint64_t Tag(std::string_view purpose) {
+  std::uint64_t bits = 0;
+  for (const char c : purpose) bits = Mix(bits, static_cast<std::uint64_t>(c));
+  return bits;
 }
 
 /// Draws one number after the other.

@@ -55,7 +55,7 @@ Exit LeaveBox(const Vector3f& origin, const Vector3f& direction, const Vector3f&
 }  // namespace
 
 NoiseTexture::NoiseTexture(std::uint64_t seed) {
-  Random random(Mix(seed, 0x6e6f697365));
+  Random random(Mix(seed, Tag("noise")));
   cells_.resize(256 * 256);
   for (float& cell : cells_) cell = static_cast<float>(random.Uniform(-1, 1));
 }
@@ -77,7 +77,7 @@ float NoiseTexture::Rough(float x, float y) const {
 }
 
 Room::Room(std::uint64_t seed, const std::vector<Block>& furniture) : noise_(seed) {
-  Random random(Mix(seed, 0x726f6f6d));
+  Random random(Mix(seed, Tag("room")));
   const double base = random.Uniform(105, 150);
   for (Vector3f& color : wall_colors_) {
     const double tint = random.Uniform(-10, 10), value = base + random.Uniform(-8, 8);
@@ -97,7 +97,7 @@ Room::Room(std::uint64_t seed, const std::vector<Block>& furniture) : noise_(see
 }
 
 void Room::AddPosters(std::uint64_t seed) {
-  Random random(Mix(seed, 0x706f73746572));
+  Random random(Mix(seed, Tag("poster")));
   const auto color = [&] {
     return Vector3f(float(random.Uniform(40, 200)), float(random.Uniform(40, 200)),
                     float(random.Uniform(40, 200)));
@@ -122,7 +122,7 @@ void Room::AddPosters(std::uint64_t seed) {
 }
 
 void Room::AddThings(std::uint64_t seed, const std::vector<Block>& furniture) {
-  Random random(Mix(seed, 0x7468696e67));
+  Random random(Mix(seed, Tag("thing")));
   std::vector<Block> blocks = furniture;
   const auto grey = [&](double low, double high) {
     const double v = random.Uniform(low, high);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <sstream>
 
 #include "core/errors.h"
 #include "drivers/simulation/camera_rig.h"
@@ -14,9 +14,10 @@ namespace {
 constexpr double kJitter_ns = 300'000;
 
 const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
-  const auto refuse = [](const std::string& name, double found, const std::string& wanted) {
-    throw SetupError("simulated studio: " + name + " is " + std::to_string(found) + "; wanted is " +
-                     wanted);
+  const auto refuse = [](const char* name, double found, const char* wanted) {
+    std::ostringstream message;
+    message << "simulated studio: " << name << " is " << found << "; wanted is " << wanted;
+    throw SetupError(message.str());
   };
   if (!(options.stature_mm >= 1000 && options.stature_mm <= 2100))
     refuse("stature_mm", options.stature_mm, "1000 to 2100");
@@ -27,7 +28,7 @@ const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
   if (options.height_px < 16 || options.height_px > 8192)
     refuse("height_px", options.height_px, "16 to 8192");
   if (!(options.seconds >= 0 && options.seconds < 1e6))
-    refuse("seconds", options.seconds, "0 or more");
+    refuse("seconds", options.seconds, "0 to 1000000");
   return options;
 }
 
@@ -68,7 +69,7 @@ std::int64_t Scene::NominalTime(std::int64_t frame) const {
 }
 
 std::int64_t Scene::CaptureTime(int camera, std::int64_t frame) const {
-  Random random(Mix(options_.seed, 0x6a6974746572, static_cast<std::uint64_t>(camera),
+  Random random(Mix(options_.seed, Tag("jitter"), static_cast<std::uint64_t>(camera),
                     static_cast<std::uint64_t>(frame)));
   return NominalTime(frame) + std::llround(random.Uniform(-kJitter_ns, kJitter_ns));
 }
@@ -133,7 +134,7 @@ std::vector<BackgroundFrame> SceneView::Background(int frames) const {
     if (calibration().head) RenderView(sweep[i], turned);
     const EmptyView& view = calibration().head ? turned : fixed_view();
     scene_->sensor().Expose(view.image, LampGain(capture_ns),
-                            Mix(scene_->options().seed, 0x656d707479,
+                            Mix(scene_->options().seed, Tag("empty"),
                                 static_cast<std::uint64_t>(camera_), static_cast<std::uint64_t>(i)),
                             background[i].image);
     background[i].angles = sweep[i];
@@ -156,7 +157,7 @@ void ScenePainter::Paint(std::int64_t capture_ns) {
                camera.PoseAt(angles_), !fresh_ && !turned, canvas_);
   scene.sensor().Expose(
       canvas_, LampGain(capture_ns),
-      Mix(scene.options().seed, 0x6672616d65, static_cast<std::uint64_t>(view_->camera()),
+      Mix(scene.options().seed, Tag("frame"), static_cast<std::uint64_t>(view_->camera()),
           static_cast<std::uint64_t>(capture_ns)),
       picture_);
   fresh_ = false;

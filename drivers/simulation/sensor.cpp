@@ -33,7 +33,7 @@ void ExposeRow(const std::uint8_t* light, const std::int8_t* noise, std::uint16_
 }  // namespace
 
 Sensor::Sensor(std::uint64_t seed) {
-  Random random(Mix(seed, 0x73656e736f72));
+  Random random(Mix(seed, Tag("sensor")));
   noise_.resize(kNoiseValues);
   for (std::int8_t& value : noise_)
     value = static_cast<std::int8_t>(std::lround(std::clamp(random.Normal(), -4.0, 4.0) * 16));
