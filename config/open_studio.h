@@ -6,9 +6,13 @@
 #include <vector>
 
 #include "config/config.h"
+#include "drivers/simulated_studio.h"
 #include "drivers/studio.h"
 
 namespace mocap {
+
+/// Gives the simulated studio that the configuration names, in real time.
+SimulatedStudioOptions LiveSimulation(const SourceConfig& source);
 
 /// Opens whatever source the configuration names.
 Studio OpenStudio(const Config& config);

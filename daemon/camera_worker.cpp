@@ -26,7 +26,8 @@ void CameraWorker::Stop() {
   state_.store(CameraState::kEnded, std::memory_order_relaxed);
 }
 
-CameraWorker::Outcome CameraWorker::Next(std::int64_t wanted_from_ns, SegmentedFrame& out) {
+CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted_from_ns,
+                                         SegmentedFrame& out) {
   if (expectation() == Expectation::kCertain) {
     expectation_.store(Expectation::kPossible, std::memory_order_release);
   }
@@ -47,12 +48,13 @@ CameraWorker::Outcome CameraWorker::Next(std::int64_t wanted_from_ns, SegmentedF
     case GrabStatus::kEnd:
       return Outcome::kEnd;
   }
-  expectation_.store(Expectation::kCertain, std::memory_order_release);
   CountFrame(frame.sequence);
-  if (frame.capture_ns < wanted_from_ns) {
+  if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
+    expectation_.store(Expectation::kPossible, std::memory_order_release);
     return Outcome::kNothing;
   }
+  expectation_.store(Expectation::kCertain, std::memory_order_release);
   out.arrival_ns = EpochNs();
   out.capture_ns = frame.capture_ns;
   out.sequence = frame.sequence;

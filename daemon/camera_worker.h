@@ -48,8 +48,8 @@ class CameraWorker {
 
   enum class Outcome { kFrame, kNothing, kEnd };
   /// Waits a moment for the next frame and segments it into `frame`; one captured before
-  /// `wanted_from_ns` is dropped instead.
-  Outcome Next(std::int64_t wanted_from_ns, SegmentedFrame& frame);
+  /// `wanted_from_ns`, as it is by then, is dropped instead.
+  Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame);
 
   const CameraCalibration& calibration() const { return camera_.calibration; }
   /// Whether another frame is to come. It stays kCertain until the next call of Next, so that a

@@ -17,8 +17,11 @@ CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchroniz
 }
 
 void CarveStage::Offer(int camera, SegmentedFrame& frame) {
-  if (frame.capture_ns < wanted_from_ns()) return;
   Camera& offering = cameras_[camera];
+  if (frame.capture_ns < wanted_from_ns_.load(std::memory_order_relaxed)) {
+    offering.left_out.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
   if (synchronizer_.Offer(camera, frame.capture_ns, frame.sequence)) {
     std::swap(offering.front, frame);
   }
@@ -34,7 +37,10 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   if (verdict != Synchronizer::Verdict::kSet) return verdict;
   const std::int64_t begin_ns = SteadyNs();
   Gather(set);
-  if (lag_control_) ControlLag(set);
+  if (load_control_) {
+    load_control_->AddSet(set.capture_ns, set.complete_ns, EpochNs(), synchronizer_.PeriodNs());
+    PublishLoad();
+  }
   carver_.Carve(views_, set.grid);
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
   set.work_ns += carve_ns;
@@ -45,10 +51,20 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   return verdict;
 }
 
-void CarveStage::ControlLag(const CarvedSet& set) {
-  lag_control_->Add(set.capture_ns, set.complete_ns, EpochNs(), synchronizer_.PeriodNs());
-  wanted_from_ns_.store(lag_control_->wanted_from_ns(), std::memory_order_relaxed);
-  skipped_sets_.store(lag_control_->skipped(), std::memory_order_relaxed);
+void CarveStage::SetTracked(std::int64_t sets) {
+  if (!load_control_) return;
+  load_control_->SetUnderWay(next_frame_ - sets, EpochNs());
+  PublishLoad();
+}
+
+void CarveStage::PublishLoad() {
+  const std::int64_t wanted_from_ns = load_control_->wanted_from_ns();
+  wanted_from_ns_.store(wanted_from_ns, std::memory_order_relaxed);
+  skipped_sets_.store(load_control_->skipped(), std::memory_order_relaxed);
+  for (int i = 0; i < camera_count(); ++i) {
+    if (!synchronizer_.LetGoBefore(i, wanted_from_ns)) continue;
+    cameras_[i].left_out.fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 void CarveStage::Gather(CarvedSet& set) {

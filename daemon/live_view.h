@@ -3,16 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "daemon/pose_sink.h"
 #include "daemon/status_window.h"
+#include "daemon/truth_error.h"
 
 namespace mocap {
-
-/// How far a tracked set is from the truth, where that is known [mm].
-using TruthError = std::function<double(const TrackedSet& set)>;
 
 /// Keeps the latest figures of the last thread for the line on the terminal. OnSet: the pipeline's
 /// thread; Line: any.

@@ -11,7 +11,7 @@ namespace mocap {
 namespace {
 
 constexpr std::size_t kFramesQueued = 4;
-constexpr std::size_t kSetsQueued = 2;
+constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.
 constexpr double kPatiencePeriods = 3;
 
@@ -53,7 +53,7 @@ struct Pipeline::CameraLine {
 Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,
                    PoseSink& sink)
     : options_(options),
-      sets_(kSetsQueued, options.overflow, track_bell_),
+      sets_(kSetsQueued, Overflow::kWait, track_bell_),
       track_(body, options.latency_origin, sink, recorders_) {
   if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
     throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
@@ -63,7 +63,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
                                         CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
-  if (options.overflow == Overflow::kDropOldest) carve_->BoundLag();
+  if (options.overflow == Overflow::kDropOldest) carve_->ControlLoad();
   std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
     lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
@@ -149,6 +149,7 @@ bool Pipeline::FeedFromQueues() {
 void Pipeline::RunCarving() {
   for (;;) {
     const int seen = carve_bell_.count();
+    carve_->SetTracked(track_.sets());
     const bool all_ended = FeedFromQueues();
     const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
     if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
@@ -164,6 +165,7 @@ void Pipeline::RunTracking() {
     const bool is_closed = sets_.closed();
     if (sets_.TryPop()) {
       track_.Process(sets_.front());
+      carve_bell_.Ring();
     } else if (is_closed) {
       return;
     } else {
@@ -203,12 +205,12 @@ PipelineStatus Pipeline::Status() const {
   status.state = track_.state();
   status.sets_complete = carve_->complete_sets();
   status.sets_partial = carve_->partial_sets();
-  status.sets_dropped = sets_.dropped() + carve_->skipped_sets();
+  status.sets_dropped = carve_->skipped_sets();
   status.sets_tracked = track_.sets();
   for (int i = 0; i < carve_->camera_count(); ++i) {
     CameraStatus& camera = status.cameras.emplace_back(lines_[i]->worker.Status());
     camera.late = carve_->late(i);
-    camera.dropped += lines_[i]->queue.dropped() + camera.late;
+    camera.dropped += lines_[i]->queue.dropped() + carve_->left_out(i) + camera.late;
   }
   status.stages = StageHistograms(recorders_);
   return status;

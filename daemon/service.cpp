@@ -18,6 +18,7 @@
 #include "daemon/pipeline.h"
 #include "daemon/pose_publisher.h"
 #include "daemon/status_window.h"
+#include "daemon/truth_error.h"
 
 namespace mocap {
 namespace {
@@ -47,6 +48,12 @@ PipelineOptions OptionsFrom(const Config& config) {
           .voxel_mm = config.voxel_mm,
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture};
+}
+
+/// The truth is known where the person is simulated.
+TruthError TruthFor(const SourceConfig& source) {
+  if (source.driver != "simulated") return {};
+  return SimulatedTruthError(LiveSimulation(source));
 }
 
 /// Everything that becomes of a tracked set.
@@ -131,7 +138,7 @@ void RunService(const Config& config, std::optional<double> seconds) {
   Studio studio = OpenStudio(config);
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
   PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));
-  LiveView view({});
+  LiveView view(TruthFor(config.source));
   Outlet outlet(publisher, view);
   Pipeline pipeline(std::move(studio), OptionsFrom(config), LoadBodyTable(config.body), outlet);
   Watch watch(pipeline, publisher, view);

@@ -30,6 +30,13 @@ bool Synchronizer::Offer(int camera, std::int64_t capture_ns, std::uint64_t sequ
   return true;
 }
 
+bool Synchronizer::LetGoBefore(int camera, std::int64_t capture_ns) {
+  Camera& holder = cameras_[camera];
+  if (!holder.has_front || holder.front_ns >= capture_ns) return false;
+  holder.has_front = false;
+  return true;
+}
+
 void Synchronizer::NoteNewest(std::int64_t capture_ns) {
   newest_ns_ = std::max(newest_ns_, capture_ns);
 }

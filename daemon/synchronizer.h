@@ -42,6 +42,8 @@ class Synchronizer {
   /// @return whether the front was taken.
   bool Offer(int camera, std::int64_t capture_ns, std::uint64_t sequence);
   bool has_front(int camera) const { return cameras_[camera].has_front; }
+  /// Lets go of a camera's front if it is older. @return whether it was.
+  bool LetGoBefore(int camera, std::int64_t capture_ns);
   void Expect(int camera, Expectation expectation) { cameras_[camera].expectation = expectation; }
   /// Tells of the newest frame that any camera has taken, wherever that frame is.
   void NoteNewest(std::int64_t capture_ns);

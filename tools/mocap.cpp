@@ -4,12 +4,14 @@
 #include "daemon/run_program.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
-#include "tools/track_command.h"
+#include "tools/simulate.h"
+#include "tools/track.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Markerless motion capture from recorded takes", "mocap");
   app.require_subcommand(1);
   app.set_version_flag("--version", MOCAP_VERSION);
+  mocap::AddSimulateCommand(app);
   mocap::AddTrackCommand(app);
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);

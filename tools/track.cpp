@@ -1,4 +1,4 @@
-#include "tools/track_command.h"
+#include "tools/track.h"
 
 #include <unistd.h>
 
