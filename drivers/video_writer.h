@@ -12,8 +12,8 @@ namespace mocap {
 /// What a video's pixels are.
 enum class VideoPixels { kBgr, kGray };
 
-/// Writes FFV1, every frame on its own: reading gives back the same pixels, and a file that was cut
-/// off loses no more than its last frame.
+/// Writes every frame on its own: reading gives back the same pixels, and a file that was cut off
+/// loses no more than its last frames.
 ///
 /// The same frames give the same bytes. Thread-bound; no threads of its own.
 class VideoWriter {

@@ -34,9 +34,11 @@ std::vector<Vector3> Ellipsoid(const Vector3& center, const Vector3& half_axis, 
   const Vector3 a = half_axis.unitOrthogonal() * width_mm / 2;
   const Vector3 b = half_axis.normalized().cross(a);
   std::vector<Vector3> surface;
-  AddRing(center, half_axis, a, surface);
-  AddRing(center, half_axis, b, surface);
-  AddRing(center, a, b, surface);
+  for (int i = 0; i <= kRingPoints / 2; ++i) {
+    const double polar = 2 * std::numbers::pi * i / kRingPoints;
+    AddRing(center + std::cos(polar) * half_axis, std::sin(polar) * a, std::sin(polar) * b,
+            surface);
+  }
   return surface;
 }
 

@@ -152,19 +152,22 @@ BvhMotion MakeBvhMotion(const Result& result) {
   }
   if (tracked.empty()) throw SetupError("no frame of the result is tracked, wanted at least one");
   BvhMotion motion;
-  motion.period_s = FramePeriod(result.poses);
+  const EvenClock clock = FitClock(result.poses);
+  motion.period_s = clock.period_s;
   motion.skeleton = MeasureSkeleton(tracked, result.body.sizes.head);
-  for (const PoseRow& row : result.poses) {
-    if (IsTracked(row)) {
-      motion.frames.push_back(PoseOf(row));
-      motion.worst_mm =
-          std::max(motion.worst_mm, WorstDistance(motion.skeleton, motion.frames.back(), row));
-    } else if (motion.frames.empty()) {
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    const PoseRow& row = result.poses[i];
+    if (motion.frames.empty() && !IsTracked(row)) {
       ++motion.skipped_frames;
-    } else {
-      ++motion.held_frames;
-      motion.frames.push_back(motion.frames.back());
+      continue;
     }
+    const int held = motion.frames.empty() ? 0 : clock.steps[i] - IsTracked(row);
+    for (int k = 0; k < held; ++k) motion.frames.push_back(motion.frames.back());
+    motion.held_frames += held;
+    if (!IsTracked(row)) continue;
+    motion.frames.push_back(PoseOf(row));
+    motion.worst_mm =
+        std::max(motion.worst_mm, WorstDistance(motion.skeleton, motion.frames.back(), row));
   }
   return motion;
 }

@@ -69,7 +69,7 @@ struct BvhMotion {
   std::vector<BvhPose> frames;
   double period_s = 0;
   int skipped_frames = 0;  ///< Before the first tracked one.
-  int held_frames = 0;     ///< Not tracked: the last pose again.
+  int held_frames = 0;     ///< Missing or not tracked: the last pose again.
   /// Largest distance of a joint from its point; not 0 where the result's bones change.
   double worst_mm = 0;
 };

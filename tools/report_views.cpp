@@ -31,22 +31,36 @@ std::string Base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-/// What the picture is cut to: the body where it is tracked, else whatever was segmented.
-cv::Rect BoxOf(const SampledView& view, const std::vector<BodyLine>& body) {
-  const cv::Rect picture(0, 0, view.image.width(), view.image.height());
-  cv::Rect box;
+cv::Mat MaskOf(const Silhouette& silhouette) {
+  cv::Mat mask(silhouette.height(), silhouette.width(), CV_8U, cv::Scalar(0));
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (silhouette.Test(x, y)) mask.at<std::uint8_t>(y, x) = 255;
+    }
+  }
+  return mask;
+}
+
+using Contours = std::vector<std::vector<cv::Point>>;
+
+/// What the picture is cut to: the body and what was segmented about it; everything that was
+/// segmented where no body is tracked.
+cv::Rect BoxOf(const std::vector<BodyLine>& body, const Contours& contours, const cv::Size& size) {
+  const cv::Rect picture(cv::Point(), size);
+  cv::Rect body_box;
   for (const BodyLine& line : body) {
     for (const Vector2& p : line.pixels) {
       const cv::Point pixel(static_cast<int>(std::clamp(p.x(), -1e4, 1e4)),
                             static_cast<int>(std::clamp(p.y(), -1e4, 1e4)));
-      if (picture.contains(pixel)) box |= cv::Rect(pixel, cv::Size(1, 1));
+      if (picture.contains(pixel)) body_box |= cv::Rect(pixel, cv::Size(1, 1));
     }
   }
-  if (!box.empty()) return box;
-  const auto segmented = view.silhouette.BoundingBox();
-  if (!segmented) return picture;
-  return {cv::Point(segmented->left, segmented->top),
-          cv::Point(segmented->right + 1, segmented->bottom + 1)};
+  cv::Rect box = body_box;
+  for (const std::vector<cv::Point>& contour : contours) {
+    const cv::Rect contour_box = cv::boundingRect(contour);
+    if (body_box.empty() || !(contour_box & body_box).empty()) box |= contour_box;
+  }
+  return box.empty() ? picture : box;
 }
 
 /// The box with some of its surroundings, upright 3 : 4 where the picture allows it.
@@ -76,15 +90,7 @@ std::string PathOf(const std::vector<Vector2>& pixels, bool closed) {
   return path + (closed ? "Z" : "");
 }
 
-std::string SilhouettePath(const Silhouette& silhouette) {
-  cv::Mat mask(silhouette.height(), silhouette.width(), CV_8U, cv::Scalar(0));
-  for (int y = 0; y < mask.rows; ++y) {
-    for (int x = 0; x < mask.cols; ++x) {
-      if (silhouette.Test(x, y)) mask.at<std::uint8_t>(y, x) = 255;
-    }
-  }
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(mask, contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+std::string ContourPath(const Contours& contours) {
   std::string path;
   for (const std::vector<cv::Point>& contour : contours) {
     std::vector<cv::Point> simple;
@@ -118,15 +124,16 @@ std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& vi
     sticks = StickFigure(row, camera, view.X_CW);
     parts = PartOutlines(row, sizes, camera, view.X_CW);
   }
-  const cv::Rect crop =
-      CropAround(BoxOf(view, parts), cv::Size(view.image.width(), view.image.height()));
+  Contours contours;
+  cv::findContours(MaskOf(view.silhouette), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  const cv::Size size(view.image.width(), view.image.height());
+  const cv::Rect crop = CropAround(BoxOf(parts, contours, size), size);
   // SVG counts from a pixel's corner, the camera from its centre.
   std::string svg = fmt::format(
       "<svg class=\"view\" viewBox=\"{0} {1} {2} {3}\"><image x=\"{0}\" y=\"{1}\" width=\"{2}\" "
       "height=\"{3}\" href=\"data:image/jpeg;base64,{4}\"/><g transform=\"translate(.5 .5)\">"
       "<path class=\"silhouette\" d=\"{5}\"/>",
-      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop),
-      SilhouettePath(view.silhouette));
+      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop), ContourPath(contours));
   for (const BodyLine& part : parts) {
     svg += fmt::format("<path class=\"part {}\" d=\"{}\"/>",
                        kSideClasses[static_cast<int>(part.side)], PathOf(part.pixels, true));

@@ -176,7 +176,7 @@ std::vector<double> RoundTicks(double low, double high, int count) {
   if (!(raw > 0) || !std::isfinite(raw)) return {low};
   const double power = std::pow(10, std::floor(std::log10(raw)));
   const double share = raw / power;
-  const double step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+  const double step = power * (share < 1.4 ? 1 : share < 3.2 ? 2 : share < 7.1 ? 5 : 10);
   std::vector<double> ticks;
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
     ticks.push_back(i * step);

@@ -1,58 +1,51 @@
-// §4: what the empty studio looks like to one camera, pixel by pixel.
+// §4: what the empty studio looks like to one camera.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "core/image.h"
+#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/distortion_thresholds.h"
+#include "core/reconstruction/expected_picture.h"
 
 namespace mocap {
 
-/// The four classes of Horprasert, Harwood and Davis (1999).
-enum class PixelClass : std::uint8_t {
-  kBackground = 0,
-  kShadow = 1,
-  kHighlight = 2,
-  kForeground = 3
+/// A picture of the empty studio and where the head pointed.
+struct BackgroundFrame {
+  Image<Bgr> image;
+  PanTiltAngles angles;
 };
 
-/// Horprasert's model of a camera that does not move.
-///
-/// For each pixel the brightness distortion α is the scale that brings the background's colour
-/// closest to the pixel's, and the chromaticity distortion CD is the distance that is left. Both
-/// are divided by their own variation, so that one threshold serves all pixels; the thresholds come
-/// from the histograms of the training frames. Horprasert et al. 1999.
+/// What a camera knows of its background. Thread-bound.
 class BackgroundModel {
  public:
-  /// @param detection_rate  share of background pixels that shall be called background.
-  /// @pre  at least two frames, all of one size.
-  BackgroundModel(std::span<const Image<Bgr>* const> frames, double detection_rate);
+  virtual ~BackgroundModel() = default;
 
-  /// Classifies every pixel.
-  void Classify(ImageView<const Bgr> image, Image<std::uint8_t>& classes) const;
+  /// Gives what the camera would see of the empty studio; holds until the next call.
+  virtual const ExpectedPicture& Expect(const PanTiltAngles& angles) = 0;
 
-  int width() const { return width_; }
-  int height() const { return height_; }
+  /// Thresholds that a share of the training pixels stays within.
+  const DistortionThresholds& thresholds() const { return thresholds_; }
 
- private:
-  struct Pixel {
-    float mean[3];
-    float inverse_sigma[3];
-    float inverse_alpha_variation;
-    float inverse_cd_variation;
-  };
-  struct Distortion {
-    float alpha;
-    float cd;
-  };
-  static Distortion Distort(const Pixel& model, const Bgr& pixel, float gain);
-  float GainOf(ImageView<const Bgr> image) const;
-
-  int width_ = 0, height_ = 0;
-  std::vector<Pixel> pixels_;
-  float cd_threshold_ = 0;
-  float alpha_low_ = 0, alpha_high_ = 0;
+ protected:
+  DistortionThresholds thresholds_;
 };
+
+/// Learns each pixel's mean and variation from the frames of a camera that does not move.
+/// Horprasert, Harwood, Davis 1999.
+/// @pre  at least two frames, all of one size.
+std::unique_ptr<BackgroundModel> LearnFixedBackground(std::span<const BackgroundFrame> frames,
+                                                      double detection_rate);
+
+/// Learns the directions that a camera on a head has been shown, one frame each or more.
+///
+/// A pixel is compared with the background seen in the same direction, in the frame whose head
+/// angles are nearest: the axes do not pass through the lens, and the nearest frame has the least
+/// parallax.
+/// @pre  at least two frames, all of the camera's size; the camera has a head.
+std::unique_ptr<BackgroundModel> LearnPanTiltBackground(const CameraCalibration& camera,
+                                                        std::span<const BackgroundFrame> frames,
+                                                        double detection_rate);
 
 }  // namespace mocap

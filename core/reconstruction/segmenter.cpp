@@ -4,31 +4,41 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/reconstruction/background_model.h"
+#include "core/reconstruction/bit_filters.h"
+#include "core/reconstruction/outline_refiner.h"
+#include "core/reconstruction/pixel_classifier.h"
 #include "core/reconstruction/silhouette_cleaner.h"
 
 namespace mocap {
 namespace {
 
 constexpr std::size_t kFewestFrames = 8;
+// Holes of fewer pixels are noise, whatever they look like: first in the evidence, then in the
+// refined outline.
+constexpr int kSmallestGap_px = 12;
+constexpr int kSmallestHole_px = 20;
 
-std::vector<const Image<Bgr>*> Checked(const CameraCalibration& camera,
-                                       std::span<const BackgroundFrame> background) {
+void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> background) {
+  const std::string where = "background of camera " + camera.name + ": found ";
   if (background.size() < kFewestFrames)
-    throw SetupError("background of camera " + camera.name + ": found " +
-                     std::to_string(background.size()) + " frames, wanted at least " +
+    throw SetupError(where + std::to_string(background.size()) + " frames, wanted at least " +
                      std::to_string(kFewestFrames));
-  std::vector<const Image<Bgr>*> frames;
   for (const BackgroundFrame& frame : background) {
-    if (frame.image.width() != camera.width_px || frame.image.height() != camera.height_px)
-      throw SetupError("background of camera " + camera.name + ": found frames of " +
-                       std::to_string(frame.image.width()) + " x " +
-                       std::to_string(frame.image.height()) + " px, wanted " +
-                       std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
-                       " as in the calibration");
-    frames.push_back(&frame.image);
+    if (frame.image.width() == camera.width_px && frame.image.height() == camera.height_px)
+      continue;
+    throw SetupError(where + "a frame of " + std::to_string(frame.image.width()) + " x " +
+                     std::to_string(frame.image.height()) + " px, wanted " +
+                     std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
+                     " as in the calibration");
   }
-  return frames;
+}
+
+std::unique_ptr<BackgroundModel> Learn(const CameraCalibration& camera,
+                                       std::span<const BackgroundFrame> background,
+                                       double detection_rate) {
+  Check(camera, background);
+  return camera.head ? LearnPanTiltBackground(camera, background, detection_rate)
+                     : LearnFixedBackground(background, detection_rate);
 }
 
 }  // namespace
@@ -37,24 +47,30 @@ class Segmenter::Impl {
  public:
   Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
        const SegmentationOptions& options)
-      : model_(Checked(camera, background), options.detection_rate),
-        classes_(camera.width_px, camera.height_px),
-        cleaner_(options.smallest_blob_share) {}
+      : background_(Learn(camera, background, options.detection_rate)),
+        classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
+        smallest_blob_px_(
+            static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)) {}
 
-  void Segment(ImageView<const Bgr> image, const PanTiltAngles&, Silhouette& silhouette) {
-    model_.Classify(image, classes_);
-    silhouette.Reset(classes_.width(), classes_.height());
-    for (int y = 0; y < classes_.height(); ++y)
-      for (int x = 0; x < classes_.width(); ++x)
-        if (classes_(x, y) >= static_cast<std::uint8_t>(PixelClass::kHighlight))
-          silhouette.Set(x, y);
-    cleaner_.Clean(silhouette);
+  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
+    const ExpectedPicture& expected = background_->Expect(angles);
+    const float gain = MeasureGain(expected, image, scratch_);
+    classifier_.Classify(expected, image, gain);
+    silhouette = classifier_.foreground();
+    cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
+    cleaner_.DropBlobs(smallest_blob_px_, silhouette);
+    refiner_.Refine(expected, image, gain, classifier_.alpha_shift(), silhouette);
+    cleaner_.FillHoles(kSmallestHole_px, silhouette);
+    cleaner_.DropBlobs(smallest_blob_px_, silhouette);
   }
 
  private:
-  BackgroundModel model_;
-  Image<std::uint8_t> classes_;
+  std::unique_ptr<BackgroundModel> background_;
+  PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
+  OutlineRefiner refiner_;
+  int smallest_blob_px_;
+  std::vector<float> scratch_;
 };
 
 Segmenter::Segmenter(const CameraCalibration& camera, std::span<const BackgroundFrame> background,

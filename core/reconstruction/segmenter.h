@@ -5,22 +5,20 @@
 #include <span>
 
 #include "core/image.h"
+#include "core/reconstruction/background_model.h"
 #include "core/reconstruction/camera_model.h"
 #include "core/reconstruction/silhouette.h"
 
 namespace mocap {
-
-/// A picture of the empty studio and where the head pointed.
-struct BackgroundFrame {
-  Image<Bgr> image;
-  PanTiltAngles angles;
-};
 
 /// What a studio may want to change about segmentation.
 struct SegmentationOptions {
   /// Share of background pixels that shall be called background; thresholds follow from the
   /// histograms.
   double detection_rate = 0.9999;
+  /// Brightness, as a share of the background's, below which nothing is a cast shadow: other lamps
+  /// and the walls light what one lamp does not.
+  double darkest_shadow = 0.7;
   /// Blobs smaller than this share of the picture are dropped.
   double smallest_blob_share = 0.0005;
 };

@@ -1,33 +1,104 @@
 #include "core/reconstruction/silhouette_cleaner.h"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
+#include <cstdint>
+#include <utility>
 
 namespace mocap {
+namespace {
 
-void SilhouetteCleaner::Clean(Silhouette& silhouette) {
-  const int smallest = static_cast<int>(smallest_share_ * silhouette.width() * silhouette.height());
-  RemoveSmall(Kind::kHoles, smallest / 2, silhouette);
-  RemoveSmall(Kind::kBlobs, smallest, silhouette);
+using Word = std::uint64_t;
+
+// The first pixel at or after `x` whose bit, turned over by `flip`, is set; `width` if none is.
+int FindSet(const Word* row, int x, int width, Word flip) {
+  if (x >= width) return width;
+  int i = x >> 6;
+  Word word = (row[i] ^ flip) & (~Word{0} << (x & 63));
+  const int last = (width - 1) >> 6;
+  while (word == 0 && i < last) word = row[++i] ^ flip;
+  return word == 0 ? width : std::min(width, i * 64 + std::countr_zero(word));
 }
 
-void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette& silhouette) {
+// Bits [begin, end) of the word that starts at pixel 64 i.
+Word MaskOf(int i, int begin, int end) {
+  Word mask = ~Word{0};
+  if (begin > i * 64) mask <<= begin - i * 64;
+  if (end < i * 64 + 64) mask &= ~Word{0} >> (i * 64 + 64 - end);
+  return mask;
+}
+
+int CountSet(const Word* row, int begin, int end) {
+  int count = 0;
+  for (int i = begin >> 6; i <= (end - 1) >> 6; ++i)
+    count += std::popcount(row[i] & MaskOf(i, begin, end));
+  return count;
+}
+
+void Flip(Word* row, int begin, int end) {
+  for (int i = begin >> 6; i <= (end - 1) >> 6; ++i) row[i] ^= MaskOf(i, begin, end);
+}
+
+}  // namespace
+
+void SilhouetteCleaner::DropBlobs(int smallest, Silhouette& silhouette) {
+  Connect(Kind::kBlobs, nullptr, silhouette);
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
+    if (runs_[RootOf(i)].area < smallest)
+      Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
+}
+
+void SilhouetteCleaner::FillHoles(int smallest, Silhouette& silhouette) {
+  Connect(Kind::kHoles, nullptr, silhouette);
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    const Run& hole = runs_[RootOf(i)];
+    if (!hole.at_edge && hole.area < smallest)
+      Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
+  }
+}
+
+void SilhouetteCleaner::FillHoles(int smallest, const Silhouette& doubtful,
+                                  Silhouette& silhouette) {
+  Connect(Kind::kHoles, &doubtful, silhouette);
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    const Run& hole = runs_[RootOf(i)];
+    if (!hole.at_edge && (hole.area < smallest || 2 * hole.doubtful > hole.area))
+      Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
+  }
+}
+
+void SilhouetteCleaner::Connect(Kind kind, const Silhouette* doubtful,
+                                const Silhouette& silhouette) {
+  CollectRuns(kind, doubtful, silhouette);
+  const int reach = kind == Kind::kBlobs ? 1 : 0;
+  for (int y = 1; y < silhouette.height(); ++y) {
+    int above = row_begins_[y - 1];
+    for (int here = row_begins_[y]; here < row_begins_[y + 1]; ++here) {
+      while (above < row_begins_[y] && runs_[above].end + reach <= runs_[here].begin) ++above;
+      for (int i = above; i < row_begins_[y] && runs_[i].begin < runs_[here].end + reach; ++i)
+        Join(i, here);
+    }
+  }
+}
+
+void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette* doubtful,
+                                    const Silhouette& silhouette) {
+  const int width = silhouette.width();
+  const Word flip = kind == Kind::kBlobs ? 0 : ~Word{0};
   runs_.clear();
   row_begins_.clear();
   for (int y = 0; y < silhouette.height(); ++y) {
     row_begins_.push_back(static_cast<int>(runs_.size()));
-    int begin = -1;
-    for (int x = 0; x <= silhouette.width(); ++x) {
-      const bool in = x < silhouette.width() && silhouette.Test(x, y) == (kind == Kind::kBlobs);
-      if (in && begin < 0) begin = x;
-      if (!in && begin >= 0) {
-        // What touches the picture's edge is no hole.
-        const bool open = kind == Kind::kHoles && (y == 0 || y == silhouette.height() - 1 ||
-                                                   begin == 0 || x == silhouette.width());
-        const int area = open ? std::numeric_limits<int>::max() / 2 : x - begin;
-        runs_.push_back({y, begin, x, static_cast<int>(runs_.size()), area});
-        begin = -1;
-      }
+    const Word* row = silhouette.row(y);
+    for (int end = 0;;) {
+      const int begin = FindSet(row, end, width, flip);
+      if (begin == width) break;
+      end = FindSet(row, begin, width, ~flip);
+      Run run{.y = y, .begin = begin, .end = end, .parent = static_cast<int>(runs_.size())};
+      run.area = end - begin;
+      if (doubtful != nullptr) run.doubtful = CountSet(doubtful->row(y), begin, end);
+      run.at_edge = y == 0 || y == silhouette.height() - 1 || begin == 0 || end == width;
+      runs_.push_back(run);
     }
   }
   row_begins_.push_back(static_cast<int>(runs_.size()));
@@ -47,26 +118,9 @@ void SilhouetteCleaner::Join(int a, int b) {
   if (a == b) return;
   if (b < a) std::swap(a, b);
   runs_[b].parent = a;
-  runs_[a].area = std::min(runs_[a].area + runs_[b].area, std::numeric_limits<int>::max() / 2);
-}
-
-void SilhouetteCleaner::RemoveSmall(Kind kind, int smallest, Silhouette& silhouette) {
-  CollectRuns(kind, silhouette);
-  // Blobs hang together over corners, and so holes do not.
-  const int reach = kind == Kind::kBlobs ? 1 : 0;
-  for (int y = 1; y < silhouette.height(); ++y) {
-    int above = row_begins_[y - 1];
-    for (int here = row_begins_[y]; here < row_begins_[y + 1]; ++here) {
-      while (above < row_begins_[y] && runs_[above].end + reach <= runs_[here].begin) ++above;
-      for (int i = above; i < row_begins_[y] && runs_[i].begin < runs_[here].end + reach; ++i)
-        Join(i, here);
-    }
-  }
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
-    if (runs_[RootOf(i)].area >= smallest) continue;
-    for (int x = runs_[i].begin; x < runs_[i].end; ++x)
-      silhouette.row(runs_[i].y)[x >> 6] ^= std::uint64_t{1} << (x & 63);
-  }
+  runs_[a].area += runs_[b].area;
+  runs_[a].doubtful += runs_[b].doubtful;
+  runs_[a].at_edge |= runs_[b].at_edge;
 }
 
 }  // namespace mocap

@@ -1,37 +1,44 @@
 // §4: what noise leaves in a silhouette is taken out, what it takes from the person is put back.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/reconstruction/silhouette.h"
 
 namespace mocap {
 
-/// Drops small blobs and fills small holes; nothing is eroded, so that thin limbs stay.
+/// Drops small blobs and fills holes; nothing is eroded, so that thin limbs stay.
 ///
 /// Thread-bound; reuses its memory.
 class SilhouetteCleaner {
  public:
-  /// @param smallest_blob_share  blobs and holes smaller than this share of the picture go.
-  explicit SilhouetteCleaner(double smallest_blob_share) : smallest_share_(smallest_blob_share) {}
+  /// Empties blobs of fewer than `smallest` pixels. Blobs hang together over corners too.
+  void DropBlobs(int smallest, Silhouette& silhouette);
 
-  void Clean(Silhouette& silhouette);
+  /// Fills holes of fewer than `smallest` pixels. What touches the picture's edge is no hole.
+  void FillHoles(int smallest, Silhouette& silhouette);
+
+  /// Fills holes of any size that are doubtful for the most part: a leg in front of a wall of its
+  /// own colour leaves such holes, the gap between an arm and the trunk does not.
+  void FillHoles(int smallest, const Silhouette& doubtful, Silhouette& silhouette);
 
  private:
-  // Pixels [begin, end) of one row, all of one kind.
-  struct Run {
-    int y, begin, end;
-    int parent;
-    int area;
-  };
   enum class Kind { kBlobs, kHoles };
-  void RemoveSmall(Kind kind, int smallest, Silhouette& silhouette);
-  void CollectRuns(Kind kind, const Silhouette& silhouette);
+  // Pixels [begin, end) of one row, all of one kind; areas are kept at the root.
+  struct Run {
+    int y = 0;
+    int begin = 0;
+    int end = 0;
+    int parent = 0;
+    int area = 0;
+    int doubtful = 0;
+    bool at_edge = false;
+  };
+  void Connect(Kind kind, const Silhouette* doubtful, const Silhouette& silhouette);
+  void CollectRuns(Kind kind, const Silhouette* doubtful, const Silhouette& silhouette);
   int RootOf(int run);
   void Join(int a, int b);
 
-  double smallest_share_;
   std::vector<Run> runs_;
   std::vector<int> row_begins_;
 };

@@ -6,6 +6,7 @@
 #include "core/tracking/pose_filter.h"
 #include "core/tracking/surface_fit.h"
 #include "core/tracking/voxel_cloud.h"
+#include "core/tracking/voxel_labeler.h"
 
 namespace mocap {
 
@@ -27,10 +28,13 @@ class Tracker {
   const SurfaceFitQuality& quality() const { return quality_; }
 
  private:
-  void Draw();
+  void FollowPoints(const VoxelCloud& cloud);
+  void FollowSurface(const VoxelCloud& cloud);
+  void FitSurface();
 
   BodyModel body_;
   PoseFilter filter_;
+  VoxelLabeler labeler_;
   SurfaceFit surface_fit_;
   LimbRecovery limb_recovery_;
   SurfaceFitQuality quality_;

@@ -1,7 +1,7 @@
 #include "drivers/simulation/empty_view.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 #include "drivers/simulation/room_plan.h"
 
@@ -25,22 +25,25 @@ FloorPlace PlaceOf(const Vector3f& p_W) {
 
 }  // namespace
 
-// Sample (i, j) of the grid lies at pixel ((i - 0.5) / 2, (j - 0.5) / 2): two samples a pixel and
-// axis, a quarter of a pixel beside its centre.
 EmptyViewRenderer::EmptyViewRenderer(const CameraCalibration& camera)
     : width_px_(camera.width_px),
       height_px_(camera.height_px),
-      directions_(2 * camera.width_px, 2 * camera.height_px, Eigen::Vector2f::Zero()) {
-  for (int j = 0; j < directions_.height(); ++j)
-    for (int i = 0; i < directions_.width(); ++i) {
-      const Vector2 pixel((i - 0.5) / 2, (j - 0.5) / 2);
-      // Tsai's lens maps every pixel.
-      directions_(i, j) =
-          NormalizedFromPixel(camera.lens, pixel).value_or(Vector2::Zero()).cast<float>();
-    }
+      centers_(camera.width_px, camera.height_px, Vector3f::Zero()),
+      corners_(camera.width_px + 1, camera.height_px + 1, Vector3f::Zero()) {
+  const auto fill = [&camera](Image<Vector3f>& directions, double offset) {
+    for (int y = 0; y < directions.height(); ++y)
+      for (int x = 0; x < directions.width(); ++x) {
+        // Tsai's lens maps every pixel.
+        const Vector2 d = NormalizedFromPixel(camera.lens, Vector2(x + offset, y + offset))
+                              .value_or(Vector2::Zero());
+        directions(x, y) = Vector3(d.x(), d.y(), 1).cast<float>();
+      }
+  };
+  fill(centers_, 0);
+  fill(corners_, -0.5);
 }
 
-void EmptyViewRenderer::Render(const Room& room, const RigidTransform& X_CW, int samples,
+void EmptyViewRenderer::Render(const Room& room, const RigidTransform& X_CW,
                                EmptyView& view) const {
   if (view.image.width() != width_px_ || view.image.height() != height_px_) {
     view.image = Image<Bgr>(width_px_, height_px_);
@@ -49,27 +52,26 @@ void EmptyViewRenderer::Render(const Room& room, const RigidTransform& X_CW, int
   }
   const Eigen::Matrix3f R_WC = X_CW.R.transpose().cast<float>();
   const Vector3f p_WC = X_CW.Inverse().p.cast<float>();
-  const auto ray_of = [&](float x, float y) -> Vector3f { return R_WC * Vector3f(x, y, 1); };
-  for (int y = 0; y < height_px_; ++y)
+  const auto corner_row = [&](int y, std::vector<Vector3f>& colors) {
+    for (int x = 0; x <= width_px_; ++x) colors[x] = room.Cast(p_WC, R_WC * corners_(x, y)).bgr;
+  };
+  std::vector<Vector3f> above(width_px_ + 1), below(width_px_ + 1);
+  corner_row(0, below);
+  for (int y = 0; y < height_px_; ++y) {
+    above.swap(below);
+    corner_row(y + 1, below);
     for (int x = 0; x < width_px_; ++x) {
-      const std::array<Eigen::Vector2f, 4> d = {
-          directions_(2 * x, 2 * y), directions_(2 * x + 1, 2 * y), directions_(2 * x, 2 * y + 1),
-          directions_(2 * x + 1, 2 * y + 1)};
       // Along a ray with z_C = 1 the distance is the depth.
-      const Vector3f ray = ray_of(0.25f * (d[0].x() + d[1].x() + d[2].x() + d[3].x()),
-                                  0.25f * (d[0].y() + d[1].y() + d[2].y() + d[3].y()));
+      const Vector3f ray = R_WC * centers_(x, y);
       const Room::Hit hit = room.Cast(p_WC, ray);
       view.nearness(x, y) = 1 / hit.distance;
       view.floor(x, y) =
           hit.on_floor ? PlaceOf(p_WC + hit.distance * ray) : FloorPlace{kNoFloor, 0};
-      if (samples == 1) {
-        view.image(x, y) = Rounded(hit.bgr);
-        continue;
-      }
-      Vector3f sum = Vector3f::Zero();
-      for (const Eigen::Vector2f& v : d) sum += room.Cast(p_WC, ray_of(v.x(), v.y())).bgr;
-      view.image(x, y) = Rounded(sum / 4);
+      // Half of a pixel is its centre, the rest its corners, which neighbours share.
+      view.image(x, y) =
+          Rounded(0.5f * hit.bgr + 0.125f * (above[x] + above[x + 1] + below[x] + below[x + 1]));
     }
+  }
 }
 
 }  // namespace mocap::simulation

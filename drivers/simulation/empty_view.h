@@ -29,14 +29,13 @@ class EmptyViewRenderer {
  public:
   explicit EmptyViewRenderer(const CameraCalibration& camera);
 
-  /// Renders the room from a pose.
-  /// @param samples  rays a pixel and axis: 1 is quick, 2 smooths edges.
-  void Render(const Room& room, const RigidTransform& X_CW, int samples, EmptyView& view) const;
+  /// Renders the room from a pose; reuses the view's memory.
+  void Render(const Room& room, const RigidTransform& X_CW, EmptyView& view) const;
 
  private:
   int width_px_, height_px_;
-  /// Directions (Xu/f, Yu/f) at the corners of a grid of half pixels around the picture.
-  Image<Eigen::Vector2f> directions_;
+  /// (Xu/f, Yu/f, 1) at the pixels' centres and corners.
+  Image<Eigen::Vector3f> centers_, corners_;
 };
 
 }  // namespace mocap::simulation

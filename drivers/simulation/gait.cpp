@@ -50,12 +50,15 @@ FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double ya
   target.p_WAnkle =
       p_WSole + R_WYaw * pivot + target.R_WFoot * (Vector3(0, 0, body.ankle_to_sole_mm) - pivot);
   target.toes_rad = toe_grip * pitch * forward;
+  // Toes that point down must not enter the ground.
+  const double toes_mm = body.foot_mm - body.heel_mm - body.ball_mm;
+  target.p_WAnkle.z() += toes_mm * std::sin(std::max(0.0, pitch - target.toes_rad)) * forward;
   return target;
 }
 
 void StandOn(const Anthropometry& body, const std::array<FootTarget, 2>& feet,
              double wanted_height_mm, BodyPose& pose) {
-  constexpr double kSoft_mm = 5;
+  constexpr double kSoft_mm = 8;
   const double reach = 0.9985 * body.leg_mm();
   double sum = std::exp(0.0);
   for (const int side : {kLeft, kRight}) {
@@ -91,8 +94,8 @@ void FollowWithClavicles(BodyPose& pose) {
 GaitStyle WalkingStyle(const Anthropometry& body) {
   const double h = body.stature_mm;
   GaitStyle style;
-  style.step_s = 0.56 * std::sqrt(h / 1750);  // Equal Froude numbers.
-  style.full_step_mm = 0.36 * h;
+  style.step_s = 0.53 * std::sqrt(h / 1750);  // Equal Froude numbers.
+  style.full_step_mm = 0.325 * h;
   style.half_width_mm = 0.035 * h;
   style.toe_out = 0.10;
   style.lift_mm = 0.018 * h;
@@ -117,8 +120,8 @@ GaitStyle RunningStyle(const Anthropometry& body) {
   style.half_width_mm = 0.02 * h;
   style.lift_mm = 0.09 * h;
   style.roll = kRunningRoll;
-  style.height_mm = body.hip_height_mm() - 0.022 * h;
-  style.bounce_mm = 0.018 * h;
+  style.height_mm = body.hip_height_mm() - 0.014 * h;
+  style.bounce_mm = 0.016 * h;
   style.sway_mm = 0.004 * h;
   style.hip_yaw = 0.12;
   style.lean = 0.16;
@@ -137,9 +140,10 @@ double Gait::PhaseOf(int side, double t_s) const {
 }
 
 Gait::Plant Gait::PlantOf(int side, double cycle) const {
-  // The foot stands where the body will be in the middle of the stance.
+  // The foot stands where the body will be shortly before the middle of the stance: the heel
+  // leaves the ground long before the toes do.
   const double contact = (cycle + (side == kLeft ? 0 : 0.5)) * 2 * style_.step_s;
-  const Track track = track_(contact + style_.duty * style_.step_s);
+  const Track track = track_(contact + 0.84 * style_.duty * style_.step_s);
   const double sign = SideSign(side);
   const Vector2 left(-std::sin(track.yaw), std::cos(track.yaw));
   const Vector2 p = track.p_W + sign * style_.half_width_mm * left;
@@ -166,7 +170,7 @@ FootTarget Gait::FootAt(int side, double t_s) const {
   const double up = std::sin(std::numbers::pi * u);
   p.z() += std::sqrt(effort) * style_.lift_mm * up * up;
   return RollFoot(body_, p, here.yaw + way * (next.yaw - here.yaw), pitch,
-                  1 - Smoothstep(0, 0.35, u));
+                  1 - Smoothstep(0, 0.5, u));
 }
 
 BodyPose Gait::PoseAt(double t_s) const {

@@ -165,9 +165,9 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
                                          std::uint64_t seed) {
   const double pace = std::sqrt(body.stature_mm / 1750);
   if (name == "walk")
-    return std::make_unique<Rounds>(body, WalkingStyle(body), 1150 * pace, 1250, seed);
+    return std::make_unique<Rounds>(body, WalkingStyle(body), 1080 * pace, 1250, seed);
   if (name == "run")
-    return std::make_unique<Rounds>(body, RunningStyle(body), 1850 * pace, 1350, seed);
+    return std::make_unique<Rounds>(body, RunningStyle(body), 1750 * pace, 1450, seed);
   if (name == "dance") return std::make_unique<Dance>(body, seed);
   if (name == "visit") return std::make_unique<Visit>(body, seed);
   if (name == "jump") return MakeJump(body, seed);

@@ -84,41 +84,41 @@ class Jump : public Motion {
  public:
   Jump(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
     Random random(Mix(seed, 0x6a756d70));
-    apex_mm_ = random.Uniform(0.13, 0.17) * body.stature_mm;
-    flight_s_ = 2 * std::sqrt(2 * apex_mm_ / kGravity);
+    const double apex_mm = random.Uniform(0.12, 0.16) * body.stature_mm;
+    speed_mm_s_ = std::sqrt(2 * kGravity * apex_mm);
+    flight_s_ = 2 * speed_mm_s_ / kGravity;
+    standing_mm_ = body.hip_height_mm() - 0.008 * body.stature_mm;
+    on_toes_mm_ = body.hip_height_mm() + 0.022 * body.stature_mm;
   }
 
   BodyPose PoseAt(double t_s) const override {
-    const double period = kTakeOff_s + flight_s_ + kLanding_s;
-    const double round = std::floor(t_s / period), t = t_s - round * period;
-    const double landed = kTakeOff_s + flight_s_, h = body_.stature_mm;
-    const double in_air = t - kTakeOff_s;
+    const double landed = kTakeOff_s + flight_s_, t = Wrap(t_s, landed + kLanding_s);
+    const double in_air = t - kTakeOff_s, h = body_.stature_mm;
     const bool flying = in_air > 0 && in_air < flight_s_;
-
     const double crouch = Curve(t, {{{0, 0},
                                      {0.25, 0},
-                                     {0.72, 1},
-                                     {0.95, 0},
-                                     {landed, 0},
-                                     {landed + 0.2, 0.85},
-                                     {landed + 0.75, 0}}});
+                                     {kDeepest_s, 1},
+                                     {kTakeOff_s, 0},
+                                     {landed, 0.1},
+                                     {landed + kAbsorb_s, 0.9},
+                                     {landed + 0.9, 0}}});
     const double heels = Curve(t, {{{0, 0},
-                                    {0.78, 0},
-                                    {0.95, 0.75},
+                                    {0.75, 0},
+                                    {kTakeOff_s, 0.75},
                                     {landed, 0.5},
-                                    {landed + 0.10, 0},
+                                    {landed + 0.13, 0},
                                     {landed + 0.3, 0},
-                                    {landed + 0.75, 0}}});
+                                    {landed + 0.9, 0}}});
     const double arms = Curve(t, {{{0, 0},
-                                   {0.25, 0},
-                                   {0.62, -0.85},
-                                   {0.97, 2.5},
-                                   {landed, 1.5},
-                                   {landed + 0.25, 0.2},
-                                   {landed + 0.75, 0}}});
-    const double fly = flying ? kGravity / 2 * in_air * (flight_s_ - in_air) : 0;
+                                   {0.15, 0},
+                                   {0.55, -0.8},
+                                   {1.05, 2.4},
+                                   {landed, 1.6},
+                                   {landed + 0.5, 0.1},
+                                   {landed + 0.9, 0}}});
     // Feet are drawn up a little in the air.
     const double tuck = flying ? std::pow(std::sin(std::numbers::pi * in_air / flight_s_), 2) : 0;
+    const double rise = flying ? kGravity / 2 * in_air * (flight_s_ - in_air) : 0;
 
     BodyPose pose;
     PlacePelvis(spot_, (0.015 - 0.055 * crouch) * h, 0, 0.03 + 0.45 * crouch, 0, 0, pose);
@@ -126,28 +126,43 @@ class Jump : public Motion {
     for (ArmAngles& arm : pose.arms) {
       arm.flexion = arms;
       arm.abduction = 0.16;
-      arm.elbow = 0.25 + 0.35 * std::abs(std::sin(arms));
+      arm.elbow = 0.25 + 0.30 * std::pow(std::sin(0.6 * arms), 2);
       arm.rotation = 0.1;
       arm.pronation = 0.2;
     }
     FollowWithClavicles(pose);
     std::array<FootTarget, 2> feet;
     for (const int side : {kLeft, kRight})
-      feet[side] = RollFoot(body_, spot_.At(0, SideSign(side) * 0.062 * h, fly + 0.05 * h * tuck),
+      feet[side] = RollFoot(body_, spot_.At(0, SideSign(side) * 0.062 * h, rise + 0.03 * h * tuck),
                             spot_.yaw - SideSign(side) * kToeOut, heels, flying ? 1 - tuck : 1);
-    const double heel_lift = 0.085 * h * std::sin(std::min(heels, 1.0));
-    StandOn(body_, feet, body_.hip_height_mm() - 0.006 * h + fly + heel_lift - 0.17 * h * crouch,
-            pose);
+    StandOn(body_, feet, HipHeightAt(t), pose);
     return pose;
   }
 
  private:
-  static constexpr double kTakeOff_s = 0.95, kLanding_s = 1.1;
+  static constexpr double kDeepest_s = 0.65, kTakeOff_s = 0.95, kAbsorb_s = 0.26, kLanding_s = 1.3;
   static double Curve(double t, const std::array<Key, 7>& keys) { return Evaluate(keys, t); }
+
+  // Down, up with a constant push, a free flight, and the same push on landing.
+  double HipHeightAt(double t) const {
+    const double landed = kTakeOff_s + flight_s_;
+    const auto pushed = [this](double push_s, double left_s) {
+      return on_toes_mm_ - speed_mm_s_ * left_s * (1 - left_s / (2 * push_s));
+    };
+    constexpr double kPush_s = kTakeOff_s - kDeepest_s;
+    if (t < kDeepest_s)
+      return standing_mm_ +
+             (pushed(kPush_s, kPush_s) - standing_mm_) * Smoothstep(0.2, kDeepest_s, t);
+    if (t < kTakeOff_s) return pushed(kPush_s, kTakeOff_s - t);
+    if (t < landed) return on_toes_mm_ + kGravity / 2 * (t - kTakeOff_s) * (landed - t);
+    if (t < landed + kAbsorb_s) return pushed(kAbsorb_s, t - landed);
+    return pushed(kAbsorb_s, kAbsorb_s) + (standing_mm_ - pushed(kAbsorb_s, kAbsorb_s)) *
+                                              Smoothstep(landed + kAbsorb_s, landed + 0.9, t);
+  }
 
   Anthropometry body_;
   Spot spot_;
-  double apex_mm_ = 0, flight_s_ = 0;
+  double speed_mm_s_ = 0, flight_s_ = 0, standing_mm_ = 0, on_toes_mm_ = 0;
 };
 
 class Sit : public Motion {
@@ -176,7 +191,7 @@ class Sit : public Motion {
     BendTrunk(0.5 * lean + 0.12 * seated, 0, 0.05 * std::sin(0.9 * t_s) * seated, 0.8, pose);
     pose.head.twist += 0.25 * std::sin(0.6 * t_s);
     for (ArmAngles& arm : pose.arms) {
-      arm.flexion = 0.05 + 0.55 * seated + 0.5 * lean;
+      arm.flexion = 0.05 + 0.22 * seated + 0.35 * lean;
       arm.abduction = 0.16 + 0.04 * seated;
       arm.elbow = 0.3 + 0.62 * seated;
       arm.rotation = 0.12;
@@ -235,13 +250,13 @@ class Step : public Motion {
     const double beat = t_s / beat_s_ - 6 * round;
     const int leader = std::fmod(std::abs(round), 2) == 1 ? kRight : kLeft;
     std::array<FootTarget, 2> feet;
-    feet[leader] = FootAt(leader, beat, 0.1, 3.1);
-    feet[1 - leader] = FootAt(1 - leader, beat, 1.15, 4.15);
+    feet[leader] = FootAt(leader, beat, 0.3, 3.3);
+    feet[1 - leader] = FootAt(1 - leader, beat, 1.35, 4.35);
 
-    const std::array<Key, 4> forward = {{{0.2, 0}, {1.9, 1}, {3.3, 1}, {5.0, 0}}};
-    const std::array<Key, 4> rise = {{{0.9, 0}, {2.0, 1}, {3.2, 1}, {4.1, 0}}};
+    const std::array<Key, 4> forward = {{{0.4, 0}, {2.1, 1}, {3.5, 1}, {5.2, 0}}};
+    const std::array<Key, 4> rise = {{{1.1, 0}, {2.2, 1}, {3.4, 1}, {4.3, 0}}};
     const std::array<Key, 6> side = {
-        {{0, 0}, {0.5, -1}, {1.5, 1}, {2.4, 0}, {3.5, -0.8}, {4.8, 0}}};
+        {{0, 0}, {0.6, -1}, {1.7, 1}, {2.6, 0}, {3.7, -0.8}, {5.2, 0}}};
     const double sign = SideSign(leader), h = body_.stature_mm;
     const double shift = 0.022 * h * sign * Evaluate(side, beat);
     const double climbing = Evaluate(rise, beat), moving = std::sin(std::numbers::pi * climbing);

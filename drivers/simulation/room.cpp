@@ -20,10 +20,18 @@ Vector3f ColorOf(Bgr c) { return {float(c.b), float(c.g), float(c.r)}; }
 
 // Light lost towards an edge where two surfaces meet.
 float EdgeShade(float distance_mm, float depth, float reach_mm) {
+  // Less than half a grey level is not worth an exponential.
+  if (distance_mm > 5 * reach_mm) return 1;
   return 1 - depth * std::exp(-std::max(distance_mm, 0.0f) / reach_mm);
 }
 
-bool Odd(float v) { return (static_cast<int>(std::floor(v)) & 1) != 0; }
+// std::floor is a call on machines without SSE4.
+int Floor(float v) {
+  const int i = static_cast<int>(v);
+  return i - (v < static_cast<float>(i) ? 1 : 0);
+}
+
+bool Odd(float v) { return (Floor(v) & 1) != 0; }
 
 // Where a ray from inside leaves a box; the axis of the face, with the sign in `positive`.
 struct Exit {
@@ -53,10 +61,10 @@ NoiseTexture::NoiseTexture(std::uint64_t seed) {
 }
 
 float NoiseTexture::At(float x, float y) const {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const float u = x - fx, v = y - fy;
-  const int x0 = static_cast<int>(fx) & 255, x1 = (x0 + 1) & 255;
-  const int y0 = (static_cast<int>(fy) & 255) * 256, y1 = ((static_cast<int>(fy) + 1) & 255) * 256;
+  const int i = Floor(x), j = Floor(y);
+  const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
+  const int x0 = i & 255, x1 = (i + 1) & 255;
+  const int y0 = (j & 255) * 256, y1 = ((j + 1) & 255) * 256;
   const float su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
   const float a = cells_[y0 + x0] + su * (cells_[y0 + x1] - cells_[y0 + x0]);
   const float b = cells_[y1 + x0] + su * (cells_[y1 + x1] - cells_[y1 + x0]);
@@ -149,7 +157,7 @@ Vector3f Room::FloorColor(const Vector3f& p) const {
     color = rug_color_ * (stripe ? 0.82f : 1.0f) * (1 + 0.06f * noise_.At(p.x() / 9, p.y() / 9));
   } else {
     // Boards of 180 mm along x, each with its own tone and grain, joints 4 mm wide.
-    const float board = std::floor(p.y() / 180);
+    const float board = static_cast<float>(Floor(p.y() / 180));
     const float across = p.y() - 180 * board;
     color = floor_color_ * (1 + 0.10f * noise_.At(board * 7.3f, 0.5f) +
                             0.09f * noise_.Rough(p.x() / 260 + board * 17, p.y() / 22));

@@ -110,7 +110,7 @@ SceneView::SceneView(std::shared_ptr<const Scene> scene, int camera)
 const EmptyViewRenderer& SceneView::Renderer() const {
   std::call_once(once_, [this] {
     renderer_ = std::make_unique<const EmptyViewRenderer>(calibration());
-    if (!calibration().head) renderer_->Render(scene_->room(), calibration().X_CW, 2, fixed_view_);
+    if (!calibration().head) renderer_->Render(scene_->room(), calibration().X_CW, fixed_view_);
   });
   return *renderer_;
 }
@@ -121,7 +121,7 @@ const EmptyView& SceneView::fixed_view() const {
 }
 
 void SceneView::RenderView(const PanTiltAngles& angles, EmptyView& view) const {
-  Renderer().Render(scene_->room(), calibration().PoseAt(angles), 2, view);
+  Renderer().Render(scene_->room(), calibration().PoseAt(angles), view);
 }
 
 std::vector<BackgroundFrame> SceneView::Background(int frames) const {

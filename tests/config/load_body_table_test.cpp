@@ -116,6 +116,8 @@ TEST(BodyTables, LeftAndRightMirrorEachOther) {
       const bool same_sign = left.axis_T == Vector3::UnitY();
       EXPECT_DOUBLE_EQ(right->min_rad, same_sign ? left.min_rad : -left.max_rad) << other;
       EXPECT_DOUBLE_EQ(right->max_rad, same_sign ? left.max_rad : -left.min_rad) << other;
+      EXPECT_DOUBLE_EQ(right->rest_rad, same_sign ? left.rest_rad : -left.rest_rad) << other;
+      EXPECT_DOUBLE_EQ(right->rest_std_rad, left.rest_std_rad) << other;
     }
   }
 }
@@ -171,6 +173,7 @@ TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
       {"limits_deg = [-50, 50]", "limits_deg = [50, -50]", "joints[0].limits_deg"},
       {"limits_deg = [-50, 50]", "limits_deg = [-50, 500]", "joints[0].limits_deg"},
       {"limits_deg = [-50, 50]", "limit_deg = [-50, 50]", "joints[0].limits_deg is missing"},
+      {"at = \"neck\"", "at = \"neck\"\nrest_deg = [5, 0]", "joints[0].rest_deg has no spread"},
       {"at = \"neck\"", "at = \"neck\"\nmass = 3", "joints[0].mass is unknown"},
       {"[segments]", "[segment]", "segments is missing"},
       {"head = \"neck_y\"", "", "segments.head is missing"},

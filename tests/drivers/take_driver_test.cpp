@@ -191,7 +191,7 @@ TEST(TakeDriver, CutOffVideoStaysInStepWhenItLoops) {
 
 TEST(TakeDriver, TornFrameIsReportedAndTheOthersKeepTheirTimes) {
   Recording recording(Pace::kFast, false);
-  testing::SpoilFrame(recording.video(0), 5);
+  testing::WriteVideoWithSpoiledFrame(recording.video(0), recording.take(), 5);
   const auto driver = recording.Make(0);
   driver->Start();
   Frame frame;
@@ -218,6 +218,13 @@ TEST(TakeDriver, RecordingThatVanishesWhileLoopingIsLostUntilItIsBack) {
   EXPECT_EQ(recording.now_ns, before_ns + 100 * kMillisecond_ns);
   std::filesystem::rename(away, recording.video(0));
   EXPECT_EQ(driver->Grab(frame, milliseconds(100)), GrabStatus::kFrame);
+}
+
+TEST(SystemClock, WakesNoEarlierThanAsked) {
+  const std::unique_ptr<ReplayClock> clock = MakeSystemClock();
+  const std::int64_t wanted_ns = clock->NowNs() + kMillisecond_ns;
+  clock->SleepUntil(wanted_ns);
+  EXPECT_GE(clock->NowNs(), wanted_ns);
 }
 
 template <Pace pace, bool loop>

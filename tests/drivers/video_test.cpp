@@ -138,15 +138,14 @@ TEST_F(Video, EveryLengthOfACutFileIsReadOrRefused) {
 }
 
 TEST_F(Video, DamagedFrameIsCalledBrokenAndReadingGoesOn) {
-  WriteVideo();
-  testing::SpoilFrame(file_, 4);
+  testing::WriteVideoWithSpoiledFrame(file_, take_, 4);
   VideoReader reader(file_);
   ImageView<const Bgr> image;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < take_.frames; ++i) {
     const VideoStatus status = reader.Read(image);
     ASSERT_EQ(status, i == 4 ? VideoStatus::kBroken : VideoStatus::kFrame) << i;
-    if (i == 4) continue;
-    EXPECT_TRUE(SamePixels<Bgr>(image, SmallPicture(take_, 0, i).view())) << i;
+    if (status == VideoStatus::kBroken) continue;
+    EXPECT_EQ(image(0, 0).g, testing::GrayOf(i));
   }
   EXPECT_EQ(reader.Read(image), VideoStatus::kEnd);
 }

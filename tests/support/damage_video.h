@@ -1,11 +1,14 @@
 // Bit rot in a video.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "core/errors.h"
 #include "drivers/libav.h"
+#include "drivers/video_writer.h"
+#include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap::testing {
@@ -25,8 +28,17 @@ inline std::string CodedFrame(const std::filesystem::path& file, int frame) {
   return bytes;
 }
 
-/// Spoils a frame's table of slices, so that no decoder can read it; the others stay whole.
-inline void SpoilFrame(const std::filesystem::path& file, int frame) {
+/// The gray that fills frame `frame` of the video below.
+inline std::uint8_t GrayOf(int frame) { return static_cast<std::uint8_t>(17 * frame + 3); }
+
+/// Writes gray frames, one of which has a spoiled table of slices, so that no decoder can read it.
+inline void WriteVideoWithSpoiledFrame(const std::filesystem::path& file, const SmallTake& take,
+                                       int frame) {
+  VideoWriter writer(file, take.width_px, take.height_px, 25, VideoPixels::kGray);
+  for (int i = 0; i < take.frames; ++i) {
+    writer.Write(Image<std::uint8_t>(take.width_px, take.height_px, GrayOf(i)).view());
+  }
+  writer.Finish();
   const std::string coded = CodedFrame(file, frame);
   std::string spoiled = coded;
   for (std::size_t i = spoiled.size() - 8; i < spoiled.size(); ++i) spoiled[i] = '\xff';

@@ -1,0 +1,87 @@
+#include "core/reconstruction/bit_filters.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+using Word = std::uint64_t;
+
+// The bits of a row's last word that lie beyond the picture.
+Word BeyondEdge(const Silhouette& s) {
+  return s.width() % 64 == 0 ? 0 : ~Word{0} << s.width() % 64;
+}
+
+template <typename Combine>
+void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Silhouette& to) {
+  MOCAP_CHECK(radius >= 1 && radius <= 2 && &from != &to);
+  const int words = from.words_per_row();
+  const int height = from.height();
+  to.Reset(from.width(), height);
+  if (words == 0) return;
+  const Word edge = BeyondEdge(from);
+  for (int y = 0; y < height; ++y) {
+    Word* row = to.row(y);
+    std::copy(from.row(y), from.row(y) + words, row);
+    for (int other = y - radius; other <= y + radius; ++other) {
+      if (other < 0 || other >= height || other == y) continue;
+      const Word* from_row = from.row(other);
+      for (int i = 0; i < words; ++i) row[i] = combine(row[i], from_row[i]);
+    }
+    row[words - 1] = (row[words - 1] & ~edge) | (beyond & edge);
+  }
+  for (int y = 0; y < height; ++y) {
+    Word* row = to.row(y);
+    // In place: `before` is the word as it was.
+    Word before = beyond;
+    for (int i = 0; i < words; ++i) {
+      const Word here = row[i];
+      const Word after = i + 1 < words ? row[i + 1] : beyond;
+      Word word = here;
+      for (int shift = 1; shift <= radius; ++shift) {
+        word = combine(word, here << shift | before >> (64 - shift));
+        word = combine(word, here >> shift | after << (64 - shift));
+      }
+      row[i] = word;
+      before = here;
+    }
+    row[words - 1] &= ~edge;
+  }
+}
+
+}  // namespace
+
+void PackRow(std::span<const std::uint8_t> pixels, std::uint64_t* words) {
+  const std::size_t count = pixels.size();
+  for (std::size_t i = 0; i < count; i += 64) {
+    Word word = 0;
+    for (std::size_t j = 0; j < 64 && i + j < count; j += 8) {
+      Word bytes = 0;
+      std::memcpy(&bytes, pixels.data() + i + j, std::min<std::size_t>(8, count - i - j));
+      // Eight bytes of 0 or 1 are gathered into the top byte.
+      word |= (bytes * 0x0102040810204080) >> 56 << j;
+    }
+    words[i / 64] = word;
+  }
+}
+
+void Erode(const Silhouette& from, int radius, Silhouette& to) {
+  Filter(
+      from, radius, ~Word{0}, [](Word a, Word b) { return a & b; }, to);
+}
+
+void Dilate(const Silhouette& from, int radius, Silhouette& to) {
+  Filter(
+      from, radius, 0, [](Word a, Word b) { return a | b; }, to);
+}
+
+void Unite(const Silhouette& from, Silhouette& to) {
+  MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
+  for (int y = 0; y < to.height(); ++y)
+    for (int i = 0; i < to.words_per_row(); ++i) to.row(y)[i] |= from.row(y)[i];
+}
+
+}  // namespace mocap

@@ -1,0 +1,56 @@
+// §4: where the background ends, learned from pictures of the empty studio.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/distortion_scan.h"
+#include "core/reconstruction/expected_picture.h"
+
+namespace mocap {
+
+/// What background exceeds as seldom as was asked for. All are normalised by their own variation.
+struct DistortionThresholds {
+  float cd = 0;                ///< Chromaticity distortion of a pixel.
+  float alpha_low = 0;         ///< Brightness distortion of a pixel, negative.
+  float alpha_high = 0;        ///< Brightness distortion of a pixel, positive.
+  float window_cd = 0;         ///< Length of a window's mean colour distance.
+  float window_alpha = 0;      ///< A window's mean brightness distortion, either way.
+  float window_roughness = 0;  ///< Deviation of a window's brightness distortions from a plane.
+};
+
+/// Collects the distortions of training frames in histograms and reads thresholds off them.
+///
+/// Horprasert, Harwood, Davis 1999, §3.2. A pixel is held against the least of the windows that
+/// contain it, as it will be when the camera runs.
+class DistortionHistograms {
+ public:
+  /// Adds one picture of the empty studio.
+  /// @param expected  learned without that picture, or else its own noise would be part of it.
+  void Add(const ExpectedPicture& expected, ImageView<const Bgr> image);
+
+  /// Gives the thresholds that a share `detection_rate` of the pixels stays within.
+  /// @pre  0 < detection_rate < 1, and at least one picture was added.
+  DistortionThresholds At(double detection_rate) const;
+
+ private:
+  class Histogram {
+   public:
+    void Add(float value);
+    float Quantile(double rate) const;
+
+   private:
+    static constexpr float kBinsPerUnit = 100;
+    static constexpr int kBins = 5000;
+    std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(kBins);
+  };
+
+  Histogram cd_, alpha_low_, alpha_high_, window_cd_, window_alpha_, window_roughness_;
+  DistortionScan scan_;
+  std::vector<float> scratch_;
+  std::array<Image<float>, 3> windows_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,27 @@
+// §4: where exactly the person ends.
+#pragma once
+
+#include "core/image.h"
+#include "core/reconstruction/expected_picture.h"
+#include "core/reconstruction/silhouette.h"
+
+namespace mocap {
+
+/// Moves a silhouette's outline to where the person covers half of a pixel.
+///
+/// Windows blur the outline, and so do codecs, which keep colours at half the resolution. For each
+/// pixel beside the outline the person's colour is taken from farther inside, the background's
+/// brightness from farther outside, shadow included, and the share of the person in the pixel is
+/// how far its colour lies from one towards the other. Where the two colours are alike, or a limb
+/// is too thin to have an inside, the outline stays. Thread-bound; reuses its memory.
+class OutlineRefiner {
+ public:
+  /// @param alpha_shift  α − 1 of every pixel of the picture.
+  void Refine(const ExpectedPicture& expected, ImageView<const Bgr> image, float gain,
+              const Image<float>& alpha_shift, Silhouette& silhouette);
+
+ private:
+  Silhouette inside_, near_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,52 @@
+// §4: background, shadow, highlight, foreground.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/distortion_scan.h"
+#include "core/reconstruction/distortion_thresholds.h"
+#include "core/reconstruction/expected_picture.h"
+#include "core/reconstruction/silhouette.h"
+
+namespace mocap {
+
+/// The four classes of Horprasert, Harwood, Davis 1999.
+enum class PixelClass : std::uint8_t { kBackground, kShadow, kHighlight, kForeground };
+
+/// Decides what each pixel of a picture shows.
+///
+/// A pixel is background, shadow or highlight when it could be so by itself and lies in some window
+/// of 5 × 5 pixels that could be so as a whole; otherwise it is foreground.
+/// Thread-bound; reuses its memory.
+class PixelClassifier {
+ public:
+  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow);
+
+  /// Classifies a picture; the results hold until the next one.
+  void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image, float gain);
+
+  const Image<PixelClass>& classes() const { return classes_; }
+  /// Where the class is foreground.
+  const Silhouette& foreground() const { return foreground_; }
+  /// Where background would be as rare as the training frames allow, but not clearly beyond that.
+  const Silhouette& doubtful() const { return doubtful_; }
+  /// α − 1 of every pixel.
+  const Image<float>& alpha_shift() const { return alpha_shift_; }
+
+ private:
+  void ClassifyRow(int y, const DistortionScan::Row& row);
+
+  DistortionThresholds thresholds_;
+  float darkest_shadow_;
+  DistortionScan scan_;
+  Image<PixelClass> classes_;
+  Image<float> alpha_shift_;
+  std::vector<std::uint8_t> pixel_, clear_, doubtful_row_;
+  Silhouette pixels_, windows_, doubtful_windows_;
+  Silhouette foreground_, doubtful_;
+};
+
+}  // namespace mocap
