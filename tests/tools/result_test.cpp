@@ -21,10 +21,10 @@
 namespace mocap {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using testing::ReadText;
 using testing::ReplaceInFile;
-using testing::StartsWith;
+using ::testing::StartsWith;
 using testing::TemporaryFolder;
 
 Result SomeResult() {
