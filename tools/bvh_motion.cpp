@@ -1,12 +1,16 @@
 #include "tools/bvh_motion.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/errors.h"
 #include "tools/export_axes.h"
 
 namespace mocap {
 namespace {
+
+/// An hour at 30 frames a second: a longer pause is two recordings, or times that are wrong.
+constexpr std::int64_t kLongestHold = 108'000;
 
 /// A limb's bone: its joint, where it ends, and its direction in the rest pose.
 struct Bone {
@@ -161,9 +165,13 @@ BvhMotion MakeBvhMotion(const Result& result) {
       ++motion.skipped_frames;
       continue;
     }
-    const int held = motion.frames.empty() ? 0 : clock.steps[i] - IsTracked(row);
-    for (int k = 0; k < held; ++k) motion.frames.push_back(motion.frames.back());
-    motion.held_frames += held;
+    const std::int64_t held = motion.frames.empty() ? 0 : clock.steps[i] - IsTracked(row);
+    if (held > kLongestHold) {
+      throw SetupError("frame " + std::to_string(row.frame) + " comes " + std::to_string(held) +
+                       " frame times after the one before; BVH has one rate and no room for that");
+    }
+    if (held > 0) motion.frames.insert(motion.frames.end(), held, BvhPose(motion.frames.back()));
+    motion.held_frames += static_cast<int>(held);
     if (!IsTracked(row)) continue;
     motion.frames.push_back(PoseOf(row));
     motion.worst_mm =

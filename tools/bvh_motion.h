@@ -76,7 +76,8 @@ struct BvhMotion {
 
 /// Fits the skeleton to all tracked frames. Bones have the median of their lengths; turns of a limb
 /// about itself, which points do not show, are left out.
-/// @throws SetupError  when no frame is tracked.
+/// @throws SetupError  when no frame is tracked, or an hour or more of frames is missing in one
+/// place.
 BvhMotion MakeBvhMotion(const Result& result);
 
 }  // namespace mocap

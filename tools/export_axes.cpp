@@ -20,9 +20,9 @@ EvenClock FitClock(const std::vector<PoseRow>& poses) {
   // The median is that of neighbours as long as most frames are there.
   const double median_s = std::max(sorted[sorted.size() / 2], 1e-6);
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    clock.steps[i] = std::max(1, static_cast<int>(std::lround(apart_s[i - 1] / median_s)));
+    clock.steps[i] = std::max<std::int64_t>(1, std::llround(apart_s[i - 1] / median_s));
   }
-  const int periods = std::accumulate(clock.steps.begin() + 1, clock.steps.end(), 0);
+  const double periods = std::accumulate(clock.steps.begin() + 1, clock.steps.end(), 0.0);
   clock.period_s = std::max(std::accumulate(apart_s.begin(), apart_s.end(), 0.0) / periods, 1e-6);
   return clock;
 }

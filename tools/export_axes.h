@@ -1,6 +1,7 @@
 // What the exported formats share: their axes and their clock.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/geometry.h"
@@ -20,7 +21,7 @@ inline Matrix3 YUpFromWorld() {
 struct EvenClock {
   double period_s = 1.0 / 30;
   /// Periods from the row before to each row: more than 1 where frames are missing.
-  std::vector<int> steps;
+  std::vector<std::int64_t> steps;
 };
 
 /// Fits a clock to frames that may jitter and of which some may be missing.

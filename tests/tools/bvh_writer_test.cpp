@@ -278,6 +278,12 @@ TEST(BvhMotion, SaysHowFarJointsAreOffWhenBonesChange) {
   EXPECT_NEAR(MakeBvhMotion(result).worst_mm, 20, 1e-6);
 }
 
+TEST(BvhMotion, RefusesAPauseThatWouldFillTheMemory) {
+  Result result = MovingResult(9);
+  result.poses[8].timestamp_ns = std::int64_t{1} << 60;
+  EXPECT_THROW(MakeBvhMotion(result), SetupError);
+}
+
 TEST(BvhMotion, RefusesAResultWithoutATrackedFrame) {
   Result result = MovingResult(2);
   for (PoseRow& row : result.poses) row.state = CaptureState::kSearching;
