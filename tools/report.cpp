@@ -71,9 +71,11 @@ std::string Tiles(const Evaluation& evaluation, const std::vector<CameraOverlap>
     tiles += Tile("Hull overlap", fmt::format("{:.1f}", 100 * mean), " %",
                   "voxels against silhouettes, IoU");
   }
-  tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
-                evaluation.truth ? fmt::format("truly {:.0f} mm", evaluation.truth->stature_mm)
-                                 : "as acquired");
+  if (evaluation.first_tracked_pose >= 0) {
+    tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
+                  evaluation.truth ? fmt::format("truly {:.0f} mm", evaluation.truth->stature_mm)
+                                   : "as acquired");
+  }
   return tiles + "</div>\n";
 }
 
