@@ -1,6 +1,7 @@
 // Which frames a pipeline that is behind leaves out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -11,14 +12,14 @@ namespace mocap {
 ///
 /// Cameras that each skip what they have no time for end up with frames of different moments, which
 /// make no sets. Here one place says from which moment on frames are wanted. None are while too
-/// many sets are under way; when there is room again, or a set has grown old by the time it is
-/// complete, the next frame to be captured is the next one wanted. The bound lies half-way between
-/// two frames.
+/// many sets are under way, or an old one has others waiting behind it; when there is room again,
+/// or a set is old by the time it is complete, the next frame to be captured is the next one
+/// wanted. The bound lies half-way between two frames.
 class LoadControl {
  public:
   /// Sets from matching to tracking; at this many, no more are wanted.
   static constexpr std::int64_t kMostUnderWay = 4;
-  /// How old a set may be when it is complete.
+  /// How old a set may be when it is complete, or while others wait behind it.
   static constexpr std::int64_t kTolerancePeriods = 3;
 
   /// Takes note of a set as it is matched.
@@ -37,10 +38,13 @@ class LoadControl {
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
   void WantNext(std::int64_t now_ns);
+  bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
 
   std::int64_t wanted_from_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t period_ns_ = 1;
+  std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
+  std::int64_t sets_ = 0;
   /// What lies between capture and arrival when nothing waits: exposure, transfer, another clock.
   std::int64_t least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t skipped_ = 0;

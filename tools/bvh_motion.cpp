@@ -1,12 +1,16 @@
 #include "tools/bvh_motion.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/errors.h"
 #include "tools/export_axes.h"
 
 namespace mocap {
 namespace {
+
+/// An hour at 30 frames a second: a longer pause is two recordings, or times that are wrong.
+constexpr std::int64_t kLongestHold = 108'000;
 
 /// A limb's bone: its joint, where it ends, and its direction in the rest pose.
 struct Bone {
@@ -152,19 +156,26 @@ BvhMotion MakeBvhMotion(const Result& result) {
   }
   if (tracked.empty()) throw SetupError("no frame of the result is tracked, wanted at least one");
   BvhMotion motion;
-  motion.period_s = FramePeriod(result.poses);
+  const EvenClock clock = FitClock(result.poses);
+  motion.period_s = clock.period_s;
   motion.skeleton = MeasureSkeleton(tracked, result.body.sizes.head);
-  for (const PoseRow& row : result.poses) {
-    if (IsTracked(row)) {
-      motion.frames.push_back(PoseOf(row));
-      motion.worst_mm =
-          std::max(motion.worst_mm, WorstDistance(motion.skeleton, motion.frames.back(), row));
-    } else if (motion.frames.empty()) {
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    const PoseRow& row = result.poses[i];
+    if (motion.frames.empty() && !IsTracked(row)) {
       ++motion.skipped_frames;
-    } else {
-      ++motion.held_frames;
-      motion.frames.push_back(motion.frames.back());
+      continue;
     }
+    const std::int64_t held = motion.frames.empty() ? 0 : clock.steps[i] - IsTracked(row);
+    if (held > kLongestHold) {
+      throw SetupError("frame " + std::to_string(row.frame) + " comes " + std::to_string(held) +
+                       " frame times after the one before; BVH has one rate and no room for that");
+    }
+    if (held > 0) motion.frames.insert(motion.frames.end(), held, BvhPose(motion.frames.back()));
+    motion.held_frames += static_cast<int>(held);
+    if (!IsTracked(row)) continue;
+    motion.frames.push_back(PoseOf(row));
+    motion.worst_mm =
+        std::max(motion.worst_mm, WorstDistance(motion.skeleton, motion.frames.back(), row));
   }
   return motion;
 }

@@ -69,14 +69,15 @@ struct BvhMotion {
   std::vector<BvhPose> frames;
   double period_s = 0;
   int skipped_frames = 0;  ///< Before the first tracked one.
-  int held_frames = 0;     ///< Not tracked: the last pose again.
+  int held_frames = 0;     ///< Missing or not tracked: the last pose again.
   /// Largest distance of a joint from its point; not 0 where the result's bones change.
   double worst_mm = 0;
 };
 
 /// Fits the skeleton to all tracked frames. Bones have the median of their lengths; turns of a limb
 /// about itself, which points do not show, are left out.
-/// @throws SetupError  when no frame is tracked.
+/// @throws SetupError  when no frame is tracked, or an hour or more of frames is missing in one
+/// place.
 BvhMotion MakeBvhMotion(const Result& result);
 
 }  // namespace mocap

@@ -32,7 +32,7 @@ void TellLosses(const BvhMotion& motion) {
                motion.skipped_frames);
   }
   if (motion.held_frames > 0) {
-    fmt::print(stderr, "mocap export: {} frames were not tracked and repeat the last pose\n",
+    fmt::print(stderr, "mocap export: {} frames are missing or not tracked and repeat the last pose\n",
                motion.held_frames);
   }
   if (motion.worst_mm > 1) {

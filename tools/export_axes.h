@@ -1,7 +1,7 @@
 // What the exported formats share: their axes and their clock.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "core/geometry.h"
@@ -17,12 +17,15 @@ inline Matrix3 YUpFromWorld() {
   return R;
 }
 
-/// Mean time between frames [s]; for formats that know one rate only.
-inline double FramePeriod(const std::vector<PoseRow>& poses) {
-  if (poses.size() < 2) return 1.0 / 30;
-  const auto span_ns = static_cast<double>(poses.back().timestamp_ns - poses.front().timestamp_ns);
-  return std::max(1e-9 * span_ns / (static_cast<double>(poses.size()) - 1), 1e-6);
-}
+/// The rate that formats with one rate only are given.
+struct EvenClock {
+  double period_s = 1.0 / 30;
+  /// Periods from the row before to each row: more than 1 where frames are missing.
+  std::vector<std::int64_t> steps;
+};
+
+/// Fits a clock to frames that may jitter and of which some may be missing.
+EvenClock FitClock(const std::vector<PoseRow>& poses);
 
 inline bool IsTracked(const PoseRow& row) {
   return row.state == CaptureState::kTracking && row.has_pose;

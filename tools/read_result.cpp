@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -135,14 +136,39 @@ BodyRecord ReadBody(const std::filesystem::path& file) {
   return body;
 }
 
+/// Both TOML and CSV can spell numbers that are none, and a message can carry them.
+void RejectNonFinite(const Result& result, const std::filesystem::path& folder_or_log) {
+  bool body_is_finite = std::isfinite(result.body.stature_mm);
+  for (const BodySizeField& field : kBodySizeFields) {
+    body_is_finite &= std::isfinite(result.body.sizes.*field.value);
+  }
+  if (!body_is_finite) {
+    throw SetupError(folder_or_log.string() + ": the body has a size that is no finite number");
+  }
+  for (const PoseRow& row : result.poses) {
+    if (!row.has_pose) continue;
+    double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() +
+                 row.paper.torso_angle_rad + row.points_W.sum() + row.residual_mm;
+    for (const double theta_rad : row.paper.theta_rad) sum += theta_rad;
+    if (!std::isfinite(sum)) {
+      throw SetupError(folder_or_log.string() + ": frame " + std::to_string(row.frame) +
+                       " has a number that is not finite");
+    }
+  }
+}
+
 }  // namespace
 
 Result ReadResult(const std::filesystem::path& folder_or_log) {
   if (!std::filesystem::exists(folder_or_log)) {
     throw SetupError(folder_or_log.string() + ": is missing, wanted what mocap track leaves");
   }
-  if (!std::filesystem::is_directory(folder_or_log)) return ReadPoseLog(folder_or_log);
-  return {ReadBody(folder_or_log / "body.toml"), ReadPoses(folder_or_log / "poses.csv")};
+  const Result result =
+      std::filesystem::is_directory(folder_or_log)
+          ? Result{ReadBody(folder_or_log / "body.toml"), ReadPoses(folder_or_log / "poses.csv")}
+          : ReadPoseLog(folder_or_log);
+  RejectNonFinite(result, folder_or_log);
+  return result;
 }
 
 }  // namespace mocap

@@ -71,9 +71,11 @@ std::string Tiles(const Evaluation& evaluation, const std::vector<CameraOverlap>
     tiles += Tile("Hull overlap", fmt::format("{:.1f}", 100 * mean), " %",
                   "voxels against silhouettes, IoU");
   }
-  tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
-                evaluation.truth ? fmt::format("truly {:.0f} mm", evaluation.truth->stature_mm)
-                                 : "as acquired");
+  if (evaluation.first_tracked_pose >= 0) {
+    tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
+                  evaluation.truth ? fmt::format("truly {:.0f} mm", evaluation.truth->stature_mm)
+                                   : "as acquired");
+  }
   return tiles + "</div>\n";
 }
 
@@ -253,7 +255,10 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
 std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
                        const std::vector<CameraOverlap>& overlaps) {
   const std::vector<PoseRow>& poses = evaluation.result.poses;
-  const double seconds = FramePeriod(poses) * std::max(0.0, static_cast<double>(poses.size()) - 1);
+  const double seconds =
+      poses.empty()
+          ? 0
+          : 1e-9 * static_cast<double>(poses.back().timestamp_ns - poses.front().timestamp_ns);
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><title>{0} – motion capture "

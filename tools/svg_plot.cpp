@@ -74,8 +74,9 @@ std::string Grid(const PlotAxes& axes, const Frame& frame) {
         "<rect class=\"shade\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>", x, kTop,
         std::max(0.0, frame.X(std::min(to, frame.x()[1])) - x), frame.bottom() - kTop);
   }
+  const int y_spacing = axes.equal_scales ? kPixelsPerTickX : kPixelsPerTickY;
   for (const double y :
-       RoundTicks(frame.y()[0], frame.y()[1], (frame.bottom() - kTop) / kPixelsPerTickY)) {
+       RoundTicks(frame.y()[0], frame.y()[1], (frame.bottom() - kTop) / y_spacing)) {
     svg += fmt::format(
         "<line class=\"grid\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>"
         "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>",

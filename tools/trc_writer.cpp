@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 std::string Header(const Result& result, const std::string& file_name) {
-  const double rate = 1 / FramePeriod(result.poses);
+  const double rate = 1 / FitClock(result.poses).period_s;
   const std::size_t frames = result.poses.size();
   std::string text = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\t{}\n"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace mocap {
@@ -21,7 +22,7 @@ TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
   LoadControl control;
   for (int i = 0; i < 10; ++i) {
     Add(control, i * kPeriod, LoadControl::kTolerancePeriods * kPeriod);
-    control.SetUnderWay(kMost - 1, i * kPeriod);
+    control.SetUnderWay(std::min<std::int64_t>(i + 1, kMost - 1), i * kPeriod + 2 * kDelay);
   }
   EXPECT_LT(control.wanted_from_ns(), 0);
   EXPECT_EQ(control.skipped(), 0);
@@ -38,8 +39,19 @@ TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
   Add(control, 0, 0);
   control.SetUnderWay(kMost, kPeriod);
   EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
-  control.SetUnderWay(kMost - 1, 5 * kPeriod + 2 * kDelay);
+  control.SetUnderWay(1, 5 * kPeriod + 2 * kDelay);
   EXPECT_EQ(control.wanted_from_ns(), 5 * kPeriod + kPeriod / 2);
+}
+
+TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
+  LoadControl control;
+  Add(control, 0, 0);
+  Add(control, kPeriod, 0);
+  const std::int64_t old_ns = LoadControl::kTolerancePeriods * kPeriod + 2 * kDelay;
+  control.SetUnderWay(1, old_ns);
+  EXPECT_LT(control.wanted_from_ns(), 0) << "one alone holds up nothing";
+  control.SetUnderWay(2, old_ns);
+  EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
 }
 
 TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {

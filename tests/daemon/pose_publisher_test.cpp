@@ -16,8 +16,8 @@
 namespace mocap {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// Keeps what arrives on a channel.
 template <typename Message>
@@ -34,7 +34,7 @@ class Inbox {
   }
 };
 
-class PosePublisherTest : public testing::Test {
+class PosePublisherTest : public ::testing::Test {
  protected:
   PosePublisherTest() : body_(LoadBodyTable("full"), AverageSizes(1700)) {
     result_.state = CaptureState::kTracking;

@@ -13,8 +13,8 @@
 namespace mocap {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
+using ::testing::Each;
+using ::testing::ElementsAre;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kPeriod = 33 * kMs;

@@ -257,12 +257,31 @@ TEST(BvhMotion, SkipsWhatComesBeforeTrackingAndHoldsThePoseInGaps) {
   EXPECT_NE(motion.frames[3].p_WHips, motion.frames[1].p_WHips);
 }
 
+TEST(BvhMotion, KeepsTimeThoughFramesAreMissing) {
+  Result result = MovingResult(20);
+  // Jitter of a few milliseconds, and three frames gone.
+  for (std::size_t i = 0; i < 20; ++i) result.poses[i].timestamp_ns += i % 3 * 2'000'000;
+  result.poses.erase(result.poses.begin() + 8, result.poses.begin() + 11);
+  const BvhMotion motion = MakeBvhMotion(result);
+  EXPECT_EQ(motion.held_frames, 3);
+  ASSERT_EQ(motion.frames.size(), 20u);
+  EXPECT_NEAR(motion.period_s, 0.04, 0.0002);
+  EXPECT_EQ(motion.frames[10].p_WHips, motion.frames[7].p_WHips);
+  EXPECT_NE(motion.frames[11].p_WHips, motion.frames[7].p_WHips);
+}
+
 TEST(BvhMotion, SaysHowFarJointsAreOffWhenBonesChange) {
   Result result = MovingResult(5);
   EXPECT_LT(MakeBvhMotion(result).worst_mm, 1e-6);
   Put(result.poses[2], Point::kFootL,
       result.poses[2].points_W.col(static_cast<int>(Point::kKneeL)) + Vector3(0, 0, -470));
   EXPECT_NEAR(MakeBvhMotion(result).worst_mm, 20, 1e-6);
+}
+
+TEST(BvhMotion, RefusesAPauseThatWouldFillTheMemory) {
+  Result result = MovingResult(9);
+  result.poses[8].timestamp_ns = std::int64_t{1} << 60;
+  EXPECT_THROW(MakeBvhMotion(result), SetupError);
 }
 
 TEST(BvhMotion, RefusesAResultWithoutATrackedFrame) {

@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "core/errors.h"
 #include "drivers/take_writer.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/evaluation.h"
 #include "tools/evaluation_text.h"
 #include "tools/report.h"
@@ -17,8 +16,8 @@
 namespace mocap {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int kWidth = 320, kHeight = 240, kFrames = 20;
 constexpr std::int64_t kFirstNs = 1'000'000'000'000, kPeriodNs = 100'000'000;
@@ -64,15 +63,12 @@ BodyPoints TruePoints(int frame) {
 }
 
 /// A take of three cameras with truth and a result that is 12 mm off in z.
-class EvaluateTest : public testing::Test {
+class EvaluateTest : public ::testing::Test {
  protected:
   EvaluateTest() {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     WriteTake();
     WriteTracking();
   }
-  ~EvaluateTest() override { std::filesystem::remove_all(folder_); }
 
   void WriteTake() const {
     TakeDescription description{"<box>", 10, {}, {}};
@@ -128,31 +124,23 @@ class EvaluateTest : public testing::Test {
     CLI::App app;
     AddEvaluateCommand(app);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-    testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStdout();
     try {
       app.parse(reversed);
     } catch (...) {
-      testing::internal::GetCapturedStdout();
+      ::testing::internal::GetCapturedStdout();
       throw;
     }
-    return testing::internal::GetCapturedStdout();
+    return ::testing::internal::GetCapturedStdout();
   }
 
-  static std::string ReadAll(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::filesystem::path take_ = folder_ / "take", result_ = folder_ / "result";
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path take_ = folder_.path() / "take", result_ = folder_.path() / "result";
 };
 
 TEST_F(EvaluateTest, PrintsOneJsonObjectWithTheFigures) {
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
-  EXPECT_THAT(json, testing::MatchesRegex("\\{[^\n]*\\}\n"));
+  EXPECT_THAT(json, ::testing::MatchesRegex("\\{[^\n]*\\}\n"));
   EXPECT_THAT(json, HasSubstr("\"frames\": 20,"));
   EXPECT_THAT(json, HasSubstr("\"acquiring\": 2, \"tracking\": 18,"));
   EXPECT_THAT(json, HasSubstr("\"tracked_share\": 1,"));
@@ -181,11 +169,11 @@ TEST_F(EvaluateTest, SaysWhatItCanWithoutTruth) {
 }
 
 TEST_F(EvaluateTest, ReportStandsAlone) {
-  const std::filesystem::path report = folder_ / "report.html";
+  const std::filesystem::path report = folder_.path() / "report.html";
   const std::string json =
       Run({"evaluate", take_.string(), result_.string(), "--json", "--report", report.string()});
   EXPECT_THAT(json, HasSubstr("\"hull_iou\": {\"east\": "));
-  const std::string html = ReadAll(report);
+  const std::string html = testing::ReadText(report);
   // Nothing is loaded: no script, no address, and pictures only from within.
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_THAT(html, Not(HasSubstr("http")));
@@ -204,21 +192,22 @@ TEST_F(EvaluateTest, ReportOfAPersonNeverTrackedStillShowsTheCameras) {
     row.has_pose = false;
   }
   WriteResult(result_, result);
-  const std::filesystem::path report = folder_ / "report.html";
+  const std::filesystem::path report = folder_.path() / "report.html";
   Run({"evaluate", take_.string(), result_.string(), "--report", report.string()});
-  const std::string html = ReadAll(report);
+  const std::string html = testing::ReadText(report);
   EXPECT_THAT(html, HasSubstr("never tracked"));
   EXPECT_THAT(html, HasSubstr("data:image/jpeg"));
 }
 
 TEST_F(EvaluateTest, RefusesAReportThatCannotBeWritten) {
   EXPECT_THROW(Run({"evaluate", take_.string(), result_.string(), "--report",
-                    (folder_ / "absent" / "report.html").string()}),
+                    (folder_.path() / "absent" / "report.html").string()}),
                SetupError);
 }
 
 TEST_F(EvaluateTest, RefusesATakeThatIsNotThere) {
-  EXPECT_THROW(Run({"evaluate", (folder_ / "absent").string(), result_.string()}), SetupError);
+  EXPECT_THROW(Run({"evaluate", (folder_.path() / "absent").string(), result_.string()}),
+               SetupError);
 }
 
 TEST_F(EvaluateTest, SamplesTheFrameNearestToEachMomentAndCarvesIt) {

@@ -21,10 +21,10 @@
 namespace mocap {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using testing::ReadText;
 using testing::ReplaceInFile;
-using testing::StartsWith;
+using ::testing::StartsWith;
 using testing::TemporaryFolder;
 
 Result SomeResult() {
@@ -130,6 +130,12 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "body.toml", "neck_mm", "throat_mm");
   EXPECT_THAT(Message(read), HasSubstr("body.toml: sizes.neck_mm: missing"));
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "poses.csv", "2.250000", "nan");
+  EXPECT_THAT(Message(read), HasSubstr("has a number that is not finite"));
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "body.toml", "stature_mm = ", "stature_mm = inf # ");
+  EXPECT_THAT(Message(read), HasSubstr("the body has a size that is no finite number"));
   EXPECT_THAT(Message([&] { ReadResult(folder.path() / "absent"); }), HasSubstr("is missing"));
 }
 

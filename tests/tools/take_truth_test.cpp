@@ -3,28 +3,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "core/errors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace mocap {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
-class TakeTruthTest : public testing::Test {
+class TakeTruthTest : public ::testing::Test {
  protected:
   TakeTruthTest() {
-    std::filesystem::create_directories(take_);
     Write("truth.toml",
           "stature_mm = 1750.0\nankle_to_sole_mm = 80.0\n\n[lengths]\ntorso_mm = 560.5\n");
   }
-  ~TakeTruthTest() override { std::filesystem::remove_all(take_); }
 
   void Write(const std::string& name, const std::string& text) const {
-    std::ofstream(take_ / name) << text;
+    testing::WriteText(take_ / name, text);
   }
 
   std::string ErrorOfReading() const {
@@ -60,8 +58,8 @@ class TakeTruthTest : public testing::Test {
     return line.str();
   }
 
-  const std::filesystem::path take_ = std::filesystem::path(testing::TempDir()) /
-                                      testing::UnitTest::GetInstance()->current_test_info()->name();
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path take_ = folder_.path();
 };
 
 TEST_F(TakeTruthTest, PutsTheFootOnTheSoleUnderTheAnkle) {
