@@ -127,7 +127,7 @@ void AddTrackCommand(CLI::App& app) {
   command->add_option("TAKE", options->take, "the take's folder")->required();
   command->add_option("--out", options->out, "folder for poses.csv and body.toml")->required();
   command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
-      ->check(CLI::Range(5.0, 200.0))
+      ->check(CLI::Range(10.0, 100.0))
       ->capture_default_str();
   command->add_option("--body", options->body, "mikic2003, full, or a body table's file")
       ->capture_default_str();
