@@ -92,7 +92,9 @@ TEST_P(EveryBody, ReadsThePapersNumbersOffThePose) {
   EXPECT_EQ(paper.torso_mm, pose.X_WT.p);
   for (int i = 0; i < body_.joint_count(); ++i) {
     const int angle = body_.table().joints[i].paper_angle;
-    if (angle > 0) EXPECT_EQ(paper.theta_rad[angle - 1], pose.theta[i]);
+    if (angle > 0) {
+      EXPECT_EQ(paper.theta_rad[angle - 1], pose.theta[i]);
+    }
   }
 }
 
