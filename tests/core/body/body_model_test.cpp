@@ -118,7 +118,7 @@ TEST_P(EveryBody, BendsKneesBackwardAndElbowsForward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, EveryBody, testing::Values("mikic2003", "full"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 // Eq. (13) written out for the right foot: R0 (R12 (R14 (R16 p + t16) + t14) + t12) + t0.
 TEST(BodyModel, PutsTheRightFootWhereThePaperPutsIt) {
