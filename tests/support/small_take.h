@@ -14,7 +14,6 @@ namespace mocap::testing {
 struct SmallTake {
   int cameras = 3;
   int frames = 12;
-  int background_frames = 3;
   int width_px = 68;  ///< Not a multiple of what vector code likes.
   int height_px = 50;
   bool heads = false;
@@ -75,8 +74,9 @@ inline TakeDescription SmallDescription(const SmallTake& take) {
 /// Writes frames, times and background of all cameras.
 inline void WriteSmallTake(const std::filesystem::path& folder, const SmallTake& take = {}) {
   TakeWriter writer(folder, SmallDescription(take));
+  constexpr int kBackgroundFrames = 3;
   for (int camera = 0; camera < take.cameras; ++camera) {
-    for (int frame = 0; frame < take.background_frames; ++frame) {
+    for (int frame = 0; frame < kBackgroundFrames; ++frame) {
       writer.WriteBackground(camera, SmallPicture(take, camera, 100 + frame).view(),
                              take.TimeNs(camera, frame), take.Angles(camera, frame));
     }
