@@ -12,11 +12,13 @@
 namespace mocap {
 
 /// Reads the daemon's TOML. Relative paths are made relative to the file.
-/// @throws SetupError  naming file, line and key, what was found and what is wanted; unknown keys too.
+/// @throws SetupError  naming file, line and key, what was found and what is wanted; unknown keys
+/// too.
 Config LoadConfig(const std::filesystem::path& file);
 
 /// Reads calibration.toml, cameras in the order of the file.
-/// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without size.
+/// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without
+/// size.
 std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file);
 
 /// Finds a body table: one of those built in ("mikic2003", "full") or a TOML file's path.

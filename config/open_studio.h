@@ -6,9 +6,13 @@
 #include <vector>
 
 #include "config/config.h"
+#include "drivers/simulated_studio.h"
 #include "drivers/studio.h"
 
 namespace mocap {
+
+/// Gives the simulated studio that the configuration names, in real time.
+SimulatedStudioOptions LiveSimulation(const SourceConfig& source);
 
 /// Opens whatever source the configuration names.
 Studio OpenStudio(const Config& config);
@@ -20,7 +24,8 @@ struct TakeOptions {
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background.
-/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its last whole frame.
+/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its
+/// last whole frame.
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
 
 }  // namespace mocap

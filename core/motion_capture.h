@@ -33,6 +33,18 @@ struct CaptureResult {
   bool body_changed = false;  ///< The sizes in body() are new with this frame.
 };
 
+/// The two halves of an update that a profile tells apart: from voxels to measured points, and from
+/// those to a pose. Acquisition counts as labelling.
+enum class UpdateStage { kLabel, kFilter };
+
+/// Hears when a stage of an update has ended, because core has no clock of its own. A stage may end
+/// more than once an update.
+class UpdateObserver {
+ public:
+  virtual ~UpdateObserver() = default;
+  virtual void OnStageEnd(UpdateStage stage) = 0;
+};
+
 /// Follows one person through voxel grids, measuring the body first. Same input, same output, bit
 /// for bit.
 class MotionCapture {
@@ -42,7 +54,9 @@ class MotionCapture {
 
   /// Takes the next frame set.
   /// @param capture_ns  time of exposure; must not go back.
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns);
+  /// @param observer    told of the stages, may be null; the result does not depend on it.
+  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
+                              UpdateObserver* observer = nullptr);
 
   /// The body as it is known now.
   const BodyModel& body() const;

@@ -1,1 +1,31 @@
-int main() {}
+// mocapd: from cameras to poses on LCM.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "config/load_config.h"
+#include "daemon/run_program.h"
+#include "daemon/service.h"
+
+int main(int argc, char** argv) {
+  mocap::HoldSignals();
+  CLI::App app("Captures a person's motion and publishes it on LCM", "mocapd");
+  std::optional<std::filesystem::path> file;
+  bool only_checks = false;
+  std::optional<double> seconds;
+  app.add_option("--config", file, "TOML file; without one, the simulated studio");
+  app.add_flag("--check-config", only_checks, "only look whether the configuration can be used");
+  app.add_option("--seconds", seconds, "stop after so long")->check(CLI::PositiveNumber);
+  app.set_version_flag("--version", MOCAP_VERSION);
+  app.callback([&] {
+    const mocap::Config config = file ? mocap::LoadConfig(*file) : mocap::Config();
+    if (only_checks) {
+      mocap::CheckConfig(config);
+      std::puts("the configuration can be used");
+    } else {
+      mocap::RunService(config, seconds);
+    }
+  });
+  return mocap::RunProgram(app, argc, argv);
+}

@@ -1,1 +1,19 @@
-int main() {}
+// mocap: everything a person types.
+#include <CLI/CLI.hpp>
+
+#include "daemon/run_program.h"
+#include "tools/evaluate.h"
+#include "tools/export.h"
+#include "tools/simulate.h"
+#include "tools/track.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Markerless motion capture from recorded takes", "mocap");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", MOCAP_VERSION);
+  mocap::AddSimulateCommand(app);
+  mocap::AddTrackCommand(app);
+  mocap::AddEvaluateCommand(app);
+  mocap::AddExportCommand(app);
+  return mocap::RunProgram(app, argc, argv);
+}

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "core/reconstruction/bit_filters.h"
 #include "core/reconstruction/volume_of_interest.h"
 
 namespace mocap {
@@ -18,23 +19,43 @@ constexpr int kMajority = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide / 
 // More than the rounding of the table's floats can move a place.
 constexpr double kRounding_px = 0.05;
 
-enum class Verdict { kInside, kOutside, kUnseen, kUndecided };
+// Half the width of the gaps in a silhouette that may be holes [px], and of how many cameras one
+// may be wrong about them.
+constexpr int kGap_px = 6;
+constexpr int kCamerasPerDoubt = 5;
+
+// kGap: not in the silhouette, but in a gap that it nearly surrounds.
+enum class Verdict { kInside, kGap, kOutside, kUnseen, kUndecided };
 
 int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
 
+// A silhouette with its gaps closed: dilated, then eroded by as much.
+void CloseGaps(const Silhouette& silhouette, Silhouette& scratch, Silhouette& closed) {
+  closed = silhouette;
+  for (int width = 0; width < kGap_px; width += 2) {
+    Dilate(closed, 2, scratch);
+    std::swap(closed, scratch);
+  }
+  for (int width = 0; width < kGap_px; width += 2) {
+    Erode(closed, 2, scratch);
+    std::swap(closed, scratch);
+  }
+}
+
 // How one camera judges one place.
-Verdict JudgePlace(const CarvingView& view, const Vector3& p_W) {
+Verdict JudgePlace(const CarvingView& view, const Silhouette& closed, const Vector3& p_W) {
   const Vector3 p_C = view.X_CW * p_W;
   if (p_C.z() <= 0) return Verdict::kUnseen;
   const SensorPlaneTable::Pixel pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
   if (pixel.x < 0) return Verdict::kUnseen;
-  return view.silhouette->Test(pixel.x, pixel.y) ? Verdict::kInside : Verdict::kOutside;
+  if (view.silhouette->Test(pixel.x, pixel.y)) return Verdict::kInside;
+  return closed.Test(pixel.x, pixel.y) ? Verdict::kGap : Verdict::kOutside;
 }
 
 // How one camera judges all places within `radius_mm` around p_W at once; undecided where they may
 // differ.
-Verdict JudgeBall(const CarvingView& view, const DistanceMap& distances, const Vector3& p_W,
-                  double radius_mm) {
+Verdict JudgeBall(const CarvingView& view, const DistanceMap& distances,
+                  const DistanceMap& closed_distances, const Vector3& p_W, double radius_mm) {
   const Vector3 p_C = view.X_CW * p_W;
   if (p_C.z() <= -radius_mm) return Verdict::kUnseen;
   if (p_C.z() <= 2 * radius_mm) return Verdict::kUndecided;
@@ -57,7 +78,9 @@ Verdict JudgeBall(const CarvingView& view, const DistanceMap& distances, const V
   if (margin < reach) return Verdict::kUndecided;
   const int distance = distances.At(column, row);
   if (distance > reach) return Verdict::kInside;
-  if (distance < -reach) return Verdict::kOutside;
+  const int closed_distance = closed_distances.At(column, row);
+  if (closed_distance < -reach) return Verdict::kOutside;
+  if (distance < -reach && closed_distance > reach) return Verdict::kGap;
   return Verdict::kUndecided;
 }
 
@@ -68,6 +91,7 @@ struct Carver::Block {
   Eigen::Vector3i first;  // Within the grid.
   int side = 0;           // [voxels]
   int seeing = 0;         // Cameras that have all of it in their silhouette.
+  int gaps = 0;           // Cameras that have all of it in a gap.
   int undecided = 0;      // Cameras that are yet to be asked: the first in `views`.
   std::array<std::uint8_t, kMostViews> views;
 };
@@ -76,9 +100,9 @@ struct Carver::Block {
 // that of asking every camera about every sample of every voxel.
 class Carver::Walk {
  public:
-  Walk(std::span<const CarvingView> views, std::span<const DistanceMap> distances, int fewest,
-       VoxelGrid& grid)
-      : views_(views), distances_(distances), fewest_(fewest), grid_(grid) {}
+  Walk(std::span<const CarvingView> views, std::span<const Outline> outlines, int fewest,
+       int most_gaps, VoxelGrid& grid)
+      : views_(views), outlines_(outlines), fewest_(fewest), most_gaps_(most_gaps), grid_(grid) {}
 
   void Visit(Block block) {
     if ((block.first.array() >= grid_.size().array()).any()) return;
@@ -91,8 +115,10 @@ class Carver::Walk {
     for (int i = 0; i < block.undecided; ++i) {
       const std::uint8_t view = block.views[i];
       const Verdict verdict =
-          JudgeBall(views_[view], distances_[view], middle_W, half_mm * std::sqrt(3.0));
+          JudgeBall(views_[view], outlines_[view].distances, outlines_[view].closed_distances,
+                    middle_W, half_mm * std::sqrt(3.0));
       if (verdict == Verdict::kOutside) return;
+      if (verdict == Verdict::kGap && ++block.gaps > most_gaps_) return;
       if (verdict == Verdict::kInside) ++block.seeing;
       if (verdict == Verdict::kUndecided) block.views[undecided++] = view;
     }
@@ -137,17 +163,21 @@ class Carver::Walk {
 
   bool SampleAgrees(const Block& voxel, const Vector3& p_W) const {
     int seeing = voxel.seeing;
+    int gaps = voxel.gaps;
     for (int i = 0; i < voxel.undecided; ++i) {
-      const Verdict verdict = JudgePlace(views_[voxel.views[i]], p_W);
+      const std::uint8_t view = voxel.views[i];
+      const Verdict verdict = JudgePlace(views_[view], outlines_[view].closed, p_W);
       if (verdict == Verdict::kOutside) return false;
+      if (verdict == Verdict::kGap && ++gaps > most_gaps_) return false;
       seeing += verdict == Verdict::kInside;
     }
     return seeing >= fewest_;
   }
 
   std::span<const CarvingView> views_;
-  std::span<const DistanceMap> distances_;
+  std::span<const Outline> outlines_;
   int fewest_;
+  int most_gaps_;
   VoxelGrid& grid_;
 };
 
@@ -162,8 +192,13 @@ void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
     if (view.silhouette->BoundingBox()) seeing_.push_back(view);
   const int fewest = Fewest(views.size());
   if (static_cast<int>(seeing_.size()) < fewest) return;
-  distances_.resize(std::max(distances_.size(), seeing_.size()));
-  for (std::size_t i = 0; i < seeing_.size(); ++i) distances_[i].Measure(*seeing_[i].silhouette);
+  outlines_.resize(std::max(outlines_.size(), seeing_.size()));
+  for (std::size_t i = 0; i < seeing_.size(); ++i) {
+    Outline& outline = outlines_[i];
+    CloseGaps(*seeing_[i].silhouette, scratch_, outline.closed);
+    outline.distances.Measure(*seeing_[i].silhouette);
+    outline.closed_distances.Measure(outline.closed);
+  }
 
   const Vector3 first = (volume->min() / voxel_mm).array().floor();
   const Vector3 end = (volume->max() / voxel_mm).array().ceil();
@@ -172,7 +207,8 @@ void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
   block.side = kLargestBlock_voxels;
   block.undecided = static_cast<int>(seeing_.size());
   for (int i = 0; i < block.undecided; ++i) block.views[i] = static_cast<std::uint8_t>(i);
-  Walk walk(seeing_, distances_, fewest, grid);
+  const int most_gaps = static_cast<int>(views.size()) / kCamerasPerDoubt;
+  Walk walk(seeing_, outlines_, fewest, most_gaps, grid);
   for (int k = 0; k < grid.size().z(); k += block.side)
     for (int j = 0; j < grid.size().y(); j += block.side)
       for (int i = 0; i < grid.size().x(); i += block.side) {

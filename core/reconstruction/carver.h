@@ -33,10 +33,17 @@ class Carver {
  private:
   struct Block;
   class Walk;
+  // What the walk asks of one camera's silhouette, and of the same with its gaps closed.
+  struct Outline {
+    DistanceMap distances;
+    Silhouette closed;
+    DistanceMap closed_distances;
+  };
 
   CarvingOptions options_;
   std::vector<CarvingView> seeing_;
-  std::vector<DistanceMap> distances_;
+  std::vector<Outline> outlines_;
+  Silhouette scratch_;
 };
 
 }  // namespace mocap

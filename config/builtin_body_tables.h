@@ -1,0 +1,16 @@
+// The body tables of config/body, put into the library when it is built.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace mocap {
+
+struct BuiltinBodyTable {
+  std::string_view name;
+  std::string_view toml;
+};
+
+std::span<const BuiltinBodyTable> BuiltinBodyTables();
+
+}  // namespace mocap

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <numbers>
+
+#include "config/builtin_body_tables.h"
+#include "config/load_config.h"
+#include "config/toml_section.h"
+#include "core/errors.h"
+#include "drivers/quoted.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr std::array<const char*, kSegmentCount> kSegmentNames = {
+    "torso",   "pelvis",      "head",        "upper_arm_l", "upper_arm_r", "thigh_l",
+    "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r"};
+
+// Row of a joint by its name; -1 for "", the torso.
+int FindJoint(TomlSection& section, const std::string& key, const std::vector<JointAxis>& joints) {
+  const std::string name = section.Text(key);
+  if (name.empty()) return -1;
+  const auto joint = std::find_if(joints.begin(), joints.end(),
+                                  [&name](const JointAxis& j) { return j.name == name; });
+  if (joint == joints.end()) {
+    section.Fail(key,
+                 "is " + Quoted(name) + "; a joint further up or \"\" for the torso is wanted");
+  }
+  return static_cast<int>(joint - joints.begin());
+}
+
+Vector3 ReadDirection(TomlSection& section, const std::string& key) {
+  const Vector3 axis = section.Vector(key);
+  if (!(axis.norm() > 1e-6)) section.Fail(key, "has no direction; a vector is wanted");
+  return axis.normalized();
+}
+
+JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) {
+  JointAxis joint;
+  joint.name = section.Text("name");
+  joint.paper_angle = static_cast<int>(section.IntegerWithin("angle", 1, kPaperAngleCount, 0));
+  joint.parent = FindJoint(section, "parent", joints);
+  joint.axis_T = ReadDirection(section, "axis");
+  joint.at = static_cast<Point>(
+      section.Choice("at", std::vector<std::string>(kPointNames.begin(), kPointNames.end())));
+  const std::vector<double> limits_deg = section.Numbers("limits_deg", 2);
+  if (!(limits_deg[0] < limits_deg[1] && limits_deg[0] >= -360 && limits_deg[1] <= 360)) {
+    section.Fail("limits_deg", "is no range; [least, most] within 360 degrees is wanted");
+  }
+  joint.min_rad = limits_deg[0] * kRadPerDeg;
+  joint.max_rad = limits_deg[1] * kRadPerDeg;
+  if (section.Has("rest_deg")) {
+    const std::vector<double> rest_deg = section.Numbers("rest_deg", 2);
+    if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; [mean, spread] is wanted");
+    joint.rest_rad = rest_deg[0] * kRadPerDeg;
+    joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
+  }
+  if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
+  for (const JointAxis& other : joints) {
+    if (other.name == joint.name)
+      section.Fail("name", "is " + Quoted(joint.name) + " a second time");
+    if (joint.paper_angle > 0 && other.paper_angle == joint.paper_angle) {
+      section.Fail("angle", "is the same as that of " + Quoted(other.name));
+    }
+  }
+  section.RejectUnknownKeys();
+  return joint;
+}
+
+BodyTable ReadBodyTable(TomlSection root) {
+  BodyTable table;
+  table.name = root.Text("name");
+  table.measurement =
+      static_cast<Measurement>(root.Choice("measurement", {"points", "surface"}));
+  for (TomlSection& section : root.Sections("joints")) {
+    if (table.joints.size() == kMaxJoints) {
+      root.Fail("joints", "has more than " + std::to_string(kMaxJoints) + " axes");
+    }
+    table.joints.push_back(ReadJoint(section, table.joints));
+  }
+  if (table.joints.empty()) root.Fail("joints", "has none; [[joints]] is wanted");
+  std::optional<TomlSection> segments = root.Section("segments");
+  if (!segments) root.Fail("segments", "is missing; the axis that moves each segment is wanted");
+  for (int i = 0; i < kSegmentCount; ++i) {
+    table.carrier[i] = FindJoint(*segments, kSegmentNames[i], table.joints);
+  }
+  segments->RejectUnknownKeys();
+  root.RejectUnknownKeys();
+  return table;
+}
+
+}  // namespace
+
+BodyTable LoadBodyTable(const std::string& name_or_path) {
+  std::string known;
+  for (const BuiltinBodyTable& table : BuiltinBodyTables()) {
+    if (table.name == name_or_path) {
+      return ReadBodyTable(TomlSection::ReadText(table.toml, "body " + name_or_path));
+    }
+    known += '"' + std::string(table.name) + "\" or ";
+  }
+  if (!std::filesystem::is_regular_file(name_or_path)) {
+    throw SetupError("body " + Quoted(name_or_path) + " is not known; " + known +
+                     "the path of a body table is wanted");
+  }
+  return ReadBodyTable(TomlSection::ReadFile(name_or_path));
+}
+
+}  // namespace mocap

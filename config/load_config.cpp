@@ -1,0 +1,117 @@
+#include "config/load_config.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "config/toml_section.h"
+#include "drivers/take_layout.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kSmallestVoxel_mm = 10;
+constexpr double kLargestVoxel_mm = 100;
+constexpr std::size_t kLongestPrefix = 32;
+
+// Paths in a file are meant from where the file lies.
+std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path) {
+  if (path.empty()) return {};
+  return (file.parent_path() / path).lexically_normal();
+}
+
+SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) {
+  SourceConfig source;
+  const std::vector<std::string> drivers = {"take", "simulated", "v4l2", "aravis"};
+  source.driver = drivers[section.Choice("driver", drivers, 1)];
+  source.take = Resolved(file, section.Text("take", ""));
+  if (source.driver == "take" && source.take.empty()) {
+    section.Fail("take", "is missing; the folder of a take is wanted");
+  }
+  source.rate = section.Choice("rate", {"realtime", "fast"}, 0) == 0 ? ReplayRate::kRealtime
+                                                                     : ReplayRate::kFast;
+  source.loop = section.Flag("loop", source.loop);
+  source.motion = section.Text("motion", source.motion);
+  source.stature_mm = section.NumberWithin("stature_mm", 500, 2500, source.stature_mm);
+  source.cameras = static_cast<int>(section.IntegerWithin("cameras", 1, 64, source.cameras));
+  source.fps = section.NumberWithin("fps", 1, 1000, source.fps);
+  source.seed = static_cast<std::uint64_t>(section.IntegerWithin(
+      "seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(source.seed)));
+  section.RejectUnknownKeys();
+  return source;
+}
+
+double ReadVoxels(TomlSection section, double fallback_mm) {
+  const double size_mm =
+      section.NumberWithin("size_mm", kSmallestVoxel_mm, kLargestVoxel_mm, fallback_mm);
+  section.RejectUnknownKeys();
+  return size_mm;
+}
+
+SegmentationOptions ReadSegmentation(TomlSection section) {
+  SegmentationOptions options;
+  options.detection_rate =
+      section.NumberWithin("detection_rate", 0.5, 0.9999999, options.detection_rate);
+  options.smallest_blob_share =
+      section.NumberWithin("smallest_blob_share", 0, 0.5, options.smallest_blob_share);
+  section.RejectUnknownKeys();
+  return options;
+}
+
+LcmConfig ReadLcm(TomlSection section) {
+  LcmConfig lcm;
+  lcm.url = section.Text("url", lcm.url);
+  if (lcm.url.empty()) section.Fail("url", "is empty; an LCM address is wanted");
+  lcm.prefix = section.Text("prefix", lcm.prefix);
+  if (lcm.prefix.size() > kLongestPrefix) {
+    section.Fail("prefix", "is longer than " + std::to_string(kLongestPrefix) + " characters");
+  }
+  lcm.voxels_hz = section.NumberWithin("voxels_hz", 0, 1000, lcm.voxels_hz);
+  section.RejectUnknownKeys();
+  return lcm;
+}
+
+CameraConfig ReadCamera(TomlSection& section, const std::vector<CameraConfig>& others) {
+  CameraConfig camera{section.Text("name"), section.Text("device")};
+  if (!IsCameraName(camera.name)) {
+    section.Fail("name", "is no name of a camera; letters, digits, _ and - are wanted");
+  }
+  for (const CameraConfig& other : others) {
+    if (other.name == camera.name) section.Fail("name", "is the name of another camera as well");
+    if (other.device == camera.device) section.Fail("device", "is another camera's as well");
+  }
+  if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
+  section.RejectUnknownKeys();
+  return camera;
+}
+
+void CheckLiveStudio(const Config& config, const TomlSection& root) {
+  const std::string& driver = config.source.driver;
+  if (driver != "v4l2" && driver != "aravis") return;
+  const std::string reason = "; source.driver \"" + driver + "\" needs it";
+  if (config.cameras.empty()) root.Fail("cameras", "is missing" + reason);
+  if (config.calibration.empty()) root.Fail("calibration", "is missing" + reason);
+}
+
+}  // namespace
+
+Config LoadConfig(const std::filesystem::path& file) {
+  TomlSection root = TomlSection::ReadFile(file);
+  Config config;
+  config.calibration = Resolved(file, root.Text("calibration", ""));
+  config.body = root.Text("body", config.body);
+  const bool is_path = config.body.ends_with(".toml") || config.body.find('/') != std::string::npos;
+  if (is_path) config.body = Resolved(file, config.body).string();
+  if (auto section = root.Section("source")) config.source = ReadSource(*section, file);
+  if (auto section = root.Section("voxels"))
+    config.voxel_mm = ReadVoxels(*section, config.voxel_mm);
+  if (auto section = root.Section("segmentation")) config.segmentation = ReadSegmentation(*section);
+  if (auto section = root.Section("lcm")) config.lcm = ReadLcm(*section);
+  for (TomlSection& section : root.Sections("cameras")) {
+    config.cameras.push_back(ReadCamera(section, config.cameras));
+  }
+  root.RejectUnknownKeys();
+  CheckLiveStudio(config, root);
+  return config;
+}
+
+}  // namespace mocap

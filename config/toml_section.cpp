@@ -1,0 +1,253 @@
+#include "config/toml_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+
+namespace mocap {
+namespace {
+
+std::string Shown(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+// What a value looks like in a message: short, and on one line.
+std::string Shown(const toml::node& node) {
+  if (const auto* text = node.as_string()) return Quoted(text->get());
+  if (const auto* number = node.as_floating_point()) return Shown(number->get());
+  if (const auto* number = node.as_integer()) return std::to_string(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* array = node.as_array()) {
+    return "an array of " + std::to_string(array->size());
+  }
+  return node.is_table() ? "a table" : "a date";
+}
+
+std::string ReadAll(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!std::filesystem::is_regular_file(file) || !in) {
+    throw SetupError(file.string() + ": is missing; a TOML file is wanted");
+  }
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TomlSection TomlSection::ReadFile(const std::filesystem::path& file) {
+  return ReadText(ReadAll(file), file.string());
+}
+
+TomlSection TomlSection::ReadText(std::string_view text, const std::string& name) {
+  try {
+    auto root = std::make_shared<const toml::table>(toml::parse(text, name));
+    const toml::table* table = root.get();
+    return {std::move(root), table, name, ""};
+  } catch (const toml::parse_error& error) {
+    throw SetupError(name + ":" + std::to_string(error.source().begin.line) +
+                     ": is no TOML: " + Printable(error.description()));
+  }
+}
+
+TomlSection::TomlSection(std::shared_ptr<const toml::table> root, const toml::table* table,
+                         std::string file, std::string path)
+    : root_(std::move(root)), table_(table), file_(std::move(file)), path_(std::move(path)) {}
+
+std::vector<std::string> TomlSection::Keys() const {
+  std::vector<std::pair<toml::source_position, std::string>> found;
+  for (const auto& [key, node] : *table_) {
+    found.emplace_back(key.source().begin, std::string(key.str()));
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::string> keys;
+  for (auto& [position, key] : found) keys.push_back(std::move(key));
+  return keys;
+}
+
+double TomlSection::Number(const std::string& key, std::optional<double> fallback) {
+  if (fallback && !Has(key)) return *fallback;
+  return NumberFrom(Need(key, "a number"), key, "a number");
+}
+
+double TomlSection::PositiveNumber(const std::string& key, std::optional<double> fallback) {
+  const double value = Number(key, fallback);
+  if (!(value > 0)) Fail(key, "is " + Shown(value) + "; a number above 0 is wanted");
+  return value;
+}
+
+double TomlSection::NumberWithin(const std::string& key, double min, double max,
+                                 std::optional<double> fallback) {
+  const double value = Number(key, fallback);
+  if (!(value >= min && value <= max)) {
+    Fail(key, "is " + Shown(value) + "; a number from " + Shown(min) + " to " + Shown(max) +
+                  " is wanted");
+  }
+  return value;
+}
+
+std::int64_t TomlSection::IntegerWithin(const std::string& key, std::int64_t min, std::int64_t max,
+                                        std::optional<std::int64_t> fallback) {
+  if (fallback && !Has(key)) return *fallback;
+  const std::string wanted =
+      "a whole number from " + std::to_string(min) + " to " + std::to_string(max);
+  const toml::node& node = Need(key, wanted);
+  const auto* value = node.as_integer();
+  if (!value || value->get() < min || value->get() > max) {
+    Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+  }
+  return value->get();
+}
+
+bool TomlSection::Flag(const std::string& key, std::optional<bool> fallback) {
+  if (fallback && !Has(key)) return *fallback;
+  const toml::node& node = Need(key, "true or false");
+  if (!node.is_boolean()) Fail(key, "is " + Shown(node) + "; true or false is wanted");
+  return node.as_boolean()->get();
+}
+
+std::string TomlSection::Text(const std::string& key, std::optional<std::string> fallback) {
+  if (fallback && !Has(key)) return *fallback;
+  const toml::node& node = Need(key, "a text");
+  if (!node.is_string()) Fail(key, "is " + Shown(node) + "; a text is wanted");
+  return node.as_string()->get();
+}
+
+std::size_t TomlSection::Choice(const std::string& key, const std::vector<std::string>& choices,
+                                std::optional<std::size_t> fallback) {
+  if (fallback && !Has(key)) return *fallback;
+  const std::string found = Text(key);
+  const auto place = std::find(choices.begin(), choices.end(), found);
+  if (place == choices.end()) {
+    std::string wanted;
+    for (const std::string& choice : choices) {
+      wanted += (wanted.empty() ? "\"" : " or \"") + choice + '"';
+    }
+    Fail(key, "is " + Quoted(found) + "; " + wanted + " is wanted");
+  }
+  return static_cast<std::size_t>(place - choices.begin());
+}
+
+std::vector<std::string> TomlSection::Texts(const std::string& key) {
+  const toml::node& node = Need(key, "an array of texts");
+  const toml::array* array = node.as_array();
+  if (!array) Fail(key, "is " + Shown(node) + "; an array of texts is wanted");
+  std::vector<std::string> texts;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) Fail(key, "has " + Shown(element) + "; texts are wanted");
+    texts.push_back(element.as_string()->get());
+  }
+  return texts;
+}
+
+std::vector<double> TomlSection::Numbers(const std::string& key, std::size_t count) {
+  const std::string wanted = "an array of " + std::to_string(count) + " numbers";
+  std::vector<double> numbers;
+  for (const toml::node& element : NeedArray(key, count, wanted)) {
+    numbers.push_back(NumberFrom(element, key, wanted));
+  }
+  return numbers;
+}
+
+Vector3 TomlSection::Vector(const std::string& key) {
+  const std::vector<double> numbers = Numbers(key, 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Matrix3 TomlSection::Matrix(const std::string& key) {
+  const std::string wanted = "a matrix of 3 rows of 3 numbers";
+  Matrix3 matrix;
+  int row = 0;
+  for (const toml::node& element : NeedArray(key, 3, wanted)) {
+    const toml::array* numbers = element.as_array();
+    if (!numbers || numbers->size() != 3) {
+      Fail(key, "has a row that is " + Shown(element) + "; " + wanted + " is wanted");
+    }
+    int column = 0;
+    for (const toml::node& number : *numbers) {
+      matrix(row, column++) = NumberFrom(number, key, wanted);
+    }
+    ++row;
+  }
+  return matrix;
+}
+
+std::optional<TomlSection> TomlSection::Section(const std::string& key) {
+  const toml::node* node = Find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_table()) Fail(key, "is " + Shown(*node) + "; a table is wanted");
+  return TomlSection(root_, node->as_table(), file_, PathOf(key) + ".");
+}
+
+std::vector<TomlSection> TomlSection::Sections(const std::string& key) {
+  const toml::node* node = Find(key);
+  std::vector<TomlSection> sections;
+  if (!node) return sections;
+  const toml::array* array = node->as_array();
+  if (!array) Fail(key, "is " + Shown(*node) + "; [[" + PathOf(key) + "]] is wanted");
+  for (const toml::node& element : *array) {
+    if (!element.is_table()) {
+      Fail(key, "has " + Shown(element) + "; [[" + PathOf(key) + "]] is wanted");
+    }
+    sections.push_back(TomlSection(root_, element.as_table(), file_,
+                                   PathOf(key) + "[" + std::to_string(sections.size()) + "]."));
+  }
+  return sections;
+}
+
+void TomlSection::RejectUnknownKeys() const {
+  for (const std::string& key : Keys()) {
+    if (!asked_for_.contains(key)) {
+      std::string known;
+      for (const std::string& name : asked_for_) known += (known.empty() ? "" : ", ") + name;
+      Fail(key, "is unknown; known here: " + known);
+    }
+  }
+}
+
+void TomlSection::Fail(const std::string& key, const std::string& what) const {
+  const toml::node* node = table_->get(key);
+  const auto line = (node ? node->source() : table_->source()).begin.line;
+  throw SetupError(file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
+                   Printable(PathOf(key)) + " " + what);
+}
+
+const toml::node* TomlSection::Find(const std::string& key) {
+  asked_for_.insert(key);
+  return table_->get(key);
+}
+
+const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
+  const toml::node* node = Find(key);
+  if (!node) Fail(key, "is missing; " + wanted + " is wanted");
+  return *node;
+}
+
+const toml::array& TomlSection::NeedArray(const std::string& key, std::size_t count,
+                                          const std::string& wanted) {
+  const toml::node& node = Need(key, wanted);
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != count) {
+    Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+  }
+  return *array;
+}
+
+double TomlSection::NumberFrom(const toml::node& node, const std::string& key,
+                               const std::string& wanted) const {
+  const std::optional<double> value =
+      node.is_number() ? node.value<double>() : std::optional<double>();
+  if (!value || !std::isfinite(*value)) {
+    Fail(key, "has " + Shown(node) + "; " + wanted + " is wanted");
+  }
+  return *value;
+}
+
+std::string TomlSection::PathOf(const std::string& key) const { return path_ + key; }
+
+}  // namespace mocap

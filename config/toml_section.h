@@ -1,0 +1,78 @@
+// Strict reading of TOML: each value is asked for by name and kind, and what nobody asked for is an
+// error. Messages name file, line and key.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace mocap {
+
+/// One table of a TOML file. Without a fallback a key must be there.
+///
+/// Every function throws SetupError for a value of the wrong kind or out of range.
+class TomlSection {
+ public:
+  /// Reads a whole file. @throws SetupError  when it is missing or is no TOML.
+  static TomlSection ReadFile(const std::filesystem::path& file);
+  /// Reads TOML that is not a file. @param name  what messages call it.
+  static TomlSection ReadText(std::string_view text, const std::string& name);
+
+  bool Has(std::string_view key) const { return table_->contains(key); }
+  /// Names of all keys, in the order of the file.
+  std::vector<std::string> Keys() const;
+
+  double Number(const std::string& key, std::optional<double> fallback = {});
+  double PositiveNumber(const std::string& key, std::optional<double> fallback = {});
+  double NumberWithin(const std::string& key, double min, double max,
+                      std::optional<double> fallback = {});
+  std::int64_t IntegerWithin(const std::string& key, std::int64_t min, std::int64_t max,
+                             std::optional<std::int64_t> fallback = {});
+  bool Flag(const std::string& key, std::optional<bool> fallback = {});
+  std::string Text(const std::string& key, std::optional<std::string> fallback = {});
+  /// A text that is one of `choices`; gives its place among them.
+  std::size_t Choice(const std::string& key, const std::vector<std::string>& choices,
+                     std::optional<std::size_t> fallback = {});
+  std::vector<std::string> Texts(const std::string& key);
+  std::vector<double> Numbers(const std::string& key, std::size_t count);
+  Vector3 Vector(const std::string& key);
+  Matrix3 Matrix(const std::string& key);
+  /// A table in this one; empty when it is not there.
+  std::optional<TomlSection> Section(const std::string& key);
+  /// An array of tables; empty when it is not there.
+  std::vector<TomlSection> Sections(const std::string& key);
+
+  /// @throws SetupError  for the first key that was never asked for.
+  void RejectUnknownKeys() const;
+  /// Throws: `file:line: key what`.
+  [[noreturn]] void Fail(const std::string& key, const std::string& what) const;
+
+ private:
+  TomlSection(std::shared_ptr<const toml::table> root, const toml::table* table, std::string file,
+              std::string path);
+
+  const toml::node* Find(const std::string& key);
+  const toml::node& Need(const std::string& key, const std::string& wanted);
+  const toml::array& NeedArray(const std::string& key, std::size_t count,
+                               const std::string& wanted);
+  double NumberFrom(const toml::node& node, const std::string& key,
+                    const std::string& wanted) const;
+  std::string PathOf(const std::string& key) const;
+
+  std::shared_ptr<const toml::table> root_;  ///< Keeps table_ alive.
+  const toml::table* table_;
+  std::string file_;
+  std::string path_;  ///< "cameras.cam1."; empty at the top.
+  std::set<std::string, std::less<>> asked_for_;
+};
+
+}  // namespace mocap

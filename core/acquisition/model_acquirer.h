@@ -1,0 +1,48 @@
+// §7: finds a person whom nobody has seen before and measures the body while following it. Fig. 9.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/acquisition/body_size_network.h"
+#include "core/tracking/tracker.h"
+
+namespace mocap {
+
+/// Acquires one person: locate in the first frame, then follow and refine the sizes until they stop
+/// changing.
+class ModelAcquirer {
+ public:
+  ModelAcquirer(const BodyTable& table, const BodyProportions& proportions)
+      : table_(table), network_(proportions) {}
+
+  /// Looks for a body. With `known` sizes they are kept and acquisition is over at once.
+  /// @return whether one was found that explains the voxels.
+  bool Locate(const VoxelCloud& cloud, const std::optional<BodySizes>& known);
+
+  /// Follows the located body through the next frame and refines its sizes.
+  void Refine(const VoxelCloud& cloud, double dt_s);
+
+  /// Whether the sizes have stopped changing and left is told from right.
+  bool settled() const { return settled_; }
+  /// The likeliest body. @pre Locate has succeeded.
+  const Tracker& best() const { return hypotheses_.front().tracker; }
+
+ private:
+  struct Hypothesis {
+    Tracker tracker;
+    double cost_sum = 0;
+    BodySizes measured{};  ///< Mean over the frames so far.
+  };
+  double RefineSizes(Hypothesis& hypothesis, bool remember);
+
+  BodyTable table_;
+  BodySizeNetwork network_;
+  std::vector<Hypothesis>
+      hypotheses_;  ///< The likeliest first, then the one that faces the other way.
+  double height_mm_ = 0;
+  int frames_ = 0;
+  bool settled_ = false;
+};
+
+}  // namespace mocap

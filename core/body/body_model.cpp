@@ -1,0 +1,93 @@
+#include "core/body/body_model.h"
+
+#include <utility>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::array<Segment, kPointCount> kSegmentOfPoint = {
+    Segment::kTorso,     Segment::kHead,      Segment::kUpperArmL, Segment::kUpperArmR,
+    Segment::kThighL,    Segment::kThighR,    Segment::kLowerArmL, Segment::kLowerArmR,
+    Segment::kCalfL,     Segment::kCalfR,     Segment::kTorso,     Segment::kTorso,
+    Segment::kTorso,     Segment::kPelvis,    Segment::kPelvis,    Segment::kUpperArmL,
+    Segment::kUpperArmR, Segment::kLowerArmL, Segment::kLowerArmR, Segment::kThighL,
+    Segment::kThighR,    Segment::kCalfL,     Segment::kCalfR};
+
+}  // namespace
+
+BodyModel::BodyModel(BodyTable table, const BodySizes& sizes) : table_(std::move(table)) {
+  MOCAP_CHECK(table_.joints.size() <= static_cast<std::size_t>(kMaxJoints));
+  for (int i = 0; i < joint_count(); ++i) MOCAP_CHECK(table_.joints[i].parent < i);
+  for (int i = 0; i < kPointCount; ++i) {
+    point_carrier_[i] = table_.carrier[static_cast<int>(kSegmentOfPoint[i])];
+  }
+  Resize(sizes);
+}
+
+void BodyModel::Resize(const BodySizes& sizes) {
+  sizes_ = sizes;
+  reference_points_T_ = ReferencePoints(sizes);
+  shape_ = ShapeOf(table_, sizes_, reference_points_T_);
+}
+
+int BodyModel::CarrierOf(Point point) const { return point_carrier_[static_cast<int>(point)]; }
+
+Posture BodyModel::PostureAt(const PoseState& pose) const {
+  Posture posture;
+  posture.X_WT = pose.X_WT;
+  for (int i = 0; i < joint_count(); ++i) {
+    const JointAxis& joint = table_.joints[i];
+    const RigidTransform& X_WP = joint.parent < 0 ? pose.X_WT : posture.X_W[joint.parent];
+    const Vector3 q_T = reference_points_T_.col(static_cast<int>(joint.at));
+    posture.axis_W[i] = X_WP.R * joint.axis_T;
+    posture.point_W[i] = X_WP * q_T;
+    posture.X_W[i] = X_WP * RotationAbout(joint.axis_T, q_T, pose.theta[i]);
+  }
+  return posture;
+}
+
+void BodyModel::PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const {
+  posed.clear();
+  for (const Capsule& capsule : shape_) {
+    const RigidTransform& X = capsule.carrier < 0 ? posture.X_WT : posture.X_W[capsule.carrier];
+    posed.push_back({X * capsule.a_T, X * capsule.b_T, capsule.radius_a_mm, capsule.radius_b_mm});
+  }
+}
+
+BodyPoints BodyModel::PointsAt(const Posture& posture) const {
+  BodyPoints points_W;
+  for (int i = 0; i < kPointCount; ++i) {
+    const int carrier = point_carrier_[i];
+    points_W.col(i) =
+        (carrier < 0 ? posture.X_WT : posture.X_W[carrier]) * reference_points_T_.col(i);
+  }
+  return points_W;
+}
+
+void BodyModel::PointJacobian(
+    const Posture& posture, int carrier, const Vector3& p_WQ,
+    Eigen::Ref<Eigen::Matrix<double, 3, Eigen::Dynamic>> J_point_by_step) const {
+  J_point_by_step.setZero();
+  J_point_by_step.leftCols<3>().setIdentity();
+  J_point_by_step.middleCols<3>(3) = -Hat(p_WQ - posture.X_WT.p);
+  for (int i = carrier; i >= 0; i = table_.joints[i].parent) {
+    J_point_by_step.col(kTorsoDof + i) = posture.axis_W[i].cross(p_WQ - posture.point_W[i]);
+  }
+}
+
+PaperState BodyModel::PaperStateOf(const PoseState& pose) const {
+  PaperState state;
+  state.torso_mm = pose.X_WT.p;
+  const Vector3 rotation = LogRotation(pose.X_WT.R);
+  state.torso_angle_rad = rotation.norm();
+  if (state.torso_angle_rad > 1e-9) state.torso_axis = rotation / state.torso_angle_rad;
+  for (int i = 0; i < joint_count(); ++i) {
+    const int angle = table_.joints[i].paper_angle;
+    if (angle > 0) state.theta_rad[angle - 1] = pose.theta[i];
+  }
+  return state;
+}
+
+}  // namespace mocap

@@ -1,0 +1,42 @@
+// §5: the flesh: tapered capsules around the chain, to tell how far a voxel lies from the body's
+// surface.
+#pragma once
+
+#include <vector>
+
+#include "core/body/body_sizes.h"
+#include "core/body/body_table.h"
+
+namespace mocap {
+
+/// A cone with round ends, fixed to a segment.
+struct Capsule {
+  BodyPart part = BodyPart::kTorso;
+  int carrier = -1;               ///< The axis that moves it; -1: the torso.
+  Vector3 a_T = Vector3::Zero();  ///< Ends of its core at the reference configuration.
+  Vector3 b_T = Vector3::Zero();
+  double radius_a_mm = 0;
+  double radius_b_mm = 0;
+};
+
+/// The capsules of a body at the reference configuration.
+std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
+                             const BodyPoints& reference_points_T);
+
+/// A capsule where a pose puts it.
+struct PosedCapsule {
+  Vector3 a_W;
+  Vector3 b_W;
+  double radius_a_mm;
+  double radius_b_mm;
+
+  /// The closest place of the core to a point, and how far the point lies outside the surface.
+  struct Distance {
+    Vector3 core_W;
+    double outside_mm;  ///< Negative inside.
+    double share;       ///< Along the core: 0 at a, 1 at b.
+  };
+  Distance DistanceTo(const Vector3& p_WQ) const;
+};
+
+}  // namespace mocap

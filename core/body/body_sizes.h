@@ -1,0 +1,46 @@
+// §5: the sizes of a person's parts and where they put the joints.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/body/body_part.h"
+
+namespace mocap {
+
+/// A person's sizes [mm]: full sizes, the paper's 2λ.
+struct BodySizes {
+  double torso = 0;  ///< Hip line to neck.
+  double torso_width = 0;
+  double torso_depth = 0;
+  double head = 0;        ///< Chin to vertex.
+  double head_width = 0;  ///< Mean of breadth and depth.
+  double neck = 0;        ///< Neck joint to the head's centre.
+  double upper_arm = 0;
+  double lower_arm = 0;  ///< Elbow to fingertips.
+  double thigh = 0;
+  double calf = 0;  ///< Knee to sole.
+  double upper_arm_width = 0;
+  double lower_arm_width = 0;
+  double thigh_width = 0;
+  double calf_width = 0;
+  double shoulder_width = 0;  ///< Joint to joint.
+  double hip_width = 0;       ///< Joint to joint.
+
+  /// Sole to vertex when standing upright.
+  double Stature() const { return calf + thigh + torso + neck + head / 2; }
+};
+
+/// The sizes of an average adult of a stature [mm].
+///
+/// Segment lengths after Drillis and Contini (1966) as in Winter, Biomechanics and Motor Control of
+/// Human Movement, 4th ed. (2009), Fig. 4.1; joint-to-joint widths and thicknesses after the same
+/// and de Leva (1996).
+BodySizes AverageSizes(double stature_mm);
+
+using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
+
+/// The 23 points at the reference configuration in the torso's frame; 3 × 23, column i is p_TQ of
+/// point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
+BodyPoints ReferencePoints(const BodySizes& sizes);
+
+}  // namespace mocap

@@ -1,0 +1,54 @@
+// §5: the chain of rotation axes as a table.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/body/body_part.h"
+#include "core/geometry.h"
+
+namespace mocap {
+
+/// One axis of rotation: a row of the body table. A parent stands before its children.
+struct JointAxis {
+  std::string name;
+  int paper_angle = 0;  ///< 1..16 as in Table 1; 0: an axis that the paper's body lacks.
+  int parent = -1;      ///< Row of the axis that carries this one; -1: the torso.
+  Vector3 axis_T = Vector3::UnitX();  ///< Unit vector, at the reference configuration.
+  Point at = Point::kTorso;           ///< The joint that the axis passes through.
+  double min_rad = 0, max_rad = 0;
+  /// Where the joint rests, and how far it strays from there [rad]: a prior for angles that voxels
+  /// hardly show. With a spread of 0 there is none.
+  double rest_rad = 0, rest_std_rad = 0;
+};
+
+/// Segments that are moved as one; the pelvis is a segment of its own where there is a waist.
+enum class Segment {
+  kTorso = 0,
+  kPelvis,
+  kHead,
+  kUpperArmL,
+  kUpperArmR,
+  kThighL,
+  kThighR,
+  kLowerArmL,
+  kLowerArmR,
+  kCalfL,
+  kCalfR
+};
+inline constexpr int kSegmentCount = 11;
+
+/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of them.
+enum class Measurement { kPoints, kSurface };
+
+/// The chain: what `--body` chooses. Same code for every table.
+struct BodyTable {
+  std::string name;
+  Measurement measurement = Measurement::kPoints;
+  std::vector<JointAxis> joints;
+  std::array<int, kSegmentCount>
+      carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.
+};
+
+}  // namespace mocap

@@ -1,0 +1,182 @@
+#include "core/motion_capture.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <optional>
+
+#include "core/acquisition/model_acquirer.h"
+#include "core/tracking/tracker.h"
+#include "core/tracking/voxel_cloud.h"
+
+namespace mocap {
+namespace {
+
+// A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
+// the room.
+constexpr double kLeastLitres = 12;
+constexpr double kLostCostMm = 70;
+// A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
+// must be clearly better and face the same way.
+constexpr double kDoubtCostMm = 36;
+constexpr double kClearlyBetter = 0.85;
+constexpr int kFramesToLose = 3;
+constexpr double kForgetAfterS = 1.0;
+
+}  // namespace
+
+class MotionCapture::Impl {
+ public:
+  explicit Impl(const BodyTable& table)
+      : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
+
+  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
+                              UpdateObserver* observer) {
+    const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
+    last_ns_ = capture_ns;
+    cloud_.Build(grid);
+    if (observer) observer->OnStageEnd(UpdateStage::kLabel);
+    result_.body_changed = false;
+    result_.voxels = cloud_.size();
+    if (cloud_.volume_litres() < kLeastLitres) {
+      NobodyThere(dt_s);
+    } else {
+      empty_s_ = 0;
+      SomebodyThere(dt_s);
+    }
+    Report();
+    if (observer) observer->OnStageEnd(UpdateStage::kFilter);
+    return result_;
+  }
+
+  const CaptureResult& result() const { return result_; }
+  const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
+  int acquisition_frames() const { return acquisition_frames_; }
+  const std::vector<std::int8_t>& labels() const { return labels_; }
+
+ private:
+  static BodyProportions ProportionsOf(const BodyTable& table);
+
+  void NobodyThere(double dt_s) {
+    empty_s_ += dt_s;
+    if (result_.state == CaptureState::kTracking) result_.state = CaptureState::kLost;
+    if (result_.state == CaptureState::kLost && empty_s_ < kForgetAfterS) return;
+    result_.state = CaptureState::kSearching;
+    tracker_.reset();
+    known_.reset();
+  }
+
+  void SomebodyThere(double dt_s) {
+    switch (result_.state) {
+      case CaptureState::kSearching:
+      case CaptureState::kLost:
+        Acquire();
+        break;
+      case CaptureState::kAcquiring:
+        ++frames_acquiring_;
+        acquirer_.Refine(cloud_, dt_s);
+        TakeAcquired();
+        break;
+      case CaptureState::kTracking:
+        tracker_->Update(cloud_, dt_s);
+        LookAgainInDoubt();
+        NoticeLoss();
+        break;
+    }
+  }
+
+  void Acquire() {
+    if (!acquirer_.Locate(cloud_, known_)) return;
+    frames_acquiring_ = 1;
+    result_.state = CaptureState::kAcquiring;
+    TakeAcquired();
+  }
+
+  void TakeAcquired() {
+    tracker_ = acquirer_.best();
+    result_.body_changed = true;
+    if (!acquirer_.settled()) return;
+    result_.state = CaptureState::kTracking;
+    if (!known_) acquisition_frames_ = frames_acquiring_;
+    known_ = tracker_->body().sizes();
+    bad_frames_ = 0;
+  }
+
+  void LookAgainInDoubt() {
+    const double cost_mm = tracker_->quality().Cost();
+    doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
+    if (doubtful_frames_ < kFramesToLose) return;
+    doubtful_frames_ = 0;
+    if (!acquirer_.Locate(cloud_, known_)) return;
+    const Tracker& found = acquirer_.best();
+    const bool same_way =
+        found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
+    if (same_way && found.quality().Cost() < kClearlyBetter * cost_mm) tracker_ = found;
+  }
+
+  void NoticeLoss() {
+    bad_frames_ = tracker_->quality().Cost() > kLostCostMm ? bad_frames_ + 1 : 0;
+    if (bad_frames_ >= kFramesToLose) result_.state = CaptureState::kLost;
+  }
+
+  void Report() {
+    if (!tracker_) return;
+    const BodyModel& body = tracker_->body();
+    const PoseFilter& filter = tracker_->filter();
+    const Posture posture = body.PostureAt(filter.pose());
+    result_.pose = filter.pose();
+    result_.points_W = body.PointsAt(posture);
+    result_.residual_mm = tracker_->quality().surface_mm;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof> J(3, body.dof());
+    for (int i = 0; i < kPointCount; ++i) {
+      body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), result_.points_W.col(i),
+                         J);
+      const Matrix3 covariance = J * filter.covariance() * J.transpose();
+      result_.point_std_mm[i] =
+          std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3>(covariance, Eigen::EigenvaluesOnly)
+                        .eigenvalues()
+                        .maxCoeff());
+    }
+  }
+
+  ModelAcquirer acquirer_;
+  BodyModel nobody_;
+  VoxelCloud cloud_;
+  std::optional<Tracker> tracker_;
+  std::optional<BodySizes> known_;
+  std::optional<std::int64_t> last_ns_;
+  CaptureResult result_;
+  std::vector<std::int8_t> labels_;
+  double empty_s_ = 0;
+  int frames_acquiring_ = 0;
+  int acquisition_frames_ = 0;
+  int bad_frames_ = 0;
+  int doubtful_frames_ = 0;
+};
+
+BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
+  if (table.name == "mikic2003") return {};
+  // Winter 2009, Fig. 4.1, and de Leva 1996: as AverageSizes, with the spread among adults and
+  // children.
+  return {.torso_mean_mm = 560,
+          .torso_std_mm = 150,
+          .thigh = {0.742, 25},
+          .calf = {0.864, 25},
+          .upper_arm = {0.49, 20},
+          .lower_arm = {0.782, 25},
+          .height_std_mm = 15,
+          .measurement_std_mm = 40,
+          .memory_std_mm = 30};
+}
+
+MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
+MotionCapture::~MotionCapture() = default;
+
+const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::int64_t capture_ns,
+                                           UpdateObserver* observer) {
+  return impl_->Update(grid, capture_ns, observer);
+}
+const BodyModel& MotionCapture::body() const { return impl_->body(); }
+int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
+const std::vector<std::int8_t>& MotionCapture::labels() const { return impl_->labels(); }
+
+}  // namespace mocap

@@ -1,0 +1,122 @@
+#include "core/tracking/pose_filter.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kLimitStdRad = 0.01;
+
+void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquations& equations) {
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxDof> J(pose.dof());
+  for (int i = 0; i < pose.theta.size(); ++i) {
+    const JointAxis& joint = table.joints[i];
+    const double angle = pose.theta[i];
+    const double allowed = std::clamp(angle, joint.min_rad, joint.max_rad);
+    J.setZero();
+    J[kTorsoDof + i] = 1;
+    if (angle != allowed) equations.Add(J, allowed - angle, kLimitStdRad * kLimitStdRad);
+    if (joint.rest_std_rad > 0) {
+      equations.Add(J, joint.rest_rad - angle, joint.rest_std_rad * joint.rest_std_rad);
+    }
+  }
+}
+
+PoseCovariance InverseOfPositive(const PoseCovariance& matrix) {
+  const Eigen::LLT<PoseCovariance> cholesky(matrix);
+  MOCAP_CHECK(cholesky.info() == Eigen::Success);
+  const PoseCovariance inverse =
+      cholesky.solve(PoseCovariance::Identity(matrix.rows(), matrix.cols()));
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+}  // namespace
+
+void UpdateEquations::Reset(int dof) {
+  information_.setZero(dof, dof);
+  gradient_.setZero(dof);
+}
+
+void UpdateEquations::Add(const Eigen::Ref<const Eigen::Matrix<double, 1, Eigen::Dynamic>>& J,
+                          double residual, double variance) {
+  information_.noalias() += J.transpose() * J / variance;
+  gradient_.noalias() += J.transpose() * (residual / variance);
+}
+
+void UpdateEquations::AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
+                               const Vector3& residual_mm, double variance_mm2) {
+  information_.noalias() += J.transpose() * J / variance_mm2;
+  gradient_.noalias() += J.transpose() * (residual_mm / variance_mm2);
+}
+
+void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad) {
+  pose_ = pose;
+  const int n = pose.dof();
+  P_.setZero(n, n);
+  P_.diagonal().head<3>().setConstant(translation_std_mm * translation_std_mm);
+  P_.diagonal().tail(n - 3).setConstant(angle_std_rad * angle_std_rad);
+  ForgetVelocity();
+}
+
+void PoseFilter::Jump(const PoseState& pose) { Reset(pose, 30, 0.3); }
+
+void PoseFilter::ForgetVelocity() {
+  const int n = pose_.dof();
+  velocity_.setZero(n);
+  P_vx_.setZero(n, n);
+  P_vv_.setZero(n, n);
+  if (!noise_.constant_velocity) return;
+  P_vv_.diagonal().head<3>().setConstant(1000.0 * 1000.0);
+  P_vv_.diagonal().tail(n - 3).setConstant(4.0 * 4.0);
+}
+
+void PoseFilter::Predict(double dt_s) {
+  const int n = pose_.dof();
+  PoseStep density(n);
+  density.head<3>().setConstant(noise_.translation_mm * noise_.translation_mm);
+  density.segment<3>(3).setConstant(noise_.rotation_rad * noise_.rotation_rad);
+  density.tail(n - kTorsoDof).setConstant(noise_.joint_rad * noise_.joint_rad);
+
+  if (noise_.constant_velocity) {
+    const double decay = std::exp(-dt_s / noise_.velocity_decay_s);
+    const double reach_s = noise_.velocity_decay_s * (1 - decay);
+    pose_.Add(velocity_ * reach_s);
+    velocity_ *= decay;
+    P_ += reach_s * (P_vx_ + P_vx_.transpose()) + reach_s * reach_s * P_vv_;
+    P_vx_ = decay * (P_vx_ + reach_s * P_vv_);
+    P_vv_ *= decay * decay;
+    P_vx_.diagonal() += density * (dt_s * dt_s / 2);
+    P_vv_.diagonal() += density * dt_s;
+  }
+  P_.diagonal() += density * (dt_s * dt_s * dt_s / 3);
+}
+
+void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int iterations) {
+  const PoseState prior = pose_;
+  const PoseCovariance prior_information = InverseOfPositive(P_);
+  UpdateEquations equations;
+  PoseCovariance information;
+  for (int i = 0; i < iterations; ++i) {
+    equations.Reset(pose_.dof());
+    linearize(pose_, equations);
+    AddJointPriors(table, pose_, equations);
+    information = prior_information + equations.information();
+    const PoseStep gradient = equations.gradient() - prior_information * pose_.Minus(prior);
+    pose_.Add(Eigen::LLT<PoseCovariance>(information).solve(gradient));
+  }
+  const PoseCovariance posterior = InverseOfPositive(information);
+  if (noise_.constant_velocity) {
+    // The velocity was not measured; it follows the pose as far as the two were correlated.
+    const PoseCovariance gain = P_vx_ * prior_information;
+    velocity_ += gain * pose_.Minus(prior);
+    P_vv_ -= gain * (P_ - posterior) * gain.transpose();
+    P_vv_ = PoseCovariance(0.5 * (P_vv_ + P_vv_.transpose()));
+    P_vx_ = gain * posterior;
+  }
+  P_ = posterior;
+}
+
+}  // namespace mocap

@@ -1,0 +1,83 @@
+// §6.1: the iterated extended Kalman filter over the pose.
+//
+// The error lives in the tangent of the pose (PoseStep), so that nothing is redundant and nothing
+// locks; the update is done in information form, which takes any number of measured points at the
+// cost of the state's size.
+#pragma once
+
+#include <functional>
+
+#include "core/body/body_model.h"
+#include "core/body/pose_state.h"
+
+namespace mocap {
+
+/// Sums up linearised measurements z - h(x) ≈ J δ as JᵀR⁻¹J and JᵀR⁻¹(z - h(x)).
+class UpdateEquations {
+ public:
+  void Reset(int dof);
+  /// Adds one scalar measurement.
+  /// @param J         derivative of the prediction by a PoseStep; 1 × dof.
+  /// @param residual  measured less predicted.
+  void Add(const Eigen::Ref<const Eigen::Matrix<double, 1, Eigen::Dynamic>>& J, double residual,
+           double variance);
+  /// Adds a measured point with the same variance [mm²] along all axes; J is 3 × dof.
+  void AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
+                const Vector3& residual_mm, double variance_mm2);
+
+  const PoseCovariance& information() const { return information_; }
+  const PoseStep& gradient() const { return gradient_; }
+
+ private:
+  PoseCovariance information_;
+  PoseStep gradient_;
+};
+
+/// How fast a body's pose may change between frames: white noise of acceleration.
+struct MotionNoise {
+  bool constant_velocity = true;   ///< False: F is the identity, as in the paper.
+  double velocity_decay_s = 0.25;  ///< Without news a motion dies out in this time.
+  double translation_mm = 3000;    ///< [mm/s²/√Hz]
+  double rotation_rad = 10;        ///< [rad/s²/√Hz]
+  double joint_rad = 20;           ///< [rad/s²/√Hz]
+};
+
+/// Estimates pose and its rate from measurements. Allocates nothing.
+class PoseFilter {
+ public:
+  explicit PoseFilter(const MotionNoise& noise) : noise_(noise) {}
+
+  /// Starts at a pose of which this much is known.
+  void Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad);
+
+  /// Takes pose and covariance to a time `dt_s` later.
+  void Predict(double dt_s);
+
+  /// Linearises the measurements at a pose; called once an iteration.
+  using Linearize = std::function<void(const PoseState&, UpdateEquations&)>;
+
+  /// Updates with measurements, linearised anew at each iteration. Joint limits hold as inequality
+  /// constraints: an angle beyond its limit is measured to be at the limit, so that the rest of the
+  /// chain takes up what it cannot.
+  void Update(const BodyTable& table, const Linearize& linearize, int iterations);
+
+  const PoseState& pose() const { return pose_; }
+  const PoseCovariance& covariance() const { return P_; }
+
+  /// Goes to a pose that was found by other means: what was correlated with the old one is unknown
+  /// again.
+  void Jump(const PoseState& pose);
+
+ private:
+  void ForgetVelocity();
+
+  MotionNoise noise_;
+  PoseState pose_;
+  PoseStep velocity_;
+  // Blocks of the joint covariance of pose error and velocity.
+  PoseCovariance P_;
+  PoseCovariance P_vx_;
+  PoseCovariance P_vv_;
+};
+
+}  // namespace mocap

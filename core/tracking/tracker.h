@@ -1,0 +1,43 @@
+// §6: follows a body of known sizes from frame to frame. Fig. 4.
+#pragma once
+
+#include "core/body/body_model.h"
+#include "core/tracking/limb_recovery.h"
+#include "core/tracking/pose_filter.h"
+#include "core/tracking/surface_fit.h"
+#include "core/tracking/voxel_cloud.h"
+#include "core/tracking/voxel_labeler.h"
+
+namespace mocap {
+
+/// One body with its filter. Thread-bound.
+class Tracker {
+ public:
+  /// Starts with a body at a pose.
+  Tracker(const BodyModel& body, const PoseState& pose);
+
+  /// Takes the next frame, `dt_s` after the one before.
+  void Update(const VoxelCloud& cloud, double dt_s);
+
+  const BodyModel& body() const { return body_; }
+  /// Changes the sizes; the pose stays.
+  void Resize(const BodySizes& sizes) { body_.Resize(sizes); }
+  const PoseFilter& filter() const { return filter_; }
+  SurfaceFit& surface_fit() { return surface_fit_; }
+  /// How well the last frame was explained.
+  const SurfaceFitQuality& quality() const { return quality_; }
+
+ private:
+  void FollowPoints(const VoxelCloud& cloud);
+  void FollowSurface(const VoxelCloud& cloud);
+  void FitSurface();
+
+  BodyModel body_;
+  PoseFilter filter_;
+  VoxelLabeler labeler_;
+  SurfaceFit surface_fit_;
+  LimbRecovery limb_recovery_;
+  SurfaceFitQuality quality_;
+};
+
+}  // namespace mocap

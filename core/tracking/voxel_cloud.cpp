@@ -1,0 +1,129 @@
+#include "core/tracking/voxel_cloud.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mocap {
+namespace {
+
+// A piece that is torn off the body is kept from this share of the body on, and this near to it.
+constexpr double kPieceShare = 0.005;
+constexpr double kPieceReachMm = 150;
+
+const std::array<Eigen::Vector3i, 6> kFaceNeighbours = {
+    Eigen::Vector3i(1, 0, 0),  Eigen::Vector3i(-1, 0, 0), Eigen::Vector3i(0, 1, 0),
+    Eigen::Vector3i(0, -1, 0), Eigen::Vector3i(0, 0, 1),  Eigen::Vector3i(0, 0, -1)};
+
+template <typename Visit>
+void ForEachInCube(int radius, const Visit& visit) {
+  for (int dz = -radius; dz <= radius; ++dz) {
+    for (int dy = -radius; dy <= radius; ++dy) {
+      for (int dx = -radius; dx <= radius; ++dx) visit(Eigen::Vector3i(dx, dy, dz));
+    }
+  }
+}
+
+}  // namespace
+
+int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
+  if ((cell.array() < 0).any() || (cell.array() >= size_.array()).any()) return -1;
+  return index_of_cell_[(static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()) * size_.x() +
+                        cell.x()];
+}
+
+int VoxelCloud::IndexAt(const Vector3& p_W) const {
+  const Vector3 cell = ((p_W - origin_W_) / voxel_mm_).array().floor();
+  return IndexAt(Eigen::Vector3i(cell.cast<int>()));
+}
+
+void VoxelCloud::Build(const VoxelGrid& grid) {
+  size_ = grid.size();
+  origin_W_ = grid.origin_W();
+  voxel_mm_ = grid.voxel_mm();
+  voxels_.clear();
+  surface_.clear();
+  index_of_cell_.assign(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), -1);
+  for (int k = 0; k < size_.z(); ++k) {
+    for (int j = 0; j < size_.y(); ++j) {
+      const std::uint64_t* row = grid.row(j, k);
+      for (int word = 0; word < grid.words_per_row(); ++word) {
+        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
+          const int i = word * 64 + std::countr_zero(bits);
+          index_of_cell_[(static_cast<std::size_t>(k) * size_.y() + j) * size_.x() + i] = size();
+          voxels_.push_back({.center_W = grid.CenterOf(i, j, k), .cell = {i, j, k}});
+        }
+      }
+    }
+  }
+  DropIslands();
+  FindSurface();
+}
+
+void VoxelCloud::DropIslands() {
+  component_.assign(voxels_.size(), -1);
+  std::vector<int> sizes;
+  for (int seed = 0; seed < size(); ++seed) {
+    if (component_[seed] >= 0) continue;
+    const int component = static_cast<int>(sizes.size());
+    sizes.push_back(0);
+    component_[seed] = component;
+    stack_.assign(1, seed);
+    while (!stack_.empty()) {
+      const int index = stack_.back();
+      stack_.pop_back();
+      ++sizes[component];
+      ForEachInCube(1, [&](const Eigen::Vector3i& step) {
+        const int neighbour = IndexAt(Eigen::Vector3i(voxels_[index].cell + step));
+        if (neighbour < 0 || component_[neighbour] >= 0) return;
+        component_[neighbour] = component;
+        stack_.push_back(neighbour);
+      });
+    }
+  }
+  if (sizes.size() <= 1) return;
+
+  const int body = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<bool> near_body(sizes.size(), false);
+  const int reach = static_cast<int>(kPieceReachMm / voxel_mm_);
+  for (int i = 0; i < size(); ++i) {
+    const int component = component_[i];
+    if (near_body[component] || sizes[component] < kPieceShare * sizes[body]) continue;
+    ForEachInCube(reach, [&](const Eigen::Vector3i& step) {
+      const int neighbour = IndexAt(Eigen::Vector3i(voxels_[i].cell + step));
+      if (neighbour >= 0 && component_[neighbour] == body) near_body[component] = true;
+    });
+  }
+
+  int kept = 0;
+  for (int i = 0; i < size(); ++i) {
+    const Eigen::Vector3i cell = voxels_[i].cell;
+    const bool keep = component_[i] == body || near_body[component_[i]];
+    index_of_cell_[(static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()) * size_.x() +
+                   cell.x()] = keep ? kept : -1;
+    if (keep) voxels_[kept++] = voxels_[i];
+  }
+  voxels_.resize(kept);
+}
+
+void VoxelCloud::FindSurface() {
+  // Wide enough that a normal does not follow the steps of the grid.
+  const int radius = std::clamp(static_cast<int>(std::lround(50 / voxel_mm_)), 1, 3);
+  for (int i = 0; i < size(); ++i) {
+    Voxel& voxel = voxels_[i];
+    voxel.surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                                [&](const Eigen::Vector3i& step) {
+                                  return IndexAt(Eigen::Vector3i(voxel.cell + step)) < 0;
+                                });
+    if (!voxel.surface) continue;
+    surface_.push_back(i);
+    Vector3 inward = Vector3::Zero();
+    ForEachInCube(radius, [&](const Eigen::Vector3i& step) {
+      if (IndexAt(Eigen::Vector3i(voxel.cell + step)) >= 0) inward += step.cast<double>();
+    });
+    const double length = inward.norm();
+    if (length > 0) voxel.normal_W = -inward / length;
+  }
+}
+
+}  // namespace mocap

@@ -1,0 +1,55 @@
+// §6.2: the person's voxels as a list that labelling and fitting work on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/reconstruction/voxel_grid.h"
+
+namespace mocap {
+
+/// One occupied voxel.
+struct Voxel {
+  Vector3 center_W;
+  Vector3 normal_W =
+      Vector3::Zero();   ///< Out of the body; unit length on the surface, zero inside.
+  Eigen::Vector3i cell;  ///< In the grid.
+  bool surface = false;  ///< One of its six neighbours is empty.
+};
+
+/// The occupied voxels of a grid without stray islands, with their neighbourhood. Reuses its
+/// memory.
+class VoxelCloud {
+ public:
+  /// Takes the largest connected body and whatever large piece lies near it, such as a hand cut off
+  /// at the wrist.
+  void Build(const VoxelGrid& grid);
+
+  const std::vector<Voxel>& voxels() const { return voxels_; }
+  int size() const { return static_cast<int>(voxels_.size()); }
+  bool empty() const { return voxels_.empty(); }
+  double voxel_mm() const { return voxel_mm_; }
+  double volume_litres() const { return size() * voxel_mm_ * voxel_mm_ * voxel_mm_ * 1e-6; }
+  /// Index of the voxel in a cell; -1 where the cell is empty or outside.
+  int IndexAt(const Eigen::Vector3i& cell) const;
+  /// Index of the voxel at a place; -1 where it is empty.
+  int IndexAt(const Vector3& p_W) const;
+  /// Indices of the surface voxels.
+  const std::vector<int>& surface() const { return surface_; }
+
+ private:
+  void DropIslands();
+  void FindSurface();
+
+  Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
+  Vector3 origin_W_ = Vector3::Zero();
+  double voxel_mm_ = 25;
+  std::vector<std::int32_t> index_of_cell_;
+  std::vector<Voxel> voxels_;
+  std::vector<int> surface_;
+  std::vector<int> component_;
+  std::vector<int> stack_;
+};
+
+}  // namespace mocap

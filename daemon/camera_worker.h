@@ -1,0 +1,78 @@
+// One camera, from its driver to silhouettes.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "core/reconstruction/segmenter.h"
+#include "core/reconstruction/silhouette.h"
+#include "daemon/stage.h"
+#include "daemon/synchronizer.h"
+#include "drivers/studio.h"
+
+namespace mocap {
+
+/// What leaves a camera's thread: the outline, no pixels.
+struct SegmentedFrame {
+  Silhouette silhouette;
+  PanTiltAngles angles;
+  std::int64_t capture_ns = 0;
+  std::uint64_t sequence = 0;
+  std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.
+  std::int64_t segment_ns = 0;  ///< How long segmentation took.
+};
+
+/// Numbers as in camera_status_t.
+enum class CameraState { kStarting = 0, kStreaming = 1, kLost = 2, kEnded = 3 };
+
+/// A camera's counters at one moment.
+struct CameraStatus {
+  std::string name;
+  CameraState state = CameraState::kStarting;
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
+  std::int64_t late = 0;     ///< Came after their set had gone, or found none.
+  std::int64_t torn = 0;
+};
+
+/// Grabs and segments one camera's frames. Start, Next and Stop: one thread; the rest: any.
+class CameraWorker {
+ public:
+  /// @param recorders  borrowed for the worker's life.
+  CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders);
+
+  void Start() { camera_.driver->Start(); }
+  void Stop();
+
+  enum class Outcome { kFrame, kNothing, kEnd };
+  /// Waits a moment for the next frame and segments it into `frame`; one captured before
+  /// `wanted_from_ns`, as it is by then, is dropped instead.
+  Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame);
+
+  const CameraCalibration& calibration() const { return camera_.calibration; }
+  /// Whether another frame is to come. It stays kCertain until the next call of Next, so that a
+  /// frame's owner has time to pass it on.
+  Expectation expectation() const { return expectation_.load(std::memory_order_acquire); }
+  /// Time of the newest segmented frame.
+  std::int64_t newest_ns() const { return newest_ns_.load(std::memory_order_relaxed); }
+  /// What the worker itself has counted.
+  CameraStatus Status() const;
+
+ private:
+  void CountFrame(std::uint64_t sequence);
+
+  StudioCamera camera_;
+  Segmenter segmenter_;
+  StageRecorders& recorders_;
+  std::uint64_t next_sequence_ = 0;
+  std::atomic<CameraState> state_{CameraState::kStarting};
+  std::atomic<Expectation> expectation_{Expectation::kPossible};
+  std::atomic<std::int64_t> newest_ns_;
+  std::atomic<std::int64_t> frames_{0};
+  std::atomic<std::int64_t> dropped_{0};
+  std::atomic<std::int64_t> torn_{0};
+};
+
+}  // namespace mocap

@@ -1,0 +1,33 @@
+#include "daemon/change_log.h"
+
+#include <spdlog/spdlog.h>
+
+namespace mocap {
+
+void ChangeLog::Add(const PipelineStatus& status) {
+  const PipelineStatus before = last_.value_or(PipelineStatus{});
+  if (!last_ || status.state != before.state) {
+    spdlog::info("{}", kCaptureStateNames[static_cast<std::size_t>(status.state)]);
+  }
+  if (last_) CompareCameras(before, status);
+  const bool drops = status.sets_dropped > before.sets_dropped;
+  if (drops && !is_behind_) spdlog::warn("tracking is behind: the stalest sets are dropped");
+  is_behind_ = drops;
+  last_ = status;
+}
+
+void ChangeLog::CompareCameras(const PipelineStatus& before, const PipelineStatus& now) {
+  for (std::size_t i = 0; i < now.cameras.size(); ++i) {
+    const CameraState then = before.cameras[i].state;
+    const CameraStatus& camera = now.cameras[i];
+    if (camera.state == then) continue;
+    if (camera.state == CameraState::kLost) spdlog::warn("{} is lost", camera.name);
+    if (camera.state == CameraState::kEnded) spdlog::info("{} has ended", camera.name);
+    if (camera.state == CameraState::kStreaming) {
+      spdlog::info("{} {}", camera.name,
+                   then == CameraState::kLost ? "is back" : "delivers frames");
+    }
+  }
+}
+
+}  // namespace mocap

@@ -1,0 +1,23 @@
+// What time it is.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace mocap {
+
+/// For durations [ns].
+inline std::int64_t SteadyNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Since the Unix epoch [ns].
+inline std::int64_t EpochNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace mocap

@@ -1,0 +1,53 @@
+// Which frames a pipeline that is behind leaves out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace mocap {
+
+/// Keeps a live pipeline close to the present by leaving out whole frame sets, the same ones in
+/// every camera, before any work is spent on them.
+///
+/// Cameras that each skip what they have no time for end up with frames of different moments, which
+/// make no sets. Here one place says from which moment on frames are wanted. None are while too
+/// many sets are under way, or an old one has others waiting behind it; when there is room again,
+/// or a set is old by the time it is complete, the next frame to be captured is the next one
+/// wanted. The bound lies half-way between two frames.
+class LoadControl {
+ public:
+  /// Sets from matching to tracking; at this many, no more are wanted.
+  static constexpr std::int64_t kMostUnderWay = 4;
+  /// How old a set may be when it is complete, or while others wait behind it.
+  static constexpr std::int64_t kTolerancePeriods = 3;
+
+  /// Takes note of a set as it is matched.
+  /// @param arrival_ns  when the last of its frames had arrived.
+  void AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::int64_t now_ns,
+              std::int64_t period_ns);
+  /// Takes note of how many sets have been matched and not yet tracked.
+  void SetUnderWay(std::int64_t sets, std::int64_t now_ns);
+
+  /// Frames captured before this are not wanted.
+  std::int64_t wanted_from_ns() const { return wanted_from_ns_; }
+  /// Sets left out so far.
+  std::int64_t skipped() const { return skipped_; }
+
+ private:
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+  void WantNext(std::int64_t now_ns);
+  bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
+
+  std::int64_t wanted_from_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t period_ns_ = 1;
+  std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
+  std::int64_t sets_ = 0;
+  /// What lies between capture and arrival when nothing waits: exposure, transfer, another clock.
+  std::int64_t least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t skipped_ = 0;
+};
+
+}  // namespace mocap

@@ -1,0 +1,98 @@
+// From photons to poses: who runs when.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/reconstruction/segmenter.h"
+#include "daemon/camera_worker.h"
+#include "daemon/carve_stage.h"
+#include "daemon/doorbell.h"
+#include "daemon/pose_sink.h"
+#include "daemon/spsc_queue.h"
+#include "daemon/stage.h"
+#include "daemon/track_stage.h"
+#include "drivers/studio.h"
+
+namespace mocap {
+
+struct PipelineOptions {
+  SegmentationOptions segmentation{};
+  double voxel_mm = 25;
+  /// kWait: every set is tracked, and the poses depend on the frames alone, not on the threads.
+  /// kDropOldest: the newest set counts, stale ones go, and a camera that is late is gone on
+  /// without.
+  Overflow overflow = Overflow::kDropOldest;
+  LatencyOrigin latency_origin = LatencyOrigin::kCapture;
+};
+
+/// How the pipeline does; counters never go back.
+struct PipelineStatus {
+  CaptureState state = CaptureState::kSearching;
+  std::int64_t sets_complete = 0;  ///< With every camera.
+  std::int64_t sets_partial = 0;   ///< Went on without some camera.
+  std::int64_t sets_dropped = 0;   ///< Let go because the pipeline was behind.
+  std::int64_t sets_tracked = 0;   ///< Handed on.
+  std::vector<CameraStatus> cameras;
+  StageHistograms stages;
+};
+
+/// Runs a studio: a thread a camera that grabs and segments, one that matches and carves, one that
+/// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
+/// allocated, locked or copied on a frame's way.
+///
+/// Run once, with Start and Join or with RunSerially. RequestStop, finished and Status: any thread.
+class Pipeline {
+ public:
+  /// Learns every camera's background.
+  /// @param sink  called from the last thread; borrowed for the pipeline's life.
+  /// @throws SetupError  for cameras or backgrounds that cannot be used.
+  Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body, PoseSink& sink);
+  ~Pipeline();
+
+  void Start();
+  /// Ends the flow at the cameras; what is under way still arrives.
+  void RequestStop() { stop_.store(true, std::memory_order_relaxed); }
+  /// The last set has been handed on.
+  bool finished() const { return finished_.load(std::memory_order_acquire); }
+  /// Waits for the threads in the order of the flow.
+  /// @throws what one of them threw, SetupError of a camera that does not start among it.
+  void Join();
+
+  /// Does everything in the calling thread, without dropping: the measure for the threads.
+  void RunSerially();
+
+  PipelineStatus Status() const;
+
+ private:
+  struct CameraLine;
+
+  void RunCamera(CameraLine& line);
+  void RunCarving();
+  void RunTracking();
+  bool FeedFromQueues();
+  bool FeedSerially();
+  template <typename Body>
+  void Guard(Body body);
+
+  const PipelineOptions options_;
+  StageRecorders recorders_;
+  Doorbell carve_bell_;
+  Doorbell track_bell_;
+  std::vector<std::unique_ptr<CameraLine>> lines_;
+  std::unique_ptr<CarveStage> carve_;
+  SpscQueue<CarvedSet> sets_;
+  TrackStage track_;
+  std::vector<std::thread> threads_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> finished_{false};
+  std::atomic<bool> has_failed_{false};
+  std::exception_ptr failure_;  ///< Written by the first to fail, read after joining.
+};
+
+}  // namespace mocap

@@ -1,0 +1,31 @@
+// Where tracked sets go: the publisher, a result, a test.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/motion_capture.h"
+
+namespace mocap {
+
+/// One frame set at the end of the pipeline. Borrowed for the call.
+struct TrackedSet {
+  std::int64_t frame = 0;
+  std::int64_t capture_ns = 0;
+  std::int64_t complete_ns = 0;  ///< When its last frame had arrived, since the Unix epoch.
+  std::uint64_t cameras = 0;     ///< Bit i: camera i was used.
+  int acquisition_frames = 0;
+  const CaptureResult& result;
+  const BodyModel& body;
+  const VoxelGrid& grid;
+  const std::vector<std::int8_t>& labels;
+};
+
+/// Takes tracked sets in order, in the pipeline's last thread.
+class PoseSink {
+ public:
+  virtual ~PoseSink() = default;
+  virtual void OnSet(const TrackedSet& set) = 0;
+};
+
+}  // namespace mocap

@@ -1,0 +1,27 @@
+// FFmpeg's libraries, and what owns their objects.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
+#include <libswscale/swscale.h>
+}
+
+#include <memory>
+
+namespace mocap {
+
+struct LibavDeleter {
+  void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+  void operator()(AVFrame* p) const { av_frame_free(&p); }
+  void operator()(AVPacket* p) const { av_packet_free(&p); }
+  void operator()(SwsContext* p) const { sws_freeContext(p); }
+};
+
+using CodecPtr = std::unique_ptr<AVCodecContext, LibavDeleter>;
+using FramePtr = std::unique_ptr<AVFrame, LibavDeleter>;
+using PacketPtr = std::unique_ptr<AVPacket, LibavDeleter>;
+using ScalerPtr = std::unique_ptr<SwsContext, LibavDeleter>;
+
+}  // namespace mocap

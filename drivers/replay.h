@@ -1,0 +1,63 @@
+// What the cameras of a recording share, so that they replay in step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+
+namespace mocap {
+
+/// Time as a replay sees it. Thread-safe.
+class ReplayClock {
+ public:
+  virtual ~ReplayClock() = default;
+  /// Nanoseconds since the Unix epoch; never goes back.
+  virtual std::int64_t NowNs() = 0;
+  virtual void SleepUntil(std::int64_t time_ns) = 0;
+};
+
+/// The machine's own clock: steady, and right at the time of the call.
+std::unique_ptr<ReplayClock> MakeSystemClock();
+
+/// What a recording spans, over all its cameras.
+struct ReplaySpan {
+  std::int64_t first_ns = 0;
+  std::int64_t period_ns = 0;  ///< From one loop's first frame to the next one's.
+};
+
+/// One time line for all cameras of a take.
+///
+/// With a clock the recording is replayed at its own pace, and its times are moved to the present:
+/// the first frame of the take is captured when the first camera starts. Without a clock frames
+/// keep the times of the recording and come as fast as they are read. Thread-safe.
+class Replay {
+ public:
+  /// @param clock  null: as fast as possible.
+  Replay(const ReplaySpan& span, bool loop, std::unique_ptr<ReplayClock> clock)
+      : span_(span), loop_(loop), clock_(std::move(clock)) {}
+
+  bool loops() const { return loop_; }
+  /// Null when the recording is read as fast as possible.
+  ReplayClock* clock() const { return clock_.get(); }
+
+  /// A camera starts; the first to do so sets the time line.
+  /// @return  what to add to the recording's times in loop 0 [ns].
+  std::int64_t Join();
+  /// A camera stops; after the last one the time line is free again.
+  void Leave();
+
+  /// What to add to the times of loop 0 in a later loop [ns].
+  std::int64_t LoopOffset(std::uint64_t loop) const {
+    return static_cast<std::int64_t>(loop) * span_.period_ns;
+  }
+
+ private:
+  const ReplaySpan span_;
+  const bool loop_;
+  const std::unique_ptr<ReplayClock> clock_;
+  std::mutex mutex_;
+  int cameras_ = 0;
+  std::int64_t shift_ns_ = 0;
+};
+
+}  // namespace mocap

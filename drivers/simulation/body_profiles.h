@@ -1,0 +1,34 @@
+// The shape of the simulated person: cross-sections along torso, limbs, feet and head, none of them
+// an ellipsoid or a cylinder.
+#pragma once
+
+#include <span>
+
+#include "drivers/simulation/anthropometry.h"
+
+namespace mocap::simulation {
+
+/// An oval cross-section about a centre that need not lie on the bone.
+struct Section {
+  double s = 0;                ///< Where along the part.
+  double cx = 0, cy = 0;       ///< Centre: forward, outward (to the side that the limb is on).
+  double front = 0, back = 0;  ///< Extents from the centre.
+  double outer = 0, inner = 0;
+};
+
+/// Interpolates sections smoothly; s outside the table gives its ends.
+Section Interpolate(std::span<const Section> table, double s);
+
+/// Torso and neck [mm]; s: 0 at the hips, 1 at C7.
+Section TorsoSection(const Anthropometry& body, double s);
+/// Leg [mm]; s: 0 at the hip, 1 at the knee, 2 at the ankle.
+Section LegSection(const Anthropometry& body, double s);
+/// Arm and hand [mm]; s: 0 at the shoulder, 1 at the elbow, 2 at the wrist, 3 at the fingertips.
+Section ArmSection(const Anthropometry& body, double s);
+/// Head [mm]; s: 0 at the chin, 1 at the vertex; centres against the middle of the skull.
+Section HeadSection(const Anthropometry& body, double s);
+/// Foot and shoe, cut across [mm]; s: 0 at the heel, 1 at the tip. `front` is the height of its top
+/// above the sole, `back` 0; outer and inner are half widths.
+Section FootSection(const Anthropometry& body, double s);
+
+}  // namespace mocap::simulation

@@ -1,0 +1,60 @@
+// Smooth curves through keys: how joint angles and paths run over time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace mocap::simulation {
+
+struct Key {
+  double t = 0;
+  double v = 0;
+};
+
+/// Interpolates keys without overshoot and with a continuous slope (Fritsch and Carlson 1980).
+///
+/// @param keys    at least two, t increasing.
+/// @param period  0: the ends hold; else the curve repeats, and the last key lies before
+///                keys.front().t + period.
+double Evaluate(std::span<const Key> keys, double t, double period = 0);
+
+/// 0 before `low`, 1 after `high`, without a kink between.
+double Smoothstep(double low, double high, double t);
+
+/// Remainder in [0, period).
+double Wrap(double t, double period);
+
+/// A curve on the floor, known by the distance along it.
+class FloorPath {
+ public:
+  /// @param points  close together; a closed path's last point is next to its first.
+  FloorPath(std::vector<Vector2> points, bool closed);
+
+  double length_mm() const { return length_mm_; }
+  /// Distances outside [0, length] go on for another round of a closed path, or stay at the end.
+  Vector2 PositionAt(double distance_mm) const;
+  /// Direction of travel [rad], continuous over any number of rounds.
+  double HeadingAt(double distance_mm) const;
+
+ private:
+  struct Place {
+    double rounds, index, share;
+  };
+  Place PlaceAt(double distance_mm) const;
+
+  std::vector<Vector2> points_;
+  std::vector<double> distances_, headings_;
+  double length_mm_ = 0, round_rad_ = 0;
+  bool closed_;
+};
+
+/// An oval with waves in its radius, so that it is curved differently everywhere.
+FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed);
+
+/// A smooth open curve through waypoints.
+FloorPath SplinePath(std::span<const Vector2> waypoints);
+
+}  // namespace mocap::simulation

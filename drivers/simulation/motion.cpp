@@ -1,0 +1,183 @@
+#include "drivers/simulation/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "drivers/simulation/gait.h"
+#include "drivers/simulation/motions_in_place.h"
+#include "drivers/simulation/random.h"
+#include "drivers/simulation/room_plan.h"
+
+namespace mocap::simulation {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// Walking or running round and round.
+class Rounds : public Motion {
+ public:
+  Rounds(const Anthropometry& body, const GaitStyle& style, double speed_mm_s, double radius_mm,
+         std::uint64_t seed)
+      : gait_(body, style,
+              [path = OvalPath(Vector2::Zero(), radius_mm, seed), speed_mm_s](double t_s) {
+                const double distance = speed_mm_s * t_s;
+                return Track{path.PositionAt(distance), path.HeadingAt(distance)};
+              }) {}
+  BodyPose PoseAt(double t_s) const override { return gait_.PoseAt(t_s); }
+
+ private:
+  Gait gait_;
+};
+
+// Steps from side to side with a twisting waist and raised arms.
+class Dance : public Motion {
+ public:
+  Dance(const Anthropometry& body, std::uint64_t seed)
+      : body_(body),
+        seed_phase_(Random(Mix(seed, Tag("dance"))).Uniform(0, kTurn)),
+        gait_(body, Style(body), [this](double t_s) { return TrackAt(t_s); }) {}
+
+  BodyPose PoseAt(double t_s) const override {
+    BodyPose pose = gait_.PoseAt(t_s);
+    const double beat = kTurn * t_s / (4 * BeatOf(body_));
+    const double slow = 0.31 * t_s + seed_phase_;
+    BendTrunk(0.10 + 0.10 * std::sin(beat), 0.14 * std::sin(beat + 1.1),
+              0.55 * std::sin(beat + 0.4), 0.8, pose);
+    const double raised = 0.5 + 0.5 * std::sin(slow * 2.1);
+    for (const int side : {kLeft, kRight}) {
+      const double sign = SideSign(side);
+      ArmAngles& arm = pose.arms[side];
+      const double wave = std::sin(beat + sign * 0.8 + slow);
+      arm.abduction =
+          0.45 + 1.75 * Smoothstep(0, 1, raised + 0.15 * sign * std::sin(slow)) + 0.25 * wave;
+      arm.flexion = 0.35 + 0.35 * std::sin(beat - sign * 0.7);
+      arm.rotation = 0.3 * std::sin(beat + sign);
+      arm.elbow = 0.75 + 0.45 * std::sin(beat + 0.5 + sign * 1.2);
+      arm.pronation = 0.3 + 0.4 * std::sin(beat * 0.5 + sign);
+      arm.wrist = 0.3 * std::sin(beat + 2);
+    }
+    FollowWithClavicles(pose);
+    return pose;
+  }
+
+ private:
+  static GaitStyle Style(const Anthropometry& body) {
+    GaitStyle style = WalkingStyle(body);
+    style.step_s = BeatOf(body);
+    style.half_width_mm = 0.065 * body.stature_mm;
+    style.toe_out = 0.22;
+    style.lift_mm = 0.045 * body.stature_mm;
+    style.height_mm = body.hip_height_mm() - 0.030 * body.stature_mm;
+    style.bounce_mm = 0.012 * body.stature_mm;
+    style.sway_mm = 0.03 * body.stature_mm;
+    style.full_step_mm = 0.2 * body.stature_mm;
+    return style;
+  }
+  static double BeatOf(const Anthropometry& body) {
+    return 0.48 * std::sqrt(body.stature_mm / 1750);
+  }
+
+  Track TrackAt(double t_s) const {
+    const double a = 0.55 * t_s + seed_phase_;
+    const double reach = 0.16 * body_.stature_mm;
+    Track track;
+    track.p_W = Vector2(1.6 * reach * std::sin(a) + 250 * std::sin(0.21 * t_s),
+                        reach * std::sin(1.7 * a + 1) + 250 * std::cos(0.17 * t_s));
+    track.yaw = seed_phase_ + 0.8 * std::sin(0.45 * t_s) + 0.12 * t_s;
+    return track;
+  }
+
+  Anthropometry body_;
+  double seed_phase_;
+  Gait gait_;
+};
+
+// Comes in through the door, walks around and leaves; next time the same way back.
+class Visit : public Motion {
+ public:
+  Visit(const Anthropometry& body, std::uint64_t seed)
+      : path_(SplinePath(Waypoints(seed))),
+        speed_mm_s_(1050 * std::sqrt(body.stature_mm / 1750)),
+        gait_(body, WalkingStyle(body), [this](double t_s) { return TrackAt(t_s); }) {}
+  BodyPose PoseAt(double t_s) const override { return gait_.PoseAt(t_s); }
+
+ private:
+  static constexpr double kHidden_s = 3, kEase_s = 0.8;
+
+  static std::vector<Vector2> Waypoints(std::uint64_t seed) {
+    Random random(Mix(seed, Tag("visit")));
+    const double x = kDoorX_mm - kDoorJamb_mm - 0.5 * kCorridorDepth_mm;
+    const double r = random.Uniform(0.9, 1.1);
+    return {{x, kDoorY_mm - kHidingPlace_mm},
+            {x, kDoorY_mm - 900},
+            {x + 200, kDoorY_mm - 250},
+            {kDoorX_mm - 150, kDoorY_mm - 60},
+            {kDoorX_mm + 700, kDoorY_mm - 150},
+            {-900 * r, -700 * r},
+            {300 * r, -1350 * r},
+            {1350 * r, -200 * r},
+            {700 * r, 1200 * r},
+            {-800 * r, 1150 * r},
+            {kDoorX_mm + 700, kDoorY_mm + 50},
+            {kDoorX_mm - 150, kDoorY_mm + 60},
+            {x + 200, kDoorY_mm + 250},
+            {x, kDoorY_mm + 900},
+            {x, kDoorY_mm + kHidingPlace_mm}};
+  }
+
+  Track TrackAt(double t_s) const {
+    const double walk_s = path_.length_mm() / speed_mm_s_ + kEase_s;
+    const double visit_s = walk_s + kHidden_s;
+    const double visit = std::floor(t_s / visit_s);
+    const double u = t_s - visit * visit_s;
+    const bool back = std::fmod(std::abs(visit), 2) == 1;
+    const double waiting = 0.5 * kHidden_s;
+    const double distance = DistanceAfter(u - waiting, walk_s);
+    // Out of sight the person turns round on the spot.
+    const double turned = u < waiting ? -0.5 * (1 - Smoothstep(0, waiting, u))
+                                      : 0.5 * Smoothstep(waiting + walk_s, visit_s, u);
+    const double s = back ? path_.length_mm() - distance : distance;
+    const double heading =
+        path_.HeadingAt(s) + (back ? std::numbers::pi : 0) + kTurn * std::floor(visit / 2);
+    return {path_.PositionAt(s), heading + std::numbers::pi * turned};
+  }
+
+  // Sets off and stops gently: speed rises and falls linearly.
+  double DistanceAfter(double t_s, double walk_s) const {
+    if (t_s <= 0) return 0;
+    if (t_s >= walk_s) return path_.length_mm();
+    if (t_s < kEase_s) return speed_mm_s_ * t_s * t_s / (2 * kEase_s);
+    const double left_s = walk_s - t_s;
+    if (left_s < kEase_s) return path_.length_mm() - speed_mm_s_ * left_s * left_s / (2 * kEase_s);
+    return speed_mm_s_ * (t_s - kEase_s / 2);
+  }
+
+  FloorPath path_;
+  double speed_mm_s_;
+  Gait gait_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropometry& body,
+                                         std::uint64_t seed) {
+  const double pace = std::sqrt(body.stature_mm / 1750);
+  if (name == "walk")
+    return std::make_unique<Rounds>(body, WalkingStyle(body), 1080 * pace, 1250, seed);
+  if (name == "run")
+    return std::make_unique<Rounds>(body, RunningStyle(body), 1700 * pace, 1500, seed);
+  if (name == "dance") return std::make_unique<Dance>(body, seed);
+  if (name == "visit") return std::make_unique<Visit>(body, seed);
+  if (name == "jump") return MakeJump(body, seed);
+  if (name == "sit") return MakeSit(body, seed);
+  if (name == "step") return MakeStep(body, seed);
+  if (name == "stand") return MakeStand(body, seed);
+  std::string wanted;
+  for (const std::string_view known : kMotionNames)
+    wanted += (wanted.empty() ? "" : ", ") + std::string(known);
+  throw SetupError("motion \"" + std::string(name) + "\" is unknown; known are " + wanted);
+}
+
+}  // namespace mocap::simulation

@@ -1,0 +1,40 @@
+// What the simulated person does: a pose for every moment.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/simulation/furniture.h"
+#include "drivers/simulation/skeleton.h"
+
+namespace mocap::simulation {
+
+/// A motion that goes on for ever. Reentrant.
+class Motion {
+ public:
+  Motion() = default;
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
+  virtual ~Motion() = default;
+  /// The pose at a time [s]; a smooth function of it.
+  virtual BodyPose PoseAt(double t_s) const = 0;
+  /// What stands in the studio for it.
+  virtual std::vector<Block> furniture() const { return {}; }
+};
+
+inline constexpr std::array<std::string_view, 8> kMotionNames = {"walk", "run",  "jump",  "dance",
+                                                                 "sit",  "step", "stand", "visit"};
+
+/// Makes a motion for a person; details (path, tempo, side to begin with) come from the seed.
+///
+/// walk and run: a closed path · jump: on the spot · dance: twisting waist, arms up · sit: on a
+/// stool and up again · step: up a block and down · stand: idle · visit: comes in through the door,
+/// walks around and leaves, 3 s out of sight each time.
+/// @throws SetupError  for another name.
+std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropometry& body,
+                                         std::uint64_t seed);
+
+}  // namespace mocap::simulation

@@ -1,0 +1,235 @@
+#include "drivers/simulation/person_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap::simulation {
+namespace {
+
+using Vector3f = Eigen::Vector3f;
+
+constexpr int kShrinkSteps = 4096;
+constexpr float kShrinkMax = 1.5f;  // κ1 ru² far outside any picture.
+constexpr float kNearest_mm = 150;
+
+// Two soft lamps and light from everywhere, more of it from above.
+const Vector3f kLampA = Vector3f(-0.45f, -0.35f, 0.82f).normalized();
+const Vector3f kLampB = Vector3f(0.55f, 0.30f, 0.78f).normalized();
+
+float Shade(const Vector3f& n_W) {
+  const float inverse = 1 / std::sqrt(n_W.squaredNorm() + 1e-12f);
+  const float a = std::max(0.0f, n_W.dot(kLampA)) * inverse;
+  const float b = std::max(0.0f, n_W.dot(kLampB)) * inverse;
+  return 0.42f + 0.14f * n_W.z() * inverse + 0.34f * a + 0.26f * b;
+}
+
+std::uint8_t Byte(float v) { return static_cast<std::uint8_t>(std::min(v + 0.5f, 255.0f)); }
+
+void Include(PixelBox& box, const PixelBox& other) {
+  if (other.empty()) return;
+  if (box.empty())
+    box = other;
+  else
+    box = {std::min(box.x0, other.x0), std::min(box.y0, other.y0), std::max(box.x1, other.x1),
+           std::max(box.y1, other.y1)};
+}
+
+}  // namespace
+
+PersonRenderer::PersonRenderer(const CameraCalibration& camera)
+    : width_px_(camera.width_px),
+      height_px_(camera.height_px),
+      lens_(std::get<TsaiLens>(camera.lens)),
+      fx_(static_cast<float>(lens_.focal_mm * lens_.sx / lens_.pitch_mm.x())),
+      fy_(static_cast<float>(lens_.focal_mm / lens_.pitch_mm.y())),
+      cx_(static_cast<float>(lens_.center_px.x())),
+      cy_(static_cast<float>(lens_.center_px.y())),
+      kappa_(static_cast<float>(lens_.kappa1 * lens_.focal_mm * lens_.focal_mm)),
+      nearness_(width_px_, height_px_),
+      shades_(width_px_, height_px_),
+      materials_(width_px_, height_px_) {
+  // g = rd / ru solves g (1 + q g²) = 1 with q = κ1 ru²: Newton's method from above.
+  shrink_.reserve(kShrinkSteps + 2);
+  double g = 1;
+  for (int i = 0; i <= kShrinkSteps + 1; ++i) {
+    const double q = kShrinkMax * i / kShrinkSteps;
+    for (int k = 0; k < 20; ++k) g -= (g + q * g * g * g - 1) / (1 + 3 * q * g * g);
+    shrink_.push_back(static_cast<float>(g));
+  }
+}
+
+bool PersonRenderer::ToScreen(const Vector3f& p_C, float& x, float& y) const {
+  if (p_C.z() < kNearest_mm) return false;
+  const float xn = p_C.x() / p_C.z(), yn = p_C.y() / p_C.z();
+  const float q = kappa_ * (xn * xn + yn * yn) * (kShrinkSteps / kShrinkMax);
+  if (q >= kShrinkSteps) return false;
+  const int i = static_cast<int>(q);
+  const float g = shrink_[i] + (q - float(i)) * (shrink_[i + 1] - shrink_[i]);
+  x = fx_ * g * xn + cx_;
+  y = fy_ * g * yn + cy_;
+  return true;
+}
+
+void PersonRenderer::Project(const PersonMesh& mesh, const RigidTransform& X_CW) {
+  const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
+  const Vector3f p_CW = X_CW.p.cast<float>();
+  screen_.resize(p_W_.size());
+  float low_x = float(width_px_), low_y = float(height_px_), high_x = -1, high_y = -1;
+  for (std::size_t i = 0; i < p_W_.size(); ++i) {
+    const Vector3f p_C = R_CW * p_W_[i] + p_CW;
+    ScreenVertex& v = screen_[i];
+    if (!ToScreen(p_C, v.x, v.y)) {
+      v.nearness = 0;
+      continue;
+    }
+    v.nearness = 1 / p_C.z();
+    v.shade = Shade(n_W_[i]) * mesh.vertices[i].albedo;
+    low_x = std::min(low_x, v.x), high_x = std::max(high_x, v.x);
+    low_y = std::min(low_y, v.y), high_y = std::max(high_y, v.y);
+  }
+  // A pixel more on each side for softened edges.
+  person_ = {};
+  if (high_x >= 0 && high_y >= 0 && low_x < float(width_px_) && low_y < float(height_px_))
+    person_ = {std::max(0, static_cast<int>(low_x) - 1), std::max(0, static_cast<int>(low_y) - 1),
+               static_cast<int>(std::min(high_x + 3, float(width_px_))),
+               static_cast<int>(std::min(high_y + 3, float(height_px_)))};
+}
+
+void PersonRenderer::Draw(const PersonMesh& mesh, const Outfit& outfit, const BonePoses& bones,
+                          const EmptyView& view, const RigidTransform& X_CW, bool same_view,
+                          Image<Bgr>& canvas) {
+  if (same_view) {
+    for (int y = dirty_.y0; y < dirty_.y1; ++y)
+      std::copy_n(view.image.row(y) + dirty_.x0, dirty_.x1 - dirty_.x0, canvas.row(y) + dirty_.x0);
+  } else {
+    canvas = view.image;
+  }
+  for (int y = person_.y0; y < person_.y1; ++y)
+    std::fill_n(materials_.row(y) + person_.x0, person_.x1 - person_.x0, std::uint8_t{0});
+  dirty_ = {};
+
+  SkinMesh(mesh, bones, p_W_, n_W_);
+  shadow_.Cast(mesh, p_W_);
+  DrawShadow(view, X_CW, canvas);
+  Project(mesh, X_CW);
+  if (person_.empty()) return;
+  for (int y = person_.y0; y < person_.y1; ++y)
+    std::copy_n(view.nearness.row(y) + person_.x0, person_.x1 - person_.x0,
+                nearness_.row(y) + person_.x0);
+  for (const PersonMesh::Triangle& t : mesh.triangles)
+    DrawTriangle(screen_[t.v[0]], screen_[t.v[1]], screen_[t.v[2]], t.material);
+  Compose(outfit, canvas);
+  SoftenEdges(canvas);
+  Include(dirty_, person_);
+}
+
+void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_CW,
+                                Image<Bgr>& canvas) {
+  Eigen::Vector2f low, high;
+  if (!shadow_.Bounds(low, high)) return;
+  const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
+  const Vector3f p_CW = X_CW.p.cast<float>();
+  // The rectangle's image is bounded by that of its rim; where the lens does not see it all, the
+  // whole picture is gone through.
+  PixelBox box{0, 0, width_px_, height_px_};
+  float low_x = 1e9f, low_y = 1e9f, high_x = -1e9f, high_y = -1e9f;
+  bool seen = true;
+  constexpr int kSteps = 8;
+  for (int i = 0; i <= kSteps && seen; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      if (i % kSteps != 0 && j % kSteps != 0) continue;
+      const Vector3f p_W(low.x() + (high.x() - low.x()) * float(i) / kSteps,
+                         low.y() + (high.y() - low.y()) * float(j) / kSteps, 0);
+      float x = 0, y = 0;
+      seen = seen && ToScreen(R_CW * p_W + p_CW, x, y);
+      low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+      low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+    }
+  if (seen)
+    box = {std::max(0, static_cast<int>(low_x) - 2), std::max(0, static_cast<int>(low_y) - 2),
+           std::min(width_px_, static_cast<int>(std::min(high_x, 1e5f)) + 3),
+           std::min(height_px_, static_cast<int>(std::min(high_y, 1e5f)) + 3)};
+  if (box.empty()) return;
+
+  for (int y = box.y0; y < box.y1; ++y) {
+    const FloorPlace* floor = view.floor.row(y);
+    Bgr* pixels = canvas.row(y);
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (floor[x].x == kNoFloor) continue;
+      const int light = shadow_.LightAt(floor[x]);
+      if (light == 256) continue;
+      Bgr& pixel = pixels[x];
+      pixel = {static_cast<std::uint8_t>((pixel.b * light) >> 8),
+               static_cast<std::uint8_t>((pixel.g * light) >> 8),
+               static_cast<std::uint8_t>((pixel.r * light) >> 8)};
+    }
+  }
+  Include(dirty_, box);
+}
+
+void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
+                                  const ScreenVertex& c, Material material) {
+  if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) return;
+  // Counter-clockwise outside, clockwise in a picture whose y points down.
+  const float area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);
+  if (area <= 0) return;
+  const int x0 = std::max(person_.x0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
+  const int y0 = std::max(person_.y0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+  const int x1 = std::min(person_.x1 - 1, static_cast<int>(std::max({a.x, b.x, c.x})));
+  const int y1 = std::min(person_.y1 - 1, static_cast<int>(std::max({a.y, b.y, c.y})));
+  if (x0 > x1 || y0 > y1) return;
+  // Barycentric weights of b and c are linear over the picture, and so is 1 / z.
+  const float inverse = 1 / area;
+  const float vx = -(c.y - a.y) * inverse, vy = (c.x - a.x) * inverse;
+  const float wx = (b.y - a.y) * inverse, wy = -(b.x - a.x) * inverse;
+  for (int y = y0; y <= y1; ++y) {
+    const float dy = float(y) - a.y;
+    float v = vx * (float(x0) - a.x) + vy * dy, w = wx * (float(x0) - a.x) + wy * dy;
+    float* nearness = nearness_.row(y);
+    for (int x = x0; x <= x1; ++x, v += vx, w += wx) {
+      if (v < -1e-5f || w < -1e-5f || v + w > 1.00001f) continue;
+      const float near = a.nearness + v * (b.nearness - a.nearness) + w * (c.nearness - a.nearness);
+      if (near <= nearness[x]) continue;
+      nearness[x] = near;
+      shades_(x, y) = a.shade + v * (b.shade - a.shade) + w * (c.shade - a.shade);
+      materials_(x, y) = static_cast<std::uint8_t>(material + 1);
+    }
+  }
+}
+
+void PersonRenderer::Compose(const Outfit& outfit, Image<Bgr>& canvas) {
+  for (int y = person_.y0; y < person_.y1; ++y)
+    for (int x = person_.x0; x < person_.x1; ++x) {
+      const int material = materials_(x, y);
+      if (material == 0) continue;
+      const Bgr color = outfit.colors[material - 1];
+      const float shade = shades_(x, y);
+      canvas(x, y) = {Byte(float(color.b) * shade), Byte(float(color.g) * shade),
+                      Byte(float(color.r) * shade)};
+    }
+}
+
+// A lens mixes what lies on both sides of an outline.
+void PersonRenderer::SoftenEdges(Image<Bgr>& canvas) {
+  soft_.clear();
+  const int x1 = std::min(person_.x1, width_px_ - 1), y1 = std::min(person_.y1, height_px_ - 1);
+  for (int y = std::max(1, person_.y0); y < y1; ++y)
+    for (int x = std::max(1, person_.x0); x < x1; ++x) {
+      const bool here = materials_(x, y) != 0;
+      if (here == (materials_(x - 1, y) != 0) && here == (materials_(x + 1, y) != 0) &&
+          here == (materials_(x, y - 1) != 0) && here == (materials_(x, y + 1) != 0))
+        continue;
+      const Bgr m = canvas(x, y), l = canvas(x - 1, y), r = canvas(x + 1, y), u = canvas(x, y - 1),
+                d = canvas(x, y + 1);
+      const auto mix = [](int middle, int sum) {
+        return static_cast<std::uint8_t>((4 * middle + sum + 4) / 8);
+      };
+      soft_.push_back({x,
+                       y,
+                       {mix(m.b, l.b + r.b + u.b + d.b), mix(m.g, l.g + r.g + u.g + d.g),
+                        mix(m.r, l.r + r.r + u.r + d.r)}});
+    }
+  for (const Soft& soft : soft_) canvas(soft.x, soft.y) = soft.color;
+}
+
+}  // namespace mocap::simulation

@@ -1,0 +1,53 @@
+// Random numbers that are the same on every machine and need no state: the standard library's
+// distributions may differ between implementations.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+
+namespace mocap::simulation {
+
+/// Mixes a number into 64 random bits (SplitMix64; Steele, Lea, Flood 2014).
+constexpr std::uint64_t Mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// Mixes several numbers: the same ones always give the same bits.
+template <typename... More>
+constexpr std::uint64_t Mix(std::uint64_t first, std::uint64_t second, More... more) {
+  return Mix(Mix(first) ^ second, static_cast<std::uint64_t>(more)...);
+}
+
+/// Names what random numbers are for, so that different uses of one seed do not repeat each other.
+constexpr std::uint64_t Tag(std::string_view purpose) {
+  std::uint64_t bits = 0;
+  for (const char c : purpose) bits = Mix(bits, static_cast<std::uint64_t>(c));
+  return bits;
+}
+
+/// Draws one number after the other.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
+
+  std::uint64_t Bits() { return Mix(state_++); }
+  /// Uniform in [low, high).
+  double Uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(Bits() >> 11) * 0x1p-53;
+  }
+  /// Standard normal (Box and Muller).
+  double Normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - Uniform(0, 1)));
+    return radius * std::cos(Uniform(0, 2 * std::numbers::pi));
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace mocap::simulation

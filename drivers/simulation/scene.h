@@ -1,0 +1,117 @@
+// A simulated studio with its person: everything that cameras share, and one camera's view of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/segmenter.h"
+#include "drivers/simulated_studio.h"
+#include "drivers/simulation/anthropometry.h"
+#include "drivers/simulation/empty_view.h"
+#include "drivers/simulation/motion.h"
+#include "drivers/simulation/person_mesh.h"
+#include "drivers/simulation/person_renderer.h"
+#include "drivers/simulation/room.h"
+#include "drivers/simulation/sensor.h"
+
+namespace mocap::simulation {
+
+/// Who moves, and how. Immutable; reentrant.
+class Person {
+ public:
+  /// @throws SetupError  for a motion, stature or seed that cannot be.
+  explicit Person(const SimulatedStudioOptions& options);
+
+  const Anthropometry& body() const { return body_; }
+  const Motion& motion() const { return *motion_; }
+  BonePoses BonesAt(std::int64_t capture_ns) const;
+
+ private:
+  Anthropometry body_;
+  std::unique_ptr<const Motion> motion_;
+  std::int64_t start_ns_;
+};
+
+/// All that the cameras see. Immutable; reentrant.
+class Scene {
+ public:
+  explicit Scene(const SimulatedStudioOptions& options);
+
+  const SimulatedStudioOptions& options() const { return options_; }
+  const Person& person() const { return person_; }
+  const Room& room() const { return room_; }
+  const Outfit& outfit() const { return outfit_; }
+  const PersonMesh& mesh() const { return mesh_; }
+  const Sensor& sensor() const { return sensor_; }
+  const std::vector<CameraCalibration>& cameras() const { return cameras_; }
+
+  /// Time at which frame number `frame` is due, the same for all cameras.
+  std::int64_t NominalTime(std::int64_t frame) const;
+  /// When a camera really takes it, within 0.3 ms.
+  std::int64_t CaptureTime(int camera, std::int64_t frame) const;
+  /// Where a camera's head points: after the person, a little late. Zero without a head.
+  PanTiltAngles AnglesAt(int camera, std::int64_t capture_ns) const;
+  /// Directions that cover what a camera's head will see, as a serpentine; zeros without a head.
+  std::vector<PanTiltAngles> Sweep(int camera, int frames) const;
+
+ private:
+  SimulatedStudioOptions options_;
+  Person person_;
+  Room room_;
+  Outfit outfit_;
+  PersonMesh mesh_;
+  Sensor sensor_;
+  std::vector<CameraCalibration> cameras_;
+};
+
+/// One camera's empty view, rendered when it is first wanted. Reentrant.
+class SceneView {
+ public:
+  SceneView(std::shared_ptr<const Scene> scene, int camera);
+
+  const Scene& scene() const { return *scene_; }
+  int camera() const { return camera_; }
+  const CameraCalibration& calibration() const { return scene_->cameras()[camera_]; }
+  /// Without a head: the view that never changes.
+  const EmptyView& fixed_view() const;
+  /// With a head: the view in one direction.
+  void RenderView(const PanTiltAngles& angles, EmptyView& view) const;
+  /// Frames of the empty studio with their noise and directions; capture times are before the
+  /// start.
+  std::vector<BackgroundFrame> Background(int frames) const;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  int camera_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const EmptyViewRenderer> renderer_;
+  mutable EmptyView fixed_view_;
+  const EmptyViewRenderer& Renderer() const;
+};
+
+/// Renders one camera's pictures; reuses its memory. Thread-bound.
+class ScenePainter {
+ public:
+  explicit ScenePainter(std::shared_ptr<const SceneView> view);
+
+  /// Paints what the camera sees at a moment.
+  void Paint(std::int64_t capture_ns);
+  const Image<Bgr>& picture() const { return picture_; }
+  const PanTiltAngles& angles() const { return angles_; }
+  /// material + 1 where the person is seen, else 0.
+  const Image<std::uint8_t>& materials() const { return person_.materials(); }
+
+ private:
+  std::shared_ptr<const SceneView> view_;
+  PersonRenderer person_;
+  EmptyView turned_view_;
+  PanTiltAngles angles_;
+  Image<Bgr> canvas_, picture_;
+  bool fresh_ = true;
+};
+
+}  // namespace mocap::simulation

@@ -1,0 +1,28 @@
+// What an image sensor adds: noise, and the flicker of the lamps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace mocap::simulation {
+
+/// Turns light into bytes. Immutable; reentrant.
+class Sensor {
+ public:
+  explicit Sensor(std::uint64_t seed);
+
+  /// Writes a picture with noise that grows with the light (read-out and photons).
+  /// @param gain  the lamps' brightness, about 1.
+  /// @param key   the same key gives the same noise.
+  void Expose(const Image<Bgr>& light, double gain, std::uint64_t key, Image<Bgr>& picture) const;
+
+ private:
+  std::vector<std::int8_t> noise_;  // Standard deviation 16.
+};
+
+/// Brightness of mains lamps at a moment: about 1 %, at twice 50 Hz.
+double LampGain(std::int64_t capture_ns);
+
+}  // namespace mocap::simulation

@@ -1,0 +1,159 @@
+#include "drivers/simulation/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap::simulation {
+namespace {
+
+Matrix3 TurnX(double a) { return Eigen::AngleAxisd(a, Vector3::UnitX()).toRotationMatrix(); }
+Matrix3 TurnY(double a) { return Eigen::AngleAxisd(a, Vector3::UnitY()).toRotationMatrix(); }
+Matrix3 TurnZ(double a) { return Eigen::AngleAxisd(a, Vector3::UnitZ()).toRotationMatrix(); }
+
+Matrix3 RotationOf(const TrunkAngles& a) {
+  return TurnZ(a.twist) * TurnY(a.flexion) * TurnX(-a.bend);
+}
+
+// A limb hangs along -z, so turning about +y takes it back and about +x to the left.
+Matrix3 LimbRotation(double flexion, double abduction, double rotation, double sign) {
+  return TurnY(-flexion) * TurnX(sign * abduction) * TurnZ(-sign * rotation);
+}
+
+struct LimbAngles {
+  double flexion, abduction, rotation;
+};
+
+LimbAngles AnglesOfLimb(const Matrix3& R, double sign) {
+  // R = Ry(a) Rx(b) Rz(c): R(1,2) = -sin b, R(0,2)/R(2,2) = tan a, R(1,0)/R(1,1) = tan c.
+  const double a = std::atan2(R(0, 2), R(2, 2));
+  const double b = std::asin(std::clamp(-R(1, 2), -1.0, 1.0));
+  const double c = std::atan2(R(1, 0), R(1, 1));
+  return {-a, sign * b, -sign * c};
+}
+
+void PlaceArm(const Anthropometry& body, const ArmAngles& arm, int side, BonePoses& bones) {
+  const double sign = SideSign(side);
+  // The clavicle turns about its inner end, beside the top of the breastbone.
+  const Vector3 inner(0.012 * body.stature_mm, sign * 0.014 * body.stature_mm,
+                      body.shoulder_mm - body.thorax_mm + 0.004 * body.stature_mm);
+  const Vector3 shoulder(-0.006 * body.stature_mm, sign * body.shoulder_half_mm,
+                         body.shoulder_mm - body.thorax_mm);
+  bones[kClavicleL + side] =
+      bones[kThorax] *
+      RigidTransform{TurnX(sign * arm.clavicle_up) * TurnZ(-sign * arm.clavicle_forward), inner};
+  bones[kUpperArmL + side] =
+      bones[kClavicleL + side] * RigidTransform{Matrix3::Identity(), shoulder - inner};
+  // Shoulder angles are against the thorax; the clavicle only carries the joint.
+  bones[kUpperArmL + side].R =
+      bones[kThorax].R * LimbRotation(arm.flexion, arm.abduction, arm.rotation, sign);
+  bones[kForearmL + side] = bones[kUpperArmL + side] *
+                            RigidTransform{TurnY(-arm.elbow), Vector3(0, 0, -body.upper_arm_mm)};
+  bones[kHandL + side] = bones[kForearmL + side] *
+                         RigidTransform{TurnZ(-sign * arm.pronation) * TurnX(-sign * arm.wrist),
+                                        Vector3(0, 0, -body.forearm_mm)};
+}
+
+void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, BonePoses& bones) {
+  const double sign = SideSign(side);
+  bones[kThighL + side] =
+      bones[kPelvis] * RigidTransform{LimbRotation(leg.flexion, leg.abduction, leg.rotation, sign),
+                                      Vector3(0, sign * body.hip_half_mm, 0)};
+  bones[kShankL + side] =
+      bones[kThighL + side] * RigidTransform{TurnY(leg.knee), Vector3(0, 0, -body.thigh_mm)};
+  bones[kFootL + side] =
+      bones[kShankL + side] *
+      RigidTransform{LimbRotation(leg.ankle, -leg.inversion, leg.foot_turn, sign),
+                     Vector3(0, 0, -body.shank_mm)};
+  bones[kToesL + side] =
+      bones[kFootL + side] *
+      RigidTransform{TurnY(-leg.toes),
+                     Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + 0.012 * body.stature_mm)};
+}
+
+}  // namespace
+
+BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose) {
+  BonePoses bones;
+  bones[kPelvis] = {pose.R_WPelvis, pose.p_WPelvis};
+  bones[kLumbar] =
+      bones[kPelvis] * RigidTransform{RotationOf(pose.lumbar), Vector3(0, 0, body.lumbar_mm)};
+  bones[kThorax] = bones[kLumbar] * RigidTransform{RotationOf(pose.thorax),
+                                                   Vector3(0, 0, body.thorax_mm - body.lumbar_mm)};
+  bones[kNeck] = bones[kThorax] *
+                 RigidTransform{RotationOf(pose.neck), Vector3(-0.008 * body.stature_mm, 0,
+                                                               body.torso_mm - body.thorax_mm)};
+  bones[kHead] =
+      bones[kNeck] * RigidTransform{RotationOf(pose.head),
+                                    Vector3(0.012 * body.stature_mm, 0, body.skull_base_mm)};
+  for (const int side : {kLeft, kRight}) {
+    PlaceArm(body, pose.arms[side], side, bones);
+    PlaceLegBones(body, pose.legs[side], side, bones);
+  }
+  return bones;
+}
+
+Vector3 HeadCenterInHead(const Anthropometry& body) {
+  const double vertex_above_neck = body.stature_mm - body.hip_height_mm() - body.torso_mm;
+  return {0.006 * body.stature_mm, 0, vertex_above_neck - body.head_mm / 2 - body.skull_base_mm};
+}
+
+TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones) {
+  TruePoints points;
+  const auto set = [&](TruthPoint point, int side, const Vector3& p_W) {
+    points[static_cast<int>(point) + side] = p_W;
+  };
+  set(TruthPoint::kPelvis, 0, bones[kPelvis].p);
+  set(TruthPoint::kNeck, 0, bones[kNeck].p);
+  set(TruthPoint::kHead, 0, bones[kHead] * HeadCenterInHead(body));
+  for (const int side : {kLeft, kRight}) {
+    set(TruthPoint::kShoulderL, side, bones[kUpperArmL + side].p);
+    set(TruthPoint::kElbowL, side, bones[kForearmL + side].p);
+    set(TruthPoint::kWristL, side, bones[kHandL + side].p);
+    set(TruthPoint::kFingertipsL, side, bones[kHandL + side] * Vector3(0, 0, -body.hand_mm));
+    set(TruthPoint::kHipL, side, bones[kThighL + side].p);
+    set(TruthPoint::kKneeL, side, bones[kShankL + side].p);
+    set(TruthPoint::kAnkleL, side, bones[kFootL + side].p);
+    const double toe_mm = body.foot_mm - body.heel_mm - body.ball_mm;
+    set(TruthPoint::kToeL, side, bones[kToesL + side] * Vector3(toe_mm, 0, 0));
+  }
+  return points;
+}
+
+void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, BodyPose& pose) {
+  const double sign = SideSign(side);
+  const Vector3 p_WHip = pose.p_WPelvis + pose.R_WPelvis * Vector3(0, sign * body.hip_half_mm, 0);
+  const Vector3 reach = target.p_WAnkle - p_WHip;
+  const double a = body.thigh_mm, b = body.shank_mm;
+  const double distance = std::clamp(reach.norm(), 0.3 * (a + b), 0.9999 * (a + b));
+  // Law of cosines: the triangle of hip, knee and ankle.
+  const double knee =
+      std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b));
+  const double at_hip = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
+
+  // The leg's plane holds the line to the ankle and the direction of the foot, which may point
+  // nearly along that line when the heel is up: then the pelvis says where forward is.
+  const Vector3 down = reach.normalized();
+  const Vector3 foot_forward = target.R_WFoot.col(1).cross(Vector3::UnitZ());
+  const Vector3 forward = 0.85 * foot_forward.normalized() + 0.15 * pose.R_WPelvis.col(0);
+  const Vector3 left = forward.cross(down).normalized();
+  const Vector3 ahead = down.cross(left);
+  const Vector3 thigh_down = std::cos(at_hip) * down + std::sin(at_hip) * ahead;
+  Matrix3 R_WThigh;
+  R_WThigh << -thigh_down.cross(left), left, -thigh_down;
+  R_WThigh.col(0) = left.cross(R_WThigh.col(2));
+
+  LegAngles& leg = pose.legs[side];
+  const LimbAngles hip = AnglesOfLimb(pose.R_WPelvis.transpose() * R_WThigh, sign);
+  leg.flexion = hip.flexion;
+  leg.abduction = hip.abduction;
+  leg.rotation = hip.rotation;
+  leg.knee = knee;
+  const Matrix3 R_WShank = R_WThigh * TurnY(knee);
+  const LimbAngles ankle = AnglesOfLimb(R_WShank.transpose() * target.R_WFoot, sign);
+  leg.ankle = ankle.flexion;
+  leg.inversion = -ankle.abduction;
+  leg.foot_turn = ankle.rotation;
+  leg.toes = target.toes_rad;
+}
+
+}  // namespace mocap::simulation

@@ -1,0 +1,44 @@
+// Which file of a take lies where, and what its cameras may be called.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace mocap {
+
+/// A camera's name is part of file names: letters, digits, `_` and `-`.
+inline bool IsCameraName(std::string_view name) {
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+}
+
+/// The files of the take in `folder`.
+struct TakeLayout {
+  std::filesystem::path folder;
+
+  std::filesystem::path Description() const { return folder / "take.toml"; }
+  std::filesystem::path Calibration() const { return folder / "calibration.toml"; }
+  std::filesystem::path Video(const std::string& camera) const {
+    return folder / (camera + ".mkv");
+  }
+  std::filesystem::path Table(const std::string& camera) const {
+    return folder / (camera + ".csv");
+  }
+  std::filesystem::path BackgroundVideo(const std::string& camera) const {
+    return folder / "background" / (camera + ".mkv");
+  }
+  std::filesystem::path BackgroundTable(const std::string& camera) const {
+    return folder / "background" / (camera + ".csv");
+  }
+  std::filesystem::path Mask(const std::string& camera) const {
+    return folder / "silhouette" / (camera + ".mkv");
+  }
+  std::filesystem::path TruthTable() const { return folder / "truth.csv"; }
+  std::filesystem::path TruthSizes() const { return folder / "truth.toml"; }
+};
+
+}  // namespace mocap

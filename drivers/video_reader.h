@@ -1,0 +1,46 @@
+// Video files of any kind that FFmpeg decodes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/image.h"
+
+namespace mocap {
+
+/// What became of reading a frame.
+enum class VideoStatus {
+  kFrame,   ///< Here it is.
+  kBroken,  ///< A frame that cannot be decoded stood here; reading may go on.
+  kEnd      ///< No whole frame is left.
+};
+
+/// Decodes a video frame by frame, in the order in which it is shown.
+///
+/// A file that was cut off ends with its last whole frame. Thread-bound; no threads of its own, and
+/// FFmpeg's own messages are switched off.
+class VideoReader {
+ public:
+  /// Opens a file and decodes its first frame.
+  /// @throws SetupError  naming the file, when it is missing, is no video or holds no whole frame.
+  explicit VideoReader(const std::filesystem::path& file);
+  VideoReader(VideoReader&&) noexcept;
+  VideoReader& operator=(VideoReader&&) noexcept;
+  ~VideoReader();
+
+  int width_px() const;
+  int height_px() const;
+
+  /// Gives the next frame; its pixels stay valid until the next call of Read or Skip.
+  VideoStatus Read(ImageView<const Bgr>& image);
+  /// Passes over the next frame, which costs less than to read it.
+  VideoStatus Skip();
+  /// Starts over. @throws SetupError  when the file can no longer be opened.
+  void Rewind();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,43 @@
+// Lossless video in a Matroska file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "core/image.h"
+
+namespace mocap {
+
+/// What a video's pixels are.
+enum class VideoPixels { kBgr, kGray };
+
+/// Writes every frame on its own: reading gives back the same pixels, and a file that was cut off
+/// loses no more than its last frames.
+///
+/// The same frames give the same bytes. Thread-bound; no threads of its own.
+class VideoWriter {
+ public:
+  /// Creates the file, or empties it.
+  /// @throws SetupError  when it cannot be created or the size is not one of a picture.
+  VideoWriter(const std::filesystem::path& file, int width_px, int height_px, double fps,
+              VideoPixels pixels);
+  VideoWriter(VideoWriter&&) noexcept;
+  VideoWriter& operator=(VideoWriter&&) noexcept;
+  /// Finishes the file if Finish was not called; errors are lost then.
+  ~VideoWriter();
+
+  /// Appends a frame of the kind and size given at construction.
+  /// @throws std::runtime_error  when it cannot be written (the disk is full).
+  void Write(ImageView<const Bgr> image);
+  void Write(ImageView<const std::uint8_t> image);
+
+  /// Completes the file. @throws std::runtime_error  when it cannot be written.
+  void Finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,181 @@
+#include "config/load_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/open_studio.h"
+#include "core/errors.h"
+#include "tests/support/small_take.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  Config Load(const std::string& text) {
+    testing::WriteText(file_, text);
+    return LoadConfig(file_);
+  }
+
+  std::string Error(const std::string& text) {
+    try {
+      Load(text);
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  testing::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "mocapd.toml";
+};
+
+void ExpectSame(const Config& a, const Config& b) {
+  EXPECT_EQ(a.calibration, b.calibration);
+  EXPECT_EQ(a.source.driver, b.source.driver);
+  EXPECT_EQ(a.source.take, b.source.take);
+  EXPECT_EQ(a.source.rate, b.source.rate);
+  EXPECT_EQ(a.source.loop, b.source.loop);
+  EXPECT_EQ(a.source.motion, b.source.motion);
+  EXPECT_EQ(a.source.stature_mm, b.source.stature_mm);
+  EXPECT_EQ(a.source.cameras, b.source.cameras);
+  EXPECT_EQ(a.source.fps, b.source.fps);
+  EXPECT_EQ(a.source.seed, b.source.seed);
+  EXPECT_EQ(a.voxel_mm, b.voxel_mm);
+  EXPECT_EQ(a.segmentation.detection_rate, b.segmentation.detection_rate);
+  EXPECT_EQ(a.segmentation.smallest_blob_share, b.segmentation.smallest_blob_share);
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(a.lcm.url, b.lcm.url);
+  EXPECT_EQ(a.lcm.prefix, b.lcm.prefix);
+  EXPECT_EQ(a.lcm.voxels_hz, b.lcm.voxels_hz);
+  EXPECT_EQ(a.cameras.size(), b.cameras.size());
+}
+
+TEST_F(ConfigFile, EmptyOneGivesTheDefaults) { ExpectSame(Load(""), Config{}); }
+
+TEST_F(ConfigFile, DocumentedExampleSaysTheDefaults) {
+  ExpectSame(LoadConfig(std::filesystem::path(MOCAP_SOURCE_DIR) / "config/mocapd.toml"), Config{});
+}
+
+TEST_F(ConfigFile, KeysOfTheContractAreRead) {
+  const Config config = Load(R"(calibration = "calibration.toml"
+[source]
+driver = "take"
+take = "../takes/walk"
+rate = "fast"
+loop = true
+[voxels]
+size_mm = 50
+[lcm]
+url = "udpm://239.255.76.67:7700?ttl=1"
+prefix = "STAGE_"
+[[cameras]]
+name = "cam1"
+device = "/dev/v4l/by-id/x"
+[[cameras]]
+name = "cam2"
+device = "192.168.0.7"
+)");
+  EXPECT_EQ(config.calibration, folder_.path() / "calibration.toml");
+  EXPECT_EQ(config.source.take, folder_.path().parent_path() / "takes/walk");
+  EXPECT_EQ(config.source.rate, ReplayRate::kFast);
+  EXPECT_TRUE(config.source.loop);
+  EXPECT_EQ(config.voxel_mm, 50);
+  EXPECT_EQ(config.lcm.url, "udpm://239.255.76.67:7700?ttl=1");
+  EXPECT_EQ(config.lcm.prefix, "STAGE_");
+  ASSERT_EQ(config.cameras.size(), 2u);
+  EXPECT_EQ(config.cameras[1].name, "cam2");
+  EXPECT_EQ(config.cameras[1].device, "192.168.0.7");
+}
+
+TEST_F(ConfigFile, OnlyPathsAreMadeRelativeToTheFile) {
+  EXPECT_EQ(Load("body = \"mikic2003\"").body, "mikic2003");
+  EXPECT_EQ(Load("body = \"child.toml\"").body, (folder_.path() / "child.toml").string());
+  EXPECT_EQ(Load("calibration = \"/etc/calibration.toml\"").calibration, "/etc/calibration.toml");
+}
+
+struct WrongConfig {
+  const char* text;
+  int line;
+  const char* says;
+};
+
+TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
+  const WrongConfig cases[] = {
+      {"[source\n", 1, "no TOML"},
+      {"body = 3\n", 1, "body is 3"},
+      {"bodies = \"full\"\n", 1, "bodies is unknown"},
+      {"source = 1\n", 1, "source is 1"},
+      {"[source]\ndriver = \"webcam\"\n", 2, "source.driver is \"webcam\""},
+      {"[source]\nrate = \"slow\"\n", 2, "source.rate is \"slow\""},
+      {"[source]\nloop = 1\n", 2, "source.loop is 1"},
+      {"[source]\nspeed = 2\n", 2, "source.speed is unknown"},
+      {"[source]\ndriver = \"take\"\n", 1, "source.take is missing"},
+      {"[source]\nseed = -1\n", 2, "source.seed is -1"},
+      {"[source]\ncameras = 2.5\n", 2, "source.cameras is 2.5"},
+      {"[source]\nfps = 0\n", 2, "source.fps is 0"},
+      {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
+      {"[voxels]\nsize_mm = 9.9\n", 2, "voxels.size_mm is 9.9"},
+      {"[voxels]\nsize_mm = 101\n", 2, "voxels.size_mm is 101"},
+      {"[voxels]\nsize_mm = inf\n", 2, "voxels.size_mm"},
+      {"[voxels]\nsize_mm = \"25\"\n", 2, "voxels.size_mm"},
+      {"[voxels]\nsize = 25\n", 2, "voxels.size is unknown"},
+      {"[segmentation]\ndetection_rate = 1\n", 2, "segmentation.detection_rate is 1"},
+      {"[segmentation]\nsmallest_blob_share = -0.1\n", 2, "segmentation.smallest_blob_share"},
+      {"[lcm]\nurl = \"\"\n", 2, "lcm.url is empty"},
+      {"[lcm]\nprefix = \"0123456789012345678901234567890123456789\"\n", 2, "lcm.prefix"},
+      {"[lcm]\nvoxels_hz = -1\n", 2, "lcm.voxels_hz is -1"},
+      {"[cameras]\nname = \"cam1\"\n", 1, "cameras is a table"},
+      {"[[cameras]]\nname = \"cam1\"\n", 1, "cameras[0].device is missing"},
+      {"[[cameras]]\nname = \"a b\"\ndevice = \"x\"\n", 2, "cameras[0].name"},
+      {"[[cameras]]\nname = \"a\"\ndevice = \"x\"\n[[cameras]]\nname = \"a\"\ndevice = \"y\"\n", 5,
+       "cameras[1].name"},
+      {"[[cameras]]\nname = \"a\"\ndevice = \"x\"\n[[cameras]]\nname = \"b\"\ndevice = \"x\"\n", 6,
+       "cameras[1].device"},
+  };
+  for (const WrongConfig& wrong : cases) {
+    const std::string where = file_.string() + ":" + std::to_string(wrong.line) + ": ";
+    EXPECT_THAT(Error(wrong.text),
+                AllOf(HasSubstr(where), HasSubstr(wrong.says), Not(HasSubstr("\n"))))
+        << wrong.text;
+  }
+}
+
+TEST_F(ConfigFile, LiveStudioNeedsCamerasAndCalibration) {
+  const std::string source = "[source]\ndriver = \"v4l2\"\n";
+  const std::string camera = "[[cameras]]\nname = \"a\"\ndevice = \"x\"\n";
+  EXPECT_THAT(Error("calibration = \"c.toml\"\n" + source), HasSubstr("cameras is missing"));
+  EXPECT_THAT(Error(source + camera), HasSubstr("calibration is missing"));
+  EXPECT_EQ(Error("calibration = \"c.toml\"\n" + source + camera), "none");
+}
+
+TEST_F(ConfigFile, MissingFileIsNamed) {
+  EXPECT_THROW(LoadConfig(folder_.path() / "absent.toml"), SetupError);
+}
+
+TEST_F(ConfigFile, OpensTheTakeThatItNames) {
+  testing::WriteSmallTake(folder_.path() / "take");
+  Studio studio =
+      OpenStudio(Load("[source]\ndriver = \"take\"\ntake = \"take\"\nrate = \"fast\"\n"));
+  EXPECT_EQ(studio.name, "small");
+  EXPECT_EQ(studio.cameras.size(), 3u);
+}
+
+TEST_F(ConfigFile, DriverThatIsNotInThisBuildIsNamed) {
+  Config config;
+  config.source.driver = "aravis";
+  try {
+    OpenStudio(config);
+    FAIL() << "opened";
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("\"aravis\""));
+  }
+}
+
+}  // namespace
+}  // namespace mocap

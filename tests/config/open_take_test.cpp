@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "config/open_studio.h"
+#include "core/errors.h"
+#include "drivers/take_layout.h"
+#include "tests/support/images.h"
+#include "tests/support/small_take.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ReplaceInFile;
+using testing::SmallTake;
+using testing::WriteText;
+
+std::vector<std::string> NamesOf(const Studio& studio) {
+  std::vector<std::string> names;
+  for (const StudioCamera& camera : studio.cameras) names.push_back(camera.calibration.name);
+  return names;
+}
+
+int CountFrames(CameraDriver& driver) {
+  driver.Start();
+  Frame frame;
+  int frames = 0;
+  while (driver.Grab(frame, milliseconds(0)) == GrabStatus::kFrame) ++frames;
+  return frames;
+}
+
+class OpenedTake : public ::testing::Test {
+ protected:
+  std::string ErrorOnOpening(const TakeOptions& options = {}) const {
+    try {
+      OpenTake(layout_.folder, options);
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  testing::TemporaryFolder folder_;
+  TakeLayout layout_{folder_.path() / "take"};
+  SmallTake take_;
+};
+
+TEST_F(OpenedTake, GivesWhatWasWritten) {
+  WriteSmallTake(layout_.folder, take_);
+  const Studio studio = OpenTake(layout_.folder, {});
+  EXPECT_EQ(studio.name, "small");
+  EXPECT_EQ(studio.fps_nominal, 25);
+  EXPECT_THAT(NamesOf(studio), ElementsAre("cam1", "cam2", "cam3"));
+  for (int camera = 0; camera < take_.cameras; ++camera) {
+    CameraDriver& driver = *studio.cameras[camera].driver;
+    driver.Start();
+    Frame frame;
+    for (int i = 0; i < take_.frames; ++i) {
+      ASSERT_EQ(driver.Grab(frame, milliseconds(0)), GrabStatus::kFrame);
+      EXPECT_EQ(frame.capture_ns, take_.TimeNs(camera, i));
+      EXPECT_TRUE(testing::SamePixels<Bgr>(frame.image, SmallPicture(take_, camera, i).view()));
+    }
+    EXPECT_EQ(driver.Grab(frame, milliseconds(0)), GrabStatus::kEnd);
+  }
+}
+
+TEST_F(OpenedTake, BackgroundComesWithTheAnglesOfTheHead) {
+  take_.heads = true;
+  WriteSmallTake(layout_.folder, take_);
+  const Studio studio = OpenTake(layout_.folder, {});
+  const std::vector<BackgroundFrame> background = studio.cameras[1].background();
+  ASSERT_EQ(background.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(background[i].angles, take_.Angles(1, i));
+    EXPECT_TRUE(testing::SamePixels<Bgr>(background[i].image.view(),
+                                         SmallPicture(take_, 1, 100 + i).view()));
+  }
+}
+
+TEST_F(OpenedTake, ChosenCamerasKeepTheOrderOfTheTake) {
+  WriteSmallTake(layout_.folder, take_);
+  const TakeOptions options{.rate = ReplayRate::kFast, .loop = false, .cameras = {"cam3", "cam1"}};
+  EXPECT_THAT(NamesOf(OpenTake(layout_.folder, options)), ElementsAre("cam1", "cam3"));
+}
+
+TEST_F(OpenedTake, UnknownCameraIsNamedWithThoseThatAreThere) {
+  WriteSmallTake(layout_.folder, take_);
+  const TakeOptions options{.rate = ReplayRate::kFast, .loop = false, .cameras = {"cam9"}};
+  EXPECT_THAT(ErrorOnOpening(options), AllOf(HasSubstr("cam9"), HasSubstr("cam1, cam2, cam3")));
+}
+
+TEST_F(OpenedTake, CutOffVideoGivesAShorterRun) {
+  WriteSmallTake(layout_.folder, take_);
+  testing::CutFile(layout_.Video("cam2"), 0.5);
+  const Studio studio = OpenTake(layout_.folder, {});
+  EXPECT_EQ(CountFrames(*studio.cameras[0].driver), take_.frames);
+  const int frames = CountFrames(*studio.cameras[1].driver);
+  EXPECT_GE(frames, 4);
+  EXPECT_LE(frames, 6);
+}
+
+TEST_F(OpenedTake, CutOffTableGivesAShorterRun) {
+  WriteSmallTake(layout_.folder, take_);
+  testing::CutFile(layout_.Table("cam2"), 0.5);
+  const Studio studio = OpenTake(layout_.folder, {});
+  const int frames = CountFrames(*studio.cameras[1].driver);
+  EXPECT_GE(frames, 4);
+  EXPECT_LE(frames, 6);
+}
+
+TEST_F(OpenedTake, InterruptedRecordingOpens) {
+  {
+    TakeWriter writer(layout_.folder, testing::SmallDescription({.cameras = 1}));
+    writer.WriteBackground(0, SmallPicture(take_, 0, 50).view(), 1);
+    for (int i = 0; i < 3; ++i) writer.WriteFrame(0, SmallPicture(take_, 0, i).view(), 10 + i);
+  }
+  const Studio studio = OpenTake(layout_.folder.string() + ".partial", {});
+  EXPECT_EQ(CountFrames(*studio.cameras[0].driver), 3);
+}
+
+struct Damage {
+  const char* name;
+  std::function<void(const TakeLayout&)> change;
+  const char* file;  ///< That the message must name.
+};
+
+TEST_F(OpenedTake, EveryDamageIsOneLineThatNamesTheFile) {
+  using std::filesystem::remove;
+  const Damage cases[] = {
+      {"no take.toml", [](const TakeLayout& t) { remove(t.Description()); }, "take.toml"},
+      {"no calibration", [](const TakeLayout& t) { remove(t.Calibration()); }, "calibration.toml"},
+      {"no background", [](const TakeLayout& t) { remove_all(t.folder / "background"); },
+       "background/cam1.mkv"},
+      {"no table", [](const TakeLayout& t) { remove(t.Table("cam2")); }, "cam2.csv"},
+      {"no video", [](const TakeLayout& t) { remove(t.Video("cam3")); }, "cam3.mkv"},
+      {"video is text", [](const TakeLayout& t) { WriteText(t.Video("cam3"), "no video\n"); },
+       "cam3.mkv"},
+      {"video is empty", [](const TakeLayout& t) { WriteText(t.Video("cam3"), ""); }, "cam3.mkv"},
+      {"background is text",
+       [](const TakeLayout& t) { WriteText(t.BackgroundVideo("cam2"), "no video\n"); },
+       "background/cam2.mkv"},
+      {"empty table", [](const TakeLayout& t) { WriteText(t.Table("cam2"), ""); }, "cam2.csv:1"},
+      {"words in table",
+       [](const TakeLayout& t) { ReplaceInFile(t.Table("cam2"), "\n1,", "\nx,"); }, "cam2.csv:3"},
+      {"times go back",
+       [](const TakeLayout& t) {
+         WriteText(t.Table("cam3"), "frame,timestamp_ns\n0,1000\n1,999\n");
+       },
+       "cam3.csv:3"},
+      {"other size",
+       [](const TakeLayout& t) { ReplaceInFile(t.Calibration(), "[68, 50]", "[50, 68]"); },
+       "cam1.mkv"},
+      {"camera not calibrated",
+       [](const TakeLayout& t) { ReplaceInFile(t.Calibration(), "cam2", "cam7"); },
+       "calibration.toml"},
+      {"angles without a head",
+       [](const TakeLayout& t) {
+         WriteText(t.Table("cam1"), "frame,timestamp_ns,pan_rad,tilt_rad\n0,5,0.1,0\n");
+       },
+       "cam1.csv"},
+      {"head without angles",
+       [](const TakeLayout& t) {
+         ReplaceInFile(t.Calibration(), "\n[cameras.cam2]",
+                       "[cameras.cam1.pan_tilt]\npan_axis = [0, 0, 1]\npan_point_mm = [0, 0, 0]\n"
+                       "tilt_axis = [1, 0, 0]\ntilt_point_mm = [0, 0, 0]\n[cameras.cam2]");
+       },
+       "cam1.csv:1"},
+      {"years between cameras",
+       [](const TakeLayout& t) {
+         WriteText(t.Table("cam1"), "frame,timestamp_ns\n0,5\n");
+         WriteText(t.Table("cam2"), "frame,timestamp_ns\n0,1000000000000000000\n");
+       },
+       "take"},
+      {"no rate", [](const TakeLayout& t) { ReplaceInFile(t.Description(), "25.0", "0"); },
+       "take.toml:2"},
+      {"camera twice", [](const TakeLayout& t) { ReplaceInFile(t.Description(), "cam2", "cam1"); },
+       "take.toml:3"},
+      {"camera elsewhere",
+       [](const TakeLayout& t) { ReplaceInFile(t.Description(), "cam2", "../take/cam2"); },
+       "take.toml:3"},
+      {"no cameras",
+       [](const TakeLayout& t) {
+         ReplaceInFile(t.Description(), "[\"cam1\", \"cam2\", \"cam3\"]", "[]");
+       },
+       "take.toml:3"},
+      {"no take", [](const TakeLayout& t) { remove_all(t.folder); }, "take"},
+  };
+  const testing::TemporaryFolder whole;
+  WriteSmallTake(whole.path() / "take", take_);
+  for (const Damage& damage : cases) {
+    std::filesystem::remove_all(layout_.folder);
+    std::filesystem::copy(whole.path() / "take", layout_.folder,
+                          std::filesystem::copy_options::recursive);
+    damage.change(layout_);
+    EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(folder_.path().string()), HasSubstr(damage.file),
+                                        Not(HasSubstr("\n"))))
+        << damage.name;
+  }
+}
+
+// Recordings of other makers: H.264, MPEG-4 with B-frames, sizes that are no multiple of eight.
+TEST(SharedTakes, EveryRowHasItsFrame) {
+  const std::filesystem::path takes = std::filesystem::path(MOCAP_SHARED_DIR) / "takes";
+  if (!std::filesystem::exists(takes)) GTEST_SKIP() << takes << " is not on this machine";
+  const std::pair<const char*, int> cases[] = {{"jump_woman162", 90}, {"real_seated", 426}};
+  for (const auto& [name, frames] : cases) {
+    const TakeOptions options{.rate = ReplayRate::kFast, .loop = false, .cameras = {"cam2"}};
+    const Studio studio = OpenTake(takes / name, options);
+    EXPECT_EQ(CountFrames(*studio.cameras[0].driver), frames) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,114 @@
+#include "core/motion_capture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "config/load_config.h"
+#include "core/body/stance.h"
+#include "tests/support/voxelized_body.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kFrameNs = 33'333'333;
+
+// A body that strolls along x with swinging arms and legs, feet near the floor.
+PoseState Stroll(const BodyModel& body, int frame) {
+  const double swing = std::sin(0.2 * frame);
+  PoseState pose;
+  pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.3));
+  pose.X_WT.p = Vector3(15.0 * frame, 5.0 * frame,
+                        body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+  pose.theta = AnglesOf({.raise_l = -70,
+                         .raise_r = -70,
+                         .forward_l = 20 * swing,
+                         .forward_r = -20 * swing,
+                         .elbow_l = 25,
+                         .elbow_r = 25,
+                         .hip_l = -20 * swing,
+                         .hip_r = 20 * swing,
+                         .knee_l = 15 + 10 * swing,
+                         .knee_r = 15 - 10 * swing},
+                        body.table());
+  return pose;
+}
+
+double MeanError(const BodyModel& truth, const PoseState& pose, const CaptureResult& result) {
+  const BodyPoints expected = truth.PointsAt(truth.PostureAt(pose));
+  return (result.points_W - expected).colwise().norm().mean();
+}
+
+class Capture : public testing::TestWithParam<std::string> {
+ protected:
+  const CaptureResult& See(const BodyModel& person, int frame) {
+    return capture_.Update(Voxelize(person, Stroll(person, frame), 25), NextNs());
+  }
+  const CaptureResult& SeeNobody() {
+    VoxelGrid empty;
+    empty.Reset({0, 0, 0}, {0, 0, 0}, 25);
+    return capture_.Update(empty, NextNs());
+  }
+  std::int64_t NextNs() { return now_ns_ += kFrameNs; }
+
+  BodyTable table_ = LoadBodyTable(GetParam());
+  MotionCapture capture_{table_};
+  std::int64_t now_ns_ = 1'000'000'000'000;
+};
+
+TEST_P(Capture, MeasuresAndFollowsAPersonFromTheFirstFrameOn) {
+  const BodyModel person(table_, AverageSizes(1750));
+  for (int frame = 0; frame < 10; ++frame) See(person, frame);
+  EXPECT_LE(capture_.acquisition_frames(), 10);
+  EXPECT_GT(capture_.acquisition_frames(), 0);
+  for (int frame = 10; frame < 40; ++frame) {
+    const CaptureResult& result = See(person, frame);
+    ASSERT_EQ(result.state, CaptureState::kTracking) << "frame " << frame;
+    EXPECT_LT(MeanError(person, Stroll(person, frame), result), 70) << "frame " << frame;
+  }
+  EXPECT_NEAR(capture_.body().sizes().Stature(), 1750, 80);
+}
+
+TEST_P(Capture, SaysThatNobodyIsThereAndMeasuresTheNextPersonAnew) {
+  const BodyModel tall(table_, AverageSizes(1850));
+  const BodyModel child(table_, AverageSizes(1300));
+  for (int frame = 0; frame < 12; ++frame) See(tall, frame);
+  const double tall_mm = capture_.body().sizes().Stature();
+  for (int frame = 0; frame < 40; ++frame) SeeNobody();
+  EXPECT_EQ(SeeNobody().state, CaptureState::kSearching);
+  for (int frame = 0; frame < 12; ++frame) See(child, frame);
+  EXPECT_EQ(See(child, 12).state, CaptureState::kTracking);
+  EXPECT_LT(capture_.body().sizes().Stature(), tall_mm - 300);
+}
+
+TEST_P(Capture, KeepsTheBodyOfAPersonWhoWasGoneForAMoment) {
+  const BodyModel person(table_, AverageSizes(1750));
+  for (int frame = 0; frame < 12; ++frame) See(person, frame);
+  const double before = capture_.body().sizes().Stature();
+  EXPECT_EQ(SeeNobody().state, CaptureState::kLost);
+  for (int frame = 12; frame < 16; ++frame) See(person, frame);
+  EXPECT_EQ(See(person, 16).state, CaptureState::kTracking);
+  EXPECT_EQ(capture_.body().sizes().Stature(), before);
+}
+
+TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
+  const BodyModel person(table_, AverageSizes(1600));
+  MotionCapture again(table_);
+  for (int frame = 0; frame < 8; ++frame) {
+    const VoxelGrid grid = Voxelize(person, Stroll(person, frame), 25);
+    const std::int64_t now_ns = NextNs();
+    const CaptureResult first = capture_.Update(grid, now_ns);
+    const CaptureResult second = again.Update(grid, now_ns);
+    ASSERT_EQ(first.state, second.state);
+    ASSERT_EQ(first.points_W, second.points_W);
+    ASSERT_EQ(first.point_std_mm, second.point_std_mm);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Capture, testing::Values("mikic2003", "full"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace mocap

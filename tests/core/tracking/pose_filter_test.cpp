@@ -1,0 +1,110 @@
+#include "core/tracking/pose_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "config/load_config.h"
+
+namespace mocap {
+namespace {
+
+class Filter : public testing::Test {
+ protected:
+  PoseState Upright() const {
+    PoseState pose;
+    pose.X_WT.p = Vector3(100, 200, 1200);
+    pose.theta = JointAngles::Zero(body_.joint_count());
+    for (int i = 0; i < body_.joint_count(); ++i) {
+      const JointAxis& joint = body_.table().joints[i];
+      pose.theta[i] = 0.5 * (joint.min_rad + joint.max_rad);
+    }
+    return pose;
+  }
+
+  // Measures all 23 points of a true pose.
+  PoseFilter::Linearize PointsOf(const PoseState& truth, double std_mm) const {
+    const BodyPoints measured_W = body_.PointsAt(body_.PostureAt(truth));
+    return [this, measured_W, std_mm](const PoseState& pose, UpdateEquations& equations) {
+      const Posture posture = body_.PostureAt(pose);
+      const BodyPoints points_W = body_.PointsAt(posture);
+      Eigen::Matrix<double, 3, Eigen::Dynamic> J(3, body_.dof());
+      for (int i = 0; i < kPointCount; ++i) {
+        body_.PointJacobian(posture, body_.CarrierOf(static_cast<Point>(i)), points_W.col(i), J);
+        equations.AddPoint(J, measured_W.col(i) - points_W.col(i), std_mm * std_mm);
+      }
+    };
+  }
+
+  BodyModel body_{LoadBodyTable("mikic2003"), AverageSizes(1750)};
+};
+
+TEST_F(Filter, FindsThePoseWhosePointsWereMeasured) {
+  PoseState truth = Upright();
+  truth.X_WT.R = ExpRotation(Vector3(0.1, -0.2, 0.4));
+  truth.X_WT.p += Vector3(30, -40, 20);
+  truth.theta.array() += 0.15;
+  PoseFilter filter{MotionNoise{}};
+  filter.Reset(Upright(), 200, 1);
+  filter.Update(body_.table(), PointsOf(truth, 1), 8);
+  EXPECT_NEAR(filter.pose().Minus(truth).norm(), 0, 0.05);
+}
+
+TEST_F(Filter, FollowsAConstantMotionWithoutLag) {
+  constexpr double kFrameS = 1.0 / 30;
+  constexpr double kSpeed = 1500;  // mm/s
+  PoseState truth = Upright();
+  PoseFilter filter{MotionNoise{}};
+  filter.Reset(truth, 50, 0.3);
+  for (int frame = 0; frame < 30; ++frame) {
+    truth.X_WT.p.x() += kSpeed * kFrameS;
+    filter.Predict(kFrameS);
+    filter.Update(body_.table(), PointsOf(truth, 10), 3);
+  }
+  filter.Predict(kFrameS);
+  const double predicted = filter.pose().X_WT.p.x() - truth.X_WT.p.x();
+  EXPECT_GT(predicted, 0.8 * kSpeed * kFrameS);
+  EXPECT_LT(predicted, 1.1 * kSpeed * kFrameS);
+}
+
+TEST_F(Filter, KeepsItsCovarianceSymmetricAndPositiveOverHours) {
+  PoseFilter filter{MotionNoise{}};
+  filter.Reset(Upright(), 50, 0.3);
+  for (int frame = 0; frame < 20000; ++frame) {
+    filter.Predict(frame % 7 == 0 ? 0.2 : 1.0 / 30);
+    if (frame % 3 != 0) filter.Update(body_.table(), PointsOf(Upright(), 5), 1);
+  }
+  const PoseCovariance& P = filter.covariance();
+  EXPECT_EQ((P - P.transpose()).norm(), 0);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<PoseCovariance>(P).eigenvalues().minCoeff(), 0);
+}
+
+TEST_F(Filter, HoldsAJointAtItsLimitAndMovesTheRest) {
+  PoseState beyond = Upright();
+  const int knee = 15 - 1;
+  int row = -1;
+  for (int i = 0; i < body_.joint_count(); ++i) {
+    if (body_.table().joints[i].paper_angle == knee + 1) row = i;
+  }
+  ASSERT_GE(row, 0);
+  beyond.theta[row] = body_.table().joints[row].min_rad - 0.5;  // a knee that bends forward
+  PoseFilter filter{MotionNoise{}};
+  PoseState start = beyond;
+  start.theta[row] = 0.2;
+  filter.Reset(start, 200, 1);
+  filter.Update(body_.table(), PointsOf(beyond, 20), 10);
+  EXPECT_GT(filter.pose().theta[row], body_.table().joints[row].min_rad - 0.05);
+}
+
+TEST_F(Filter, LearnsNothingFromNoMeasurement) {
+  PoseFilter filter{MotionNoise{}};
+  filter.Reset(Upright(), 50, 0.3);
+  const PoseCovariance before = filter.covariance();
+  filter.Update(
+      body_.table(), [](const PoseState&, UpdateEquations&) {}, 2);
+  EXPECT_NEAR((filter.covariance() - before).norm() / before.norm(), 0, 1e-9);
+  EXPECT_NEAR(filter.pose().Minus(Upright()).norm(), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace mocap

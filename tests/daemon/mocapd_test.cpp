@@ -1,0 +1,222 @@
+// The daemon as a program: its messages in another process, its exit status, its errors.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <mocap/body_t.hpp>
+#include <mocap/pose_t.hpp>
+#include <mocap/status_t.hpp>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "daemon/pose_publisher.h"
+#include "tests/support/small_take.h"
+#include "tests/support/temporary_folder.h"
+
+extern char** environ;
+
+namespace mocap {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using testing::SmallTake;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+
+/// Nobody comes: there is next to nothing to compute, so that even a slow machine keeps up.
+void WriteEmptyTake(const std::filesystem::path& folder, const SmallTake& take = {}) {
+  constexpr int kBackgroundFrames = 10;
+  const Image<Bgr> room = testing::SmallPicture(take, 0, 0);
+  TakeWriter writer(folder, testing::SmallDescription(take));
+  for (int camera = 0; camera < take.cameras; ++camera) {
+    for (int frame = 0; frame < kBackgroundFrames; ++frame) {
+      writer.WriteBackground(camera, room.view(), take.TimeNs(camera, frame), {});
+    }
+    for (int frame = 0; frame < take.frames; ++frame) {
+      writer.WriteFrame(camera, room.view(), take.TimeNs(camera, frame), {});
+    }
+  }
+  writer.Finish();
+}
+
+/// A run of mocapd whose standard error goes to a file.
+class Daemon {
+ public:
+  Daemon(std::vector<std::string> arguments, const std::filesystem::path& log) : log_(log) {
+    arguments.insert(arguments.begin(), std::string(MOCAP_BIN_DIR) + "/mocapd");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    MOCAP_CHECK(posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ) == 0);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  ~Daemon() {
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      Wait();
+    }
+  }
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  void Signal(int signal) const {
+    if (pid_ > 0) kill(pid_, signal);
+  }
+  bool HasEnded() {
+    if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = 0;
+    return pid_ == 0;
+  }
+  /// Exit status, or minus the signal that ended it.
+  int Wait() {
+    if (pid_ > 0) waitpid(pid_, &status_, 0);
+    pid_ = 0;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
+  }
+  std::string Errors() const { return testing::ReadText(log_); }
+
+ private:
+  const std::filesystem::path log_;
+  pid_t pid_ = 0;
+  int status_ = 0;
+};
+
+/// Collects what the daemon says.
+class Listener {
+ public:
+  explicit Listener(lcm::LCM& lcm) {
+    lcm.subscribe("T_MOCAP_POSE", &Listener::OnPose, this)->setQueueCapacity(1000);
+    lcm.subscribe("T_MOCAP_BODY", &Listener::OnBody, this);
+    lcm.subscribe("T_MOCAP_STATUS", &Listener::OnStatus, this);
+  }
+  std::vector<pose_t> poses;
+  std::vector<body_t> bodies;
+  std::vector<status_t> statuses;
+
+ private:
+  void OnPose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* message) {
+    poses.push_back(*message);
+  }
+  void OnBody(const lcm::ReceiveBuffer*, const std::string&, const body_t* message) {
+    bodies.push_back(*message);
+  }
+  void OnStatus(const lcm::ReceiveBuffer*, const std::string&, const status_t* message) {
+    statuses.push_back(*message);
+  }
+};
+
+class MocapdTest : public ::testing::Test {
+ protected:
+  /// A port of this process's own, so that tests at the same time do not hear each other.
+  const std::string url_ =
+      "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 40000) + "?ttl=0";
+  TemporaryFolder folder_;
+  const std::filesystem::path log_ = folder_.path() / "errors";
+
+  std::string WriteConfig(const std::string& source) {
+    const std::filesystem::path file = folder_.path() / "mocapd.toml";
+    testing::WriteText(file,
+                       "[source]\n" + source + "[lcm]\nurl = \"" + url_ + "\"\nprefix = \"T_\"\n");
+    return file;
+  }
+  /// Null, with the reason, where LCM has no way out.
+  std::unique_ptr<lcm::LCM> Open(std::string& reason) {
+    try {
+      return OpenLcm(url_);
+    } catch (const SetupError& error) {
+      reason = error.what();
+      return nullptr;
+    }
+  }
+};
+
+TEST_F(MocapdTest, PublishesEverySetOfATakeInRealTimeInOrder) {
+  std::string reason;
+  const std::unique_ptr<lcm::LCM> lcm = Open(reason);
+  if (!lcm) GTEST_SKIP() << reason;
+  const SmallTake take{.frames = 20, .interval_ns = 150'000'000};
+  WriteEmptyTake(folder_.path() / "take", take);
+  Listener listener(*lcm);
+  Daemon daemon(
+      {"--config", WriteConfig("driver = \"take\"\ntake = \"take\"\nrate = \"realtime\"\n")}, log_);
+  while (!daemon.HasEnded()) lcm->handleTimeout(50);
+  while (lcm->handleTimeout(50) > 0) {
+  }
+  EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
+  ASSERT_GE(listener.poses.size(), 0.99 * take.frames);
+  for (std::size_t i = 0; i < listener.poses.size(); ++i) {
+    EXPECT_EQ(listener.poses[i].frame, static_cast<std::int64_t>(i));
+    EXPECT_GE(listener.poses[i].complete_utime, listener.poses[i].utime);
+    EXPECT_GE(listener.poses[i].publish_utime, listener.poses[i].complete_utime);
+    EXPECT_THAT(listener.poses[i].camera_used, ::testing::Each(1));
+  }
+  EXPECT_GE(listener.bodies.size(), 3u) << "one a second";
+  ASSERT_GE(listener.statuses.size(), 3u);
+  const status_t& last = listener.statuses.back();
+  EXPECT_EQ(last.sets_dropped, 0);
+  ASSERT_EQ(last.cameras.size(), 3u);
+  EXPECT_EQ(last.cameras[0].name, "cam1");
+}
+
+TEST_F(MocapdTest, ASignalEndsItCleanly) {
+  std::string reason;
+  const std::unique_ptr<lcm::LCM> lcm = Open(reason);
+  if (!lcm) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Listener listener(*lcm);
+    Daemon daemon({"--config", WriteConfig("driver = \"take\"\ntake = \"take\"\nloop = true\n")},
+                  log_);
+    while (listener.poses.empty() && !daemon.HasEnded()) lcm->handleTimeout(50);
+    daemon.Signal(signal);
+    EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
+    EXPECT_THAT(daemon.Errors(), HasSubstr(" sets, "));
+    while (lcm->handleTimeout(10) > 0) {
+    }
+  }
+}
+
+TEST_F(MocapdTest, WrongInputIsOneLineAndStatusTwo) {
+  const std::string config = WriteConfig("driver = \"take\"\ntake = \"absent\"\n");
+  const std::string broken = folder_.path() / "broken.toml";
+  testing::WriteText(broken, "[source\n");
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--config", folder_.path() / "nothing.toml"},
+      {"--config", broken},
+      {"--config", config, "--check-config"},
+      {"--seconds", "soon"},
+      {"--seconds", "-1"},
+      {"--frobnicate"}};
+  for (const std::vector<std::string>& arguments : wrong) {
+    Daemon daemon(arguments, log_);
+    EXPECT_EQ(daemon.Wait(), 2) << arguments[0];
+    const std::string errors = daemon.Errors();
+    EXPECT_THAT(errors, StartsWith("mocapd: "));
+    EXPECT_THAT(errors, EndsWith("\n"));
+    EXPECT_EQ(std::ranges::count(errors, '\n'), 1) << errors;
+  }
+}
+
+TEST_F(MocapdTest, CheckConfigAcceptsWhatCanBeUsed) {
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string config = WriteConfig("driver = \"take\"\ntake = \"take\"\n");
+  EXPECT_EQ(Daemon({"--config", config, "--check-config"}, log_).Wait(), 0);
+  EXPECT_EQ(Daemon({"--check-config"}, log_).Wait(), 0) << "the simulated studio";
+}
+
+}  // namespace
+}  // namespace mocap

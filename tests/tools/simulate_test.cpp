@@ -1,0 +1,88 @@
+#include "tools/simulate.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "config/open_studio.h"
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Simulate : public testing::Test {
+ protected:
+  Simulate()
+      : folder_(fs::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Simulate() override { fs::remove_all(folder_); }
+
+  fs::path Run(const std::string& name, const std::string& options) {
+    CLI::App app("mocap");
+    AddSimulateCommand(app);
+    app.parse("simulate --out " + (folder_ / name).string() + " " + options);
+    return folder_ / name;
+  }
+
+  fs::path folder_;
+};
+
+std::string Content(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+TEST_F(Simulate, WritesATakeThatOpensWithTruthAndMasks) {
+  const fs::path take = Run("take", "--motion stand --seconds 0.1 --cameras 4");
+  Studio studio = OpenTake(take, {});
+  ASSERT_EQ(studio.cameras.size(), 4u);
+  EXPECT_EQ(studio.cameras[0].background().size(), 40u);
+  for (StudioCamera& camera : studio.cameras) {
+    camera.driver->Start();
+    Frame frame;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_EQ(camera.driver->Grab(frame, std::chrono::seconds(1)), GrabStatus::kFrame);
+    EXPECT_EQ(camera.driver->Grab(frame, std::chrono::seconds(1)), GrabStatus::kEnd);
+    camera.driver->Stop();
+    EXPECT_TRUE(fs::exists(take / "silhouette" / (camera.calibration.name + ".mkv")));
+  }
+  const std::string truth = Content(take / "truth.csv");
+  EXPECT_EQ(truth.substr(0, truth.find("_z_mm")),
+            "frame,timestamp_ns,pelvis_x_mm,pelvis_y_mm,pelvis");
+  EXPECT_NE(truth.find(",toe_r_x_mm,toe_r_y_mm,toe_r_z_mm\n0,1000000000000,"), std::string::npos);
+  EXPECT_NE(Content(take / "truth.toml").find("lower_arm_mm"), std::string::npos);
+}
+
+TEST_F(Simulate, TheSameOptionsGiveTheSameBytes) {
+  const std::string options = "--seconds 0.1 --cameras 2 --stature 1400 --seed 9 --fps 20";
+  // The name of a take is its folder's.
+  const fs::path first = Run("a/take", options), second = Run("b/take", options);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(first)) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_EQ(Content(entry.path()), Content(second / fs::relative(entry.path(), first)))
+        << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 12);
+}
+
+TEST_F(Simulate, RefusesWhatCannotBe) {
+  EXPECT_THROW(Run("take", "--motion fly"), SetupError);
+  EXPECT_THROW(Run("take", "--stature 20"), SetupError);
+  EXPECT_THROW(Run("take", "--seconds 0"), SetupError);
+  EXPECT_THROW(Run("take", "--cameras 0"), SetupError);
+  EXPECT_FALSE(fs::exists(folder_ / "take"));
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,115 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tools/csv_writer.h"
+#include "tools/trc_writer.h"
+
+namespace mocap {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Two frames 50 ms apart; the second is lost and has no pose.
+Result TwoFrames() {
+  Result result;
+  result.poses.resize(2);
+  PoseRow& row = result.poses[0];
+  row.frame = 7;
+  row.timestamp_ns = 1'700'000'000'000'000'000;
+  row.state = CaptureState::kTracking;
+  row.has_pose = true;
+  row.paper.theta_rad[15] = 0.25;
+  row.points_W.col(static_cast<int>(Point::kFingertipsR)) = Vector3(100, -300, 2150);
+  row.residual_mm = 12.5;
+  row.voxels = 4321;
+  result.poses[1].frame = 8;
+  result.poses[1].timestamp_ns = row.timestamp_ns + 50'000'000;
+  result.poses[1].state = CaptureState::kLost;
+  return result;
+}
+
+std::vector<std::vector<std::string>> Cells(const std::string& text, char separator) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string>& row = rows.emplace_back();
+    std::istringstream cells(line + separator);
+    for (std::string cell; std::getline(cells, cell, separator);) row.push_back(cell);
+  }
+  return rows;
+}
+
+TEST(TrcWriter, WritesTheHeaderThatOpenSimReads) {
+  std::ostringstream text;
+  WriteTrc(TwoFrames(), "walk.trc", text);
+  const auto rows = Cells(text.str(), '\t');
+  ASSERT_EQ(rows.size(), 8u);
+  EXPECT_THAT(rows[0], ElementsAre("PathFileType", "4", "(X/Y/Z)", "walk.trc"));
+  EXPECT_THAT(rows[1], ElementsAre("DataRate", "CameraRate", "NumFrames", "NumMarkers", "Units",
+                                   "OrigDataRate", "OrigDataStartFrame", "OrigNumFrames"));
+  EXPECT_THAT(rows[2],
+              ElementsAre("20.000000", "20.000000", "2", "23", "mm", "20.000000", "1", "2"));
+  EXPECT_EQ(rows[3][0], "Frame#");
+  EXPECT_EQ(rows[3][2 + 3 * 18], "fingertips_r");
+  EXPECT_EQ(rows[4][2 + 3 * 18], "X19");
+  EXPECT_EQ(rows[4].back(), "Z23");
+}
+
+TEST(TrcWriter, TurnsTheWorldYUpWithoutMirroringIt) {
+  std::ostringstream text;
+  WriteTrc(TwoFrames(), "walk.trc", text);
+  const auto rows = Cells(text.str(), '\t');
+  const std::vector<std::string>& row = rows[6];
+  ASSERT_EQ(row.size(), 2u + 3 * 23);
+  EXPECT_EQ(row[0], "1");
+  // World (100, -300, 2150): 100 before the origin, 300 to the right, 2150 up.
+  EXPECT_EQ(row[2 + 3 * 18], "-300.000");
+  EXPECT_EQ(row[3 + 3 * 18], "2150.000");
+  EXPECT_EQ(row[4 + 3 * 18], "100.000");
+}
+
+TEST(TrcWriter, LeavesCellsOfAFrameNotTrackedEmpty) {
+  std::ostringstream text;
+  WriteTrc(TwoFrames(), "walk.trc", text);
+  const auto rows = Cells(text.str(), '\t');
+  const std::vector<std::string>& row = rows[7];
+  ASSERT_EQ(row.size(), 2u + 3 * 23);
+  EXPECT_EQ(row[0], "2");
+  EXPECT_EQ(row[1], "0.050000");
+  EXPECT_THAT(std::vector(row.begin() + 2, row.end()), testing::Each(IsEmpty()));
+}
+
+TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {
+  std::ostringstream text;
+  WriteCsv(TwoFrames(), text);
+  const auto rows = Cells(text.str(), ',');
+  ASSERT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  const auto cell = [&](int row, const std::string& name) {
+    const auto column = std::ranges::find(rows[0], name) - rows[0].begin();
+    return rows.at(row).at(column);
+  };
+  EXPECT_EQ(cell(1, "time_s"), "0.000000");
+  EXPECT_EQ(cell(2, "time_s"), "0.050000");
+  EXPECT_EQ(cell(1, "utime_us"), "1700000000000000");
+  EXPECT_EQ(cell(1, "frame"), "7");
+  EXPECT_EQ(cell(1, "state"), "tracking");
+  EXPECT_EQ(cell(1, "theta_16_rad"), "0.250000");
+  EXPECT_EQ(cell(1, "fingertips_r_x_mm"), "100.000");
+  EXPECT_EQ(cell(1, "fingertips_r_y_mm"), "-300.000");
+  EXPECT_EQ(cell(1, "fingertips_r_z_mm"), "2150.000");
+  EXPECT_EQ(cell(1, "residual_mm"), "12.500");
+  EXPECT_EQ(cell(1, "voxels"), "4321");
+  EXPECT_EQ(cell(2, "state"), "lost");
+  EXPECT_EQ(cell(2, "torso_x_mm"), "");
+  EXPECT_EQ(cell(2, "residual_mm"), "");
+  EXPECT_EQ(cell(2, "voxels"), "0");
+}
+
+}  // namespace
+}  // namespace mocap

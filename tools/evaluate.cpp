@@ -1,0 +1,65 @@
+#include "tools/evaluate.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "tools/evaluation.h"
+#include "tools/evaluation_text.h"
+#include "tools/hull_overlap.h"
+#include "tools/report.h"
+#include "tools/take_samples.h"
+
+namespace mocap {
+namespace {
+
+struct EvaluateArguments {
+  std::filesystem::path take;
+  std::filesystem::path result;
+  std::filesystem::path report;
+  bool json = false;
+};
+
+std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
+                                       const Evaluation& evaluation) {
+  // Opened before the work, to find out at once whether its result can be kept.
+  std::ofstream out(arguments.report, std::ios::binary);
+  if (!out) throw SetupError("--report: " + arguments.report.string() + " cannot be written");
+  const TakeSamples samples =
+      SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
+  std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
+  out << ReportHtml(evaluation, samples, overlaps);
+  out.close();
+  if (!out) throw std::runtime_error(arguments.report.string() + ": not written to its end");
+  return overlaps;
+}
+
+void RunEvaluate(const EvaluateArguments& arguments) {
+  const Evaluation evaluation = Evaluate(arguments.take, arguments.result);
+  std::vector<CameraOverlap> overlaps;
+  if (!arguments.report.empty()) overlaps = WriteReport(arguments, evaluation);
+  const std::string text =
+      arguments.json ? EvaluationJson(evaluation, overlaps) : EvaluationText(evaluation);
+  std::fputs(text.c_str(), stdout);
+}
+
+}  // namespace
+
+void AddEvaluateCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* command = app.add_subcommand("evaluate", "Says how good a result is");
+  command->add_option("TAKE", arguments->take, "the take's folder")->required();
+  command->add_option("RESULT", arguments->result, "folder of mocap track, or an LCM log")
+      ->required();
+  command->add_option("--report", arguments->report,
+                      "HTML file to write: figures, camera views, tables");
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->callback([arguments] { RunEvaluate(*arguments); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,11 @@
+// `mocap evaluate`: how good a result is.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mocap {
+
+/// Adds the subcommand `evaluate TAKE RESULT [--report FILE.html] [--json]`.
+void AddEvaluateCommand(CLI::App& app);
+
+}  // namespace mocap

@@ -1,0 +1,11 @@
+// `mocap export`: a result for other programs.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mocap {
+
+/// Adds the subcommand `export RESULT --format bvh|trc|csv --out FILE`.
+void AddExportCommand(CLI::App& app);
+
+}  // namespace mocap

@@ -1,0 +1,26 @@
+// A JSON object as text, for commands that print one.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mocap {
+
+/// Collects members in the order in which they are added.
+class JsonObject {
+ public:
+  /// @param decimals  the number is rounded to them; it must be finite.
+  void Add(std::string_view name, double value, int decimals);
+  void Add(std::string_view name, int value);
+  void Add(std::string_view name, std::string_view text);
+  void Add(std::string_view name, const JsonObject& object);
+
+  std::string Text() const { return '{' + members_ + '}'; }
+
+ private:
+  void AddRaw(std::string_view name, std::string_view value);
+
+  std::string members_;
+};
+
+}  // namespace mocap

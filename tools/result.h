@@ -1,0 +1,53 @@
+// What tracking leaves behind: RESULT/poses.csv and RESULT/body.toml, or the log of its messages.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/body/body_part.h"
+#include "core/body/pose_state.h"
+#include "core/motion_capture.h"
+
+namespace mocap {
+
+/// One frame set: a row of poses.csv.
+struct PoseRow {
+  std::int64_t frame = 0;
+  std::int64_t timestamp_ns = 0;  ///< Of capture.
+  CaptureState state = CaptureState::kSearching;
+  bool has_pose = false;  ///< Without one, the pose, the points and the residual mean nothing.
+  PaperState paper;
+  BodyPoints points_W = BodyPoints::Zero();  ///< p_WQ of the 23 points, after the filter [mm].
+  double residual_mm = 0;
+  int voxels = 0;
+};
+
+/// The acquired body: body.toml.
+struct BodyRecord {
+  std::string model;  ///< Name of the body table.
+  double stature_mm = 0;
+  BodySizes sizes;
+};
+
+struct Result {
+  BodyRecord body;
+  std::vector<PoseRow> poses;  ///< In the order of the frames.
+};
+
+/// Makes the record of a body.
+BodyRecord RecordOf(const BodyModel& body);
+
+/// Writes RESULT/poses.csv and RESULT/body.toml; the folder is made, files that are there are
+/// replaced, each in one step. The same result gives the same bytes.
+/// @throws std::runtime_error  when the folder cannot be written.
+void WriteResult(const std::filesystem::path& folder, const Result& result);
+
+/// Reads a folder that WriteResult left, or a log of MOCAP_POSE and MOCAP_BODY messages as
+/// lcm-logger records them (with any prefix before the channels' names).
+/// @throws SetupError  when it is neither, or is damaged; names file and line.
+Result ReadResult(const std::filesystem::path& folder_or_log);
+
+}  // namespace mocap

@@ -1,0 +1,139 @@
+#include "tools/simulate.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "drivers/simulated_studio.h"
+#include "drivers/simulation/motion.h"
+#include "drivers/take_writer.h"
+
+namespace mocap {
+namespace {
+
+struct SimulateOptions {
+  std::filesystem::path out;
+  SimulatedStudioOptions studio = RecordedSimulation();
+};
+
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+TakeDescription Describe(const SimulateOptions& options, const SimulatedStudio& studio) {
+  TakeDescription description;
+  description.name = options.out.filename().empty() ? options.out.parent_path().filename().string()
+                                                    : options.out.filename().string();
+  description.fps_nominal = options.studio.fps;
+  description.cameras = studio.cameras();
+  // The simulated time, so that the same options give the same bytes.
+  description.notes = {{"created", "1970-01-01T00:16:40Z"},
+                       {"source", "simulated"},
+                       {"motion", options.studio.motion},
+                       {"stature_mm", Text(options.studio.stature_mm)},
+                       {"seed", std::to_string(options.studio.seed)}};
+  return description;
+}
+
+class Progress {
+ public:
+  explicit Progress(int total) : total_(total), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_) std::fputc('\n', stderr);
+  }
+  void Show(const char* what, int done) const {
+    if (shown_) std::fprintf(stderr, "\r%s %d of %d \x1b[K", what, done, total_);
+  }
+
+ private:
+  int total_;
+  bool shown_;
+};
+
+void WriteBackgrounds(const SimulatedStudio& studio, TakeWriter& writer) {
+  const int cameras = static_cast<int>(studio.cameras().size());
+  const Progress progress(cameras);
+  for (int c = 0; c < cameras; ++c) {
+    progress.Show("background", c + 1);
+    const std::vector<BackgroundFrame> frames = studio.Background(c);
+    const auto count = static_cast<std::int64_t>(frames.size());
+    for (std::int64_t i = 0; i < count; ++i)
+      // Taken before the person came.
+      writer.WriteBackground(c, frames[i].image.view(), studio.NominalTime(i - 2 * count),
+                             frames[i].angles);
+  }
+}
+
+void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
+                 TakeWriter& writer) {
+  const SimulatedTruth truth(options.studio);
+  std::vector<std::unique_ptr<SimulatedCamera>> cameras;
+  for (std::size_t c = 0; c < studio.cameras().size(); ++c) {
+    cameras.push_back(studio.OpenCamera(static_cast<int>(c)));
+    cameras.back()->Start();
+  }
+  const int frames = static_cast<int>(std::lround(options.studio.seconds * options.studio.fps));
+  const Progress progress(frames);
+  for (int i = 0; i < frames; ++i) {
+    progress.Show("frame", i + 1);
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      Frame frame;
+      cameras[c]->Grab(frame, std::chrono::milliseconds(0));
+      const int camera = static_cast<int>(c);
+      writer.WriteFrame(camera, frame.image, frame.capture_ns, frame.angles);
+      writer.WriteMask(camera, cameras[c]->TrueMask());
+    }
+    writer.WriteTruth(studio.NominalTime(i), truth.At(studio.NominalTime(i)));
+  }
+  writer.WriteTruthSizes(truth.Sizes());
+}
+
+void Simulate(const SimulateOptions& options) {
+  if (!(options.studio.seconds > 0))
+    throw SetupError("--seconds is " + Text(options.studio.seconds) + "; wanted is more than 0");
+  const SimulatedStudio studio(options.studio);
+  TakeWriter writer(options.out, Describe(options, studio));
+  const std::vector<std::string> names(kSimulatedJointNames.begin(), kSimulatedJointNames.end());
+  writer.SetTruthPoints(names);
+  WriteBackgrounds(studio, writer);
+  WriteFrames(options, studio, writer);
+  writer.Finish();
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App& app) {
+  const auto options = std::make_shared<SimulateOptions>();
+  options->studio.seconds = 4;
+  CLI::App* command =
+      app.add_subcommand("simulate", "Write a take of a simulated studio, with truth");
+  std::string motions;
+  for (const std::string_view name : simulation::kMotionNames)
+    motions += (motions.empty() ? "" : ", ") + std::string(name);
+  command->add_option("--out", options->out, "Folder of the take to write")->required();
+  command->add_option("--motion", options->studio.motion, "What the person does: " + motions)
+      ->capture_default_str();
+  command->add_option("--stature", options->studio.stature_mm, "Height of the person [mm]")
+      ->capture_default_str();
+  command->add_option("--seconds", options->studio.seconds, "Length of the take")
+      ->capture_default_str();
+  command->add_option("--fps", options->studio.fps, "Frames a second")->capture_default_str();
+  command->add_option("--cameras", options->studio.cameras, "Number of cameras")
+      ->capture_default_str();
+  command->add_flag("--pan-tilt", options->studio.pan_tilt,
+                    "Cameras on heads that follow the person");
+  command->add_option("--seed", options->studio.seed, "Person, clothes, room, lenses and path")
+      ->capture_default_str();
+  command->callback([options] { Simulate(*options); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,44 @@
+// Line and point plots as SVG, small and without anything to load: colours come from the page that
+// embeds them, through the CSS classes c0, c1 … (strokes and fills), `axis`, `grid` and `shade`.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace mocap {
+
+enum class PlotMark { kLine, kDashed, kDots, kRings, kCrosses };
+
+/// One curve or cloud. A point with a NaN breaks the line.
+struct PlotSeries {
+  std::string label;  ///< In the legend; empty: not there.
+  std::vector<Vector2> points;
+  int color = 0;
+  PlotMark mark = PlotMark::kLine;
+  std::vector<std::string> names{};  ///< Written beside the points; empty: none.
+};
+
+struct PlotAxes {
+  std::string x_label, y_label;  ///< With units.
+  int width = 760, height = 240;
+  bool equal_scales = false;                    ///< For plans: a metre is as long up as across.
+  std::optional<Vector2> x_range{}, y_range{};  ///< Otherwise from the data.
+  std::vector<std::string> x_names{};           ///< For categories 0, 1, …: instead of numbers.
+  std::vector<std::pair<double, double>> shaded{};  ///< Stretches of x behind the curves.
+};
+
+/// Draws a plot. The result is an <svg> element.
+std::string PlotSvg(const PlotAxes& axes, std::span<const PlotSeries> series);
+
+/// Steps of 1, 2 or 5 times a power of ten that fall into a range, about `count` of them.
+std::vector<double> RoundTicks(double low, double high, int count);
+
+/// Makes text safe inside HTML and SVG.
+std::string EscapeHtml(std::string_view text);
+
+}  // namespace mocap

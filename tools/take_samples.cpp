@@ -1,0 +1,94 @@
+#include "tools/take_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "config/config.h"
+#include "config/open_studio.h"
+#include "core/reconstruction/carver.h"
+#include "core/reconstruction/segmenter.h"
+#include "core/reconstruction/sensor_plane_table.h"
+
+namespace mocap {
+namespace {
+
+/// The frame nearest to a moment so far.
+struct Nearest {
+  std::int64_t apart_ns = std::numeric_limits<std::int64_t>::max();
+  Image<Bgr> image;
+  PanTiltAngles angles;
+};
+
+Image<Bgr> Copy(ImageView<const Bgr> view) {
+  Image<Bgr> image(view.width(), view.height());
+  for (int y = 0; y < view.height(); ++y) {
+    std::copy_n(view.row(y), view.width(), image.row(y));
+  }
+  return image;
+}
+
+std::vector<Nearest> NearestFrames(CameraDriver& driver, const std::vector<SampleRequest>& requests,
+                                   std::int64_t tolerance_ns) {
+  std::vector<Nearest> nearest(requests.size());
+  driver.Start();
+  Frame frame;
+  // A recording that is read fast is never late, so a timeout cannot pass for its end.
+  for (;;) {
+    const GrabStatus status = driver.Grab(frame, std::chrono::milliseconds(1000));
+    if (status == GrabStatus::kEnd || status == GrabStatus::kLost) break;
+    if (status != GrabStatus::kFrame) continue;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const std::int64_t apart_ns = std::abs(frame.capture_ns - requests[i].timestamp_ns);
+      if (apart_ns > tolerance_ns || apart_ns >= nearest[i].apart_ns) continue;
+      nearest[i] = {apart_ns, Copy(frame.image), frame.angles};
+    }
+  }
+  driver.Stop();
+  return nearest;
+}
+
+void Carve(TakeSamples& samples, double voxel_mm) {
+  std::vector<SensorPlaneTable> tables(samples.cameras.begin(), samples.cameras.end());
+  Carver carver({voxel_mm});
+  for (SampledMoment& moment : samples.moments) {
+    std::vector<CarvingView> views;
+    for (std::size_t c = 0; c < tables.size(); ++c) {
+      if (!moment.views[c]) continue;
+      views.push_back({&tables[c], &moment.views[c]->silhouette, moment.views[c]->X_CW});
+    }
+    carver.Carve(views, moment.voxels);
+  }
+}
+
+}  // namespace
+
+TakeSamples SampleTake(const std::filesystem::path& take,
+                       const std::vector<SampleRequest>& requests, double voxel_mm) {
+  Studio studio = OpenTake(take, {});
+  const std::int64_t tolerance_ns = std::llround(0.5e9 / studio.fps_nominal);
+  TakeSamples samples;
+  for (const SampleRequest& request : requests) {
+    samples.moments.push_back({request.timestamp_ns, {}, {}});
+    samples.moments.back().views.resize(studio.cameras.size());
+  }
+  // A camera at a time, so that only one camera's pictures and background are in memory.
+  for (std::size_t c = 0; c < studio.cameras.size(); ++c) {
+    StudioCamera& camera = studio.cameras[c];
+    samples.cameras.push_back(camera.calibration);
+    Segmenter segmenter(camera.calibration, camera.background(), SegmentationOptions{});
+    std::vector<Nearest> nearest = NearestFrames(*camera.driver, requests, tolerance_ns);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      if (nearest[i].image.empty()) continue;
+      SampledView& view = samples.moments[i].views[c].emplace();
+      view.X_CW = camera.calibration.PoseAt(nearest[i].angles);
+      segmenter.Segment(nearest[i].image.view(), nearest[i].angles, view.silhouette);
+      if (requests[i].keep_images) view.image = std::move(nearest[i].image);
+    }
+  }
+  Carve(samples, voxel_mm);
+  return samples;
+}
+
+}  // namespace mocap

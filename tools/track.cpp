@@ -1,0 +1,140 @@
+#include "tools/track.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "config/load_config.h"
+#include "config/open_studio.h"
+#include "core/errors.h"
+#include "daemon/clock.h"
+#include "daemon/pipeline.h"
+#include "tools/result.h"
+
+namespace mocap {
+namespace {
+
+struct TrackOptions {
+  std::filesystem::path take;
+  std::filesystem::path out;
+  double voxel_mm = Config().voxel_mm;
+  std::string body = Config().body;
+  std::vector<std::string> cameras;
+  bool json = false;
+};
+
+/// Keeps every set as a row, and shows on a terminal how far it is.
+class ResultSink : public PoseSink {
+ public:
+  void OnSet(const TrackedSet& set) override {
+    PoseRow& row = result_.poses.emplace_back();
+    row.frame = set.frame;
+    row.timestamp_ns = set.capture_ns;
+    row.state = set.result.state;
+    row.has_pose = row.state != CaptureState::kSearching;
+    if (row.has_pose) {
+      row.paper = set.body.PaperStateOf(set.result.pose);
+      row.points_W = set.result.points_W;
+      row.residual_mm = set.result.residual_mm;
+    }
+    row.voxels = set.result.voxels;
+    result_.body = RecordOf(set.body);
+    acquisition_frames_ = set.acquisition_frames;
+    tracked_frames_ += row.state == CaptureState::kTracking;
+    if (shows_progress_) ShowProgress(row);
+  }
+
+  const Result& result() const { return result_; }
+  std::size_t frames() const { return result_.poses.size(); }
+  std::size_t tracked_frames() const { return tracked_frames_; }
+  int acquisition_frames() const { return acquisition_frames_; }
+
+  void EndProgress() const {
+    if (shows_progress_) std::fprintf(stderr, "\r\x1b[K");
+  }
+
+ private:
+  void ShowProgress(const PoseRow& row) const {
+    const std::string state(kCaptureStateNames[static_cast<std::size_t>(row.state)]);
+    std::fprintf(stderr, "\r\x1b[Kframe %lld  %s", static_cast<long long>(row.frame),
+                 state.c_str());
+  }
+
+  const bool shows_progress_ = isatty(STDERR_FILENO) == 1;
+  Result result_;
+  std::size_t tracked_frames_ = 0;
+  int acquisition_frames_ = 0;
+};
+
+void PrintJson(const ResultSink& sink, const StageHistograms& stages, double seconds) {
+  std::printf("{\"frames\": %zu, \"tracked_frames\": %zu, \"acquisition_frames\": %d",
+              sink.frames(), sink.tracked_frames(), sink.acquisition_frames());
+  for (const Stage stage :
+       {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter, Stage::kTotal}) {
+    std::printf(", \"%s\": {\"p50_ms\": %.3f, \"p99_ms\": %.3f}",
+                std::string(kStageNames[static_cast<std::size_t>(stage)]).c_str(),
+                stages[stage].PercentileMs(0.5), stages[stage].PercentileMs(0.99));
+  }
+  std::printf(", \"frames_per_second\": %.2f}\n", static_cast<double>(sink.frames()) / seconds);
+}
+
+/// Finds out before the work whether its result can be kept.
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw SetupError("--out: " + folder.string() + " is no folder and cannot be made one");
+  }
+}
+
+void Track(const TrackOptions& options) {
+  Studio studio = OpenTake(options.take, {.cameras = options.cameras});
+  ResultSink sink;
+  Pipeline pipeline(std::move(studio),
+                    {.voxel_mm = options.voxel_mm,
+                     .overflow = Overflow::kWait,
+                     .latency_origin = LatencyOrigin::kArrival},
+                    LoadBodyTable(options.body), sink);
+  MakeFolder(options.out);
+  const std::int64_t begin_ns = SteadyNs();
+  pipeline.Start();
+  pipeline.Join();
+  const double seconds = static_cast<double>(SteadyNs() - begin_ns) / 1e9;
+  sink.EndProgress();
+  if (sink.frames() == 0) {
+    throw SetupError(options.take.string() + ": no frames of two cameras belong together");
+  }
+  WriteResult(options.out, sink.result());
+  if (options.json) {
+    PrintJson(sink, pipeline.Status().stages, seconds);
+  } else {
+    std::printf("%zu frame sets, %zu tracked, at %.1f a second: %s\n", sink.frames(),
+                sink.tracked_frames(), static_cast<double>(sink.frames()) / seconds,
+                options.out.c_str());
+  }
+}
+
+}  // namespace
+
+void AddTrackCommand(CLI::App& app) {
+  auto options = std::make_shared<TrackOptions>();
+  CLI::App* command = app.add_subcommand("track", "Tracks the person in a take");
+  command->add_option("TAKE", options->take, "the take's folder")->required();
+  command->add_option("--out", options->out, "folder for poses.csv and body.toml")->required();
+  command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
+      ->check(CLI::Range(10.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--body", options->body, "mikic2003, full, or a body table's file")
+      ->capture_default_str();
+  command->add_option("--cameras", options->cameras, "use these only, as in cam1,cam2")
+      ->delimiter(',');
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->callback([options] { Track(*options); });
+}
+
+}  // namespace mocap
