@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kDirectionStep_px = 8;
 constexpr double kWidestCell_px = 16;
-constexpr double kNarrowestCell_px = 1;
+constexpr double kNarrowestCell_px = 4;
 // Of the half pixel that a table may err, all but this is left to rounding.
 constexpr double kWantedError_px = 0.02;
 

@@ -62,7 +62,7 @@ void SilhouetteCleaner::FillHoles(int smallest, const Silhouette& doubtful,
   Connect(Kind::kHoles, &doubtful, silhouette);
   for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
     const Run& hole = runs_[RootOf(i)];
-    if (!hole.at_edge && (hole.area < smallest || 2 * hole.doubtful > hole.area))
+    if (!hole.at_edge && (hole.area < smallest || 3 * hole.doubtful > 2 * hole.area))
       Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
   }
 }

@@ -18,7 +18,7 @@ class SilhouetteCleaner {
   /// Fills holes of fewer than `smallest` pixels. What touches the picture's edge is no hole.
   void FillHoles(int smallest, Silhouette& silhouette);
 
-  /// Fills holes of any size that are doubtful for the most part: a leg in front of a wall of its
+  /// Fills holes of any size that are doubtful for two thirds: a leg in front of a wall of its
   /// own colour leaves such holes, the gap between an arm and the trunk does not.
   void FillHoles(int smallest, const Silhouette& doubtful, Silhouette& silhouette);
 

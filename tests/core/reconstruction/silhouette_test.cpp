@@ -1,0 +1,120 @@
+#include "core/reconstruction/silhouette.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "core/reconstruction/bit_filters.h"
+#include "core/reconstruction/distance_map.h"
+
+namespace mocap {
+namespace {
+
+Silhouette RandomSilhouette(int width, int height, int one_in, unsigned seed) {
+  std::mt19937 random(seed);
+  Silhouette s(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (random() % static_cast<unsigned>(one_in) == 0) s.Set(x, y);
+  return s;
+}
+
+bool IsSet(const Silhouette& s, int x, int y, bool beyond) {
+  return x < 0 || y < 0 || x >= s.width() || y >= s.height() ? beyond : s.Test(x, y);
+}
+
+TEST(Silhouette, ABoundingBoxIsTightAcrossWords) {
+  Silhouette s(200, 50);
+  EXPECT_FALSE(s.BoundingBox().has_value());
+  s.Set(63, 7);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{63, 7, 63, 7}));
+  s.Set(64, 9);
+  s.Set(199, 49);
+  s.Set(5, 20);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{5, 7, 199, 49}));
+}
+
+TEST(Silhouette, BytesArePackedInOrderAndNothingBeyondTheLast) {
+  for (const int width : {1, 63, 64, 65, 130}) {
+    std::mt19937 random(4);
+    std::vector<std::uint8_t> bytes;
+    for (int x = 0; x < width; ++x) bytes.push_back(random() % 2);
+    Silhouette s(width, 1);
+    PackRow(bytes, s.row(0));
+    for (int x = 0; x < width; ++x) EXPECT_EQ(s.Test(x, 0), bytes[x] == 1);
+    if (width % 64 != 0) {
+      EXPECT_EQ(s.words().back() >> (width % 64), 0u);
+    }
+  }
+}
+
+TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {
+  for (const int width : {64, 67, 130}) {
+    for (const int radius : {1, 2, 3}) {
+      const Silhouette sparse = RandomSilhouette(width, 40, 60, 5);
+      const Silhouette dense = [&] {
+        Silhouette s(width, 40);
+        for (int y = 0; y < 40; ++y)
+          for (int x = 0; x < width; ++x)
+            if (!sparse.Test(x, y)) s.Set(x, y);
+        return s;
+      }();
+      Silhouette eroded, dilated;
+      Erode(dense, radius, eroded);
+      Dilate(sparse, radius, dilated);
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < width; ++x) {
+          bool all = true, any = false;
+          for (int v = y - radius; v <= y + radius; ++v) {
+            for (int u = x - radius; u <= x + radius; ++u) {
+              all &= IsSet(dense, u, v, true);
+              any |= IsSet(sparse, u, v, false);
+            }
+          }
+          EXPECT_EQ(eroded.Test(x, y), all) << x << " " << y;
+          EXPECT_EQ(dilated.Test(x, y), any) << x << " " << y;
+        }
+      }
+      if (width % 64 != 0) {
+        EXPECT_EQ(eroded.row(3)[width / 64] >> (width % 64), 0u);
+      }
+    }
+  }
+}
+
+TEST(DistanceMap, IsTheDistanceToTheNearestPixelOfTheOtherKind) {
+  Silhouette s = RandomSilhouette(90, 60, 400, 6);
+  for (int y = 20; y < 45; ++y)
+    for (int x = 30; x < 70; ++x)
+      if (x != 50 || y != 30) s.Set(x, y);
+  DistanceMap map;
+  map.Measure(RandomSilhouette(200, 100, 3, 7));
+  map.Measure(s);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 90; ++x) {
+      const bool inside = s.Test(x, y);
+      int nearest = DistanceMap::kFarthest;
+      for (int v = -1; v <= 60; ++v)
+        for (int u = -1; u <= 90; ++u)
+          if (IsSet(s, u, v, false) != inside)
+            nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
+      const int found = map.At(x, y);
+      EXPECT_EQ(found > 0, inside);
+      EXPECT_LE(std::abs(found), nearest);
+      const std::optional<PixelBox> box = s.BoundingBox();
+      if (x >= box->left && x <= box->right && y >= box->top && y <= box->bottom) {
+        EXPECT_EQ(std::abs(found), nearest) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(DistanceMap, OfAnEmptySilhouetteEverythingIsFarAway) {
+  DistanceMap map;
+  map.Measure(Silhouette(64, 48));
+  EXPECT_LT(map.At(10, 10), 0);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,44 @@
+// Six Tsai cameras around a room, and silhouettes of capsules cast exactly.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/carving_view.h"
+#include "tests/core/reconstruction/lenses.h"
+
+namespace mocap {
+
+/// All points within a radius of a line segment; a sphere where both ends are the same.
+struct Capsule {
+  Vector3 a_W;
+  Vector3 b_W;
+  double radius_mm = 0;
+};
+
+/// Gives the pose of a camera at `eye_W` that looks at `target_W`, with z up.
+RigidTransform LookAt(const Vector3& eye_W, const Vector3& target_W);
+
+/// Cameras of one lens, their tables, and silhouettes to carve with.
+class SyntheticStudio {
+ public:
+  /// Six cameras of 320 x 240 pixels in a room of 6 x 6 m that all look at (0, 0, 900).
+  SyntheticStudio();
+
+  std::vector<CameraCalibration> cameras;
+  std::vector<Silhouette> silhouettes;
+
+  /// Draws what each camera sees of the capsules.
+  void Show(const std::vector<Capsule>& capsules);
+  std::vector<CarvingView> Views() const;
+
+ private:
+  SensorPlaneTable table_;
+  std::vector<std::optional<Vector2>> directions_;
+};
+
+/// A person of about 1.75 m, standing at (x, y) with the arms out.
+std::vector<Capsule> StandingPerson(double x, double y);
+
+}  // namespace mocap
