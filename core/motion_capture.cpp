@@ -15,6 +15,10 @@ namespace {
 // the room.
 constexpr double kLeastLitres = 12;
 constexpr double kLostCostMm = 70;
+// A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
+// must be clearly better and face the same way.
+constexpr double kDoubtCostMm = 36;
+constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 constexpr double kForgetAfterS = 1.0;
 
@@ -74,6 +78,7 @@ class MotionCapture::Impl {
         break;
       case CaptureState::kTracking:
         tracker_->Update(cloud_, dt_s);
+        LookAgainInDoubt();
         NoticeLoss();
         break;
     }
@@ -94,6 +99,18 @@ class MotionCapture::Impl {
     if (!known_) acquisition_frames_ = frames_acquiring_;
     known_ = tracker_->body().sizes();
     bad_frames_ = 0;
+  }
+
+  void LookAgainInDoubt() {
+    const double cost_mm = tracker_->quality().Cost();
+    doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
+    if (doubtful_frames_ < kFramesToLose) return;
+    doubtful_frames_ = 0;
+    if (!acquirer_.Locate(cloud_, known_)) return;
+    const Tracker& found = acquirer_.best();
+    const bool same_way =
+        found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
+    if (same_way && found.quality().Cost() < kClearlyBetter * cost_mm) tracker_ = found;
   }
 
   void NoticeLoss() {
@@ -133,6 +150,7 @@ class MotionCapture::Impl {
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;
+  int doubtful_frames_ = 0;
 };
 
 BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {

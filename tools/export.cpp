@@ -28,11 +28,11 @@ struct ExportArguments {
 /// BVH cannot say all that a result says; the person should know what is not in the file.
 void TellLosses(const BvhMotion& motion) {
   if (motion.skipped_frames > 0) {
-    fmt::print(stderr, "mocap export: skipped {} frames before the first tracked one\n",
+    fmt::print(stderr, "mocap export: frames before the first tracked one, left out: {}\n",
                motion.skipped_frames);
   }
   if (motion.held_frames > 0) {
-    fmt::print(stderr, "mocap export: {} frames are missing or not tracked and repeat the last pose\n",
+    fmt::print(stderr, "mocap export: frames missing or not tracked, the last pose again: {}\n",
                motion.held_frames);
   }
   if (motion.worst_mm > 1) {

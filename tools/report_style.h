@@ -71,7 +71,8 @@ table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabu
   width: 100%; }
 th { text-align: left; font-weight: 500; color: var(--muted); }
 th, td { padding: 3px 8px 3px 0; border-bottom: 1px solid var(--line); }
-td.n, th.n { text-align: right; width: 96px; white-space: nowrap; } td.bar { width: 34%; padding-right: 0; }
+td.n, th.n { text-align: right; width: 96px; white-space: nowrap; }
+td.bar { width: 34%; padding-right: 0; }
 .bar i { display: block; height: 9px; border-radius: 2px; background: var(--c2); opacity: .75; }
 @media print { body { background: #fff; } figure, .tile, tr { break-inside: avoid; } }
 )";

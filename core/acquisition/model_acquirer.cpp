@@ -1,6 +1,7 @@
 #include "core/acquisition/model_acquirer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/acquisition/body_localizer.h"
 #include "core/acquisition/pose_hypotheses.h"
@@ -15,6 +16,22 @@ constexpr double kWorstCostMm = 75;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
+
+// What the network takes as evidence, and what is measured well enough to be believed as it is.
+constexpr std::array<double BodySizes::*, 10> kWidths = {
+    &BodySizes::torso_width,     &BodySizes::torso_depth,
+    &BodySizes::head_width,      &BodySizes::upper_arm_width,
+    &BodySizes::lower_arm_width, &BodySizes::thigh_width,
+    &BodySizes::calf_width,      &BodySizes::shoulder_width,
+    &BodySizes::hip_width,       &BodySizes::neck};
+constexpr std::array<double BodySizes::*, 14> kMeasured = {
+    &BodySizes::thigh,           &BodySizes::calf,
+    &BodySizes::upper_arm,       &BodySizes::lower_arm,
+    &BodySizes::torso_width,     &BodySizes::torso_depth,
+    &BodySizes::head_width,      &BodySizes::upper_arm_width,
+    &BodySizes::lower_arm_width, &BodySizes::thigh_width,
+    &BodySizes::calf_width,      &BodySizes::shoulder_width,
+    &BodySizes::hip_width,       &BodySizes::neck};
 
 struct Candidate {
   PoseState pose;
@@ -80,22 +97,20 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
   Tracker& tracker = hypothesis.tracker;
   const BodySizes measured =
       MeasureSizes(tracker.body(), tracker.surface_fit(), tracker.filter().pose(), SizeSpread{});
+  // The mean over the frames is the evidence, so that it grows and the sizes come to rest.
+  const double share = 1.0 / frames_;
+  for (double BodySizes::*size : kMeasured) {
+    hypothesis.measured.*size += share * (measured.*size - hypothesis.measured.*size);
+  }
+  const BodySizes& mean = hypothesis.measured;
   BodySizes sizes = tracker.body().sizes();
-  const LengthMeasurements lengths{.thigh = measured.thigh,
-                                   .calf = measured.calf,
-                                   .upper_arm = measured.upper_arm,
-                                   .lower_arm = measured.lower_arm,
+  const LengthMeasurements lengths{.thigh = mean.thigh,
+                                   .calf = mean.calf,
+                                   .upper_arm = mean.upper_arm,
+                                   .lower_arm = mean.lower_arm,
                                    .height = height_mm_ - sizes.neck - sizes.head / 2};
   const double change_mm = network_.Update(lengths, remember, sizes);
-  // Thicknesses and widths are measured well in each frame; their mean over the frames is taken.
-  const double share = 1.0 / (frames_ + 1);
-  for (double BodySizes::*width :
-       {&BodySizes::torso_width, &BodySizes::torso_depth, &BodySizes::head_width,
-        &BodySizes::upper_arm_width, &BodySizes::lower_arm_width, &BodySizes::thigh_width,
-        &BodySizes::calf_width, &BodySizes::shoulder_width, &BodySizes::hip_width,
-        &BodySizes::neck}) {
-    sizes.*width += share * (measured.*width - sizes.*width);
-  }
+  for (double BodySizes::*width : kWidths) sizes.*width = mean.*width;
   tracker.Resize(sizes);
   return change_mm;
 }

@@ -32,6 +32,7 @@ class ModelAcquirer {
   struct Hypothesis {
     Tracker tracker;
     double cost_sum = 0;
+    BodySizes measured{};  ///< Mean over the frames so far.
   };
   double RefineSizes(Hypothesis& hypothesis, bool remember);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNeckBehind = 0.06;
 constexpr double kHipBehind = 0.03;
 constexpr double kShoulderBehind = 0.03;
-constexpr double kShoulderBelowNeck = 0.17;
+constexpr double kShoulderBelowNeck = 0.19;
 // The head's centre leans forward of C7/T1 by this share of its height above it.
 constexpr double kHeadForward = 0.35;
 
@@ -32,7 +32,7 @@ BodySizes AverageSizes(double stature_mm) {
           .lower_arm_width = 0.042 * h,
           .thigh_width = 0.090 * h,
           .calf_width = 0.060 * h,
-          .shoulder_width = 0.215 * h,
+          .shoulder_width = 0.207 * h,
           .hip_width = 0.110 * h};
 }
 

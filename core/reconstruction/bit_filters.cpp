@@ -17,7 +17,7 @@ Word BeyondEdge(const Silhouette& s) {
 
 template <typename Combine>
 void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Silhouette& to) {
-  MOCAP_CHECK(radius >= 1 && radius <= 2 && &from != &to);
+  MOCAP_CHECK(radius >= 1 && radius <= 3 && &from != &to);
   const int words = from.words_per_row();
   const int height = from.height();
   to.Reset(from.width(), height);
@@ -80,8 +80,14 @@ void Dilate(const Silhouette& from, int radius, Silhouette& to) {
 
 void Unite(const Silhouette& from, Silhouette& to) {
   MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
-  for (int y = 0; y < to.height(); ++y)
-    for (int i = 0; i < to.words_per_row(); ++i) to.row(y)[i] |= from.row(y)[i];
+  const std::size_t words = from.words().size();
+  for (std::size_t i = 0; i < words; ++i) to.row(0)[i] |= from.words()[i];
+}
+
+void Intersect(const Silhouette& from, Silhouette& to) {
+  MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
+  const std::size_t words = from.words().size();
+  for (std::size_t i = 0; i < words; ++i) to.row(0)[i] &= from.words()[i];
 }
 
 }  // namespace mocap

@@ -13,14 +13,17 @@ void PackRow(std::span<const std::uint8_t> pixels, std::uint64_t* words);
 
 /// Keeps the pixels whose whole square neighbourhood of 2 radius + 1 pixels is set; what lies
 /// beyond the picture's edge counts as set.
-/// @param radius  1 or 2.
+/// @param radius  1 to 3.
 void Erode(const Silhouette& from, int radius, Silhouette& to);
 
 /// Sets every pixel that has one set within its square neighbourhood of 2 radius + 1 pixels.
-/// @param radius  1 or 2.
+/// @param radius  1 to 3.
 void Dilate(const Silhouette& from, int radius, Silhouette& to);
 
 /// Sets every pixel of `to` that is set in `from`.
 void Unite(const Silhouette& from, Silhouette& to);
+
+/// Empties every pixel of `to` that is empty in `from`.
+void Intersect(const Silhouette& from, Silhouette& to);
 
 }  // namespace mocap

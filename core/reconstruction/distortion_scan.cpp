@@ -1,28 +1,27 @@
 #include "core/reconstruction/distortion_scan.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <utility>
 
 #include "core/errors.h"
 
 namespace mocap {
 namespace {
 
-constexpr int kPad = DistortionScan::kRadius_px;
-constexpr float kArea = 25;
-// Sum of x² over the window's pixels, x = -2 .. 2.
-constexpr float kSpread = 50;
-
-void Repeat(std::vector<float>& padded, int width) {
-  for (int i = 0; i < kPad; ++i) {
-    padded[i] = padded[kPad];
-    padded[kPad + width + i] = padded[kPad + width - 1];
-  }
+// The sum of f(0) + … + f(count − 1), written out, so that loops around it are vectorized.
+template <int count, typename Function>
+inline float Sum(Function f) {
+  return [&]<int... i>(std::integer_sequence<int, i...>) { return (f(i) + ...); }
+  (std::make_integer_sequence<int, count>{});
 }
 
-void Sum5(const float* padded, float* sum, int width) {
-  for (int x = 0; x < width; ++x)
-    sum[x] = padded[x] + padded[x + 1] + padded[x + 2] + padded[x + 3] + padded[x + 4];
+constexpr int SideOf(std::size_t window) { return 2 * DistortionScan::kRadii_px[window] + 1; }
+
+void RepeatEnds(std::vector<float>& padded, int width, int pad) {
+  for (int i = 0; i < pad; ++i) {
+    padded[i] = padded[pad];
+    padded[pad + width + i] = padded[pad + width - 1];
+  }
 }
 
 }  // namespace
@@ -39,20 +38,49 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   for (Line& line : lines_) {
     line.alpha_shift.resize(width + 2 * kPad);
     for (auto& cd : line.cd) cd.resize(width + 2 * kPad);
-    for (auto& sum : line.cd_sum) sum.resize(width);
-    for (auto* values : {&line.cd_sq, &line.sum, &line.sum_sq, &line.slope}) values->resize(width);
+    line.cd_sq.resize(width);
+    for (Sums& sums : line.sums) {
+      for (auto* values : {&sums.alpha, &sums.alpha_sq, &sums.moment}) values->resize(width);
+      for (auto& cd : sums.cd) cd.resize(width);
+    }
   }
   for (auto& plane : color_) plane.resize(width);
-  for (auto* values : {&window_alpha_shift_, &window_cd_sq_, &window_roughness_sq_})
-    values->resize(width);
+  for (Results& r : results_)
+    for (auto* values : {&r.alpha_shift, &r.cd_sq, &r.roughness_sq}) values->resize(width);
 }
 
-const DistortionScan::Line& DistortionScan::LineAt(int y) const {
-  return lines_[static_cast<std::size_t>(std::clamp(y, 0, expected_->height - 1) % kSide)];
+const DistortionScan::Row& DistortionScan::Next() {
+  const int y = next_++;
+  MOCAP_CHECK(y < expected_->height);
+  for (; measured_ <= std::min(y + kPad, expected_->height - 1); ++measured_) {
+    Line& line = lines_[static_cast<std::size_t>(measured_ % kLines)];
+    MeasurePixels(measured_, line);
+    RepeatEnds(line.alpha_shift, expected_->width, kPad);
+    for (auto& cd : line.cd) RepeatEnds(cd, expected_->width, kPad);
+    SumAlong<0>(line);
+    SumAlong<1>(line);
+  }
+  SumDown<0>(y);
+  SumDown<1>(y);
+  const Line& line = lines_[static_cast<std::size_t>(y % kLines)];
+  row_.alpha_shift = line.alpha_shift.data() + kPad;
+  row_.cd_sq = line.cd_sq.data();
+  row_.inverse_alpha_variation =
+      expected_->inverse_alpha_variation.data() + static_cast<std::size_t>(y) * expected_->width;
+  for (std::size_t w = 0; w < kWindows; ++w)
+    row_.windows[w] = {results_[w].alpha_shift.data(), results_[w].cd_sq.data(),
+                       results_[w].roughness_sq.data()};
+  return row_;
 }
 
-void DistortionScan::MeasurePixels(int y, Line& line) const {
+void DistortionScan::MeasurePixels(int y, Line& line) {
   const int width = expected_->width;
+  const Bgr* const pixels = image_.row(y);
+  for (int x = 0; x < width; ++x) {
+    color_[0][x] = pixels[x].b * gain_;
+    color_[1][x] = pixels[x].g * gain_;
+    color_[2][x] = pixels[x].r * gain_;
+  }
   const std::size_t begin = static_cast<std::size_t>(y) * width;
   const float* const m0 = expected_->scaled_mean[0].data() + begin;
   const float* const m1 = expected_->scaled_mean[1].data() + begin;
@@ -86,84 +114,71 @@ void DistortionScan::MeasurePixels(int y, Line& line) const {
   }
 }
 
+template <std::size_t window>
 void DistortionScan::SumAlong(Line& line) const {
+  constexpr int kSide = SideOf(window);
+  constexpr int kRadius = kRadii_px[window];
   const int width = expected_->width;
-  Repeat(line.alpha_shift, width);
-  const float* const a = line.alpha_shift.data();
-  float* const sum = line.sum.data();
-  float* const sum_sq = line.sum_sq.data();
-  float* const slope = line.slope.data();
+  Sums& sums = line.sums[window];
+  const float* const a = line.alpha_shift.data() + kPad - kRadius;
+  float* const alpha = sums.alpha.data();
+  float* const alpha_sq = sums.alpha_sq.data();
+  float* const moment = sums.moment.data();
 #pragma GCC ivdep
   for (int x = 0; x < width; ++x) {
-    sum[x] = a[x] + a[x + 1] + a[x + 2] + a[x + 3] + a[x + 4];
-    sum_sq[x] = a[x] * a[x] + a[x + 1] * a[x + 1] + a[x + 2] * a[x + 2] + a[x + 3] * a[x + 3] +
-                a[x + 4] * a[x + 4];
-    slope[x] = 2 * (a[x + 4] - a[x]) + a[x + 3] - a[x + 1];
+    alpha[x] = Sum<kSide>([&](int i) { return a[x + i]; });
+    alpha_sq[x] = Sum<kSide>([&](int i) { return a[x + i] * a[x + i]; });
+    moment[x] = Sum<kSide>([&](int i) { return static_cast<float>(i - kRadius) * a[x + i]; });
   }
   for (int c = 0; c < 3; ++c) {
-    Repeat(line.cd[c], width);
-    Sum5(line.cd[c].data(), line.cd_sum[c].data(), width);
+    const float* const d = line.cd[c].data() + kPad - kRadius;
+    float* const cd = sums.cd[c].data();
+#pragma GCC ivdep
+    for (int x = 0; x < width; ++x) cd[x] = Sum<kSide>([&](int i) { return d[x + i]; });
   }
 }
 
-const DistortionScan::Row& DistortionScan::Next() {
+template <std::size_t window>
+void DistortionScan::SumDown(int y) {
+  constexpr int kSide = SideOf(window);
+  constexpr int kRadius = kRadii_px[window];
+  constexpr float kArea = kSide * kSide;
+  // Sum of x² over the window's pixels, counted from its middle.
+  constexpr float kSpread = kArea * (kArea - 1) / 12;
   const int width = expected_->width;
-  const int y = next_++;
-  MOCAP_CHECK(y < expected_->height);
-  for (; measured_ <= std::min(y + kRadius_px, expected_->height - 1); ++measured_) {
-    const Bgr* const pixels = image_.row(measured_);
-    for (int x = 0; x < width; ++x) {
-      color_[0][x] = pixels[x].b * gain_;
-      color_[1][x] = pixels[x].g * gain_;
-      color_[2][x] = pixels[x].r * gain_;
-    }
-    Line& line = lines_[static_cast<std::size_t>(measured_ % kSide)];
-    MeasurePixels(measured_, line);
-    SumAlong(line);
+  std::array<const float*, kSide> a, q, m;
+  std::array<std::array<const float*, kSide>, 3> d;
+  for (int i = 0; i < kSide; ++i) {
+    const int row = std::clamp(y + i - kRadius, 0, expected_->height - 1);
+    const Sums& sums = lines_[static_cast<std::size_t>(row % kLines)].sums[window];
+    a[i] = sums.alpha.data();
+    q[i] = sums.alpha_sq.data();
+    m[i] = sums.moment.data();
+    for (int c = 0; c < 3; ++c) d[c][i] = sums.cd[c].data();
   }
-  const Line* const l[kSide] = {&LineAt(y - 2), &LineAt(y - 1), &LineAt(y), &LineAt(y + 1),
-                                &LineAt(y + 2)};
-  row_.alpha_shift = l[2]->alpha_shift.data() + kPad;
-  row_.cd_sq = l[2]->cd_sq.data();
-  row_.inverse_alpha_variation =
+  const float* const inverse_a =
       expected_->inverse_alpha_variation.data() + static_cast<std::size_t>(y) * width;
-
-  const float* const inverse_a = row_.inverse_alpha_variation;
-  const float* const s[kSide] = {l[0]->sum.data(), l[1]->sum.data(), l[2]->sum.data(),
-                                 l[3]->sum.data(), l[4]->sum.data()};
-  const float* const q[kSide] = {l[0]->sum_sq.data(), l[1]->sum_sq.data(), l[2]->sum_sq.data(),
-                                 l[3]->sum_sq.data(), l[4]->sum_sq.data()};
-  const float* const g[kSide] = {l[0]->slope.data(), l[1]->slope.data(), l[2]->slope.data(),
-                                 l[3]->slope.data(), l[4]->slope.data()};
-  float* const mean = window_alpha_shift_.data();
-  float* const roughness_sq = window_roughness_sq_.data();
+  float* const alpha_shift = results_[window].alpha_shift.data();
+  float* const roughness_sq = results_[window].roughness_sq.data();
+  float* const cd_sq = results_[window].cd_sq.data();
 #pragma GCC ivdep
   for (int x = 0; x < width; ++x) {
-    const float sum = s[0][x] + s[1][x] + s[2][x] + s[3][x] + s[4][x];
-    const float sum_sq = q[0][x] + q[1][x] + q[2][x] + q[3][x] + q[4][x];
-    const float slope_x = g[0][x] + g[1][x] + g[2][x] + g[3][x] + g[4][x];
-    const float slope_y = 2 * (s[4][x] - s[0][x]) + s[3][x] - s[1][x];
+    const float sum = Sum<kSide>([&](int i) { return a[i][x]; });
+    const float sum_sq = Sum<kSide>([&](int i) { return q[i][x]; });
+    const float along = Sum<kSide>([&](int i) { return m[i][x]; });
+    const float down = Sum<kSide>([&](int i) { return static_cast<float>(i - kRadius) * a[i][x]; });
     const float variance =
-        (sum_sq - sum * sum / kArea - (slope_x * slope_x + slope_y * slope_y) / kSpread) / kArea;
-    mean[x] = sum / kArea;
+        (sum_sq - sum * sum / kArea - (along * along + down * down) / kSpread) / kArea;
+    alpha_shift[x] = sum / kArea;
     roughness_sq[x] = variance * inverse_a[x] * inverse_a[x];
   }
-  float* const cd_sq = window_cd_sq_.data();
-  std::fill(window_cd_sq_.begin(), window_cd_sq_.end(), 0.0f);
-  for (int c = 0; c < 3; ++c) {
-    const float* const r[kSide] = {l[0]->cd_sum[c].data(), l[1]->cd_sum[c].data(),
-                                   l[2]->cd_sum[c].data(), l[3]->cd_sum[c].data(),
-                                   l[4]->cd_sum[c].data()};
 #pragma GCC ivdep
-    for (int x = 0; x < width; ++x) {
-      const float d = (r[0][x] + r[1][x] + r[2][x] + r[3][x] + r[4][x]) / kArea;
-      cd_sq[x] += d * d;
-    }
+  for (int x = 0; x < width; ++x) {
+    const float d0 = Sum<kSide>([&](int i) { return d[0][i][x]; });
+    const float d1 = Sum<kSide>([&](int i) { return d[1][i][x]; });
+    const float d2 = Sum<kSide>([&](int i) { return d[2][i][x]; });
+    cd_sq[x] = (d0 * d0 + d1 * d1 + d2 * d2) / (kArea * kArea);
   }
-  row_.window_alpha_shift = mean;
-  row_.window_cd_sq = cd_sq;
-  row_.window_roughness_sq = roughness_sq;
-  return row_;
 }
 
 }  // namespace mocap

@@ -1,7 +1,8 @@
-// §4: brightness and chromaticity distortion of every pixel, and of the window around it.
+// §4: brightness and chromaticity distortion of every pixel, and of the windows around it.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/image.h"
@@ -14,22 +15,28 @@ namespace mocap {
 /// The brightness distortion α is the scale that brings the expected colour closest to the pixel's;
 /// the chromaticity distortion CD is the distance that is left, in standard deviations (Horprasert,
 /// Harwood, Davis 1999). One pixel tells a grey trouser leg from a shadow no better than its noise
-/// allows, so both are measured over windows of 5 × 5 pixels too, together with how rough α is
+/// allows, so both are measured over square windows of two sizes too, together with how rough α is
 /// there: a shadow dims a whole neighbourhood alike, or along a slope, and cloth has a grain of its
 /// own.
 /// Thread-bound; reuses its memory.
 class DistortionScan {
  public:
-  static constexpr int kRadius_px = 2;
+  static constexpr std::size_t kWindows = 2;
+  /// Half the windows' sides, without the pixel in the middle.
+  static constexpr std::array<int, kWindows> kRadii_px = {2, 3};
 
-  /// One row of results; each pointer leads to one value a pixel, and is valid until the next row.
+  /// Distortions of the windows around the pixels of one row.
+  struct Windows {
+    const float* alpha_shift = nullptr;   ///< Mean of α − 1.
+    const float* cd_sq = nullptr;         ///< Squared length of the mean colour distance.
+    const float* roughness_sq = nullptr;  ///< Variance of α about a plane, divided by a².
+  };
+  /// Results of one row; each pointer leads to one value a pixel, and is valid until the next row.
   struct Row {
-    const float* alpha_shift = nullptr;          ///< α − 1.
-    const float* cd_sq = nullptr;                ///< CD², in variances.
-    const float* window_alpha_shift = nullptr;   ///< Mean of α − 1 over the window.
-    const float* window_cd_sq = nullptr;         ///< Squared length of the mean colour distance.
-    const float* window_roughness_sq = nullptr;  ///< Variance of α about a plane, over its own.
+    const float* alpha_shift = nullptr;              ///< α − 1.
+    const float* cd_sq = nullptr;                    ///< CD².
     const float* inverse_alpha_variation = nullptr;  ///< 1/a: (α − 1)/a is normalised.
+    std::array<Windows, kWindows> windows;
   };
 
   /// Starts at the top of a picture. Both are borrowed until the last row.
@@ -39,27 +46,36 @@ class DistortionScan {
   const Row& Next();
 
  private:
-  static constexpr int kSide = 2 * kRadius_px + 1;
+  static constexpr int kPad = kRadii_px.back();
+  static constexpr int kLines = 2 * kPad + 1;
 
-  // Row by row results, and their sums along the row within the window's width.
+  // Sums along a row within the width of a window.
+  struct Sums {
+    std::vector<float> alpha, alpha_sq, moment;
+    std::array<std::vector<float>, 3> cd;
+  };
   struct Line {
     std::vector<float> alpha_shift, cd_sq;
     std::array<std::vector<float>, 3> cd;
-    std::vector<float> sum, sum_sq, slope;
-    std::array<std::vector<float>, 3> cd_sum;
+    std::array<Sums, kWindows> sums;
   };
-  void MeasurePixels(int y, Line& line) const;
+  struct Results {
+    std::vector<float> alpha_shift, cd_sq, roughness_sq;
+  };
+  void MeasurePixels(int y, Line& line);
+  template <std::size_t window>
   void SumAlong(Line& line) const;
-  const Line& LineAt(int y) const;
+  template <std::size_t window>
+  void SumDown(int y);
 
   const ExpectedPicture* expected_ = nullptr;
   ImageView<const Bgr> image_;
   float gain_ = 1;
   int next_ = 0;
   int measured_ = 0;
-  std::array<Line, kSide> lines_;
+  std::array<Line, kLines> lines_;
   std::array<std::vector<float>, 3> color_;
-  std::vector<float> window_alpha_shift_, window_cd_sq_, window_roughness_sq_;
+  std::array<Results, kWindows> results_;
   Row row_;
 };
 

@@ -8,17 +8,15 @@
 namespace mocap {
 namespace {
 
-constexpr int kRadius = DistortionScan::kRadius_px;
-
 // The least value within the window around each pixel, in place.
-void Erode(Image<float>& image) {
+void Erode(int radius, Image<float>& image) {
   std::vector<float> line;
-  const auto erode_line = [&line](float* first, int count, std::ptrdiff_t step) {
+  const auto erode_line = [&line, radius](float* first, int count, std::ptrdiff_t step) {
     line.resize(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) line[i] = first[i * step];
     for (int i = 0; i < count; ++i) {
-      const int begin = std::max(i - kRadius, 0);
-      const int end = std::min(i + kRadius + 1, count);
+      const int begin = std::max(i - radius, 0);
+      const int end = std::min(i + radius + 1, count);
       first[i * step] = *std::min_element(line.begin() + begin, line.begin() + end);
     }
   };
@@ -50,9 +48,10 @@ float DistortionHistograms::Histogram::Quantile(double rate) const {
 void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const Bgr> image) {
   const int width = image.width();
   const int height = image.height();
-  for (auto& window : windows_)
-    if (window.width() != width || window.height() != height) window = Image<float>(width, height);
-  auto& [window_cd, window_alpha, window_roughness] = windows_;
+  for (WindowHistograms& w : windows_)
+    for (auto* values : {&w.cd_image, &w.alpha_image, &w.roughness_image})
+      if (values->width() != width || values->height() != height)
+        *values = Image<float>(width, height);
   scan_.Begin(expected, image, MeasureGain(expected, image, scratch_));
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
@@ -61,15 +60,26 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
       cd_.Add(std::sqrt(row.cd_sq[x]));
       alpha_low_.Add(-alpha);
       alpha_high_.Add(alpha);
-      window_cd(x, y) = std::sqrt(row.window_cd_sq[x]);
-      window_alpha(x, y) = std::abs(row.window_alpha_shift[x]) * row.inverse_alpha_variation[x];
-      window_roughness(x, y) = std::sqrt(std::max(row.window_roughness_sq[x], 0.0f));
+      for (std::size_t k = 0; k < windows_.size(); ++k) {
+        const DistortionScan::Windows& measured = row.windows[k];
+        windows_[k].cd_image(x, y) = std::sqrt(measured.cd_sq[x]);
+        windows_[k].alpha_image(x, y) =
+            std::abs(measured.alpha_shift[x]) * row.inverse_alpha_variation[x];
+        windows_[k].roughness_image(x, y) = std::sqrt(std::max(measured.roughness_sq[x], 0.0f));
+      }
     }
   }
-  for (auto& window : windows_) Erode(window);
-  for (const float value : window_cd.pixels()) window_cd_.Add(value);
-  for (const float value : window_alpha.pixels()) window_alpha_.Add(value);
-  for (const float value : window_roughness.pixels()) window_roughness_.Add(value);
+  const auto add = [](Image<float>& image_values, int radius, Histogram& histogram) {
+    Erode(radius, image_values);
+    for (const float value : image_values.pixels()) histogram.Add(value);
+  };
+  for (std::size_t k = 0; k < windows_.size(); ++k) {
+    WindowHistograms& w = windows_[k];
+    const int radius = DistortionScan::kRadii_px[k];
+    add(w.cd_image, radius, w.cd);
+    add(w.alpha_image, radius, w.alpha);
+    add(w.roughness_image, radius, w.roughness);
+  }
 }
 
 DistortionThresholds DistortionHistograms::At(double detection_rate) const {
@@ -78,9 +88,10 @@ DistortionThresholds DistortionHistograms::At(double detection_rate) const {
   thresholds.cd = cd_.Quantile(detection_rate);
   thresholds.alpha_low = -alpha_low_.Quantile(detection_rate);
   thresholds.alpha_high = alpha_high_.Quantile(detection_rate);
-  thresholds.window_cd = window_cd_.Quantile(detection_rate);
-  thresholds.window_alpha = window_alpha_.Quantile(detection_rate);
-  thresholds.window_roughness = window_roughness_.Quantile(detection_rate);
+  for (std::size_t k = 0; k < windows_.size(); ++k)
+    thresholds.windows[k] = {windows_[k].cd.Quantile(detection_rate),
+                             windows_[k].alpha.Quantile(detection_rate),
+                             windows_[k].roughness.Quantile(detection_rate)};
   return thresholds;
 }
 

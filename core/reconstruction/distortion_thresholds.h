@@ -13,12 +13,15 @@ namespace mocap {
 
 /// What background exceeds as seldom as was asked for. All are normalised by their own variation.
 struct DistortionThresholds {
-  float cd = 0;                ///< Chromaticity distortion of a pixel.
-  float alpha_low = 0;         ///< Brightness distortion of a pixel, negative.
-  float alpha_high = 0;        ///< Brightness distortion of a pixel, positive.
-  float window_cd = 0;         ///< Length of a window's mean colour distance.
-  float window_alpha = 0;      ///< A window's mean brightness distortion, either way.
-  float window_roughness = 0;  ///< Deviation of a window's brightness distortions from a plane.
+  struct Window {
+    float cd = 0;         ///< Length of the mean colour distance.
+    float alpha = 0;      ///< Mean brightness distortion, either way.
+    float roughness = 0;  ///< Deviation of the brightness distortions from a plane.
+  };
+  float cd = 0;          ///< Chromaticity distortion of a pixel.
+  float alpha_low = 0;   ///< Brightness distortion of a pixel, negative.
+  float alpha_high = 0;  ///< Brightness distortion of a pixel, positive.
+  std::array<Window, DistortionScan::kWindows> windows;
 };
 
 /// Collects the distortions of training frames in histograms and reads thresholds off them.
@@ -47,10 +50,16 @@ class DistortionHistograms {
     std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(kBins);
   };
 
-  Histogram cd_, alpha_low_, alpha_high_, window_cd_, window_alpha_, window_roughness_;
+  struct WindowHistograms {
+    Histogram cd, alpha, roughness;
+    // Of the picture that is being added.
+    Image<float> cd_image, alpha_image, roughness_image;
+  };
+
+  Histogram cd_, alpha_low_, alpha_high_;
+  std::array<WindowHistograms, DistortionScan::kWindows> windows_;
   DistortionScan scan_;
   std::vector<float> scratch_;
-  std::array<Image<float>, 3> windows_;
 };
 
 }  // namespace mocap

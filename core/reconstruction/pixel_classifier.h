@@ -1,6 +1,8 @@
 // §4: background, shadow, highlight, foreground.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,8 +19,8 @@ enum class PixelClass : std::uint8_t { kBackground, kShadow, kHighlight, kForegr
 
 /// Decides what each pixel of a picture shows.
 ///
-/// A pixel is background, shadow or highlight when it could be so by itself and lies in some window
-/// of 5 × 5 pixels that could be so as a whole; otherwise it is foreground.
+/// A pixel is background, shadow or highlight when it could be so by itself and lies in some
+/// window, of one size or the other, that could be so as a whole; otherwise it is foreground.
 /// Thread-bound; reuses its memory.
 class PixelClassifier {
  public:
@@ -37,15 +39,18 @@ class PixelClassifier {
   const Image<float>& alpha_shift() const { return alpha_shift_; }
 
  private:
-  void ClassifyRow(int y, const DistortionScan::Row& row);
+  void ClassifyPixels(int y, const DistortionScan::Row& row);
+  void ClassifyWindows(int y, std::size_t k, const DistortionScan::Row& row);
 
   DistortionThresholds thresholds_;
   float darkest_shadow_;
   DistortionScan scan_;
   Image<PixelClass> classes_;
   Image<float> alpha_shift_;
-  std::vector<std::uint8_t> pixel_, clear_, doubtful_row_;
-  Silhouette pixels_, windows_, doubtful_windows_;
+  // One byte a pixel of a row, before they are packed.
+  std::vector<std::uint8_t> clear_row_, doubtful_row_;
+  Silhouette clear_pixels_;
+  std::array<Silhouette, DistortionScan::kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_;
 };
 

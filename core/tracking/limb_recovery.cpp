@@ -12,6 +12,7 @@ namespace {
 constexpr double kUnexplainedShare = 0.02;
 constexpr double kBetterMm = 1.0;
 constexpr int kIterations = 4;
+constexpr int kRestFrames = 3;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kLowerArmL, Segment::kLowerArmR,
                                               Segment::kCalfL, Segment::kCalfR};
 
@@ -32,7 +33,7 @@ std::vector<Stance> Stances(Segment limb_end) {
     }
     return stances;
   }
-  for (const double hip : {-20.0, 25.0, 80.0}) {
+  for (const double hip : {-60.0, -15.0, 30.0, 85.0}) {
     for (const double knee : {10.0, 80.0}) {
       stances.push_back({.hip_l = hip, .hip_r = hip, .knee_l = knee, .knee_r = knee});
     }
@@ -63,6 +64,10 @@ LimbRecovery::LimbRecovery() : fit_(CoarseOptions()) {}
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const VoxelCloud& cloud,
                                                const PoseState& pose) {
+  if (resting_ > 0) {
+    --resting_;
+    return std::nullopt;
+  }
   fit_.SetVoxels(cloud);
   const SurfaceFitQuality before = fit_.QualityAt(body, pose);
   if (before.unexplained_share < kUnexplainedShare) return std::nullopt;
@@ -89,6 +94,7 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Voxe
       best = filter.pose();
     }
   }
+  if (!best) resting_ = kRestFrames;
   return best;
 }
 

@@ -10,7 +10,8 @@
 
 namespace mocap {
 
-/// Tries each arm and leg in other stances when much of the surface is explained by no part.
+/// Tries each arm and leg in other stances when much of the surface is explained by no part. After
+/// a search in vain it rests for some frames.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -21,6 +22,7 @@ class LimbRecovery {
 
  private:
   SurfaceFit fit_;
+  int resting_ = 0;  ///< Frames to go until the next search.
 };
 
 }  // namespace mocap

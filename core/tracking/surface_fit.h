@@ -13,11 +13,11 @@
 namespace mocap {
 
 struct SurfaceFitOptions {
-  int samples = 900;          ///< Surface voxels used, spread evenly.
+  int samples = 500;          ///< Surface voxels used, spread evenly.
   double reach_mm = 150;      ///< Voxels farther from the model than this do not count.
   double noise_mm = 25;       ///< Spread of the surface about the model.
   double outlier_mm = 45;     ///< Residuals beyond this lose weight quickly.
-  double independent = 0.2;  ///< Share of the samples that are news: neighbours err alike.
+  double independent = 0.3;  ///< Share of the samples that are news: neighbours err alike.
 };
 
 /// How well a posed body explains the voxels.

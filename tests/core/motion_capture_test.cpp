@@ -108,7 +108,7 @@ TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, Capture, testing::Values("mikic2003", "full"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace mocap

@@ -7,6 +7,12 @@
 namespace mocap {
 namespace {
 
+LengthMeasurements Thigh(double thigh_mm) {
+  LengthMeasurements measured;
+  measured.thigh = thigh_mm;
+  return measured;
+}
+
 BodySizes Believed() { return AverageSizes(1750); }
 
 TEST(BodySizeNetwork, WithoutEvidenceGivesThePriorOfTable3) {
@@ -23,7 +29,7 @@ TEST(BodySizeNetwork, WithoutEvidenceGivesThePriorOfTable3) {
 // 200²).
 TEST(BodySizeNetwork, WeighsOneMeasurementAsBayesSays) {
   BodySizes sizes = Believed();
-  BodySizeNetwork(BodyProportions{}).Update({.thigh = 600}, false, sizes);
+  BodySizeNetwork(BodyProportions{}).Update(Thigh(600), false, sizes);
   const double variance_thigh = 0.81 * 300 * 300 + 100 * 100;
   const double gain = variance_thigh / (variance_thigh + 200 * 200);
   EXPECT_NEAR(sizes.thigh, 450 + gain * 150, 1e-6);

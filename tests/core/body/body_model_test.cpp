@@ -92,7 +92,9 @@ TEST_P(EveryBody, ReadsThePapersNumbersOffThePose) {
   EXPECT_EQ(paper.torso_mm, pose.X_WT.p);
   for (int i = 0; i < body_.joint_count(); ++i) {
     const int angle = body_.table().joints[i].paper_angle;
-    if (angle > 0) EXPECT_EQ(paper.theta_rad[angle - 1], pose.theta[i]);
+    if (angle > 0) {
+      EXPECT_EQ(paper.theta_rad[angle - 1], pose.theta[i]);
+    }
   }
 }
 
@@ -116,7 +118,7 @@ TEST_P(EveryBody, BendsKneesBackwardAndElbowsForward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, EveryBody, testing::Values("mikic2003", "full"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 // Eq. (13) written out for the right foot: R0 (R12 (R14 (R16 p + t16) + t14) + t12) + t0.
 TEST(BodyModel, PutsTheRightFootWhereThePaperPutsIt) {
