@@ -24,7 +24,7 @@ std::string LiveView::Line(const StatusReport& report) const {
                   millimetres(residual_mm_.load(std::memory_order_relaxed)),
                   voxels_.load(std::memory_order_relaxed));
   if (error_) {
-    line += "  off the truth by " + millimetres(error_mm_.load(std::memory_order_relaxed));
+    line += "  error " + millimetres(error_mm_.load(std::memory_order_relaxed));
   }
   return line;
 }

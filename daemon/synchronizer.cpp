@@ -1,7 +1,6 @@
 #include "daemon/synchronizer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/errors.h"
 

@@ -14,6 +14,7 @@
 #include "core/errors.h"
 #include "daemon/clock.h"
 #include "daemon/pipeline.h"
+#include "tools/json_object.h"
 #include "tools/result.h"
 
 namespace mocap {
@@ -71,16 +72,20 @@ class ResultSink : public PoseSink {
   int acquisition_frames_ = 0;
 };
 
-void PrintJson(const ResultSink& sink, const StageHistograms& stages, double seconds) {
-  std::printf("{\"frames\": %zu, \"tracked_frames\": %zu, \"acquisition_frames\": %d",
-              sink.frames(), sink.tracked_frames(), sink.acquisition_frames());
+std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double seconds) {
+  JsonObject json;
+  json.Add("frames", static_cast<int>(sink.frames()));
+  json.Add("tracked_frames", static_cast<int>(sink.tracked_frames()));
+  json.Add("acquisition_frames", sink.acquisition_frames());
   for (const Stage stage :
        {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter, Stage::kTotal}) {
-    std::printf(", \"%s\": {\"p50_ms\": %.3f, \"p99_ms\": %.3f}",
-                std::string(kStageNames[static_cast<std::size_t>(stage)]).c_str(),
-                stages[stage].PercentileMs(0.5), stages[stage].PercentileMs(0.99));
+    JsonObject timing;
+    timing.Add("p50_ms", stages[stage].PercentileMs(0.5), 3);
+    timing.Add("p99_ms", stages[stage].PercentileMs(0.99), 3);
+    json.Add(kStageNames[static_cast<std::size_t>(stage)], timing);
   }
-  std::printf(", \"frames_per_second\": %.2f}\n", static_cast<double>(sink.frames()) / seconds);
+  json.Add("frames_per_second", static_cast<double>(sink.frames()) / seconds, 2);
+  return json.Text();
 }
 
 /// Finds out before the work whether its result can be kept.
@@ -111,7 +116,7 @@ void Track(const TrackOptions& options) {
   }
   WriteResult(options.out, sink.result());
   if (options.json) {
-    PrintJson(sink, pipeline.Status().stages, seconds);
+    std::puts(JsonOf(sink, pipeline.Status().stages, seconds).c_str());
   } else {
     std::printf("%zu frame sets, %zu tracked, at %.1f a second: %s\n", sink.frames(),
                 sink.tracked_frames(), static_cast<double>(sink.frames()) / seconds,
