@@ -28,16 +28,46 @@ Voxels VoxelsOf(const VoxelGrid& grid) {
   return voxels;
 }
 
+// Whether any (or every) pixel of the picture within 6 px is set.
+Silhouette Within6(const Silhouette& from, bool every) {
+  constexpr int kRadius_px = 6;
+  Silhouette to(from.width(), from.height());
+  for (int y = 0; y < from.height(); ++y) {
+    for (int x = 0; x < from.width(); ++x) {
+      bool any = false;
+      bool all = true;
+      for (int v = std::max(0, y - kRadius_px); v <= std::min(from.height() - 1, y + kRadius_px);
+           ++v)
+        for (int u = std::max(0, x - kRadius_px); u <= std::min(from.width() - 1, x + kRadius_px);
+             ++u) {
+          any = any || from.Test(u, v);
+          all = all && from.Test(u, v);
+        }
+      if (every ? all : any) to.Set(x, y);
+    }
+  }
+  return to;
+}
+
+struct PlainView {
+  CarvingView view;
+  Silhouette closed;
+};
+
 // What the header says, word by word; `views` are those with something in their silhouettes.
-bool AgreesPlainly(const std::vector<CarvingView>& views, std::size_t all, const Vector3& p_W) {
+bool AgreesPlainly(const std::vector<PlainView>& views, std::size_t all, const Vector3& p_W) {
   std::size_t seeing = 0;
-  for (const CarvingView& view : views) {
+  std::size_t gaps = 0;
+  for (const auto& [view, closed] : views) {
     const Vector3 p_C = view.X_CW * p_W;
     if (p_C.z() <= 0) continue;
     const SensorPlaneTable::Pixel pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
     if (pixel.x < 0) continue;
-    if (!view.silhouette->Test(pixel.x, pixel.y)) return false;
-    ++seeing;
+    if (view.silhouette->Test(pixel.x, pixel.y)) {
+      ++seeing;
+    } else if (!closed.Test(pixel.x, pixel.y) || ++gaps > all / 5) {
+      return false;
+    }
   }
   return seeing >= 2 && 2 * seeing >= all;
 }
@@ -46,9 +76,10 @@ Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
   Voxels voxels;
   const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(views);
   if (!volume) return voxels;
-  std::vector<CarvingView> seeing;
+  std::vector<PlainView> seeing;
   for (const CarvingView& view : views)
-    if (view.silhouette->BoundingBox()) seeing.push_back(view);
+    if (view.silhouette->BoundingBox())
+      seeing.push_back({view, Within6(Within6(*view.silhouette, false), true)});
   const Eigen::Vector3i first = (volume->min() / voxel_mm).array().floor().cast<int>();
   const Eigen::Vector3i end = (volume->max() / voxel_mm).array().ceil().cast<int>();
   for (int k = first.z(); k < end.z(); ++k) {
