@@ -159,7 +159,17 @@ PosedCapsule::SegmentDistance PosedCapsule::DistanceTo(const Vector3& from_W,
   const double on_segment = std::clamp((dot * share + f) / along_sq, 0.0, 1.0);
   share = std::clamp((dot * on_segment - c) / core_sq, 0.0, 1.0);
   const Vector3 core_W = a_W + share * core;
-  const Vector3 segment_W = from_W + on_segment * along;
+  Vector3 segment_W = from_W + on_segment * along;
+  // A taper's surface is nearest a little beside the place that is nearest to its core.
+  const bool inside_both = share > 0 && share < 1 && on_segment > 0 && on_segment < 1;
+  if (inside_both && radius_a_mm != radius_b_mm) {
+    const double slope = (radius_b_mm - radius_a_mm) * dot / core_sq;
+    const double curvature = slant / core_sq / std::max(1.0, (segment_W - core_W).norm());
+    const double slide = std::clamp(slope / curvature, -0.5, 0.5);
+    segment_W = from_W + std::clamp(on_segment + slide, 0.0, 1.0) * along;
+    const Distance distance = DistanceTo(segment_W);
+    return {distance.core_W, segment_W, distance.outside_mm, distance.share};
+  }
   const double radius = radius_a_mm + share * (radius_b_mm - radius_a_mm);
   return {core_W, segment_W, (segment_W - core_W).norm() - radius, share};
 }

@@ -2,6 +2,7 @@
 // surface.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/body/body_sizes.h"
@@ -25,10 +26,20 @@ std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
 
 /// A capsule where a pose puts it.
 struct PosedCapsule {
+  PosedCapsule(const Vector3& a, const Vector3& b, double radius_a, double radius_b)
+      : a_W(a),
+        b_W(b),
+        radius_a_mm(radius_a),
+        radius_b_mm(radius_b),
+        middle_W((a + b) / 2),
+        reach_mm((b - a).norm() / 2 + std::max(radius_a, radius_b)) {}
+
   Vector3 a_W;
   Vector3 b_W;
   double radius_a_mm;
   double radius_b_mm;
+  Vector3 middle_W;
+  double reach_mm;  ///< All of it lies this near to its middle.
 
   /// The closest place of the core to a point, and how far the point lies outside the surface.
   struct Distance {

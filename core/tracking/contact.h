@@ -31,7 +31,8 @@ struct ContactMatch {
 
 /// Finds the capsule that lies nearest and faces the same way.
 /// @param reach_mm  mismatch from which on a capsule does not explain the contact.
+/// @param likely    a capsule to try first, or -1: saves time when it is the one.
 ContactMatch MatchContact(const Contact& contact, std::span<const PosedCapsule> capsules,
-                          double reach_mm);
+                          double reach_mm, int likely = -1);
 
 }  // namespace mocap

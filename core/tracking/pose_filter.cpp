@@ -9,6 +9,9 @@ namespace mocap {
 namespace {
 
 constexpr double kLimitStdRad = 0.01;
+// Steps that are not worth another iteration.
+constexpr double kSmallStepMm = 0.5;
+constexpr double kSmallStepRad = 0.003;
 
 void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquations& equations) {
   PoseStep J(pose.dof());
@@ -119,7 +122,11 @@ void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int 
     AddJointPriors(table, pose_, equations);
     information = prior_information + equations.information();
     const PoseStep gradient = equations.gradient() - prior_information * pose_.Minus(prior);
-    pose_.Add(Eigen::LLT<PoseCovariance>(information).solve(gradient));
+    const PoseStep step = Eigen::LLT<PoseCovariance>(information).solve(gradient);
+    pose_.Add(step);
+    if (step.head<3>().norm() < kSmallStepMm && step.tail(step.size() - 3).norm() < kSmallStepRad) {
+      break;
+    }
   }
   const PoseCovariance posterior = InverseOfPositive(information);
   if (noise_.constant_velocity) {

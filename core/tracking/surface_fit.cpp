@@ -18,11 +18,19 @@ double Inflation(double residual, double outlier) {
   return (1 + scaled * scaled) * (1 + scaled * scaled);
 }
 
+// What a tapered capsule's surface comes nearer when the core slides along itself.
+Vector3 LeanOf(const PosedCapsule& capsule, double share) {
+  if (share <= 0 || share >= 1) return Vector3::Zero();
+  const Vector3 core_W = capsule.b_W - capsule.a_W;
+  return (capsule.radius_b_mm - capsule.radius_a_mm) / core_W.squaredNorm() * core_W;
+}
+
 }  // namespace
 
 void SurfaceFit::SetEvidence(const Evidence& evidence) {
   cloud_ = &evidence.cloud;
   ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
+  likely_.assign(contacts_.size(), -1);
 }
 
 void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
@@ -31,11 +39,13 @@ void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Visit>
-void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) const {
+void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
   SurfaceResidual residual;
   const double variance = options_.noise_mm * options_.noise_mm / options_.independent;
-  for (const Contact& contact : contacts_) {
-    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm, likely_[i]);
+    likely_[i] = match.capsule;
     if (match.capsule < 0) continue;
     const Vector3 offset = match.distance.segment_W - match.distance.core_W;
     const double length = offset.norm();
@@ -43,11 +53,13 @@ void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) cons
     residual.capsule = match.capsule;
     residual.is_edge = contact.is_edge;
     residual.share = match.distance.share;
-    residual.normal_W = offset / length;
+    residual.normal_W = offset / length - LeanOf(posed_[match.capsule], residual.share);
     residual.outside_mm = match.distance.outside_mm;
     residual.variance = variance * Inflation(residual.outside_mm, options_.outlier_mm);
-    body.DirectionalJacobian(posture_, body.shape()[match.capsule].carrier, match.distance.core_W,
-                             residual.normal_W, residual.J_outside_by_step);
+    // The same as if the contact moved and the body stood still.
+    body.DirectionalJacobian(posture_, body.shape()[match.capsule].carrier,
+                             match.distance.segment_W, residual.normal_W,
+                             residual.J_outside_by_step);
     visit(residual);
   }
 }
@@ -114,8 +126,9 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   PoseCapsules(body, pose);
   SurfaceFitQuality quality;
   int edges = 0;
-  for (const Contact& contact : contacts_) {
-    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm, likely_[i]);
     const double distance_mm =
         match.capsule < 0 ? options_.reach_mm : std::abs(match.distance.outside_mm);
     (contact.is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;

@@ -39,10 +39,11 @@ struct SurfaceFitQuality {
 
 /// One contact against the model.
 struct SurfaceResidual {
-  int capsule;       ///< Of ShapeOf(body).
-  bool is_edge;      ///< A bounding edge and not a voxel.
-  double share;      ///< Along its core.
-  Vector3 normal_W;  ///< From the core to the contact.
+  int capsule;   ///< Of ShapeOf(body).
+  bool is_edge;  ///< A bounding edge and not a voxel.
+  double share;  ///< Along its core.
+  Vector3
+      normal_W;  ///< Out of the surface; leans where the capsule tapers, and is then longer than 1.
   double outside_mm;
   double variance;             ///< [mm²], larger for outliers.
   PoseStep J_outside_by_step;  ///< How far the core follows along the normal.
@@ -64,7 +65,7 @@ class SurfaceFit {
  private:
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
   template <typename Visit>
-  void ForEachResidual(const BodyModel& body, const Visit& visit) const;
+  void ForEachResidual(const BodyModel& body, const Visit& visit);
   template <typename Visit>
   void ForEachHollow(const Visit& visit) const;
   template <typename Visit>
@@ -73,6 +74,7 @@ class SurfaceFit {
   SurfaceFitOptions options_;
   const VoxelCloud* cloud_ = nullptr;
   std::vector<Contact> contacts_;
+  std::vector<int> likely_;  ///< The capsule that explained each contact last.
   Posture posture_;
   std::vector<PosedCapsule> posed_;
 };

@@ -12,8 +12,6 @@ namespace mocap {
 /// One occupied voxel.
 struct Voxel {
   Vector3 center_W;
-  Vector3 normal_W =
-      Vector3::Zero();   ///< Out of the body; unit length on the surface, zero inside.
   Eigen::Vector3i cell;  ///< In the grid.
   bool surface = false;  ///< One of its six neighbours is empty.
 };
@@ -39,17 +37,28 @@ class VoxelCloud {
   int IndexAt(const Eigen::Vector3i& cell) const;
   /// Index of the voxel at a place; -1 where it is empty.
   int IndexAt(const Vector3& p_W) const;
+  /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
+  Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
   const std::vector<int>& surface() const { return surface_; }
 
  private:
+  // The grid is kept with empty cells around it, so that neighbours need no check.
+  static constexpr int kMargin = 3;
+  std::ptrdiff_t SlotOf(const Eigen::Vector3i& cell) const {
+    const auto inner = (cell.array() + kMargin).cast<std::ptrdiff_t>();
+    return (inner.z() * (size_.y() + 2 * kMargin) + inner.y()) * (size_.x() + 2 * kMargin) +
+           inner.x();
+  }
+  /// How far the slots of the cells in a cube around a cell lie from its own.
+  std::vector<std::ptrdiff_t> CubeOffsets(int radius) const;
   void DropIslands();
   void FindSurface();
 
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
   Vector3 origin_W_ = Vector3::Zero();
   double voxel_mm_ = 25;
-  std::vector<std::int32_t> index_of_cell_;
+  std::vector<std::int32_t> index_of_slot_;
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
   std::vector<int> component_;
