@@ -16,6 +16,7 @@ namespace {
 constexpr int kFewestShared = 3;
 constexpr double kWorstView_px = 5;
 constexpr double kWorstRms_px = 3;
+constexpr double kLeastShareKept = 0.5;
 
 // A turn of 1 rad counts as much as a metre.
 constexpr double kMillimetresPerRadian = 1000;
@@ -147,15 +148,38 @@ void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
   RefineBundle(fit.sightings, refine, fit.bundle);
 }
 
-void RefuseContradiction(const StudioFit& fit) {
-  for (const CameraFit& camera : fit.cameras) {
-    if (camera.rms_px < kWorstRms_px && camera.views >= kFewestShared) continue;
-    throw SetupError(fmt::format(
-        "{}: contradicts the other cameras ({:.1f} px in {} views that were kept); its recording "
-        "may "
-        "be another camera's, not of the same time, mirrored, or of another lens or size",
-        camera.name, camera.rms_px, camera.views));
+// Corners of each camera at moments that another camera saw, too.
+std::vector<int> SharedCorners(const BoardSightings& sightings) {
+  std::vector<int> cameras_at(static_cast<std::size_t>(sightings.moments), 0);
+  for (const BoardSighting& s : sightings.sightings) ++cameras_at[s.moment];
+  std::vector<int> shared(sightings.cameras.size(), 0);
+  for (const BoardSighting& s : sightings.sightings) {
+    if (cameras_at[s.moment] > 1) shared[s.camera] += static_cast<int>(s.corners.ids.size());
   }
+  return shared;
+}
+
+// Alone with the board, any camera is right: what counts is what it shares with others. The one
+// that fits worst is named, since it drags the others along.
+void RefuseContradiction(const BoardSightings& before, const StudioFit& fit) {
+  const std::vector<int> seen = SharedCorners(before), kept = SharedCorners(fit.sightings);
+  const auto share = [&](std::size_t c) {
+    return static_cast<double>(kept[c]) / std::max(1, seen[c]);
+  };
+  std::size_t worst = 0;
+  for (std::size_t c = 1; c < fit.cameras.size(); ++c) {
+    if (share(c) / (1 + fit.cameras[c].rms_px) < share(worst) / (1 + fit.cameras[worst].rms_px))
+      worst = c;
+  }
+  const CameraFit& camera = fit.cameras[worst];
+  if (fit.cameras.size() < 2 || (camera.rms_px < kWorstRms_px && share(worst) > kLeastShareKept))
+    return;
+  throw SetupError(
+      fmt::format("{}: contradicts the other cameras ({:.1f} px, {:.0f} % of what it shares with "
+                  "them fits); its "
+                  "recording may be another camera's, not of the same time, mirrored, or of "
+                  "another lens or size",
+                  camera.name, camera.rms_px, 100 * share(worst)));
 }
 
 }  // namespace
@@ -208,7 +232,7 @@ StudioFit FitExtrinsics(const BoardSightings& sightings,
     Adjust(options, fit);
   }
   MeasureFit(fit);
-  RefuseContradiction(fit);
+  RefuseContradiction(sightings, fit);
   return fit;
 }
 
