@@ -1,5 +1,6 @@
 #include "tools/calibrate.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -7,18 +8,32 @@
 #include <stdexcept>
 
 #include "config/load_config.h"
+#include "core/calibration/tsai.h"
 #include "core/errors.h"
 #include "drivers/calibration_file.h"
 #include "tools/calibrate_steps.h"
+#include "tools/calibration/exchange.h"
+#include "tools/calibration_report.h"
 
 namespace mocap {
 namespace {
 
 using Arguments = std::shared_ptr<CalibrateArguments>;
 
+void WriteFile(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
 void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
   const std::vector<Finding> findings = CheckAll(arguments, fit);
   WriteCalibration(arguments.out, fit.bundle.cameras);
+  if (!arguments.report.empty())
+    WriteFile(arguments.report,
+              CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(), fit,
+                                    findings));
   const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
   std::fputs(text.c_str(), stdout);
 }
@@ -40,6 +55,10 @@ void AddFootage(CLI::App* command, const Arguments& a) {
 void AddOutput(CLI::App* command, const Arguments& a) {
   command->add_option("--out", a->out, "calibration.toml to write")->required();
   command->add_flag("--json", a->json, "print one JSON object");
+}
+
+void AddReport(CLI::App* command, const Arguments& a) {
+  command->add_option("--report", a->report, "HTML file to write: errors, coverage, plan, verdict");
 }
 
 void AddLens(CLI::App* command, const Arguments& a) {
@@ -67,6 +86,7 @@ void AddStudio(CLI::App* parent) {
   CLI::App* command = parent->add_subcommand("studio", "All cameras from a board carried about");
   AddFootage(command, a);
   AddOutput(command, a);
+  AddReport(command, a);
   AddLens(command, a);
   AddWorld(command, a);
   command->callback([a] { Finish(*a, CalibrateStudio(*a)); });
@@ -87,6 +107,7 @@ void AddExtrinsics(CLI::App* parent) {
       parent->add_subcommand("extrinsics", "Poses of cameras whose lenses are known");
   AddFootage(command, a);
   AddOutput(command, a);
+  AddReport(command, a);
   AddWorld(command, a);
   command->add_option("--intrinsics", a->intrinsics, "calibration.toml with the lenses")
       ->required();
@@ -116,6 +137,145 @@ void AddFloor(CLI::App* parent) {
   });
 }
 
+struct ConvertArguments {
+  std::filesystem::path in, out;
+  std::string from = "mocap", to = "mocap";
+  double unit_mm = 1000;
+};
+
+Cameras ReadAny(const ConvertArguments& a) {
+  if (a.from == "pose2sim") return ReadPose2Sim(a.in, a.unit_mm);
+  if (a.from == "easymocap") return ReadEasyMocap(a.in);
+  if (a.from == "opencv") return ReadOpenCvYaml(a.in);
+  if (a.from == "willson") return ReadWillson(a.in);
+  if (a.from == "qualisys") return ReadQualisys(a.in);
+  if (a.from == "vicon") return ReadVicon(a.in);
+  return LoadCalibration(a.in);
+}
+
+void WriteAny(const ConvertArguments& a, const Cameras& cameras) {
+  if (a.to == "pose2sim") return WritePose2Sim(a.out, cameras, a.unit_mm);
+  if (a.to == "easymocap") return WriteEasyMocap(a.out, cameras);
+  if (a.to == "opencv") return WriteOpenCvYaml(a.out, cameras);
+  if (a.to == "willson") return WriteWillson(a.out, cameras);
+  if (a.to == "qualisys") return WriteQualisys(a.out, cameras);
+  if (a.to == "vicon") return WriteVicon(a.out, cameras);
+  WriteCalibration(a.out, cameras);
+}
+
+void AddConvert(CLI::App* parent) {
+  const auto a = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      parent->add_subcommand("convert", "Calibrations of other programs, in and out");
+  const CLI::IsMember formats(std::vector<std::string>{"mocap", "pose2sim", "easymocap", "opencv",
+                                                       "willson", "qualisys", "vicon"});
+  command->add_option("IN", a->in, "file, or folder for easymocap, opencv and willson")->required();
+  command->add_option("--from", a->from, "format of IN")->capture_default_str()->check(formats);
+  command->add_option("--to", a->to, "format of --out")->capture_default_str()->check(formats);
+  command->add_option("--out", a->out, "file or folder to write")->required();
+  command
+      ->add_option("--unit", a->unit_mm,
+                   "one unit of a pose2sim file in mm (aniposelib's is its board's)")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->callback([a] {
+    const Cameras cameras = ReadAny(*a);
+    const bool has_head =
+        std::any_of(cameras.begin(), cameras.end(),
+                    [](const CameraCalibration& c) { return c.head.has_value(); });
+    if (has_head && a->to != "mocap")
+      throw SetupError("--to " + a->to + ": knows no pan-tilt heads; mocap does");
+    WriteAny(*a, cameras);
+    for (const Finding& finding : CheckCameras(cameras, true))
+      std::fprintf(stdout, "look: %s\n", finding.text.c_str());
+  });
+}
+
+void AddCheck(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command = parent->add_subcommand("check", "What a calibration is worth");
+  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
+  command->add_option("--distance", a->distance,
+                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+  command->callback([a] {
+    StudioFit fit;
+    fit.bundle.cameras = LoadCalibration(a->calibration);
+    fit.has_floor = true;
+    const std::vector<Finding> findings = CheckAll(*a, fit);
+    for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
+    std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
+  });
+}
+
+struct TsaiArguments {
+  std::filesystem::path points, out;
+  std::vector<double> pitch_mm, center_px;
+  std::vector<int> size_px;
+  double sx = 1;
+  bool fixed_center = false;
+};
+
+std::vector<PointSighting> ReadPoints(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw SetupError(file.string() + ": cannot be read");
+  std::vector<PointSighting> points;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    PointSighting p;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf", &p.p_W.x(), &p.p_W.y(), &p.p_W.z(),
+                    &p.pixel.x(), &p.pixel.y()) != 5)
+      throw SetupError(file.string() + ":" + std::to_string(number) +
+                       ": is not five numbers: xw yw zw Xf Yf");
+    points.push_back(p);
+  }
+  return points;
+}
+
+void RunTsai(const TsaiArguments& a) {
+  TsaiSensor sensor;
+  sensor.pitch_mm = {a.pitch_mm[0], a.pitch_mm[1]};
+  const Vector2 size(a.size_px[0], a.size_px[1]);
+  sensor.center_px = a.center_px.empty() ? Vector2((size - Vector2::Ones()) / 2)
+                                         : Vector2(a.center_px[0], a.center_px[1]);
+  sensor.sx = a.sx;
+  sensor.refine_center = !a.fixed_center;
+  TsaiCalibration result;
+  try {
+    result = CalibrateTsai(ReadPoints(a.points), sensor);
+  } catch (const SetupError& error) {
+    throw SetupError(a.points.string() + ": " + error.what());
+  }
+  CameraCalibration camera{a.out.stem().string(), a.size_px[0], a.size_px[1],
+                           result.lens,           result.X_CW,  {}};
+  camera.name = "cam1";
+  WriteCalibration(a.out, std::vector<CameraCalibration>{camera});
+  std::fprintf(stdout,
+               "%s points: mean %.4f px, rms %.4f px, worst %.4f px; f %.4f mm, Tz %.2f mm\n",
+               result.coplanar ? "coplanar" : "spatial", result.mean_px, result.rms_px,
+               result.worst_px, result.lens.focal_mm, result.X_CW.p.z());
+}
+
+void AddTsai(CLI::App* parent) {
+  const auto a = std::make_shared<TsaiArguments>();
+  CLI::App* command =
+      parent->add_subcommand("tsai", "One camera from known points, by Tsai's method of 1987");
+  command->add_option("POINTS", a->points, "rows of xw yw zw [mm] Xf Yf [px]")->required();
+  command->add_option("--pitch", a->pitch_mm, "dx dy: size of a pixel [mm]")
+      ->required()
+      ->expected(2);
+  command->add_option("--size", a->size_px, "picture's width and height [px]")
+      ->required()
+      ->expected(2);
+  command->add_option("--center", a->center_px, "Cx Cy; the picture's middle otherwise")
+      ->expected(2);
+  command->add_option("--sx", a->sx, "for coplanar points, which do not determine it")
+      ->capture_default_str();
+  command->add_flag("--fixed-center", a->fixed_center, "leave Cx and Cy as they are");
+  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->callback([a] { RunTsai(*a); });
+}
+
 }  // namespace
 
 void AddCalibrateCommand(CLI::App& app) {
@@ -125,6 +285,9 @@ void AddCalibrateCommand(CLI::App& app) {
   AddIntrinsics(command);
   AddExtrinsics(command);
   AddFloor(command);
+  AddTsai(command);
+  AddCheck(command);
+  AddConvert(command);
 }
 
 }  // namespace mocap
