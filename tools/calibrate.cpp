@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "drivers/calibration_file.h"
 #include "tools/calibrate_steps.h"
+#include "tools/calibrate_takes.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration_report.h"
 
@@ -285,6 +286,9 @@ void AddCalibrateCommand(CLI::App& app) {
   AddIntrinsics(command);
   AddExtrinsics(command);
   AddFloor(command);
+  AddPanTilt(command);
+  AddHealth(command);
+  AddRefine(command);
   AddTsai(command);
   AddCheck(command);
   AddConvert(command);

@@ -124,7 +124,8 @@ TEST(ExchangeTest, WillsonComesBackTheSameForTsaiLenses) {
     EXPECT_EQ(back[c].X_CW.p, rig[c].X_CW.p);
     EXPECT_EQ(back[c].width_px, rig[c].width_px);
     EXPECT_EQ(back[c].height_px, rig[c].height_px);
-    EXPECT_NEAR((PixelOf(back[c], {100, 50, 900}) - PixelOf(rig[c], {100, 50, 900})).norm(), 0, 1e-6);
+    EXPECT_NEAR((PixelOf(back[c], {100, 50, 900}) - PixelOf(rig[c], {100, 50, 900})).norm(), 0,
+                1e-6);
   }
 }
 
