@@ -14,6 +14,7 @@ namespace mocap {
 namespace {
 
 constexpr int kFewestCharucoCorners = 6;
+constexpr double kWideEdge_px = 4, kWideEdgeShare = 0.45;
 
 const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
     {"DICT_4X4_50", cv::aruco::DICT_4X4_50},
@@ -49,6 +50,29 @@ cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board) {
   return cv::aruco::CharucoBoard::create(
       board.columns + 1, board.rows + 1, static_cast<float>(board.square_mm),
       static_cast<float>(board.square_mm * board.marker_share), dictionary);
+}
+
+// Width of the edge between two squares' middles over the widest that is sharp.
+double EdgeExcess(const cv::Mat& gray, const cv::Point2f& from, const cv::Point2f& to) {
+  const double length_px = cv::norm(to - from);
+  constexpr int kSteps = 24;
+  double last = 0, steepest = 1e-9, first = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const cv::Point2f at = from + (to - from) * (static_cast<float>(i) / kSteps);
+    const int x = std::clamp(static_cast<int>(at.x), 0, gray.cols - 2);
+    const int y = std::clamp(static_cast<int>(at.y), 0, gray.rows - 2);
+    const double u = std::clamp(at.x - x, 0.f, 1.f), v = std::clamp(at.y - y, 0.f, 1.f);
+    const auto pixel = [&](int dx, int dy) {
+      return static_cast<double>(gray.at<std::uint8_t>(y + dy, x + dx));
+    };
+    const double value = (1 - v) * ((1 - u) * pixel(0, 0) + u * pixel(1, 0)) +
+                         v * ((1 - u) * pixel(0, 1) + u * pixel(1, 1));
+    if (i == 0) first = value;
+    if (i > 0) steepest = std::max(steepest, std::abs(value - last) * kSteps / length_px);
+    last = value;
+  }
+  const double width_px = std::abs(last - first) / steepest;
+  return width_px / std::max(kWideEdge_px, kWideEdgeShare * length_px);
 }
 
 }  // namespace
@@ -106,6 +130,8 @@ class BoardDetector::Impl {
       corners = FindRectifiedChessboard(gray, size);
       if (corners.empty()) return std::nullopt;
     }
+    // Corners of blurred squares are still found, but not where they were.
+    if (IsBlurred(gray, corners)) return std::nullopt;
     BoardCorners found;
     for (int id = 0; id < board_.corners(); ++id) {
       found.ids.push_back(id);
@@ -135,6 +161,28 @@ class BoardDetector::Impl {
         contrast += ((row + column) % 2 == 0 ? 1 : -1) * brightness(row, column);
     }
     if (contrast > 0) std::reverse(found.pixels.begin(), found.pixels.end());
+  }
+
+  // Whether edges between squares are wide for the squares, along rows or down columns.
+  bool IsBlurred(const cv::Mat& gray, const std::vector<cv::Point2f>& corners) const {
+    const auto middle = [&](int row, int column) {
+      const int id = row * board_.columns + column;
+      return (corners[id] + corners[id + 1] + corners[id + board_.columns] +
+              corners[id + board_.columns + 1]) /
+             4;
+    };
+    for (const auto& [down, across] : {std::pair(0, 1), std::pair(1, 0)}) {
+      std::vector<double> excess;
+      for (int row = 0; row + 1 + down < board_.rows; ++row) {
+        for (int column = 0; column + 1 + across < board_.columns; ++column)
+          excess.push_back(
+              EdgeExcess(gray, middle(row, column), middle(row + down, column + across)));
+      }
+      std::nth_element(excess.begin(), excess.begin() + static_cast<int>(excess.size() / 2),
+                       excess.end());
+      if (excess[excess.size() / 2] > 1) return true;
+    }
+    return false;
   }
 
   // A board seen from its printed side has x to the right of y's way down.

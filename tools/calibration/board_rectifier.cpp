@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kSmallestShare = 0.002, kLargestShare = 0.7;
 constexpr double kRegularEnough_px = 0.25;  // Lenses bend a straight grid by as much.
+constexpr float kSameQuad_px = 1.5f;
+constexpr double kLeastContrast = 40;
 constexpr int kSquare_px = 40, kMargin_px = 60;
 
 using Quad = std::vector<cv::Point2f>;
@@ -29,6 +31,9 @@ std::optional<Quad> FourCorners(const std::vector<cv::Point>& contour, double pi
   return std::nullopt;
 }
 
+// Neighbouring levels show the same sheet again and again.
+bool SameQuad(const Quad& a, const Quad& b) { return cv::norm(a, b, cv::NORM_INF) < kSameQuad_px; }
+
 std::vector<Quad> FindQuads(const cv::Mat& gray) {
   std::vector<Quad> quads;
   for (int level = 60; level < 250; level += 15) {
@@ -37,7 +42,9 @@ std::vector<Quad> FindQuads(const cv::Mat& gray) {
     std::vector<std::vector<cv::Point>> contours;
     cv::findContours(bright, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
     for (const auto& contour : contours) {
-      if (const auto quad = FourCorners(contour, static_cast<double>(gray.total())))
+      const auto quad = FourCorners(contour, static_cast<double>(gray.total()));
+      if (quad && std::none_of(quads.begin(), quads.end(),
+                               [&](const Quad& known) { return SameQuad(known, *quad); }))
         quads.push_back(*quad);
     }
   }
@@ -57,6 +64,18 @@ double Irregularity(const std::vector<cv::Point2f>& corners, const cv::Size& siz
   return cv::norm(fitted, corners, cv::NORM_L2) / std::sqrt(static_cast<double>(corners.size()));
 }
 
+// Half of a board is dark; lamps, walls and floors are not, and cost as much to search.
+bool HalfDark(const cv::Mat& above) {
+  const cv::Rect inside(kMargin_px, kMargin_px, above.cols - 2 * kMargin_px,
+                        above.rows - 2 * kMargin_px);
+  double low = 0, high = 0;
+  cv::minMaxLoc(above(inside), &low, &high);
+  if (high - low < kLeastContrast) return false;
+  const double dark = static_cast<double>(cv::countNonZero(above(inside) < (low + high) / 2)) /
+                      static_cast<double>(inside.area());
+  return dark > 0.15 && dark < 0.85;
+}
+
 std::vector<cv::Point2f> FindIn(const cv::Mat& gray, const Quad& quad, const cv::Size& size) {
   const float width = static_cast<float>((size.width + 1) * kSquare_px);
   const float height = static_cast<float>((size.height + 1) * kSquare_px);
@@ -68,6 +87,7 @@ std::vector<cv::Point2f> FindIn(const cv::Mat& gray, const Quad& quad, const cv:
   cv::Mat above;
   cv::warpPerspective(gray, above, H, cv::Size(cvRound(width + 2 * m), cvRound(height + 2 * m)),
                       cv::INTER_CUBIC);
+  if (!HalfDark(above)) return {};
   std::vector<cv::Point2f> corners;
   if (!cv::findChessboardCornersSB(
           above, size, corners,

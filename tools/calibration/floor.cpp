@@ -68,19 +68,23 @@ RigidTransform FindStillBoard(const BoardSightings& still,
   if (bundle.X_WB.empty()) throw SetupError("the floor's board is seen by no calibrated camera");
   BundleOptions refine;
   refine.refine_lenses = refine.refine_poses = false;
+  refine.robust_px = 1;
   BoardSightings one = still;
   for (BoardSighting& s : one.sightings) s.moment = 0;
   one.moments = 1;
   RefineBundle(one, refine, bundle);
   const std::vector<CornerError> errors = BundleErrors(one, bundle);
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const double rms_px = RmsPx(errors, one, static_cast<int>(c));
-    if (rms_px > kWorstFloorRms_px)
-      throw SetupError(fmt::format(
-          "{}: sees the floor's board {:.1f} px from where the other cameras put it; was it moved "
-          "while it was recorded, or the camera since the board was carried?",
-          cameras[c].name, rms_px));
+  int worst = 0;
+  for (int c = 1; c < static_cast<int>(cameras.size()); ++c) {
+    if (RmsPx(errors, one, c) > RmsPx(errors, one, worst)) worst = c;
   }
+  const double rms_px = RmsPx(errors, one, worst);
+  if (rms_px > kWorstFloorRms_px)
+    throw SetupError(
+        fmt::format("{}: sees the floor's board {:.1f} px from where the other cameras put it; was "
+                    "it moved while it "
+                    "was recorded, or the camera since the board was carried?",
+                    cameras[static_cast<std::size_t>(worst)].name, rms_px));
   return *bundle.X_WB[0];
 }
 

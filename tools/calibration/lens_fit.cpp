@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <opencv2/calib3d.hpp>
 
 #include "core/errors.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr int kFewestViews = 6;
 constexpr double kWorstFocalSigma = 0.1;
 constexpr double kWorstRms_px = 2.5;
+constexpr double kLeastTilts_rad = 0.25;
 
 using Cells = std::array<int, Coverage::kColumns * Coverage::kRows>;
 
@@ -137,6 +139,22 @@ LensProblem MakeProblem(const BoardSightings& all, int camera, const std::vector
   return problem;
 }
 
+// Boards that all lie in parallel planes leave the focal length open, however many they are.
+void RefuseOneTilt(const std::string& name, const Bundle& bundle) {
+  double widest_rad = 0;
+  for (const auto& a : bundle.X_WB) {
+    for (const auto& b : bundle.X_WB)
+      widest_rad =
+          std::max(widest_rad, std::acos(std::clamp(a->R.col(2).dot(b->R.col(2)), -1., 1.)));
+  }
+  if (widest_rad < kLeastTilts_rad)
+    throw SetupError(
+        fmt::format("{}: its {} views of the board are tilted alike (within {:.0f} degrees); tilt "
+                    "the board by 30 "
+                    "degrees and more, in all directions",
+                    name, bundle.X_WB.size(), widest_rad * 180 / std::numbers::pi));
+}
+
 }  // namespace
 
 LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOptions& options) {
@@ -156,6 +174,7 @@ LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOption
                     "and more, in all directions",
                     c.name, views.size(), std::min(999.0, 100 * zhang.focal_sigma_share)));
   LensProblem problem = MakeProblem(sightings, camera, views, MakeLens(zhang, options));
+  RefuseOneTilt(c.name, problem.bundle);
   BundleOptions refine;
   refine.robust_px = 1;
   RefineBundle(problem.sightings, refine, problem.bundle);
