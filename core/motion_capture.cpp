@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/acquisition/model_acquirer.h"
+#include "core/tracking/evidence.h"
 #include "core/tracking/tracker.h"
-#include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 namespace {
@@ -14,10 +14,10 @@ namespace {
 // A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
-constexpr double kLostCostMm = 70;
+constexpr double kLostCostMm = 55;
 // A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
 // must be clearly better and face the same way.
-constexpr double kDoubtCostMm = 36;
+constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 constexpr double kForgetAfterS = 1.0;
@@ -29,15 +29,15 @@ class MotionCapture::Impl {
   explicit Impl(const BodyTable& table)
       : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
-                              UpdateObserver* observer) {
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const GrazingRay> rays,
+                              std::int64_t capture_ns, UpdateObserver* observer) {
     const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
     last_ns_ = capture_ns;
-    cloud_.Build(grid);
+    evidence_.Gather(grid, rays);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
-    result_.voxels = cloud_.size();
-    if (cloud_.volume_litres() < kLeastLitres) {
+    result_.voxels = evidence_.cloud.size();
+    if (evidence_.cloud.volume_litres() < kLeastLitres) {
       NobodyThere(dt_s);
     } else {
       empty_s_ = 0;
@@ -73,11 +73,11 @@ class MotionCapture::Impl {
         break;
       case CaptureState::kAcquiring:
         ++frames_acquiring_;
-        acquirer_.Refine(cloud_, dt_s);
+        acquirer_.Refine(evidence_, dt_s);
         TakeAcquired();
         break;
       case CaptureState::kTracking:
-        tracker_->Update(cloud_, dt_s);
+        tracker_->Update(evidence_, dt_s);
         LookAgainInDoubt();
         NoticeLoss();
         break;
@@ -85,7 +85,7 @@ class MotionCapture::Impl {
   }
 
   void Acquire() {
-    if (!acquirer_.Locate(cloud_, known_)) return;
+    if (!acquirer_.Locate(evidence_, known_)) return;
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;
     TakeAcquired();
@@ -106,7 +106,7 @@ class MotionCapture::Impl {
     doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
     if (doubtful_frames_ < kFramesToLose) return;
     doubtful_frames_ = 0;
-    if (!acquirer_.Locate(cloud_, known_)) return;
+    if (!acquirer_.Locate(evidence_, known_)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
@@ -140,7 +140,7 @@ class MotionCapture::Impl {
 
   ModelAcquirer acquirer_;
   BodyModel nobody_;
-  VoxelCloud cloud_;
+  Evidence evidence_;
   std::optional<Tracker> tracker_;
   std::optional<BodySizes> known_;
   std::optional<std::int64_t> last_ns_;
@@ -171,9 +171,9 @@ BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
 MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MotionCapture::~MotionCapture() = default;
 
-const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::int64_t capture_ns,
-                                           UpdateObserver* observer) {
-  return impl_->Update(grid, capture_ns, observer);
+const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<const GrazingRay> rays,
+                                           std::int64_t capture_ns, UpdateObserver* observer) {
+  return impl_->Update(grid, rays, capture_ns, observer);
 }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }

@@ -23,6 +23,7 @@ inline constexpr int kMaxCameras = 64;
 /// One frame set, carved.
 struct CarvedSet {
   VoxelGrid grid;
+  std::vector<GrazingRay> rays;  ///< Along the borders of the members' silhouettes.
   std::int64_t frame = 0;        ///< Counts sets from 0.
   std::int64_t capture_ns = 0;   ///< The middle one of the members' times.
   std::int64_t complete_ns = 0;  ///< When the last member had arrived, since the Unix epoch.
@@ -66,9 +67,8 @@ class CarveStage {
 
  private:
   struct Camera {
-    explicit Camera(const CameraCalibration& from) : calibration(from), table(from) {}
+    explicit Camera(const CameraCalibration& calibration) : table(calibration) {}
 
-    CameraCalibration calibration;
     SensorPlaneTable table;
     SegmentedFrame front;
     std::atomic<std::int64_t> late{0};

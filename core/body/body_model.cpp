@@ -77,6 +77,17 @@ void BodyModel::PointJacobian(
   }
 }
 
+void BodyModel::DirectionalJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
+                                    const Vector3& direction_W, PoseStep& J_by_step) const {
+  J_by_step.setZero(dof());
+  J_by_step.head<3>() = direction_W;
+  J_by_step.segment<3>(3) = (p_WQ - posture.X_WT.p).cross(direction_W);
+  for (int i = carrier; i >= 0; i = table_.joints[i].parent) {
+    const Vector3 arm_W = p_WQ - posture.point_W[i];
+    J_by_step[kTorsoDof + i] = posture.axis_W[i].dot(arm_W.cross(direction_W));
+  }
+}
+
 PaperState BodyModel::PaperStateOf(const PoseState& pose) const {
   PaperState state;
   state.torso_mm = pose.X_WT.p;

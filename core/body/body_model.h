@@ -59,6 +59,11 @@ class BodyModel {
   void PointJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
                      Eigen::Ref<Eigen::Matrix<double, 3, Eigen::Dynamic>> J_point_by_step) const;
 
+  /// Differentiates how far such a point lies along a direction: one row n^T of PointJacobian, as a
+  /// column.
+  void DirectionalJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
+                           const Vector3& direction_W, PoseStep& J_by_step) const;
+
   /// Reads the paper's 23 numbers off a pose; angles that the table lacks are 0. Table 1.
   PaperState PaperStateOf(const PoseState& pose) const;
 

@@ -118,4 +118,27 @@ PosedCapsule::Distance PosedCapsule::DistanceTo(const Vector3& p_WQ) const {
   return {closest, (p_WQ - closest).norm() - radius, share};
 }
 
+PosedCapsule::SegmentDistance PosedCapsule::DistanceTo(const Vector3& from_W,
+                                                       const Vector3& to_W) const {
+  // Closest points of two segments (Ericson 2005, §5.1.9).
+  const Vector3 core = b_W - a_W;
+  const Vector3 along = to_W - from_W;
+  const Vector3 between = a_W - from_W;
+  const double core_sq = std::max(core.squaredNorm(), 1e-9);
+  const double along_sq = std::max(along.squaredNorm(), 1e-9);
+  const double dot = core.dot(along);
+  const double c = core.dot(between);
+  const double f = along.dot(between);
+  const double slant = core_sq * along_sq - dot * dot;
+  double share = slant > 1e-9 * core_sq * along_sq
+                     ? std::clamp((dot * f - c * along_sq) / slant, 0.0, 1.0)
+                     : 0.5;
+  const double on_segment = std::clamp((dot * share + f) / along_sq, 0.0, 1.0);
+  share = std::clamp((dot * on_segment - c) / core_sq, 0.0, 1.0);
+  const Vector3 core_W = a_W + share * core;
+  const Vector3 segment_W = from_W + on_segment * along;
+  const double radius = radius_a_mm + share * (radius_b_mm - radius_a_mm);
+  return {core_W, segment_W, (segment_W - core_W).norm() - radius, share};
+}
+
 }  // namespace mocap

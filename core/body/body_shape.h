@@ -37,6 +37,15 @@ struct PosedCapsule {
     double share;       ///< Along the core: 0 at a, 1 at b.
   };
   Distance DistanceTo(const Vector3& p_WQ) const;
+
+  /// The place of the core that is closest to a line segment.
+  struct SegmentDistance {
+    Vector3 core_W;
+    Vector3 segment_W;  ///< The place of the segment that is closest.
+    double outside_mm;  ///< Negative where the segment cuts into the capsule.
+    double share;       ///< Along the core: 0 at a, 1 at b.
+  };
+  SegmentDistance DistanceTo(const Vector3& from_W, const Vector3& to_W) const;
 };
 
 }  // namespace mocap

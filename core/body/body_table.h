@@ -39,7 +39,8 @@ enum class Segment {
 };
 inline constexpr int kSegmentCount = 11;
 
-/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of them.
+/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of
+/// them.
 enum class Measurement { kPoints, kSurface };
 
 /// The chain: what `--body` chooses. Same code for every table.

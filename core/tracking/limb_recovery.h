@@ -1,28 +1,34 @@
-// §6.2: finds a limb again that has been lost, by the shape of the voxels and not by their distance
+// §6.2: finds a limb again that has been lost, by what it should explain and not by its distance
 // from the prediction.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/body/body_model.h"
-#include "core/tracking/surface_fit.h"
-#include "core/tracking/voxel_cloud.h"
+#include "core/body/stance.h"
+#include "core/tracking/contact.h"
+#include "core/tracking/evidence.h"
 
 namespace mocap {
 
-/// Tries each arm and leg in other stances when much of the surface is explained by no part. After
-/// a search in vain it rests for some frames.
+/// Tries each arm and leg in many stances when outlines are left that no part explains. Only what
+/// the rest of the body does not explain is matched, so that a stance costs microseconds. Keeps its
+/// memory.
 class LimbRecovery {
  public:
   LimbRecovery();
 
-  /// Looks for a pose that explains clearly more of the voxels than `pose` does, changing one limb.
-  std::optional<PoseState> Recover(const BodyModel& body, const VoxelCloud& cloud,
+  /// Looks for a pose that explains clearly more of the evidence than `pose` does, changing the
+  /// limbs alone.
+  std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence,
                                    const PoseState& pose);
 
  private:
-  SurfaceFit fit_;
-  int resting_ = 0;  ///< Frames to go until the next search.
+  std::vector<Stance> arm_stances_;
+  std::vector<Stance> leg_stances_;
+  std::vector<Contact> contacts_;
+  std::vector<PosedCapsule> posed_;
 };
 
 }  // namespace mocap

@@ -31,6 +31,10 @@ class VoxelCloud {
   bool empty() const { return voxels_.empty(); }
   double voxel_mm() const { return voxel_mm_; }
   double volume_litres() const { return size() * voxel_mm_ * voxel_mm_ * voxel_mm_ * 1e-6; }
+  /// The block of cells that holds all voxels [mm].
+  Eigen::AlignedBox3d box_W() const {
+    return {origin_W_, origin_W_ + voxel_mm_ * size_.cast<double>()};
+  }
   /// Index of the voxel in a cell; -1 where the cell is empty or outside.
   int IndexAt(const Eigen::Vector3i& cell) const;
   /// Index of the voxel at a place; -1 where it is empty.
