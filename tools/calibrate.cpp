@@ -1,6 +1,7 @@
 #include "tools/calibrate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -15,9 +16,14 @@
 #include "tools/calibrate_takes.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration_report.h"
+#include "tools/camera_health.h"
+#include "tools/take_samples.h"
 
 namespace mocap {
 namespace {
+
+constexpr double kFeetTolerance_mm = 100;
+constexpr double kLowestHead_mm = 1100, kHighestHead_mm = 2400;
 
 using Arguments = std::shared_ptr<CalibrateArguments>;
 
@@ -192,17 +198,43 @@ void AddConvert(CLI::App* parent) {
   });
 }
 
+// A person's feet are on the floor and the head is as high as heads are.
+void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
+  const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
+  const StandingPerson person = MeasurePerson(samples);
+  const auto add = [&](Severity severity, const std::string& text) {
+    findings.insert(findings.begin(), {severity, take.string() + ": " + text});
+  };
+  if (person.moments == 0) {
+    add(Severity::kWrong,
+        "the cameras' views of the person meet nowhere; poses or camera names are "
+        "mixed up");
+    return;
+  }
+  if (std::abs(person.lowest_mm) > kFeetTolerance_mm)
+    add(Severity::kWrong,
+        "the person's feet are at z = " + std::to_string(std::lround(person.lowest_mm)) +
+            " mm, not on the floor; set the floor again");
+  if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
+    add(Severity::kWarning,
+        "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) +
+            " mm; was the board's square typed right, and does somebody stand there?");
+}
+
 void AddCheck(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
   CLI::App* command = parent->add_subcommand("check", "What a calibration is worth");
   command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
   command->add_option("--distance", a->distance,
                       "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+  command->add_option("--take", a->footage,
+                      "a take with this calibration in which a person stands or walks");
   command->callback([a] {
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);
     fit.has_floor = true;
-    const std::vector<Finding> findings = CheckAll(*a, fit);
+    std::vector<Finding> findings = CheckAll(*a, fit);
+    if (!a->footage.empty()) CheckPerson(a->footage, findings);
     for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
     std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
   });

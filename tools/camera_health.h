@@ -35,6 +35,14 @@ std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take
 std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
                                        const std::vector<CameraCalibration>& cameras);
 
+/// Where the carved person begins and ends above the floor, the median over moments [mm].
+struct StandingPerson {
+  int moments = 0;
+  double lowest_mm = 0, highest_mm = 0;
+};
+
+StandingPerson MeasurePerson(const TakeSamples& samples);
+
 /// What refining did.
 struct RefinedStudio {
   std::vector<CameraCalibration> cameras;
