@@ -112,7 +112,7 @@ TEST(TsaiTest, FindsTheCameraThatMadeExactSpatialPoints) {
 }
 
 TEST(TsaiTest, FindsTheCameraThatMadeExactCoplanarPointsOnAnyPlane) {
-  for (const Vector3 turn : {Vector3(0, 0, 0), Vector3(0.3, 0.5, 1), Vector3(-0.7, 0.1, 2.5)}) {
+  for (const Vector3& turn : {Vector3(0, 0, 0), Vector3(0.3, 0.5, 1), Vector3(-0.7, 0.1, 2.5)}) {
     Truth truth;
     std::vector<Vector3> plane = Grid(1);
     for (Vector3& p : plane) p = ExpRotation(turn) * p;
