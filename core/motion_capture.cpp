@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/acquisition/model_acquirer.h"
+#include "core/acquisition/size_refiner.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/tracker.h"
 
@@ -21,6 +22,8 @@ constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 constexpr double kForgetAfterS = 1.0;
+// Sizes come to rest after so many frames that were fitted well.
+constexpr int kFramesToRefine = 90;
 
 }  // namespace
 
@@ -29,11 +32,11 @@ class MotionCapture::Impl {
   explicit Impl(const BodyTable& table)
       : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::span<const GrazingRay> rays,
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer) {
     const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
     last_ns_ = capture_ns;
-    evidence_.Gather(grid, rays);
+    evidence_.Gather(grid, outlines);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
@@ -63,6 +66,7 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kSearching;
     tracker_.reset();
     known_.reset();
+    refiner_.reset();
   }
 
   void SomebodyThere(double dt_s) {
@@ -78,6 +82,7 @@ class MotionCapture::Impl {
         break;
       case CaptureState::kTracking:
         tracker_->Update(evidence_, dt_s);
+        RefineSizes();
         LookAgainInDoubt();
         NoticeLoss();
         break;
@@ -98,7 +103,18 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kTracking;
     if (!known_) acquisition_frames_ = frames_acquiring_;
     known_ = tracker_->body().sizes();
+    if (!refiner_) refiner_.emplace(*known_);
     bad_frames_ = 0;
+  }
+
+  void RefineSizes() {
+    if (tracker_->body().table().measurement != Measurement::kSurface) return;
+    if (refiner_->frames() >= kFramesToRefine) return;
+    if (tracker_->quality().Cost() > kDoubtCostMm) return;
+    refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
+    tracker_->Resize(refiner_->Sizes());
+    known_ = tracker_->body().sizes();
+    result_.body_changed = true;
   }
 
   void LookAgainInDoubt() {
@@ -143,6 +159,7 @@ class MotionCapture::Impl {
   Evidence evidence_;
   std::optional<Tracker> tracker_;
   std::optional<BodySizes> known_;
+  std::optional<SizeRefiner> refiner_;
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   std::vector<std::int8_t> labels_;
@@ -171,9 +188,9 @@ BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
 MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MotionCapture::~MotionCapture() = default;
 
-const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<const GrazingRay> rays,
+const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                                            std::int64_t capture_ns, UpdateObserver* observer) {
-  return impl_->Update(grid, rays, capture_ns, observer);
+  return impl_->Update(grid, outlines, capture_ns, observer);
 }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }

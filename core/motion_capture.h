@@ -55,10 +55,10 @@ class MotionCapture {
   ~MotionCapture();
 
   /// Takes the next frame set.
-  /// @param rays        along the borders of the silhouettes that the grid was carved by.
+  /// @param outlines    of the silhouettes that the grid was carved by.
   /// @param capture_ns  time of exposure; must not go back.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  const CaptureResult& Update(const VoxelGrid& grid, std::span<const GrazingRay> rays,
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer = nullptr);
 
   /// The body as it is known now.

@@ -63,8 +63,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
-  out.rays.clear();
-  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.rays);
+  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);

@@ -18,8 +18,8 @@ namespace mocap {
 /// What leaves a camera's thread: the outline, no pixels.
 struct SegmentedFrame {
   Silhouette silhouette;
-  std::vector<GrazingRay> rays;  ///< Along the silhouette's border.
-  RigidTransform X_CW;           ///< Where the camera stood.
+  Outline outline;      ///< The silhouette's border.
+  RigidTransform X_CW;  ///< Where the camera stood.
   std::int64_t capture_ns = 0;
   std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.

@@ -105,14 +105,15 @@ void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {
   message.joint_name.resize(joints.size());
   message.joint_parent.resize(joints.size());
   message.joint_axis.assign(joints.size(), std::vector<double>(3));
-  message.joint_at.resize(joints.size());
+  message.joint_place_mm.assign(joints.size(), std::vector<double>(3));
   message.joint_min_rad.resize(joints.size());
   message.joint_max_rad.resize(joints.size());
   for (std::size_t i = 0; i < joints.size(); ++i) {
     message.joint_name[i] = joints[i].name;
     message.joint_parent[i] = joints[i].parent;
     std::ranges::copy(joints[i].axis_T, message.joint_axis[i].begin());
-    message.joint_at[i] = static_cast<std::int32_t>(joints[i].at);
+    std::ranges::copy(body.reference_points_T().col(static_cast<int>(joints[i].at)),
+                      message.joint_place_mm[i].begin());
     message.joint_min_rad[i] = joints[i].min_rad;
     message.joint_max_rad[i] = joints[i].max_rad;
   }

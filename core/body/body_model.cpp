@@ -8,12 +8,12 @@ namespace mocap {
 namespace {
 
 constexpr std::array<Segment, kPointCount> kSegmentOfPoint = {
-    Segment::kTorso,     Segment::kHead,      Segment::kUpperArmL, Segment::kUpperArmR,
-    Segment::kThighL,    Segment::kThighR,    Segment::kLowerArmL, Segment::kLowerArmR,
-    Segment::kCalfL,     Segment::kCalfR,     Segment::kTorso,     Segment::kTorso,
-    Segment::kTorso,     Segment::kPelvis,    Segment::kPelvis,    Segment::kUpperArmL,
-    Segment::kUpperArmR, Segment::kLowerArmL, Segment::kLowerArmR, Segment::kThighL,
-    Segment::kThighR,    Segment::kCalfL,     Segment::kCalfR};
+    Segment::kTorso,     Segment::kHead,   Segment::kUpperArmL, Segment::kUpperArmR,
+    Segment::kThighL,    Segment::kThighR, Segment::kLowerArmL, Segment::kLowerArmR,
+    Segment::kCalfL,     Segment::kCalfR,  Segment::kTorso,     Segment::kShoulderL,
+    Segment::kShoulderR, Segment::kPelvis, Segment::kPelvis,    Segment::kUpperArmL,
+    Segment::kUpperArmR, Segment::kHandL,  Segment::kHandR,     Segment::kThighL,
+    Segment::kThighR,    Segment::kCalfL,  Segment::kCalfR};
 
 }  // namespace
 

@@ -39,8 +39,8 @@ class BodyModel {
   /// Takes new sizes; the chain stays.
   void Resize(const BodySizes& sizes);
 
-  /// The 23 points at the reference configuration, p_TQ; 3 × 23 [mm].
-  const BodyPoints& reference_points_T() const { return reference_points_T_; }
+  /// The 23 points and further joints at the reference configuration, p_TQ; 3 × 29 [mm].
+  const BodyPlaces& reference_points_T() const { return reference_points_T_; }
   /// The flesh at the reference configuration.
   const std::vector<Capsule>& shape() const { return shape_; }
   /// Row of the last axis that moves a point; -1: only the torso does.
@@ -70,7 +70,7 @@ class BodyModel {
  private:
   BodyTable table_;
   BodySizes sizes_;
-  BodyPoints reference_points_T_;
+  BodyPlaces reference_points_T_;
   std::vector<Capsule> shape_;
   std::array<int, kPointCount> point_carrier_{};
 };

@@ -21,7 +21,7 @@ struct Capsule {
 
 /// The capsules of a body at the reference configuration.
 std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
-                             const BodyPoints& reference_points_T);
+                             const BodyPlaces& reference_points_T);
 
 /// A capsule where a pose puts it.
 struct PosedCapsule {

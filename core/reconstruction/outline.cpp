@@ -57,7 +57,8 @@ std::optional<Vector3> DirectionOf(const Lens& lens, const Vector2& pixel) {
 }  // namespace
 
 void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
-                  const Silhouette& silhouette, int most, std::vector<GrazingRay>& rays) {
+                  const Silhouette& silhouette, int most, Outline& outline) {
+  outline.clear();
   const std::optional<PixelBox> box = silhouette.BoundingBox();
   if (!box) return;
   int length_px = 0;
@@ -78,7 +79,7 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
     const auto beside_C = DirectionOf(camera.lens, place + along);
     if (!ray_C || !beside_C) return;
     const Vector3 outward_C = beside_C->cross(*ray_C).normalized();
-    rays.push_back({X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C});
+    outline.push_back({X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C});
   });
 }
 

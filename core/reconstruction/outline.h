@@ -16,10 +16,14 @@ struct GrazingRay {
   Vector3 outward_W;    ///< The surface's normal where the ray touches it; unit length.
 };
 
-/// Traces a silhouette's border, holes included, and adds rays spread evenly over it. Where the
-/// picture ends, the border is the picture's and not the person's: it gives no rays.
-/// @param most  rays to add at the most.
+/// What one camera saw of the person's border.
+using Outline = std::vector<GrazingRay>;
+
+/// Traces a silhouette's border, holes included, by rays spread evenly over it. Where the picture
+/// ends, the border is the picture's and not the person's: it gives no rays.
+/// @param most  rays at the most.
+/// @param outline  overwritten; its memory is reused.
 void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
-                  const Silhouette& silhouette, int most, std::vector<GrazingRay>& rays);
+                  const Silhouette& silhouette, int most, Outline& outline);
 
 }  // namespace mocap

@@ -9,6 +9,8 @@ namespace {
 // As shares of a voxel: how far apart a ray is looked at, and how far inside of it.
 constexpr double kStep = 0.8;
 constexpr double kInward = 0.7;
+// Of a camera's rays.
+constexpr double kMostMissing = 1.0 / 3;
 
 struct Range {
   double from_mm;
@@ -26,27 +28,50 @@ std::optional<Range> Within(const Eigen::AlignedBox3d& box, const Vector3& eye,
   return Range{from, to};
 }
 
+// The stretch of a ray along the voxels; empty where it misses them.
+std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
+                                 const Range& in_box) {
+  const double step_mm = kStep * cloud.voxel_mm();
+  const Vector3 eye_W = ray.eye_W - kInward * cloud.voxel_mm() * ray.outward_W;
+  std::optional<Range> stretch;
+  for (double t = in_box.from_mm; t < in_box.to_mm; t += step_mm) {
+    if (cloud.IndexAt(Vector3(eye_W + t * ray.direction_W)) < 0) continue;
+    if (!stretch) stretch = Range{t, t};
+    stretch->to_mm = t;
+  }
+  return stretch;
+}
+
+BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {
+  return {ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
+          ray.outward_W};
+}
+
+void AddEdges(const VoxelCloud& cloud, const Outline& outline, std::vector<BoundingEdge>& edges,
+              std::vector<BoundingEdge>& missing) {
+  missing.clear();
+  for (const GrazingRay& ray : outline) {
+    const std::optional<Range> in_box = Within(cloud.box_W(), ray.eye_W, ray.direction_W);
+    if (!in_box) continue;
+    if (const std::optional<Range> stretch = AlongVoxels(cloud, ray, *in_box)) {
+      edges.push_back(EdgeOf(ray, *stretch));
+    } else {
+      missing.push_back(EdgeOf(ray, *in_box));
+    }
+  }
+  if (static_cast<double>(missing.size()) > kMostMissing * static_cast<double>(outline.size())) {
+    return;
+  }
+  edges.insert(edges.end(), missing.begin(), missing.end());
+}
+
 }  // namespace
 
-void FindBoundingEdges(const VoxelCloud& cloud, std::span<const GrazingRay> rays,
+void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
                        std::vector<BoundingEdge>& edges) {
   edges.clear();
-  const double step_mm = kStep * cloud.voxel_mm();
-  for (const GrazingRay& ray : rays) {
-    const Vector3 eye_W = ray.eye_W - kInward * cloud.voxel_mm() * ray.outward_W;
-    const std::optional<Range> range = Within(cloud.box_W(), eye_W, ray.direction_W);
-    if (!range) continue;
-    double first_mm = -1;
-    double last_mm = -1;
-    for (double t = range->from_mm; t < range->to_mm; t += step_mm) {
-      if (cloud.IndexAt(Vector3(eye_W + t * ray.direction_W)) < 0) continue;
-      if (first_mm < 0) first_mm = t;
-      last_mm = t;
-    }
-    if (first_mm < 0) continue;
-    edges.push_back({ray.eye_W + first_mm * ray.direction_W, ray.eye_W + last_mm * ray.direction_W,
-                     ray.outward_W});
-  }
+  std::vector<BoundingEdge> missing;
+  for (const Outline& outline : outlines) AddEdges(cloud, outline, edges, missing);
 }
 
 }  // namespace mocap

@@ -17,9 +17,10 @@ struct BoundingEdge {
   Vector3 outward_W;  ///< The person's normal where it is touched; unit length.
 };
 
-/// Cuts each ray to its stretch along the voxels. Rays that miss them are dropped: what a single
-/// camera took for a person.
-void FindBoundingEdges(const VoxelCloud& cloud, std::span<const GrazingRay> rays,
+/// Cuts each ray to its stretch along the voxels. A ray that misses them keeps its whole way
+/// through their box, because a limb may have been carved away that another camera did not see; but
+/// not if a third of its camera's rays miss, for then it is the camera that errs.
+void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
                        std::vector<BoundingEdge>& edges);
 
 }  // namespace mocap

@@ -14,9 +14,9 @@ struct Evidence {
   VoxelCloud cloud;
   std::vector<BoundingEdge> edges;
 
-  void Gather(const VoxelGrid& grid, std::span<const GrazingRay> rays) {
+  void Gather(const VoxelGrid& grid, std::span<const Outline> outlines) {
     cloud.Build(grid);
-    FindBoundingEdges(cloud, rays, edges);
+    FindBoundingEdges(cloud, outlines, edges);
   }
 };
 

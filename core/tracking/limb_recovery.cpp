@@ -17,9 +17,11 @@ constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.01;
 constexpr double kBetterMm = 0.5;
 constexpr int kRefined = 10;
+constexpr std::size_t kLeftArms = 4;  // For each of them the right arm is searched.
+constexpr int kRestFrames = 3;
 constexpr int kIterations = 5;
-constexpr std::array<Segment, 4> kLimbEnds = {Segment::kLowerArmL, Segment::kLowerArmR,
-                                              Segment::kCalfL, Segment::kCalfR};
+constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
+                                              Segment::kFootR};
 
 std::vector<Stance> ArmStances() {
   std::vector<Stance> stances;
@@ -70,9 +72,9 @@ struct Candidate {
 
 bool IsCheaper(const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; }
 
-// The best of the stances, the most promising of them refined.
-Candidate BestOf(LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
-                 const PoseState& pose) {
+// The best of the stances, refined, the best first.
+std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
+                              const std::vector<Stance>& stances, const PoseState& pose) {
   std::vector<Candidate> candidates;
   for (const Stance& stance : stances) {
     const JointAngles angles = AnglesOf(stance, table);
@@ -83,34 +85,76 @@ Candidate BestOf(LimbSearch& search, const BodyTable& table, const std::vector<S
   }
   const auto end = candidates.begin() + std::min<std::ptrdiff_t>(kRefined, std::ssize(candidates));
   std::partial_sort(candidates.begin(), end, candidates.end(), IsCheaper);
-  for (auto candidate = candidates.begin(); candidate != end; ++candidate) {
-    search.Refine(candidate->pose, kIterations);
-    candidate->cost_mm = search.CostAt(candidate->pose);
+  candidates.erase(end, candidates.end());
+  for (Candidate& candidate : candidates) {
+    search.Refine(candidate.pose, kIterations);
+    candidate.cost_mm = search.CostAt(candidate.pose);
   }
-  return *std::min_element(candidates.begin(), end, IsCheaper);
+  std::sort(candidates.begin(), candidates.end(), IsCheaper);
+  return candidates;
 }
 
 }  // namespace
 
 LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
 
-std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
-                                               const PoseState& pose) {
-  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
-  body.PoseShape(body.PostureAt(pose), posed_);
-  if (UnexplainedShare(contacts_, posed_) < kUnexplainedShare) return std::nullopt;
+const std::vector<Stance>& LimbRecovery::StancesOf(Segment limb_end) const {
+  const bool is_arm = limb_end == Segment::kHandL || limb_end == Segment::kHandR;
+  return is_arm ? arm_stances_ : leg_stances_;
+}
 
-  std::optional<PoseState> recovered;
-  PoseState now = pose;
-  for (const Segment limb_end : kLimbEnds) {
-    const bool is_arm = limb_end == Segment::kLowerArmL || limb_end == Segment::kLowerArmR;
-    LimbSearch search(body, evidence, contacts_, limb_end, now);
-    const Candidate best = BestOf(search, body.table(), is_arm ? arm_stances_ : leg_stances_, now);
-    if (best.cost_mm > search.CostAt(now) - kBetterMm) continue;
-    now = best.pose;
-    recovered = now;
+bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
+  body.PoseShape(body.PostureAt(pose), posed_);
+  return UnexplainedShare(contacts_, posed_) < kUnexplainedShare;
+}
+
+bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
+                              PoseState& pose) const {
+  LimbSearch search(body, evidence, contacts_, limb_end, limb_end, pose);
+  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
+  if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
+  pose = best.pose;
+  return true;
+}
+
+bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                               PoseState& pose) const {
+  const double before_mm = fit.QualityAt(body, pose).Cost();
+  LimbSearch left_search(body, evidence, contacts_, Segment::kHandL, Segment::kHandR, pose);
+  std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
+  candidates.resize(std::min(candidates.size(), kLeftArms));
+  for (Candidate& candidate : candidates) {
+    LimbSearch right_search(body, evidence, contacts_, Segment::kHandR, Segment::kHandR,
+                            candidate.pose);
+    candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
+    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
   }
-  return recovered;
+  const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
+  if (best.cost_mm > before_mm - kBetterMm) return false;
+  pose = best.pose;
+  return true;
+}
+
+std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
+                                               SurfaceFit& fit, const PoseState& pose) {
+  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
+  if (IsExplained(body, pose)) return std::nullopt;
+  PoseState now = pose;
+  bool changed = false;
+  for (const Segment limb_end : kLimbEnds) {
+    changed |= RecoverOne(body, evidence, limb_end, now);
+  }
+  if (resting_ > 0) {
+    --resting_;
+  } else if (!IsExplained(body, now)) {
+    if (RecoverArms(body, evidence, fit, now)) {
+      changed = true;
+    } else {
+      resting_ = kRestFrames;
+    }
+  }
+  if (!changed) return std::nullopt;
+  return now;
 }
 
 }  // namespace mocap

@@ -19,30 +19,41 @@ constexpr double kStanceSpreadRad = 0.5;
 constexpr double kVoxelWeight = 0.25;
 constexpr double kHollowWeight = 0.5;
 
-// A limb has at most a ball joint, a hinge and a spare axis.
-constexpr int kMostRows = 6;
+// More axes than a limb may have.
+constexpr int kMostRows = 12;
 using LimbVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
 using LimbMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
 }  // namespace
 
-LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence,
-                       const std::vector<Contact>& contacts, Segment limb_end,
-                       const PoseState& pose)
-    : body_(body), cloud_(evidence.cloud), contacts_(contacts) {
-  const BodyTable& table = body.table();
+std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end) {
+  std::vector<int> rows;
   const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];
   for (int i = table.carrier[static_cast<int>(limb_end)]; i >= 0 && i != trunk;
        i = table.joints[i].parent) {
-    rows_.push_back(i);
+    rows.push_back(i);
   }
+  return rows;
+}
+
+LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence,
+                       const std::vector<Contact>& contacts, Segment limb_end, Segment absent,
+                       const PoseState& pose)
+    : body_(body),
+      cloud_(evidence.cloud),
+      contacts_(contacts),
+      rows_(RowsOfLimb(body.table(), limb_end)) {
+  const std::vector<int> absent_rows = RowsOfLimb(body.table(), absent);
+  const auto holds = [](const std::vector<int>& rows, int row) {
+    return std::find(rows.begin(), rows.end(), row) != rows.end();
+  };
   std::vector<PosedCapsule> all;
   body.PoseShape(body.PostureAt(pose), all);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int carrier = body.shape()[i].carrier;
-    if (std::find(rows_.begin(), rows_.end(), carrier) != rows_.end()) {
+    if (holds(rows_, carrier)) {
       capsules_.push_back(static_cast<int>(i));
-    } else {
+    } else if (!holds(absent_rows, carrier)) {
       others_.push_back(all[i]);
       other_parts_.push_back(body.shape()[i].part);
     }

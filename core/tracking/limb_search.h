@@ -9,20 +9,25 @@
 
 namespace mocap {
 
+/// Rows of the joints that move a limb and nothing of the trunk, the limb's end first.
+/// @param limb_end  the segment at the limb's end: a hand or a foot.
+std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end);
+
 /// Fits the joints of one limb while the rest of the body keeps its pose.
 class LimbSearch {
  public:
-  /// @param limb_end  the segment at the limb's end: a lower arm or a calf.
+  /// @param limb_end  the segment at the limb's end: a hand or a foot.
+  /// @param absent    the end of another limb that is to be ignored, or the same.
   /// @param pose      of the whole body; the limb's angles in it do not matter.
   LimbSearch(const BodyModel& body, const Evidence& evidence, const std::vector<Contact>& contacts,
-             Segment limb_end, const PoseState& pose);
+             Segment limb_end, Segment absent, const PoseState& pose);
 
   /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
   /// differ in this limb alone.
   double CostAt(const PoseState& pose);
   /// Improves the limb's angles from those in `pose`.
   void Refine(PoseState& pose, int iterations);
-  /// Rows of the joints that move this limb and nothing of the trunk, the limb's end first.
+  /// Of RowsOfLimb.
   const std::vector<int>& rows() const { return rows_; }
 
  private:

@@ -48,7 +48,8 @@ void Tracker::FollowPoints(const VoxelCloud& cloud) {
 
 void Tracker::FollowSurface(const Evidence& evidence) {
   FitSurface();
-  if (const auto recovered = limb_recovery_.Recover(body_, evidence, filter_.pose())) {
+  if (const auto recovered =
+          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose())) {
     filter_.Jump(*recovered);
     FitSurface();
   }

@@ -144,7 +144,7 @@ TEST_F(PosePublisherTest, APoseCanBeDrawnAgainFromItsMessageAndTheBody) {
     Vector3 p_T(body.point_reference_mm[i]);
     for (int joint = body.point_carrier[i]; joint >= 0; joint = body.joint_parent[joint]) {
       const Vector3 axis_T(body.joint_axis[joint].data());
-      const Vector3 at_T(body.point_reference_mm[body.joint_at[joint]]);
+      const Vector3 at_T(body.joint_place_mm[joint].data());
       p_T = RotationAbout(axis_T, at_T, pose.joint_rad[joint]) * p_T;
     }
     const Matrix3 R_WT = ExpRotation(pose.torso_angle_rad * Vector3(pose.torso_axis));

@@ -67,7 +67,8 @@ TEST_P(EveryBody, KeepsTheLengthsOfItsPartsInEveryPose) {
     const PoseState pose = RandomPose(body_.table(), random_);
     const BodyPoints points = body_.PointsAt(body_.PostureAt(pose));
     EXPECT_NEAR(distance(points, Point::kShoulderL, Point::kElbowL), body_.sizes().upper_arm, 1e-6);
-    EXPECT_NEAR(distance(points, Point::kElbowR, Point::kFingertipsR), body_.sizes().lower_arm,
+    // Hands bend, but the forearm's middle does not.
+    EXPECT_NEAR(distance(points, Point::kElbowR, Point::kLowerArmR), body_.sizes().lower_arm / 2,
                 1e-6);
     EXPECT_NEAR(distance(points, Point::kHipR, Point::kKneeR), body_.sizes().thigh, 1e-6);
     EXPECT_NEAR(distance(points, Point::kKneeL, Point::kFootL), body_.sizes().calf, 1e-6);
