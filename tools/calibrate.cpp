@@ -279,9 +279,7 @@ void RunTsai(const TsaiArguments& a) {
   } catch (const SetupError& error) {
     throw SetupError(a.points.string() + ": " + error.what());
   }
-  CameraCalibration camera{a.out.stem().string(), a.size_px[0], a.size_px[1],
-                           result.lens,           result.X_CW,  {}};
-  camera.name = "cam1";
+  const CameraCalibration camera{"cam1", a.size_px[0], a.size_px[1], result.lens, result.X_CW, {}};
   WriteCalibration(a.out, std::vector<CameraCalibration>{camera});
   std::fprintf(stdout,
                "%s points: mean %.4f px, rms %.4f px, worst %.4f px; f %.4f mm, Tz %.2f mm\n",

@@ -14,6 +14,26 @@ namespace {
 constexpr double kErrorScale = 40;
 constexpr double kMargin_mm = 600;
 
+// A camera with the wedge that it looks at.
+template <typename XOf, typename YOf>
+std::string CameraMark(const CameraCalibration& camera, const XOf& x_of, const YOf& y_of) {
+  const RigidTransform X_WC = camera.X_CW.Inverse();
+  const double half = camera.width_px / 2.0 / FocalPx(camera.lens);
+  std::string cone;
+  for (const double side : {-half, half}) {
+    const Vector3 ray = X_WC.R * Vector3(side, 0, 1);
+    const Vector3 end = X_WC.p + ray * (1500 / std::max(1e-6, ray.head<2>().norm()));
+    cone += fmt::format(" L{:.1f} {:.1f}", x_of(end.x()), y_of(end.y()));
+  }
+  return fmt::format(
+      "<path class=\"view-cone\" d=\"M{0:.1f} {1:.1f}{2}Z\"/><circle class=\"camera\" "
+      "cx=\"{0:.1f}\" "
+      "cy=\"{1:.1f}\" r=\"7\"/><text class=\"label\" style=\"font-size:20px\" x=\"{3:.1f}\" "
+      "y=\"{4:.1f}\">{5}</text>",
+      x_of(X_WC.p.x()), y_of(X_WC.p.y()), cone, x_of(X_WC.p.x()) + 11, y_of(X_WC.p.y()) + 6,
+      EscapeHtml(camera.name));
+}
+
 }  // namespace
 
 std::string CoverageSvg(const StudioFit& fit, int camera, const std::vector<CornerError>& errors) {
@@ -98,21 +118,7 @@ std::string RoomPlanSvg(const std::vector<CameraCalibration>& cameras, const See
       "y=\"{1:.1f}\">x</text><text style=\"font-size:20px\" x=\"{0:.1f}\" y=\"{5:.1f}\">y</text>",
       x_of(0), y_of(0), x_of(500), y_of(500), x_of(550), y_of(560));
   for (const CameraCalibration& camera : cameras) {
-    const RigidTransform X_WC = camera.X_CW.Inverse();
-    const double half = camera.width_px / 2.0 / FocalPx(camera.lens);
-    std::string cone;
-    for (const double side : {-half, half}) {
-      const Vector3 ray = X_WC.R * Vector3(side, 0, 1);
-      const Vector3 end = X_WC.p + ray * (1500 / std::max(1e-6, ray.head<2>().norm()));
-      cone += fmt::format(" L{:.1f} {:.1f}", x_of(end.x()), y_of(end.y()));
-    }
-    svg += fmt::format(
-        "<path class=\"view-cone\" d=\"M{0:.1f} {1:.1f}{2}Z\"/><circle class=\"camera\" "
-        "cx=\"{0:.1f}\" "
-        "cy=\"{1:.1f}\" r=\"7\"/><text class=\"label\" style=\"font-size:20px\" x=\"{3:.1f}\" "
-        "y=\"{4:.1f}\">{5}</text>",
-        x_of(X_WC.p.x()), y_of(X_WC.p.y()), cone, x_of(X_WC.p.x()) + 11, y_of(X_WC.p.y()) + 6,
-        EscapeHtml(camera.name));
+    svg += CameraMark(camera, x_of, y_of);
   }
   return svg + "</svg>";
 }

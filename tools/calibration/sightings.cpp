@@ -96,6 +96,20 @@ void MeasureMotions(std::vector<BoardSighting>& sightings, std::size_t first,
                    ": compare that with the board, show all of it, sharp and evenly lit");
 }
 
+std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std::size_t camera,
+                                 std::size_t frames) {
+  std::vector<int> moment_of(frames, -1);
+  for (std::size_t m = 0; m < moments.size(); ++m) {
+    if (moments[m].frames[camera] >= 0) moment_of[moments[m].frames[camera]] = static_cast<int>(m);
+  }
+  return moment_of;
+}
+
+double MeanInterval(const FootageCamera& camera) {
+  return 1e-9 * static_cast<double>(camera.frames.back().time_ns - camera.frames.front().time_ns) /
+         std::max<double>(1, static_cast<double>(camera.frames.size()) - 1);
+}
+
 }  // namespace
 
 int BoardSightings::CountOf(int camera) const {
@@ -116,13 +130,8 @@ BoardSightings CollectSightings(const Footage& footage, const Board& board,
   for (std::size_t c = 0; c < footage.cameras.size(); ++c) {
     const FootageCamera& camera = footage.cameras[c];
     const int id = static_cast<int>(c);
-    std::vector<int> moment_of(camera.frames.size(), -1);
-    for (std::size_t m = 0; m < moments.size(); ++m) {
-      if (moments[m].frames[c] >= 0) moment_of[moments[m].frames[c]] = static_cast<int>(m);
-    }
-    const double interval_s =
-        1e-9 * static_cast<double>(camera.frames.back().time_ns - camera.frames.front().time_ns) /
-        std::max<double>(1, static_cast<double>(camera.frames.size()) - 1);
+    const std::vector<int> moment_of = MomentsOfFrames(moments, c, camera.frames.size());
+    const double interval_s = MeanInterval(camera);
     result.interval_s = c == 0 ? interval_s : std::min(result.interval_s, interval_s);
     const int total = static_cast<int>(moments.size());
     const int stride = std::max(1, (total + options.most_frames - 1) / options.most_frames);
