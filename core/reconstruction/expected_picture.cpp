@@ -12,6 +12,16 @@ namespace {
 constexpr float kDarkestMean = 1;
 constexpr int kGainStep_px = 5;
 constexpr float kLargestGain = 4;
+// What differs more from the middle than by this share is no background.
+constexpr float kFlatness = 0.06f;
+// Pixels whose brightness may vary by more than itself are not known.
+constexpr float kLeastKnown = 1;
+
+float Median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 }  // namespace
 
@@ -41,6 +51,7 @@ float MeasureGain(const ExpectedPicture& expected, ImageView<const Bgr> image,
   for (int y = kGainStep_px / 2; y < expected.height; y += kGainStep_px) {
     for (int x = kGainStep_px / 2; x < expected.width; x += kGainStep_px) {
       const std::size_t i = static_cast<std::size_t>(y) * expected.width + x;
+      if (expected.inverse_alpha_variation[i] < kLeastKnown) continue;
       const Bgr& p = image(x, y);
       const float color[3] = {static_cast<float>(p.b), static_cast<float>(p.g),
                               static_cast<float>(p.r)};
@@ -54,9 +65,11 @@ float MeasureGain(const ExpectedPicture& expected, ImageView<const Bgr> image,
     }
   }
   if (scratch.empty()) return 1;
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
-  return std::clamp(1 / std::max(*middle, 1e-3f), 1 / kLargestGain, kLargestGain);
+  // Persons and shadows lie mostly to one side of the middle; without them it is found again.
+  const float rough = Median(scratch);
+  std::erase_if(scratch, [rough](float v) { return std::abs(v - rough) > kFlatness * rough; });
+  const float fine = scratch.empty() ? rough : Median(scratch);
+  return std::clamp(1 / std::max(fine, 1e-3f), 1 / kLargestGain, kLargestGain);
 }
 
 }  // namespace mocap

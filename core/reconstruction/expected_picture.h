@@ -36,7 +36,8 @@ struct ExpectedPicture {
 };
 
 /// Measures by what factor a picture must be multiplied to be as bright as the background: lamps
-/// flicker and cameras adapt. Whatever covers less than half of the picture does not disturb it.
+/// flicker and cameras adapt. Whatever covers less than half of what is known of the picture does
+/// not disturb it.
 ///
 /// @param scratch  memory to work in, kept by the caller.
 float MeasureGain(const ExpectedPicture& expected, ImageView<const Bgr> image,

@@ -16,28 +16,52 @@ constexpr float kLeastSigma = 1.5f;
 // So many frames fill the histograms well enough.
 constexpr std::size_t kMostHistogramFrames = 16;
 
-Color ColorOf(const Bgr& p) {
-  return {static_cast<float>(p.b), static_cast<float>(p.g), static_cast<float>(p.r)};
+// What is summed up over the training frames for one pixel.
+struct Sums {
+  Color value{}, value_sq{};
+  float alpha_shift_sq = 0;
+  float cd_sq = 0;
+};
+
+// What a pixel is taken to be, from its sums over `count` frames.
+struct Statistics {
+  Color mean, sigma;
+  float alpha_variation;
+};
+
+Statistics StatisticsOf(const Sums& sums, float count) {
+  Statistics s;
+  for (int c = 0; c < 3; ++c) {
+    s.mean[c] = sums.value[c] / count;
+    const float variance = (sums.value_sq[c] / count - s.mean[c] * s.mean[c]) * count / (count - 1);
+    s.sigma[c] = std::max(std::sqrt(std::max(variance, 0.0f)), kLeastSigma);
+  }
+  s.alpha_variation = std::sqrt(sums.alpha_shift_sq / count);
+  // The variation of the chromaticity distortion is the square root of 2 where nothing but σ acts.
+  const float widening = std::max(std::sqrt(sums.cd_sq / count / 2), 1.0f);
+  for (float& sigma : s.sigma) sigma *= widening;
+  return s;
 }
 
 class FixedBackground final : public BackgroundModel {
  public:
   FixedBackground(std::span<const BackgroundFrame> frames, double detection_rate)
       : frames_(frames),
-        size_(frames[0].image.pixels().size()),
         gains_(frames.size(), 1.0f),
+        sums_(frames[0].image.pixels().size()),
         expected_(frames[0].image.width(), frames[0].image.height()) {
     MOCAP_CHECK(frames.size() >= 2);
     // Once to see how the light flickered, and once without the flicker.
-    LearnColors();
+    SumColors();
+    Expect(sums_, count());
     LearnGains();
-    LearnColors();
-    LearnVariation();
+    SumColors();
+    Expect(sums_, count());
+    SumDistortions();
     LearnThresholds(detection_rate);
-    for (std::size_t i = 0; i < size_; ++i)
-      expected_.SetPixel(i, means_[i], sigmas_[i], alpha_variations_[i]);
+    Expect(sums_, count());
     frames_ = {};
-    means_ = {}, sigmas_ = {}, alpha_variations_ = {};
+    sums_ = {};
   }
 
   const ExpectedPicture& Expect(const PanTiltAngles&) override { return expected_; }
@@ -45,29 +69,28 @@ class FixedBackground final : public BackgroundModel {
  private:
   float count() const { return static_cast<float>(frames_.size()); }
 
-  void LearnColors() {
-    means_.assign(size_, {});
-    sigmas_.assign(size_, {});
-    alpha_variations_.assign(size_, 0);
-    for (std::size_t f = 0; f < frames_.size(); ++f) {
-      const Bgr* pixels = frames_[f].image.pixels().data();
-      for (std::size_t i = 0; i < size_; ++i) {
-        const Color color = ColorOf(pixels[i]);
-        for (int c = 0; c < 3; ++c) {
-          const float value = color[c] * gains_[f];
-          means_[i][c] += value;
-          sigmas_[i][c] += value * value;
-        }
-      }
+  Color ColorOf(std::size_t frame, std::size_t pixel) const {
+    const Bgr& p = frames_[frame].image.pixels()[pixel];
+    return {p.b * gains_[frame], p.g * gains_[frame], p.r * gains_[frame]};
+  }
+
+  void Expect(const std::vector<Sums>& sums, float frame_count) {
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const Statistics s = StatisticsOf(sums[i], frame_count);
+      expected_.SetPixel(i, s.mean, s.sigma, s.alpha_variation);
     }
-    for (std::size_t i = 0; i < size_; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const float mean = means_[i][c] / count();
-        const float variance = (sigmas_[i][c] / count() - mean * mean) * count() / (count() - 1);
-        means_[i][c] = mean;
-        sigmas_[i][c] = std::max(std::sqrt(std::max(variance, 0.0f)), kLeastSigma);
-      }
-      expected_.SetPixel(i, means_[i], sigmas_[i], 0);
+  }
+
+  void SumColors() {
+    std::fill(sums_.begin(), sums_.end(), Sums{});
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+      for (std::size_t i = 0; i < sums_.size(); ++i) AddColor(ColorOf(f, i), 1, sums_[i]);
+  }
+
+  static void AddColor(const Color& color, float times, Sums& sums) {
+    for (int c = 0; c < 3; ++c) {
+      sums.value[c] += times * color[c];
+      sums.value_sq[c] += times * color[c] * color[c];
     }
   }
 
@@ -77,57 +100,50 @@ class FixedBackground final : public BackgroundModel {
       gains_[f] = MeasureGain(expected_, frames_[f].image.view(), scratch);
   }
 
-  // The variations a of the brightness and b of the chromaticity distortion; b, which is the square
-  // root of 2 where nothing but σ acts, widens σ.
-  void LearnVariation() {
-    std::vector<float> cd_sq(size_);
-    for (std::size_t f = 0; f < frames_.size(); ++f) {
-      const Bgr* pixels = frames_[f].image.pixels().data();
-      for (std::size_t i = 0; i < size_; ++i) {
-        const Color color = ColorOf(pixels[i]);
-        float along = 0, length_sq = 0, total_sq = 0;
-        for (int c = 0; c < 3; ++c) {
-          const float z = color[c] * gains_[f] / sigmas_[i][c];
-          const float m = expected_.scaled_mean[c][i];
-          along += z * m;
-          length_sq += m * m;
-          total_sq += (z - m) * (z - m);
-        }
-        const float shift = along / length_sq - 1;
-        alpha_variations_[i] += shift * shift;
-        cd_sq[i] += std::max(total_sq - shift * shift * length_sq, 0.0f);
-      }
-    }
-    for (std::size_t i = 0; i < size_; ++i) {
-      alpha_variations_[i] = std::sqrt(alpha_variations_[i] / count());
-      const float widening = std::max(std::sqrt(cd_sq[i] / count() / 2), 1.0f);
-      for (float& sigma : sigmas_[i]) sigma *= widening;
-    }
+  void SumDistortions() {
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+      for (std::size_t i = 0; i < sums_.size(); ++i) AddDistortion(ColorOf(f, i), i, 1, sums_[i]);
   }
 
+  void AddDistortion(const Color& color, std::size_t i, float times, Sums& sums) const {
+    float along = 0, length_sq = 0, total_sq = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float z = color[c] * expected_.inverse_sigma[c][i];
+      const float m = expected_.scaled_mean[c][i];
+      along += z * m;
+      length_sq += m * m;
+      total_sq += (z - m) * (z - m);
+    }
+    const float shift = along / length_sq - 1;
+    sums.alpha_shift_sq += times * shift * shift;
+    sums.cd_sq += times * std::max(total_sq - shift * shift * length_sq, 0.0f);
+  }
+
+  // Each frame is held against what the others alone would have taught.
   void LearnThresholds(double detection_rate) {
     DistortionHistograms histograms;
+    const ExpectedPicture all = expected_;
+    std::vector<Sums> others;
     const std::size_t used = std::min(frames_.size(), kMostHistogramFrames);
     for (std::size_t k = 0; k < used; ++k) {
       const std::size_t f = k * frames_.size() / used;
-      const Bgr* pixels = frames_[f].image.pixels().data();
-      for (std::size_t i = 0; i < size_; ++i) {
-        const Color color = ColorOf(pixels[i]);
-        Color others;
-        for (int c = 0; c < 3; ++c)
-          others[c] = (means_[i][c] * count() - color[c] * gains_[f]) / (count() - 1);
-        expected_.SetPixel(i, others, sigmas_[i], alpha_variations_[i]);
+      others = sums_;
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        AddColor(ColorOf(f, i), -1, others[i]);
+        AddDistortion(ColorOf(f, i), i, -1, others[i]);
+        others[i].alpha_shift_sq = std::max(others[i].alpha_shift_sq, 0.0f);
+        others[i].cd_sq = std::max(others[i].cd_sq, 0.0f);
       }
+      Expect(others, count() - 1);
       histograms.Add(expected_, frames_[f].image.view());
+      expected_ = all;
     }
     thresholds_ = histograms.At(detection_rate);
   }
 
   std::span<const BackgroundFrame> frames_;  // While learning.
-  std::size_t size_;
   std::vector<float> gains_;
-  std::vector<Color> means_, sigmas_;
-  std::vector<float> alpha_variations_;
+  std::vector<Sums> sums_;
   ExpectedPicture expected_;
 };
 

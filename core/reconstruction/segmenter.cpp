@@ -29,7 +29,7 @@ void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> bac
     throw SetupError(where + "a frame of " + std::to_string(frame.image.width()) + " x " +
                      std::to_string(frame.image.height()) + " px, wanted " +
                      std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
-                     " as in the calibration");
+                     " px as in the calibration");
   }
 }
 
