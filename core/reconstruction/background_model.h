@@ -6,8 +6,10 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/closeup.h"
 #include "core/reconstruction/distortion_thresholds.h"
 #include "core/reconstruction/expected_picture.h"
+#include "core/reconstruction/half_picture.h"
 
 namespace mocap {
 
@@ -22,8 +24,13 @@ class BackgroundModel {
  public:
   virtual ~BackgroundModel() = default;
 
-  /// Gives what the camera would see of the empty studio; holds until the next call.
-  virtual const ExpectedPicture& Expect(const PanTiltAngles& angles) = 0;
+  /// Turns to where the head points, and gives what the camera would see there of the empty studio,
+  /// at half the resolution. Holds until the next call.
+  virtual const ExpectedHalf& Glance(const PanTiltAngles& angles) = 0;
+
+  /// Gives what the camera would see of it at full resolution, for the pixels that are measured.
+  /// Holds until the next call.
+  virtual const ExpectedPicture& Expect(const Closeup& closeup) = 0;
 
   /// Thresholds that a share of the training pixels stays within.
   const DistortionThresholds& thresholds() const { return thresholds_; }

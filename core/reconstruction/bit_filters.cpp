@@ -54,17 +54,16 @@ void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Si
 
 }  // namespace
 
-void PackRow(std::span<const std::uint8_t> pixels, std::uint64_t* words) {
+void PackRow(std::span<const std::uint8_t> pixels, int begin, Word* row) {
+  MOCAP_CHECK(begin % 8 == 0);
   const std::size_t count = pixels.size();
-  for (std::size_t i = 0; i < count; i += 64) {
-    Word word = 0;
-    for (std::size_t j = 0; j < 64 && i + j < count; j += 8) {
-      Word bytes = 0;
-      std::memcpy(&bytes, pixels.data() + i + j, std::min<std::size_t>(8, count - i - j));
-      // Eight bytes of 0 or 1 are gathered into the top byte.
-      word |= (bytes * 0x0102040810204080) >> 56 << j;
-    }
-    words[i / 64] = word;
+  for (std::size_t i = 0; i < count; i += 8) {
+    Word bytes = 0;
+    std::memcpy(&bytes, pixels.data() + i, std::min<std::size_t>(8, count - i));
+    // Eight bytes of 0 or 1 are gathered into the top byte.
+    const Word bits = (bytes * 0x0102040810204080) >> 56;
+    const std::size_t x = begin + i;
+    row[x / 64] |= bits << x % 64;
   }
 }
 

@@ -3,44 +3,35 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
-
-#include "core/image.h"
 
 namespace mocap {
 
 /// The background's colours and their variation, pixel by pixel, in planes of rows without gaps.
 ///
-/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999, with E/σ and 1/σ in place of E
-/// and σ; the variation of the chromaticity distortion, b, is part of σ.
+/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999; the variation of the
+/// chromaticity distortion, b, is part of σ.
 struct ExpectedPicture {
+  /// A colour has a direction only away from black.
+  static constexpr float kDarkestMean = 1;
+
   ExpectedPicture() = default;
   ExpectedPicture(int picture_width, int picture_height);
 
   /// Writes what pixel `i` looks like.
-  /// @param mean, sigma      expected colour and its standard deviation [grey levels].
+  /// @param color, sigma     expected colour and its standard deviation [grey levels].
   /// @param alpha_variation  standard deviation of the brightness distortion as it was measured, or
   /// 0: it is never taken for less than what `sigma` causes.
-  void SetPixel(std::size_t i, const std::array<float, 3>& mean, const std::array<float, 3>& sigma,
+  void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
                 float alpha_variation);
-
-  float MeanOf(std::size_t i, int channel) const {
-    return scaled_mean[channel][i] / inverse_sigma[channel][i];
-  }
 
   int width = 0;
   int height = 0;
-  std::array<std::vector<float>, 3> scaled_mean;    ///< E/σ.
-  std::array<std::vector<float>, 3> inverse_sigma;  ///< 1/σ [1/grey level].
-  std::vector<float> inverse_alpha_variation;       ///< 1/a.
+  std::array<std::vector<float>, 3> mean;      ///< E, at least kDarkestMean [grey levels].
+  std::array<std::vector<float>, 3> variance;  ///< σ² [grey levels²].
+  std::vector<float> alpha_weight;             ///< 1/a as measured; much where it was not.
+  std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 };
-
-/// Measures by what factor a picture must be multiplied to be as bright as the background: lamps
-/// flicker and cameras adapt. Whatever covers less than half of what is known of the picture does
-/// not disturb it.
-///
-/// @param scratch  memory to work in, kept by the caller.
-float MeasureGain(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                  std::vector<float>& scratch);
 
 }  // namespace mocap

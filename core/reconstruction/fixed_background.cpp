@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/errors.h"
 #include "core/reconstruction/background_model.h"
+#include "core/reconstruction/coarse_scan.h"
 
 namespace mocap {
 namespace {
@@ -47,37 +49,46 @@ class FixedBackground final : public BackgroundModel {
  public:
   FixedBackground(std::span<const BackgroundFrame> frames, double detection_rate)
       : frames_(frames),
-        gains_(frames.size(), 1.0f),
+        conditions_(frames.size()),
         sums_(frames[0].image.pixels().size()),
+        half_(frames[0].image.width(), frames[0].image.height()),
         expected_(frames[0].image.width(), frames[0].image.height()) {
     MOCAP_CHECK(frames.size() >= 2);
     // Once to see how the light flickered, and once without the flicker.
     SumColors();
     Expect(sums_, count());
-    LearnGains();
+    LearnHalf();
+    LearnConditions();
     SumColors();
     Expect(sums_, count());
+    LearnHalf();
+    LearnConditions();
     SumDistortions();
     LearnThresholds(detection_rate);
     Expect(sums_, count());
     frames_ = {};
-    sums_ = {};
+    sums_ = {}, conditions_ = {};
   }
 
-  const ExpectedPicture& Expect(const PanTiltAngles&) override { return expected_; }
+  const ExpectedHalf& Glance(const PanTiltAngles&) override { return half_; }
+  const ExpectedPicture& Expect(const Closeup&) override { return expected_; }
 
  private:
   float count() const { return static_cast<float>(frames_.size()); }
 
   Color ColorOf(std::size_t frame, std::size_t pixel) const {
     const Bgr& p = frames_[frame].image.pixels()[pixel];
-    return {p.b * gains_[frame], p.g * gains_[frame], p.r * gains_[frame]};
+    const auto& gain = conditions_[frame].gain;
+    return {p.b * gain[0], p.g * gain[1], p.r * gain[2]};
   }
 
   void Expect(const std::vector<Sums>& sums, float frame_count) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const Statistics s = StatisticsOf(sums[i], frame_count);
       expected_.SetPixel(i, s.mean, s.sigma, s.alpha_variation);
+      // What is left after σ was learned from so few frames shows at contours.
+      const float shift = half_.usual_shift_px * expected_.slope[i];
+      for (auto& variance : expected_.variance) variance[i] += shift * shift;
     }
   }
 
@@ -94,10 +105,40 @@ class FixedBackground final : public BackgroundModel {
     }
   }
 
-  void LearnGains() {
-    std::vector<float> scratch;
-    for (std::size_t f = 0; f < frames_.size(); ++f)
-      gains_[f] = MeasureGain(expected_, frames_[f].image.view(), scratch);
+  // What the pixels of the half and of the slopes are, from those of the whole.
+  void LearnHalf() {
+    const int width = expected_.width;
+    Image<Bgr> rounded(width, expected_.height);
+    std::vector<float> brightness(sums_.size());
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      std::array<std::uint8_t, 3> color;
+      for (int c = 0; c < 3; ++c) {
+        color[c] = static_cast<std::uint8_t>(std::min(std::lround(expected_.mean[c][i]), 255L));
+        brightness[i] += expected_.mean[c][i] / 3;
+      }
+      rounded.pixels()[i] = {color[0], color[1], color[2]};
+    }
+    expected_.slope = SlopeOf(brightness, width, expected_.height);
+    half_.LearnFrom(rounded.view());
+    for (int y = 0; y < expected_.height / 2; ++y) {
+      for (int x = 0; x < width / 2; ++x) {
+        const std::size_t i = static_cast<std::size_t>(2 * y) * width + 2 * x;
+        float sum = 0;
+        for (const auto& variance : expected_.variance)
+          sum += variance[i] + variance[i + 1] + variance[i + width] + variance[i + width + 1];
+        half_.variance[static_cast<std::size_t>(y) * half_.mean.width + x] = sum / 12;
+      }
+    }
+  }
+
+  void LearnConditions() {
+    CoarseScan scan;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      scan.Compare(half_, frames_[f].image.view());
+      conditions_[f].gain = scan.conditions().gain;
+      half_.usual_distance = std::max(half_.usual_distance, scan.distance());
+      half_.usual_shift_px = std::max(half_.usual_shift_px, scan.shift_px());
+    }
   }
 
   void SumDistortions() {
@@ -108,8 +149,9 @@ class FixedBackground final : public BackgroundModel {
   void AddDistortion(const Color& color, std::size_t i, float times, Sums& sums) const {
     float along = 0, length_sq = 0, total_sq = 0;
     for (int c = 0; c < 3; ++c) {
-      const float z = color[c] * expected_.inverse_sigma[c][i];
-      const float m = expected_.scaled_mean[c][i];
+      const float sigma = std::sqrt(expected_.variance[c][i]);
+      const float z = color[c] / sigma;
+      const float m = expected_.mean[c][i] / sigma;
       along += z * m;
       length_sq += m * m;
       total_sq += (z - m) * (z - m);
@@ -135,15 +177,16 @@ class FixedBackground final : public BackgroundModel {
         others[i].cd_sq = std::max(others[i].cd_sq, 0.0f);
       }
       Expect(others, count() - 1);
-      histograms.Add(expected_, frames_[f].image.view());
+      histograms.Add(expected_, frames_[f].image.view(), conditions_[f]);
       expected_ = all;
     }
     thresholds_ = histograms.At(detection_rate);
   }
 
   std::span<const BackgroundFrame> frames_;  // While learning.
-  std::vector<float> gains_;
+  std::vector<Conditions> conditions_;
   std::vector<Sums> sums_;
+  ExpectedHalf half_;
   ExpectedPicture expected_;
 };
 
