@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/reconstruction/expected_picture.h"
 #include "core/vectorized.h"
 
 namespace mocap {
@@ -14,7 +15,7 @@ constexpr float kArea = kTile * kTile;
 // A pixel of the half is so many of the picture's wide.
 constexpr float kPixel_px = 2;
 // Every so many tiles or pixels are enough for a median.
-constexpr std::size_t kTileStep = 3;
+constexpr std::size_t kTileStep = 5;
 constexpr std::size_t kPixelStep = 5;
 // A colour has a ratio to another only away from black [grey levels].
 constexpr float kDarkest = 8;
@@ -32,18 +33,21 @@ constexpr double kUndisturbed = 0.25;
 constexpr float kUndisturbedLength = 1.101f;
 constexpr float kUndisturbedSize = 0.3186f;
 constexpr float kNotable = 1.5f;
+constexpr float kNegligibleDrift = 0.3f;
+constexpr float kNegligibleShift_px = 0.1f;
+constexpr float kDistanceMargin = 2;
 // Drift has no normal distribution: some walls change, others don't.
 constexpr float kDriftMargin = 3;
 constexpr float kLargestDrift = 8;
 // A tile is looked at closely when its colour, in variances, or its pixels, compared to most tiles,
 // differ by more than this from a shadow; or when it is that much darker or brighter.
-constexpr float kHarmlessTint = 1;
-constexpr float kHarmlessMisfit = 2.5f;
+constexpr float kHarmlessTint = 1.5f;
+constexpr float kHarmlessMisfit = 6;
 // Fewer tiles than this by themselves are noise.
-constexpr int kFewestTiles = 3;
+constexpr int kFewestTiles = 4;
 constexpr float kLeastMisfit = 0.05f;
 constexpr float kDarkest_share = 0.72f;
-constexpr float kHarmlessGlare = 0.5f;
+constexpr float kHarmlessGlare = 1.5f;
 
 float Square(float x) { return x * x; }
 
@@ -57,8 +61,9 @@ float Quantile(std::vector<float>& values, double share) {
 float Median(std::vector<float>& values) { return Quantile(values, 0.5); }
 
 // What a standard deviation has grown by, where it has grown notably.
-float Beyond(float value, float usual) {
-  return std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
+float Beyond(float value, float usual, float negligible) {
+  const float beyond = std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
+  return beyond < negligible ? 0 : beyond;
 }
 
 // Sums of a row of tiles, tile by tile.
@@ -100,10 +105,9 @@ struct PixelRow {
 };
 
 MOCAP_VECTORIZED
-void AddMisfits(const PixelRow& row, int width, const Conditions& conditions, float shift_sq,
-                float* sums) {
-  const float gain0 = conditions.gain[0], gain1 = conditions.gain[1], gain2 = conditions.gain[2];
-  const float drift_sq = conditions.drift * conditions.drift;
+void AddMisfits(const PixelRow& row, int width, const std::array<float, 3>& gain, float drift_sq,
+                float shift_sq, float* sums) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
   const float *const variance = row.variance, *const alpha = row.alpha;
   const std::uint8_t* const slopes = row.slope;
   const std::uint8_t *const l0 = row.live[0], *const l1 = row.live[1], *const l2 = row.live[2];
@@ -119,6 +123,32 @@ void AddMisfits(const PixelRow& row, int width, const Conditions& conditions, fl
   }
 }
 
+struct TileMeans {
+  std::array<const float*, 3> live, expected;
+  const float *variance, *slope_sq;
+};
+
+MOCAP_VECTORIZED
+void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>& gain,
+                  float drift_sq, float shift_sq, float* alphas, float* tints, float* glares) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  const auto [l0, l1, l2] = tiles.live;
+  const auto [e0, e1, e2] = tiles.expected;
+  const float *const variances = tiles.variance, *const slope_sq = tiles.slope_sq;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float c0 = gain0 * l0[i], c1 = gain1 * l1[i], c2 = gain2 * l2[i];
+    const float square = std::max(e0[i] * e0[i] + e1[i] * e1[i] + e2[i] * e2[i], 1.0f);
+    const float alpha = (c0 * e0[i] + c1 * e1[i] + c2 * e2[i]) / square;
+    const float d0 = c0 - alpha * e0[i], d1 = c1 - alpha * e1[i], d2 = c2 - alpha * e2[i];
+    const float weight = 1 / (variances[i] + drift_sq + shift_sq * slope_sq[i]);
+    const float bright = std::max(alpha - 1, 0.0f);
+    alphas[i] = alpha;
+    tints[i] = (d0 * d0 + d1 * d1 + d2 * d2) * weight;
+    glares[i] = bright * bright * square * weight;
+  }
+}
+
 }  // namespace
 
 void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
@@ -127,10 +157,10 @@ void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> imag
   AverageTiles(expected);
   for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(c);
   distance_ = MeasureDistance();
-  conditions_.drift =
-      std::min(kDriftMargin * Beyond(distance_, expected.usual_distance), kLargestDrift);
+  conditions_.drift = std::min(
+      kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
   shift_px_ = MeasureShift(expected);
-  conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px);
+  conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
   MeasureTints();
   MeasureMisfit(expected);
   Judge();
@@ -216,6 +246,7 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
+  const float drift_sq = Square(kDistanceMargin * distance_);
   const float shift_sq = Square(shift_px_ / kPixel_px);
   const int columns = live_.tile_columns();
   for (int row = 0; row < live_.tile_rows(); ++row) {
@@ -229,7 +260,7 @@ void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
         pixels.live[c] = &live_.color[c][begin];
         pixels.expected[c] = &expected.mean.color[c][begin];
       }
-      AddMisfits(pixels, live_.width, conditions_, shift_sq, columns_.data());
+      AddMisfits(pixels, live_.width, conditions_.gain, drift_sq, shift_sq, columns_.data());
     }
     for (int i = 0; i < columns; ++i) {
       const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
@@ -239,24 +270,13 @@ void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
 }
 
 void CoarseScan::MeasureTints() {
-  const float drift_sq = conditions_.drift * conditions_.drift;
-  const float shift_sq = Square(shift_px_ / kPixel_px);
-  for (std::size_t i = 0; i < tiles_.known.size(); ++i) {
-    float along = 0, expected_sq = 0, live_sq = 0;
-    for (int c = 0; c < 3; ++c) {
-      const float live = conditions_.gain[c] * tiles_.live[c][i];
-      const float expected = tiles_.expected[c][i];
-      along += live * expected;
-      expected_sq += expected * expected;
-      live_sq += live * live;
-    }
-    expected_sq = std::max(expected_sq, 1.0f);
-    const float variance = tiles_.variance[i] + drift_sq + shift_sq * tiles_.slope_sq[i];
-    tiles_.alpha[i] = along / expected_sq;
-    tiles_.tint[i] = std::max(live_sq - along * along / expected_sq, 0.0f) / variance;
-    const float shift = tiles_.alpha[i] - 1;
-    tiles_.glare[i] = shift <= 0 ? 0 : shift * shift * expected_sq / variance;
-  }
+  MeasureTiles({{tiles_.live[0].data(), tiles_.live[1].data(), tiles_.live[2].data()},
+                {tiles_.expected[0].data(), tiles_.expected[1].data(), tiles_.expected[2].data()},
+                tiles_.variance.data(),
+                tiles_.slope_sq.data()},
+               static_cast<int>(tiles_.known.size()), conditions_.gain,
+               Square(kDistanceMargin * distance_), Square(shift_px_ / kPixel_px),
+               tiles_.alpha.data(), tiles_.tint.data(), tiles_.glare.data());
 }
 
 void CoarseScan::Judge() {

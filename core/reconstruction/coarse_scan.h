@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/reconstruction/conditions.h"
 #include "core/reconstruction/half_picture.h"
 #include "core/reconstruction/silhouette.h"
 #include "core/reconstruction/silhouette_cleaner.h"
 
 namespace mocap {
-
-/// What changes for a picture as a whole: lamps flicker, cameras adapt, tripods creep, codecs blur.
-struct Conditions {
-  /// By what each channel must be multiplied to look like the background.
-  std::array<float, 3> gain = {1, 1, 1};
-  /// Standard deviation of what is smooth and was not so while learning [grey levels].
-  float drift = 0;
-  /// How much farther than while learning contours lie from where they belong [pixels].
-  float shift_px = 0;
-};
 
 /// Compares pictures with what is expected, tile by tile at half the resolution.
 ///
@@ -31,6 +22,7 @@ class CoarseScan {
   /// Compares a picture; the results hold until the next one.
   void Compare(const ExpectedHalf& expected, ImageView<const Bgr> image);
 
+  /// Conditions but for the displacement.
   const Conditions& conditions() const { return conditions_; }
   /// How far tiles lie from what is expected, in the median [grey levels].
   float distance() const { return distance_; }

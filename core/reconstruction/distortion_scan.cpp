@@ -1,7 +1,6 @@
 #include "core/reconstruction/distortion_scan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/errors.h"
@@ -32,44 +31,36 @@ void Separate(const Bgr* pixels, int count, const std::array<float, 3>& gain, fl
 }
 
 struct Pixels {
-  std::array<const float*, 3> color, mean, variance;
-  const float* alpha_weight;
-  const std::uint8_t* slope;
+  std::array<const float*, 3> color, mean, inverse_sigma;
+  const float* inverse_square;
 };
 struct Distortions {
   float* alpha_shift;
   std::array<float*, 3> cd;
-  float *cd_sq, *alpha_weight;
+  float* cd_sq;
 };
 
 MOCAP_VECTORIZED
-void MeasurePixels(const Pixels& p, int count, const Conditions& conditions, const Distortions& d) {
-  const float drift_sq = conditions.drift * conditions.drift;
-  const float shift_sq = conditions.shift_px * conditions.shift_px;
+void MeasurePixels(const Pixels& p, int count, const Distortions& d) {
   const auto [c0, c1, c2] = p.color;
   const auto [e0, e1, e2] = p.mean;
-  const auto [v0, v1, v2] = p.variance;
+  const auto [w0, w1, w2] = p.inverse_sigma;
   const auto [d0, d1, d2] = d.cd;
+  const float* const inverse_square = p.inverse_square;
+  float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
-    const float slope = p.slope[x];
-    const float more = drift_sq + shift_sq * slope * slope;
-    const float w0 = 1 / std::sqrt(v0[x] + more);
-    const float w1 = 1 / std::sqrt(v1[x] + more);
-    const float w2 = 1 / std::sqrt(v2[x] + more);
-    const float m0 = e0[x] * w0, m1 = e1[x] * w1, m2 = e2[x] * w2;
-    const float z0 = c0[x] * w0, z1 = c1[x] * w1, z2 = c2[x] * w2;
-    const float length_sq = m0 * m0 + m1 * m1 + m2 * m2;
-    const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / length_sq;
+    const float m0 = e0[x] * w0[x], m1 = e1[x] * w1[x], m2 = e2[x] * w2[x];
+    const float z0 = c0[x] * w0[x], z1 = c1[x] * w1[x], z2 = c2[x] * w2[x];
+    const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) * inverse_square[x];
     const float f0 = z0 - alpha * m0;
     const float f1 = z1 - alpha * m1;
     const float f2 = z2 - alpha * m2;
-    d.alpha_shift[x] = alpha - 1;
+    alpha_shift[x] = alpha - 1;
     d0[x] = f0;
     d1[x] = f1;
     d2[x] = f2;
-    d.cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
-    d.alpha_weight[x] = std::min(std::sqrt(length_sq), p.alpha_weight[x]);
+    cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
   }
 }
 
@@ -128,13 +119,13 @@ MOCAP_VECTORIZED void JoinColors(const std::array<Column<side>, 3>& sums, int co
 }  // namespace
 
 void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                           const Conditions& conditions, const Closeup& closeup) {
+                           const std::array<float, 3>& gain, const Closeup& closeup) {
   MOCAP_CHECK(image.width() == expected.width && image.height() == expected.height);
   MOCAP_CHECK(closeup.width() == expected.width && closeup.height() == expected.height);
   expected_ = &expected;
   closeup_ = &closeup;
   image_ = image;
-  conditions_ = conditions;
+  gain_ = gain;
   next_ = 0;
   measured_ = 0;
   const auto width = static_cast<std::size_t>(expected.width);
@@ -142,7 +133,6 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
     line.alpha_shift.resize(width + 2 * kPad);
     for (auto& cd : line.cd) cd.resize(width + 2 * kPad);
     line.cd_sq.resize(width);
-    line.alpha_weight.resize(width);
     for (Sums& sums : line.sums) {
       for (auto* values : {&sums.alpha, &sums.alpha_sq, &sums.moment}) values->resize(width);
       for (auto& cd : sums.cd) cd.resize(width);
@@ -165,7 +155,8 @@ const DistortionScan::Row& DistortionScan::Next() {
   const Line& line = lines_[static_cast<std::size_t>(y % kLines)];
   row_.alpha_shift = line.alpha_shift.data() + kPad;
   row_.cd_sq = line.cd_sq.data();
-  row_.alpha_weight = line.alpha_weight.data();
+  row_.alpha_weight =
+      expected_->alpha_weight.data() + static_cast<std::size_t>(y) * expected_->width;
   for (std::size_t w = 0; w < kWindows; ++w)
     row_.windows[w] = {results_[w].alpha_shift.data(), results_[w].cd_sq.data(),
                        results_[w].roughness_sq.data()};
@@ -178,20 +169,17 @@ void DistortionScan::Measure(int y, Line& line) {
   for (const PixelRun& run : closeup_->Measured(y)) {
     const int count = run.end - run.begin;
     const std::size_t i = begin + run.begin;
-    Separate(pixels + run.begin, count, conditions_.gain, color_[0].data(), color_[1].data(),
+    Separate(pixels + run.begin, count, gain_, color_[0].data(), color_[1].data(),
              color_[2].data());
-    Pixels from{{}, {}, {}, &expected_->alpha_weight[i], &expected_->slope[i]};
-    Distortions to{&line.alpha_shift[run.begin + kPad],
-                   {},
-                   &line.cd_sq[run.begin],
-                   &line.alpha_weight[run.begin]};
+    Pixels from{{}, {}, {}, &expected_->inverse_square[i]};
+    Distortions to{&line.alpha_shift[run.begin + kPad], {}, &line.cd_sq[run.begin]};
     for (int c = 0; c < 3; ++c) {
       from.color[c] = color_[c].data();
       from.mean[c] = &expected_->mean[c][i];
-      from.variance[c] = &expected_->variance[c][i];
+      from.inverse_sigma[c] = &expected_->inverse_sigma[c][i];
       to.cd[c] = &line.cd[c][run.begin + kPad];
     }
-    MeasurePixels(from, count, conditions_, to);
+    MeasurePixels(from, count, to);
   }
   RepeatEnds(line);
   for (const PixelRun& run : closeup_->Measured(y)) {
@@ -236,10 +224,11 @@ void DistortionScan::SumDown(int y, const PixelRun& run) {
     m[i] = &sums.moment[run.begin];
     for (int c = 0; c < 3; ++c) d[c][i] = &sums.cd[c][run.begin];
   }
-  const Line& middle = lines_[static_cast<std::size_t>(y % kLines)];
+  const float* const alpha_weight =
+      &expected_->alpha_weight[static_cast<std::size_t>(y) * expected_->width + run.begin];
   Results& results = results_[window];
-  JoinAlphas<kSide>(a, q, m, &middle.alpha_weight[run.begin], count,
-                    &results.alpha_shift[run.begin], &results.roughness_sq[run.begin]);
+  JoinAlphas<kSide>(a, q, m, alpha_weight, count, &results.alpha_shift[run.begin],
+                    &results.roughness_sq[run.begin]);
   JoinColors<kSide>(d, count, &results.cd_sq[run.begin]);
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/image.h"
 #include "core/reconstruction/closeup.h"
-#include "core/reconstruction/coarse_scan.h"
 #include "core/reconstruction/expected_picture.h"
 
 namespace mocap {
@@ -19,8 +18,7 @@ namespace mocap {
 /// Harwood, Davis 1999). One pixel tells a grey trouser leg from a shadow no better than its noise
 /// allows, so both are measured over square windows of two sizes too, together with how rough α is
 /// there: a shadow dims a whole neighbourhood alike, or along a slope, and cloth has a grain of its
-/// own. The conditions widen the standard deviations.
-/// Thread-bound; reuses its memory.
+/// own. Thread-bound; reuses its memory.
 class DistortionScan {
  public:
   static constexpr std::size_t kWindows = 2;
@@ -42,9 +40,11 @@ class DistortionScan {
     std::array<Windows, kWindows> windows;
   };
 
-  /// Starts at the top of a picture. All are borrowed until the last row.
+  /// Starts at the top of a picture. All but `gain` are borrowed until the last row.
+  /// @param expected  weighed for the pixels that are measured.
+  /// @param gain      what each of the picture's channels is multiplied by.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
-             const Conditions& conditions, const Closeup& closeup);
+             const std::array<float, 3>& gain, const Closeup& closeup);
 
   /// Measures the next row. Beyond the picture's edge its outermost pixels are repeated.
   const Row& Next();
@@ -61,7 +61,7 @@ class DistortionScan {
   };
   // Pixels and their sums; pixels are padded by kPad on both sides.
   struct Line {
-    std::vector<float> alpha_shift, cd_sq, alpha_weight;
+    std::vector<float> alpha_shift, cd_sq;
     std::array<std::vector<float>, 3> cd;
     std::array<Sums, kWindows> sums;
   };
@@ -78,7 +78,7 @@ class DistortionScan {
   const ExpectedPicture* expected_ = nullptr;
   const Closeup* closeup_ = nullptr;
   ImageView<const Bgr> image_;
-  Conditions conditions_;
+  std::array<float, 3> gain_ = {1, 1, 1};
   int next_ = 0;
   int measured_ = 0;
   std::array<Line, kLines> lines_;

@@ -46,7 +46,7 @@ float DistortionHistograms::Histogram::Quantile(double rate) const {
 }
 
 void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                               const Conditions& conditions) {
+                               const std::array<float, 3>& gain) {
   const int width = image.width();
   const int height = image.height();
   for (WindowHistograms& w : windows_)
@@ -54,7 +54,7 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
       if (values->width() != width || values->height() != height)
         *values = Image<float>(width, height);
   everything_.SetAll(width, height);
-  scan_.Begin(expected, image, conditions, everything_);
+  scan_.Begin(expected, image, gain, everything_);
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
     for (int x = 0; x < width; ++x) {

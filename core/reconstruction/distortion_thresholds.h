@@ -33,7 +33,7 @@ class DistortionHistograms {
   /// Adds one picture of the empty studio.
   /// @param expected  learned without that picture, or else its own noise would be part of it.
   void Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
-           const Conditions& conditions);
+           const std::array<float, 3>& gain);
 
   /// Gives the thresholds that a share `detection_rate` of the pixels stays within.
   /// @pre  0 < detection_rate < 1, and at least one picture was added.

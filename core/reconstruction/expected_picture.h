@@ -6,7 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/reconstruction/conditions.h"
+
 namespace mocap {
+
+/// The variance where nothing is known: anything goes.
+inline constexpr float kUnknownVariance = 1e8f;
 
 /// The background's colours and their variation, pixel by pixel, in planes of rows without gaps.
 ///
@@ -19,19 +24,32 @@ struct ExpectedPicture {
   ExpectedPicture() = default;
   ExpectedPicture(int picture_width, int picture_height);
 
-  /// Writes what pixel `i` looks like.
+  /// Writes what pixel `i` looks like; to be weighed.
   /// @param color, sigma     expected colour and its standard deviation [grey levels].
   /// @param alpha_variation  standard deviation of the brightness distortion as it was measured, or
   /// 0: it is never taken for less than what `sigma` causes.
   void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
                 float alpha_variation);
 
+  /// Works out the weights of pixels [begin, begin + count) under such conditions.
+  void Weigh(const Conditions& conditions, std::size_t begin, int count);
+
+  /// Writes pixels [begin, end) of a row: another picture's, displaced by less than its size. They
+  /// are to be weighed.
+  void Displace(const ExpectedPicture& from, const Displacement& displacement, int y, int begin,
+                int end);
+
   int width = 0;
   int height = 0;
   std::array<std::vector<float>, 3> mean;      ///< E, at least kDarkestMean [grey levels].
   std::array<std::vector<float>, 3> variance;  ///< σ² [grey levels²].
-  std::vector<float> alpha_weight;             ///< 1/a as measured; much where it was not.
+  std::vector<float> alpha_limit;              ///< 1/a as measured; much where it was not.
   std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
+
+  /// Weights: drift and shift widen σ.
+  std::array<std::vector<float>, 3> inverse_sigma;  ///< 1/σ.
+  std::vector<float> inverse_square;                ///< 1/Σ(E/σ)².
+  std::vector<float> alpha_weight;                  ///< 1/a.
 };
 
 }  // namespace mocap

@@ -70,8 +70,32 @@ class FixedBackground final : public BackgroundModel {
     sums_ = {}, conditions_ = {};
   }
 
-  const ExpectedHalf& Glance(const PanTiltAngles&) override { return half_; }
-  const ExpectedPicture& Expect(const Closeup&) override { return expected_; }
+  const ExpectedHalf& Glance(const PanTiltAngles&, const Displacement& displacement) override {
+    if (displacement == Displacement{}) return half_;
+    if (displaced_half_.variance.empty())
+      displaced_half_ = ExpectedHalf(expected_.width, expected_.height);
+    displaced_half_.Displace(half_, displacement);
+    return displaced_half_;
+  }
+
+  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
+    const bool is_displaced = !(conditions.displacement == Displacement{});
+    const bool is_plain = !is_displaced && conditions.drift == 0 && conditions.shift_px == 0;
+    if (is_plain && is_weighed_plainly_) return expected_;
+    if (is_displaced && displaced_.mean[0].empty())
+      displaced_ = ExpectedPicture(expected_.width, expected_.height);
+    ExpectedPicture& picture = is_displaced ? displaced_ : expected_;
+    for (int y = 0; y < expected_.height; ++y) {
+      for (const PixelRun& run : closeup.Measured(y)) {
+        if (is_displaced)
+          picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
+        picture.Weigh(conditions, static_cast<std::size_t>(y) * expected_.width + run.begin,
+                      run.end - run.begin);
+      }
+    }
+    is_weighed_plainly_ = is_weighed_plainly_ && is_displaced;
+    return picture;
+  }
 
  private:
   float count() const { return static_cast<float>(frames_.size()); }
@@ -90,6 +114,7 @@ class FixedBackground final : public BackgroundModel {
       const float shift = half_.usual_shift_px * expected_.slope[i];
       for (auto& variance : expected_.variance) variance[i] += shift * shift;
     }
+    expected_.Weigh({}, 0, static_cast<int>(sums.size()));
   }
 
   void SumColors() {
@@ -177,7 +202,7 @@ class FixedBackground final : public BackgroundModel {
         others[i].cd_sq = std::max(others[i].cd_sq, 0.0f);
       }
       Expect(others, count() - 1);
-      histograms.Add(expected_, frames_[f].image.view(), conditions_[f]);
+      histograms.Add(expected_, frames_[f].image.view(), conditions_[f].gain);
       expected_ = all;
     }
     thresholds_ = histograms.At(detection_rate);
@@ -188,6 +213,10 @@ class FixedBackground final : public BackgroundModel {
   std::vector<Sums> sums_;
   ExpectedHalf half_;
   ExpectedPicture expected_;
+  bool is_weighed_plainly_ = true;
+  // Made when they are needed.
+  ExpectedHalf displaced_half_;
+  ExpectedPicture displaced_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/reconstruction/conditions.h"
 
 namespace mocap {
 
@@ -42,6 +43,9 @@ struct ExpectedHalf {
   /// Takes colours and slopes from a picture at full resolution.
   void LearnFrom(ImageView<const Bgr> picture);
 
+  /// Takes another half's pixels, displaced by less than its size.
+  void Displace(const ExpectedHalf& from, const Displacement& displacement);
+
   HalfPicture mean;
   /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
   std::vector<float> variance;
@@ -51,9 +55,6 @@ struct ExpectedHalf {
   float usual_distance = 0;
   float usual_shift_px = 0;
 };
-
-/// The variance where nothing is known: anything goes.
-inline constexpr float kUnknownVariance = 1e8f;
 
 /// Halves a picture.
 /// @param half  made for pictures of that size.

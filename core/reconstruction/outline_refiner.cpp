@@ -70,13 +70,11 @@ bool OutlineRefiner::IsCovered(const Picture& picture, int x, int y, bool otherw
   for (int v = std::max(y - kRadius_px, 0); v <= std::min(y + kRadius_px, height - 1); ++v) {
     const unsigned inside = BitsAround(inside_, x, v);
     const unsigned outside = ~BitsAround(near_, x, v) & valid;
-    person_count += std::popcount(inside);
-    background_count += std::popcount(outside);
-    for (unsigned bits = inside; bits != 0; bits &= bits - 1) {
+    for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
       const Bgr& p = picture.image(x - kRadius_px + std::countr_zero(bits), v);
       person[0] += p.b, person[1] += p.g, person[2] += p.r;
     }
-    for (unsigned bits = outside; bits != 0; bits &= bits - 1)
+    for (unsigned bits = outside; bits != 0; bits &= bits - 1, ++background_count)
       background_alpha += picture.alpha_shift(x - kRadius_px + std::countr_zero(bits), v);
   }
   if (person_count == 0 || background_count == 0) return otherwise;

@@ -10,13 +10,16 @@
 #include "core/reconstruction/background_model.h"
 #include "core/reconstruction/coarse_scan.h"
 #include "core/reconstruction/sensor_plane_table.h"
+#include "core/reconstruction/view_warp.h"
 #include "core/vectorized.h"
 
 namespace mocap {
 namespace {
 
-// Directions are looked up at the corners of such cells and interpolated within.
+// Directions are looked up at the corners of such cells and interpolated within. Runs begin at
+// them.
 constexpr int kCell_px = 8;
+static_assert(HalfPicture::kTile_px % kCell_px == 0);
 // Beyond this, and unless the floor is nearer, everything is taken to be so far away. Half as much
 // or twice as much moves a pixel by a third of a pixel at most, from one learned view to the next.
 constexpr double kRoomDepth_mm = 6000;
@@ -29,26 +32,6 @@ constexpr int kSteep = 20;
 // From the median to the standard deviation of a normal distribution.
 constexpr float kDeviationPerMedian = 1.4826f;
 
-// Blue, green, red and the slope of one pixel, from the lowest byte up.
-using PackedPixel = std::uint32_t;
-
-PackedPixel Pack(std::uint8_t b, std::uint8_t g, std::uint8_t r, std::uint8_t slope) {
-  return b | g << 8 | r << 16 | static_cast<PackedPixel>(slope) << 24;
-}
-
-// The empty studio as it was seen in one direction.
-struct View {
-  PanTiltAngles angles;
-  RigidTransform X_CW;
-  Image<Bgr> image;
-  std::vector<PackedPixel> pixels, half;
-};
-
-// Places in a view for the pixels of a row, [pixels].
-struct Places {
-  std::vector<float> x, y;
-};
-
 float Median(std::vector<float>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -56,72 +39,31 @@ float Median(std::vector<float>& values) {
   return *middle;
 }
 
-View MakeView(const PanTiltAngles& angles, const RigidTransform& X_CW, Image<Bgr> image) {
-  View view{angles, X_CW, std::move(image), {}, {}};
-  const int width = view.image.width();
-  const int height = view.image.height();
-  const std::vector<Bgr>& pixels = view.image.pixels();
-  std::vector<float> brightness(pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    brightness[i] = static_cast<float>(pixels[i].b + pixels[i].g + pixels[i].r) / 3;
-  const std::vector<std::uint8_t> slope = SlopeOf(brightness, width, height);
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    view.pixels.push_back(Pack(pixels[i].b, pixels[i].g, pixels[i].r, slope[i]));
-  ExpectedHalf half(width, height);
-  half.LearnFrom(view.image.view());
-  const auto& color = half.mean.color;
-  for (std::size_t i = 0; i < half.mean.size(); ++i)
-    view.half.push_back(Pack(color[0][i], color[1][i], color[2][i], half.slope[i]));
-  return view;
+MOCAP_VECTORIZED
+void Mix(const float* top, const float* bottom, int count, float b, float* to) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) to[i] = top[i] + b * (bottom[i] - top[i]);
 }
 
-// What is drawn of one row; `known` is 1 where a view has been found.
-struct DrawnRow {
-  std::uint8_t* known;
-  std::array<float*, 3> color;
-  std::uint8_t* slope;
-};
-
-// Draws what is not known yet and lies in the view, between its pixels.
-MOCAP_VECTORIZED
-void Draw(const View& view, const float* from_x, const float* from_y, int count,
-          const DrawnRow& row) {
-  const int stride = view.image.width();
-  const auto last_x = static_cast<float>(view.image.width() - 1);
-  const auto last_y = static_cast<float>(view.image.height() - 1);
-  const PackedPixel* const pixels = view.pixels.data();
-  const auto [b, g, r] = row.color;
-  std::uint8_t *const known = row.known, *const slope = row.slope;
-#pragma GCC ivdep
+template <int width>
+MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, float* to) {
   for (int i = 0; i < count; ++i) {
-    // Also false for what is not a number.
-    const int inside = (from_x[i] >= 0 ? 1 : 0) & (from_y[i] >= 0 ? 1 : 0) &
-                       (from_x[i] < last_x ? 1 : 0) & (from_y[i] < last_y ? 1 : 0);
-    const int take = inside & (known[i] ^ 1);
-    const float x = take ? from_x[i] : 0;
-    const float y = take ? from_y[i] : 0;
-    const int column = static_cast<int>(x);
-    const int line = static_cast<int>(y);
-    const float a = x - static_cast<float>(column);
-    const float c = y - static_cast<float>(line);
-    const PackedPixel* const top = pixels + line * stride + column;
-    const PackedPixel p0 = top[0], p1 = top[1], p2 = top[stride], p3 = top[stride + 1];
-    const float w0 = (1 - a) * (1 - c), w1 = a * (1 - c), w2 = (1 - a) * c, w3 = a * c;
-    const auto mix = [&](int shift) {
-      return w0 * static_cast<float>(p0 >> shift & 255) +
-             w1 * static_cast<float>(p1 >> shift & 255) +
-             w2 * static_cast<float>(p2 >> shift & 255) +
-             w3 * static_cast<float>(p3 >> shift & 255);
-    };
-    const float blue = mix(0), green = mix(8), red = mix(16);
-    const PackedPixel near_top = a > 0.5f ? p1 : p0, near_bottom = a > 0.5f ? p3 : p2;
-    const PackedPixel steep = (c > 0.5f ? near_bottom : near_top) >> 24;
-    const float old_blue = b[i], old_green = g[i], old_red = r[i];
-    b[i] = take ? blue : old_blue;
-    g[i] = take ? green : old_green;
-    r[i] = take ? red : old_red;
-    slope[i] = static_cast<std::uint8_t>(take ? static_cast<int>(steep) : slope[i]);
-    known[i] = static_cast<std::uint8_t>(known[i] | take);
+    const float step = corners[i + 1] - corners[i];
+#pragma GCC ivdep
+    for (int k = 0; k < width; ++k)
+      to[i * width + k] = corners[i] + (into + static_cast<float>(k) / width) * step;
+  }
+}
+
+MOCAP_VECTORIZED
+void SetVariation(const std::uint8_t* known, const std::uint8_t* slopes, int count, float noise_sq,
+                  float shift_sq, float* mean, float* variance) {
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float slope = slopes[x];
+    const float here = std::max(mean[x], ExpectedPicture::kDarkestMean);
+    mean[x] = known[x] ? here : 255;
+    variance[x] = known[x] ? noise_sq + shift_sq * slope * slope : kUnknownVariance;
   }
 }
 
@@ -133,24 +75,26 @@ class PanTiltBackground final : public BackgroundModel {
         table_(camera),
         half_(camera.width_px, camera.height_px),
         expected_(camera.width_px, camera.height_px),
-        places_{std::vector<float>(camera.width_px), std::vector<float>(camera.width_px)},
-        known_(static_cast<std::size_t>(camera.width_px)) {
+        is_known_(static_cast<std::size_t>(camera.width_px)) {
     MOCAP_CHECK(camera.head && frames.size() >= 2);
     CollectViews(frames);
     LookUpDirections();
+    for (auto* values : {&cells_x_, &cells_y_, &places_x_, &places_y_})
+      values->resize(static_cast<std::size_t>(node_columns_) * kCell_px);
+    std::fill(expected_.alpha_limit.begin(), expected_.alpha_limit.end(), 1e6f);
     LearnVariation();
     LearnThresholds(detection_rate);
   }
 
-  const ExpectedHalf& Glance(const PanTiltAngles& angles) override {
-    if (!turned_to_ || !(*turned_to_ == angles)) TurnTo(angles, std::nullopt);
-    turned_to_ = angles;
+  const ExpectedHalf& Glance(const PanTiltAngles& angles,
+                             const Displacement& displacement) override {
+    TurnTo(angles, displacement, std::nullopt);
     return half_;
   }
 
-  const ExpectedPicture& Expect(const Closeup& closeup) override {
+  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
     for (int y = 0; y < camera_.height_px; ++y)
-      for (const PixelRun& run : closeup.Measured(y)) DrawRun(y, run);
+      for (const PixelRun& run : closeup.Measured(y)) DrawRun(y, run, conditions);
     return expected_;
   }
 
@@ -159,7 +103,8 @@ class PanTiltBackground final : public BackgroundModel {
   struct Source {
     std::size_t view = 0;
     bool is_projected = false;
-    std::vector<SensorPlaneTable::Place> nodes;
+    // Not a number where the view does not reach.
+    std::vector<float> nodes_x, nodes_y;
   };
 
   // Frames of one direction become one view, their mean.
@@ -184,8 +129,8 @@ class PanTiltBackground final : public BackgroundModel {
       Image<Bgr> mean(camera_.width_px, camera_.height_px);
       for (std::size_t i = 0; i < sums.size(); ++i)
         mean.pixels()[i] = {rounded(sums[i][0]), rounded(sums[i][1]), rounded(sums[i][2])};
-      views_.push_back(
-          MakeView(frames[f].angles, camera_.PoseAt(frames[f].angles), std::move(mean)));
+      views_.emplace_back(frames[f].angles, camera_.PoseAt(frames[f].angles), mean);
+      images_.push_back(std::move(mean));
     }
   }
 
@@ -204,11 +149,11 @@ class PanTiltBackground final : public BackgroundModel {
 
   // Draws what is known of a view from the others, and compares it.
   void LookFrom(std::size_t v, CoarseScan& scan) {
-    TurnTo(views_[v].angles, v);
-    scan.Compare(half_, views_[v].image.view());
+    TurnTo(views_[v].angles, {}, v);
+    scan.Compare(half_, images_[v].view());
     Closeup everything;
     everything.SetAll(camera_.width_px, camera_.height_px);
-    Expect(everything);
+    Expect(everything, {});
   }
 
   // How far two views of the same place differ: by noise everywhere, and by what is left of the
@@ -219,7 +164,7 @@ class PanTiltBackground final : public BackgroundModel {
     for (std::size_t v = 0; v < views_.size(); ++v) {
       LookFrom(v, scan);
       const float gain = scan.conditions().gain[1];
-      const std::vector<Bgr>& pixels = views_[v].image.pixels();
+      const std::vector<Bgr>& pixels = images_[v].pixels();
       for (std::size_t i = v % 7; i < pixels.size(); i += 7) {
         if (expected_.variance[1][i] >= kUnknownVariance) continue;
         const float difference = std::abs(pixels[i].g * gain - expected_.mean[1][i]);
@@ -238,14 +183,16 @@ class PanTiltBackground final : public BackgroundModel {
     CoarseScan scan;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       LookFrom(v, scan);
-      histograms.Add(expected_, views_[v].image.view(), {.gain = scan.conditions().gain});
+      histograms.Add(expected_, images_[v].view(), scan.conditions().gain);
       half_.usual_distance = std::max(half_.usual_distance, scan.distance());
       half_.usual_shift_px = std::max(half_.usual_shift_px, scan.shift_px());
     }
     thresholds_ = histograms.At(detection_rate);
+    images_ = {};
   }
 
-  void TurnTo(const PanTiltAngles& angles, std::optional<std::size_t> left_out) {
+  void TurnTo(const PanTiltAngles& angles, const Displacement& displacement,
+              std::optional<std::size_t> left_out) {
     order_.clear();
     for (std::size_t v = 0; v < views_.size(); ++v)
       if (v != left_out) order_.push_back(v);
@@ -256,22 +203,22 @@ class PanTiltBackground final : public BackgroundModel {
                                Distance(views_[b].angles, angles);
                       });
     X_CW_ = camera_.PoseAt(angles);
+    displacement_ = displacement;
     for (std::size_t k = 0; k < used_; ++k) {
       sources_[k].view = order_[k];
       sources_[k].is_projected = false;
     }
     for (int y = 0; y < camera_.height_px / 2; ++y) DrawHalfRow(y);
-    turned_to_.reset();
   }
 
-  const View& ViewOf(const Source& source) const { return views_[source.view]; }
-
-  // Where in a source's view the corners of the cells of a picture from X_CW_ lie.
+  // Where in a source's view the corners of the cells of a picture from X_CW_ lie. Views are as
+  // large and nearly as upright as the picture, so that it is displaced as they are.
   void ProjectNodes(Source& source) {
     source.is_projected = true;
-    source.nodes.assign(directions_.size(), {std::numeric_limits<float>::quiet_NaN(), 0});
+    source.nodes_x.assign(directions_.size(), std::numeric_limits<float>::quiet_NaN());
+    source.nodes_y.assign(directions_.size(), 0);
     const RigidTransform X_WC = X_CW_.Inverse();
-    const RigidTransform X_VC = ViewOf(source).X_CW * X_WC;
+    const RigidTransform X_VC = views_[source.view].X_CW * X_WC;
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       if (!directions_[i]) continue;
       const Vector3 ray_C = directions_[i]->homogeneous();
@@ -280,112 +227,128 @@ class PanTiltBackground final : public BackgroundModel {
       if (descent > 0 && X_WC.p.z() > 0) depth = std::min(depth, X_WC.p.z() / descent);
       const Vector3 p_V = X_VC * Vector3(depth * ray_C);
       SensorPlaneTable::Place place;
-      if (p_V.z() > 0 && table_.Locate(static_cast<float>(p_V.x() / p_V.z()),
-                                       static_cast<float>(p_V.y() / p_V.z()), place))
-        source.nodes[i] = place;
+      if (p_V.z() <= 0 || !table_.Locate(static_cast<float>(p_V.x() / p_V.z()),
+                                         static_cast<float>(p_V.y() / p_V.z()), place))
+        continue;
+      source.nodes_x[i] = place.x_px - displacement_.x_px;
+      source.nodes_y[i] = place.y_px - displacement_.y_px;
     }
   }
 
-  // Finds places for the pixels first, first + step, … of a row.
-  void FindPlaces(Source& source, float y, float first, float step, int count) {
+  // Finds the places in a source's view of the cells [first, end) of a row; a cell is so many
+  // pixels wide, the first of which is so far into it. Returns whether all lie in the view.
+  template <int width>
+  bool FindPlaces(Source& source, float y, float into, int first, int end, float last_x,
+                  float last_y) {
     if (!source.is_projected) ProjectNodes(source);
     const int row = static_cast<int>(y) / kCell_px;
     const float b = y / kCell_px - static_cast<float>(row);
-    const SensorPlaneTable::Place* const top =
-        &source.nodes[static_cast<std::size_t>(row) * node_columns_];
-    const SensorPlaneTable::Place* const bottom = top + node_columns_;
-    for (int i = 0; i < count;) {
-      const float x = first + step * static_cast<float>(i);
-      const int cell = static_cast<int>(x) / kCell_px;
-      const float left_x = top[cell].x_px + b * (bottom[cell].x_px - top[cell].x_px);
-      const float left_y = top[cell].y_px + b * (bottom[cell].y_px - top[cell].y_px);
-      const float right_x = top[cell + 1].x_px + b * (bottom[cell + 1].x_px - top[cell + 1].x_px);
-      const float right_y = top[cell + 1].y_px + b * (bottom[cell + 1].y_px - top[cell + 1].y_px);
-      const float begin = x / kCell_px - static_cast<float>(cell);
-      const int left = static_cast<int>(std::ceil(kCell_px * (1 - begin) / step));
-      const int end = std::min(i + left, count);
-      for (int k = 0; i < end; ++i, ++k) {
-        const float a = begin + static_cast<float>(k) * step / kCell_px;
-        places_.x[i] = left_x + a * (right_x - left_x);
-        places_.y[i] = left_y + a * (right_y - left_y);
-      }
-    }
+    const std::size_t top = static_cast<std::size_t>(row) * node_columns_ + first;
+    const int count = end - first + 1;
+    Mix(&source.nodes_x[top], &source.nodes_x[top + node_columns_], count, b, cells_x_.data());
+    Mix(&source.nodes_y[top], &source.nodes_y[top + node_columns_], count, b, cells_y_.data());
+    SpreadCells<width>(cells_x_.data(), end - first, into, places_x_.data());
+    SpreadCells<width>(cells_y_.data(), end - first, into, places_y_.data());
+    // Also false for what is not a number.
+    const auto lies_within = [](const std::vector<float>& cells, int n, float last) {
+      return std::all_of(cells.begin(), cells.begin() + n,
+                         [last](float place) { return place >= 0 && place < last; });
+    };
+    return lies_within(cells_x_, count, last_x) && lies_within(cells_y_, count, last_y);
   }
 
-  // The nearest pixels of the half do: slopes make up for what that shifts.
+  // Calls draw(begin, count) for the runs of pixels that are not known yet and whose places lie in
+  // the view, up to (last_x, last_y); they are known then. Returns whether all are.
+  // @param has_all  whether none is known and the view has all.
+  template <typename Function>
+  bool DrawUnknown(bool has_all, float last_x, float last_y, int count, Function draw) {
+    if (has_all) {
+      std::fill_n(is_known_.begin(), count, std::uint8_t{1});
+      draw(0, count);
+      return true;
+    }
+    int known = 0;
+    for (int i = 0; i < count;) {
+      const int begin = i;
+      // Also false for what is not a number.
+      while (i < count && !is_known_[i] && places_x_[i] >= 0 && places_y_[i] >= 0 &&
+             places_x_[i] < last_x && places_y_[i] < last_y)
+        is_known_[i++] = 1;
+      if (i > begin) draw(begin, i - begin);
+      known += i - begin;
+      for (; i < count && is_known_[i]; ++i) ++known;
+      if (i == begin) ++i;
+    }
+    return known == count;
+  }
+
   void DrawHalfRow(int y) {
     const int columns = camera_.width_px / 2;
-    const std::size_t begin = static_cast<std::size_t>(y) * half_.mean.width;
-    std::fill_n(half_.variance.begin() + static_cast<std::ptrdiff_t>(begin), columns,
-                kUnknownVariance);
-    int missing = columns;
-    for (std::size_t k = 0; k < used_ && missing > 0; ++k) {
-      FindPlaces(sources_[k], static_cast<float>(2 * y) + 0.5f, 0.5f, 2, columns);
-      const View& view = ViewOf(sources_[k]);
-      const auto last_x = static_cast<float>(camera_.width_px / 2 * 2 - 1);
-      const auto last_y = static_cast<float>(camera_.height_px / 2 * 2 - 1);
-      for (int i = 0; i < columns; ++i) {
-        const float from_x = places_.x[i], from_y = places_.y[i];
-        // Also false for what is not a number.
-        if (!(from_x >= 0 && from_y >= 0 && from_x <= last_x && from_y <= last_y)) continue;
-        if (half_.variance[begin + i] < kUnknownVariance) continue;
-        const PackedPixel p =
-            view.half[static_cast<std::size_t>(from_y / 2 + 0.25f) * half_.mean.width +
-                      static_cast<std::size_t>(from_x / 2 + 0.25f)];
-        half_.mean.color[0][begin + i] = static_cast<std::uint8_t>(p);
-        half_.mean.color[1][begin + i] = static_cast<std::uint8_t>(p >> 8);
-        half_.mean.color[2][begin + i] = static_cast<std::uint8_t>(p >> 16);
-        half_.slope[begin + i] = static_cast<std::uint8_t>(p >> 24);
-        half_.variance[begin + i] = variance_;
-        --missing;
-      }
+    const std::size_t row = static_cast<std::size_t>(y) * half_.mean.width;
+    std::fill_n(is_known_.begin(), columns, std::uint8_t{0});
+    for (std::size_t k = 0; k < used_; ++k) {
+      const BackgroundView& view = views_[sources_[k].view];
+      const auto last_x = static_cast<float>(2 * view.half_width - 1);
+      const auto last_y = static_cast<float>(2 * view.half_height - 1);
+      const bool has_all =
+          FindPlaces<kCell_px / 2>(sources_[k], static_cast<float>(2 * y) + 0.5f, 0.5f / kCell_px,
+                                   0, node_columns_ - 1, last_x, last_y);
+      const auto draw = [&](int begin, int count) {
+        auto& color = half_.mean.color;
+        const std::size_t to = row + begin;
+        DrawNearest(view, {&places_x_[begin], &places_y_[begin]}, count,
+                    {&color[0][to], &color[1][to], &color[2][to]}, &half_.slope[to]);
+      };
+      if (DrawUnknown(has_all && k == 0, last_x, last_y, columns, draw)) break;
     }
+    for (int x = 0; x < columns; ++x)
+      half_.variance[row + x] = is_known_[x] ? variance_ : kUnknownVariance;
   }
 
-  void DrawRun(int y, const PixelRun& run) {
-    const int count = run.end - run.begin;
-    const std::size_t begin = static_cast<std::size_t>(y) * camera_.width_px + run.begin;
-    std::fill_n(known_.begin(), count, std::uint8_t{0});
-    const DrawnRow row{
-        known_.data(),
-        {&expected_.mean[0][begin], &expected_.mean[1][begin], &expected_.mean[2][begin]},
-        &expected_.slope[begin]};
+  void DrawRun(int y, const PixelRun& run, const Conditions& conditions) {
+    const int length = run.end - run.begin;
+    const std::size_t row = static_cast<std::size_t>(y) * camera_.width_px + run.begin;
+    std::fill_n(is_known_.begin(), length, std::uint8_t{0});
     for (std::size_t k = 0; k < used_; ++k) {
-      FindPlaces(sources_[k], static_cast<float>(y), static_cast<float>(run.begin), 1, count);
-      Draw(ViewOf(sources_[k]), places_.x.data(), places_.y.data(), count, row);
-      if (std::all_of(known_.begin(), known_.begin() + count, [](auto known) { return known; }))
-        break;
+      const BackgroundView& view = views_[sources_[k].view];
+      const auto last_x = static_cast<float>(view.width - 1);
+      const auto last_y = static_cast<float>(view.height - 1);
+      const bool has_all =
+          FindPlaces<kCell_px>(sources_[k], static_cast<float>(y), 0, run.begin / kCell_px,
+                               (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
+      const auto draw = [&](int begin, int count) {
+        auto& mean = expected_.mean;
+        const std::size_t to = row + begin;
+        DrawBetween(view, {&places_x_[begin], &places_y_[begin]}, count,
+                    {&mean[0][to], &mean[1][to], &mean[2][to]}, &expected_.slope[to]);
+      };
+      if (DrawUnknown(has_all && k == 0, last_x, last_y, length, draw)) break;
     }
-    for (int i = 0; i < count; ++i) {
-      const float shift = shift_px_ * expected_.slope[begin + i];
-      const float variance = variance_ + shift * shift;
-      for (int c = 0; c < 3; ++c) {
-        float& mean = expected_.mean[c][begin + i];
-        mean = known_[i] ? std::max(mean, ExpectedPicture::kDarkestMean) : 255;
-        expected_.variance[c][begin + i] = known_[i] ? variance : kUnknownVariance;
-      }
-      expected_.alpha_weight[begin + i] = 1e6f;
-    }
+    for (int c = 0; c < 3; ++c)
+      SetVariation(is_known_.data(), &expected_.slope[row], length, variance_,
+                   shift_px_ * shift_px_, &expected_.mean[c][row], &expected_.variance[c][row]);
+    expected_.Weigh(conditions, row, length);
   }
 
   CameraCalibration camera_;
   SensorPlaneTable table_;
-  std::vector<View> views_;
+  std::vector<BackgroundView> views_;
+  std::vector<Image<Bgr>> images_;  // Of the views, while learning.
   float variance_ = kLeastSigma * kLeastSigma;
   float shift_px_ = 0;
 
   int node_columns_ = 0, node_rows_ = 0;
   std::vector<std::optional<Vector2>> directions_;
 
-  std::optional<PanTiltAngles> turned_to_;
   RigidTransform X_CW_;
+  Displacement displacement_;
   std::vector<std::size_t> order_;
   std::array<Source, kMostViews> sources_;
   std::size_t used_ = 0;
   ExpectedHalf half_;
   ExpectedPicture expected_;
-  Places places_;
-  std::vector<std::uint8_t> known_;
+  std::vector<float> cells_x_, cells_y_, places_x_, places_y_;
+  std::vector<std::uint8_t> is_known_;
 };
 
 }  // namespace

@@ -55,17 +55,17 @@ PixelClassifier::PixelClassifier(const DistortionThresholds& thresholds, float d
     : thresholds_(thresholds), darkest_shadow_(darkest_shadow) {}
 
 void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                               const Conditions& conditions, const Closeup& closeup) {
+                               const std::array<float, 3>& gain, const Closeup& closeup) {
   const int width = image.width();
   const int height = image.height();
   if (alpha_shift_.width() != width || alpha_shift_.height() != height) {
     alpha_shift_ = Image<float>(width, height);
     marks_.resize(static_cast<std::size_t>(width));
   }
-  for (auto* pixels : {&clear_pixels_, &shadow_, &highlight_}) pixels->Reset(width, height);
+  clear_pixels_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
     for (Silhouette& s : *windows) s.Reset(width, height);
-  scan_.Begin(expected, image, conditions, closeup);
+  scan_.Begin(expected, image, gain, closeup);
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
     for (const PixelRun& run : closeup.Measured(y))
@@ -89,26 +89,23 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   Unite(eroded_[0], foreground_);
 }
 
-PixelClass PixelClassifier::ClassOf(int x, int y) const {
+PixelClass PixelClassifier::ClassOf(const ExpectedPicture& expected, int x, int y) const {
   if (foreground_.Test(x, y)) return PixelClass::kForeground;
-  if (shadow_.Test(x, y)) return PixelClass::kShadow;
-  return highlight_.Test(x, y) ? PixelClass::kHighlight : PixelClass::kBackground;
+  const float normalized =
+      alpha_shift_(x, y) * expected.alpha_weight[static_cast<std::size_t>(y) * expected.width + x];
+  if (normalized < thresholds_.alpha_low) return PixelClass::kShadow;
+  return normalized > thresholds_.alpha_high ? PixelClass::kHighlight : PixelClass::kBackground;
 }
 
 void PixelClassifier::ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row) {
   const Measured measured{row.alpha_shift + run.begin, row.alpha_weight + run.begin,
                           row.cd_sq + run.begin, row.cd_sq + run.begin};
-  const auto mark = [&](const Limits& limits, Silhouette& pixels) {
-    MarkPixels(measured, run.end - run.begin, limits, marks_.data());
-    PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
-            pixels.row(y));
-  };
-  mark({.darkest = darkest_shadow_ - 1,
-        .alpha_low = kPixelMargin * thresholds_.alpha_low,
-        .cd_sq = Square(kPixelMargin * thresholds_.cd)},
-       clear_pixels_);
-  mark({.alpha_low = thresholds_.alpha_low}, shadow_);
-  mark({.alpha_high = thresholds_.alpha_high}, highlight_);
+  const Limits clear{.darkest = darkest_shadow_ - 1,
+                     .alpha_low = kPixelMargin * thresholds_.alpha_low,
+                     .cd_sq = Square(kPixelMargin * thresholds_.cd)};
+  MarkPixels(measured, run.end - run.begin, clear, marks_.data());
+  PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
+          clear_pixels_.row(y));
 }
 
 void PixelClassifier::ClassifyWindows(int y, const PixelRun& run, std::size_t k,

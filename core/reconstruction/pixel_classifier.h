@@ -31,9 +31,11 @@ class PixelClassifier {
 
   /// Classifies a picture; the results hold until the next one.
   void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                const Conditions& conditions, const Closeup& closeup);
+                const std::array<float, 3>& gain, const Closeup& closeup);
 
-  PixelClass ClassOf(int x, int y) const;
+  /// Gives the class of a pixel that was measured.
+  /// @param expected  what the picture was classified with.
+  PixelClass ClassOf(const ExpectedPicture& expected, int x, int y) const;
   /// Where the class is foreground.
   const Silhouette& foreground() const { return foreground_; }
   /// Where background would be as rare as the training frames allow, but not clearly beyond that.
@@ -50,7 +52,7 @@ class PixelClassifier {
   DistortionScan scan_;
   Image<float> alpha_shift_;
   std::vector<std::uint8_t> marks_;  // One byte a pixel of a run, before they are packed.
-  Silhouette clear_pixels_, shadow_, highlight_;
+  Silhouette clear_pixels_;
   std::array<Silhouette, DistortionScan::kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_;
 };

@@ -53,11 +53,11 @@ class Segmenter::Impl {
             static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
-    coarse_.Compare(background_->Glance(angles), image);
+    coarse_.Compare(background_->Glance(angles, {}), image);
     const Conditions& conditions = coarse_.conditions();
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
-    const ExpectedPicture& expected = background_->Expect(closeup_);
-    classifier_.Classify(expected, image, conditions, closeup_);
+    const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
+    classifier_.Classify(expected, image, conditions.gain, closeup_);
     silhouette = classifier_.foreground();
     cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);

@@ -25,15 +25,15 @@ class PixelClassifierTest : public ::testing::Test {
   void Classify(const ExactPicture& picture) {
     Closeup everything;
     everything.SetAll(kWidth, kHeight);
-    classifier_.Classify(background_->Expect(everything), sensor_.Take(picture).view(), {},
-                         everything);
+    expected_ = &background_->Expect(everything, {});
+    classifier_.Classify(*expected_, sensor_.Take(picture).view(), {1, 1, 1}, everything);
   }
   // Of the pixels in a box.
   double ShareOf(PixelClass wanted, const PixelBox& box) const {
     int count = 0, all = 0;
     for (int y = box.top; y <= box.bottom; ++y) {
       for (int x = box.left; x <= box.right; ++x) {
-        count += classifier_.ClassOf(x, y) == wanted;
+        count += classifier_.ClassOf(*expected_, x, y) == wanted;
         ++all;
       }
     }
@@ -46,6 +46,7 @@ class PixelClassifierTest : public ::testing::Test {
   ExactPicture studio_;
   std::unique_ptr<BackgroundModel> background_;
   PixelClassifier classifier_;
+  const ExpectedPicture* expected_ = nullptr;
 };
 
 TEST_F(PixelClassifierTest, TheEmptyStudioIsBackground) {
@@ -144,8 +145,9 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
     int cd = 0, low = 0, high = 0, all = 0;
     for (int i = 0; i < 10; ++i) {
       const Image<Bgr> image = sensor.Take(studio);
-      coarse.Compare(background->Glance({}), image.view());
-      scan.Begin(background->Expect(everything), image.view(), coarse.conditions(), everything);
+      coarse.Compare(background->Glance({}, {}), image.view());
+      scan.Begin(background->Expect(everything, {}), image.view(), coarse.conditions().gain,
+                 everything);
       for (int y = 0; y < kHeight; ++y) {
         const DistortionScan::Row& row = scan.Next();
         for (int x = 0; x < kWidth; ++x) {
@@ -168,11 +170,12 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
+  expected.Weigh({}, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
   Closeup everything;
   everything.SetAll(image.width(), image.height());
   DistortionScan scan;
-  scan.Begin(expected, image.view(), {}, everything);
+  scan.Begin(expected, image.view(), {1, 1, 1}, everything);
   const DistortionScan::Row& row = scan.Next();
   // z = (45, 21.25, 16.667), m = (50, 20, 20): α = z·m / m·m.
   const double alpha = (45 * 50 + 21.25 * 20 + 50.0 / 3 * 20) / (2500 + 400 + 400);
@@ -198,11 +201,12 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
       image(x, y) = {value, value, value};
     }
   }
+  expected.Weigh({}, 0, 40 * 30);
   image(30, 20) = {255, 255, 255};
   Closeup everything;
   everything.SetAll(image.width(), image.height());
   DistortionScan scan;
-  scan.Begin(expected, image.view(), {}, everything);
+  scan.Begin(expected, image.view(), {1, 1, 1}, everything);
   for (int y = 0; y < 30; ++y) {
     const DistortionScan::Row& row = scan.Next();
     for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) {
