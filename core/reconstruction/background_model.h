@@ -6,8 +6,11 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/closeup.h"
+#include "core/reconstruction/conditions.h"
 #include "core/reconstruction/distortion_thresholds.h"
 #include "core/reconstruction/expected_picture.h"
+#include "core/reconstruction/half_picture.h"
 
 namespace mocap {
 
@@ -22,8 +25,15 @@ class BackgroundModel {
  public:
   virtual ~BackgroundModel() = default;
 
-  /// Gives what the camera would see of the empty studio; holds until the next call.
-  virtual const ExpectedPicture& Expect(const PanTiltAngles& angles) = 0;
+  /// Turns to where the head points, and gives what the camera would see there of the empty studio,
+  /// at half the resolution. Holds until the next call.
+  /// @param displacement  of the camera's picture from where the calibration and the head say.
+  virtual const ExpectedHalf& Glance(const PanTiltAngles& angles,
+                                     const Displacement& displacement) = 0;
+
+  /// Gives what the camera would see of it at full resolution, weighed, for the pixels that are
+  /// measured. Holds until the next call.
+  virtual const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) = 0;
 
   /// Thresholds that a share of the training pixels stays within.
   const DistortionThresholds& thresholds() const { return thresholds_; }

@@ -35,6 +35,8 @@ void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Si
   }
   for (int y = 0; y < height; ++y) {
     Word* row = to.row(y);
+    // Most rows of most silhouettes are empty, and stay so.
+    if (beyond == 0 && std::all_of(row, row + words, [](Word word) { return word == 0; })) continue;
     // In place: `before` is the word as it was.
     Word before = beyond;
     for (int i = 0; i < words; ++i) {
@@ -54,17 +56,24 @@ void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Si
 
 }  // namespace
 
-void PackRow(std::span<const std::uint8_t> pixels, std::uint64_t* words) {
+void PackRow(std::span<const std::uint8_t> pixels, int begin, Word* row) {
+  MOCAP_CHECK(begin % 8 == 0);
+  const auto add = [&](std::size_t i, Word bytes) {
+    // Eight bytes of 0 or 1 are gathered into the top byte.
+    const std::size_t x = begin + i;
+    row[x / 64] |= (bytes * 0x0102040810204080) >> 56 << x % 64;
+  };
   const std::size_t count = pixels.size();
-  for (std::size_t i = 0; i < count; i += 64) {
-    Word word = 0;
-    for (std::size_t j = 0; j < 64 && i + j < count; j += 8) {
-      Word bytes = 0;
-      std::memcpy(&bytes, pixels.data() + i + j, std::min<std::size_t>(8, count - i - j));
-      // Eight bytes of 0 or 1 are gathered into the top byte.
-      word |= (bytes * 0x0102040810204080) >> 56 << j;
-    }
-    words[i / 64] = word;
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    Word bytes;
+    std::memcpy(&bytes, pixels.data() + i, 8);
+    add(i, bytes);
+  }
+  if (i < count) {
+    Word bytes = 0;
+    std::memcpy(&bytes, pixels.data() + i, count - i);
+    add(i, bytes);
   }
 }
 

@@ -8,8 +8,9 @@
 
 namespace mocap {
 
-/// Sets the words of one row from one byte a pixel: 0 or 1.
-void PackRow(std::span<const std::uint8_t> pixels, std::uint64_t* words);
+/// Sets pixels of one row from one byte a pixel: 0 or 1. Pixels that are set stay so.
+/// @param begin  the first byte's pixel, a multiple of 8.
+void PackRow(std::span<const std::uint8_t> pixels, int begin, std::uint64_t* row);
 
 /// Keeps the pixels whose whole square neighbourhood of 2 radius + 1 pixels is set; what lies
 /// beyond the picture's edge counts as set.

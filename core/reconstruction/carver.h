@@ -18,7 +18,8 @@ struct CarvingOptions {
 /// Carves the person out of the volume of interest that the silhouettes span.
 ///
 /// A voxel is sampled at 2 × 2 × 2 places and kept when the majority of them agrees with all
-/// silhouettes. A camera that cannot see a place does not carve it, but at least two cameras, and
+/// silhouettes; of five cameras or more, one in five may have it in a narrow gap of its silhouette
+/// instead. A camera that cannot see a place does not carve it, but at least two cameras, and
 /// half of those in the set, must see it. A camera whose silhouette is empty is taken for one that
 /// cannot see the person. Mikić et al. 2003, §4. Beyond the paper, of five cameras and more one in
 /// five may lack a place that lies in a gap of its silhouette (a closing by 6 px fills it), because

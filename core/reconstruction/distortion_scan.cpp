@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -17,19 +18,112 @@ inline float Sum(Function f) {
 
 constexpr int SideOf(std::size_t window) { return 2 * DistortionScan::kRadii_px[window] + 1; }
 
-void RepeatEnds(std::vector<float>& padded, int width, int pad) {
-  for (int i = 0; i < pad; ++i) {
-    padded[i] = padded[pad];
-    padded[pad + width + i] = padded[pad + width - 1];
+MOCAP_VECTORIZED
+void Separate(const Bgr* pixels, int count, const std::array<float, 3>& gain, float* b, float* g,
+              float* r) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    b[x] = pixels[x].b * gain0;
+    g[x] = pixels[x].g * gain1;
+    r[x] = pixels[x].r * gain2;
+  }
+}
+
+struct Pixels {
+  std::array<const float*, 3> color, mean, inverse_sigma;
+  const float* inverse_square;
+};
+struct Distortions {
+  float* alpha_shift;
+  std::array<float*, 3> cd;
+  float* cd_sq;
+};
+
+MOCAP_VECTORIZED
+void MeasurePixels(const Pixels& p, int count, const Distortions& d) {
+  const auto [c0, c1, c2] = p.color;
+  const auto [e0, e1, e2] = p.mean;
+  const auto [w0, w1, w2] = p.inverse_sigma;
+  const auto [d0, d1, d2] = d.cd;
+  const float* const inverse_square = p.inverse_square;
+  float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float m0 = e0[x] * w0[x], m1 = e1[x] * w1[x], m2 = e2[x] * w2[x];
+    const float z0 = c0[x] * w0[x], z1 = c1[x] * w1[x], z2 = c2[x] * w2[x];
+    const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) * inverse_square[x];
+    const float f0 = z0 - alpha * m0;
+    const float f1 = z1 - alpha * m1;
+    const float f2 = z2 - alpha * m2;
+    alpha_shift[x] = alpha - 1;
+    d0[x] = f0;
+    d1[x] = f1;
+    d2[x] = f2;
+    cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
+  }
+}
+
+template <int side>
+MOCAP_VECTORIZED void SumColors(const float* from, int count, float* to) {
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) to[x] = Sum<side>([&](int i) { return from[x + i]; });
+}
+
+template <int side>
+MOCAP_VECTORIZED void SumAlphas(const float* from, int count, float* sum, float* sum_sq,
+                                float* moment) {
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    sum[x] = Sum<side>([&](int i) { return from[x + i]; });
+    sum_sq[x] = Sum<side>([&](int i) { return from[x + i] * from[x + i]; });
+    moment[x] = Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * from[x + i]; });
+  }
+}
+
+template <int side>
+using Column = std::array<const float*, side>;
+
+template <int side>
+MOCAP_VECTORIZED void JoinAlphas(const Column<side>& sum, const Column<side>& sum_sq,
+                                 const Column<side>& moment, const float* alpha_weight, int count,
+                                 float* alpha_shift, float* roughness_sq) {
+  constexpr float kArea = side * side;
+  // Sum of x² over the window's pixels, counted from its middle.
+  constexpr float kSpread = kArea * (kArea - 1) / 12;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float a = Sum<side>([&](int i) { return sum[i][x]; });
+    const float a_sq = Sum<side>([&](int i) { return sum_sq[i][x]; });
+    const float along = Sum<side>([&](int i) { return moment[i][x]; });
+    const float down =
+        Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * sum[i][x]; });
+    const float variance = (a_sq - a * a / kArea - (along * along + down * down) / kSpread) / kArea;
+    alpha_shift[x] = a / kArea;
+    roughness_sq[x] = variance * alpha_weight[x] * alpha_weight[x];
+  }
+}
+
+template <int side>
+MOCAP_VECTORIZED void JoinColors(const std::array<Column<side>, 3>& sums, int count, float* cd_sq) {
+  constexpr float kArea = side * side;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float d0 = Sum<side>([&](int i) { return sums[0][i][x]; });
+    const float d1 = Sum<side>([&](int i) { return sums[1][i][x]; });
+    const float d2 = Sum<side>([&](int i) { return sums[2][i][x]; });
+    cd_sq[x] = (d0 * d0 + d1 * d1 + d2 * d2) / (kArea * kArea);
   }
 }
 
 }  // namespace
 
 void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                           float gain) {
+                           const std::array<float, 3>& gain, const Closeup& closeup) {
   MOCAP_CHECK(image.width() == expected.width && image.height() == expected.height);
+  MOCAP_CHECK(closeup.width() == expected.width && closeup.height() == expected.height);
   expected_ = &expected;
+  closeup_ = &closeup;
   image_ = image;
   gain_ = gain;
   next_ = 0;
@@ -52,133 +146,90 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
 const DistortionScan::Row& DistortionScan::Next() {
   const int y = next_++;
   MOCAP_CHECK(y < expected_->height);
-  for (; measured_ <= std::min(y + kPad, expected_->height - 1); ++measured_) {
-    Line& line = lines_[static_cast<std::size_t>(measured_ % kLines)];
-    MeasurePixels(measured_, line);
-    RepeatEnds(line.alpha_shift, expected_->width, kPad);
-    for (auto& cd : line.cd) RepeatEnds(cd, expected_->width, kPad);
-    SumAlong<0>(line);
-    SumAlong<1>(line);
+  for (; measured_ <= std::min(y + kPad, expected_->height - 1); ++measured_)
+    Measure(measured_, lines_[static_cast<std::size_t>(measured_ % kLines)]);
+  for (const PixelRun& run : closeup_->Judged(y)) {
+    SumDown<0>(y, run);
+    SumDown<1>(y, run);
   }
-  SumDown<0>(y);
-  SumDown<1>(y);
   const Line& line = lines_[static_cast<std::size_t>(y % kLines)];
   row_.alpha_shift = line.alpha_shift.data() + kPad;
   row_.cd_sq = line.cd_sq.data();
-  row_.inverse_alpha_variation =
-      expected_->inverse_alpha_variation.data() + static_cast<std::size_t>(y) * expected_->width;
+  row_.alpha_weight =
+      expected_->alpha_weight.data() + static_cast<std::size_t>(y) * expected_->width;
   for (std::size_t w = 0; w < kWindows; ++w)
     row_.windows[w] = {results_[w].alpha_shift.data(), results_[w].cd_sq.data(),
                        results_[w].roughness_sq.data()};
   return row_;
 }
 
-void DistortionScan::MeasurePixels(int y, Line& line) {
-  const int width = expected_->width;
+void DistortionScan::Measure(int y, Line& line) {
   const Bgr* const pixels = image_.row(y);
-  for (int x = 0; x < width; ++x) {
-    color_[0][x] = pixels[x].b * gain_;
-    color_[1][x] = pixels[x].g * gain_;
-    color_[2][x] = pixels[x].r * gain_;
+  const std::size_t begin = static_cast<std::size_t>(y) * expected_->width;
+  for (const PixelRun& run : closeup_->Measured(y)) {
+    const int count = run.end - run.begin;
+    const std::size_t i = begin + run.begin;
+    Separate(pixels + run.begin, count, gain_, color_[0].data(), color_[1].data(),
+             color_[2].data());
+    Pixels from{{}, {}, {}, &expected_->inverse_square[i]};
+    Distortions to{&line.alpha_shift[run.begin + kPad], {}, &line.cd_sq[run.begin]};
+    for (int c = 0; c < 3; ++c) {
+      from.color[c] = color_[c].data();
+      from.mean[c] = &expected_->mean[c][i];
+      from.inverse_sigma[c] = &expected_->inverse_sigma[c][i];
+      to.cd[c] = &line.cd[c][run.begin + kPad];
+    }
+    MeasurePixels(from, count, to);
   }
-  const std::size_t begin = static_cast<std::size_t>(y) * width;
-  const float* const m0 = expected_->scaled_mean[0].data() + begin;
-  const float* const m1 = expected_->scaled_mean[1].data() + begin;
-  const float* const m2 = expected_->scaled_mean[2].data() + begin;
-  const float* const w0 = expected_->inverse_sigma[0].data() + begin;
-  const float* const w1 = expected_->inverse_sigma[1].data() + begin;
-  const float* const w2 = expected_->inverse_sigma[2].data() + begin;
-  const float* const c0 = color_[0].data();
-  const float* const c1 = color_[1].data();
-  const float* const c2 = color_[2].data();
-  float* const alpha_shift = line.alpha_shift.data() + kPad;
-  float* const d0 = line.cd[0].data() + kPad;
-  float* const d1 = line.cd[1].data() + kPad;
-  float* const d2 = line.cd[2].data() + kPad;
-  float* const cd_sq = line.cd_sq.data();
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float z0 = c0[x] * w0[x];
-    const float z1 = c1[x] * w1[x];
-    const float z2 = c2[x] * w2[x];
-    const float alpha =
-        (z0 * m0[x] + z1 * m1[x] + z2 * m2[x]) / (m0[x] * m0[x] + m1[x] * m1[x] + m2[x] * m2[x]);
-    const float e0 = z0 - alpha * m0[x];
-    const float e1 = z1 - alpha * m1[x];
-    const float e2 = z2 - alpha * m2[x];
-    alpha_shift[x] = alpha - 1;
-    d0[x] = e0;
-    d1[x] = e1;
-    d2[x] = e2;
-    cd_sq[x] = e0 * e0 + e1 * e1 + e2 * e2;
+  RepeatEnds(line);
+  for (const PixelRun& run : closeup_->Measured(y)) {
+    // Nothing is judged as near as that to where measuring ends.
+    const PixelRun inner{run.begin == 0 ? 0 : run.begin + kPad,
+                         run.end == expected_->width ? run.end : run.end - kPad};
+    SumAlong<0>(inner, line);
+    SumAlong<1>(inner, line);
+  }
+}
+
+void DistortionScan::RepeatEnds(Line& line) const {
+  const int width = expected_->width;
+  for (auto* values : {&line.alpha_shift, &line.cd[0], &line.cd[1], &line.cd[2]}) {
+    std::fill_n(values->begin(), kPad, (*values)[kPad]);
+    std::fill_n(values->end() - kPad, kPad, (*values)[width + kPad - 1]);
   }
 }
 
 template <std::size_t window>
-void DistortionScan::SumAlong(Line& line) const {
+void DistortionScan::SumAlong(const PixelRun& run, Line& line) const {
   constexpr int kSide = SideOf(window);
-  constexpr int kRadius = kRadii_px[window];
-  const int width = expected_->width;
+  const int count = run.end - run.begin;
+  const std::size_t from = run.begin + kPad - kRadii_px[window];
   Sums& sums = line.sums[window];
-  const float* const a = line.alpha_shift.data() + kPad - kRadius;
-  float* const alpha = sums.alpha.data();
-  float* const alpha_sq = sums.alpha_sq.data();
-  float* const moment = sums.moment.data();
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    alpha[x] = Sum<kSide>([&](int i) { return a[x + i]; });
-    alpha_sq[x] = Sum<kSide>([&](int i) { return a[x + i] * a[x + i]; });
-    moment[x] = Sum<kSide>([&](int i) { return static_cast<float>(i - kRadius) * a[x + i]; });
-  }
-  for (int c = 0; c < 3; ++c) {
-    const float* const d = line.cd[c].data() + kPad - kRadius;
-    float* const cd = sums.cd[c].data();
-#pragma GCC ivdep
-    for (int x = 0; x < width; ++x) cd[x] = Sum<kSide>([&](int i) { return d[x + i]; });
-  }
+  SumAlphas<kSide>(&line.alpha_shift[from], count, &sums.alpha[run.begin],
+                   &sums.alpha_sq[run.begin], &sums.moment[run.begin]);
+  for (int c = 0; c < 3; ++c) SumColors<kSide>(&line.cd[c][from], count, &sums.cd[c][run.begin]);
 }
 
 template <std::size_t window>
-void DistortionScan::SumDown(int y) {
+void DistortionScan::SumDown(int y, const PixelRun& run) {
   constexpr int kSide = SideOf(window);
-  constexpr int kRadius = kRadii_px[window];
-  constexpr float kArea = kSide * kSide;
-  // Sum of x² over the window's pixels, counted from its middle.
-  constexpr float kSpread = kArea * (kArea - 1) / 12;
-  const int width = expected_->width;
-  std::array<const float*, kSide> a, q, m;
-  std::array<std::array<const float*, kSide>, 3> d;
+  const int count = run.end - run.begin;
+  Column<kSide> a, q, m;
+  std::array<Column<kSide>, 3> d;
   for (int i = 0; i < kSide; ++i) {
-    const int row = std::clamp(y + i - kRadius, 0, expected_->height - 1);
+    const int row = std::clamp(y + i - kRadii_px[window], 0, expected_->height - 1);
     const Sums& sums = lines_[static_cast<std::size_t>(row % kLines)].sums[window];
-    a[i] = sums.alpha.data();
-    q[i] = sums.alpha_sq.data();
-    m[i] = sums.moment.data();
-    for (int c = 0; c < 3; ++c) d[c][i] = sums.cd[c].data();
+    a[i] = &sums.alpha[run.begin];
+    q[i] = &sums.alpha_sq[run.begin];
+    m[i] = &sums.moment[run.begin];
+    for (int c = 0; c < 3; ++c) d[c][i] = &sums.cd[c][run.begin];
   }
-  const float* const inverse_a =
-      expected_->inverse_alpha_variation.data() + static_cast<std::size_t>(y) * width;
-  float* const alpha_shift = results_[window].alpha_shift.data();
-  float* const roughness_sq = results_[window].roughness_sq.data();
-  float* const cd_sq = results_[window].cd_sq.data();
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float sum = Sum<kSide>([&](int i) { return a[i][x]; });
-    const float sum_sq = Sum<kSide>([&](int i) { return q[i][x]; });
-    const float along = Sum<kSide>([&](int i) { return m[i][x]; });
-    const float down = Sum<kSide>([&](int i) { return static_cast<float>(i - kRadius) * a[i][x]; });
-    const float variance =
-        (sum_sq - sum * sum / kArea - (along * along + down * down) / kSpread) / kArea;
-    alpha_shift[x] = sum / kArea;
-    roughness_sq[x] = variance * inverse_a[x] * inverse_a[x];
-  }
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float d0 = Sum<kSide>([&](int i) { return d[0][i][x]; });
-    const float d1 = Sum<kSide>([&](int i) { return d[1][i][x]; });
-    const float d2 = Sum<kSide>([&](int i) { return d[2][i][x]; });
-    cd_sq[x] = (d0 * d0 + d1 * d1 + d2 * d2) / (kArea * kArea);
-  }
+  const float* const alpha_weight =
+      &expected_->alpha_weight[static_cast<std::size_t>(y) * expected_->width + run.begin];
+  Results& results = results_[window];
+  JoinAlphas<kSide>(a, q, m, alpha_weight, count, &results.alpha_shift[run.begin],
+                    &results.roughness_sq[run.begin]);
+  JoinColors<kSide>(d, count, &results.cd_sq[run.begin]);
 }
 
 }  // namespace mocap

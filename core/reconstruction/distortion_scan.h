@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/reconstruction/closeup.h"
 #include "core/reconstruction/expected_picture.h"
 
 namespace mocap {
@@ -17,8 +18,7 @@ namespace mocap {
 /// Harwood, Davis 1999). One pixel tells a grey trouser leg from a shadow no better than its noise
 /// allows, so both are measured over square windows of two sizes too, together with how rough α is
 /// there: a shadow dims a whole neighbourhood alike, or along a slope, and cloth has a grain of its
-/// own.
-/// Thread-bound; reuses its memory.
+/// own. Thread-bound; reuses its memory.
 class DistortionScan {
  public:
   static constexpr std::size_t kWindows = 2;
@@ -31,16 +31,20 @@ class DistortionScan {
     const float* cd_sq = nullptr;         ///< Squared length of the mean colour distance.
     const float* roughness_sq = nullptr;  ///< Variance of α about a plane, divided by a².
   };
-  /// Results of one row; each pointer leads to one value a pixel, and is valid until the next row.
+  /// Results of one row; each pointer leads to one value a pixel, and is valid until the next row,
+  /// for the pixels that are judged.
   struct Row {
-    const float* alpha_shift = nullptr;              ///< α − 1.
-    const float* cd_sq = nullptr;                    ///< CD².
-    const float* inverse_alpha_variation = nullptr;  ///< 1/a: (α − 1)/a is normalised.
+    const float* alpha_shift = nullptr;   ///< α − 1; also for the pixels that are measured.
+    const float* cd_sq = nullptr;         ///< CD².
+    const float* alpha_weight = nullptr;  ///< 1/a: (α − 1)/a is normalised.
     std::array<Windows, kWindows> windows;
   };
 
-  /// Starts at the top of a picture. Both are borrowed until the last row.
-  void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image, float gain);
+  /// Starts at the top of a picture. All but `gain` are borrowed until the last row.
+  /// @param expected  weighed for the pixels that are measured.
+  /// @param gain      what each of the picture's channels is multiplied by.
+  void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
+             const std::array<float, 3>& gain, const Closeup& closeup);
 
   /// Measures the next row. Beyond the picture's edge its outermost pixels are repeated.
   const Row& Next();
@@ -48,12 +52,14 @@ class DistortionScan {
  private:
   static constexpr int kPad = kRadii_px.back();
   static constexpr int kLines = 2 * kPad + 1;
+  static_assert(kPad < HalfPicture::kTile_px);
 
   // Sums along a row within the width of a window.
   struct Sums {
     std::vector<float> alpha, alpha_sq, moment;
     std::array<std::vector<float>, 3> cd;
   };
+  // Pixels and their sums; pixels are padded by kPad on both sides.
   struct Line {
     std::vector<float> alpha_shift, cd_sq;
     std::array<std::vector<float>, 3> cd;
@@ -62,15 +68,17 @@ class DistortionScan {
   struct Results {
     std::vector<float> alpha_shift, cd_sq, roughness_sq;
   };
-  void MeasurePixels(int y, Line& line);
+  void Measure(int y, Line& line);
+  void RepeatEnds(Line& line) const;
   template <std::size_t window>
-  void SumAlong(Line& line) const;
+  void SumAlong(const PixelRun& run, Line& line) const;
   template <std::size_t window>
-  void SumDown(int y);
+  void SumDown(int y, const PixelRun& run);
 
   const ExpectedPicture* expected_ = nullptr;
+  const Closeup* closeup_ = nullptr;
   ImageView<const Bgr> image_;
-  float gain_ = 1;
+  std::array<float, 3> gain_ = {1, 1, 1};
   int next_ = 0;
   int measured_ = 0;
   std::array<Line, kLines> lines_;

@@ -45,26 +45,27 @@ float DistortionHistograms::Histogram::Quantile(double rate) const {
   return static_cast<float>(bin) / kBinsPerUnit;
 }
 
-void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const Bgr> image) {
+void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
+                               const std::array<float, 3>& gain) {
   const int width = image.width();
   const int height = image.height();
   for (WindowHistograms& w : windows_)
     for (auto* values : {&w.cd_image, &w.alpha_image, &w.roughness_image})
       if (values->width() != width || values->height() != height)
         *values = Image<float>(width, height);
-  scan_.Begin(expected, image, MeasureGain(expected, image, scratch_));
+  everything_.SetAll(width, height);
+  scan_.Begin(expected, image, gain, everything_);
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
     for (int x = 0; x < width; ++x) {
-      const float alpha = row.alpha_shift[x] * row.inverse_alpha_variation[x];
+      const float alpha = row.alpha_shift[x] * row.alpha_weight[x];
       cd_.Add(std::sqrt(row.cd_sq[x]));
       alpha_low_.Add(-alpha);
       alpha_high_.Add(alpha);
       for (std::size_t k = 0; k < windows_.size(); ++k) {
         const DistortionScan::Windows& measured = row.windows[k];
         windows_[k].cd_image(x, y) = std::sqrt(measured.cd_sq[x]);
-        windows_[k].alpha_image(x, y) =
-            std::abs(measured.alpha_shift[x]) * row.inverse_alpha_variation[x];
+        windows_[k].alpha_image(x, y) = std::abs(measured.alpha_shift[x]) * row.alpha_weight[x];
         windows_[k].roughness_image(x, y) = std::sqrt(std::max(measured.roughness_sq[x], 0.0f));
       }
     }

@@ -32,7 +32,8 @@ class DistortionHistograms {
  public:
   /// Adds one picture of the empty studio.
   /// @param expected  learned without that picture, or else its own noise would be part of it.
-  void Add(const ExpectedPicture& expected, ImageView<const Bgr> image);
+  void Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
+           const std::array<float, 3>& gain);
 
   /// Gives the thresholds that a share `detection_rate` of the pixels stays within.
   /// @pre  0 < detection_rate < 1, and at least one picture was added.
@@ -58,8 +59,8 @@ class DistortionHistograms {
 
   Histogram cd_, alpha_low_, alpha_high_;
   std::array<WindowHistograms, DistortionScan::kWindows> windows_;
+  Closeup everything_;
   DistortionScan scan_;
-  std::vector<float> scratch_;
 };
 
 }  // namespace mocap

@@ -3,43 +3,53 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "core/image.h"
+#include "core/reconstruction/conditions.h"
 
 namespace mocap {
 
+/// The variance where nothing is known: anything goes.
+inline constexpr float kUnknownVariance = 1e8f;
+
 /// The background's colours and their variation, pixel by pixel, in planes of rows without gaps.
 ///
-/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999, with E/σ and 1/σ in place of E
-/// and σ; the variation of the chromaticity distortion, b, is part of σ.
+/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999; the variation of the
+/// chromaticity distortion, b, is part of σ.
 struct ExpectedPicture {
+  /// A colour has a direction only away from black.
+  static constexpr float kDarkestMean = 1;
+
   ExpectedPicture() = default;
   ExpectedPicture(int picture_width, int picture_height);
 
-  /// Writes what pixel `i` looks like.
-  /// @param mean, sigma      expected colour and its standard deviation [grey levels].
+  /// Writes what pixel `i` looks like; to be weighed.
+  /// @param color, sigma     expected colour and its standard deviation [grey levels].
   /// @param alpha_variation  standard deviation of the brightness distortion as it was measured, or
   /// 0: it is never taken for less than what `sigma` causes.
-  void SetPixel(std::size_t i, const std::array<float, 3>& mean, const std::array<float, 3>& sigma,
+  void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
                 float alpha_variation);
 
-  float MeanOf(std::size_t i, int channel) const {
-    return scaled_mean[channel][i] / inverse_sigma[channel][i];
-  }
+  /// Works out the weights of pixels [begin, begin + count) under such conditions.
+  void Weigh(const Conditions& conditions, std::size_t begin, int count);
+
+  /// Writes pixels [begin, end) of a row: another picture's, displaced by less than its size. They
+  /// are to be weighed.
+  void Displace(const ExpectedPicture& from, const Displacement& displacement, int y, int begin,
+                int end);
 
   int width = 0;
   int height = 0;
-  std::array<std::vector<float>, 3> scaled_mean;    ///< E/σ.
-  std::array<std::vector<float>, 3> inverse_sigma;  ///< 1/σ [1/grey level].
-  std::vector<float> inverse_alpha_variation;       ///< 1/a.
-};
+  std::array<std::vector<float>, 3> mean;      ///< E, at least kDarkestMean [grey levels].
+  std::array<std::vector<float>, 3> variance;  ///< σ² [grey levels²].
+  std::vector<float> alpha_limit;              ///< 1/a as measured; much where it was not.
+  std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 
-/// Measures by what factor a picture must be multiplied to be as bright as the background: lamps
-/// flicker and cameras adapt. Whatever covers less than half of the picture does not disturb it.
-///
-/// @param scratch  memory to work in, kept by the caller.
-float MeasureGain(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                  std::vector<float>& scratch);
+  /// Weights: drift and shift widen σ.
+  std::array<std::vector<float>, 3> inverse_sigma;  ///< 1/σ.
+  std::vector<float> inverse_square;                ///< 1/Σ(E/σ)².
+  std::vector<float> alpha_weight;                  ///< 1/a.
+};
 
 }  // namespace mocap

@@ -1,6 +1,8 @@
 // §4: where exactly the person ends.
 #pragma once
 
+#include <array>
+
 #include "core/image.h"
 #include "core/reconstruction/expected_picture.h"
 #include "core/reconstruction/silhouette.h"
@@ -16,11 +18,21 @@ namespace mocap {
 /// is too thin to have an inside, the outline stays. Thread-bound; reuses its memory.
 class OutlineRefiner {
  public:
-  /// @param alpha_shift  α − 1 of every pixel of the picture.
-  void Refine(const ExpectedPicture& expected, ImageView<const Bgr> image, float gain,
-              const Image<float>& alpha_shift, Silhouette& silhouette);
+  /// @param gain         what each of the picture's channels is multiplied by.
+  /// @param alpha_shift  α − 1 of the picture's pixels, at least within 4 of the silhouette.
+  void Refine(const ExpectedPicture& expected, ImageView<const Bgr> image,
+              const std::array<float, 3>& gain, const Image<float>& alpha_shift,
+              Silhouette& silhouette);
 
  private:
+  struct Picture {
+    const ExpectedPicture& expected;
+    ImageView<const Bgr> image;
+    const std::array<float, 3>& gain;
+    const Image<float>& alpha_shift;
+  };
+  bool IsCovered(const Picture& picture, int x, int y, bool otherwise) const;
+
   Silhouette inside_, near_;
 };
 

@@ -1,8 +1,10 @@
 #include "core/reconstruction/pixel_classifier.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/reconstruction/bit_filters.h"
+#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -14,7 +16,38 @@ constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.
 // One pixel alone must differ more, for there are many of them.
 constexpr float kPixelMargin = 1.6f;
 
-float Square(float x) { return x * x; }
+constexpr float Square(float x) { return x * x; }
+
+constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+
+struct Measured {
+  const float *alpha_shift, *alpha_weight, *cd_sq, *roughness_sq;
+};
+
+// What is beyond one of them is marked; what is dark is so in itself and for background.
+struct Limits {
+  float darkest = kNoLimit;  // Of α − 1.
+  float alpha_low = -kNoLimit;
+  float alpha_high = kNoLimit;
+  float cd_sq = kNoLimit;
+  float roughness_sq = kNoLimit;
+};
+
+MOCAP_VECTORIZED
+void MarkPixels(const Measured& m, int count, const Limits& limits, std::uint8_t* marks) {
+  const auto [alpha_shift, alpha_weight, cds_sq, roughnesses_sq] = m;
+  const auto [darkest, low, high, cd_sq, roughness_sq] = limits;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float shift = alpha_shift[x];
+    const float normalized = shift * alpha_weight[x];
+    const int dark = (shift < darkest ? 1 : 0) & (normalized < low ? 1 : 0);
+    const int bright = normalized > high ? 1 : 0;
+    const int tinted = cds_sq[x] > cd_sq ? 1 : 0;
+    const int rough = roughnesses_sq[x] > roughness_sq ? 1 : 0;
+    marks[x] = static_cast<std::uint8_t>(dark | bright | tinted | rough);
+  }
+}
 
 }  // namespace
 
@@ -22,23 +55,26 @@ PixelClassifier::PixelClassifier(const DistortionThresholds& thresholds, float d
     : thresholds_(thresholds), darkest_shadow_(darkest_shadow) {}
 
 void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                               float gain) {
+                               const std::array<float, 3>& gain, const Closeup& closeup) {
   const int width = image.width();
   const int height = image.height();
-  if (classes_.width() != width || classes_.height() != height) {
-    classes_ = Image<PixelClass>(width, height);
+  if (alpha_shift_.width() != width || alpha_shift_.height() != height) {
     alpha_shift_ = Image<float>(width, height);
-    clear_row_.resize(static_cast<std::size_t>(width));
-    doubtful_row_.resize(static_cast<std::size_t>(width));
+    marks_.resize(static_cast<std::size_t>(width));
   }
   clear_pixels_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
     for (Silhouette& s : *windows) s.Reset(width, height);
-  scan_.Begin(expected, image, gain);
+  scan_.Begin(expected, image, gain, closeup);
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
-    ClassifyPixels(y, row);
-    for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) ClassifyWindows(y, k, row);
+    for (const PixelRun& run : closeup.Measured(y))
+      std::copy(row.alpha_shift + run.begin, row.alpha_shift + run.end,
+                alpha_shift_.row(y) + run.begin);
+    for (const PixelRun& run : closeup.Judged(y)) {
+      ClassifyPixels(y, run, row);
+      for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) ClassifyWindows(y, run, k, row);
+    }
   }
   // A pixel is background when any of the windows with it is, and may well be foreground when no
   // window of one size at least is.
@@ -51,59 +87,47 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   }
   Intersect(eroded_[1], eroded_[0]);
   Unite(eroded_[0], foreground_);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      if (foreground_.Test(x, y)) classes_(x, y) = PixelClass::kForeground;
 }
 
-void PixelClassifier::ClassifyPixels(int y, const DistortionScan::Row& row) {
-  const int width = classes_.width();
-  const float darkest = darkest_shadow_ - 1;
-  const float clear_cd_sq = Square(kPixelMargin * thresholds_.cd);
-  const float clear_dark = kPixelMargin * thresholds_.alpha_low;
-  const float low = thresholds_.alpha_low;
-  const float high = thresholds_.alpha_high;
-  const float* const cd_sq = row.cd_sq;
-  const float* const inverse_variation = row.inverse_alpha_variation;
-  auto* const classes = reinterpret_cast<std::uint8_t*>(classes_.row(y));
-  std::uint8_t* const clear = clear_row_.data();
-  std::copy(row.alpha_shift, row.alpha_shift + width, alpha_shift_.row(y));
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float shift = row.alpha_shift[x];
-    const float normalized = shift * inverse_variation[x];
-    clear[x] = (cd_sq[x] > clear_cd_sq) | ((shift < darkest) & (normalized < clear_dark));
-    // Shadow is 1, highlight 2.
-    classes[x] = static_cast<std::uint8_t>((normalized < low) + 2 * (normalized > high));
-  }
-  PackRow(clear_row_, clear_pixels_.row(y));
+PixelClass PixelClassifier::ClassOf(const ExpectedPicture& expected, int x, int y) const {
+  if (foreground_.Test(x, y)) return PixelClass::kForeground;
+  const float normalized =
+      alpha_shift_(x, y) * expected.alpha_weight[static_cast<std::size_t>(y) * expected.width + x];
+  if (normalized < thresholds_.alpha_low) return PixelClass::kShadow;
+  return normalized > thresholds_.alpha_high ? PixelClass::kHighlight : PixelClass::kBackground;
 }
 
-void PixelClassifier::ClassifyWindows(int y, std::size_t k, const DistortionScan::Row& row) {
-  const int width = classes_.width();
+void PixelClassifier::ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row) {
+  const Measured measured{row.alpha_shift + run.begin, row.alpha_weight + run.begin,
+                          row.cd_sq + run.begin, row.cd_sq + run.begin};
+  const Limits clear{.darkest = darkest_shadow_ - 1,
+                     .alpha_low = kPixelMargin * thresholds_.alpha_low,
+                     .cd_sq = Square(kPixelMargin * thresholds_.cd)};
+  MarkPixels(measured, run.end - run.begin, clear, marks_.data());
+  PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
+          clear_pixels_.row(y));
+}
+
+void PixelClassifier::ClassifyWindows(int y, const PixelRun& run, std::size_t k,
+                                      const DistortionScan::Row& row) {
   const DistortionThresholds::Window& t = thresholds_.windows[k];
-  const float margin = kWindowMargins[k];
-  const float darkest = darkest_shadow_ - 1;
-  const float alpha = t.alpha, clear_alpha = margin * t.alpha;
-  const float cd_sq = Square(t.cd), clear_cd_sq = Square(margin * t.cd);
-  const float roughness_sq = Square(t.roughness);
-  const float clear_roughness_sq = Square(margin * t.roughness);
   const DistortionScan::Windows& w = row.windows[k];
-  const float* const inverse_variation = row.inverse_alpha_variation;
-  std::uint8_t* const clear = clear_row_.data();
-  std::uint8_t* const doubtful = doubtful_row_.data();
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float shift = w.alpha_shift[x];
-    const float normalized = shift * inverse_variation[x];
-    const bool dark = (shift < darkest) & (normalized < -clear_alpha);
-    clear[x] = dark | (normalized > clear_alpha) | (w.cd_sq[x] > clear_cd_sq) |
-               (w.roughness_sq[x] > clear_roughness_sq);
-    doubtful[x] =
-        dark | (normalized > alpha) | (w.cd_sq[x] > cd_sq) | (w.roughness_sq[x] > roughness_sq);
-  }
-  PackRow(clear_row_, clear_windows_[k].row(y));
-  PackRow(doubtful_row_, doubtful_windows_[k].row(y));
+  const Measured measured{w.alpha_shift + run.begin, row.alpha_weight + run.begin,
+                          w.cd_sq + run.begin, w.roughness_sq + run.begin};
+  const auto mark = [&](float margin, Silhouette& windows) {
+    MarkPixels(measured, run.end - run.begin,
+               // What is too dark for a shadow is not doubtful.
+               {.darkest = darkest_shadow_ - 1,
+                .alpha_low = -kWindowMargins[k] * t.alpha,
+                .alpha_high = margin * t.alpha,
+                .cd_sq = Square(margin * t.cd),
+                .roughness_sq = Square(margin * t.roughness)},
+               marks_.data());
+    PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
+            windows.row(y));
+  };
+  mark(kWindowMargins[k], clear_windows_[k]);
+  mark(1, doubtful_windows_[k]);
 }
 
 }  // namespace mocap

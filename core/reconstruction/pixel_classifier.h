@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/reconstruction/closeup.h"
 #include "core/reconstruction/distortion_scan.h"
 #include "core/reconstruction/distortion_thresholds.h"
 #include "core/reconstruction/expected_picture.h"
@@ -20,7 +21,8 @@ enum class PixelClass : std::uint8_t { kBackground, kShadow, kHighlight, kForegr
 /// Decides what each pixel of a picture shows.
 ///
 /// A pixel is background, shadow or highlight when it could be so by itself and lies in some
-/// window, of one size or the other, that could be so as a whole; otherwise it is foreground.
+/// window, of one size or the other, that could be so as a whole; otherwise it is foreground. What
+/// is not looked at closely is background.
 /// Thread-bound; reuses its memory.
 class PixelClassifier {
  public:
@@ -28,27 +30,28 @@ class PixelClassifier {
   PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow);
 
   /// Classifies a picture; the results hold until the next one.
-  void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image, float gain);
+  void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
+                const std::array<float, 3>& gain, const Closeup& closeup);
 
-  const Image<PixelClass>& classes() const { return classes_; }
+  /// Gives the class of a pixel that was measured.
+  /// @param expected  what the picture was classified with.
+  PixelClass ClassOf(const ExpectedPicture& expected, int x, int y) const;
   /// Where the class is foreground.
   const Silhouette& foreground() const { return foreground_; }
   /// Where background would be as rare as the training frames allow, but not clearly beyond that.
   const Silhouette& doubtful() const { return doubtful_; }
-  /// α − 1 of every pixel.
+  /// α − 1 of every pixel that is measured.
   const Image<float>& alpha_shift() const { return alpha_shift_; }
 
  private:
-  void ClassifyPixels(int y, const DistortionScan::Row& row);
-  void ClassifyWindows(int y, std::size_t k, const DistortionScan::Row& row);
+  void ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row);
+  void ClassifyWindows(int y, const PixelRun& run, std::size_t k, const DistortionScan::Row& row);
 
   DistortionThresholds thresholds_;
   float darkest_shadow_;
   DistortionScan scan_;
-  Image<PixelClass> classes_;
   Image<float> alpha_shift_;
-  // One byte a pixel of a row, before they are packed.
-  std::vector<std::uint8_t> clear_row_, doubtful_row_;
+  std::vector<std::uint8_t> marks_;  // One byte a pixel of a run, before they are packed.
   Silhouette clear_pixels_;
   std::array<Silhouette, DistortionScan::kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_;

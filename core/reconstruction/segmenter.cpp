@@ -1,10 +1,10 @@
 #include "core/reconstruction/segmenter.h"
 
 #include <string>
-#include <vector>
 
 #include "core/errors.h"
-#include "core/reconstruction/bit_filters.h"
+#include "core/reconstruction/closeup.h"
+#include "core/reconstruction/coarse_scan.h"
 #include "core/reconstruction/outline_refiner.h"
 #include "core/reconstruction/pixel_classifier.h"
 #include "core/reconstruction/silhouette_cleaner.h"
@@ -29,7 +29,7 @@ void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> bac
     throw SetupError(where + "a frame of " + std::to_string(frame.image.width()) + " x " +
                      std::to_string(frame.image.height()) + " px, wanted " +
                      std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
-                     " as in the calibration");
+                     " px as in the calibration");
   }
 }
 
@@ -53,24 +53,27 @@ class Segmenter::Impl {
             static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
-    const ExpectedPicture& expected = background_->Expect(angles);
-    const float gain = MeasureGain(expected, image, scratch_);
-    classifier_.Classify(expected, image, gain);
+    coarse_.Compare(background_->Glance(angles, {}), image);
+    const Conditions& conditions = coarse_.conditions();
+    closeup_.Set(coarse_.suspicious(), image.width(), image.height());
+    const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
+    classifier_.Classify(expected, image, conditions.gain, closeup_);
     silhouette = classifier_.foreground();
     cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
-    refiner_.Refine(expected, image, gain, classifier_.alpha_shift(), silhouette);
+    refiner_.Refine(expected, image, conditions.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.FillHoles(kSmallestHole_px, silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
   }
 
  private:
   std::unique_ptr<BackgroundModel> background_;
+  CoarseScan coarse_;
+  Closeup closeup_;
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
   int smallest_blob_px_;
-  std::vector<float> scratch_;
 };
 
 Segmenter::Segmenter(const CameraCalibration& camera, std::span<const BackgroundFrame> background,

@@ -41,12 +41,20 @@ TEST(Silhouette, BytesArePackedInOrderAndNothingBeyondTheLast) {
     std::vector<std::uint8_t> bytes;
     for (int x = 0; x < width; ++x) bytes.push_back(random() % 2);
     Silhouette s(width, 1);
-    PackRow(bytes, s.row(0));
+    PackRow(bytes, 0, s.row(0));
     for (int x = 0; x < width; ++x) EXPECT_EQ(s.Test(x, 0), bytes[x] == 1);
     if (width % 64 != 0) {
       EXPECT_EQ(s.words().back() >> (width % 64), 0u);
     }
   }
+}
+
+TEST(Silhouette, PackingARunLeavesTheRestOfTheRow) {
+  Silhouette s(200, 1);
+  s.Set(39, 0);
+  s.Set(141, 0);
+  PackRow(std::vector<std::uint8_t>(101, 1), 40, s.row(0));
+  for (int x = 0; x < 200; ++x) EXPECT_EQ(s.Test(x, 0), x >= 39 && x <= 141) << x;
 }
 
 TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {

@@ -1,0 +1,301 @@
+#include "core/reconstruction/coarse_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/reconstruction/expected_picture.h"
+#include "core/vectorized.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kTile = HalfPicture::kTile;
+constexpr float kArea = kTile * kTile;
+// A pixel of the half is so many of the picture's wide.
+constexpr float kPixel_px = 2;
+// Every so many tiles or pixels are enough for a median.
+constexpr std::size_t kTileStep = 5;
+constexpr std::size_t kPixelStep = 5;
+// A colour has a ratio to another only away from black [grey levels].
+constexpr float kDarkest = 8;
+constexpr float kLargestGain = 4;
+// What differs more from the middle than by this share is no background.
+constexpr float kFlatness = 0.06f;
+// Contours steeper than this [grey levels per pixel of the half] show how far they moved.
+constexpr int kSteep = 15;
+constexpr std::size_t kFewestSteep = 50;
+constexpr float kLargestShift_px = 1;
+// Persons, shadows and what is bright from them may cover more than half: standard deviations are
+// read off this share. Of a normal distribution it is within such a length in three dimensions, and
+// such a size in one.
+constexpr double kUndisturbed = 0.25;
+constexpr float kUndisturbedLength = 1.101f;
+constexpr float kUndisturbedSize = 0.3186f;
+constexpr float kNotable = 1.5f;
+constexpr float kNegligibleDrift = 0.3f;
+constexpr float kNegligibleShift_px = 0.1f;
+constexpr float kDistanceMargin = 2;
+// Drift has no normal distribution: some walls change, others don't.
+constexpr float kDriftMargin = 3;
+constexpr float kLargestDrift = 8;
+// A tile is looked at closely when its colour, in variances, or its pixels, compared to most tiles,
+// differ by more than this from a shadow; or when it is that much darker or brighter.
+constexpr float kHarmlessTint = 1.5f;
+constexpr float kHarmlessMisfit = 6;
+// Fewer tiles than this by themselves are noise.
+constexpr int kFewestTiles = 4;
+constexpr float kLeastMisfit = 0.05f;
+constexpr float kDarkest_share = 0.72f;
+constexpr float kHarmlessGlare = 1.5f;
+
+float Square(float x) { return x * x; }
+
+float Quantile(std::vector<float>& values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+float Median(std::vector<float>& values) { return Quantile(values, 0.5); }
+
+// What a standard deviation has grown by, where it has grown notably.
+float Beyond(float value, float usual, float negligible) {
+  const float beyond = std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
+  return beyond < negligible ? 0 : beyond;
+}
+
+// Sums of a row of tiles, tile by tile.
+MOCAP_VECTORIZED
+void SumTiles(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means) {
+  for (int x = 0; x < width; ++x)
+    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
+                                            pixels[3 * width + x]);
+  for (int i = 0; i < width / kTile; ++i)
+    means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
+                                  columns[4 * i + 3]) /
+               kArea;
+}
+
+MOCAP_VECTORIZED
+void AverageVariances(const float* variance, const std::uint8_t* slope, int width, float* columns,
+                      float* mean_variance, float* mean_slope_sq) {
+  for (int x = 0; x < width; ++x)
+    columns[x] =
+        variance[x] + variance[width + x] + variance[2 * width + x] + variance[3 * width + x];
+  for (int i = 0; i < width / kTile; ++i)
+    mean_variance[i] =
+        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
+  for (int x = 0; x < width; ++x) {
+    columns[x] = 0;
+    for (int y = 0; y < kTile; ++y)
+      columns[x] += static_cast<float>(slope[y * width + x] * slope[y * width + x]);
+  }
+  for (int i = 0; i < width / kTile; ++i)
+    mean_slope_sq[i] =
+        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
+}
+
+struct PixelRow {
+  std::array<const std::uint8_t*, 3> live, expected;
+  const float* variance;
+  const std::uint8_t* slope;
+  const float* alpha;
+};
+
+MOCAP_VECTORIZED
+void AddMisfits(const PixelRow& row, int width, const std::array<float, 3>& gain, float drift_sq,
+                float shift_sq, float* sums) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  const float *const variance = row.variance, *const alpha = row.alpha;
+  const std::uint8_t* const slopes = row.slope;
+  const std::uint8_t *const l0 = row.live[0], *const l1 = row.live[1], *const l2 = row.live[2];
+  const std::uint8_t *const e0 = row.expected[0], *const e1 = row.expected[1],
+                            *const e2 = row.expected[2];
+#pragma GCC ivdep
+  for (int x = 0; x < width; ++x) {
+    const float d0 = gain0 * l0[x] - alpha[x] * e0[x];
+    const float d1 = gain1 * l1[x] - alpha[x] * e1[x];
+    const float d2 = gain2 * l2[x] - alpha[x] * e2[x];
+    const float slope = slopes[x];
+    sums[x] += (d0 * d0 + d1 * d1 + d2 * d2) / (variance[x] + drift_sq + shift_sq * slope * slope);
+  }
+}
+
+struct TileMeans {
+  std::array<const float*, 3> live, expected;
+  const float *variance, *slope_sq;
+};
+
+MOCAP_VECTORIZED
+void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>& gain,
+                  float drift_sq, float shift_sq, float* alphas, float* tints, float* glares) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  const auto [l0, l1, l2] = tiles.live;
+  const auto [e0, e1, e2] = tiles.expected;
+  const float *const variances = tiles.variance, *const slope_sq = tiles.slope_sq;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float c0 = gain0 * l0[i], c1 = gain1 * l1[i], c2 = gain2 * l2[i];
+    const float square = std::max(e0[i] * e0[i] + e1[i] * e1[i] + e2[i] * e2[i], 1.0f);
+    const float alpha = (c0 * e0[i] + c1 * e1[i] + c2 * e2[i]) / square;
+    const float d0 = c0 - alpha * e0[i], d1 = c1 - alpha * e1[i], d2 = c2 - alpha * e2[i];
+    const float weight = 1 / (variances[i] + drift_sq + shift_sq * slope_sq[i]);
+    const float bright = std::max(alpha - 1, 0.0f);
+    alphas[i] = alpha;
+    tints[i] = (d0 * d0 + d1 * d1 + d2 * d2) * weight;
+    glares[i] = bright * bright * square * weight;
+  }
+}
+
+}  // namespace
+
+void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  Resize(expected, image);
+  Halve(image, live_, row_sums_);
+  AverageTiles(expected);
+  for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(c);
+  distance_ = MeasureDistance();
+  conditions_.drift = std::min(
+      kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
+  shift_px_ = MeasureShift(expected);
+  conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
+  MeasureTints();
+  MeasureMisfit(expected);
+  Judge();
+}
+
+void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  if (image.width() != full_width_ || image.height() != full_height_) {
+    full_width_ = image.width();
+    full_height_ = image.height();
+    live_ = HalfPicture(full_width_, full_height_);
+    row_sums_.resize(6 * static_cast<std::size_t>(live_.width));
+    alphas_.resize(static_cast<std::size_t>(live_.width));
+    columns_.resize(static_cast<std::size_t>(live_.width));
+    const auto tiles = static_cast<std::size_t>(live_.tile_columns()) * live_.tile_rows();
+    for (int c = 0; c < 3; ++c) {
+      tiles_.live[c].resize(tiles);
+      tiles_.expected[c].resize(tiles);
+    }
+    for (auto* values : {&tiles_.variance, &tiles_.slope_sq, &tiles_.alpha, &tiles_.tint,
+                         &tiles_.glare, &tiles_.misfit})
+      values->resize(tiles);
+    tiles_.known.resize(tiles);
+  }
+  MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
+}
+
+void CoarseScan::AverageTiles(const ExpectedHalf& expected) {
+  const int columns = live_.tile_columns();
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * kTile * live_.width;
+    const std::size_t tile = static_cast<std::size_t>(row) * columns;
+    for (int c = 0; c < 3; ++c) {
+      SumTiles(&live_.color[c][begin], live_.width, row_sums_.data(), &tiles_.live[c][tile]);
+      SumTiles(&expected.mean.color[c][begin], live_.width, row_sums_.data(),
+               &tiles_.expected[c][tile]);
+    }
+    AverageVariances(&expected.variance[begin], &expected.slope[begin], live_.width,
+                     columns_.data(), &tiles_.variance[tile], &tiles_.slope_sq[tile]);
+  }
+  for (std::size_t i = 0; i < tiles_.known.size(); ++i)
+    tiles_.known[i] = tiles_.variance[i] < kUnknownVariance / kArea / 2;
+}
+
+float CoarseScan::MeasureGain(int channel) {
+  const std::vector<float>& live = tiles_.live[channel];
+  const std::vector<float>& expected = tiles_.expected[channel];
+  values_.clear();
+  for (std::size_t i = 0; i < live.size(); i += kTileStep)
+    if (tiles_.known[i] && expected[i] >= kDarkest) values_.push_back(live[i] / expected[i]);
+  if (values_.empty()) return 1;
+  // Persons and shadows lie mostly to one side of the middle; without them it is found again.
+  const float rough = Median(values_);
+  std::erase_if(values_, [rough](float v) { return std::abs(v - rough) > kFlatness * rough; });
+  const float fine = values_.empty() ? rough : Median(values_);
+  return std::clamp(1 / std::max(fine, 1e-3f), 1 / kLargestGain, kLargestGain);
+}
+
+float CoarseScan::MeasureDistance() {
+  values_.clear();
+  for (std::size_t i = 0; i < tiles_.known.size(); i += kTileStep) {
+    if (!tiles_.known[i]) continue;
+    float length_sq = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float d = conditions_.gain[c] * tiles_.live[c][i] - tiles_.expected[c][i];
+      length_sq += d * d;
+    }
+    values_.push_back(length_sq);
+  }
+  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbed)) / kUndisturbedLength;
+}
+
+float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
+  values_.clear();
+  const float gain = conditions_.gain[1];
+  for (std::size_t i = 0; i < live_.size(); i += kPixelStep) {
+    const int slope = expected.slope[i];
+    if (slope < kSteep || expected.variance[i] >= kUnknownVariance) continue;
+    const float difference = gain * live_.color[1][i] - expected.mean.color[1][i];
+    values_.push_back(std::abs(difference) / static_cast<float>(slope));
+  }
+  if (values_.size() < kFewestSteep) return 0;
+  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbed), kLargestShift_px);
+}
+
+void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
+  const float drift_sq = Square(kDistanceMargin * distance_);
+  const float shift_sq = Square(shift_px_ / kPixel_px);
+  const int columns = live_.tile_columns();
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    for (int i = 0; i < live_.width; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
+    std::fill(columns_.begin(), columns_.end(), 0.0f);
+    for (int y = row * kTile; y < (row + 1) * kTile; ++y) {
+      const std::size_t begin = static_cast<std::size_t>(y) * live_.width;
+      PixelRow pixels{{}, {}, &expected.variance[begin], &expected.slope[begin], alphas_.data()};
+      for (int c = 0; c < 3; ++c) {
+        pixels.live[c] = &live_.color[c][begin];
+        pixels.expected[c] = &expected.mean.color[c][begin];
+      }
+      AddMisfits(pixels, live_.width, conditions_.gain, drift_sq, shift_sq, columns_.data());
+    }
+    for (int i = 0; i < columns; ++i) {
+      const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
+      tiles_.misfit[first + i] = (sums[0] + sums[1] + sums[2] + sums[3]) / kArea;
+    }
+  }
+}
+
+void CoarseScan::MeasureTints() {
+  MeasureTiles({{tiles_.live[0].data(), tiles_.live[1].data(), tiles_.live[2].data()},
+                {tiles_.expected[0].data(), tiles_.expected[1].data(), tiles_.expected[2].data()},
+                tiles_.variance.data(),
+                tiles_.slope_sq.data()},
+               static_cast<int>(tiles_.known.size()), conditions_.gain,
+               Square(kDistanceMargin * distance_), Square(shift_px_ / kPixel_px),
+               tiles_.alpha.data(), tiles_.tint.data(), tiles_.glare.data());
+}
+
+void CoarseScan::Judge() {
+  values_.clear();
+  for (std::size_t i = 0; i < tiles_.known.size(); i += kTileStep)
+    if (tiles_.known[i]) values_.push_back(tiles_.misfit[i]);
+  const float harmless =
+      kHarmlessMisfit * std::max(values_.empty() ? 0 : Median(values_), kLeastMisfit);
+  const int columns = live_.tile_columns();
+  suspicious_.Reset(columns, live_.tile_rows());
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * columns + column;
+      if (tiles_.known[i] && (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
+                              tiles_.alpha[i] < kDarkest_share || tiles_.glare[i] > kHarmlessGlare))
+        suspicious_.Set(column, row);
+    }
+  }
+  cleaner_.DropBlobs(kFewestTiles, suspicious_);
+}
+
+}  // namespace mocap

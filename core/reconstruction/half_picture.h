@@ -1,0 +1,69 @@
+// §4: pictures at half the resolution, to see quickly where something may be.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/conditions.h"
+
+namespace mocap {
+
+/// A picture at half the resolution in planes: blue, green, red, each pixel the mean of four.
+///
+/// It is cut into tiles of kTile × kTile pixels, and padded with zeros to whole tiles of the full
+/// picture.
+struct HalfPicture {
+  /// Side of a tile, in pixels of this picture.
+  static constexpr int kTile = 4;
+  /// Side of a tile, in pixels of the full picture.
+  static constexpr int kTile_px = 2 * kTile;
+
+  HalfPicture() = default;
+  /// Makes room for the half of a picture of so many pixels.
+  HalfPicture(int full_width, int full_height);
+
+  int tile_columns() const { return width / kTile; }
+  int tile_rows() const { return height / kTile; }
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
+
+  int width = 0;
+  int height = 0;
+  std::array<std::vector<std::uint8_t>, 3> color;
+};
+
+/// The half of what a camera would see of the empty studio.
+struct ExpectedHalf {
+  ExpectedHalf() = default;
+  /// Makes room for the half of a picture of so many pixels, of which nothing is known.
+  ExpectedHalf(int full_width, int full_height);
+
+  /// Takes colours and slopes from a picture at full resolution.
+  void LearnFrom(ImageView<const Bgr> picture);
+
+  /// Takes another half's pixels, displaced by less than its size.
+  void Displace(const ExpectedHalf& from, const Displacement& displacement);
+
+  HalfPicture mean;
+  /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
+  std::vector<float> variance;
+  /// How steep the picture is [grey levels per pixel of the half picture].
+  std::vector<std::uint8_t> slope;
+  /// CoarseScan's distance() and shift_px() of pictures of the empty studio.
+  float usual_distance = 0;
+  float usual_shift_px = 0;
+};
+
+/// Halves a picture.
+/// @param half  made for pictures of that size.
+/// @param scratch  memory to work in, kept by the caller.
+void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint16_t>& scratch);
+
+/// Measures how steep the brightness of a picture is on its steeper side: an edge is as steep as
+/// its step, not half of it.
+/// @param brightness  of `width` × `height` pixels.
+std::vector<std::uint8_t> SlopeOf(const std::vector<float>& brightness, int width, int height);
+
+}  // namespace mocap
