@@ -55,7 +55,7 @@ class CoarseScan {
   Tiles tiles_;
   std::vector<float> columns_, alphas_, values_;
   Conditions conditions_;
-  float distance_ = 0, shift_px_ = 0;
+  float distance_ = 0, drift_ = 0, shift_px_ = 0;
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
 };
