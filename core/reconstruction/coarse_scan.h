@@ -31,6 +31,8 @@ class CoarseScan {
   /// The tiles, of HalfPicture::kTile_px pixels, where something else than background may be: one
   /// pixel a tile.
   const Silhouette& suspicious() const { return suspicious_; }
+  /// The picture at half the resolution.
+  const HalfPicture& live() const { return live_; }
 
  private:
   struct Tiles {
