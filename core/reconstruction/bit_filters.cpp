@@ -15,15 +15,22 @@ Word BeyondEdge(const Silhouette& s) {
   return s.width() % 64 == 0 ? 0 : ~Word{0} << s.width() % 64;
 }
 
+bool IsEmpty(const Word* row, int words) {
+  return std::all_of(row, row + words, [](Word word) { return word == 0; });
+}
+
+// Most rows of most silhouettes are empty, and so is what becomes of them.
 template <typename Combine>
 void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Silhouette& to) {
   MOCAP_CHECK(radius >= 1 && radius <= 3 && &from != &to);
   const int words = from.words_per_row();
   const int height = from.height();
+  const bool shrinks = beyond != 0;
   to.Reset(from.width(), height);
   if (words == 0) return;
   const Word edge = BeyondEdge(from);
   for (int y = 0; y < height; ++y) {
+    if (shrinks && IsEmpty(from.row(y), words)) continue;
     Word* row = to.row(y);
     std::copy(from.row(y), from.row(y) + words, row);
     for (int other = y - radius; other <= y + radius; ++other) {
@@ -31,12 +38,8 @@ void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Si
       const Word* from_row = from.row(other);
       for (int i = 0; i < words; ++i) row[i] = combine(row[i], from_row[i]);
     }
+    if (IsEmpty(row, words)) continue;
     row[words - 1] = (row[words - 1] & ~edge) | (beyond & edge);
-  }
-  for (int y = 0; y < height; ++y) {
-    Word* row = to.row(y);
-    // Most rows of most silhouettes are empty, and stay so.
-    if (beyond == 0 && std::all_of(row, row + words, [](Word word) { return word == 0; })) continue;
     // In place: `before` is the word as it was.
     Word before = beyond;
     for (int i = 0; i < words; ++i) {

@@ -36,6 +36,7 @@ constexpr float kNotable = 1.5f;
 constexpr float kNegligibleDrift = 0.3f;
 constexpr float kNegligibleShift_px = 0.1f;
 constexpr float kDistanceMargin = 2;
+constexpr float kContourMargin = 2;
 // Drift has no normal distribution: some walls change, others don't.
 constexpr float kDriftMargin = 3;
 constexpr float kLargestDrift = 8;
@@ -159,6 +160,7 @@ void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> imag
   distance_ = MeasureDistance();
   conditions_.drift = std::min(
       kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
+  drift_ = std::max(conditions_.drift, kDistanceMargin * distance_);
   shift_px_ = MeasureShift(expected);
   conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
   MeasureTints();
@@ -246,8 +248,8 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
-  const float drift_sq = Square(kDistanceMargin * distance_);
-  const float shift_sq = Square(shift_px_ / kPixel_px);
+  const float drift_sq = Square(drift_);
+  const float shift_sq = Square(kContourMargin * shift_px_ / kPixel_px);
   const int columns = live_.tile_columns();
   for (int row = 0; row < live_.tile_rows(); ++row) {
     const std::size_t first = static_cast<std::size_t>(row) * columns;
@@ -274,9 +276,9 @@ void CoarseScan::MeasureTints() {
                 {tiles_.expected[0].data(), tiles_.expected[1].data(), tiles_.expected[2].data()},
                 tiles_.variance.data(),
                 tiles_.slope_sq.data()},
-               static_cast<int>(tiles_.known.size()), conditions_.gain,
-               Square(kDistanceMargin * distance_), Square(shift_px_ / kPixel_px),
-               tiles_.alpha.data(), tiles_.tint.data(), tiles_.glare.data());
+               static_cast<int>(tiles_.known.size()), conditions_.gain, Square(drift_),
+               Square(kContourMargin * shift_px_ / kPixel_px), tiles_.alpha.data(), tiles_.tint.data(),
+               tiles_.glare.data());
 }
 
 void CoarseScan::Judge() {

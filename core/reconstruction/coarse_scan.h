@@ -31,6 +31,8 @@ class CoarseScan {
   /// The tiles, of HalfPicture::kTile_px pixels, where something else than background may be: one
   /// pixel a tile.
   const Silhouette& suspicious() const { return suspicious_; }
+  /// The picture at half the resolution.
+  const HalfPicture& live() const { return live_; }
 
  private:
   struct Tiles {
@@ -55,7 +57,7 @@ class CoarseScan {
   Tiles tiles_;
   std::vector<float> columns_, alphas_, values_;
   Conditions conditions_;
-  float distance_ = 0, shift_px_ = 0;
+  float distance_ = 0, drift_ = 0, shift_px_ = 0;
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
 };

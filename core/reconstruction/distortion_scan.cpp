@@ -64,20 +64,29 @@ void MeasurePixels(const Pixels& p, int count, const Distortions& d) {
   }
 }
 
-template <int side>
-MOCAP_VECTORIZED void SumColors(const float* from, int count, float* to) {
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) to[x] = Sum<side>([&](int i) { return from[x + i]; });
-}
+// Of a row, within the width of a window.
+struct RowSums {
+  float *alpha, *alpha_sq, *moment;
+  std::array<float*, 3> cd;
+};
 
 template <int side>
-MOCAP_VECTORIZED void SumAlphas(const float* from, int count, float* sum, float* sum_sq,
-                                float* moment) {
+MOCAP_VECTORIZED void SumRow(const float* alpha, const std::array<const float*, 3>& cd, int count,
+                             const RowSums& to) {
+  float *const sum = to.alpha, *const sum_sq = to.alpha_sq, *const moment = to.moment;
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
-    sum[x] = Sum<side>([&](int i) { return from[x + i]; });
-    sum_sq[x] = Sum<side>([&](int i) { return from[x + i] * from[x + i]; });
-    moment[x] = Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * from[x + i]; });
+    sum[x] = Sum<side>([&](int i) { return alpha[x + i]; });
+    sum_sq[x] = Sum<side>([&](int i) { return alpha[x + i] * alpha[x + i]; });
+    moment[x] = Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * alpha[x + i]; });
+  }
+  const auto [d0, d1, d2] = cd;
+  const auto [s0, s1, s2] = to.cd;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    s0[x] = Sum<side>([&](int i) { return d0[x + i]; });
+    s1[x] = Sum<side>([&](int i) { return d1[x + i]; });
+    s2[x] = Sum<side>([&](int i) { return d2[x + i]; });
   }
 }
 
@@ -182,12 +191,10 @@ void DistortionScan::Measure(int y, Line& line) {
     MeasurePixels(from, count, to);
   }
   RepeatEnds(line);
+  // What is summed beyond the ends is judged nowhere.
   for (const PixelRun& run : closeup_->Measured(y)) {
-    // Nothing is judged as near as that to where measuring ends.
-    const PixelRun inner{run.begin == 0 ? 0 : run.begin + kPad,
-                         run.end == expected_->width ? run.end : run.end - kPad};
-    SumAlong<0>(inner, line);
-    SumAlong<1>(inner, line);
+    SumAlong<0>(run, line);
+    SumAlong<1>(run, line);
   }
 }
 
@@ -205,9 +212,13 @@ void DistortionScan::SumAlong(const PixelRun& run, Line& line) const {
   const int count = run.end - run.begin;
   const std::size_t from = run.begin + kPad - kRadii_px[window];
   Sums& sums = line.sums[window];
-  SumAlphas<kSide>(&line.alpha_shift[from], count, &sums.alpha[run.begin],
-                   &sums.alpha_sq[run.begin], &sums.moment[run.begin]);
-  for (int c = 0; c < 3; ++c) SumColors<kSide>(&line.cd[c][from], count, &sums.cd[c][run.begin]);
+  RowSums to{&sums.alpha[run.begin], &sums.alpha_sq[run.begin], &sums.moment[run.begin], {}};
+  std::array<const float*, 3> cd;
+  for (int c = 0; c < 3; ++c) {
+    cd[c] = &line.cd[c][from];
+    to.cd[c] = &sums.cd[c][run.begin];
+  }
+  SumRow<kSide>(&line.alpha_shift[from], cd, count, to);
 }
 
 template <std::size_t window>

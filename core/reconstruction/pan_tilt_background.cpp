@@ -24,6 +24,8 @@ static_assert(HalfPicture::kTile_px % kCell_px == 0);
 // or twice as much moves a pixel by a third of a pixel at most, from one learned view to the next.
 constexpr double kRoomDepth_mm = 6000;
 constexpr int kMostViews = 4;
+// Less weight has only what is unknown.
+constexpr float kLeastKnown = 1e-3f;
 constexpr double kSameDirection_rad = 1e-4;
 constexpr float kLeastSigma = 1.5f;
 // Slopes [grey levels per pixel] that show noise alone, and those that show how contours shift.
@@ -55,15 +57,36 @@ MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, f
   }
 }
 
+struct DrawnPixels {
+  const std::uint8_t *is_known, *slope;
+  std::array<float*, 3> mean, inverse_sigma;
+  float *inverse_square, *alpha_weight;
+};
+
+// Weighs what was drawn: all channels vary alike.
 MOCAP_VECTORIZED
-void SetVariation(const std::uint8_t* known, const std::uint8_t* slopes, int count, float noise_sq,
-                  float shift_sq, float* mean, float* variance) {
+void WeighDrawn(const DrawnPixels& pixels, int count, float noise_sq, float shift_sq) {
+  const std::uint8_t *const is_known = pixels.is_known, *const slopes = pixels.slope;
+  const auto [e0, e1, e2] = pixels.mean;
+  const auto [w0, w1, w2] = pixels.inverse_sigma;
+  float *const inverse_square = pixels.inverse_square, *const alpha_weight = pixels.alpha_weight;
+  constexpr float kDarkest = ExpectedPicture::kDarkestMean;
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
     const float slope = slopes[x];
-    const float here = std::max(mean[x], ExpectedPicture::kDarkestMean);
-    mean[x] = known[x] ? here : 255;
-    variance[x] = known[x] ? noise_sq + shift_sq * slope * slope : kUnknownVariance;
+    const float variance = is_known[x] ? noise_sq + shift_sq * slope * slope : kUnknownVariance;
+    const float b = std::max(e0[x], kDarkest), g = std::max(e1[x], kDarkest);
+    const float r = std::max(e2[x], kDarkest);
+    e0[x] = is_known[x] ? b : 255;
+    e1[x] = is_known[x] ? g : 255;
+    e2[x] = is_known[x] ? r : 255;
+    const float square = e0[x] * e0[x] + e1[x] * e1[x] + e2[x] * e2[x];
+    const float weight = 1 / std::sqrt(variance);
+    w0[x] = weight;
+    w1[x] = weight;
+    w2[x] = weight;
+    inverse_square[x] = variance / square;
+    alpha_weight[x] = std::sqrt(square) * weight;
   }
 }
 
@@ -81,7 +104,6 @@ class PanTiltBackground final : public BackgroundModel {
     LookUpDirections();
     for (auto* values : {&cells_x_, &cells_y_, &places_x_, &places_y_})
       values->resize(static_cast<std::size_t>(node_columns_) * kCell_px);
-    std::fill(expected_.alpha_limit.begin(), expected_.alpha_limit.end(), 1e6f);
     LearnVariation();
     LearnThresholds(detection_rate);
   }
@@ -166,7 +188,7 @@ class PanTiltBackground final : public BackgroundModel {
       const float gain = scan.conditions().gain[1];
       const std::vector<Bgr>& pixels = images_[v].pixels();
       for (std::size_t i = v % 7; i < pixels.size(); i += 7) {
-        if (expected_.variance[1][i] >= kUnknownVariance) continue;
+        if (expected_.inverse_sigma[1][i] < kLeastKnown) continue;
         const float difference = std::abs(pixels[i].g * gain - expected_.mean[1][i]);
         const auto slope = static_cast<int>(views_[v].pixels[i] >> 24);
         if (slope < kFlat) flat.push_back(difference);
@@ -261,7 +283,8 @@ class PanTiltBackground final : public BackgroundModel {
   // the view, up to (last_x, last_y); they are known then. Returns whether all are.
   // @param has_all  whether none is known and the view has all.
   template <typename Function>
-  bool DrawUnknown(bool has_all, float last_x, float last_y, int count, Function draw) {
+  bool DrawUnknown(bool has_all, const ViewPlaces& places, float last_x, float last_y, int count,
+                   Function draw) {
     if (has_all) {
       std::fill_n(is_known_.begin(), count, std::uint8_t{1});
       draw(0, count);
@@ -271,8 +294,8 @@ class PanTiltBackground final : public BackgroundModel {
     for (int i = 0; i < count;) {
       const int begin = i;
       // Also false for what is not a number.
-      while (i < count && !is_known_[i] && places_x_[i] >= 0 && places_y_[i] >= 0 &&
-             places_x_[i] < last_x && places_y_[i] < last_y)
+      while (i < count && !is_known_[i] && places.x[i] >= 0 && places.y[i] >= 0 &&
+             places.x[i] < last_x && places.y[i] < last_y)
         is_known_[i++] = 1;
       if (i > begin) draw(begin, i - begin);
       known += i - begin;
@@ -293,13 +316,14 @@ class PanTiltBackground final : public BackgroundModel {
       const bool has_all =
           FindPlaces<kCell_px / 2>(sources_[k], static_cast<float>(2 * y) + 0.5f, 0.5f / kCell_px,
                                    0, node_columns_ - 1, last_x, last_y);
+      const ViewPlaces places{places_x_.data(), places_y_.data()};
       const auto draw = [&](int begin, int count) {
         auto& color = half_.mean.color;
         const std::size_t to = row + begin;
-        DrawNearest(view, {&places_x_[begin], &places_y_[begin]}, count,
+        DrawNearest(view, {places.x + begin, places.y + begin}, count,
                     {&color[0][to], &color[1][to], &color[2][to]}, &half_.slope[to]);
       };
-      if (DrawUnknown(has_all && k == 0, last_x, last_y, columns, draw)) break;
+      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, columns, draw)) break;
     }
     for (int x = 0; x < columns; ++x)
       half_.variance[row + x] = is_known_[x] ? variance_ : kUnknownVariance;
@@ -316,18 +340,28 @@ class PanTiltBackground final : public BackgroundModel {
       const bool has_all =
           FindPlaces<kCell_px>(sources_[k], static_cast<float>(y), 0, run.begin / kCell_px,
                                (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
+      const int skipped = run.begin % kCell_px;
+      const ViewPlaces places{&places_x_[skipped], &places_y_[skipped]};
       const auto draw = [&](int begin, int count) {
         auto& mean = expected_.mean;
         const std::size_t to = row + begin;
-        DrawBetween(view, {&places_x_[begin], &places_y_[begin]}, count,
+        DrawBetween(view, {places.x + begin, places.y + begin}, count,
                     {&mean[0][to], &mean[1][to], &mean[2][to]}, &expected_.slope[to]);
       };
-      if (DrawUnknown(has_all && k == 0, last_x, last_y, length, draw)) break;
+      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, length, draw)) break;
     }
-    for (int c = 0; c < 3; ++c)
-      SetVariation(is_known_.data(), &expected_.slope[row], length, variance_,
-                   shift_px_ * shift_px_, &expected_.mean[c][row], &expected_.variance[c][row]);
-    expected_.Weigh(conditions, row, length);
+    DrawnPixels pixels{is_known_.data(),
+                       &expected_.slope[row],
+                       {},
+                       {},
+                       &expected_.inverse_square[row],
+                       &expected_.alpha_weight[row]};
+    for (int c = 0; c < 3; ++c) {
+      pixels.mean[c] = &expected_.mean[c][row];
+      pixels.inverse_sigma[c] = &expected_.inverse_sigma[c][row];
+    }
+    WeighDrawn(pixels, length, variance_ + conditions.drift * conditions.drift,
+               shift_px_ * shift_px_ + conditions.shift_px * conditions.shift_px);
   }
 
   CameraCalibration camera_;

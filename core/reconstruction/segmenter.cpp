@@ -1,10 +1,12 @@
 #include "core/reconstruction/segmenter.h"
 
+#include <cmath>
 #include <string>
 
 #include "core/errors.h"
 #include "core/reconstruction/closeup.h"
 #include "core/reconstruction/coarse_scan.h"
+#include "core/reconstruction/displacement.h"
 #include "core/reconstruction/outline_refiner.h"
 #include "core/reconstruction/pixel_classifier.h"
 #include "core/reconstruction/silhouette_cleaner.h"
@@ -17,6 +19,9 @@ constexpr std::size_t kFewestFrames = 8;
 // refined outline.
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
+// A camera that moved by less is not worth following, nor one whose contours still do not fit.
+constexpr float kNudge_px = 0.25f;
+constexpr float kMuchLess = 0.8f;
 
 void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> background) {
   const std::string where = "background of camera " + camera.name + ": found ";
@@ -53,8 +58,7 @@ class Segmenter::Impl {
             static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
-    coarse_.Compare(background_->Glance(angles, {}), image);
-    const Conditions& conditions = coarse_.conditions();
+    const Conditions conditions = Glance(image, angles);
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
     classifier_.Classify(expected, image, conditions.gain, closeup_);
@@ -63,10 +67,30 @@ class Segmenter::Impl {
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
     refiner_.Refine(expected, image, conditions.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.FillHoles(kSmallestHole_px, silhouette);
-    cleaner_.DropBlobs(smallest_blob_px_, silhouette);
+    cleaner_.KeepPerson(smallest_blob_px_, silhouette);
   }
 
  private:
+  // Compares the picture as a whole, and follows a camera that was nudged.
+  Conditions Glance(ImageView<const Bgr> image, const PanTiltAngles& angles) {
+    const ExpectedHalf& expected = background_->Glance(angles, {});
+    coarse_.Compare(expected, image);
+    const Conditions conditions = coarse_.conditions();
+    if (conditions.shift_px == 0) return conditions;
+    const auto displacement = MeasureDisplacement(coarse_.live(), conditions.gain[1], expected);
+    if (!displacement || std::hypot(displacement->x_px, displacement->y_px) < kNudge_px)
+      return conditions;
+    const float shift_before_px = coarse_.shift_px();
+    coarse_.Compare(background_->Glance(angles, *displacement), image);
+    if (coarse_.shift_px() < kMuchLess * shift_before_px) {
+      Conditions displaced = coarse_.conditions();
+      displaced.displacement = *displacement;
+      return displaced;
+    }
+    coarse_.Compare(background_->Glance(angles, {}), image);
+    return conditions;
+  }
+
   std::unique_ptr<BackgroundModel> background_;
   CoarseScan coarse_;
   Closeup closeup_;

@@ -39,6 +39,15 @@ void Flip(Word* row, int begin, int end) {
   for (int i = begin >> 6; i <= (end - 1) >> 6; ++i) row[i] ^= MaskOf(i, begin, end);
 }
 
+// A blob belongs to the person when it lies within such a share of the person's size, or is so
+// large a share of the largest blob.
+constexpr double kReach = 0.25;
+constexpr double kLarge = 0.5;
+
+int GapBetween(const PixelBox& a, const PixelBox& b) {
+  return std::max({a.left - b.right, b.left - a.right, a.top - b.bottom, b.top - a.bottom, 0});
+}
+
 }  // namespace
 
 void SilhouetteCleaner::DropBlobs(int smallest, Silhouette& silhouette) {
@@ -46,6 +55,40 @@ void SilhouetteCleaner::DropBlobs(int smallest, Silhouette& silhouette) {
   for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
     if (runs_[RootOf(i)].area < smallest)
       Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
+}
+
+void SilhouetteCleaner::KeepPerson(int smallest, Silhouette& silhouette) {
+  Connect(Kind::kBlobs, nullptr, silhouette);
+  if (runs_.empty()) return;
+  MeasureBoxes();
+  int largest = 0;
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
+    if (runs_[RootOf(i)].area > runs_[RootOf(largest)].area) largest = i;
+  largest = RootOf(largest);
+  const PixelBox& person = boxes_[largest];
+  const double reach =
+      kReach * std::max(person.right - person.left + 1, person.bottom - person.top + 1);
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    const int root = RootOf(i);
+    const bool is_large = runs_[root].area > kLarge * runs_[largest].area;
+    if (runs_[root].area >= smallest && (is_large || GapBetween(boxes_[root], person) <= reach))
+      continue;
+    Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
+  }
+}
+
+void SilhouetteCleaner::MeasureBoxes() {
+  boxes_.resize(runs_.size());
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    const Run& run = runs_[i];
+    const int root = RootOf(i);
+    // A root comes before all others of its kind.
+    if (root == i) boxes_[i] = {run.begin, run.y, run.end - 1, run.y};
+    PixelBox& box = boxes_[root];
+    box.left = std::min(box.left, run.begin);
+    box.right = std::max(box.right, run.end - 1);
+    box.bottom = run.y;
+  }
 }
 
 void SilhouetteCleaner::FillHoles(int smallest, Silhouette& silhouette) {

@@ -15,6 +15,11 @@ class SilhouetteCleaner {
   /// Empties blobs of fewer than `smallest` pixels. Blobs hang together over corners too.
   void DropBlobs(int smallest, Silhouette& silhouette);
 
+  /// Empties blobs of fewer than `smallest` pixels, and those that are much smaller than the
+  /// largest and lie apart from it: there is one person, and things that were moved are not part of
+  /// it.
+  void KeepPerson(int smallest, Silhouette& silhouette);
+
   /// Fills holes of fewer than `smallest` pixels. What touches the picture's edge is no hole.
   void FillHoles(int smallest, Silhouette& silhouette);
 
@@ -36,11 +41,13 @@ class SilhouetteCleaner {
   };
   void Connect(Kind kind, const Silhouette* doubtful, const Silhouette& silhouette);
   void CollectRuns(Kind kind, const Silhouette* doubtful, const Silhouette& silhouette);
+  void MeasureBoxes();
   int RootOf(int run);
   void Join(int a, int b);
 
   std::vector<Run> runs_;
   std::vector<int> row_begins_;
+  std::vector<PixelBox> boxes_;  // At the root.
 };
 
 }  // namespace mocap
