@@ -54,7 +54,6 @@ class MotionCapture::Impl {
   const CaptureResult& result() const { return result_; }
   const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
   int acquisition_frames() const { return acquisition_frames_; }
-  const std::vector<std::int8_t>& labels() const { return labels_; }
 
  private:
   static BodyProportions ProportionsOf(const BodyTable& table);
@@ -162,7 +161,6 @@ class MotionCapture::Impl {
   std::optional<SizeRefiner> refiner_;
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
-  std::vector<std::int8_t> labels_;
   double empty_s_ = 0;
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
@@ -194,6 +192,5 @@ const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<cons
 }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
-const std::vector<std::int8_t>& MotionCapture::labels() const { return impl_->labels(); }
 
 }  // namespace mocap

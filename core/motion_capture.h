@@ -66,8 +66,6 @@ class MotionCapture {
   /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before
   /// that.
   int acquisition_frames() const;
-  /// The part of each voxel of the last frame, in the order of a scan of the grid; -1: none.
-  const std::vector<std::int8_t>& labels() const;
 
  private:
   class Impl;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/tracking/voxel_labels.h"
 #include "daemon/body_size_fields.h"
 
 namespace mocap {
@@ -134,7 +135,10 @@ void FillVoxels(const TrackedSet& set, voxels_t& message) {
   for (int axis = 0; axis < 3; ++axis) message.size[axis] = set.grid.size()[axis];
   WriteRuns(set.grid, message.run);
   message.num_runs = static_cast<std::int32_t>(message.run.size());
-  message.label = set.labels;
+  message.label.clear();
+  if (set.result.state != CaptureState::kSearching) {
+    LabelVoxels(set.grid, set.body, set.result.pose, message.label);
+  }
   message.num_labels = static_cast<std::int32_t>(message.label.size());
 }
 

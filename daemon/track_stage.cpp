@@ -24,8 +24,7 @@ void TrackStage::Process(const CarvedSet& set) {
                .acquisition_frames = capture_.acquisition_frames(),
                .result = result,
                .body = capture_.body(),
-               .grid = set.grid,
-               .labels = capture_.labels()});
+               .grid = set.grid});
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
   recorders_[Stage::kLatency].Record(EpochNs() - from_ns);
