@@ -12,7 +12,7 @@ namespace {
 // What an empty studio does not show: tints of shadows, and the noise that a codec lets through
 // only where something moves. Measured on takes with true masks; a tenth more or less serves as
 // well. The larger windows average noise away, so their thresholds lie closer to the middle.
-constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.15f, 1.3f};
+constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.35f};
 // One pixel alone must differ more, for there are many of them.
 constexpr float kPixelMargin = 1.6f;
 
