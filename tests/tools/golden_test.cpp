@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void Run(void (*add)(CLI::App&), const std::string& command_line) {
+void RunCommand(void (*add)(CLI::App&), const std::string& command_line) {
   CLI::App app("mocap");
   add(app);
   app.parse(command_line);
@@ -43,8 +43,8 @@ TEST(Golden, ASimulatedWalkGivesThePosesThatItGaveBefore) {
   const testing::TemporaryFolder folder;
   const fs::path take = folder.path() / "take";
   const fs::path result = folder.path() / "result";
-  Run(AddSimulateCommand, "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
-  Run(AddTrackCommand, "track " + take.string() + " --out " + result.string());
+  RunCommand(AddSimulateCommand, "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
+  RunCommand(AddTrackCommand, "track " + take.string() + " --out " + result.string());
   const auto got = Rows(testing::ReadText(result / "poses.csv"));
   const auto golden =
       Rows(testing::ReadText(fs::path(MOCAP_SOURCE_DIR) / "tests/tools/golden/poses.csv"));

@@ -30,7 +30,7 @@ TEST(VoxelLabels, NameThePartThatAVoxelLiesIn) {
         const int label = labels.at(index++);
         // A part's own centroid lies in the part.
         for (int part = 0; part < kBodyPartCount; ++part) {
-          if ((grid.CenterOf(i, j, k) - points_W.col(part)).norm() > 15) continue;
+          if ((grid.CenterOf(i, j, k) - points_W.col(part)).norm() > 22) continue;
           EXPECT_EQ(label, part);
           ++seen[part];
         }
