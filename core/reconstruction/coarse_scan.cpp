@@ -67,35 +67,9 @@ float Beyond(float value, float usual, float negligible) {
   return beyond < negligible ? 0 : beyond;
 }
 
-// Sums of a row of tiles, tile by tile.
-MOCAP_VECTORIZED
-void SumTiles(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means) {
-  for (int x = 0; x < width; ++x)
-    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
-                                            pixels[3 * width + x]);
-  for (int i = 0; i < width / kTile; ++i)
-    means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
-                                  columns[4 * i + 3]) /
-               kArea;
-}
-
-MOCAP_VECTORIZED
-void AverageVariances(const float* variance, const std::uint8_t* slope, int width, float* columns,
-                      float* mean_variance, float* mean_slope_sq) {
-  for (int x = 0; x < width; ++x)
-    columns[x] =
-        variance[x] + variance[width + x] + variance[2 * width + x] + variance[3 * width + x];
-  for (int i = 0; i < width / kTile; ++i)
-    mean_variance[i] =
-        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
-  for (int x = 0; x < width; ++x) {
-    columns[x] = 0;
-    for (int y = 0; y < kTile; ++y)
-      columns[x] += static_cast<float>(slope[y * width + x] * slope[y * width + x]);
-  }
-  for (int i = 0; i < width / kTile; ++i)
-    mean_slope_sq[i] =
-        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
+// Whether all of a tile is.
+bool IsKnown(const ExpectedHalf& expected, std::size_t tile) {
+  return expected.tile_variance[tile] < kUnknownVariance / kArea / 2;
 }
 
 struct PixelRow {
@@ -155,17 +129,17 @@ void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>&
 void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
   Resize(expected, image);
   Halve(image, live_, row_sums_);
-  AverageTiles(expected);
-  for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(c);
-  distance_ = MeasureDistance();
+  for (int c = 0; c < 3; ++c) AverageTiles(live_, c, tiles_.mean[c], row_sums_);
+  for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(expected, c);
+  distance_ = MeasureDistance(expected);
   conditions_.drift = std::min(
       kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
   drift_ = std::max(conditions_.drift, kDistanceMargin * distance_);
   shift_px_ = MeasureShift(expected);
   conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
-  MeasureTints();
+  MeasureTints(expected);
   MeasureMisfit(expected);
-  Judge();
+  Judge(expected);
 }
 
 void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image) {
@@ -173,45 +147,22 @@ void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image
     full_width_ = image.width();
     full_height_ = image.height();
     live_ = HalfPicture(full_width_, full_height_);
-    row_sums_.resize(6 * static_cast<std::size_t>(live_.width));
     alphas_.resize(static_cast<std::size_t>(live_.width));
     columns_.resize(static_cast<std::size_t>(live_.width));
-    const auto tiles = static_cast<std::size_t>(live_.tile_columns()) * live_.tile_rows();
-    for (int c = 0; c < 3; ++c) {
-      tiles_.live[c].resize(tiles);
-      tiles_.expected[c].resize(tiles);
-    }
-    for (auto* values : {&tiles_.variance, &tiles_.slope_sq, &tiles_.alpha, &tiles_.tint,
-                         &tiles_.glare, &tiles_.misfit})
-      values->resize(tiles);
-    tiles_.known.resize(tiles);
+    for (auto* values : {&tiles_.mean[0], &tiles_.mean[1], &tiles_.mean[2], &tiles_.alpha,
+                         &tiles_.tint, &tiles_.glare, &tiles_.misfit})
+      values->resize(live_.tiles());
   }
   MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
 }
 
-void CoarseScan::AverageTiles(const ExpectedHalf& expected) {
-  const int columns = live_.tile_columns();
-  for (int row = 0; row < live_.tile_rows(); ++row) {
-    const std::size_t begin = static_cast<std::size_t>(row) * kTile * live_.width;
-    const std::size_t tile = static_cast<std::size_t>(row) * columns;
-    for (int c = 0; c < 3; ++c) {
-      SumTiles(&live_.color[c][begin], live_.width, row_sums_.data(), &tiles_.live[c][tile]);
-      SumTiles(&expected.mean.color[c][begin], live_.width, row_sums_.data(),
-               &tiles_.expected[c][tile]);
-    }
-    AverageVariances(&expected.variance[begin], &expected.slope[begin], live_.width,
-                     columns_.data(), &tiles_.variance[tile], &tiles_.slope_sq[tile]);
-  }
-  for (std::size_t i = 0; i < tiles_.known.size(); ++i)
-    tiles_.known[i] = tiles_.variance[i] < kUnknownVariance / kArea / 2;
-}
-
-float CoarseScan::MeasureGain(int channel) {
-  const std::vector<float>& live = tiles_.live[channel];
-  const std::vector<float>& expected = tiles_.expected[channel];
+float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
+  const std::vector<float>& live = tiles_.mean[channel];
+  const std::vector<float>& expected = expected_half.tile_mean[channel];
   values_.clear();
   for (std::size_t i = 0; i < live.size(); i += kTileStep)
-    if (tiles_.known[i] && expected[i] >= kDarkest) values_.push_back(live[i] / expected[i]);
+    if (IsKnown(expected_half, i) && expected[i] >= kDarkest)
+      values_.push_back(live[i] / expected[i]);
   if (values_.empty()) return 1;
   // Persons and shadows lie mostly to one side of the middle; without them it is found again.
   const float rough = Median(values_);
@@ -220,13 +171,13 @@ float CoarseScan::MeasureGain(int channel) {
   return std::clamp(1 / std::max(fine, 1e-3f), 1 / kLargestGain, kLargestGain);
 }
 
-float CoarseScan::MeasureDistance() {
+float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
   values_.clear();
-  for (std::size_t i = 0; i < tiles_.known.size(); i += kTileStep) {
-    if (!tiles_.known[i]) continue;
+  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep) {
+    if (!IsKnown(expected, i)) continue;
     float length_sq = 0;
     for (int c = 0; c < 3; ++c) {
-      const float d = conditions_.gain[c] * tiles_.live[c][i] - tiles_.expected[c][i];
+      const float d = conditions_.gain[c] * tiles_.mean[c][i] - expected.tile_mean[c][i];
       length_sq += d * d;
     }
     values_.push_back(length_sq);
@@ -271,20 +222,21 @@ void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
   }
 }
 
-void CoarseScan::MeasureTints() {
-  MeasureTiles({{tiles_.live[0].data(), tiles_.live[1].data(), tiles_.live[2].data()},
-                {tiles_.expected[0].data(), tiles_.expected[1].data(), tiles_.expected[2].data()},
-                tiles_.variance.data(),
-                tiles_.slope_sq.data()},
-               static_cast<int>(tiles_.known.size()), conditions_.gain, Square(drift_),
-               Square(kContourMargin * shift_px_ / kPixel_px), tiles_.alpha.data(), tiles_.tint.data(),
-               tiles_.glare.data());
+void CoarseScan::MeasureTints(const ExpectedHalf& expected) {
+  TileMeans tiles{{}, {}, expected.tile_variance.data(), expected.tile_slope_sq.data()};
+  for (int c = 0; c < 3; ++c) {
+    tiles.live[c] = tiles_.mean[c].data();
+    tiles.expected[c] = expected.tile_mean[c].data();
+  }
+  MeasureTiles(tiles, static_cast<int>(live_.tiles()), conditions_.gain, Square(drift_),
+               Square(kContourMargin * shift_px_ / kPixel_px), tiles_.alpha.data(),
+               tiles_.tint.data(), tiles_.glare.data());
 }
 
-void CoarseScan::Judge() {
+void CoarseScan::Judge(const ExpectedHalf& expected) {
   values_.clear();
-  for (std::size_t i = 0; i < tiles_.known.size(); i += kTileStep)
-    if (tiles_.known[i]) values_.push_back(tiles_.misfit[i]);
+  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep)
+    if (IsKnown(expected, i)) values_.push_back(tiles_.misfit[i]);
   const float harmless =
       kHarmlessMisfit * std::max(values_.empty() ? 0 : Median(values_), kLeastMisfit);
   const int columns = live_.tile_columns();
@@ -292,8 +244,9 @@ void CoarseScan::Judge() {
   for (int row = 0; row < live_.tile_rows(); ++row) {
     for (int column = 0; column < columns; ++column) {
       const std::size_t i = static_cast<std::size_t>(row) * columns + column;
-      if (tiles_.known[i] && (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
-                              tiles_.alpha[i] < kDarkest_share || tiles_.glare[i] > kHarmlessGlare))
+      if (IsKnown(expected, i) &&
+          (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
+           tiles_.alpha[i] < kDarkest_share || tiles_.glare[i] > kHarmlessGlare))
         suspicious_.Set(column, row);
     }
   }

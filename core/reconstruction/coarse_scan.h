@@ -36,20 +36,17 @@ class CoarseScan {
 
  private:
   struct Tiles {
-    std::array<std::vector<float>, 3> live, expected;  // Means.
-    std::vector<float> variance, slope_sq;
+    std::array<std::vector<float>, 3> mean;
     // Brightness distortion, and what else differs: all in variances.
     std::vector<float> alpha, tint, glare, misfit;
-    std::vector<std::uint8_t> known;
   };
   void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
-  void AverageTiles(const ExpectedHalf& expected);
-  float MeasureGain(int channel);
-  float MeasureDistance();
+  float MeasureGain(const ExpectedHalf& expected, int channel);
+  float MeasureDistance(const ExpectedHalf& expected);
   float MeasureShift(const ExpectedHalf& expected);
-  void MeasureTints();
+  void MeasureTints(const ExpectedHalf& expected);
   void MeasureMisfit(const ExpectedHalf& expected);
-  void Judge();
+  void Judge(const ExpectedHalf& expected);
 
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;

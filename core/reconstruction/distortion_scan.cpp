@@ -70,23 +70,40 @@ struct RowSums {
   std::array<float*, 3> cd;
 };
 
+// Sums within the smaller width, and from there within the larger, which is two pixels more.
 template <int side>
-MOCAP_VECTORIZED void SumRow(const float* alpha, const std::array<const float*, 3>& cd, int count,
-                             const RowSums& to) {
-  float *const sum = to.alpha, *const sum_sq = to.alpha_sq, *const moment = to.moment;
+MOCAP_VECTORIZED void SumAlphas(const float* alpha, int count, const RowSums& smaller,
+                                const RowSums& larger) {
+  float *const s0 = smaller.alpha, *const q0 = smaller.alpha_sq, *const m0 = smaller.moment;
+  float *const s1 = larger.alpha, *const q1 = larger.alpha_sq, *const m1 = larger.moment;
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
-    sum[x] = Sum<side>([&](int i) { return alpha[x + i]; });
-    sum_sq[x] = Sum<side>([&](int i) { return alpha[x + i] * alpha[x + i]; });
-    moment[x] = Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * alpha[x + i]; });
+    const float first = alpha[x], last = alpha[x + side + 1];
+    const float sum = Sum<side>([&](int i) { return alpha[x + i + 1]; });
+    const float sum_sq = Sum<side>([&](int i) { return alpha[x + i + 1] * alpha[x + i + 1]; });
+    const float moment =
+        Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * alpha[x + i + 1]; });
+    s0[x] = sum;
+    q0[x] = sum_sq;
+    m0[x] = moment;
+    s1[x] = sum + first + last;
+    q1[x] = sum_sq + first * first + last * last;
+    m1[x] = moment + static_cast<float>(side / 2 + 1) * (last - first);
   }
-  const auto [d0, d1, d2] = cd;
-  const auto [s0, s1, s2] = to.cd;
+}
+
+template <int side>
+MOCAP_VECTORIZED void SumColors(const std::array<const float*, 3>& cd, int count,
+                                const RowSums& smaller, const RowSums& larger) {
+  for (int c = 0; c < 3; ++c) {
+    const float* const from = cd[c];
+    float *const s0 = smaller.cd[c], *const s1 = larger.cd[c];
 #pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    s0[x] = Sum<side>([&](int i) { return d0[x + i]; });
-    s1[x] = Sum<side>([&](int i) { return d1[x + i]; });
-    s2[x] = Sum<side>([&](int i) { return d2[x + i]; });
+    for (int x = 0; x < count; ++x) {
+      const float sum = Sum<side>([&](int i) { return from[x + i + 1]; });
+      s0[x] = sum;
+      s1[x] = sum + from[x] + from[x + side + 1];
+    }
   }
 }
 
@@ -193,8 +210,7 @@ void DistortionScan::Measure(int y, Line& line) {
   RepeatEnds(line);
   // What is summed beyond the ends is judged nowhere.
   for (const PixelRun& run : closeup_->Measured(y)) {
-    SumAlong<0>(run, line);
-    SumAlong<1>(run, line);
+    SumAlong(run, line);
   }
 }
 
@@ -206,19 +222,18 @@ void DistortionScan::RepeatEnds(Line& line) const {
   }
 }
 
-template <std::size_t window>
-void DistortionScan::SumAlong(const PixelRun& run, Line& line) const {
-  constexpr int kSide = SideOf(window);
+void DistortionScan::SumAlong(const PixelRun& run, Line& line) {
+  static_assert(kRadii_px[1] == kRadii_px[0] + 1 && kRadii_px[1] == kPad);
   const int count = run.end - run.begin;
-  const std::size_t from = run.begin + kPad - kRadii_px[window];
-  Sums& sums = line.sums[window];
-  RowSums to{&sums.alpha[run.begin], &sums.alpha_sq[run.begin], &sums.moment[run.begin], {}};
-  std::array<const float*, 3> cd;
-  for (int c = 0; c < 3; ++c) {
-    cd[c] = &line.cd[c][from];
-    to.cd[c] = &sums.cd[c][run.begin];
+  std::array<RowSums, kWindows> to;
+  for (std::size_t w = 0; w < kWindows; ++w) {
+    Sums& sums = line.sums[w];
+    to[w] = {&sums.alpha[run.begin], &sums.alpha_sq[run.begin], &sums.moment[run.begin], {}};
+    for (int c = 0; c < 3; ++c) to[w].cd[c] = &sums.cd[c][run.begin];
   }
-  SumRow<kSide>(&line.alpha_shift[from], cd, count, to);
+  SumAlphas<SideOf(0)>(&line.alpha_shift[run.begin], count, to[0], to[1]);
+  SumColors<SideOf(0)>({&line.cd[0][run.begin], &line.cd[1][run.begin], &line.cd[2][run.begin]},
+                       count, to[0], to[1]);
 }
 
 template <std::size_t window>

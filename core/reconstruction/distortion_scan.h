@@ -70,8 +70,7 @@ class DistortionScan {
   };
   void Measure(int y, Line& line);
   void RepeatEnds(Line& line) const;
-  template <std::size_t window>
-  void SumAlong(const PixelRun& run, Line& line) const;
+  static void SumAlong(const PixelRun& run, Line& line);
   template <std::size_t window>
   void SumDown(int y, const PixelRun& run);
 

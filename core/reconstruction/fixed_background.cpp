@@ -75,6 +75,7 @@ class FixedBackground final : public BackgroundModel {
     if (displaced_half_.variance.empty())
       displaced_half_ = ExpectedHalf(expected_.width, expected_.height);
     displaced_half_.Displace(half_, displacement);
+    displaced_half_.AverageTiles();
     return displaced_half_;
   }
 
@@ -154,6 +155,7 @@ class FixedBackground final : public BackgroundModel {
         half_.variance[static_cast<std::size_t>(y) * half_.mean.width + x] = sum / 12;
       }
     }
+    half_.AverageTiles();
   }
 
   void LearnConditions() {

@@ -31,6 +31,38 @@ void JoinColumns(const std::uint16_t* sums, int count, std::uint8_t* means) {
     means[i] = static_cast<std::uint8_t>((sums[2 * i] + sums[2 * i + 1] + 2) >> 2);
 }
 
+constexpr float kArea = HalfPicture::kTile * HalfPicture::kTile;
+
+MOCAP_VECTORIZED
+void AverageRow(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means) {
+  for (int x = 0; x < width; ++x)
+    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
+                                            pixels[3 * width + x]);
+  for (int i = 0; i < width / HalfPicture::kTile; ++i)
+    means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
+                                  columns[4 * i + 3]) /
+               kArea;
+}
+
+MOCAP_VECTORIZED
+void AverageVariances(const float* variance, const std::uint8_t* slope, int width, float* columns,
+                      float* mean_variance, float* mean_slope_sq) {
+  for (int x = 0; x < width; ++x)
+    columns[x] =
+        variance[x] + variance[width + x] + variance[2 * width + x] + variance[3 * width + x];
+  for (int i = 0; i < width / HalfPicture::kTile; ++i)
+    mean_variance[i] =
+        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
+  for (int x = 0; x < width; ++x) {
+    columns[x] = 0;
+    for (int y = 0; y < HalfPicture::kTile; ++y)
+      columns[x] += static_cast<float>(slope[y * width + x] * slope[y * width + x]);
+  }
+  for (int i = 0; i < width / HalfPicture::kTile; ++i)
+    mean_slope_sq[i] =
+        (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
+}
+
 // Mixes pixels with their right and lower neighbours; weights are of 256.
 MOCAP_VECTORIZED
 void MixPixels(const std::uint8_t* top, const std::uint8_t* bottom, int count,
@@ -49,8 +81,35 @@ HalfPicture::HalfPicture(int full_width, int full_height)
   for (auto& plane : color) plane.resize(size());
 }
 
+void AverageTiles(const HalfPicture& half, int channel, std::vector<float>& tiles,
+                  std::vector<std::uint16_t>& scratch) {
+  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(half.width)));
+  for (int row = 0; row < half.tile_rows(); ++row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * HalfPicture::kTile * half.width;
+    AverageRow(&half.color[channel][begin], half.width, scratch.data(),
+               &tiles[static_cast<std::size_t>(row) * half.tile_columns()]);
+  }
+}
+
 ExpectedHalf::ExpectedHalf(int full_width, int full_height)
-    : mean(full_width, full_height), variance(mean.size(), kUnknownVariance), slope(mean.size()) {}
+    : mean(full_width, full_height),
+      variance(mean.size(), kUnknownVariance),
+      slope(mean.size()),
+      tile_variance(mean.tiles(), kUnknownVariance),
+      tile_slope_sq(mean.tiles()),
+      columns_(static_cast<std::size_t>(mean.width)) {
+  for (auto& tiles : tile_mean) tiles.resize(mean.tiles());
+}
+
+void ExpectedHalf::AverageTiles() {
+  for (int c = 0; c < 3; ++c) mocap::AverageTiles(mean, c, tile_mean[c], sums_);
+  for (int row = 0; row < mean.tile_rows(); ++row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * HalfPicture::kTile * mean.width;
+    const std::size_t tile = static_cast<std::size_t>(row) * mean.tile_columns();
+    AverageVariances(&variance[begin], &slope[begin], mean.width, columns_.data(),
+                     &tile_variance[tile], &tile_slope_sq[tile]);
+  }
+}
 
 void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
   std::vector<std::uint16_t> scratch;
@@ -102,7 +161,7 @@ void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint1
   MOCAP_CHECK(RoundUp(image.width(), HalfPicture::kTile_px) == 2 * half.width &&
               RoundUp(image.height(), HalfPicture::kTile_px) == 2 * half.height);
   const auto width = static_cast<std::size_t>(2) * columns;
-  scratch.resize(3 * width);
+  scratch.resize(std::max(scratch.size(), 3 * width));
   std::uint16_t* const sums = scratch.data();
   for (int y = 0; y < rows; ++y) {
     SeparateRows(image.row(2 * y), image.row(2 * y + 1), 2 * columns, sums, sums + width,

@@ -27,6 +27,7 @@ struct HalfPicture {
 
   int tile_columns() const { return width / kTile; }
   int tile_rows() const { return height / kTile; }
+  std::size_t tiles() const { return static_cast<std::size_t>(tile_columns()) * tile_rows(); }
   std::size_t size() const { return static_cast<std::size_t>(width) * height; }
 
   int width = 0;
@@ -34,8 +35,15 @@ struct HalfPicture {
   std::array<std::vector<std::uint8_t>, 3> color;
 };
 
+/// Averages the tiles of a plane, row by row.
+/// @param tiles    as many as there are.
+/// @param scratch  memory to work in, kept by the caller.
+void AverageTiles(const HalfPicture& half, int channel, std::vector<float>& tiles,
+                  std::vector<std::uint16_t>& scratch);
+
 /// The half of what a camera would see of the empty studio.
-struct ExpectedHalf {
+class ExpectedHalf {
+ public:
   ExpectedHalf() = default;
   /// Makes room for the half of a picture of so many pixels, of which nothing is known.
   ExpectedHalf(int full_width, int full_height);
@@ -43,17 +51,27 @@ struct ExpectedHalf {
   /// Takes colours and slopes from a picture at full resolution.
   void LearnFrom(ImageView<const Bgr> picture);
 
-  /// Takes another half's pixels, displaced by less than its size.
+  /// Takes another half's pixels, displaced by less than its size. They are to be averaged.
   void Displace(const ExpectedHalf& from, const Displacement& displacement);
+
+  /// Averages the tiles, after pixels were written.
+  void AverageTiles();
 
   HalfPicture mean;
   /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
   std::vector<float> variance;
   /// How steep the picture is [grey levels per pixel of the half picture].
   std::vector<std::uint8_t> slope;
+  /// Means of the tiles, row by row.
+  std::array<std::vector<float>, 3> tile_mean;
+  std::vector<float> tile_variance, tile_slope_sq;
   /// CoarseScan's distance() and shift_px() of pictures of the empty studio.
   float usual_distance = 0;
   float usual_shift_px = 0;
+
+ private:
+  std::vector<std::uint16_t> sums_;
+  std::vector<float> columns_;
 };
 
 /// Halves a picture.

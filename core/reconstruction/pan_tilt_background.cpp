@@ -231,6 +231,7 @@ class PanTiltBackground final : public BackgroundModel {
       sources_[k].is_projected = false;
     }
     for (int y = 0; y < camera_.height_px / 2; ++y) DrawHalfRow(y);
+    half_.AverageTiles();
   }
 
   // Where in a source's view the corners of the cells of a picture from X_CW_ lie. Views are as

@@ -1,7 +1,6 @@
 #include "core/reconstruction/pixel_classifier.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/reconstruction/bit_filters.h"
 #include "core/vectorized.h"
@@ -9,43 +8,51 @@
 namespace mocap {
 namespace {
 
-// What an empty studio does not show: tints of shadows, and the noise that a codec lets through
-// only where something moves. Measured on takes with true masks; a tenth more or less serves as
-// well. The larger windows average noise away, so their thresholds lie closer to the middle.
-constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.35f};
-// One pixel alone must differ more, for there are many of them.
-constexpr float kPixelMargin = 1.6f;
-
 constexpr float Square(float x) { return x * x; }
-
-constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 struct Measured {
   const float *alpha_shift, *alpha_weight, *cd_sq, *roughness_sq;
 };
 
-// What is beyond one of them is marked; what is dark is so in itself and for background.
-struct Limits {
-  float darkest = kNoLimit;  // Of α − 1.
-  float alpha_low = -kNoLimit;
-  float alpha_high = kNoLimit;
-  float cd_sq = kNoLimit;
-  float roughness_sq = kNoLimit;
+// What is dark is so in itself and for background.
+struct Darkness {
+  float shift;  // α − 1.
+  float normalized;
 };
 
 MOCAP_VECTORIZED
-void MarkPixels(const Measured& m, int count, const Limits& limits, std::uint8_t* marks) {
+void MarkPixels(const Measured& m, int count, const Darkness& dark, float cd_sq,
+                std::uint8_t* marks) {
   const auto [alpha_shift, alpha_weight, cds_sq, roughnesses_sq] = m;
-  const auto [darkest, low, high, cd_sq, roughness_sq] = limits;
+  const auto [darkest, low] = dark;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float shift = alpha_shift[x];
+    const int is_dark = (shift < darkest ? 1 : 0) & (shift * alpha_weight[x] < low ? 1 : 0);
+    marks[x] = static_cast<std::uint8_t>(is_dark | (cds_sq[x] > cd_sq ? 1 : 0));
+  }
+}
+
+// Marks what exceeds a threshold, and in `clear` what exceeds it by the factor `margin`.
+MOCAP_VECTORIZED
+void MarkWindows(const Measured& m, int count, const Darkness& dark,
+                 const DistortionThresholds::Window& thresholds, float margin, std::uint8_t* marks,
+                 std::uint8_t* clear) {
+  const auto [alpha_shift, alpha_weight, cds_sq, roughnesses_sq] = m;
+  const auto [darkest, low] = dark;
+  const float per_cd = 1 / Square(thresholds.cd), per_alpha = 1 / thresholds.alpha;
+  const float per_roughness = 1 / Square(thresholds.roughness);
+  const float margin_sq = Square(margin);
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
     const float shift = alpha_shift[x];
     const float normalized = shift * alpha_weight[x];
-    const int dark = (shift < darkest ? 1 : 0) & (normalized < low ? 1 : 0);
-    const int bright = normalized > high ? 1 : 0;
-    const int tinted = cds_sq[x] > cd_sq ? 1 : 0;
-    const int rough = roughnesses_sq[x] > roughness_sq ? 1 : 0;
-    marks[x] = static_cast<std::uint8_t>(dark | bright | tinted | rough);
+    const int is_dark = (shift < darkest ? 1 : 0) & (normalized < low ? 1 : 0);
+    const float bright = std::max(normalized * per_alpha, 0.0f);
+    const float excess_sq =
+        std::max(std::max(cds_sq[x] * per_cd, roughnesses_sq[x] * per_roughness), bright * bright);
+    marks[x] = static_cast<std::uint8_t>(is_dark | (excess_sq > 1 ? 1 : 0));
+    clear[x] = static_cast<std::uint8_t>(is_dark | (excess_sq > margin_sq ? 1 : 0));
   }
 }
 
@@ -60,7 +67,8 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   const int height = image.height();
   if (alpha_shift_.width() != width || alpha_shift_.height() != height) {
     alpha_shift_ = Image<float>(width, height);
-    marks_.resize(static_cast<std::size_t>(width));
+    clear_row_.resize(static_cast<std::size_t>(width));
+    doubtful_row_.resize(static_cast<std::size_t>(width));
   }
   clear_pixels_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
@@ -98,36 +106,25 @@ PixelClass PixelClassifier::ClassOf(const ExpectedPicture& expected, int x, int 
 }
 
 void PixelClassifier::ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row) {
-  const Measured measured{row.alpha_shift + run.begin, row.alpha_weight + run.begin,
-                          row.cd_sq + run.begin, row.cd_sq + run.begin};
-  const Limits clear{.darkest = darkest_shadow_ - 1,
-                     .alpha_low = kPixelMargin * thresholds_.alpha_low,
-                     .cd_sq = Square(kPixelMargin * thresholds_.cd)};
-  MarkPixels(measured, run.end - run.begin, clear, marks_.data());
-  PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
-          clear_pixels_.row(y));
+  const auto count = static_cast<std::size_t>(run.end - run.begin);
+  MarkPixels(
+      {row.alpha_shift + run.begin, row.alpha_weight + run.begin, row.cd_sq + run.begin, nullptr},
+      run.end - run.begin, {darkest_shadow_ - 1, kPixelMargin * thresholds_.alpha_low},
+      Square(kPixelMargin * thresholds_.cd), clear_row_.data());
+  PackRow({clear_row_.data(), count}, run.begin, clear_pixels_.row(y));
 }
 
 void PixelClassifier::ClassifyWindows(int y, const PixelRun& run, std::size_t k,
                                       const DistortionScan::Row& row) {
-  const DistortionThresholds::Window& t = thresholds_.windows[k];
   const DistortionScan::Windows& w = row.windows[k];
-  const Measured measured{w.alpha_shift + run.begin, row.alpha_weight + run.begin,
-                          w.cd_sq + run.begin, w.roughness_sq + run.begin};
-  const auto mark = [&](float margin, Silhouette& windows) {
-    MarkPixels(measured, run.end - run.begin,
-               // What is too dark for a shadow is not doubtful.
-               {.darkest = darkest_shadow_ - 1,
-                .alpha_low = -kWindowMargins[k] * t.alpha,
-                .alpha_high = margin * t.alpha,
-                .cd_sq = Square(margin * t.cd),
-                .roughness_sq = Square(margin * t.roughness)},
-               marks_.data());
-    PackRow({marks_.data(), static_cast<std::size_t>(run.end - run.begin)}, run.begin,
-            windows.row(y));
-  };
-  mark(kWindowMargins[k], clear_windows_[k]);
-  mark(1, doubtful_windows_[k]);
+  const DistortionThresholds::Window& t = thresholds_.windows[k];
+  const auto count = static_cast<std::size_t>(run.end - run.begin);
+  MarkWindows({w.alpha_shift + run.begin, row.alpha_weight + run.begin, w.cd_sq + run.begin,
+               w.roughness_sq + run.begin},
+              run.end - run.begin, {darkest_shadow_ - 1, -kWindowMargins[k] * t.alpha}, t,
+              kWindowMargins[k], doubtful_row_.data(), clear_row_.data());
+  PackRow({doubtful_row_.data(), count}, run.begin, doubtful_windows_[k].row(y));
+  PackRow({clear_row_.data(), count}, run.begin, clear_windows_[k].row(y));
 }
 
 }  // namespace mocap
