@@ -27,10 +27,11 @@ constexpr int kSteep = 15;
 constexpr std::size_t kFewestSteep = 50;
 constexpr float kLargestShift_px = 1;
 // Persons, shadows and what is bright from them may cover more than half: standard deviations are
-// read off this share. Of a normal distribution it is within such a length in three dimensions, and
-// such a size in one.
-constexpr double kUndisturbed = 0.25;
-constexpr float kUndisturbedLength = 1.101f;
+// read off these shares. Of a normal distribution, they are within such a length in three
+// dimensions, and such a size in one.
+constexpr double kUndisturbedTiles = 0.4;
+constexpr float kUndisturbedLength = 1.367f;
+constexpr double kUndisturbedContours = 0.25;
 constexpr float kUndisturbedSize = 0.3186f;
 constexpr float kNotable = 1.5f;
 constexpr float kNegligibleDrift = 0.3f;
@@ -38,7 +39,7 @@ constexpr float kNegligibleShift_px = 0.1f;
 constexpr float kDistanceMargin = 2;
 constexpr float kContourMargin = 2;
 // Drift has no normal distribution: some walls change, others don't.
-constexpr float kDriftMargin = 3;
+constexpr float kDriftMargin = 4;
 constexpr float kLargestDrift = 8;
 // A tile is looked at closely when its colour, in variances, or its pixels, compared to most tiles,
 // differ by more than this from a shadow; or when it is that much darker or brighter.
@@ -182,7 +183,7 @@ float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
     }
     values_.push_back(length_sq);
   }
-  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbed)) / kUndisturbedLength;
+  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbedTiles)) / kUndisturbedLength;
 }
 
 float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
@@ -195,7 +196,8 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
     values_.push_back(std::abs(difference) / static_cast<float>(slope));
   }
   if (values_.size() < kFewestSteep) return 0;
-  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbed), kLargestShift_px);
+  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
+                  kLargestShift_px);
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {

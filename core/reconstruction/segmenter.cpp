@@ -61,7 +61,7 @@ class Segmenter::Impl {
     const Conditions conditions = Glance(image, angles);
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
-    classifier_.Classify(expected, image, conditions.gain, closeup_);
+    classifier_.Classify(expected, image, conditions, closeup_);
     silhouette = classifier_.foreground();
     cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
