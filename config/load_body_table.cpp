@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::array<const char*, kSegmentCount> kSegmentNames = {
-    "torso",   "pelvis",      "head",        "upper_arm_l", "upper_arm_r", "thigh_l",
-    "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r"};
+    "torso",      "pelvis",      "head",        "upper_arm_l", "upper_arm_r", "thigh_l",
+    "thigh_r",    "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r",      "shoulder_l",
+    "shoulder_r", "hand_l",      "hand_r",      "foot_l",      "foot_r"};
 
 // Row of a joint by its name; -1 for "", the torso.
 int FindJoint(TomlSection& section, const std::string& key, const std::vector<JointAxis>& joints) {
@@ -40,8 +41,9 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   joint.paper_angle = static_cast<int>(section.IntegerWithin("angle", 1, kPaperAngleCount, 0));
   joint.parent = FindJoint(section, "parent", joints);
   joint.axis_T = ReadDirection(section, "axis");
-  joint.at = static_cast<Point>(
-      section.Choice("at", std::vector<std::string>(kPointNames.begin(), kPointNames.end())));
+  std::vector<std::string> places(kPointNames.begin(), kPointNames.end());
+  places.insert(places.end(), kMoreJointNames.begin(), kMoreJointNames.end());
+  joint.at = static_cast<Point>(section.Choice("at", places));
   const std::vector<double> limits_deg = section.Numbers("limits_deg", 2);
   if (!(limits_deg[0] < limits_deg[1] && limits_deg[0] >= -360 && limits_deg[1] <= 360)) {
     section.Fail("limits_deg", "is no range; [least, most] within 360 degrees is wanted");
@@ -69,8 +71,7 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
 BodyTable ReadBodyTable(TomlSection root) {
   BodyTable table;
   table.name = root.Text("name");
-  table.measurement =
-      static_cast<Measurement>(root.Choice("measurement", {"points", "surface"}));
+  table.measurement = static_cast<Measurement>(root.Choice("measurement", {"points", "surface"}));
   for (TomlSection& section : root.Sections("joints")) {
     if (table.joints.size() == kMaxJoints) {
       root.Fail("joints", "has more than " + std::to_string(kMaxJoints) + " axes");

@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "core/acquisition/model_acquirer.h"
+#include "core/acquisition/size_refiner.h"
+#include "core/tracking/evidence.h"
 #include "core/tracking/tracker.h"
-#include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 namespace {
@@ -14,13 +15,15 @@ namespace {
 // A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
-constexpr double kLostCostMm = 70;
+constexpr double kLostCostMm = 55;
 // A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
 // must be clearly better and face the same way.
-constexpr double kDoubtCostMm = 36;
+constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 constexpr double kForgetAfterS = 1.0;
+// Sizes come to rest after so many frames that were fitted well.
+constexpr int kFramesToRefine = 90;
 
 }  // namespace
 
@@ -29,15 +32,15 @@ class MotionCapture::Impl {
   explicit Impl(const BodyTable& table)
       : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
-                              UpdateObserver* observer) {
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                              std::int64_t capture_ns, UpdateObserver* observer) {
     const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
     last_ns_ = capture_ns;
-    cloud_.Build(grid);
+    evidence_.Gather(grid, outlines);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
-    result_.voxels = cloud_.size();
-    if (cloud_.volume_litres() < kLeastLitres) {
+    result_.voxels = evidence_.cloud.size();
+    if (evidence_.cloud.volume_litres() < kLeastLitres) {
       NobodyThere(dt_s);
     } else {
       empty_s_ = 0;
@@ -51,7 +54,6 @@ class MotionCapture::Impl {
   const CaptureResult& result() const { return result_; }
   const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
   int acquisition_frames() const { return acquisition_frames_; }
-  const std::vector<std::int8_t>& labels() const { return labels_; }
 
  private:
   static BodyProportions ProportionsOf(const BodyTable& table);
@@ -63,6 +65,7 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kSearching;
     tracker_.reset();
     known_.reset();
+    refiner_.reset();
   }
 
   void SomebodyThere(double dt_s) {
@@ -73,11 +76,12 @@ class MotionCapture::Impl {
         break;
       case CaptureState::kAcquiring:
         ++frames_acquiring_;
-        acquirer_.Refine(cloud_, dt_s);
+        acquirer_.Refine(evidence_, dt_s);
         TakeAcquired();
         break;
       case CaptureState::kTracking:
-        tracker_->Update(cloud_, dt_s);
+        tracker_->Update(evidence_, dt_s);
+        RefineSizes();
         LookAgainInDoubt();
         NoticeLoss();
         break;
@@ -85,7 +89,7 @@ class MotionCapture::Impl {
   }
 
   void Acquire() {
-    if (!acquirer_.Locate(cloud_, known_)) return;
+    if (!acquirer_.Locate(evidence_, known_)) return;
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;
     TakeAcquired();
@@ -98,7 +102,18 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kTracking;
     if (!known_) acquisition_frames_ = frames_acquiring_;
     known_ = tracker_->body().sizes();
+    if (!refiner_) refiner_.emplace(*known_);
     bad_frames_ = 0;
+  }
+
+  void RefineSizes() {
+    if (tracker_->body().table().measurement != Measurement::kSurface) return;
+    if (refiner_->frames() >= kFramesToRefine) return;
+    if (tracker_->quality().Cost() > kDoubtCostMm) return;
+    refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
+    tracker_->Resize(refiner_->Sizes());
+    known_ = tracker_->body().sizes();
+    result_.body_changed = true;
   }
 
   void LookAgainInDoubt() {
@@ -106,7 +121,7 @@ class MotionCapture::Impl {
     doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
     if (doubtful_frames_ < kFramesToLose) return;
     doubtful_frames_ = 0;
-    if (!acquirer_.Locate(cloud_, known_)) return;
+    if (!acquirer_.Locate(evidence_, known_)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
@@ -140,12 +155,12 @@ class MotionCapture::Impl {
 
   ModelAcquirer acquirer_;
   BodyModel nobody_;
-  VoxelCloud cloud_;
+  Evidence evidence_;
   std::optional<Tracker> tracker_;
   std::optional<BodySizes> known_;
+  std::optional<SizeRefiner> refiner_;
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
-  std::vector<std::int8_t> labels_;
   double empty_s_ = 0;
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
@@ -171,12 +186,11 @@ BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
 MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MotionCapture::~MotionCapture() = default;
 
-const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::int64_t capture_ns,
-                                           UpdateObserver* observer) {
-  return impl_->Update(grid, capture_ns, observer);
+const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                                           std::int64_t capture_ns, UpdateObserver* observer) {
+  return impl_->Update(grid, outlines, capture_ns, observer);
 }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
-const std::vector<std::int8_t>& MotionCapture::labels() const { return impl_->labels(); }
 
 }  // namespace mocap

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/body/body_model.h"
 #include "core/body/body_part.h"
 #include "core/body/pose_state.h"
+#include "core/reconstruction/outline.h"
 #include "core/reconstruction/voxel_grid.h"
 
 namespace mocap {
@@ -53,18 +55,17 @@ class MotionCapture {
   ~MotionCapture();
 
   /// Takes the next frame set.
+  /// @param outlines    of the silhouettes that the grid was carved by.
   /// @param capture_ns  time of exposure; must not go back.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
-                              UpdateObserver* observer = nullptr);
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                              std::int64_t capture_ns, UpdateObserver* observer = nullptr);
 
   /// The body as it is known now.
   const BodyModel& body() const;
   /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before
   /// that.
   int acquisition_frames() const;
-  /// The part of each voxel of the last frame, in the order of a scan of the grid; -1: none.
-  const std::vector<std::int8_t>& labels() const;
 
  private:
   class Impl;

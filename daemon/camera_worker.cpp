@@ -12,6 +12,8 @@ namespace {
 constexpr std::chrono::milliseconds kGrabTimeout{100};
 /// Between attempts to get a lost camera back.
 constexpr std::chrono::milliseconds kLostPause{20};
+/// More say little that is new.
+constexpr int kRaysPerCamera = 100;
 
 }  // namespace
 
@@ -58,9 +60,10 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.arrival_ns = EpochNs();
   out.capture_ns = frame.capture_ns;
   out.sequence = frame.sequence;
-  out.angles = frame.angles;
+  out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
+  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/reconstruction/outline.h"
 #include "core/reconstruction/segmenter.h"
 #include "core/reconstruction/silhouette.h"
 #include "daemon/stage.h"
@@ -17,7 +18,8 @@ namespace mocap {
 /// What leaves a camera's thread: the outline, no pixels.
 struct SegmentedFrame {
   Silhouette silhouette;
-  PanTiltAngles angles;
+  Outline outline;      ///< The silhouette's border.
+  RigidTransform X_CW;  ///< Where the camera stood.
   std::int64_t capture_ns = 0;
   std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.

@@ -73,11 +73,12 @@ void CarveStage::Gather(CarvedSet& set) {
   set.complete_ns = set.work_ns = 0;
   set.cameras = 0;
   views_.clear();
+  set.outlines.resize(std::ranges::count(synchronizer_.members(), true));
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!synchronizer_.members()[i]) continue;
     const Camera& camera = cameras_[i];
-    const RigidTransform X_CW = camera.calibration.PoseAt(camera.front.angles);
-    views_.push_back({&camera.table, &camera.front.silhouette, X_CW});
+    views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
+    set.outlines[views_.size() - 1] = camera.front.outline;
     set.complete_ns = std::max(set.complete_ns, camera.front.arrival_ns);
     set.work_ns = std::max(set.work_ns, camera.front.segment_ns);
     set.cameras |= std::uint64_t{1} << i;

@@ -23,11 +23,12 @@ inline constexpr int kMaxCameras = 64;
 /// One frame set, carved.
 struct CarvedSet {
   VoxelGrid grid;
-  std::int64_t frame = 0;        ///< Counts sets from 0.
-  std::int64_t capture_ns = 0;   ///< The middle one of the members' times.
-  std::int64_t complete_ns = 0;  ///< When the last member had arrived, since the Unix epoch.
-  std::int64_t work_ns = 0;      ///< The slowest member's segmentation, and carving.
-  std::uint64_t cameras = 0;     ///< Bit i: camera i is in.
+  std::vector<Outline> outlines;  ///< Of the members' silhouettes.
+  std::int64_t frame = 0;         ///< Counts sets from 0.
+  std::int64_t capture_ns = 0;    ///< The middle one of the members' times.
+  std::int64_t complete_ns = 0;   ///< When the last member had arrived, since the Unix epoch.
+  std::int64_t work_ns = 0;       ///< The slowest member's segmentation, and carving.
+  std::uint64_t cameras = 0;      ///< Bit i: camera i is in.
 };
 
 /// Matches silhouettes by time and carves each set. One thread; counters and wanted_from_ns: any.
@@ -66,9 +67,8 @@ class CarveStage {
 
  private:
   struct Camera {
-    explicit Camera(const CameraCalibration& from) : calibration(from), table(from) {}
+    explicit Camera(const CameraCalibration& calibration) : table(calibration) {}
 
-    CameraCalibration calibration;
     SensorPlaneTable table;
     SegmentedFrame front;
     std::atomic<std::int64_t> late{0};

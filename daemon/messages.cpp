@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/tracking/voxel_labels.h"
 #include "daemon/body_size_fields.h"
 
 namespace mocap {
@@ -105,14 +106,15 @@ void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {
   message.joint_name.resize(joints.size());
   message.joint_parent.resize(joints.size());
   message.joint_axis.assign(joints.size(), std::vector<double>(3));
-  message.joint_at.resize(joints.size());
+  message.joint_place_mm.assign(joints.size(), std::vector<double>(3));
   message.joint_min_rad.resize(joints.size());
   message.joint_max_rad.resize(joints.size());
   for (std::size_t i = 0; i < joints.size(); ++i) {
     message.joint_name[i] = joints[i].name;
     message.joint_parent[i] = joints[i].parent;
     std::ranges::copy(joints[i].axis_T, message.joint_axis[i].begin());
-    message.joint_at[i] = static_cast<std::int32_t>(joints[i].at);
+    std::ranges::copy(body.reference_points_T().col(static_cast<int>(joints[i].at)),
+                      message.joint_place_mm[i].begin());
     message.joint_min_rad[i] = joints[i].min_rad;
     message.joint_max_rad[i] = joints[i].max_rad;
   }
@@ -133,7 +135,10 @@ void FillVoxels(const TrackedSet& set, voxels_t& message) {
   for (int axis = 0; axis < 3; ++axis) message.size[axis] = set.grid.size()[axis];
   WriteRuns(set.grid, message.run);
   message.num_runs = static_cast<std::int32_t>(message.run.size());
-  message.label = set.labels;
+  message.label.clear();
+  if (set.result.state != CaptureState::kSearching) {
+    LabelVoxels(set.grid, set.body, set.result.pose, message.label);
+  }
   message.num_labels = static_cast<std::int32_t>(message.label.size());
 }
 

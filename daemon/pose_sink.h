@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/motion_capture.h"
 
@@ -18,7 +17,6 @@ struct TrackedSet {
   const CaptureResult& result;
   const BodyModel& body;
   const VoxelGrid& grid;
-  const std::vector<std::int8_t>& labels;
 };
 
 /// Takes tracked sets in order, in the pipeline's last thread.

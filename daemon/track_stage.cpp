@@ -11,7 +11,7 @@ TrackStage::TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& si
 void TrackStage::Process(const CarvedSet& set) {
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
-  const CaptureResult& result = capture_.Update(set.grid, set.capture_ns, this);
+  const CaptureResult& result = capture_.Update(set.grid, set.outlines, set.capture_ns, this);
   const std::int64_t update_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kLabel].Record(stage_ns_[0]);
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
@@ -24,8 +24,7 @@ void TrackStage::Process(const CarvedSet& set) {
                .acquisition_frames = capture_.acquisition_frames(),
                .result = result,
                .body = capture_.body(),
-               .grid = set.grid,
-               .labels = capture_.labels()});
+               .grid = set.grid});
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
   recorders_[Stage::kLatency].Record(EpochNs() - from_ns);

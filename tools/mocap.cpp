@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/run_program.h"
+#include "tools/calibrate.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
 #include "tools/simulate.h"
@@ -15,5 +16,6 @@ int main(int argc, char** argv) {
   mocap::AddTrackCommand(app);
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);
+  mocap::AddCalibrateCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }

@@ -12,7 +12,7 @@ namespace {
 
 // Hair and soles, which a silhouette shows and a stadiometer does not.
 constexpr double kHairAndSolesMm = 25;
-constexpr double kWorstCostMm = 75;
+constexpr double kWorstCostMm = 60;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
@@ -58,15 +58,16 @@ bool FaceApart(const PoseState& a, const PoseState& b) {
 
 }  // namespace
 
-bool ModelAcquirer::Locate(const VoxelCloud& cloud, const std::optional<BodySizes>& known) {
-  const std::optional<LocalizedBody> located = LocalizeBody(cloud);
+bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySizes>& known) {
+  const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud);
   if (!located) return false;
   height_mm_ = located->height_mm - kHairAndSolesMm;
   const BodyModel body(table_, known ? *known : AverageSizes(height_mm_));
   SurfaceFitOptions coarse;
-  coarse.samples = 300;
+  coarse.voxels = 150;
+  coarse.edges = 200;
   SurfaceFit fit(coarse);
-  fit.SetVoxels(cloud);
+  fit.SetEvidence(evidence);
 
   std::vector<Candidate> candidates;
   for (const PoseState& guess : PoseHypotheses(body, *located)) {
@@ -85,7 +86,7 @@ bool ModelAcquirer::Locate(const VoxelCloud& cloud, const std::optional<BodySize
   if (opposite != candidates.end()) hypotheses_.push_back({Tracker(body, opposite->pose)});
   frames_ = 0;
   settled_ = false;
-  Refine(cloud, 0);
+  Refine(evidence, 0);
   if (known) {
     for (Hypothesis& hypothesis : hypotheses_) hypothesis.tracker.Resize(*known);
     settled_ = true;
@@ -115,11 +116,11 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
   return change_mm;
 }
 
-void ModelAcquirer::Refine(const VoxelCloud& cloud, double dt_s) {
+void ModelAcquirer::Refine(const Evidence& evidence, double dt_s) {
   ++frames_;
   double change_mm = 0;
   for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.tracker.Update(cloud, dt_s);
+    hypothesis.tracker.Update(evidence, dt_s);
     hypothesis.cost_sum += hypothesis.tracker.quality().Cost();
     const double change = RefineSizes(hypothesis, frames_ > 1);
     if (&hypothesis == &hypotheses_.front()) change_mm = change;

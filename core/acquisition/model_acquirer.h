@@ -18,10 +18,10 @@ class ModelAcquirer {
 
   /// Looks for a body. With `known` sizes they are kept and acquisition is over at once.
   /// @return whether one was found that explains the voxels.
-  bool Locate(const VoxelCloud& cloud, const std::optional<BodySizes>& known);
+  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known);
 
   /// Follows the located body through the next frame and refines its sizes.
-  void Refine(const VoxelCloud& cloud, double dt_s);
+  void Refine(const Evidence& evidence, double dt_s);
 
   /// Whether the sizes have stopped changing and left is told from right.
   bool settled() const { return settled_; }

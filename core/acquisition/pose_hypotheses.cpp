@@ -9,15 +9,23 @@ namespace {
 
 constexpr int kHeadings = 8;
 
+constexpr ArmStance kBentArm{.forward = 30, .elbow = 90};
+constexpr ArmStance kForearmOnThigh{.elbow = 60};
+constexpr LegStance kFrontLeg{.hip = 30, .knee = 15};
+constexpr LegStance kBackLeg{.hip = -10, .knee = 25};
+constexpr LegStance kSeatedLeg{.hip = 85, .knee = 85};
+
+constexpr Stance With(const ArmStance& arms) { return {.arm_l = arms, .arm_r = arms}; }
+
 constexpr std::array<Stance, 8> kStances = {
-    Stance{},                                                                // at ease
-    Stance{.raise_l = -45, .raise_r = -45},                                  // arms half down
-    Stance{.raise_l = 0, .raise_r = 0},                                      // arms out
-    Stance{.forward_l = 30, .forward_r = 30, .elbow_l = 90, .elbow_r = 90},  // before the chest
-    Stance{.hip_l = 30, .hip_r = -10, .knee_l = 15, .knee_r = 25},           // stepping
-    Stance{.hip_l = -10, .hip_r = 30, .knee_l = 25, .knee_r = 15},           // stepping
-    Stance{.hip_l = 85, .hip_r = 85, .knee_l = 85, .knee_r = 85},            // seated
-    Stance{.elbow_l = 60, .elbow_r = 60, .hip_l = 85, .hip_r = 85, .knee_l = 85, .knee_r = 85}};
+    Stance{},                                          // at ease
+    With(ArmStance{.raise = -45}),                     // arms half down
+    With(ArmStance{.raise = 0}),                       // arms out
+    With(kBentArm),                                    // hands before the chest
+    Stance{.leg_l = kFrontLeg, .leg_r = kBackLeg},     // stepping
+    Stance{.leg_l = kBackLeg, .leg_r = kFrontLeg},     // stepping
+    Stance{.leg_l = kSeatedLeg, .leg_r = kSeatedLeg},  // seated
+    Stance{kForearmOnThigh, kForearmOnThigh, kSeatedLeg, kSeatedLeg}};
 
 }  // namespace
 

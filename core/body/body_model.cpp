@@ -8,12 +8,12 @@ namespace mocap {
 namespace {
 
 constexpr std::array<Segment, kPointCount> kSegmentOfPoint = {
-    Segment::kTorso,     Segment::kHead,      Segment::kUpperArmL, Segment::kUpperArmR,
-    Segment::kThighL,    Segment::kThighR,    Segment::kLowerArmL, Segment::kLowerArmR,
-    Segment::kCalfL,     Segment::kCalfR,     Segment::kTorso,     Segment::kTorso,
-    Segment::kTorso,     Segment::kPelvis,    Segment::kPelvis,    Segment::kUpperArmL,
-    Segment::kUpperArmR, Segment::kLowerArmL, Segment::kLowerArmR, Segment::kThighL,
-    Segment::kThighR,    Segment::kCalfL,     Segment::kCalfR};
+    Segment::kTorso,     Segment::kHead,   Segment::kUpperArmL, Segment::kUpperArmR,
+    Segment::kThighL,    Segment::kThighR, Segment::kLowerArmL, Segment::kLowerArmR,
+    Segment::kCalfL,     Segment::kCalfR,  Segment::kTorso,     Segment::kShoulderL,
+    Segment::kShoulderR, Segment::kPelvis, Segment::kPelvis,    Segment::kUpperArmL,
+    Segment::kUpperArmR, Segment::kHandL,  Segment::kHandR,     Segment::kThighL,
+    Segment::kThighR,    Segment::kCalfL,  Segment::kCalfR};
 
 }  // namespace
 
@@ -74,6 +74,17 @@ void BodyModel::PointJacobian(
   J_point_by_step.middleCols<3>(3) = -Hat(p_WQ - posture.X_WT.p);
   for (int i = carrier; i >= 0; i = table_.joints[i].parent) {
     J_point_by_step.col(kTorsoDof + i) = posture.axis_W[i].cross(p_WQ - posture.point_W[i]);
+  }
+}
+
+void BodyModel::DirectionalJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
+                                    const Vector3& direction_W, PoseStep& J_by_step) const {
+  J_by_step.setZero(dof());
+  J_by_step.head<3>() = direction_W;
+  J_by_step.segment<3>(3) = (p_WQ - posture.X_WT.p).cross(direction_W);
+  for (int i = carrier; i >= 0; i = table_.joints[i].parent) {
+    const Vector3 arm_W = p_WQ - posture.point_W[i];
+    J_by_step[kTorsoDof + i] = posture.axis_W[i].dot(arm_W.cross(direction_W));
   }
 }
 

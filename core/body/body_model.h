@@ -39,8 +39,8 @@ class BodyModel {
   /// Takes new sizes; the chain stays.
   void Resize(const BodySizes& sizes);
 
-  /// The 23 points at the reference configuration, p_TQ; 3 × 23 [mm].
-  const BodyPoints& reference_points_T() const { return reference_points_T_; }
+  /// The 23 points and further joints at the reference configuration, p_TQ; 3 × 29 [mm].
+  const BodyPlaces& reference_points_T() const { return reference_points_T_; }
   /// The flesh at the reference configuration.
   const std::vector<Capsule>& shape() const { return shape_; }
   /// Row of the last axis that moves a point; -1: only the torso does.
@@ -59,13 +59,18 @@ class BodyModel {
   void PointJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
                      Eigen::Ref<Eigen::Matrix<double, 3, Eigen::Dynamic>> J_point_by_step) const;
 
+  /// Differentiates how far such a point lies along a direction: one row n^T of PointJacobian, as a
+  /// column.
+  void DirectionalJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
+                           const Vector3& direction_W, PoseStep& J_by_step) const;
+
   /// Reads the paper's 23 numbers off a pose; angles that the table lacks are 0. Table 1.
   PaperState PaperStateOf(const PoseState& pose) const;
 
  private:
   BodyTable table_;
   BodySizes sizes_;
-  BodyPoints reference_points_T_;
+  BodyPlaces reference_points_T_;
   std::vector<Capsule> shape_;
   std::array<int, kPointCount> point_carrier_{};
 };

@@ -22,7 +22,8 @@ enum class BodyPart {
 };
 inline constexpr int kBodyPartCount = 10;
 
-/// The 23 points of Table 2. The first ten are the parts' centroids.
+/// The 23 points of Table 2, the first ten of which are the parts' centroids; and after them the
+/// joints that the paper's body lacks.
 enum class Point {
   kTorso = 0,
   kHead,
@@ -46,15 +47,25 @@ enum class Point {
   kKneeL,
   kKneeR,
   kFootL,
-  kFootR
+  kFootR,
+  kClavicleL,  ///< Where the collar bone meets the breast bone.
+  kClavicleR,
+  kWristL,
+  kWristR,
+  kAnkleL,
+  kAnkleR
 };
-inline constexpr int kPointCount = 23;
+inline constexpr int kPointCount = 23;  ///< Of Table 2.
+inline constexpr int kPlaceCount = 29;
 
 inline constexpr std::array<std::string_view, kPointCount> kPointNames = {
     "torso",        "head",        "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r",
     "lower_arm_l",  "lower_arm_r", "calf_l",      "calf_r",      "neck",    "shoulder_l",
     "shoulder_r",   "hip_l",       "hip_r",       "elbow_l",     "elbow_r", "fingertips_l",
     "fingertips_r", "knee_l",      "knee_r",      "foot_l",      "foot_r"};
+/// Of the joints that follow the 23 points.
+inline constexpr std::array<std::string_view, kPlaceCount - kPointCount> kMoreJointNames = {
+    "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r"};
 
 /// Number of rotation axes of the paper's body (Table 1).
 inline constexpr int kPaperAngleCount = 16;

@@ -7,7 +7,7 @@ namespace {
 
 class ShapeBuilder {
  public:
-  ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPoints& points_T)
+  ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPlaces& points_T)
       : table_(table), sizes_(sizes), points_T_(points_T) {}
 
   Vector3 At(Point point) const { return points_T_.col(static_cast<int>(point)); }
@@ -18,37 +18,48 @@ class ShapeBuilder {
   }
   std::vector<Capsule> Take() { return std::move(capsules_); }
 
+  // The chest is deeper than the waist, and the shoulder blades lie behind.
   void AddTrunk() {
     const BodySizes& s = sizes_;
     const double radius = s.torso_depth / 2;
     const double chest_y = std::max(0.0, s.torso_width / 2 - radius);
-    const double hip_radius = 0.95 * radius;
     const Vector3 shoulder = At(Point::kShoulderL);
     const Vector3 hip = At(Point::kHipL);
     for (const double side : {1.0, -1.0}) {
-      Add(BodyPart::kTorso, Segment::kTorso, {0, side * chest_y, 0},
-          {0, side * chest_y, shoulder.z() - 0.5 * radius}, 0.9 * radius, 0.95 * radius);
-      Add(BodyPart::kTorso, Segment::kTorso,
-          {shoulder.x(), side * chest_y, shoulder.z() - 0.1 * radius},
-          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.65 * radius, 0.45 * radius);
-      Add(BodyPart::kTorso, Segment::kPelvis, {0, side * chest_y, 0},
-          {hip.x(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.9 * radius, hip_radius);
+      const Vector3 waist(0, side * 0.85 * chest_y, 0);
+      Add(BodyPart::kTorso, Segment::kTorso, waist,
+          {-0.05 * radius, side * chest_y, shoulder.z() - 0.5 * radius}, 0.85 * radius,
+          1.02 * radius);
+      Add(BodyPart::kTorso, side > 0 ? Segment::kShoulderL : Segment::kShoulderR,
+          {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.1 * radius},
+          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.8 * radius, 0.47 * radius);
+      Add(BodyPart::kTorso, Segment::kPelvis, waist,
+          {hip.x(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius, 0.95 * radius);
     }
   }
 
+  // A skull that is deeper than broad, the jaw before and below it, and the neck.
   void AddHead() {
     const BodySizes& s = sizes_;
-    const double radius = s.head_width / 2;
+    const double width = s.head_width;
     const Vector3 head = At(Point::kHead);
-    const Vector3 up(0, 0, std::max(0.0, s.head / 2 - radius));
-    Add(BodyPart::kHead, Segment::kHead, head - up, head + up, radius, radius);
+    const double skull_radius = 0.45 * width;
+    const double skull_z = s.head / 2 - skull_radius;
+    const Vector3 forward(0.12 * width, 0, 0);
+    Add(BodyPart::kHead, Segment::kHead, head - forward + Vector3(0, 0, skull_z),
+        head + forward + Vector3(0, 0, skull_z), skull_radius, skull_radius);
+    const double jaw_radius = 0.36 * width;
+    Add(BodyPart::kHead, Segment::kHead, head + Vector3(0.1 * width, 0, skull_z),
+        head + Vector3(0.2 * width, 0, -s.head / 2 + jaw_radius), 0.4 * width, jaw_radius);
     const Vector3 neck = At(Point::kNeck);
-    Add(BodyPart::kTorso, Segment::kTorso, neck - Vector3(0, 0, 0.3 * s.neck),
-        neck + 0.5 * (head - neck), 0.62 * radius, 0.6 * radius);
+    const double neck_radius = 0.31 * width;
+    Add(BodyPart::kTorso, Segment::kTorso, neck + Vector3(0.05 * width, 0, -0.3 * s.neck),
+        neck + 0.5 * (head - neck), neck_radius, neck_radius);
   }
 
   void AddArm(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
-              Point shoulder_point, Point elbow_point, Point tips_point) {
+              Segment hand, Point shoulder_point, Point elbow_point, Point wrist_point,
+              Point tips_point) {
     const BodySizes& s = sizes_;
     const Vector3 shoulder = At(shoulder_point);
     const Vector3 elbow = At(elbow_point);
@@ -56,55 +67,67 @@ class ShapeBuilder {
     const double upper_radius = s.upper_arm_width / 2;
     const double lower_radius = s.lower_arm_width / 2;
     Add(upper, upper_segment, shoulder, elbow, 1.1 * upper_radius, 0.85 * upper_radius);
-    const Vector3 wrist = elbow + 0.58 * (tips - elbow);
-    const Vector3 hand = elbow + 0.93 * (tips - elbow);
+    const Vector3 wrist = At(wrist_point);
+    const double hand_radius = 0.9 * lower_radius;
+    const Vector3 fingers = tips - hand_radius * (tips - elbow).normalized();
     Add(lower, lower_segment, elbow, wrist, 1.1 * lower_radius, 0.75 * lower_radius);
-    Add(lower, lower_segment, wrist, hand, 0.85 * lower_radius, 0.55 * lower_radius);
+    Add(lower, hand, wrist, fingers, lower_radius, hand_radius);
   }
 
+  // The thigh's flesh lies before the line from hip to knee, the calf's behind that from knee to
+  // ankle. Foot length and breadth as shares of the stature: Winter 2009, Fig. 4.1.
   void AddLeg(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
-              Point hip_point, Point knee_point, Point foot_point) {
+              Segment foot, Point hip_point, Point knee_point, Point ankle_point,
+              Point foot_point) {
     const BodySizes& s = sizes_;
     const Vector3 hip = At(hip_point);
     const Vector3 knee = At(knee_point);
     const Vector3 sole = At(foot_point);
     const double thigh_radius = s.thigh_width / 2;
     const double calf_radius = s.calf_width / 2;
-    // The calf's flesh lies behind the line from knee to ankle.
-    const Vector3 behind(-0.35 * calf_radius, 0, 0);
-    const Vector3 ankle = sole + Vector3(0, 0, 1.1 * calf_radius);
-    Add(upper, upper_segment, hip, knee, 1.1 * thigh_radius, 1.1 * calf_radius);
-    const Vector3 belly = knee + 0.3 * (ankle - knee) + behind;
+    const Vector3 front = hip + 0.55 * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);
+    const double front_radius = 0.5 * (1.1 * thigh_radius + 1.1 * calf_radius);
+    Add(upper, upper_segment, hip, front, 1.1 * thigh_radius, front_radius);
+    Add(upper, upper_segment, front, knee, front_radius, 1.05 * calf_radius);
+    const Vector3 ankle = At(ankle_point);
+    const Vector3 belly = knee + 0.3 * (ankle - knee) - Vector3(0.35 * calf_radius, 0, 0);
     Add(lower, lower_segment, knee, belly, 1.05 * calf_radius, 1.1 * calf_radius);
     Add(lower, lower_segment, belly, ankle, 1.1 * calf_radius, 0.7 * calf_radius);
-    const double foot_length = 0.152 * s.Stature();
-    const double foot_radius = 0.65 * calf_radius;
-    Add(lower, lower_segment, sole + Vector3(-0.10 * foot_length, 0, foot_radius),
-        sole + Vector3(0.6 * foot_length, 0, 0.8 * foot_radius), foot_radius, 0.8 * foot_radius);
+    const double length = 0.152 * s.Stature();
+    const double breadth = 0.055 * s.Stature();
+    const double heel_radius = 0.38 * breadth;
+    const double ball_radius = 0.3 * breadth;
+    for (const double side : {1.0, -1.0}) {
+      Add(lower, foot, sole + Vector3(-0.1 * length, 0, heel_radius),
+          sole + Vector3(0.65 * length, side * 0.25 * breadth, ball_radius), heel_radius,
+          ball_radius);
+    }
   }
 
  private:
   const BodyTable& table_;
   const BodySizes& sizes_;
-  const BodyPoints& points_T_;
+  const BodyPlaces& points_T_;
   std::vector<Capsule> capsules_;
 };
 
 }  // namespace
 
 std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
-                             const BodyPoints& reference_points_T) {
+                             const BodyPlaces& reference_points_T) {
   ShapeBuilder builder(table, sizes, reference_points_T);
   builder.AddTrunk();
   builder.AddHead();
   builder.AddArm(BodyPart::kUpperArmL, BodyPart::kLowerArmL, Segment::kUpperArmL,
-                 Segment::kLowerArmL, Point::kShoulderL, Point::kElbowL, Point::kFingertipsL);
+                 Segment::kLowerArmL, Segment::kHandL, Point::kShoulderL, Point::kElbowL,
+                 Point::kWristL, Point::kFingertipsL);
   builder.AddArm(BodyPart::kUpperArmR, BodyPart::kLowerArmR, Segment::kUpperArmR,
-                 Segment::kLowerArmR, Point::kShoulderR, Point::kElbowR, Point::kFingertipsR);
+                 Segment::kLowerArmR, Segment::kHandR, Point::kShoulderR, Point::kElbowR,
+                 Point::kWristR, Point::kFingertipsR);
   builder.AddLeg(BodyPart::kThighL, BodyPart::kCalfL, Segment::kThighL, Segment::kCalfL,
-                 Point::kHipL, Point::kKneeL, Point::kFootL);
+                 Segment::kFootL, Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kFootL);
   builder.AddLeg(BodyPart::kThighR, BodyPart::kCalfR, Segment::kThighR, Segment::kCalfR,
-                 Point::kHipR, Point::kKneeR, Point::kFootR);
+                 Segment::kFootR, Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kFootR);
   return builder.Take();
 }
 
@@ -116,6 +139,39 @@ PosedCapsule::Distance PosedCapsule::DistanceTo(const Vector3& p_WQ) const {
   const Vector3 closest = a_W + share * core;
   const double radius = radius_a_mm + share * (radius_b_mm - radius_a_mm);
   return {closest, (p_WQ - closest).norm() - radius, share};
+}
+
+PosedCapsule::SegmentDistance PosedCapsule::DistanceTo(const Vector3& from_W,
+                                                       const Vector3& to_W) const {
+  // Closest points of two segments (Ericson 2005, §5.1.9).
+  const Vector3 core = b_W - a_W;
+  const Vector3 along = to_W - from_W;
+  const Vector3 between = a_W - from_W;
+  const double core_sq = std::max(core.squaredNorm(), 1e-9);
+  const double along_sq = std::max(along.squaredNorm(), 1e-9);
+  const double dot = core.dot(along);
+  const double c = core.dot(between);
+  const double f = along.dot(between);
+  const double slant = core_sq * along_sq - dot * dot;
+  double share = slant > 1e-9 * core_sq * along_sq
+                     ? std::clamp((dot * f - c * along_sq) / slant, 0.0, 1.0)
+                     : 0.5;
+  const double on_segment = std::clamp((dot * share + f) / along_sq, 0.0, 1.0);
+  share = std::clamp((dot * on_segment - c) / core_sq, 0.0, 1.0);
+  const Vector3 core_W = a_W + share * core;
+  Vector3 segment_W = from_W + on_segment * along;
+  // A taper's surface is nearest a little beside the place that is nearest to its core.
+  const bool inside_both = share > 0 && share < 1 && on_segment > 0 && on_segment < 1;
+  if (inside_both && radius_a_mm != radius_b_mm) {
+    const double slope = (radius_b_mm - radius_a_mm) * dot / core_sq;
+    const double curvature = slant / core_sq / std::max(1.0, (segment_W - core_W).norm());
+    const double slide = std::clamp(slope / curvature, -0.5, 0.5);
+    segment_W = from_W + std::clamp(on_segment + slide, 0.0, 1.0) * along;
+    const Distance distance = DistanceTo(segment_W);
+    return {distance.core_W, segment_W, distance.outside_mm, distance.share};
+  }
+  const double radius = radius_a_mm + share * (radius_b_mm - radius_a_mm);
+  return {core_W, segment_W, (segment_W - core_W).norm() - radius, share};
 }
 
 }  // namespace mocap

@@ -2,6 +2,7 @@
 // surface.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/body/body_sizes.h"
@@ -21,14 +22,24 @@ struct Capsule {
 
 /// The capsules of a body at the reference configuration.
 std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
-                             const BodyPoints& reference_points_T);
+                             const BodyPlaces& reference_points_T);
 
 /// A capsule where a pose puts it.
 struct PosedCapsule {
+  PosedCapsule(const Vector3& a, const Vector3& b, double radius_a, double radius_b)
+      : a_W(a),
+        b_W(b),
+        radius_a_mm(radius_a),
+        radius_b_mm(radius_b),
+        middle_W((a + b) / 2),
+        reach_mm((b - a).norm() / 2 + std::max(radius_a, radius_b)) {}
+
   Vector3 a_W;
   Vector3 b_W;
   double radius_a_mm;
   double radius_b_mm;
+  Vector3 middle_W;
+  double reach_mm;  ///< All of it lies this near to its middle.
 
   /// The closest place of the core to a point, and how far the point lies outside the surface.
   struct Distance {
@@ -37,6 +48,15 @@ struct PosedCapsule {
     double share;       ///< Along the core: 0 at a, 1 at b.
   };
   Distance DistanceTo(const Vector3& p_WQ) const;
+
+  /// The place of the core that is closest to a line segment.
+  struct SegmentDistance {
+    Vector3 core_W;
+    Vector3 segment_W;  ///< The place of the segment that is closest.
+    double outside_mm;  ///< Negative where the segment cuts into the capsule.
+    double share;       ///< Along the core: 0 at a, 1 at b.
+  };
+  SegmentDistance DistanceTo(const Vector3& from_W, const Vector3& to_W) const;
 };
 
 }  // namespace mocap

@@ -13,6 +13,11 @@ constexpr double kShoulderBehind = 0.03;
 constexpr double kShoulderBelowNeck = 0.19;
 // The head's centre leans forward of C7/T1 by this share of its height above it.
 constexpr double kHeadForward = 0.35;
+// Joints between the shoulders, as a share of the width between these; in the forearm with the
+// hand, and above the sole (Winter 2009, Fig. 4.1: 0.146 of 0.254, and 0.039 of 0.285).
+constexpr double kClavicleAside = 0.07;
+constexpr double kWristShare = 0.575;
+constexpr double kAnkleHeight = 0.137;
 
 }  // namespace
 
@@ -36,9 +41,9 @@ BodySizes AverageSizes(double stature_mm) {
           .hip_width = 0.110 * h};
 }
 
-BodyPoints ReferencePoints(const BodySizes& s) {
+BodyPlaces ReferencePoints(const BodySizes& s) {
   const double top = s.torso / 2;
-  BodyPoints p;
+  BodyPlaces p;
   const auto at = [&p](Point point) { return p.col(static_cast<int>(point)); };
   at(Point::kTorso).setZero();
   at(Point::kNeck) << -kNeckBehind * s.torso, 0, top;
@@ -46,7 +51,7 @@ BodyPoints ReferencePoints(const BodySizes& s) {
   at(Point::kHead) += Eigen::Vector3d(kHeadForward * s.neck, 0, s.neck);
   const auto set_side = [&](double side, Point shoulder, Point upper_arm, Point elbow,
                             Point lower_arm, Point fingertips, Point hip, Point thigh, Point knee,
-                            Point calf, Point foot) {
+                            Point calf, Point foot, Point clavicle, Point wrist, Point ankle) {
     at(shoulder) << -kShoulderBehind * s.torso, side * s.shoulder_width / 2,
         top - kShoulderBelowNeck * s.torso;
     at(elbow) = at(shoulder);
@@ -62,13 +67,17 @@ BodyPoints ReferencePoints(const BodySizes& s) {
     at(lower_arm) = (at(elbow) + at(fingertips)) / 2;
     at(thigh) = (at(hip) + at(knee)) / 2;
     at(calf) = (at(knee) + at(foot)) / 2;
+    at(clavicle) << at(shoulder).x(), side * kClavicleAside * s.shoulder_width, at(shoulder).z();
+    at(wrist) = at(elbow) + kWristShare * (at(fingertips) - at(elbow));
+    at(ankle) = at(foot);
+    at(ankle).z() += kAnkleHeight * s.calf;
   };
   set_side(1, Point::kShoulderL, Point::kUpperArmL, Point::kElbowL, Point::kLowerArmL,
            Point::kFingertipsL, Point::kHipL, Point::kThighL, Point::kKneeL, Point::kCalfL,
-           Point::kFootL);
+           Point::kFootL, Point::kClavicleL, Point::kWristL, Point::kAnkleL);
   set_side(-1, Point::kShoulderR, Point::kUpperArmR, Point::kElbowR, Point::kLowerArmR,
            Point::kFingertipsR, Point::kHipR, Point::kThighR, Point::kKneeR, Point::kCalfR,
-           Point::kFootR);
+           Point::kFootR, Point::kClavicleR, Point::kWristR, Point::kAnkleR);
   return p;
 }
 

@@ -39,8 +39,11 @@ BodySizes AverageSizes(double stature_mm);
 
 using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
 
-/// The 23 points at the reference configuration in the torso's frame; 3 × 23, column i is p_TQ of
-/// point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
-BodyPoints ReferencePoints(const BodySizes& sizes);
+/// The same with the joints that follow them.
+using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
+
+/// Points and joints at the reference configuration in the torso's frame; 3 × 29, column i is p_TQ
+/// of point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
+BodyPlaces ReferencePoints(const BodySizes& sizes);
 
 }  // namespace mocap

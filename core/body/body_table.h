@@ -23,7 +23,7 @@ struct JointAxis {
   double rest_rad = 0, rest_std_rad = 0;
 };
 
-/// Segments that are moved as one; the pelvis is a segment of its own where there is a waist.
+/// Segments that are moved as one; a table may move several by the same axis.
 enum class Segment {
   kTorso = 0,
   kPelvis,
@@ -35,11 +35,18 @@ enum class Segment {
   kLowerArmL,
   kLowerArmR,
   kCalfL,
-  kCalfR
+  kCalfR,
+  kShoulderL,  ///< The shoulder girdle.
+  kShoulderR,
+  kHandL,
+  kHandR,
+  kFootL,
+  kFootR
 };
-inline constexpr int kSegmentCount = 11;
+inline constexpr int kSegmentCount = 17;
 
-/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of them.
+/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of
+/// them.
 enum class Measurement { kPoints, kSurface };
 
 /// The chain: what `--body` chooses. Same code for every table.

@@ -11,7 +11,7 @@
 namespace mocap {
 
 /// More axes than any body table may have; keeps the filter's matrices free of the heap.
-inline constexpr int kMaxJoints = 32;
+inline constexpr int kMaxJoints = 40;
 /// Torso translation and rotation come first in every tangent vector.
 inline constexpr int kTorsoDof = 6;
 inline constexpr int kMaxDof = kTorsoDof + kMaxJoints;

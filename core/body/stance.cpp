@@ -3,28 +3,37 @@
 namespace mocap {
 namespace {
 
+// By the numbers and signs of Table 1.
 double DegreesOf(const Stance& stance, int paper_angle) {
   switch (paper_angle) {
     case 3:
-      return stance.raise_l;
+      return stance.arm_l.raise;
     case 4:
-      return -stance.raise_r;
+      return -stance.arm_r.raise;
     case 5:
-      return -stance.forward_l;
+      return -stance.arm_l.forward;
     case 6:
-      return stance.forward_r;
+      return stance.arm_r.forward;
+    case 7:
+      return stance.arm_l.twist;
+    case 8:
+      return stance.arm_r.twist;
     case 9:
-      return -stance.elbow_l;
+      return -stance.arm_l.elbow;
     case 10:
-      return stance.elbow_r;
+      return stance.arm_r.elbow;
+    case 11:
+      return stance.leg_l.spread;
+    case 12:
+      return -stance.leg_r.spread;
     case 13:
-      return -stance.hip_l;
+      return -stance.leg_l.hip;
     case 14:
-      return -stance.hip_r;
+      return -stance.leg_r.hip;
     case 15:
-      return stance.knee_l;
+      return stance.leg_l.knee;
     case 16:
-      return stance.knee_r;
+      return stance.leg_r.knee;
     default:
       return 0;
   }

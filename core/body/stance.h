@@ -6,13 +6,25 @@
 
 namespace mocap {
 
-/// A stance [degrees]. All zero but for the arms would be: upright, arms straight out to the sides.
+/// An arm [degrees].
+struct ArmStance {
+  double raise = -75;  ///< -90 hangs, 0 points sideways.
+  double forward = 0;  ///< Swung to the front.
+  double twist = 0;    ///< Turned in about its own axis.
+  double elbow = 15;   ///< Flexion.
+};
+
+/// A leg [degrees].
+struct LegStance {
+  double hip = 5;     ///< Flexion.
+  double spread = 0;  ///< Outward.
+  double knee = 10;   ///< Flexion.
+};
+
+/// A body upright, arms and legs as given.
 struct Stance {
-  double raise_l = -75, raise_r = -75;  ///< Arm: -90 hangs, 0 points sideways.
-  double forward_l = 0, forward_r = 0;  ///< Arm swung to the front.
-  double elbow_l = 15, elbow_r = 15;    ///< Flexion.
-  double hip_l = 5, hip_r = 5;          ///< Flexion.
-  double knee_l = 10, knee_r = 10;      ///< Flexion.
+  ArmStance arm_l{}, arm_r{};
+  LegStance leg_l{}, leg_r{};
 };
 
 /// The angles of a table's joints in a stance; axes that the paper's body lacks are at rest.

@@ -17,7 +17,7 @@ constexpr int kSide = 2 * kRadius_px + 1;
 constexpr float kLeastContrast = 4;
 // Pictures are gamma-coded: a pixel half covered by a darker person looks brighter than the middle
 // of the two colours.
-constexpr float kHalfCovered = 0.37f;
+constexpr float kHalfCovered = 0.4f;
 
 // The pixels of a row from `x` − kRadius_px to `x` + kRadius_px, in the lowest bits.
 unsigned BitsAround(const Silhouette& s, int x, int y) {

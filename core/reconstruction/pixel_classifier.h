@@ -29,7 +29,7 @@ class PixelClassifier {
   /// Factors by which thresholds must be exceeded. They stand for what an empty studio does not
   /// show: tints of shadows, and the noise that a codec lets through only where something moves.
   /// Measured on takes with true masks; a tenth more or less serves as well.
-  static constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.15f, 1.3f};
+  static constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.35f};
   /// One pixel alone must differ more, for there are many of them.
   static constexpr float kPixelMargin = 1.6f;
 

@@ -1,101 +1,160 @@
 #include "core/tracking/limb_recovery.h"
 
+#include <algorithm>
 #include <array>
-#include <vector>
+#include <cmath>
 
 #include "core/body/stance.h"
-#include "core/tracking/pose_filter.h"
+#include "core/tracking/limb_search.h"
 
 namespace mocap {
 namespace {
 
-constexpr double kUnexplainedShare = 0.02;
-constexpr double kBetterMm = 1.0;
-constexpr int kIterations = 4;
+constexpr int kVoxels = 150;
+constexpr int kEdges = 600;
+constexpr double kReachMm = 150;
+constexpr double kUnexplainedMm = 60;
+constexpr double kUnexplainedShare = 0.01;
+constexpr double kBetterMm = 0.5;
+constexpr int kRefined = 10;
+constexpr std::size_t kLeftArms = 4;  // For each of them the right arm is searched.
 constexpr int kRestFrames = 3;
-constexpr std::array<Segment, 4> kLimbEnds = {Segment::kLowerArmL, Segment::kLowerArmR,
-                                              Segment::kCalfL, Segment::kCalfR};
+constexpr int kIterations = 5;
+constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
+                                              Segment::kFootR};
 
-std::vector<Stance> Stances(Segment limb_end) {
+std::vector<Stance> ArmStances() {
   std::vector<Stance> stances;
-  if (limb_end == Segment::kLowerArmL || limb_end == Segment::kLowerArmR) {
-    for (const double raise : {-85.0, -35.0, 20.0, 75.0}) {
-      for (const double forward : {-25.0, 50.0}) {
-        for (const double elbow : {15.0, 95.0}) {
-          stances.push_back({.raise_l = raise,
-                             .raise_r = raise,
-                             .forward_l = forward,
-                             .forward_r = forward,
-                             .elbow_l = elbow,
-                             .elbow_r = elbow});
+  for (const double raise : {-85.0, -45.0, 0.0, 45.0, 85.0}) {
+    for (const double forward : {-35.0, 15.0, 65.0, 115.0}) {
+      for (const double elbow : {15.0, 60.0, 110.0}) {
+        for (const double twist : {-50.0, 0.0, 50.0}) {
+          if (elbow < 30 && twist != 0) continue;
+          const ArmStance arm{raise, forward, twist, elbow};
+          stances.push_back({.arm_l = arm, .arm_r = arm, .leg_l = {}, .leg_r = {}});
         }
       }
-    }
-    return stances;
-  }
-  for (const double hip : {-60.0, -15.0, 30.0, 85.0}) {
-    for (const double knee : {10.0, 80.0}) {
-      stances.push_back({.hip_l = hip, .hip_r = hip, .knee_l = knee, .knee_r = knee});
     }
   }
   return stances;
 }
 
-// Rows of the axes that move this limb and nothing of the trunk.
-std::vector<int> JointsOf(const BodyTable& table, Segment limb_end) {
-  std::vector<int> rows;
-  const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];
-  for (int i = table.carrier[static_cast<int>(limb_end)]; i >= 0 && i != trunk;
-       i = table.joints[i].parent) {
-    rows.push_back(i);
+std::vector<Stance> LegStances() {
+  std::vector<Stance> stances;
+  for (const double hip : {-50.0, -15.0, 20.0, 60.0, 100.0}) {
+    for (const double spread : {-10.0, 30.0, 70.0}) {
+      for (const double knee : {10.0, 60.0, 110.0}) {
+        const LegStance leg{hip, spread, knee};
+        stances.push_back({.arm_l = {}, .arm_r = {}, .leg_l = leg, .leg_r = leg});
+      }
+    }
   }
-  return rows;
+  return stances;
 }
 
-SurfaceFitOptions CoarseOptions() {
-  SurfaceFitOptions options;
-  options.samples = 300;
-  return options;
+double UnexplainedShare(const std::vector<Contact>& contacts,
+                        const std::vector<PosedCapsule>& posed) {
+  int edges = 0;
+  int unexplained = 0;
+  for (const Contact& contact : contacts) {
+    if (!contact.is_edge) continue;
+    ++edges;
+    const ContactMatch match = MatchContact(contact, posed, kReachMm);
+    unexplained += match.capsule < 0 || std::abs(match.distance.outside_mm) > kUnexplainedMm;
+  }
+  return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
+}
+
+struct Candidate {
+  PoseState pose;
+  double cost_mm;
+};
+
+bool IsCheaper(const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; }
+
+// The best of the stances, refined, the best first.
+std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
+                              const std::vector<Stance>& stances, const PoseState& pose) {
+  std::vector<Candidate> candidates;
+  for (const Stance& stance : stances) {
+    const JointAngles angles = AnglesOf(stance, table);
+    Candidate candidate{pose, 0};
+    for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
+    candidate.cost_mm = search.CostAt(candidate.pose);
+    candidates.push_back(candidate);
+  }
+  const auto end = candidates.begin() + std::min<std::ptrdiff_t>(kRefined, std::ssize(candidates));
+  std::partial_sort(candidates.begin(), end, candidates.end(), IsCheaper);
+  candidates.erase(end, candidates.end());
+  for (Candidate& candidate : candidates) {
+    search.Refine(candidate.pose, kIterations);
+    candidate.cost_mm = search.CostAt(candidate.pose);
+  }
+  std::sort(candidates.begin(), candidates.end(), IsCheaper);
+  return candidates;
 }
 
 }  // namespace
 
-LimbRecovery::LimbRecovery() : fit_(CoarseOptions()) {}
+LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
 
-std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const VoxelCloud& cloud,
-                                               const PoseState& pose) {
+const std::vector<Stance>& LimbRecovery::StancesOf(Segment limb_end) const {
+  const bool is_arm = limb_end == Segment::kHandL || limb_end == Segment::kHandR;
+  return is_arm ? arm_stances_ : leg_stances_;
+}
+
+bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
+  body.PoseShape(body.PostureAt(pose), posed_);
+  return UnexplainedShare(contacts_, posed_) < kUnexplainedShare;
+}
+
+bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
+                              PoseState& pose) const {
+  LimbSearch search(body, evidence, contacts_, limb_end, limb_end, pose);
+  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
+  if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
+  pose = best.pose;
+  return true;
+}
+
+bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                               PoseState& pose) const {
+  const double before_mm = fit.QualityAt(body, pose).Cost();
+  LimbSearch left_search(body, evidence, contacts_, Segment::kHandL, Segment::kHandR, pose);
+  std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
+  candidates.resize(std::min(candidates.size(), kLeftArms));
+  for (Candidate& candidate : candidates) {
+    LimbSearch right_search(body, evidence, contacts_, Segment::kHandR, Segment::kHandR,
+                            candidate.pose);
+    candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
+    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
+  }
+  const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
+  if (best.cost_mm > before_mm - kBetterMm) return false;
+  pose = best.pose;
+  return true;
+}
+
+std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
+                                               SurfaceFit& fit, const PoseState& pose) {
+  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
+  if (IsExplained(body, pose)) return std::nullopt;
+  PoseState now = pose;
+  bool changed = false;
+  for (const Segment limb_end : kLimbEnds) {
+    changed |= RecoverOne(body, evidence, limb_end, now);
+  }
   if (resting_ > 0) {
     --resting_;
-    return std::nullopt;
-  }
-  fit_.SetVoxels(cloud);
-  const SurfaceFitQuality before = fit_.QualityAt(body, pose);
-  if (before.unexplained_share < kUnexplainedShare) return std::nullopt;
-
-  std::optional<PoseState> best;
-  double best_cost = before.Cost() - kBetterMm;
-  for (const Segment limb_end : kLimbEnds) {
-    const std::vector<int> rows = JointsOf(body.table(), limb_end);
-    for (const Stance& stance : Stances(limb_end)) {
-      const JointAngles angles = AnglesOf(stance, body.table());
-      PoseState guess = pose;
-      for (const int row : rows) guess.theta[row] = angles[row];
-      PoseFilter filter{MotionNoise{}};
-      filter.Reset(guess, 15, 0.4);
-      filter.Update(
-          body.table(),
-          [&](const PoseState& at, UpdateEquations& equations) {
-            fit_.Linearize(body, at, equations);
-          },
-          kIterations);
-      const double cost = fit_.QualityAt(body, filter.pose()).Cost();
-      if (cost >= best_cost) continue;
-      best_cost = cost;
-      best = filter.pose();
+  } else if (!IsExplained(body, now)) {
+    if (RecoverArms(body, evidence, fit, now)) {
+      changed = true;
+    } else {
+      resting_ = kRestFrames;
     }
   }
-  if (!best) resting_ = kRestFrames;
-  return best;
+  if (!changed) return std::nullopt;
+  return now;
 }
 
 }  // namespace mocap

@@ -1,28 +1,44 @@
-// §6.2: finds a limb again that has been lost, by the shape of the voxels and not by their distance
+// §6.2: finds a limb again that has been lost, by what it should explain and not by its distance
 // from the prediction.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/body/body_model.h"
+#include "core/body/stance.h"
+#include "core/tracking/contact.h"
+#include "core/tracking/evidence.h"
 #include "core/tracking/surface_fit.h"
-#include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 
-/// Tries each arm and leg in other stances when much of the surface is explained by no part. After
-/// a search in vain it rests for some frames.
+/// Tries each arm and leg in many stances when outlines are left that no part explains, and both
+/// arms together when that does not help: each may have taken the other's place. Only what the rest
+/// of the body does not explain is matched, so that a stance costs microseconds.
 class LimbRecovery {
  public:
   LimbRecovery();
 
-  /// Looks for a pose that explains clearly more of the voxels than `pose` does, changing one limb.
-  std::optional<PoseState> Recover(const BodyModel& body, const VoxelCloud& cloud,
+  /// Looks for a pose that explains clearly more of the evidence than `pose` does, changing the
+  /// limbs alone.
+  /// @param fit  holds the evidence.
+  std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                    const PoseState& pose);
 
  private:
-  SurfaceFit fit_;
-  int resting_ = 0;  ///< Frames to go until the next search.
+  const std::vector<Stance>& StancesOf(Segment limb_end) const;
+  bool IsExplained(const BodyModel& body, const PoseState& pose);
+  bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
+                  PoseState& pose) const;
+  bool RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                   PoseState& pose) const;
+
+  std::vector<Stance> arm_stances_;
+  std::vector<Stance> leg_stances_;
+  int resting_ = 0;  ///< Frames to go until both arms are searched together again.
+  std::vector<Contact> contacts_;
+  std::vector<PosedCapsule> posed_;
 };
 
 }  // namespace mocap

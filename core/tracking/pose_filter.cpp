@@ -9,9 +9,12 @@ namespace mocap {
 namespace {
 
 constexpr double kLimitStdRad = 0.01;
+// Steps that are not worth another iteration.
+constexpr double kSmallStepMm = 0.5;
+constexpr double kSmallStepRad = 0.003;
 
 void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquations& equations) {
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxDof> J(pose.dof());
+  PoseStep J(pose.dof());
   for (int i = 0; i < pose.theta.size(); ++i) {
     const JointAxis& joint = table.joints[i];
     const double angle = pose.theta[i];
@@ -38,18 +41,32 @@ PoseCovariance InverseOfPositive(const PoseCovariance& matrix) {
 void UpdateEquations::Reset(int dof) {
   information_.setZero(dof, dof);
   gradient_.setZero(dof);
+  rows_.resize(dof, kBlock);
+  waiting_ = 0;
 }
 
-void UpdateEquations::Add(const Eigen::Ref<const Eigen::Matrix<double, 1, Eigen::Dynamic>>& J,
-                          double residual, double variance) {
-  information_.noalias() += J.transpose() * J / variance;
-  gradient_.noalias() += J.transpose() * (residual / variance);
+void UpdateEquations::Add(const PoseStep& J, double residual, double variance) {
+  rows_.col(waiting_++) = J / std::sqrt(variance);
+  gradient_ += J * (residual / variance);
+  if (waiting_ == kBlock) Flush();
+}
+
+void UpdateEquations::Flush() {
+  information_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.leftCols(waiting_));
+  waiting_ = 0;
+}
+
+const PoseCovariance& UpdateEquations::information() {
+  Flush();
+  information_.triangularView<Eigen::StrictlyUpper>() = information_.transpose();
+  return information_;
 }
 
 void UpdateEquations::AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
                                const Vector3& residual_mm, double variance_mm2) {
-  information_.noalias() += J.transpose() * J / variance_mm2;
-  gradient_.noalias() += J.transpose() * (residual_mm / variance_mm2);
+  for (int axis = 0; axis < 3; ++axis) {
+    Add(J.row(axis).transpose(), residual_mm[axis], variance_mm2);
+  }
 }
 
 void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad) {
@@ -105,7 +122,11 @@ void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int 
     AddJointPriors(table, pose_, equations);
     information = prior_information + equations.information();
     const PoseStep gradient = equations.gradient() - prior_information * pose_.Minus(prior);
-    pose_.Add(Eigen::LLT<PoseCovariance>(information).solve(gradient));
+    const PoseStep step = Eigen::LLT<PoseCovariance>(information).solve(gradient);
+    pose_.Add(step);
+    if (step.head<3>().norm() < kSmallStepMm && step.tail(step.size() - 3).norm() < kSmallStepRad) {
+      break;
+    }
   }
   const PoseCovariance posterior = InverseOfPositive(information);
   if (noise_.constant_velocity) {

@@ -17,18 +17,24 @@ class UpdateEquations {
  public:
   void Reset(int dof);
   /// Adds one scalar measurement.
-  /// @param J         derivative of the prediction by a PoseStep; 1 × dof.
+  /// @param J         derivative of the prediction by a PoseStep.
   /// @param residual  measured less predicted.
-  void Add(const Eigen::Ref<const Eigen::Matrix<double, 1, Eigen::Dynamic>>& J, double residual,
-           double variance);
+  void Add(const PoseStep& J, double residual, double variance);
   /// Adds a measured point with the same variance [mm²] along all axes; J is 3 × dof.
   void AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
                 const Vector3& residual_mm, double variance_mm2);
 
-  const PoseCovariance& information() const { return information_; }
+  /// The sums of all that was added.
+  const PoseCovariance& information();
   const PoseStep& gradient() const { return gradient_; }
 
  private:
+  // Rows wait here until there are enough for a product of matrices.
+  static constexpr int kBlock = 48;
+  void Flush();
+
+  Eigen::Matrix<double, Eigen::Dynamic, kBlock, 0, kMaxDof, kBlock> rows_;
+  int waiting_ = 0;
   PoseCovariance information_;
   PoseStep gradient_;
 };

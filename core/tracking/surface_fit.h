@@ -1,91 +1,82 @@
-// Beyond the paper: after the 23 points have brought the model near, the surface of the voxels
-// draws it the rest of the way, as articulated ICP does (Corazza et al. 2010; Horaud et al. 2009),
-// in the same filter and against the same prior.
+// Beyond the paper: the body's surface, and not only 23 points, draws the model to the person, as
+// articulated ICP does (Corazza et al. 2010; Horaud et al. 2009). The outlines count most: a visual
+// hull is fatter than the person and has ghost limbs, but the rays of the outlines graze the person
+// and nothing else (Cheung, Baker and Kanade 2003; Gall et al. 2009).
 #pragma once
 
 #include <vector>
 
 #include "core/body/body_model.h"
 #include "core/body/body_shape.h"
+#include "core/tracking/contact.h"
+#include "core/tracking/evidence.h"
 #include "core/tracking/pose_filter.h"
-#include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 
 struct SurfaceFitOptions {
-  int samples = 500;          ///< Surface voxels used, spread evenly.
-  double reach_mm = 150;      ///< Voxels farther from the model than this do not count.
-  double noise_mm = 25;       ///< Spread of the surface about the model.
+  int voxels = 250;           ///< Surface voxels used, spread evenly.
+  int edges = 600;            ///< Bounding edges used, spread evenly.
+  double reach_mm = 150;      ///< What is farther from the model than this does not count.
+  double noise_mm = 23;       ///< Spread of the surface about the model.
   double outlier_mm = 45;     ///< Residuals beyond this lose weight quickly.
-  double independent = 0.3;  ///< Share of the samples that are news: neighbours err alike.
+  double independent = 0.3;   ///< Share of the contacts that are news: neighbours err alike.
+  double void_noise_mm = 50;  ///< Spread of bones about the flesh.
+  double void_outlier_mm = 60;
 };
 
-/// How well a posed body explains the voxels.
+/// How well a posed body explains the evidence. Distances are cut at the reach.
 struct SurfaceFitQuality {
-  double surface_mm = 0;  ///< Mean distance of the surface to the model, each cut at the reach.
-  double hollow_mm =
-      0;  ///< Mean distance of the model's bones to the voxels, each cut at the reach.
-  double unexplained_share = 0;  ///< Of the surface that lies far from every part.
+  double edge_mm = 0;            ///< Mean distance of the bounding edges to the model.
+  double surface_mm = 0;         ///< Mean distance of the voxels' surface to the model.
+  double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
   double overlap_mm = 0;         ///< Mean depth to which limbs stick in other parts.
-  double Cost() const { return surface_mm + hollow_mm + overlap_mm; }
+  double unexplained_share = 0;  ///< Of the edges that lie far from every part.
+
+  /// Weighs the edges most, because hulls lie about surfaces, and fast limbs are carved away.
+  double Cost() const { return edge_mm + 0.25 * surface_mm + 0.5 * hollow_mm + overlap_mm; }
 };
 
-/// One surface voxel against the model.
+/// One contact against the model.
 struct SurfaceResidual {
-  int capsule;       ///< Of ShapeOf(body).
-  double share;      ///< Along its core.
-  Vector3 normal_W;  ///< From the core to the voxel.
+  int capsule;   ///< Of ShapeOf(body).
+  bool is_edge;  ///< A bounding edge and not a voxel.
+  double share;  ///< Along its core.
+  Vector3
+      normal_W;  ///< Out of the surface; leans where the capsule tapers, and is then longer than 1.
   double outside_mm;
   double variance;             ///< [mm²], larger for outliers.
   PoseStep J_outside_by_step;  ///< How far the core follows along the normal.
 };
 
-/// Draws a body's capsules to the surface of the voxels, and its bones out of the void.
+/// Draws a body's capsules to what their surface should touch, and its bones out of the void.
 class SurfaceFit {
  public:
   explicit SurfaceFit(const SurfaceFitOptions& options) : options_(options) {}
 
-  /// Widens or narrows what counts as the model's neighbourhood.
-  void SetReach(double reach_mm, double outlier_mm) {
-    options_.reach_mm = reach_mm;
-    options_.outlier_mm = outlier_mm;
-  }
-  /// Chooses the samples of a new frame.
-  void SetVoxels(const VoxelCloud& cloud);
+  /// Takes a new frame; `evidence` is borrowed until the next.
+  void SetEvidence(const Evidence& evidence);
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
   void Linearize(const BodyModel& body, const PoseState& pose, UpdateEquations& equations);
   SurfaceFitQuality QualityAt(const BodyModel& body, const PoseState& pose);
-  /// Surface voxels that no part came near when the quality was last measured [mm].
-  const std::vector<Vector3>& unexplained_W() const { return unexplained_W_; }
-  /// The residuals of the frame's samples, without those that no part comes near.
+  /// The residuals of the frame's contacts, without those that no part comes near.
   std::vector<SurfaceResidual> ResidualsAt(const BodyModel& body, const PoseState& pose);
 
  private:
-  struct Sample {
-    Vector3 p_W;
-    Vector3 normal_W;
-  };
-  struct Match {
-    int capsule = -1;
-    PosedCapsule::Distance distance{};
-  };
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
-  Match BestMatch(const Sample& sample) const;
   template <typename Visit>
-  void ForEachResidual(const BodyModel& body, const Visit& visit) const;
-  const Sample* NearestSample(const Vector3& p_W) const;
+  void ForEachResidual(const BodyModel& body, const Visit& visit);
   template <typename Visit>
-  void ForEachHollow(const BodyModel& body, const Visit& visit) const;
-
+  void ForEachHollow(const Visit& visit) const;
   template <typename Visit>
   void ForEachOverlap(const BodyModel& body, const Visit& visit) const;
 
   SurfaceFitOptions options_;
   const VoxelCloud* cloud_ = nullptr;
-  std::vector<Sample> samples_;
+  std::vector<Contact> contacts_;
+  std::vector<int> likely_;  ///< The capsule that explained each contact last.
   Posture posture_;
   std::vector<PosedCapsule> posed_;
-  std::vector<Vector3> unexplained_W_;
 };
 
 }  // namespace mocap

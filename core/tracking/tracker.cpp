@@ -17,13 +17,13 @@ Tracker::Tracker(const BodyModel& body, const PoseState& pose)
   filter_.Reset(pose, kStartStdMm, kStartStdRad);
 }
 
-void Tracker::Update(const VoxelCloud& cloud, double dt_s) {
+void Tracker::Update(const Evidence& evidence, double dt_s) {
   if (dt_s > 0) filter_.Predict(dt_s);
-  surface_fit_.SetVoxels(cloud);
+  surface_fit_.SetEvidence(evidence);
   if (body_.table().measurement == Measurement::kPoints) {
-    FollowPoints(cloud);
+    FollowPoints(evidence.cloud);
   } else {
-    FollowSurface(cloud);
+    FollowSurface(evidence);
   }
   quality_ = surface_fit_.QualityAt(body_, filter_.pose());
 }
@@ -46,9 +46,10 @@ void Tracker::FollowPoints(const VoxelCloud& cloud) {
       kIterations);
 }
 
-void Tracker::FollowSurface(const VoxelCloud& cloud) {
+void Tracker::FollowSurface(const Evidence& evidence) {
   FitSurface();
-  if (const auto recovered = limb_recovery_.Recover(body_, cloud, filter_.pose())) {
+  if (const auto recovered =
+          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose())) {
     filter_.Jump(*recovered);
     FitSurface();
   }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/body/body_model.h"
+#include "core/tracking/evidence.h"
 #include "core/tracking/limb_recovery.h"
 #include "core/tracking/pose_filter.h"
 #include "core/tracking/surface_fit.h"
-#include "core/tracking/voxel_cloud.h"
 #include "core/tracking/voxel_labeler.h"
 
 namespace mocap {
@@ -17,7 +17,7 @@ class Tracker {
   Tracker(const BodyModel& body, const PoseState& pose);
 
   /// Takes the next frame, `dt_s` after the one before.
-  void Update(const VoxelCloud& cloud, double dt_s);
+  void Update(const Evidence& evidence, double dt_s);
 
   const BodyModel& body() const { return body_; }
   /// Changes the sizes; the pose stays.
@@ -29,7 +29,7 @@ class Tracker {
 
  private:
   void FollowPoints(const VoxelCloud& cloud);
-  void FollowSurface(const VoxelCloud& cloud);
+  void FollowSurface(const Evidence& evidence);
   void FitSurface();
 
   BodyModel body_;

@@ -1,6 +1,7 @@
 #include "core/tracking/voxel_cloud.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -10,10 +11,6 @@ namespace {
 // A piece that is torn off the body is kept from this share of the body on, and this near to it.
 constexpr double kPieceShare = 0.005;
 constexpr double kPieceReachMm = 150;
-
-const std::array<Eigen::Vector3i, 6> kFaceNeighbours = {
-    Eigen::Vector3i(1, 0, 0),  Eigen::Vector3i(-1, 0, 0), Eigen::Vector3i(0, 1, 0),
-    Eigen::Vector3i(0, -1, 0), Eigen::Vector3i(0, 0, 1),  Eigen::Vector3i(0, 0, -1)};
 
 template <typename Visit>
 void ForEachInCube(int radius, const Visit& visit) {
@@ -28,8 +25,7 @@ void ForEachInCube(int radius, const Visit& visit) {
 
 int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
   if ((cell.array() < 0).any() || (cell.array() >= size_.array()).any()) return -1;
-  return index_of_cell_[(static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()) * size_.x() +
-                        cell.x()];
+  return index_of_slot_[SlotOf(cell)];
 }
 
 int VoxelCloud::IndexAt(const Vector3& p_W) const {
@@ -43,15 +39,16 @@ void VoxelCloud::Build(const VoxelGrid& grid) {
   voxel_mm_ = grid.voxel_mm();
   voxels_.clear();
   surface_.clear();
-  index_of_cell_.assign(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), -1);
+  const Eigen::Matrix<std::size_t, 3, 1> padded = (size_.array() + 2 * kMargin).cast<std::size_t>();
+  index_of_slot_.assign(padded.prod(), -1);
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
       const std::uint64_t* row = grid.row(j, k);
       for (int word = 0; word < grid.words_per_row(); ++word) {
         for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
-          const int i = word * 64 + std::countr_zero(bits);
-          index_of_cell_[(static_cast<std::size_t>(k) * size_.y() + j) * size_.x() + i] = size();
-          voxels_.push_back({.center_W = grid.CenterOf(i, j, k), .cell = {i, j, k}});
+          const Eigen::Vector3i cell(word * 64 + std::countr_zero(bits), j, k);
+          index_of_slot_[SlotOf(cell)] = size();
+          voxels_.push_back({.center_W = grid.CenterOf(cell.x(), j, k), .cell = cell});
         }
       }
     }
@@ -60,9 +57,18 @@ void VoxelCloud::Build(const VoxelGrid& grid) {
   FindSurface();
 }
 
+std::vector<std::ptrdiff_t> VoxelCloud::CubeOffsets(int radius) const {
+  std::vector<std::ptrdiff_t> offsets;
+  const std::ptrdiff_t middle = SlotOf(Eigen::Vector3i::Zero());
+  ForEachInCube(radius,
+                [&](const Eigen::Vector3i& step) { offsets.push_back(SlotOf(step) - middle); });
+  return offsets;
+}
+
 void VoxelCloud::DropIslands() {
   component_.assign(voxels_.size(), -1);
   std::vector<int> sizes;
+  const std::vector<std::ptrdiff_t> neighbours = CubeOffsets(1);
   for (int seed = 0; seed < size(); ++seed) {
     if (component_[seed] >= 0) continue;
     const int component = static_cast<int>(sizes.size());
@@ -70,15 +76,15 @@ void VoxelCloud::DropIslands() {
     component_[seed] = component;
     stack_.assign(1, seed);
     while (!stack_.empty()) {
-      const int index = stack_.back();
+      const std::ptrdiff_t slot = SlotOf(voxels_[stack_.back()].cell);
       stack_.pop_back();
       ++sizes[component];
-      ForEachInCube(1, [&](const Eigen::Vector3i& step) {
-        const int neighbour = IndexAt(Eigen::Vector3i(voxels_[index].cell + step));
-        if (neighbour < 0 || component_[neighbour] >= 0) return;
+      for (const std::ptrdiff_t offset : neighbours) {
+        const int neighbour = index_of_slot_[slot + offset];
+        if (neighbour < 0 || component_[neighbour] >= 0) continue;
         component_[neighbour] = component;
         stack_.push_back(neighbour);
-      });
+      }
     }
   }
   if (sizes.size() <= 1) return;
@@ -97,33 +103,36 @@ void VoxelCloud::DropIslands() {
 
   int kept = 0;
   for (int i = 0; i < size(); ++i) {
-    const Eigen::Vector3i cell = voxels_[i].cell;
     const bool keep = component_[i] == body || near_body[component_[i]];
-    index_of_cell_[(static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()) * size_.x() +
-                   cell.x()] = keep ? kept : -1;
+    index_of_slot_[SlotOf(voxels_[i].cell)] = keep ? kept : -1;
     if (keep) voxels_[kept++] = voxels_[i];
   }
   voxels_.resize(kept);
 }
 
 void VoxelCloud::FindSurface() {
-  // Wide enough that a normal does not follow the steps of the grid.
-  const int radius = std::clamp(static_cast<int>(std::lround(50 / voxel_mm_)), 1, 3);
+  const std::ptrdiff_t middle = SlotOf(Eigen::Vector3i::Zero());
+  const std::array<std::ptrdiff_t, 3> faces = {SlotOf(Eigen::Vector3i::UnitX()) - middle,
+                                               SlotOf(Eigen::Vector3i::UnitY()) - middle,
+                                               SlotOf(Eigen::Vector3i::UnitZ()) - middle};
   for (int i = 0; i < size(); ++i) {
-    Voxel& voxel = voxels_[i];
-    voxel.surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
-                                [&](const Eigen::Vector3i& step) {
-                                  return IndexAt(Eigen::Vector3i(voxel.cell + step)) < 0;
-                                });
-    if (!voxel.surface) continue;
-    surface_.push_back(i);
-    Vector3 inward = Vector3::Zero();
-    ForEachInCube(radius, [&](const Eigen::Vector3i& step) {
-      if (IndexAt(Eigen::Vector3i(voxel.cell + step)) >= 0) inward += step.cast<double>();
+    const std::ptrdiff_t slot = SlotOf(voxels_[i].cell);
+    voxels_[i].surface = std::ranges::any_of(faces, [&](std::ptrdiff_t face) {
+      return index_of_slot_[slot + face] < 0 || index_of_slot_[slot - face] < 0;
     });
-    const double length = inward.norm();
-    if (length > 0) voxel.normal_W = -inward / length;
+    if (voxels_[i].surface) surface_.push_back(i);
   }
+}
+
+Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {
+  // Wide enough that a normal does not follow the steps of the grid.
+  const int radius = std::clamp(static_cast<int>(std::lround(50 / voxel_mm_)), 1, kMargin);
+  Vector3 inward = Vector3::Zero();
+  ForEachInCube(radius, [&](const Eigen::Vector3i& step) {
+    if (index_of_slot_[SlotOf(voxel.cell + step)] >= 0) inward += step.cast<double>();
+  });
+  const double length = inward.norm();
+  return length > 0 ? Vector3(-inward / length) : Vector3::Zero();
 }
 
 }  // namespace mocap

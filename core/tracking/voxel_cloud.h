@@ -12,8 +12,6 @@ namespace mocap {
 /// One occupied voxel.
 struct Voxel {
   Vector3 center_W;
-  Vector3 normal_W =
-      Vector3::Zero();   ///< Out of the body; unit length on the surface, zero inside.
   Eigen::Vector3i cell;  ///< In the grid.
   bool surface = false;  ///< One of its six neighbours is empty.
 };
@@ -31,21 +29,36 @@ class VoxelCloud {
   bool empty() const { return voxels_.empty(); }
   double voxel_mm() const { return voxel_mm_; }
   double volume_litres() const { return size() * voxel_mm_ * voxel_mm_ * voxel_mm_ * 1e-6; }
+  /// The block of cells that holds all voxels [mm].
+  Eigen::AlignedBox3d box_W() const {
+    return {origin_W_, origin_W_ + voxel_mm_ * size_.cast<double>()};
+  }
   /// Index of the voxel in a cell; -1 where the cell is empty or outside.
   int IndexAt(const Eigen::Vector3i& cell) const;
   /// Index of the voxel at a place; -1 where it is empty.
   int IndexAt(const Vector3& p_W) const;
+  /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
+  Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
   const std::vector<int>& surface() const { return surface_; }
 
  private:
+  // The grid is kept with empty cells around it, so that neighbours need no check.
+  static constexpr int kMargin = 3;
+  std::ptrdiff_t SlotOf(const Eigen::Vector3i& cell) const {
+    const auto inner = (cell.array() + kMargin).cast<std::ptrdiff_t>();
+    return (inner.z() * (size_.y() + 2 * kMargin) + inner.y()) * (size_.x() + 2 * kMargin) +
+           inner.x();
+  }
+  /// How far the slots of the cells in a cube around a cell lie from its own.
+  std::vector<std::ptrdiff_t> CubeOffsets(int radius) const;
   void DropIslands();
   void FindSurface();
 
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
   Vector3 origin_W_ = Vector3::Zero();
   double voxel_mm_ = 25;
-  std::vector<std::int32_t> index_of_cell_;
+  std::vector<std::int32_t> index_of_slot_;
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
   std::vector<int> component_;

@@ -50,11 +50,14 @@ TEST(BodyTables, PaperHasItsSixteenAnglesInTheOrderOfItsProducts) {
   EXPECT_EQ(PaperAnglesOf(table, Segment::kCalfR), (std::vector<int>{12, 14, 16}));
 }
 
-TEST(BodyTables, FullAddsWaistAndThirdHipAxis) {
+TEST(BodyTables, FullAddsWaistThirdHipAxisAndTheJointsAtTheLimbsEnds) {
   const BodyTable table = LoadBodyTable("full");
   EXPECT_EQ(PaperAnglesOf(table, Segment::kPelvis), (std::vector<int>{0, 0, 0}));
   EXPECT_EQ(PaperAnglesOf(table, Segment::kThighR), (std::vector<int>{0, 0, 0, 12, 14, 0}));
-  EXPECT_EQ(PaperAnglesOf(table, Segment::kUpperArmL), (std::vector<int>{3, 5, 7}));
+  EXPECT_EQ(PaperAnglesOf(table, Segment::kShoulderL), (std::vector<int>{0, 0}));
+  EXPECT_EQ(PaperAnglesOf(table, Segment::kHandL), (std::vector<int>{0, 0, 3, 5, 7, 9, 0, 0}));
+  EXPECT_EQ(PaperAnglesOf(table, Segment::kFootR),
+            (std::vector<int>{0, 0, 0, 12, 14, 0, 16, 0, 0}));
   std::set<int> angles;
   for (const JointAxis& joint : table.joints) angles.insert(joint.paper_angle);
   EXPECT_EQ(angles.size(), 17u);
@@ -196,7 +199,7 @@ TEST_F(BodyFile, MoreAxesThanTheFilterHoldsAreRefused) {
             "\"\nparent = \"\"\naxis = [1, 0, 0]\nat = \"neck\"\nlimits_deg = [0, 1]\n";
   }
   testing::WriteText(file_, text);
-  EXPECT_THAT(ErrorOnLoading(), HasSubstr("more than 32"));
+  EXPECT_THAT(ErrorOnLoading(), HasSubstr("more than " + std::to_string(kMaxJoints)));
 }
 
 TEST(BodyTables, UnknownNameListsTheKnownOnes) {

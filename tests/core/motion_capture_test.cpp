@@ -22,17 +22,12 @@ PoseState Stroll(const BodyModel& body, int frame) {
   pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.3));
   pose.X_WT.p = Vector3(15.0 * frame, 5.0 * frame,
                         body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
-  pose.theta = AnglesOf({.raise_l = -70,
-                         .raise_r = -70,
-                         .forward_l = 20 * swing,
-                         .forward_r = -20 * swing,
-                         .elbow_l = 25,
-                         .elbow_r = 25,
-                         .hip_l = -20 * swing,
-                         .hip_r = 20 * swing,
-                         .knee_l = 15 + 10 * swing,
-                         .knee_r = 15 - 10 * swing},
-                        body.table());
+  Stance stance;
+  stance.arm_l = {.raise = -70, .forward = 20 * swing, .elbow = 25};
+  stance.arm_r = {.raise = -70, .forward = -20 * swing, .elbow = 25};
+  stance.leg_l = {.hip = -20 * swing, .knee = 15 + 10 * swing};
+  stance.leg_r = {.hip = 20 * swing, .knee = 15 - 10 * swing};
+  pose.theta = AnglesOf(stance, body.table());
   return pose;
 }
 
@@ -44,12 +39,12 @@ double MeanError(const BodyModel& truth, const PoseState& pose, const CaptureRes
 class Capture : public testing::TestWithParam<std::string> {
  protected:
   const CaptureResult& See(const BodyModel& person, int frame) {
-    return capture_.Update(Voxelize(person, Stroll(person, frame), 25), NextNs());
+    return capture_.Update(Voxelize(person, Stroll(person, frame), 25), {}, NextNs());
   }
   const CaptureResult& SeeNobody() {
     VoxelGrid empty;
     empty.Reset({0, 0, 0}, {0, 0, 0}, 25);
-    return capture_.Update(empty, NextNs());
+    return capture_.Update(empty, {}, NextNs());
   }
   std::int64_t NextNs() { return now_ns_ += kFrameNs; }
 
@@ -99,8 +94,8 @@ TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
   for (int frame = 0; frame < 8; ++frame) {
     const VoxelGrid grid = Voxelize(person, Stroll(person, frame), 25);
     const std::int64_t now_ns = NextNs();
-    const CaptureResult first = capture_.Update(grid, now_ns);
-    const CaptureResult second = again.Update(grid, now_ns);
+    const CaptureResult first = capture_.Update(grid, {}, now_ns);
+    const CaptureResult second = again.Update(grid, {}, now_ns);
     ASSERT_EQ(first.state, second.state);
     ASSERT_EQ(first.points_W, second.points_W);
     ASSERT_EQ(first.point_std_mm, second.point_std_mm);

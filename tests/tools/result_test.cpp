@@ -160,7 +160,6 @@ TEST(Result, IsReadFromALogOfMessages) {
   tracked.point_std_mm.setConstant(1);
   tracked.voxels = 5;
   const VoxelGrid grid;
-  const std::vector<std::int8_t> labels;
   {
     lcm::LogFile log(file, "w");
     body_t body_message{};
@@ -171,8 +170,7 @@ TEST(Result, IsReadFromALogOfMessages) {
               .capture_ns = 9000,
               .result = tracked,
               .body = body,
-              .grid = grid,
-              .labels = labels},
+              .grid = grid},
              1, pose);
     Log(log, "OTHER", pose);
     Log(log, "PRE_MOCAP_POSE", pose);
@@ -181,8 +179,7 @@ TEST(Result, IsReadFromALogOfMessages) {
               .capture_ns = 42000,
               .result = searching,
               .body = body,
-              .grid = grid,
-              .labels = labels},
+              .grid = grid},
              1, pose);
     Log(log, "PRE_MOCAP_POSE", pose);
   }

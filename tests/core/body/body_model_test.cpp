@@ -59,6 +59,23 @@ TEST_P(EveryBody, PointJacobiansAgreeWithCentralDifferences) {
   }
 }
 
+TEST_P(EveryBody, DirectionalJacobiansAreRowsOfThePointJacobians) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> J(3, body_.dof());
+  PoseStep row;
+  for (int trial = 0; trial < 5; ++trial) {
+    const PoseState pose = RandomPose(body_.table(), random_);
+    const Posture posture = body_.PostureAt(pose);
+    const BodyPoints points_W = body_.PointsAt(posture);
+    const Vector3 direction_W = Vector3(0.6, -0.5, 0.3 * trial).normalized();
+    for (int i = 0; i < kPointCount; ++i) {
+      const int carrier = body_.CarrierOf(static_cast<Point>(i));
+      body_.PointJacobian(posture, carrier, points_W.col(i), J);
+      body_.DirectionalJacobian(posture, carrier, points_W.col(i), direction_W, row);
+      EXPECT_NEAR((J.transpose() * direction_W - row).norm(), 0, 1e-9) << kPointNames[i];
+    }
+  }
+}
+
 TEST_P(EveryBody, KeepsTheLengthsOfItsPartsInEveryPose) {
   const auto distance = [&](const BodyPoints& points, Point a, Point b) {
     return (points.col(static_cast<int>(a)) - points.col(static_cast<int>(b))).norm();
@@ -67,7 +84,8 @@ TEST_P(EveryBody, KeepsTheLengthsOfItsPartsInEveryPose) {
     const PoseState pose = RandomPose(body_.table(), random_);
     const BodyPoints points = body_.PointsAt(body_.PostureAt(pose));
     EXPECT_NEAR(distance(points, Point::kShoulderL, Point::kElbowL), body_.sizes().upper_arm, 1e-6);
-    EXPECT_NEAR(distance(points, Point::kElbowR, Point::kFingertipsR), body_.sizes().lower_arm,
+    // Hands bend, but the forearm's middle does not.
+    EXPECT_NEAR(distance(points, Point::kElbowR, Point::kLowerArmR), body_.sizes().lower_arm / 2,
                 1e-6);
     EXPECT_NEAR(distance(points, Point::kHipR, Point::kKneeR), body_.sizes().thigh, 1e-6);
     EXPECT_NEAR(distance(points, Point::kKneeL, Point::kFootL), body_.sizes().calf, 1e-6);

@@ -1,0 +1,33 @@
+// §7.2, beyond the paper: part sizes from many frames at once.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/body/body_model.h"
+#include "core/tracking/surface_fit.h"
+
+namespace mocap {
+
+/// Gathers what frame after frame tells of a person's sizes, while the body is being tracked: each
+/// frame's residuals are linearised by pose and sizes together, the pose is marginalised out, and
+/// what remains adds up.
+class SizeRefiner {
+ public:
+  /// @param acquired  the sizes to start from.
+  explicit SizeRefiner(const BodySizes& acquired);
+
+  /// Adds a frame that was fitted well.
+  /// @param fit  holds the frame's contacts.
+  void Add(const BodyModel& body, SurfaceFit& fit, const PoseState& pose);
+  /// The likeliest sizes by all frames so far.
+  BodySizes Sizes() const;
+  int frames() const { return frames_; }
+
+ private:
+  BodySizes acquired_;
+  Eigen::MatrixXd information_;  ///< Of the sizes, without the prior.
+  Eigen::VectorXd vector_;
+  int frames_ = 0;
+};
+
+}  // namespace mocap

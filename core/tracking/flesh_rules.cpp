@@ -1,0 +1,47 @@
+#include "core/tracking/flesh_rules.h"
+
+#include <limits>
+
+namespace mocap {
+namespace {
+
+bool IsLowerArm(BodyPart part) {
+  return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;
+}
+bool IsThigh(BodyPart part) { return part == BodyPart::kThighL || part == BodyPart::kThighR; }
+bool IsCalf(BodyPart part) { return part == BodyPart::kCalfL || part == BodyPart::kCalfR; }
+
+}  // namespace
+
+bool MayOverlap(BodyPart limb, BodyPart other) {
+  if (limb == other) return false;
+  if (IsLowerArm(limb)) {
+    return other == BodyPart::kTorso || other == BodyPart::kHead || IsThigh(other) ||
+           IsLowerArm(other);
+  }
+  const BodyPart own_thigh = limb == BodyPart::kCalfL ? BodyPart::kThighL : BodyPart::kThighR;
+  return IsCalf(limb) && (IsCalf(other) || (IsThigh(other) && other != own_thigh));
+}
+
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
+                                  const Vector3& p_W) {
+  if (cloud.IndexAt(p_W) >= 0) return std::nullopt;
+  std::optional<Vector3> nearest;
+  double nearest_sq = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : contacts) {
+    if (contact.is_edge) break;
+    const double distance_sq = (contact.from_W - p_W).squaredNorm();
+    if (distance_sq >= nearest_sq) continue;
+    nearest_sq = distance_sq;
+    nearest = contact.from_W - p_W;
+  }
+  return nearest;
+}
+
+double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other) {
+  // Flesh gives way a little, and the capsules are rounder than the parts.
+  constexpr double kHolds = 0.7;
+  return kHolds * limb.radius_a_mm - to_other.outside_mm;
+}
+
+}  // namespace mocap

@@ -1,0 +1,32 @@
+// What holds for any posed body besides touching the surface: bones lie in flesh, and limbs do not
+// run through other parts.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "core/body/body_shape.h"
+#include "core/tracking/contact.h"
+
+namespace mocap {
+
+/// Whether a limb's end can run into a part at all: forearms into trunk, head, thighs and each
+/// other, a calf into the other leg.
+bool MayOverlap(BodyPart limb, BodyPart other);
+
+/// Places along each core that should lie in flesh, as shares of its length.
+inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
+
+inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
+  return capsule.a_W + share * (capsule.b_W - capsule.a_W);
+}
+
+/// The way from a place in the void to the nearest surface contact; empty for a place in flesh.
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
+                                  const Vector3& p_W);
+
+/// How deep a place on the core of `limb` sticks in `other`, beyond what flesh gives way [mm].
+double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other);
+
+}  // namespace mocap

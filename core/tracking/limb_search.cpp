@@ -1,0 +1,159 @@
+#include "core/tracking/limb_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/tracking/flesh_rules.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kReachMm = 150;
+// A contact that another part comes this near to is no evidence for the limb.
+constexpr double kTakenMm = 20;
+constexpr double kNoiseMm = 40;
+constexpr double kOutlierMm = 45;
+constexpr double kStanceSpreadRad = 0.5;
+// As in SurfaceFitQuality::Cost.
+constexpr double kVoxelWeight = 0.25;
+constexpr double kHollowWeight = 0.5;
+
+// More axes than a limb may have.
+constexpr int kMostRows = 12;
+using LimbVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+using LimbMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+
+}  // namespace
+
+std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end) {
+  std::vector<int> rows;
+  const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];
+  for (int i = table.carrier[static_cast<int>(limb_end)]; i >= 0 && i != trunk;
+       i = table.joints[i].parent) {
+    rows.push_back(i);
+  }
+  return rows;
+}
+
+LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence,
+                       const std::vector<Contact>& contacts, Segment limb_end, Segment absent,
+                       const PoseState& pose)
+    : body_(body),
+      cloud_(evidence.cloud),
+      contacts_(contacts),
+      rows_(RowsOfLimb(body.table(), limb_end)) {
+  const std::vector<int> absent_rows = RowsOfLimb(body.table(), absent);
+  const auto holds = [](const std::vector<int>& rows, int row) {
+    return std::find(rows.begin(), rows.end(), row) != rows.end();
+  };
+  std::vector<PosedCapsule> all;
+  body.PoseShape(body.PostureAt(pose), all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int carrier = body.shape()[i].carrier;
+    if (holds(rows_, carrier)) {
+      capsules_.push_back(static_cast<int>(i));
+    } else if (!holds(absent_rows, carrier)) {
+      others_.push_back(all[i]);
+      other_parts_.push_back(body.shape()[i].part);
+    }
+  }
+  const auto edges = std::count_if(contacts.begin(), contacts.end(),
+                                   [](const Contact& contact) { return contact.is_edge; });
+  const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
+  const double voxel_weight =
+      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(contacts) - edges));
+  for (const Contact& contact : contacts) {
+    const ContactMatch match = MatchContact(contact, others_, kReachMm);
+    const double other_mm = match.capsule < 0 ? kReachMm : std::abs(match.distance.outside_mm);
+    if (other_mm < kTakenMm) continue;
+    open_.push_back({contact, other_mm, contact.is_edge ? edge_weight : voxel_weight});
+  }
+}
+
+void LimbSearch::PoseLimb(const PoseState& pose) {
+  posture_ = body_.PostureAt(pose);
+  posed_.clear();
+  for (const int i : capsules_) {
+    const Capsule& capsule = body_.shape()[i];
+    const RigidTransform& X = posture_.X_W[capsule.carrier];
+    posed_.push_back({X * capsule.a_T, X * capsule.b_T, capsule.radius_a_mm, capsule.radius_b_mm});
+  }
+}
+
+double LimbSearch::OverlapCost() const {
+  double depth_mm = 0;
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    for (std::size_t j = 0; j < others_.size(); ++j) {
+      if (!MayOverlap(body_.shape()[capsules_[i]].part, other_parts_[j])) continue;
+      for (const double share : kCoreShares) {
+        const Vector3 p_W = CorePlace(posed_[i], share);
+        depth_mm += std::max(0.0, OverlapDepth(posed_[i], others_[j].DistanceTo(p_W)));
+      }
+    }
+  }
+  return depth_mm;
+}
+
+double LimbSearch::CostAt(const PoseState& pose) {
+  PoseLimb(pose);
+  double cost_mm = 0;
+  for (const OpenContact& open : open_) {
+    const ContactMatch match = MatchContact(open.contact, posed_, kReachMm);
+    const double limb_mm = match.capsule < 0 ? kReachMm : std::abs(match.distance.outside_mm);
+    cost_mm += open.weight * std::min(open.other_mm, limb_mm);
+  }
+  double hollow_mm = 0;
+  for (const PosedCapsule& capsule : posed_) {
+    for (const double share : kCoreShares) {
+      const auto way_W = WayToFlesh(cloud_, contacts_, CorePlace(capsule, share));
+      if (way_W) hollow_mm += std::min(kReachMm, way_W->norm());
+    }
+  }
+  const double places = static_cast<double>(body_.shape().size() * kCoreShares.size());
+  return cost_mm + (kHollowWeight * hollow_mm + OverlapCost()) / places;
+}
+
+void LimbSearch::Refine(PoseState& pose, int iterations) {
+  const int n = static_cast<int>(rows_.size());
+  LimbVector start(n);
+  for (int i = 0; i < n; ++i) start[i] = pose.theta[rows_[i]];
+  LimbVector J(n);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    PoseLimb(pose);
+    LimbMatrix information = LimbMatrix::Zero(n, n);
+    LimbVector gradient = LimbVector::Zero(n);
+    for (const OpenContact& open : open_) {
+      const ContactMatch match = MatchContact(open.contact, posed_, kReachMm);
+      if (match.capsule < 0 || std::abs(match.distance.outside_mm) > open.other_mm) continue;
+      const Vector3 offset = match.distance.segment_W - match.distance.core_W;
+      if (offset.norm() < 1) continue;
+      const Vector3 normal_W = offset.normalized();
+      const int carrier = body_.shape()[capsules_[match.capsule]].carrier;
+      J.setZero();
+      for (int i = 0; i < n; ++i) {
+        if (rows_[i] > carrier) continue;
+        const Vector3 arm_W = match.distance.core_W - posture_.point_W[rows_[i]];
+        J[i] = posture_.axis_W[rows_[i]].dot(arm_W.cross(normal_W));
+      }
+      const double scaled = match.distance.outside_mm / kOutlierMm;
+      const double weight =
+          1 / (kNoiseMm * kNoiseMm * (1 + scaled * scaled) * (1 + scaled * scaled));
+      information += weight * J * J.transpose();
+      gradient += weight * match.distance.outside_mm * J;
+    }
+    for (int i = 0; i < n; ++i) {
+      const double inverse_variance = 1 / (kStanceSpreadRad * kStanceSpreadRad);
+      information(i, i) += inverse_variance;
+      gradient[i] -= inverse_variance * (pose.theta[rows_[i]] - start[i]);
+    }
+    const LimbVector step = information.llt().solve(gradient);
+    for (int i = 0; i < n; ++i) {
+      const JointAxis& joint = body_.table().joints[rows_[i]];
+      double& angle = pose.theta[rows_[i]];
+      angle = std::clamp(angle + std::clamp(step[i], -0.6, 0.6), joint.min_rad, joint.max_rad);
+    }
+  }
+}
+
+}  // namespace mocap

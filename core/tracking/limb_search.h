@@ -1,0 +1,54 @@
+// §6.2: one limb against the evidence that the rest of the body leaves open.
+#pragma once
+
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/tracking/contact.h"
+#include "core/tracking/evidence.h"
+
+namespace mocap {
+
+/// Rows of the joints that move a limb and nothing of the trunk, the limb's end first.
+/// @param limb_end  the segment at the limb's end: a hand or a foot.
+std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end);
+
+/// Fits the joints of one limb while the rest of the body keeps its pose.
+class LimbSearch {
+ public:
+  /// @param limb_end  the segment at the limb's end: a hand or a foot.
+  /// @param absent    the end of another limb that is to be ignored, or the same.
+  /// @param pose      of the whole body; the limb's angles in it do not matter.
+  LimbSearch(const BodyModel& body, const Evidence& evidence, const std::vector<Contact>& contacts,
+             Segment limb_end, Segment absent, const PoseState& pose);
+
+  /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
+  /// differ in this limb alone.
+  double CostAt(const PoseState& pose);
+  /// Improves the limb's angles from those in `pose`.
+  void Refine(PoseState& pose, int iterations);
+  /// Of RowsOfLimb.
+  const std::vector<int>& rows() const { return rows_; }
+
+ private:
+  struct OpenContact {
+    Contact contact;
+    double other_mm;  ///< How far the rest of the body is from it.
+    double weight;
+  };
+  void PoseLimb(const PoseState& pose);
+  double OverlapCost() const;
+
+  const BodyModel& body_;
+  const VoxelCloud& cloud_;
+  const std::vector<Contact>& contacts_;
+  std::vector<int> rows_;
+  std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
+  std::vector<PosedCapsule> others_;  ///< The rest of the body.
+  std::vector<BodyPart> other_parts_;
+  std::vector<OpenContact> open_;
+  Posture posture_;
+  std::vector<PosedCapsule> posed_;  ///< The limb.
+};
+
+}  // namespace mocap

@@ -1,0 +1,62 @@
+#include "core/tracking/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace mocap {
+namespace {
+
+class RandomCapsules : public testing::Test {
+ protected:
+  Vector3 Place() { return 300 * Vector3(unit_(random_), unit_(random_), unit_(random_)); }
+  PosedCapsule Capsule() {
+    return {Place(), Place(), 40 + 20 * unit_(random_), 40 + 20 * unit_(random_)};
+  }
+
+  std::mt19937 random_{11};
+  std::uniform_real_distribution<double> unit_{-1, 1};
+};
+
+TEST_F(RandomCapsules, SegmentsAreAsFarAsTheirNearestPlace) {
+  for (int trial = 0; trial < 50; ++trial) {
+    const PosedCapsule capsule = Capsule();
+    const Vector3 from = Place();
+    const Vector3 to = Place();
+    double nearest_mm = 1e9;
+    for (int i = 0; i <= 1000; ++i) {
+      const Vector3 p = from + i / 1000.0 * (to - from);
+      nearest_mm = std::min(nearest_mm, capsule.DistanceTo(p).outside_mm);
+    }
+    const PosedCapsule::SegmentDistance distance = capsule.DistanceTo(from, to);
+    EXPECT_NEAR(distance.outside_mm, nearest_mm, 2);
+    EXPECT_NEAR(distance.outside_mm, capsule.DistanceTo(distance.segment_W).outside_mm, 1e-6);
+  }
+}
+
+TEST_F(RandomCapsules, AGuessSavesTimeAndChangesNothing) {
+  std::vector<PosedCapsule> capsules;
+  for (int i = 0; i < 12; ++i) capsules.push_back(Capsule());
+  for (int trial = 0; trial < 100; ++trial) {
+    const Contact contact{Place(), Place(), Place().normalized(), true};
+    const ContactMatch match = MatchContact(contact, capsules, 150);
+    for (int likely = 0; likely < 12; ++likely) {
+      const ContactMatch guessed = MatchContact(contact, capsules, 150, likely);
+      EXPECT_EQ(guessed.capsule, match.capsule);
+      EXPECT_EQ(guessed.mismatch_mm, match.mismatch_mm);
+    }
+  }
+}
+
+TEST(Contacts, GoToTheSideThatFacesTheirWay) {
+  const std::vector<PosedCapsule> legs = {{{0, 80, 0}, {0, 80, 400}, 60, 60},
+                                          {{0, -80, 0}, {0, -80, 400}, 60, 60}};
+  // Between the legs, a little nearer to the right one, but on the left one's inside.
+  const Vector3 place(0, -5, 200);
+  EXPECT_EQ(MatchContact({place, place, -Vector3::UnitY(), false}, legs, 150).capsule, 0);
+  EXPECT_EQ(MatchContact({place, place, Vector3::UnitY(), false}, legs, 150).capsule, 1);
+  EXPECT_EQ(MatchContact({place, place, Vector3::UnitY(), false}, legs, 5).capsule, -1);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,130 @@
+#include "core/tracking/surface_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "config/load_config.h"
+#include "core/acquisition/size_refiner.h"
+#include "core/body/stance.h"
+#include "core/tracking/limb_recovery.h"
+#include "tests/support/seen_body.h"
+
+namespace mocap {
+namespace {
+
+class Fit : public testing::Test {
+ protected:
+  PoseState Standing(const BodyModel& body, const Stance& stance) const {
+    PoseState pose;
+    pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.4));
+    pose.X_WT.p = Vector3(50, -30, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+    pose.theta = AnglesOf(stance, body.table());
+    return pose;
+  }
+  PoseState FitFrom(const PoseState& start, const BodyModel& body, SurfaceFit& fit) const {
+    PoseFilter filter{MotionNoise{}};
+    filter.Reset(start, 100, 0.5);
+    filter.Update(
+        body.table(),
+        [&](const PoseState& pose, UpdateEquations& equations) {
+          fit.Linearize(body, pose, equations);
+        },
+        12);
+    return filter.pose();
+  }
+  double Error(const PoseState& pose, const PoseState& truth) const {
+    return (body_.PointsAt(body_.PostureAt(pose)) - body_.PointsAt(body_.PostureAt(truth)))
+        .colwise()
+        .norm()
+        .mean();
+  }
+
+  RoundStudio studio_;
+  BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
+  SurfaceFit fit_{SurfaceFitOptions{}};
+};
+
+constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
+constexpr LegStance kStep{.hip = 25, .knee = 20};
+
+TEST_F(Fit, OutlinesDrawTheBodyToTheTruth) {
+  const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  PoseState start = truth;
+  PoseStep step = PoseStep::Constant(truth.dof(), 0.05);
+  step.head<3>() = Vector3(40, -30, 25);
+  start.Add(step);
+  EXPECT_GT(Error(start, truth), 40);
+  EXPECT_LT(Error(FitFrom(start, body_, fit_), truth), 15);
+  EXPECT_LT(fit_.QualityAt(body_, truth).Cost(), 0.5 * fit_.QualityAt(body_, start).Cost());
+}
+
+TEST_F(Fit, ResidualsFollowAStepAsTheirJacobiansSay) {
+  const PoseState pose = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
+  const Evidence evidence = studio_.Show(body_, pose);
+  fit_.SetEvidence(evidence);
+  const std::vector<SurfaceResidual> residuals = fit_.ResidualsAt(body_, pose);
+  ASSERT_GT(residuals.size(), 500u);
+  constexpr double kStep_rad = 1e-5;
+  for (int column = 0; column < pose.dof(); ++column) {
+    PoseState moved = pose;
+    PoseStep step = PoseStep::Zero(pose.dof());
+    step[column] = kStep_rad;
+    moved.Add(step);
+    const std::vector<SurfaceResidual> after = fit_.ResidualsAt(body_, moved);
+    ASSERT_EQ(after.size(), residuals.size());
+    int differing = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const double slope = (residuals[i].outside_mm - after[i].outside_mm) / kStep_rad;
+      // Along an edge the nearest place slides where a capsule tapers, which the Jacobian leaves
+      // out.
+      const double share = residuals[i].is_edge ? 0.12 : 0.01;
+      const double tolerance = share * std::abs(residuals[i].J_outside_by_step[column]) + 2;
+      differing += std::abs(slope - residuals[i].J_outside_by_step[column]) > tolerance;
+    }
+    EXPECT_LT(differing, 0.03 * static_cast<double>(after.size())) << "column " << column;
+  }
+}
+
+TEST_F(Fit, ALostArmIsFoundAgain) {
+  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  const PoseState lost = Standing(body_, {});
+  const std::optional<PoseState> found = LimbRecovery().Recover(body_, evidence, fit_, lost);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, NothingIsRecoveredWhereNothingIsLost) {
+  const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  EXPECT_FALSE(LimbRecovery().Recover(body_, evidence, fit_, truth));
+}
+
+TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
+  BodySizes person = body_.sizes();
+  person.thigh_width *= 1.15;
+  person.torso_depth *= 0.92;
+  const BodyModel truth(body_.table(), person);
+  SizeRefiner refiner(body_.sizes());
+  BodyModel refined = body_;
+  for (int frame = 0; frame < 6; ++frame) {
+    const double swing = 25 * std::sin(0.8 * frame);
+    const PoseState pose = Standing(
+        truth, {.arm_l = {.forward = swing}, .leg_l = {.hip = -swing}, .leg_r = {.hip = swing}});
+    const Evidence evidence = studio_.Show(truth, pose);
+    fit_.SetEvidence(evidence);
+    refiner.Add(refined, fit_, FitFrom(pose, refined, fit_));
+    refined.Resize(refiner.Sizes());
+  }
+  EXPECT_EQ(refiner.frames(), 6);
+  EXPECT_NEAR(refined.sizes().thigh_width, person.thigh_width,
+              0.6 * (person.thigh_width - body_.sizes().thigh_width));
+  EXPECT_NEAR(refined.sizes().torso_depth, person.torso_depth,
+              0.8 * (body_.sizes().torso_depth - person.torso_depth));
+}
+
+}  // namespace
+}  // namespace mocap

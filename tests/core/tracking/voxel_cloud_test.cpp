@@ -1,0 +1,116 @@
+#include "core/tracking/voxel_cloud.h"
+
+#include <gtest/gtest.h>
+
+#include "core/tracking/bounding_edges.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kVoxelMm = 25;
+
+// Fills a ball of voxels; coordinates in voxels.
+void AddBall(const Vector3& center, double radius, VoxelGrid& grid) {
+  for (int k = 0; k < grid.size().z(); ++k) {
+    for (int j = 0; j < grid.size().y(); ++j) {
+      for (int i = 0; i < grid.size().x(); ++i) {
+        if ((Vector3(i, j, k) - center).norm() <= radius) grid.Set(i, j, k);
+      }
+    }
+  }
+}
+
+VoxelGrid Room() {
+  VoxelGrid grid;
+  grid.Reset({-20, -10, 0}, {70, 40, 40}, kVoxelMm);
+  return grid;
+}
+
+TEST(Cloud, DropsIslandsButKeepsALargePieceNearby) {
+  VoxelGrid grid = Room();
+  AddBall({15, 20, 20}, 10, grid);
+  VoxelCloud body;
+  body.Build(grid);
+  const int size = body.size();
+  AddBall({29, 20, 20}, 2, grid);  // A hand, cut off at the wrist.
+  AddBall({60, 20, 20}, 3, grid);  // Larger, but far away.
+  grid.Set(28, 10, 10);            // Near, but nothing.
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  EXPECT_EQ(cloud.size(), size + 33);
+  EXPECT_LT(cloud.IndexAt(Eigen::Vector3i(60, 20, 20)), 0);
+  EXPECT_LT(cloud.IndexAt(Eigen::Vector3i(28, 10, 10)), 0);
+  const int index = cloud.IndexAt(grid.CenterOf(29, 20, 20));
+  ASSERT_GE(index, 0);
+  EXPECT_EQ(cloud.voxels()[index].cell, Eigen::Vector3i(29, 20, 20));
+}
+
+TEST(Cloud, SurfaceNormalsPointOutOfABall) {
+  VoxelGrid grid = Room();
+  const Eigen::Vector3i center(20, 20, 20);
+  AddBall(center.cast<double>(), 8, grid);
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  ASSERT_FALSE(cloud.surface().empty());
+  for (const int index : cloud.surface()) {
+    const Voxel& voxel = cloud.voxels()[index];
+    const Vector3 out = (voxel.cell - center).cast<double>().normalized();
+    EXPECT_GT(cloud.NormalAt(voxel).dot(out), 0.9);
+  }
+}
+
+TEST(Cloud, SurfaceAtTheGridsEdgeHasNormalsToo) {
+  VoxelGrid grid;
+  grid.Reset({0, 0, 0}, {4, 4, 4}, kVoxelMm);
+  AddBall({1.5, 1.5, 1.5}, 10, grid);
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  EXPECT_EQ(cloud.size(), 64);
+  EXPECT_EQ(cloud.surface().size(), 56u);
+  const Voxel& corner = cloud.voxels()[cloud.IndexAt(Eigen::Vector3i(0, 0, 0))];
+  EXPECT_NEAR(cloud.NormalAt(corner).dot(Vector3(-1, -1, -1).normalized()), 1, 1e-9);
+}
+
+// Rays along x that pass a ball above its highest voxels, and a camera's share of rays that miss
+// it.
+class Edges : public testing::Test {
+ protected:
+  Edges() {
+    VoxelGrid grid = Room();
+    AddBall({20, 20, 20}, 8, grid);
+    cloud_.Build(grid);
+    top_W_ = grid.CenterOf(20, 20, 28) + Vector3(0, 0, kVoxelMm / 2);
+  }
+  GrazingRay RayAbove(double mm) const {
+    return {top_W_ + Vector3(-3000, 0, mm), Vector3::UnitX(), Vector3::UnitZ()};
+  }
+  Outline CameraThatMisses(int rays, int missing) const {
+    Outline outline(rays, RayAbove(0));
+    for (int i = 0; i < missing; ++i) outline[i] = RayAbove(150);
+    return outline;
+  }
+
+  VoxelCloud cloud_;
+  Vector3 top_W_;
+};
+
+TEST_F(Edges, LieAlongTheVoxelsThatTheirRayGrazes) {
+  std::vector<BoundingEdge> edges;
+  FindBoundingEdges(cloud_, std::vector<Outline>{{RayAbove(0)}}, edges);
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_NEAR(edges[0].from_W.z(), top_W_.z(), 1e-9);
+  EXPECT_LE(edges[0].from_W.x(), top_W_.x());
+  EXPECT_GE(edges[0].to_W.x(), top_W_.x() - kVoxelMm);
+  EXPECT_LT(edges[0].to_W.x() - edges[0].from_W.x(), 6 * kVoxelMm);
+}
+
+TEST_F(Edges, RaysThatMissCountOnlyWhereTheCameraIsTrusted) {
+  std::vector<BoundingEdge> edges;
+  FindBoundingEdges(cloud_, std::vector<Outline>{CameraThatMisses(12, 3)}, edges);
+  EXPECT_EQ(edges.size(), 12u);
+  FindBoundingEdges(cloud_, std::vector<Outline>{CameraThatMisses(12, 6)}, edges);
+  EXPECT_EQ(edges.size(), 6u);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,92 @@
+// A person made of the model's own flesh, as six ideal cameras see it: outlines and visual hull.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/reconstruction/carver.h"
+#include "core/reconstruction/outline.h"
+#include "core/tracking/evidence.h"
+
+namespace mocap {
+
+/// Six cameras of 320 x 240 pixels in a circle of 3.2 m around the origin, 2.4 m above the floor.
+class RoundStudio {
+ public:
+  RoundStudio() {
+    Matrix3 K = Matrix3::Identity();
+    K(0, 0) = K(1, 1) = 260;
+    K(0, 2) = 159.5;
+    K(1, 2) = 119.5;
+    for (int i = 0; i < 6; ++i) {
+      const double angle = i * EIGEN_PI / 3;
+      CameraCalibration camera;
+      camera.width_px = 320;
+      camera.height_px = 240;
+      camera.lens = OpenCvLens{.K = K, .distortion = {}};
+      camera.X_CW = LookingAt({3200 * std::cos(angle), 3200 * std::sin(angle), 2400}, {0, 0, 950});
+      cameras_.push_back(camera);
+      tables_.emplace_back(camera);
+    }
+  }
+
+  const std::vector<CameraCalibration>& cameras() const { return cameras_; }
+
+  /// What camera `index` sees of a person.
+  Silhouette See(std::size_t index, const BodyModel& body, const PoseState& pose) const {
+    std::vector<PosedCapsule> flesh;
+    body.PoseShape(body.PostureAt(pose), flesh);
+    const CameraCalibration& camera = cameras_[index];
+    const RigidTransform X_WC = camera.X_CW.Inverse();
+    Silhouette silhouette(camera.width_px, camera.height_px);
+    for (int y = 0; y < camera.height_px; ++y) {
+      for (int x = 0; x < camera.width_px; ++x) {
+        const auto normalized = NormalizedFromPixel(camera.lens, Vector2(x, y));
+        const Vector3 far_W = X_WC * (8000 * Vector3(normalized->x(), normalized->y(), 1));
+        const Vector3 direction_W = (far_W - X_WC.p).normalized();
+        const bool hit = std::any_of(flesh.begin(), flesh.end(), [&](const auto& capsule) {
+          const double aside_mm = direction_W.cross(capsule.middle_W - X_WC.p).norm();
+          return aside_mm <= capsule.reach_mm && capsule.DistanceTo(X_WC.p, far_W).outside_mm <= 0;
+        });
+        if (hit) silhouette.Set(x, y);
+      }
+    }
+    return silhouette;
+  }
+
+  /// Outlines and hull of a person.
+  Evidence Show(const BodyModel& body, const PoseState& pose) const {
+    std::vector<Silhouette> silhouettes;
+    std::vector<Outline> outlines(cameras_.size());
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      silhouettes.push_back(See(i, body, pose));
+      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], 100, outlines[i]);
+    }
+    std::vector<CarvingView> views;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      views.push_back({&tables_[i], &silhouettes[i], cameras_[i].X_CW});
+    }
+    VoxelGrid grid;
+    Carver(CarvingOptions{}).Carve(views, grid);
+    Evidence evidence;
+    evidence.Gather(grid, outlines);
+    return evidence;
+  }
+
+ private:
+  static RigidTransform LookingAt(const Vector3& eye_W, const Vector3& target_W) {
+    const Vector3 forward = (target_W - eye_W).normalized();
+    const Vector3 right = forward.cross(Vector3::UnitZ()).normalized();
+    RigidTransform X_CW;
+    X_CW.R << right.transpose(), forward.cross(right).transpose(), forward.transpose();
+    X_CW.p = -(X_CW.R * eye_W);
+    return X_CW;
+  }
+
+  std::vector<CameraCalibration> cameras_;
+  std::vector<SensorPlaneTable> tables_;
+};
+
+}  // namespace mocap

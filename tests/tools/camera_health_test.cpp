@@ -1,0 +1,98 @@
+#include "tools/camera_health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/errors.h"
+#include "drivers/simulated_studio.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kBump_rad = 0.5 * std::numbers::pi / 180;
+
+/// Ten seconds of a walk as the cameras truly see it, a moment a second.
+const TakeSamples& Walk() {
+  static const TakeSamples samples = [] {
+    SimulatedStudioOptions options = RecordedSimulation();
+    options.fps = 1;
+    options.seconds = 10;
+    options.seed = 2;
+    const SimulatedStudio studio(options);
+    TakeSamples walk;
+    walk.cameras = studio.cameras();
+    walk.moments.resize(10);
+    for (std::size_t c = 0; c < walk.cameras.size(); ++c) {
+      const auto camera = studio.OpenCamera(static_cast<int>(c));
+      camera->Start();
+      for (SampledMoment& moment : walk.moments) {
+        Frame frame;
+        camera->Grab(frame, std::chrono::milliseconds(0));
+        const ImageView<const std::uint8_t> mask = camera->TrueMask();
+        Silhouette silhouette(mask.width(), mask.height());
+        for (int y = 0; y < mask.height(); ++y) {
+          for (int x = 0; x < mask.width(); ++x) {
+            if (mask(x, y) != 0) silhouette.Set(x, y);
+          }
+        }
+        moment.views.push_back(SampledView{walk.cameras[c].X_CW, std::move(silhouette), {}});
+      }
+    }
+    return walk;
+  }();
+  return samples;
+}
+
+/// The calibration as it was before a camera was turned.
+TakeSamples Bumped(TakeSamples samples, std::size_t camera, const Vector3& turn) {
+  const Matrix3 R = ExpRotation(turn);
+  RigidTransform& X_CW = samples.cameras[camera].X_CW;
+  X_CW = {R * X_CW.R, R * X_CW.p};
+  for (SampledMoment& moment : samples.moments) moment.views[camera]->X_CW = X_CW;
+  return samples;
+}
+
+double TurnBetween(const CameraCalibration& a, const CameraCalibration& b) {
+  return LogRotation(a.X_CW.R * b.X_CW.R.transpose()).norm();
+}
+
+TEST(CameraHealthTest, LeavesAStudioAloneThatHasNotMoved) {
+  const RefinedStudio refined = RefineFromSilhouettes(Walk());
+  EXPECT_THAT(refined.moved, IsEmpty());
+  for (const CameraShift& shift : refined.before) EXPECT_LT(shift.shift_px.norm(), kMovedPx);
+}
+
+TEST(CameraHealthTest, NamesACameraThatWasBumpedByHalfADegreeAndPutsItRight) {
+  const Vector3 turn = kBump_rad * Vector3(0.5, -1, 0.2).normalized();
+  const RefinedStudio refined = RefineFromSilhouettes(Bumped(Walk(), 3, turn));
+  EXPECT_THAT(refined.moved, ElementsAre("cam4"));
+  const CameraShift& shift = refined.before[3];
+  EXPECT_GT(shift.shift_px.norm(), 2.5);
+  const double left_rad = TurnBetween(refined.cameras[3], Walk().cameras[3]);
+  // Roll about the axis moves next to nothing in the picture and is not looked for.
+  EXPECT_LT(left_rad, 0.3 * kBump_rad);
+  EXPECT_LT(refined.after[3].shift_px.norm(), 0.6);
+  EXPECT_EQ(refined.cameras[0].X_CW.p, Walk().cameras[0].X_CW.p);
+}
+
+TEST(CameraHealthTest, SaysSoWhenNobodyIsSeen) {
+  TakeSamples empty = Walk();
+  for (SampledMoment& moment : empty.moments) {
+    for (auto& view : moment.views) view->silhouette = Silhouette(640, 480);
+  }
+  try {
+    RefineFromSilhouettes(empty);
+    FAIL() << "accepted";
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("0 cameras see a whole person"));
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders that a folder may include from.
+const std::map<std::string, std::set<std::string>> kDoors = {
+    {"core", {"core"}},
+    {"drivers", {"core", "drivers"}},
+    {"config", {"core", "drivers", "config"}},
+    {"daemon", {"core", "drivers", "config", "daemon"}},
+    {"tools", {"core", "drivers", "config", "daemon", "tools"}}};
+
+struct Include {
+  fs::path file;
+  std::string header;
+  bool in_quotes;
+};
+
+std::vector<Include> IncludesUnder(const std::string& folder) {
+  static const std::regex kInclude(R"(^\s*#include\s*([<"])([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(MOCAP_SOURCE_DIR) / folder)) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(in, line);) {
+      if (std::regex_search(line, match, kInclude))
+        includes.push_back({entry.path(), match[2], match[1] == "\""});
+    }
+  }
+  return includes;
+}
+
+TEST(SourceLayout, FoldersIncludeOnlyThroughTheirDoors) {
+  for (const auto& [folder, doors] : kDoors) {
+    const std::vector<Include> includes = IncludesUnder(folder);
+    ASSERT_FALSE(includes.empty()) << folder;
+    for (const Include& include : includes) {
+      if (!include.in_quotes) continue;
+      const std::string from = include.header.substr(0, include.header.find('/'));
+      EXPECT_TRUE(doors.contains(from)) << include.file << " includes " << include.header;
+    }
+  }
+}
+
+TEST(SourceLayout, CoreKnowsEigenAndTheLanguageButNoThreadsClocksFilesOrLogs) {
+  const std::set<std::string> kBarred = {"thread",  "mutex",    "chrono", "condition_variable",
+                                         "fstream", "iostream", "future", "filesystem",
+                                         "ctime",   "random"};
+  for (const Include& include : IncludesUnder("core")) {
+    if (include.in_quotes) continue;
+    EXPECT_FALSE(kBarred.contains(include.header)) << include.file << ": " << include.header;
+    const bool is_of_the_language = include.header.find('/') == std::string::npos;
+    EXPECT_TRUE(is_of_the_language || include.header.starts_with("Eigen/")) << include.file;
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,327 @@
+#include "tools/calibrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+
+#include "config/load_config.h"
+#include "core/calibration/tsai.h"
+#include "core/errors.h"
+#include "drivers/calibration_file.h"
+#include "tools/calibrate_steps.h"
+#include "tools/calibrate_takes.h"
+#include "tools/calibration/exchange.h"
+#include "tools/calibration_report.h"
+#include "tools/camera_health.h"
+#include "tools/take_samples.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kFeetTolerance_mm = 100;
+constexpr double kLowestHead_mm = 1100, kHighestHead_mm = 2400;
+
+using Arguments = std::shared_ptr<CalibrateArguments>;
+
+void WriteFile(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
+  const std::vector<Finding> findings = CheckAll(arguments, fit);
+  WriteCalibration(arguments.out, fit.bundle.cameras);
+  if (!arguments.report.empty())
+    WriteFile(arguments.report,
+              CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(), fit,
+                                    findings));
+  const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
+  std::fputs(text.c_str(), stdout);
+}
+
+void AddFootage(CLI::App* command, const Arguments& a) {
+  command
+      ->add_option("FOOTAGE", a->footage, "a take, or a folder with a video or pictures a camera")
+      ->required();
+  command
+      ->add_option("--board", a->board,
+                   "chess:COLUMNSxROWS:MM (inner corners) or "
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares)")
+      ->required();
+  command->add_option("--most-frames", a->most_frames, "look at so many frames of a camera")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+}
+
+void AddOutput(CLI::App* command, const Arguments& a) {
+  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->add_flag("--json", a->json, "print one JSON object");
+}
+
+void AddReport(CLI::App* command, const Arguments& a) {
+  command->add_option("--report", a->report, "HTML file to write: errors, coverage, plan, verdict");
+}
+
+void AddLens(CLI::App* command, const Arguments& a) {
+  command->add_option("--lens", a->lens, "lens model: tsai, opencv or fisheye")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"tsai", "opencv", "fisheye"}));
+  command->add_option("--pitch", a->pitch_mm, "Tsai's dx dy: size of a pixel [mm]")->expected(2);
+}
+
+void AddWorld(CLI::App* command, const Arguments& a) {
+  command->add_option("--floor", a->floor,
+                      "footage of the board lying on the floor: origin and axes");
+  command->add_option("--floor-points", a->floor_points,
+                      "CSV of three floor points instead: origin|x|y,CAMERA,X,Y");
+  command->add_option("--thickness", a->thickness_mm,
+                      "the board's printed side above the floor [mm]");
+  command->add_option("--distance", a->distance,
+                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+  command->add_flag("--set-scale", a->set_scale,
+                    "make the world agree with --distance instead of checking against it");
+}
+
+void AddStudio(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command = parent->add_subcommand("studio", "All cameras from a board carried about");
+  AddFootage(command, a);
+  AddOutput(command, a);
+  AddReport(command, a);
+  AddLens(command, a);
+  AddWorld(command, a);
+  command->callback([a] { Finish(*a, CalibrateStudio(*a)); });
+}
+
+void AddIntrinsics(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command = parent->add_subcommand("intrinsics", "Lenses alone");
+  AddFootage(command, a);
+  AddOutput(command, a);
+  AddLens(command, a);
+  command->callback([a] { Finish(*a, CalibrateIntrinsics(*a)); });
+}
+
+void AddExtrinsics(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command =
+      parent->add_subcommand("extrinsics", "Poses of cameras whose lenses are known");
+  AddFootage(command, a);
+  AddOutput(command, a);
+  AddReport(command, a);
+  AddWorld(command, a);
+  command->add_option("--intrinsics", a->intrinsics, "calibration.toml with the lenses")
+      ->required();
+  command->add_flag("--still", a->still,
+                    "the board lies still on the floor where all cameras see it: it is the world");
+  command->add_flag("--keep-lenses", a->keep_lenses, "leave the lenses as they are");
+  command->callback([a] { Finish(*a, CalibrateExtrinsics(*a)); });
+}
+
+void AddFloor(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command =
+      parent->add_subcommand("floor", "Floor, origin, axes and scale of a calibration");
+  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
+  command->add_option("--board", a->board, "the board on the floor, as for mocap calibrate studio");
+  AddOutput(command, a);
+  AddWorld(command, a);
+  command->callback([a] {
+    if (a->floor.empty() == a->floor_points.empty())
+      throw SetupError("mocap calibrate floor: either --floor or --floor-points is wanted");
+    StudioFit fit;
+    fit.bundle.cameras = LoadCalibration(a->calibration);
+    SetWorld(*a, fit);
+    WriteCalibration(a->out, fit.bundle.cameras);
+    const std::string verdict = Verdict(CheckAll(*a, fit)) + '\n';
+    std::fputs(verdict.c_str(), stdout);
+  });
+}
+
+struct ConvertArguments {
+  std::filesystem::path in, out;
+  std::string from = "mocap", to = "mocap";
+  double unit_mm = 1000;
+};
+
+Cameras ReadAny(const ConvertArguments& a) {
+  if (a.from == "pose2sim") return ReadPose2Sim(a.in, a.unit_mm);
+  if (a.from == "easymocap") return ReadEasyMocap(a.in);
+  if (a.from == "opencv") return ReadOpenCvYaml(a.in);
+  if (a.from == "willson") return ReadWillson(a.in);
+  if (a.from == "qualisys") return ReadQualisys(a.in);
+  if (a.from == "vicon") return ReadVicon(a.in);
+  return LoadCalibration(a.in);
+}
+
+void WriteAny(const ConvertArguments& a, const Cameras& cameras) {
+  if (a.to == "pose2sim") return WritePose2Sim(a.out, cameras, a.unit_mm);
+  if (a.to == "easymocap") return WriteEasyMocap(a.out, cameras);
+  if (a.to == "opencv") return WriteOpenCvYaml(a.out, cameras);
+  if (a.to == "willson") return WriteWillson(a.out, cameras);
+  if (a.to == "qualisys") return WriteQualisys(a.out, cameras);
+  if (a.to == "vicon") return WriteVicon(a.out, cameras);
+  WriteCalibration(a.out, cameras);
+}
+
+void AddConvert(CLI::App* parent) {
+  const auto a = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      parent->add_subcommand("convert", "Calibrations of other programs, in and out");
+  const CLI::IsMember formats(std::vector<std::string>{"mocap", "pose2sim", "easymocap", "opencv",
+                                                       "willson", "qualisys", "vicon"});
+  command->add_option("IN", a->in, "file, or folder for easymocap, opencv and willson")->required();
+  command->add_option("--from", a->from, "format of IN")->capture_default_str()->check(formats);
+  command->add_option("--to", a->to, "format of --out")->capture_default_str()->check(formats);
+  command->add_option("--out", a->out, "file or folder to write")->required();
+  command
+      ->add_option("--unit", a->unit_mm,
+                   "one unit of a pose2sim file in mm (aniposelib's is its board's)")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->callback([a] {
+    const Cameras cameras = ReadAny(*a);
+    const bool has_head =
+        std::any_of(cameras.begin(), cameras.end(),
+                    [](const CameraCalibration& c) { return c.head.has_value(); });
+    if (has_head && a->to != "mocap")
+      throw SetupError("--to " + a->to + ": knows no pan-tilt heads; mocap does");
+    WriteAny(*a, cameras);
+    for (const Finding& finding : CheckCameras(cameras, true))
+      std::fprintf(stdout, "look: %s\n", finding.text.c_str());
+  });
+}
+
+// A person's feet are on the floor and the head is as high as heads are.
+void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
+  const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
+  const StandingPerson person = MeasurePerson(samples);
+  const auto add = [&](Severity severity, const std::string& text) {
+    findings.insert(findings.begin(), {severity, take.string() + ": " + text});
+  };
+  if (person.moments == 0) {
+    add(Severity::kWrong,
+        "the cameras' views of the person meet nowhere; poses or camera names are "
+        "mixed up");
+    return;
+  }
+  if (std::abs(person.lowest_mm) > kFeetTolerance_mm)
+    add(Severity::kWrong,
+        "the person's feet are at z = " + std::to_string(std::lround(person.lowest_mm)) +
+            " mm, not on the floor; set the floor again");
+  if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
+    add(Severity::kWarning,
+        "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) +
+            " mm; was the board's square typed right, and does somebody stand there?");
+}
+
+void AddCheck(CLI::App* parent) {
+  const auto a = std::make_shared<CalibrateArguments>();
+  CLI::App* command = parent->add_subcommand("check", "What a calibration is worth");
+  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
+  command->add_option("--distance", a->distance,
+                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+  command->add_option("--take", a->footage,
+                      "a take with this calibration in which a person stands or walks");
+  command->callback([a] {
+    StudioFit fit;
+    fit.bundle.cameras = LoadCalibration(a->calibration);
+    fit.has_floor = true;
+    std::vector<Finding> findings = CheckAll(*a, fit);
+    if (!a->footage.empty()) CheckPerson(a->footage, findings);
+    for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
+    std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
+  });
+}
+
+struct TsaiArguments {
+  std::filesystem::path points, out;
+  std::vector<double> pitch_mm, center_px;
+  std::vector<int> size_px;
+  double sx = 1;
+  bool fixed_center = false;
+};
+
+std::vector<PointSighting> ReadPoints(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw SetupError(file.string() + ": cannot be read");
+  std::vector<PointSighting> points;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    PointSighting p;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf", &p.p_W.x(), &p.p_W.y(), &p.p_W.z(),
+                    &p.pixel.x(), &p.pixel.y()) != 5)
+      throw SetupError(file.string() + ":" + std::to_string(number) +
+                       ": is not five numbers: xw yw zw Xf Yf");
+    points.push_back(p);
+  }
+  return points;
+}
+
+void RunTsai(const TsaiArguments& a) {
+  TsaiSensor sensor;
+  sensor.pitch_mm = {a.pitch_mm[0], a.pitch_mm[1]};
+  const Vector2 size(a.size_px[0], a.size_px[1]);
+  sensor.center_px = a.center_px.empty() ? Vector2((size - Vector2::Ones()) / 2)
+                                         : Vector2(a.center_px[0], a.center_px[1]);
+  sensor.sx = a.sx;
+  sensor.refine_center = !a.fixed_center;
+  TsaiCalibration result;
+  try {
+    result = CalibrateTsai(ReadPoints(a.points), sensor);
+  } catch (const SetupError& error) {
+    throw SetupError(a.points.string() + ": " + error.what());
+  }
+  const CameraCalibration camera{"cam1", a.size_px[0], a.size_px[1], result.lens, result.X_CW, {}};
+  WriteCalibration(a.out, std::vector<CameraCalibration>{camera});
+  std::fprintf(stdout,
+               "%s points: mean %.4f px, rms %.4f px, worst %.4f px; f %.4f mm, Tz %.2f mm\n",
+               result.coplanar ? "coplanar" : "spatial", result.mean_px, result.rms_px,
+               result.worst_px, result.lens.focal_mm, result.X_CW.p.z());
+}
+
+void AddTsai(CLI::App* parent) {
+  const auto a = std::make_shared<TsaiArguments>();
+  CLI::App* command =
+      parent->add_subcommand("tsai", "One camera from known points, by Tsai's method of 1987");
+  command->add_option("POINTS", a->points, "rows of xw yw zw [mm] Xf Yf [px]")->required();
+  command->add_option("--pitch", a->pitch_mm, "dx dy: size of a pixel [mm]")
+      ->required()
+      ->expected(2);
+  command->add_option("--size", a->size_px, "picture's width and height [px]")
+      ->required()
+      ->expected(2);
+  command->add_option("--center", a->center_px, "Cx Cy; the picture's middle otherwise")
+      ->expected(2);
+  command->add_option("--sx", a->sx, "for coplanar points, which do not determine it")
+      ->capture_default_str();
+  command->add_flag("--fixed-center", a->fixed_center, "leave Cx and Cy as they are");
+  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->callback([a] { RunTsai(*a); });
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("calibrate", "Calibrates a studio, or one step of it");
+  command->require_subcommand(1);
+  AddStudio(command);
+  AddIntrinsics(command);
+  AddExtrinsics(command);
+  AddFloor(command);
+  AddPanTilt(command);
+  AddHealth(command);
+  AddRefine(command);
+  AddTsai(command);
+  AddCheck(command);
+  AddConvert(command);
+}
+
+}  // namespace mocap

@@ -1,0 +1,247 @@
+#include "tools/calibrate_steps.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "tools/calibration/floor.h"
+#include "tools/calibration/footage.h"
+#include "tools/calibration/still_board.h"
+#include "tools/json_object.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kDistanceTolerance = 0.01;
+
+LensModel ModelOf(const std::string& name) {
+  if (name == "tsai") return LensModel::kTsai;
+  return name == "fisheye" ? LensModel::kFisheye : LensModel::kOpenCv;
+}
+
+class Progress {
+ public:
+  Progress() : shown_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_) std::fputs("\r\x1b[K", stderr);
+  }
+  void Show(const std::string& line) const {
+    if (shown_) std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
+  }
+
+ private:
+  bool shown_;
+};
+
+BoardSightings Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
+                       bool all_must_see) {
+  const Progress progress;
+  SightingOptions options;
+  options.still = still;
+  options.all_must_see = all_must_see;
+  options.most_frames = arguments.most_frames;
+  options.progress = [&](const std::string& camera, int done, int total, int found,
+                         const std::string& hint) {
+    progress.Show(fmt::format("{}: frame {} of {}, {} views{}{}", camera, done, total, found,
+                              hint.empty() ? "" : "; ", hint));
+  };
+  return CollectSightings(footage, ParseBoard(arguments.board), options);
+}
+
+// Lenses from a file, in the order of the footage.
+std::vector<CameraCalibration> LensesFor(const BoardSightings& sightings,
+                                         const std::filesystem::path& file) {
+  const std::vector<CameraCalibration> all = LoadCalibration(file);
+  std::vector<CameraCalibration> lenses;
+  for (const SightingCamera& camera : sightings.cameras) {
+    const auto lens = std::find_if(
+        all.begin(), all.end(), [&](const CameraCalibration& c) { return c.name == camera.name; });
+    if (lens == all.end())
+      throw SetupError(fmt::format("{}: has no camera {}; the footage has one", file.string(),
+                                   Quoted(camera.name)));
+    if (lens->width_px != camera.width_px || lens->height_px != camera.height_px)
+      throw SetupError(fmt::format("{}: {} is calibrated for {} x {}; its footage is {} x {}",
+                                   file.string(), camera.name, lens->width_px, lens->height_px,
+                                   camera.width_px, camera.height_px));
+    lenses.push_back(*lens);
+  }
+  return lenses;
+}
+
+std::vector<LensFit> FitLenses(const BoardSightings& sightings,
+                               const CalibrateArguments& arguments) {
+  const Progress progress;
+  LensFitOptions options;
+  options.model = ModelOf(arguments.lens);
+  options.pitch_mm = {arguments.pitch_mm[0], arguments.pitch_mm[1]};
+  std::vector<LensFit> fits;
+  for (std::size_t c = 0; c < sightings.cameras.size(); ++c) {
+    progress.Show("lens of " + sightings.cameras[c].name);
+    fits.push_back(FitLens(sightings, static_cast<int>(c), options));
+  }
+  return fits;
+}
+
+std::vector<CameraCalibration> Cameras(const BoardSightings& sightings,
+                                       const std::vector<LensFit>& lenses) {
+  std::vector<CameraCalibration> cameras;
+  for (std::size_t c = 0; c < lenses.size(); ++c) {
+    const SightingCamera& camera = sightings.cameras[c];
+    cameras.push_back({camera.name, camera.width_px, camera.height_px, lenses[c].lens, {}, {}});
+  }
+  return cameras;
+}
+
+StudioFit FitPoses(const BoardSightings& sightings, const std::vector<CameraCalibration>& lenses,
+                   const CalibrateArguments& arguments) {
+  const Progress progress;
+  progress.Show("bundle adjustment");
+  if (arguments.still)
+    return FitToStillBoard(sightings, lenses, sightings.still_pictures, arguments.thickness_mm);
+  ExtrinsicsOptions options;
+  options.refine_lenses = !arguments.keep_lenses;
+  return FitExtrinsics(sightings, lenses, options);
+}
+
+std::string SeverityText(Severity severity) {
+  if (severity == Severity::kWrong) return "WRONG";
+  return severity == Severity::kWarning ? "look" : "note";
+}
+
+}  // namespace
+
+StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
+  const Footage footage = OpenFootage(arguments.footage);
+  StudioFit fit;
+  fit.sightings = Collect(footage, arguments, false, true);
+  const std::vector<LensFit> lenses = FitLenses(fit.sightings, arguments);
+  fit.bundle.cameras = Cameras(fit.sightings, lenses);
+  fit.bundle.X_WB.assign(static_cast<std::size_t>(fit.sightings.moments), std::nullopt);
+  MeasureFit(fit);
+  for (std::size_t c = 0; c < lenses.size(); ++c) {
+    fit.cameras[c].lens_rms_px = lenses[c].rms_px;
+    fit.cameras[c].focal_sigma_share = lenses[c].focal_sigma_share;
+    fit.rms_px = std::max(fit.rms_px, lenses[c].rms_px);
+  }
+  return fit;
+}
+
+StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
+  const Footage footage = OpenFootage(arguments.footage);
+  const BoardSightings sightings = Collect(footage, arguments, arguments.still, true);
+  StudioFit fit = FitPoses(sightings, LensesFor(sightings, arguments.intrinsics), arguments);
+  SetWorld(arguments, fit);
+  return fit;
+}
+
+StudioFit CalibrateStudio(const CalibrateArguments& arguments) {
+  const Footage footage = OpenFootage(arguments.footage);
+  const BoardSightings sightings = Collect(footage, arguments, false, true);
+  const std::vector<LensFit> lenses = FitLenses(sightings, arguments);
+  StudioFit fit = FitPoses(sightings, Cameras(sightings, lenses), arguments);
+  for (std::size_t c = 0; c < lenses.size(); ++c) {
+    fit.cameras[c].lens_rms_px = lenses[c].rms_px;
+    fit.cameras[c].focal_sigma_share = lenses[c].focal_sigma_share;
+  }
+  SetWorld(arguments, fit);
+  return fit;
+}
+
+void SetWorld(const CalibrateArguments& arguments, StudioFit& fit) {
+  if (arguments.set_scale) {
+    const KnownDistance distance = ParseDistance(arguments.distance);
+    ScaleWorld(distance.mm / DistanceMm(distance, fit.bundle.cameras), fit.bundle);
+  }
+  if (!arguments.floor.empty()) {
+    const Footage footage = OpenFootage(arguments.floor);
+    BoardSightings still = Collect(footage, arguments, true, false);
+    // The floor's footage may lack cameras or have them in another order.
+    for (BoardSighting& s : still.sightings) {
+      const std::string& name = still.cameras[s.camera].name;
+      const auto camera = std::find_if(fit.bundle.cameras.begin(), fit.bundle.cameras.end(),
+                                       [&](const CameraCalibration& c) { return c.name == name; });
+      if (camera == fit.bundle.cameras.end())
+        throw SetupError(arguments.floor.string() + ": has a camera " + Quoted(name) +
+                         " that is not calibrated");
+      s.camera = static_cast<int>(camera - fit.bundle.cameras.begin());
+    }
+    const RigidTransform X_WB = FindStillBoard(still, fit.bundle.cameras);
+    MoveWorld(WorldOnBoard(X_WB, fit.bundle.cameras, arguments.thickness_mm), fit.bundle);
+    fit.has_floor = true;
+  } else if (!arguments.floor_points.empty()) {
+    const std::vector<FloorPoint> points =
+        ReadFloorPoints(arguments.floor_points.string(), fit.bundle.cameras);
+    MoveWorld(WorldOnPoints(points, fit.bundle.cameras), fit.bundle);
+    fit.has_floor = true;
+  }
+}
+
+std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioFit& fit) {
+  std::vector<Finding> findings = CheckFit(fit);
+  if (!arguments.distance.empty()) {
+    const KnownDistance distance = ParseDistance(arguments.distance);
+    const double found_mm = DistanceMm(distance, fit.bundle.cameras);
+    if (std::abs(found_mm / distance.mm - 1) > kDistanceTolerance)
+      findings.insert(
+          findings.begin(),
+          {Severity::kWrong,
+           fmt::format("{} and {} are {:.0f} mm apart here and {:.0f} mm by the tape: the "
+                       "board's squares are {:.2f} times what was typed",
+                       distance.from, distance.to, found_mm, distance.mm, distance.mm / found_mm)});
+  }
+  return findings;
+}
+
+std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) {
+  const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
+  std::string text =
+      fmt::format("board: {}\n{:<10}{:>7}{:>9}{:>9}{:>12}{:>10}\n", fit.sightings.board.Text(),
+                  "camera", "views", "lens px", "px", "mm (person)", "covered");
+  for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
+    const CameraFit& camera = fit.cameras[c];
+    text += fmt::format("{:<10}{:>7}{:>9.3f}{:>9.3f}{:>12.2f}{:>9.0f}%\n", camera.name,
+                        camera.views, camera.lens_rms_px, camera.rms_px,
+                        camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W),
+                        100 * camera.coverage.share);
+  }
+  for (std::size_t c = 1; c < fit.bundle.lateness_s.size(); ++c) {
+    if (std::abs(fit.bundle.lateness_s[c]) < 0.0005) continue;
+    text += fmt::format("{} exposes {:+.1f} ms against {}\n", fit.cameras[c].name,
+                        1000 * fit.bundle.lateness_s[c], fit.cameras[0].name);
+  }
+  text += fmt::format("overall {:.3f} px\n", fit.rms_px);
+  for (const Finding& finding : findings)
+    text += SeverityText(finding.severity) + ": " + finding.text + '\n';
+  return text + Verdict(findings) + '\n';
+}
+
+std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) {
+  const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
+  JsonObject json, cameras;
+  json.Add("rms_px", fit.rms_px, 4);
+  for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
+    const CameraFit& camera = fit.cameras[c];
+    JsonObject one;
+    one.Add("views", camera.views);
+    one.Add("lens_rms_px", camera.lens_rms_px, 4);
+    one.Add("rms_px", camera.rms_px, 4);
+    one.Add("rms_mm", camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W), 3);
+    one.Add("coverage", camera.coverage.share, 3);
+    cameras.Add(camera.name, one);
+  }
+  json.Add("cameras", cameras);
+  JsonObject list;
+  for (std::size_t i = 0; i < findings.size(); ++i)
+    list.Add(std::to_string(i + 1), SeverityText(findings[i].severity) + ": " + findings[i].text);
+  json.Add("findings", list);
+  json.Add("verdict", Verdict(findings));
+  return json.Text() + '\n';
+}
+
+}  // namespace mocap

@@ -1,0 +1,214 @@
+#include "tools/calibration/board_detector.h"
+
+#include <algorithm>
+#include <map>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "tools/calibration/board_rectifier.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kFewestCharucoCorners = 6;
+constexpr double kWideEdge_px = 4, kWideEdgeShare = 0.45;
+
+const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
+    {"DICT_4X4_50", cv::aruco::DICT_4X4_50},
+    {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
+    {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
+    {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
+    {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
+    {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
+    {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
+    {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
+    {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
+    {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
+    {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
+    {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
+    {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
+    {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
+    {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
+    {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
+    {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL}};
+
+cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board) {
+  const auto name = kDictionaries.find(board.dictionary);
+  if (name == kDictionaries.end())
+    throw SetupError("--board: there is no dictionary " + Quoted(board.dictionary) +
+                     "; wanted is OpenCV's name of one, as DICT_4X4_50");
+  const cv::Ptr<cv::aruco::Dictionary> dictionary =
+      cv::aruco::getPredefinedDictionary(name->second);
+  const int markers = (board.columns + 1) * (board.rows + 1) / 2;
+  if (markers > dictionary->bytesList.rows)
+    throw SetupError("--board: " + board.dictionary + " has " +
+                     std::to_string(dictionary->bytesList.rows) + " markers; the board has " +
+                     std::to_string(markers));
+  return cv::aruco::CharucoBoard::create(
+      board.columns + 1, board.rows + 1, static_cast<float>(board.square_mm),
+      static_cast<float>(board.square_mm * board.marker_share), dictionary);
+}
+
+// Width of the edge between two squares' middles over the widest that is sharp.
+double EdgeExcess(const cv::Mat& gray, const cv::Point2f& from, const cv::Point2f& to) {
+  const double length_px = cv::norm(to - from);
+  constexpr int kSteps = 24;
+  double last = 0, steepest = 1e-9, first = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const cv::Point2f at = from + (to - from) * (static_cast<float>(i) / kSteps);
+    const int x = std::clamp(static_cast<int>(at.x), 0, gray.cols - 2);
+    const int y = std::clamp(static_cast<int>(at.y), 0, gray.rows - 2);
+    const double u = std::clamp(at.x - x, 0.f, 1.f), v = std::clamp(at.y - y, 0.f, 1.f);
+    const auto pixel = [&](int dx, int dy) {
+      return static_cast<double>(gray.at<std::uint8_t>(y + dy, x + dx));
+    };
+    const double value = (1 - v) * ((1 - u) * pixel(0, 0) + u * pixel(1, 0)) +
+                         v * ((1 - u) * pixel(0, 1) + u * pixel(1, 1));
+    if (i == 0) first = value;
+    if (i > 0) steepest = std::max(steepest, std::abs(value - last) * kSteps / length_px);
+    last = value;
+  }
+  const double width_px = std::abs(last - first) / steepest;
+  return width_px / std::max(kWideEdge_px, kWideEdgeShare * length_px);
+}
+
+}  // namespace
+
+class BoardDetector::Impl {
+ public:
+  explicit Impl(const Board& board) : board_(board) {
+    if (board.kind == BoardKind::kCharuco) charuco_ = MakeCharuco(board);
+    parameters_ = cv::aruco::DetectorParameters::create();
+    parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_NONE;
+  }
+
+  std::optional<BoardCorners> Detect(ImageView<const Bgr> image, Effort effort) const {
+    const cv::Mat view(image.height(), image.width(), CV_8UC3, const_cast<Bgr*>(image.row(0)),
+                       image.stride() * sizeof(Bgr));
+    cv::Mat gray;
+    cv::cvtColor(view, gray, cv::COLOR_BGR2GRAY);
+    if (board_.inverted) cv::bitwise_not(gray, gray);
+    return charuco_ ? DetectCharuco(gray) : DetectChessboard(gray, effort);
+  }
+
+ private:
+  std::optional<BoardCorners> DetectCharuco(const cv::Mat& gray) const {
+    std::vector<std::vector<cv::Point2f>> markers;
+    std::vector<int> marker_ids;
+    cv::aruco::detectMarkers(gray, charuco_->dictionary, markers, marker_ids, parameters_);
+    if (marker_ids.empty()) return std::nullopt;
+    std::vector<cv::Point2f> corners;
+    std::vector<int> ids;
+    cv::aruco::interpolateCornersCharuco(markers, marker_ids, gray, charuco_, corners, ids);
+    if (static_cast<int>(ids.size()) < kFewestCharucoCorners || OnOneLine(ids)) return std::nullopt;
+    BoardCorners found;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      found.ids.push_back(ids[i]);
+      found.pixels.emplace_back(corners[i].x, corners[i].y);
+    }
+    return found;
+  }
+
+  bool OnOneLine(const std::vector<int>& ids) const {
+    const auto same = [&](auto part) {
+      return std::all_of(ids.begin(), ids.end(), [&](int id) { return part(id) == part(ids[0]); });
+    };
+    return same([&](int id) { return id / board_.columns; }) ||
+           same([&](int id) { return id % board_.columns; });
+  }
+
+  std::optional<BoardCorners> DetectChessboard(const cv::Mat& gray, Effort effort) const {
+    const cv::Size size(board_.columns, board_.rows);
+    std::vector<cv::Point2f> corners;
+    int flags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY;
+    if (effort == Effort::kThorough) flags |= cv::CALIB_CB_EXHAUSTIVE;
+    if (!cv::findChessboardCornersSB(gray, size, corners, flags)) {
+      if (effort == Effort::kQuick) return std::nullopt;
+      corners = FindRectifiedChessboard(gray, size);
+      if (corners.empty()) return std::nullopt;
+    }
+    // Corners of blurred squares are still found, but not where they were.
+    if (IsBlurred(gray, corners)) return std::nullopt;
+    BoardCorners found;
+    for (int id = 0; id < board_.corners(); ++id) {
+      found.ids.push_back(id);
+      found.pixels.emplace_back(corners[id].x, corners[id].y);
+    }
+    MakeUnmirrored(found);
+    if (!board_.LooksSameTurned()) BeginAtDarkSquare(gray, found);
+    return found;
+  }
+
+  // With an odd and an even side, one end has dark squares in its corners, the other light ones; as
+  // many count up as down.
+  void BeginAtDarkSquare(const cv::Mat& gray, BoardCorners& found) const {
+    const auto brightness = [&](int row, int column) {
+      const int id = row * board_.columns + column;
+      const Vector2 middle =
+          (found.pixels[id] + found.pixels[id + 1] + found.pixels[id + board_.columns] +
+           found.pixels[id + board_.columns + 1]) /
+          4;
+      const int x = std::clamp(static_cast<int>(std::lround(middle.x())), 0, gray.cols - 1);
+      const int y = std::clamp(static_cast<int>(std::lround(middle.y())), 0, gray.rows - 1);
+      return static_cast<int>(gray.at<std::uint8_t>(y, x));
+    };
+    int contrast = 0;
+    for (int row = 0; row + 1 < board_.rows; ++row) {
+      for (int column = 0; column + 1 < board_.columns; ++column)
+        contrast += ((row + column) % 2 == 0 ? 1 : -1) * brightness(row, column);
+    }
+    if (contrast > 0) std::reverse(found.pixels.begin(), found.pixels.end());
+  }
+
+  // Whether edges between squares are wide for the squares, along rows or down columns.
+  bool IsBlurred(const cv::Mat& gray, const std::vector<cv::Point2f>& corners) const {
+    const auto middle = [&](int row, int column) {
+      const int id = row * board_.columns + column;
+      return (corners[id] + corners[id + 1] + corners[id + board_.columns] +
+              corners[id + board_.columns + 1]) /
+             4;
+    };
+    for (const auto& [down, across] : {std::pair(0, 1), std::pair(1, 0)}) {
+      std::vector<double> excess;
+      for (int row = 0; row + 1 + down < board_.rows; ++row) {
+        for (int column = 0; column + 1 + across < board_.columns; ++column)
+          excess.push_back(
+              EdgeExcess(gray, middle(row, column), middle(row + down, column + across)));
+      }
+      std::nth_element(excess.begin(), excess.begin() + static_cast<int>(excess.size() / 2),
+                       excess.end());
+      if (excess[excess.size() / 2] > 1) return true;
+    }
+    return false;
+  }
+
+  // A board seen from its printed side has x to the right of y's way down.
+  void MakeUnmirrored(BoardCorners& found) const {
+    const Vector2 across = found.pixels[board_.columns - 1] - found.pixels[0];
+    const Vector2 down = found.pixels[(board_.rows - 1) * board_.columns] - found.pixels[0];
+    if (across.x() * down.y() - across.y() * down.x() > 0) return;
+    std::vector<Vector2> turned(found.pixels.size());
+    for (int id = 0; id < board_.corners(); ++id) {
+      const int column = board_.columns - 1 - id % board_.columns;
+      turned[id] = found.pixels[id / board_.columns * board_.columns + column];
+    }
+    found.pixels = turned;
+  }
+
+  Board board_;
+  cv::Ptr<cv::aruco::CharucoBoard> charuco_;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters_;
+};
+
+BoardDetector::BoardDetector(const Board& board) : impl_(std::make_unique<Impl>(board)) {}
+BoardDetector::~BoardDetector() = default;
+BoardDetector::BoardDetector(BoardDetector&&) noexcept = default;
+
+std::optional<BoardCorners> BoardDetector::Detect(ImageView<const Bgr> image, Effort effort) const {
+  return impl_->Detect(image, effort);
+}
+
+}  // namespace mocap

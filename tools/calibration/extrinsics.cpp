@@ -1,0 +1,239 @@
+#include "tools/calibration/extrinsics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/errors.h"
+#include "tools/calibration/board_pose.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kFewestShared = 3;
+constexpr double kWorstView_px = 5;
+constexpr double kWorstRms_px = 3;
+constexpr double kLeastShareKept = 0.5;
+
+// A turn of 1 rad counts as much as a metre.
+constexpr double kMillimetresPerRadian = 1000;
+
+double Apart(const RigidTransform& a, const RigidTransform& b) {
+  return kMillimetresPerRadian * LogRotation(a.R * b.R.transpose()).norm() + (a.p - b.p).norm();
+}
+
+/// Poses of the board in each camera at each moment.
+using PoseTable = std::vector<std::vector<std::vector<BoardPose>>>;  // [camera][moment]
+
+PoseTable FindPoses(const BoardSightings& sightings,
+                    const std::vector<CameraCalibration>& cameras) {
+  PoseTable table(cameras.size(),
+                  std::vector<std::vector<BoardPose>>(static_cast<std::size_t>(sightings.moments)));
+  for (const BoardSighting& s : sightings.sightings) {
+    std::vector<BoardPose> poses =
+        FindBoardPoses(cameras[s.camera].lens, sightings.board, s.corners);
+    std::erase_if(poses, [](const BoardPose& pose) { return pose.rms_px > kWorstView_px; });
+    table[s.camera][s.moment] = std::move(poses);
+  }
+  return table;
+}
+
+/// How camera B's points come to camera A, as most shared views say.
+struct PairLink {
+  int shared = 0;
+  RigidTransform X_AB;
+};
+
+PairLink LinkPair(const PoseTable& poses, int a, int b) {
+  std::vector<RigidTransform> candidates;
+  PairLink link;
+  for (std::size_t m = 0; m < poses[a].size(); ++m) {
+    if (poses[a][m].empty() || poses[b][m].empty()) continue;
+    ++link.shared;
+    // Either of the two poses of a plane may be the true one.
+    for (const BoardPose& in_a : poses[a][m]) {
+      for (const BoardPose& in_b : poses[b][m])
+        candidates.push_back(in_a.X_CB * in_b.X_CB.Inverse());
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const RigidTransform& candidate : candidates) {
+    double sum = 0;
+    // Wrong candidates lie far off in all directions; beyond half a metre they count alike.
+    for (const RigidTransform& other : candidates) sum += std::min(500.0, Apart(candidate, other));
+    if (sum >= least) continue;
+    least = sum;
+    link.X_AB = candidate;
+  }
+  return link;
+}
+
+// The strongest links first, until all cameras hang together.
+void PlaceCameras(const PoseTable& poses, std::vector<CameraCalibration>& cameras) {
+  const int n = static_cast<int>(cameras.size());
+  std::vector<bool> placed(cameras.size(), false);
+  placed[0] = true;
+  cameras[0].X_CW = {};
+  std::map<std::pair<int, int>, PairLink> links;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      if (a < b) links[{a, b}] = LinkPair(poses, a, b);
+    }
+  }
+  for (int round = 1; round < n; ++round) {
+    int best_from = -1, best_to = -1, best_shared = kFewestShared - 1;
+    for (const auto& [pair, link] : links) {
+      if (placed[pair.first] == placed[pair.second] || link.shared <= best_shared) continue;
+      best_shared = link.shared;
+      best_from = placed[pair.first] ? pair.first : pair.second;
+      best_to = placed[pair.first] ? pair.second : pair.first;
+    }
+    if (best_to < 0) {
+      std::string lonely;
+      for (int c = 0; c < n; ++c) {
+        if (!placed[c]) lonely += (lonely.empty() ? "" : ", ") + cameras[c].name;
+      }
+      throw SetupError(fmt::format(
+          "{}: shares fewer than {} views of the board with the other cameras; carry the board "
+          "where "
+          "both this camera and another see it, or check that the recordings ran at the same time",
+          lonely, kFewestShared));
+    }
+    const auto& link = links[{std::min(best_from, best_to), std::max(best_from, best_to)}];
+    const RigidTransform X_from_to = best_from < best_to ? link.X_AB : link.X_AB.Inverse();
+    cameras[best_to].X_CW = X_from_to.Inverse() * cameras[best_from].X_CW;
+    placed[best_to] = true;
+  }
+}
+
+// Of the poses that single cameras give a board, the one that suits all best.
+void PlaceBoards(const BoardSightings& sightings, const PoseTable& poses, Bundle& bundle) {
+  std::vector<std::vector<const BoardSighting*>> of_moment(
+      static_cast<std::size_t>(sightings.moments));
+  for (const BoardSighting& s : sightings.sightings) of_moment[s.moment].push_back(&s);
+  bundle.X_WB.assign(static_cast<std::size_t>(sightings.moments), std::nullopt);
+  for (std::size_t m = 0; m < of_moment.size(); ++m) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const BoardSighting* from : of_moment[m]) {
+      for (const BoardPose& pose : poses[from->camera][m]) {
+        const RigidTransform X_WB = bundle.cameras[from->camera].X_CW.Inverse() * pose.X_CB;
+        double sum = 0;
+        for (const BoardSighting* to : of_moment[m]) {
+          const CameraCalibration& camera = bundle.cameras[to->camera];
+          sum += std::min(100.0,
+                          PoseRmsPx(camera.lens, sightings.board, to->corners, camera.X_CW * X_WB));
+        }
+        if (sum >= least) continue;
+        least = sum;
+        bundle.X_WB[m] = X_WB;
+      }
+    }
+  }
+}
+
+// A moment that only one camera saw tells nothing of where cameras are, but still of its lens.
+void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
+  BundleOptions refine;
+  refine.refine_lenses = false;
+  refine.robust_px = 1;
+  RefineBundle(fit.sightings, refine, fit.bundle);
+  refine.refine_lenses = options.refine_lenses;
+  refine.refine_lateness = fit.sightings.timed;
+  RefineBundle(fit.sightings, refine, fit.bundle);
+  fit.dropped_corners = DropOutliers(fit.bundle, fit.sightings);
+  refine.robust_px = 0;
+  RefineBundle(fit.sightings, refine, fit.bundle);
+}
+
+// Corners of each camera at moments that another camera saw, too.
+std::vector<int> SharedCorners(const BoardSightings& sightings) {
+  std::vector<int> cameras_at(static_cast<std::size_t>(sightings.moments), 0);
+  for (const BoardSighting& s : sightings.sightings) ++cameras_at[s.moment];
+  std::vector<int> shared(sightings.cameras.size(), 0);
+  for (const BoardSighting& s : sightings.sightings) {
+    if (cameras_at[s.moment] > 1) shared[s.camera] += static_cast<int>(s.corners.ids.size());
+  }
+  return shared;
+}
+
+// Alone with the board, any camera is right: what counts is what it shares with others. The one
+// that fits worst is named, since it drags the others along.
+void RefuseContradiction(const BoardSightings& before, const StudioFit& fit) {
+  const std::vector<int> seen = SharedCorners(before), kept = SharedCorners(fit.sightings);
+  const auto share = [&](std::size_t c) {
+    return static_cast<double>(kept[c]) / std::max(1, seen[c]);
+  };
+  std::size_t worst = 0;
+  for (std::size_t c = 1; c < fit.cameras.size(); ++c) {
+    if (share(c) / (1 + fit.cameras[c].rms_px) < share(worst) / (1 + fit.cameras[worst].rms_px))
+      worst = c;
+  }
+  const CameraFit& camera = fit.cameras[worst];
+  if (fit.cameras.size() < 2 || (camera.rms_px < kWorstRms_px && share(worst) > kLeastShareKept))
+    return;
+  throw SetupError(
+      fmt::format("{}: contradicts the other cameras ({:.1f} px, {:.0f} % of what it shares with "
+                  "them fits); its "
+                  "recording may be another camera's, not of the same time, mirrored, or of "
+                  "another lens or size",
+                  camera.name, camera.rms_px, 100 * share(worst)));
+}
+
+}  // namespace
+
+void MoveWorld(const RigidTransform& X_NW, Bundle& bundle) {
+  for (CameraCalibration& camera : bundle.cameras) camera.X_CW = camera.X_CW * X_NW.Inverse();
+  for (auto& X_WB : bundle.X_WB) {
+    if (X_WB) X_WB = X_NW * *X_WB;
+  }
+}
+
+void MeasureFit(StudioFit& fit) {
+  const std::vector<CornerError> errors = BundleErrors(fit.sightings, fit.bundle);
+  fit.rms_px = RmsPx(errors, fit.sightings, -1);
+  fit.cameras.resize(fit.bundle.cameras.size());
+  for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
+    CameraFit& camera = fit.cameras[c];
+    const int id = static_cast<int>(c);
+    camera.name = fit.bundle.cameras[c].name;
+    camera.rms_px = RmsPx(errors, fit.sightings, id);
+    camera.views = fit.sightings.CountOf(id);
+    camera.corners =
+        static_cast<int>(std::count_if(errors.begin(), errors.end(), [&](const CornerError& error) {
+          return fit.sightings.sightings[error.sighting].camera == id;
+        }));
+    camera.coverage = CoverageOf(fit.sightings, id);
+  }
+}
+
+StudioFit FitExtrinsics(const BoardSightings& sightings,
+                        const std::vector<CameraCalibration>& lenses,
+                        const ExtrinsicsOptions& options) {
+  if (sightings.board.LooksSameTurned() && sightings.cameras.size() > 1)
+    throw SetupError(
+        "--board: a " + sightings.board.Text() +
+        " looks the same when it is turned by half a turn, so that cameras cannot agree "
+        "which end is which; one side odd and the other even, or a ChArUco board, is wanted");
+  StudioFit fit;
+  fit.sightings = sightings;
+  fit.bundle.cameras = lenses;
+  const PoseTable poses = FindPoses(sightings, lenses);
+  PlaceCameras(poses, fit.bundle.cameras);
+  PlaceBoards(sightings, poses, fit.bundle);
+  Adjust(options, fit);
+  if (sightings.timed) {
+    // Boards of one moment may have been taken of different ones as long as cameras lagged.
+    fit.sightings = sightings;
+    MatchAgain(fit.bundle.lateness_s, fit.sightings);
+    PlaceBoards(fit.sightings, FindPoses(fit.sightings, fit.bundle.cameras), fit.bundle);
+    Adjust(options, fit);
+  }
+  MeasureFit(fit);
+  RefuseContradiction(sightings, fit);
+  return fit;
+}
+
+}  // namespace mocap

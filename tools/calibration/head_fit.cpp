@@ -1,0 +1,162 @@
+#include "tools/calibration/head_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/calibration/levenberg_marquardt.h"
+#include "core/errors.h"
+#include "tools/calibration/board_pose.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kFewestViews = 8;
+constexpr double kLeastSpan_rad = 10 * std::numbers::pi / 180;
+constexpr double kWorstRms_px = 2;
+// Axis (2) and point (2) of pan, of tilt, then both scales; six a place follow.
+constexpr int kHeadParameters = 10;
+
+struct Model {
+  HeadFit fit;
+  std::vector<RigidTransform> X_WB;  ///< One a place.
+};
+
+// Two directions across an axis.
+Eigen::Matrix<double, 3, 2> Across(const Vector3& axis) {
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = axis.unitOrthogonal();
+  across.col(1) = axis.cross(across.col(0));
+  return across;
+}
+
+Model Moved(const Model& model, const Eigen::VectorXd& x) {
+  Model moved = model;
+  PanTiltHead& head = moved.fit.head;
+  const auto pan = Across(head.pan_axis_W), tilt = Across(head.tilt_axis_W);
+  head.pan_axis_W = (head.pan_axis_W + pan * x.segment<2>(0)).normalized();
+  head.pan_point_W += pan * x.segment<2>(2);
+  head.tilt_axis_W = (head.tilt_axis_W + tilt * x.segment<2>(4)).normalized();
+  head.tilt_point_W += tilt * x.segment<2>(6);
+  moved.fit.pan_scale += x[8];
+  moved.fit.tilt_scale += x[9];
+  for (std::size_t place = 0; place < moved.X_WB.size(); ++place) {
+    const Eigen::Index at = kHeadParameters + 6 * static_cast<Eigen::Index>(place);
+    RigidTransform& X_WB = moved.X_WB[place];
+    X_WB.R = ExpRotation(x.segment<3>(at)) * X_WB.R;
+    X_WB.p += x.segment<3>(at + 3);
+  }
+  return moved;
+}
+
+RigidTransform PoseAt(CameraCalibration camera, const HeadFit& fit, const PanTiltAngles& encoder) {
+  camera.head = fit.head;
+  return camera.PoseAt({fit.pan_scale * encoder.pan_rad, fit.tilt_scale * encoder.tilt_rad});
+}
+
+Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
+                          const std::vector<BoardSighting>& views, const Model& model) {
+  std::vector<double> r;
+  for (const BoardSighting& view : views) {
+    const RigidTransform X_CB =
+        PoseAt(camera, model.fit, view.angles) * model.X_WB[static_cast<std::size_t>(view.moment)];
+    for (std::size_t i = 0; i < view.corners.ids.size(); ++i) {
+      const Vector3 p_C = X_CB * board.Corner(view.corners.ids[i]);
+      std::optional<Vector2> pixel;
+      if (p_C.z() > 0) pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+      const Vector2 error =
+          pixel ? Vector2(*pixel - view.corners.pixels[i]) : Vector2::Constant(1000).eval();
+      r.push_back(error.x());
+      r.push_back(error.y());
+    }
+  }
+  return Eigen::Map<Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
+}
+
+void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardSighting>& views) {
+  if (static_cast<int>(views.size()) < kFewestViews)
+    throw SetupError(
+        fmt::format("{}: {} views do not determine a head; at least {} at different "
+                    "angles are wanted",
+                    name, views.size(), kFewestViews));
+  const auto span = [&](double PanTiltAngles::*angle) {
+    const auto [low, high] = std::minmax_element(
+        views.begin(), views.end(), [&](const BoardSighting& a, const BoardSighting& b) {
+          return a.angles.*angle < b.angles.*angle;
+        });
+    return high->angles.*angle - low->angles.*angle;
+  };
+  const std::pair<const char*, double> spans[] = {{"pan", span(&PanTiltAngles::pan_rad)},
+                                                  {"tilt", span(&PanTiltAngles::tilt_rad)}};
+  for (const auto& [axis, span_rad] : spans) {
+    if (span_rad < kLeastSpan_rad)
+      throw SetupError(
+          fmt::format("{}: the board is seen over {:.1f} degrees of {} only; turn the head "
+                      "by 10 degrees and more while it is in the picture",
+                      name, span_rad * 180 / std::numbers::pi, axis));
+  }
+}
+
+// Places get numbers from 0 on.
+std::vector<BoardSighting> NumberPlaces(std::span<const BoardSighting> sightings, int& places) {
+  std::map<int, int> numbers;
+  std::vector<BoardSighting> views(sightings.begin(), sightings.end());
+  for (BoardSighting& view : views)
+    view.moment = numbers.try_emplace(view.moment, static_cast<int>(numbers.size())).first->second;
+  places = static_cast<int>(numbers.size());
+  return views;
+}
+
+// Heads stand upright and tilt about the picture's rows, through the lens, more or less.
+Model FirstGuess(const CameraCalibration& camera, const Board& board,
+                 const std::vector<BoardSighting>& views, int places) {
+  Model model;
+  const Vector3 p_WC = camera.X_CW.Inverse().p;
+  model.fit.head = {Vector3::UnitZ(), p_WC, camera.X_CW.R.row(0).transpose(), p_WC};
+  model.X_WB.resize(static_cast<std::size_t>(places));
+  std::vector<double> nearest(static_cast<std::size_t>(places), HUGE_VAL);
+  for (const BoardSighting& view : views) {
+    const double turned = std::hypot(view.angles.pan_rad, view.angles.tilt_rad);
+    const std::vector<BoardPose> poses = FindBoardPoses(camera.lens, board, view.corners);
+    if (poses.empty() || turned >= nearest[static_cast<std::size_t>(view.moment)]) continue;
+    nearest[static_cast<std::size_t>(view.moment)] = turned;
+    model.X_WB[static_cast<std::size_t>(view.moment)] =
+        PoseAt(camera, model.fit, view.angles).Inverse() * poses.front().X_CB;
+  }
+  return model;
+}
+
+}  // namespace
+
+HeadFit FitHead(const CameraCalibration& camera, const Board& board,
+                std::span<const BoardSighting> sightings) {
+  int places = 0;
+  const std::vector<BoardSighting> views = NumberPlaces(sightings, places);
+  RefuseTooLittleTurning(camera.name, views);
+  Model model = FirstGuess(camera, board, views, places);
+  Eigen::VectorXd scale = Eigen::VectorXd::Constant(kHeadParameters + 6 * places, 1);
+  scale.segment<2>(2).setConstant(100);
+  scale.segment<2>(6).setConstant(100);
+  for (int place = 0; place < places; ++place)
+    scale.segment<3>(kHeadParameters + 6 * place + 3).setConstant(1000);
+  for (int round = 0; round < 3; ++round) {
+    const LeastSquaresResult result = MinimizeSquares(
+        [&](const Eigen::VectorXd& x) { return Residuals(camera, board, views, Moved(model, x)); },
+        Eigen::VectorXd::Zero(scale.size()), scale, 40);
+    model = Moved(model, result.x);
+    model.fit.rms_px = std::sqrt(
+        2 * result.cost / static_cast<double>(Residuals(camera, board, views, model).size()));
+  }
+  model.fit.views = static_cast<int>(views.size());
+  if (!(model.fit.rms_px < kWorstRms_px))
+    throw SetupError(fmt::format(
+        "{}: no head explains its {} views ({:.1f} px remain); was the board moved while the head "
+        "turned, or are the angles those of other frames, or in degrees?",
+        camera.name, model.fit.views, model.fit.rms_px));
+  return model.fit;
+}
+
+}  // namespace mocap

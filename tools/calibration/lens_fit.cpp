@@ -1,0 +1,199 @@
+#include "tools/calibration/lens_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/calib3d.hpp>
+
+#include "core/errors.h"
+#include "tools/calibration/board_pose.h"
+#include "tools/calibration/bundle.h"
+#include "tools/calibration/lens_parameters.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kFewestViews = 6;
+constexpr double kWorstFocalSigma = 0.1;
+constexpr double kWorstRms_px = 2.5;
+constexpr double kLeastTilts_rad = 0.25;
+
+using Cells = std::array<int, Coverage::kColumns * Coverage::kRows>;
+
+Cells CellsOf(const SightingCamera& camera, const BoardCorners& corners) {
+  Cells cells{};
+  for (const Vector2& pixel : corners.pixels) {
+    const int x = std::clamp(static_cast<int>(pixel.x() * Coverage::kColumns / camera.width_px), 0,
+                             Coverage::kColumns - 1);
+    const int y = std::clamp(static_cast<int>(pixel.y() * Coverage::kRows / camera.height_px), 0,
+                             Coverage::kRows - 1);
+    cells[y * Coverage::kColumns + x] = 1;
+  }
+  return cells;
+}
+
+// Again and again the view that shows most of what was shown least.
+std::vector<int> ChooseViews(const BoardSightings& sightings, int camera, int most) {
+  std::vector<int> left, chosen;
+  for (std::size_t s = 0; s < sightings.sightings.size(); ++s) {
+    if (sightings.sightings[s].camera == camera) left.push_back(static_cast<int>(s));
+  }
+  Cells shown{};
+  while (!left.empty() && static_cast<int>(chosen.size()) < most) {
+    double best_gain = -1;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const Cells cells = CellsOf(sightings.cameras[camera], sightings.sightings[left[i]].corners);
+      double gain = 0;
+      for (std::size_t k = 0; k < cells.size(); ++k) gain += cells[k] / (1.0 + shown[k]);
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = i;
+      }
+    }
+    const Cells cells = CellsOf(sightings.cameras[camera], sightings.sightings[left[best]].corners);
+    for (std::size_t k = 0; k < cells.size(); ++k) shown[k] += cells[k];
+    chosen.push_back(left[best]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+struct Zhang {
+  Matrix3 K = Matrix3::Identity();
+  double k1 = 0, k2 = 0;
+  double focal_sigma_share = 0;
+};
+
+Zhang FirstLens(const BoardSightings& sightings, int camera, const std::vector<int>& views) {
+  std::vector<std::vector<cv::Point3f>> points;
+  std::vector<std::vector<cv::Point2f>> pixels;
+  for (const int s : views) {
+    const BoardCorners& corners = sightings.sightings[s].corners;
+    points.emplace_back();
+    pixels.emplace_back();
+    for (std::size_t i = 0; i < corners.ids.size(); ++i) {
+      const Vector3 p_B = sightings.board.Corner(corners.ids[i]);
+      points.back().emplace_back(static_cast<float>(p_B.x()), static_cast<float>(p_B.y()), 0.f);
+      pixels.back().emplace_back(static_cast<float>(corners.pixels[i].x()),
+                                 static_cast<float>(corners.pixels[i].y()));
+    }
+  }
+  const SightingCamera& c = sightings.cameras[camera];
+  cv::Mat K, distortion, sigma, pose_sigma, view_errors;
+  std::vector<cv::Mat> rotations, translations;
+  cv::calibrateCamera(points, pixels, {c.width_px, c.height_px}, K, distortion, rotations,
+                      translations, sigma, pose_sigma, view_errors,
+                      cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST);
+  Zhang zhang;
+  for (int i = 0; i < 9; ++i) zhang.K(i / 3, i % 3) = K.at<double>(i / 3, i % 3);
+  zhang.k1 = distortion.at<double>(0);
+  zhang.k2 = distortion.at<double>(1);
+  zhang.focal_sigma_share = sigma.at<double>(1) / K.at<double>(1, 1);
+  return zhang;
+}
+
+Lens MakeLens(const Zhang& zhang, const LensFitOptions& options) {
+  const double fx = zhang.K(0, 0), fy = zhang.K(1, 1);
+  const Vector2 center(zhang.K(0, 2), zhang.K(1, 2));
+  if (options.model == LensModel::kTsai) {
+    const double focal_mm = fy * options.pitch_mm.y();
+    return TsaiLens{focal_mm, -zhang.k1 / (focal_mm * focal_mm),
+                    fx * options.pitch_mm.x() / focal_mm, center, options.pitch_mm};
+  }
+  Matrix3 K = Matrix3::Identity();
+  K << fx, 0, center.x(), 0, fy, center.y(), 0, 0, 1;
+  if (options.model == LensModel::kOpenCv) return OpenCvLens{K, {zhang.k1, zhang.k2, 0, 0, 0}};
+  // tan θ (1 + k1 tan² θ) = θ (1 + (k1 + 1/3) θ²) + …
+  return FisheyeLens{K, {zhang.k1 + 1.0 / 3, 0, 0, 0}};
+}
+
+// The camera alone, each view a moment of its own.
+struct LensProblem {
+  BoardSightings sightings;
+  Bundle bundle;
+};
+
+LensProblem MakeProblem(const BoardSightings& all, int camera, const std::vector<int>& views,
+                        const Lens& lens) {
+  LensProblem problem;
+  const SightingCamera& c = all.cameras[camera];
+  problem.sightings.board = all.board;
+  problem.sightings.cameras = {c};
+  problem.bundle.cameras.push_back({c.name, c.width_px, c.height_px, lens, {}, {}});
+  for (const int s : views) {
+    const std::vector<BoardPose> poses = FindBoardPoses(lens, all.board, all.sightings[s].corners);
+    if (poses.empty()) continue;
+    BoardSighting sighting = all.sightings[s];
+    sighting.camera = 0;
+    sighting.late_s = 0;
+    sighting.motions.clear();
+    sighting.moment = problem.sightings.moments++;
+    problem.sightings.sightings.push_back(sighting);
+    problem.bundle.X_WB.push_back(poses.front().X_CB);
+  }
+  return problem;
+}
+
+// Boards that all lie in parallel planes leave the focal length open, however many they are.
+void RefuseOneTilt(const std::string& name, const Bundle& bundle) {
+  double widest_rad = 0;
+  for (const auto& a : bundle.X_WB) {
+    for (const auto& b : bundle.X_WB)
+      widest_rad =
+          std::max(widest_rad, std::acos(std::clamp(a->R.col(2).dot(b->R.col(2)), -1., 1.)));
+  }
+  if (widest_rad < kLeastTilts_rad)
+    throw SetupError(
+        fmt::format("{}: its {} views of the board are tilted alike (within {:.0f} degrees); tilt "
+                    "the board by 30 "
+                    "degrees and more, in all directions",
+                    name, bundle.X_WB.size(), widest_rad * 180 / std::numbers::pi));
+}
+
+}  // namespace
+
+LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOptions& options) {
+  const SightingCamera& c = sightings.cameras[camera];
+  const std::vector<int> views = ChooseViews(sightings, camera, options.most_views);
+  if (static_cast<int>(views.size()) < kFewestViews)
+    throw SetupError(
+        fmt::format("{}: {} views of the board do not determine a lens; show it in at least {}, "
+                    "tilted this way "
+                    "and that and in all parts of the picture",
+                    c.name, views.size(), kFewestViews));
+  const Zhang zhang = FirstLens(sightings, camera, views);
+  if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())
+    throw SetupError(
+        fmt::format("{}: its {} views leave the focal length uncertain by {:.0f} %; tilt the board "
+                    "by 30 degrees "
+                    "and more, in all directions",
+                    c.name, views.size(), std::min(999.0, 100 * zhang.focal_sigma_share)));
+  LensProblem problem = MakeProblem(sightings, camera, views, MakeLens(zhang, options));
+  RefuseOneTilt(c.name, problem.bundle);
+  BundleOptions refine;
+  refine.robust_px = 1;
+  RefineBundle(problem.sightings, refine, problem.bundle);
+  refine.robust_px = 0;
+  DropOutliers(problem.bundle, problem.sightings);
+  const bool settled = RefineBundle(problem.sightings, refine, problem.bundle);
+  LensFit fit;
+  fit.lens = problem.bundle.cameras[0].lens;
+  fit.rms_px = RmsPx(BundleErrors(problem.sightings, problem.bundle), problem.sightings, 0);
+  fit.views = static_cast<int>(problem.sightings.sightings.size());
+  fit.focal_sigma_share = zhang.focal_sigma_share;
+  fit.used = views;
+  if (!settled || !(fit.rms_px < kWorstRms_px))
+    throw SetupError(
+        fmt::format("{}: no lens explains the corners ({:.2f} px remain in {} views); the board "
+                    "may be bent, its "
+                    "columns and rows swapped, or the focus or zoom changed while it was shown",
+                    c.name, fit.rms_px, fit.views));
+  return fit;
+}
+
+}  // namespace mocap

@@ -1,0 +1,241 @@
+#include "tools/calibration/studio_check.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "tools/calibration/lens_parameters.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kGood_px = 0.5, kPoor_px = 1.0;
+constexpr double kUncertainFocal = 0.01;
+constexpr double kHip_mm = 1000;
+constexpr double kRoom_mm = 8000, kReach_mm = 2200;
+
+const CameraCalibration& Find(const std::string& name,
+                              const std::vector<CameraCalibration>& cameras) {
+  const auto camera = std::find_if(cameras.begin(), cameras.end(),
+                                   [&](const CameraCalibration& c) { return c.name == name; });
+  if (camera == cameras.end()) throw SetupError("--distance: there is no camera " + Quoted(name));
+  return *camera;
+}
+
+void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) {
+  const auto warn = [&](const std::string& text) {
+    findings.push_back({Severity::kWarning, camera.name + ": " + text});
+  };
+  const Vector2 size(camera.width_px, camera.height_px);
+  const Vector2 off = CenterPx(camera.lens) - size / 2;
+  if (std::abs(off.x()) > 0.15 * size.x() || std::abs(off.y()) > 0.15 * size.y())
+    warn(
+        fmt::format("its axis meets the picture {:.0f}, {:.0f} px off the middle; views that fill "
+                    "the picture and more tilts determine it better",
+                    off.x(), off.y()));
+  const double field_deg =
+      2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * 180 / std::numbers::pi;
+  if (field_deg < 10 || field_deg > 160)
+    warn(
+        fmt::format("sees {:.0f} degrees wide, as few lenses do; is the board's square right, and "
+                    "the picture's size that of the recording?",
+                    field_deg));
+}
+
+void CheckPlaces(const std::vector<CameraCalibration>& cameras, bool has_floor,
+                 std::vector<Finding>& findings) {
+  int under = 0;
+  for (std::size_t a = 0; a < cameras.size(); ++a) {
+    const Vector3 p_WC = cameras[a].X_CW.Inverse().p;
+    if (has_floor && p_WC.z() < 0) {
+      ++under;
+      findings.push_back(
+          {Severity::kWrong,
+           fmt::format("{}: hangs {:.0f} mm below the floor; the floor may be upside "
+                       "down, or this camera's pose mirrored",
+                       cameras[a].name, -p_WC.z())});
+    } else if (has_floor && p_WC.z() > 10000) {
+      findings.push_back(
+          {Severity::kWarning,
+           fmt::format("{}: hangs {:.1f} m high; are the board's squares given in mm?",
+                       cameras[a].name, p_WC.z() / 1000)});
+    }
+    for (std::size_t b = a + 1; b < cameras.size(); ++b) {
+      const double apart_mm = (p_WC - cameras[b].X_CW.Inverse().p).norm();
+      if (apart_mm < 50)
+        findings.push_back(
+            {Severity::kWrong,
+             fmt::format("{} and {}: stand {:.0f} mm apart; is one the recording of the "
+                         "other, or are lengths given in metres?",
+                         cameras[a].name, cameras[b].name, apart_mm)});
+    }
+  }
+  if (has_floor && under == static_cast<int>(cameras.size()))
+    findings.push_back(
+        {Severity::kWrong, "all cameras hang below the floor: z points down; set the floor again"});
+}
+
+void CheckRotations(const std::vector<CameraCalibration>& cameras, std::vector<Finding>& findings) {
+  for (const CameraCalibration& camera : cameras) {
+    const Matrix3& R = camera.X_CW.R;
+    if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) continue;
+    findings.push_back({Severity::kWrong, camera.name +
+                                              ": its rotation is a reflection or none at all; the "
+                                              "calibration was mirrored on its way here"});
+  }
+}
+
+// The board was carried by a person: it was hardly ever under the floor.
+void CheckBoardsAboveFloor(const StudioFit& fit, std::vector<Finding>& findings) {
+  int under = 0, all = 0;
+  for (const auto& X_WB : fit.bundle.X_WB) {
+    if (!X_WB) continue;
+    ++all;
+    const Vector3 middle =
+        *X_WB * ((fit.sightings.board.Corner(0) +
+                  fit.sightings.board.Corner(fit.sightings.board.corners() - 1)) /
+                 2);
+    under += middle.z() < -50;
+  }
+  if (all > 0 && under > all / 5)
+    findings.push_back(
+        {Severity::kWrong,
+         fmt::format("the board was below the floor in {} of {} moments: the floor is "
+                     "upside down or not where the floor's board lay",
+                     under, all)});
+}
+
+void CheckCamera(const CameraFit& camera, std::vector<Finding>& findings) {
+  if (camera.rms_px > kPoor_px)
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("{}: {:.2f} px remain; below {} is good: hold the board flat and "
+                     "still, light it, and check that the cameras run in step",
+                     camera.name, camera.rms_px, kGood_px)});
+  if (camera.focal_sigma_share > kUncertainFocal)
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("{}: its own views leave the focal length uncertain by {:.1f} %; "
+                     "tilt the board by 30 degrees and more before it",
+                     camera.name, 100 * camera.focal_sigma_share)});
+  const std::string hint = camera.coverage.Hint();
+  if (!hint.empty() && camera.coverage.share < 0.6)
+    findings.push_back({Severity::kNote, camera.name + ": " + hint});
+  if (camera.views < 10)
+    findings.push_back(
+        {Severity::kWarning, fmt::format("{}: only {} views of the board; 20 and more are good",
+                                         camera.name, camera.views)});
+}
+
+}  // namespace
+
+Vector3 MiddleOfRoom(const std::vector<CameraCalibration>& cameras) {
+  Matrix3 A = 1e-6 * Matrix3::Identity();
+  Vector3 b = Vector3::Zero();
+  for (const CameraCalibration& camera : cameras) {
+    const RigidTransform X_WC = camera.X_CW.Inverse();
+    const Vector3 axis = X_WC.R.col(2);
+    const Matrix3 across = Matrix3::Identity() - axis * axis.transpose();
+    A += across;
+    b += across * X_WC.p;
+  }
+  return A.inverse() * b;
+}
+
+double MillimetresPerPixel(const CameraCalibration& camera, const Vector3& middle_W) {
+  return (middle_W - camera.X_CW.Inverse().p).norm() / FocalPx(camera.lens);
+}
+
+std::vector<Finding> CheckCameras(const std::vector<CameraCalibration>& cameras, bool has_floor) {
+  std::vector<Finding> findings;
+  CheckRotations(cameras, findings);
+  CheckPlaces(cameras, has_floor, findings);
+  for (const CameraCalibration& camera : cameras) CheckLens(camera, findings);
+  return findings;
+}
+
+std::vector<Finding> CheckFit(const StudioFit& fit) {
+  std::vector<Finding> findings = CheckCameras(fit.bundle.cameras, fit.has_floor);
+  if (fit.has_floor && fit.bundle.X_WB.size() > 1) CheckBoardsAboveFloor(fit, findings);
+  if (!fit.has_floor && fit.bundle.cameras.size() > 1)
+    findings.push_back(
+        {Severity::kWarning,
+         "the floor is not set: the world is the first camera's; lay the board on the "
+         "floor and run mocap calibrate floor"});
+  if (fit.bundle.X_WB.size() > 1) {
+    for (const CameraFit& camera : fit.cameras) CheckCamera(camera, findings);
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return findings;
+}
+
+std::string Verdict(const std::vector<Finding>& findings) {
+  const auto count = [&](Severity severity) {
+    return std::count_if(findings.begin(), findings.end(),
+                         [severity](const Finding& f) { return f.severity == severity; });
+  };
+  if (count(Severity::kWrong) > 0) return "Do not use this calibration: " + findings.front().text;
+  if (count(Severity::kWarning) > 0)
+    return "This calibration can be used, but something is to be looked at: " +
+           findings.front().text;
+  return "This calibration is good.";
+}
+
+KnownDistance ParseDistance(const std::string& text) {
+  const std::size_t first = text.find(':'), second = text.rfind(':');
+  KnownDistance distance;
+  if (first != std::string::npos && first < second) {
+    distance.from = text.substr(0, first);
+    distance.to = text.substr(first + 1, second - first - 1);
+    char* end = nullptr;
+    distance.mm = std::strtod(text.c_str() + second + 1, &end);
+    if (*end == '\0' && distance.mm > 0 && distance.from != distance.to) return distance;
+  }
+  throw SetupError("--distance " + Quoted(text) + ": wanted is CAMERA:CAMERA:MM");
+}
+
+double DistanceMm(const KnownDistance& distance, const std::vector<CameraCalibration>& cameras) {
+  return (Find(distance.from, cameras).X_CW.Inverse().p -
+          Find(distance.to, cameras).X_CW.Inverse().p)
+      .norm();
+}
+
+SeenVolume MeasureSeenVolume(const std::vector<CameraCalibration>& cameras) {
+  SeenVolume volume;
+  Vector3 middle = MiddleOfRoom(cameras);
+  volume.low_W = {middle.x() - kRoom_mm / 2, middle.y() - kRoom_mm / 2, 0};
+  volume.high_W = {middle.x() + kRoom_mm / 2, middle.y() + kRoom_mm / 2, kReach_mm};
+  volume.columns = volume.rows = static_cast<int>(kRoom_mm / volume.cell_mm);
+  volume.plan.assign(static_cast<std::size_t>(volume.columns) * volume.rows, 0);
+  volume.cubic_m.assign(cameras.size() + 1, 0);
+  const double cell_m3 = std::pow(volume.cell_mm / 1000, 3);
+  const int layers = static_cast<int>(kReach_mm / volume.cell_mm);
+  for (int k = 0; k < layers; ++k) {
+    for (int j = 0; j < volume.rows; ++j) {
+      for (int i = 0; i < volume.columns; ++i) {
+        const Vector3 p_W = volume.low_W + volume.cell_mm * Vector3(i + 0.5, j + 0.5, k + 0.5);
+        int seen = 0;
+        for (const CameraCalibration& camera : cameras) {
+          const Vector3 p_C = camera.X_CW * p_W;
+          if (p_C.z() < 200) continue;
+          const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+          seen += pixel && pixel->minCoeff() >= 0 && pixel->x() < camera.width_px &&
+                  pixel->y() < camera.height_px;
+        }
+        for (int n = 0; n <= seen; ++n) volume.cubic_m[n] += cell_m3;
+        if (k == static_cast<int>(kHip_mm / volume.cell_mm))
+          volume.plan[static_cast<std::size_t>(j) * volume.columns + i] = seen;
+      }
+    }
+  }
+  return volume;
+}
+
+}  // namespace mocap

@@ -1,0 +1,293 @@
+#include "tools/camera_health.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "core/reconstruction/carver.h"
+#include "core/reconstruction/sensor_plane_table.h"
+#include "drivers/take_layout.h"
+#include "drivers/take_table.h"
+#include "tools/hull_overlap.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kVoxelMm = 20;
+constexpr int kFarthest_px = 14;
+constexpr int kFewestMoments = 4;
+constexpr double kSettled_px = 0.25;
+constexpr double kLeastOverlap = 0.5;
+constexpr int kFewestInLayer = 3;
+
+/// A mask as bits, for shifting.
+Silhouette BitsOf(const Image<std::uint8_t>& mask) {
+  Silhouette bits(mask.width(), mask.height());
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      if (mask(x, y) != 0) bits.Set(x, y);
+    }
+  }
+  return bits;
+}
+
+std::int64_t CountOf(const Silhouette& bits) {
+  std::int64_t count = 0;
+  for (const std::uint64_t word : bits.words()) count += std::popcount(word);
+  return count;
+}
+
+// Pixels that are set in `seen` and in `expected` moved by (dx, dy).
+std::int64_t CommonPixels(const Silhouette& seen, const Silhouette& expected, int dx, int dy) {
+  const int words = seen.words_per_row();
+  const int whole = dx >= 0 ? dx / 64 : -((-dx + 63) / 64), part = dx - 64 * whole;
+  std::int64_t count = 0;
+  for (int y = std::max(0, dy); y < std::min(seen.height(), seen.height() + dy); ++y) {
+    const std::uint64_t* a = seen.row(y);
+    const std::uint64_t* b = expected.row(y - dy);
+    const auto word = [&](int i) { return i >= 0 && i < words ? b[i] : std::uint64_t{0}; };
+    for (int i = 0; i < words; ++i) {
+      std::uint64_t moved = word(i - whole) << part;
+      if (part > 0) moved |= word(i - whole - 1) >> (64 - part);
+      count += std::popcount(a[i] & moved);
+    }
+  }
+  return count;
+}
+
+bool TouchesBorder(const Silhouette& silhouette) {
+  const auto box = silhouette.BoundingBox();
+  return !box || box->left < 2 || box->top < 2 || box->right > silhouette.width() - 3 ||
+         box->bottom > silhouette.height() - 3;
+}
+
+struct Match {
+  Vector2 shift_px;
+  double overlap = 0;
+};
+
+// The shift with the largest intersection over union, to a fraction of a pixel by a parabola.
+Match BestShift(const Silhouette& seen, const Silhouette& expected) {
+  const std::int64_t both = CountOf(seen) + CountOf(expected);
+  const auto overlap = [&](int dx, int dy) {
+    const std::int64_t common = CommonPixels(seen, expected, dx, dy);
+    return static_cast<double>(common) /
+           static_cast<double>(std::max<std::int64_t>(1, both - common));
+  };
+  int best_x = 0, best_y = 0;
+  double best = overlap(0, 0);
+  for (int step = 8; step >= 1; step /= 2) {
+    for (bool better = true; better;) {
+      better = false;
+      for (const auto& [x, y] : {std::pair(step, 0), {-step, 0}, {0, step}, {0, -step}}) {
+        if (std::abs(best_x + x) > kFarthest_px || std::abs(best_y + y) > kFarthest_px) continue;
+        const double value = overlap(best_x + x, best_y + y);
+        if (value <= best) continue;
+        best = value;
+        best_x += x;
+        best_y += y;
+        better = true;
+      }
+    }
+  }
+  // Three pixels either way: a single one is at the mercy of the outline's steps.
+  const auto fraction = [&](int ux, int uy) {
+    constexpr int kReach = 3;
+    const double low = overlap(best_x - kReach * ux, best_y - kReach * uy);
+    const double high = overlap(best_x + kReach * ux, best_y + kReach * uy);
+    const double left = best - low, right = best - high;
+    // The overlap falls like a roof: the top is where both slopes meet.
+    return left + right > 0 ? kReach * (left - right) / (2 * std::max(left, right)) : 0.0;
+  };
+  return {{best_x + fraction(1, 0), best_y + fraction(0, 1)}, best};
+}
+
+VoxelGrid CarveWithout(const SampledMoment& moment, const std::vector<SensorPlaneTable>& tables,
+                       const std::vector<RigidTransform>& X_CW, std::size_t left_out,
+                       Carver& carver) {
+  std::vector<CarvingView> views;
+  for (std::size_t c = 0; c < tables.size(); ++c) {
+    if (c != left_out && moment.views[c])
+      views.push_back({&tables[c], &moment.views[c]->silhouette, X_CW[c]});
+  }
+  VoxelGrid grid;
+  if (views.size() >= 2) carver.Carve(views, grid);
+  return grid;
+}
+
+// The pose that a calibration has at a moment at which the take's own had `sampled`: turning a
+// camera in its own frame is the same wherever its head points.
+RigidTransform PoseNow(const CameraCalibration& original, const CameraCalibration& now,
+                       const RigidTransform& sampled) {
+  return now.X_CW * original.X_CW.Inverse() * sampled;
+}
+
+/// Turn of a camera that moves pixels as seen: least squares over moments.
+struct TurnFit {
+  Matrix3 H = Matrix3::Identity() * 1e-3;
+  Vector3 g = Vector3::Zero();
+
+  void Add(const CameraCalibration& camera, const Vector2& middle_px, const Vector2& shift_px) {
+    const auto n = NormalizedFromPixel(camera.lens, middle_px);
+    if (!n) return;
+    Eigen::Matrix<double, 2, 3> J;
+    const Vector3 ray = n->homogeneous();
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kStep = 1e-4;
+      const Vector3 turned = ExpRotation(kStep * Vector3::Unit(axis)) * ray;
+      const auto pixel = PixelFromNormalized(camera.lens, turned.head<2>() / turned.z());
+      if (!pixel) return;
+      J.col(axis) = (*pixel - middle_px) / kStep;
+    }
+    // A roll moves the picture's middle least and is known least: it is kept small.
+    H += J.transpose() * J;
+    H(2, 2) += 1e3;
+    g += J.transpose() * shift_px;
+  }
+
+  Vector3 Solve() const { return H.ldlt().solve(g); }
+};
+
+Vector2 Median(std::vector<Match> matches) {
+  Vector2 median;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto middle = matches.begin() + static_cast<std::ptrdiff_t>(matches.size() / 2);
+    std::nth_element(
+        matches.begin(), middle, matches.end(),
+        [axis](const Match& a, const Match& b) { return a.shift_px[axis] < b.shift_px[axis]; });
+    median[axis] = middle->shift_px[axis];
+  }
+  return median;
+}
+
+}  // namespace
+
+std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take, double from_s,
+                                               double to_s, int count) {
+  const TakeLayout layout{take};
+  const std::vector<CameraCalibration> cameras = LoadCalibration(layout.Calibration());
+  const TakeTable table = ReadTakeTable(layout.Table(cameras.front().name));
+  const std::int64_t first_ns = table.rows.front().timestamp_ns;
+  std::vector<std::int64_t> times_ns;
+  for (const TakeRow& row : table.rows) {
+    const double s = 1e-9 * static_cast<double>(row.timestamp_ns - first_ns);
+    if (s >= from_s && s <= to_s) times_ns.push_back(row.timestamp_ns);
+  }
+  if (times_ns.empty())
+    throw SetupError(take.string() + ": has no frames in the stretch that is asked for");
+  std::vector<SampleRequest> requests;
+  const std::size_t n = std::min(times_ns.size(), static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < n; ++i)
+    requests.push_back({times_ns[(2 * i + 1) * times_ns.size() / (2 * n)], false});
+  return requests;
+}
+
+std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
+                                       const std::vector<CameraCalibration>& cameras) {
+  const std::vector<SensorPlaneTable> tables(cameras.begin(), cameras.end());
+  Carver carver({kVoxelMm});
+  std::vector<CameraShift> shifts;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    CameraShift shift;
+    shift.camera = cameras[c].name;
+    std::vector<Match> matches;
+    TurnFit turn;
+    for (const SampledMoment& moment : samples.moments) {
+      if (!moment.views[c] || TouchesBorder(moment.views[c]->silhouette)) continue;
+      std::vector<RigidTransform> X_CW(cameras.size());
+      for (std::size_t k = 0; k < cameras.size(); ++k) {
+        if (moment.views[k])
+          X_CW[k] = PoseNow(samples.cameras[k], cameras[k], moment.views[k]->X_CW);
+      }
+      const VoxelGrid hull = CarveWithout(moment, tables, X_CW, c, carver);
+      const Silhouette expected = BitsOf(ProjectVoxels(hull, cameras[c], X_CW[c]));
+      if (TouchesBorder(expected)) continue;
+      const Match match = BestShift(moment.views[c]->silhouette, expected);
+      if (match.overlap < kLeastOverlap) continue;
+      matches.push_back(match);
+      const PixelBox box = *expected.BoundingBox();
+      turn.Add(cameras[c], Vector2(box.left + box.right, box.top + box.bottom) / 2, match.shift_px);
+    }
+    shift.moments = static_cast<int>(matches.size());
+    if (shift.moments >= kFewestMoments) {
+      shift.shift_px = Median(matches);
+      for (const Match& match : matches) {
+        shift.overlap += match.overlap / shift.moments;
+        shift.spread_px += (match.shift_px - shift.shift_px).norm() / shift.moments;
+      }
+      shift.rotation_C = turn.Solve();
+    }
+    shifts.push_back(shift);
+  }
+  return shifts;
+}
+
+StandingPerson MeasurePerson(const TakeSamples& samples) {
+  std::vector<double> lowest, highest;
+  for (const SampledMoment& moment : samples.moments) {
+    const VoxelGrid& grid = moment.voxels;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int k = 0; k < grid.size().z(); ++k) {
+      int filled = 0;
+      for (int j = 0; j < grid.size().y(); ++j) {
+        for (int i = 0; i < grid.size().x(); ++i) filled += grid.Test(i, j, k);
+      }
+      // Single voxels are crumbs.
+      if (filled < kFewestInLayer) continue;
+      const double z = grid.CenterOf(0, 0, k).z();
+      low = std::min(low, z - grid.voxel_mm() / 2);
+      high = std::max(high, z + grid.voxel_mm() / 2);
+    }
+    if (!(low < high)) continue;
+    lowest.push_back(low);
+    highest.push_back(high);
+  }
+  if (lowest.empty()) return {};
+  const auto median = [](std::vector<double>& v) {
+    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+    return v[v.size() / 2];
+  };
+  return {static_cast<int>(lowest.size()), median(lowest), median(highest)};
+}
+
+RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
+  RefinedStudio refined;
+  refined.cameras = samples.cameras;
+  refined.before = refined.after = MeasureShifts(samples, samples.cameras);
+  const auto seeing =
+      std::count_if(refined.before.begin(), refined.before.end(),
+                    [](const CameraShift& s) { return s.moments >= kFewestMoments; });
+  if (seeing < 3)
+    throw SetupError(
+        fmt::format("{} cameras see a whole person who moves; three at least are wanted", seeing));
+  for (std::size_t round = 0; round < 3 * refined.cameras.size(); ++round) {
+    const auto worst = std::max_element(refined.after.begin(), refined.after.end(),
+                                        [](const CameraShift& a, const CameraShift& b) {
+                                          return a.shift_px.norm() < b.shift_px.norm();
+                                        });
+    const bool known =
+        std::find(refined.moved.begin(), refined.moved.end(), worst->camera) != refined.moved.end();
+    // One that moved is brought home as near as can be; the others are left alone.
+    if (worst->shift_px.norm() < (known ? kSettled_px : kMovedPx)) break;
+    if (!known) refined.moved.push_back(worst->camera);
+    if (2 * refined.moved.size() > refined.cameras.size())
+      throw SetupError(
+          "more than half of the cameras disagree with the rest: nothing tells which of them "
+          "moved; "
+          "calibrate anew with a board");
+    CameraCalibration& camera =
+        refined.cameras[static_cast<std::size_t>(worst - refined.after.begin())];
+    const Matrix3 turn = ExpRotation(worst->rotation_C);
+    camera.X_CW = {turn * camera.X_CW.R, turn * camera.X_CW.p};
+    refined.after = MeasureShifts(samples, refined.cameras);
+  }
+  return refined;
+}
+
+}  // namespace mocap
