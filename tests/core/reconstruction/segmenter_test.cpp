@@ -182,7 +182,7 @@ TEST_F(SegmenterTest, WhatWentBeforeDoesNotMatter) {
 TEST_F(SegmenterTest, AThingThatWasMovedIsLeftOutBesideAPerson) {
   ExactPicture picture = studio_;
   Paint(picture, {20, 30, 49, 109}, {40, 50, 110});
-  Paint(picture, {150, 60, 164, 89}, {200, 190, 60});
+  Paint(picture, {150, 60, 164, 74}, {200, 190, 60});
   const Silhouette silhouette = Segment(picture);
   EXPECT_EQ(CountSet(silhouette, {100, 0, kWidth - 1, kHeight - 1}), 0);
   EXPECT_NEAR(CountSet(silhouette), 30 * 80, 50);
