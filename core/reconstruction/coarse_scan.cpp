@@ -14,9 +14,9 @@ constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
 // A pixel of the half is so many of the picture's wide.
 constexpr float kPixel_px = 2;
-// Every so many tiles or pixels are enough for a median.
-constexpr std::size_t kTileStep = 5;
-constexpr std::size_t kPixelStep = 5;
+// Every so many tiles or pixels are enough for a median; few pictures are a multiple of that wide.
+constexpr std::size_t kTileStep = 7;
+constexpr std::size_t kPixelStep = 7;
 // A colour has a ratio to another only away from black [grey levels].
 constexpr float kDarkest = 8;
 constexpr float kLargestGain = 4;
@@ -27,28 +27,31 @@ constexpr int kSteep = 15;
 constexpr std::size_t kFewestSteep = 50;
 constexpr float kLargestShift_px = 1;
 // Persons, shadows and what is bright from them may cover more than half: standard deviations are
-// read off this share. Of a normal distribution it is within such a length in three dimensions, and
-// such a size in one.
-constexpr double kUndisturbed = 0.25;
-constexpr float kUndisturbedLength = 1.101f;
+// read off these shares. Of a normal distribution, they are within such a length in three
+// dimensions, and such a size in one.
+constexpr double kUndisturbedTiles = 0.4;
+constexpr float kUndisturbedLength = 1.367f;
+constexpr double kUndisturbedContours = 0.25;
 constexpr float kUndisturbedSize = 0.3186f;
+// Less than that much more than usual is usual, and less than that nothing [grey levels, pixels].
 constexpr float kNotable = 1.5f;
 constexpr float kNegligibleDrift = 0.3f;
 constexpr float kNegligibleShift_px = 0.1f;
-constexpr float kDistanceMargin = 2;
-constexpr float kContourMargin = 2;
 // Drift has no normal distribution: some walls change, others don't.
-constexpr float kDriftMargin = 3;
+constexpr float kDriftMargin = 4;
 constexpr float kLargestDrift = 8;
-// A tile is looked at closely when its colour, in variances, or its pixels, compared to most tiles,
-// differ by more than this from a shadow; or when it is that much darker or brighter.
+// A tile is looked at closely when it is brighter, or its colour is another, by more than so many
+// variances; when its pixels differ so many times more than those of most tiles; or when it is
+// nearly too dark for a shadow. So much distance and shift are part of the variance.
+constexpr float kHarmlessGlare = 1.5f;
 constexpr float kHarmlessTint = 1.5f;
 constexpr float kHarmlessMisfit = 6;
+constexpr float kLeastMisfit = 0.05f;
+constexpr float kDarkMargin = 0.02f;
+constexpr float kDistanceMargin = 2;
+constexpr float kContourMargin = 2;
 // Fewer tiles than this by themselves are noise.
 constexpr int kFewestTiles = 4;
-constexpr float kLeastMisfit = 0.05f;
-constexpr float kDarkest_share = 0.72f;
-constexpr float kHarmlessGlare = 1.5f;
 
 float Square(float x) { return x * x; }
 
@@ -67,7 +70,7 @@ float Beyond(float value, float usual, float negligible) {
   return beyond < negligible ? 0 : beyond;
 }
 
-// Whether all of a tile is.
+// Whether all of a tile is known. The padding is not.
 bool IsKnown(const ExpectedHalf& expected, std::size_t tile) {
   return expected.tile_variance[tile] < kUnknownVariance / kArea / 2;
 }
@@ -126,6 +129,8 @@ void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>&
 
 }  // namespace
 
+CoarseScan::CoarseScan(float darkest_shadow) : darkest_shadow_(darkest_shadow) {}
+
 void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
   Resize(expected, image);
   Halve(image, live_, row_sums_);
@@ -182,7 +187,7 @@ float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
     }
     values_.push_back(length_sq);
   }
-  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbed)) / kUndisturbedLength;
+  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbedTiles)) / kUndisturbedLength;
 }
 
 float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
@@ -195,7 +200,8 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
     values_.push_back(std::abs(difference) / static_cast<float>(slope));
   }
   if (values_.size() < kFewestSteep) return 0;
-  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbed), kLargestShift_px);
+  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
+                  kLargestShift_px);
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
@@ -246,7 +252,7 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
       const std::size_t i = static_cast<std::size_t>(row) * columns + column;
       if (IsKnown(expected, i) &&
           (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
-           tiles_.alpha[i] < kDarkest_share || tiles_.glare[i] > kHarmlessGlare))
+           tiles_.alpha[i] < darkest_shadow_ + kDarkMargin || tiles_.glare[i] > kHarmlessGlare))
         suspicious_.Set(column, row);
     }
   }

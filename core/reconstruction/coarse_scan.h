@@ -19,6 +19,9 @@ namespace mocap {
 /// does not disturb them. Thread-bound; reuses its memory.
 class CoarseScan {
  public:
+  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  explicit CoarseScan(float darkest_shadow = 0);
+
   /// Compares a picture; the results hold until the next one.
   void Compare(const ExpectedHalf& expected, ImageView<const Bgr> image);
 
@@ -48,6 +51,7 @@ class CoarseScan {
   void MeasureMisfit(const ExpectedHalf& expected);
   void Judge(const ExpectedHalf& expected);
 
+  float darkest_shadow_;
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;
   std::vector<std::uint16_t> row_sums_;

@@ -17,7 +17,7 @@ struct Displacement {
 struct Conditions {
   /// By what each channel must be multiplied to look like the background.
   std::array<float, 3> gain = {1, 1, 1};
-  /// Standard deviation of what is smooth and was not so while learning [grey levels].
+  /// By how much smooth changes may lie off that were not there while learning [grey levels].
   float drift = 0;
   /// How much farther than while learning contours lie from where they belong [pixels].
   float shift_px = 0;

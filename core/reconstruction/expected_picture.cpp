@@ -19,7 +19,7 @@ struct Weights {
 };
 
 MOCAP_VECTORIZED
-void WeighPixels(const Source& from, int count, float drift_sq, float shift_sq, const Weights& to) {
+void WeighPixels(const Source& from, int count, float shift_sq, const Weights& to) {
   const auto [e0, e1, e2] = from.mean;
   const auto [v0, v1, v2] = from.variance;
   const auto [w0, w1, w2] = to.inverse_sigma;
@@ -29,7 +29,7 @@ void WeighPixels(const Source& from, int count, float drift_sq, float shift_sq, 
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
     const float slope = slopes[x];
-    const float more = drift_sq + shift_sq * slope * slope;
+    const float more = shift_sq * slope * slope;
     const float i0 = 1 / (v0[x] + more), i1 = 1 / (v1[x] + more), i2 = 1 / (v2[x] + more);
     const float square = e0[x] * e0[x] * i0 + e1[x] * e1[x] * i1 + e2[x] * e2[x] * i2;
     w0[x] = std::sqrt(i0);
@@ -69,7 +69,7 @@ void ExpectedPicture::SetPixel(std::size_t i, const std::array<float, 3>& color,
   alpha_limit[i] = 1 / std::max(alpha_variation, 1e-6f);
 }
 
-void ExpectedPicture::Weigh(const Conditions& conditions, std::size_t begin, int count) {
+void ExpectedPicture::Weigh(float shift_px, std::size_t begin, int count) {
   Source from{{}, {}, &alpha_limit[begin], &slope[begin]};
   Weights to{{}, &inverse_square[begin], &alpha_weight[begin]};
   for (int c = 0; c < 3; ++c) {
@@ -77,8 +77,7 @@ void ExpectedPicture::Weigh(const Conditions& conditions, std::size_t begin, int
     from.variance[c] = &variance[c][begin];
     to.inverse_sigma[c] = &inverse_sigma[c][begin];
   }
-  WeighPixels(from, count, conditions.drift * conditions.drift,
-              conditions.shift_px * conditions.shift_px, to);
+  WeighPixels(from, count, shift_px * shift_px, to);
 }
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,

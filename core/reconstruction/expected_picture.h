@@ -31,8 +31,9 @@ struct ExpectedPicture {
   void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
                 float alpha_variation);
 
-  /// Works out the weights of pixels [begin, begin + count) under such conditions.
-  void Weigh(const Conditions& conditions, std::size_t begin, int count);
+  /// Works out the weights of pixels [begin, begin + count).
+  /// @param shift_px  how much farther than while learning contours lie from where they belong.
+  void Weigh(float shift_px, std::size_t begin, int count);
 
   /// Writes pixels [begin, end) of a row: another picture's, displaced by less than its size. They
   /// are to be weighed.
@@ -46,7 +47,7 @@ struct ExpectedPicture {
   std::vector<float> alpha_limit;              ///< 1/a as measured; much where it was not.
   std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 
-  /// Weights: drift and shift widen σ.
+  /// Weights: σ is wider where contours shift.
   std::array<std::vector<float>, 3> inverse_sigma;  ///< 1/σ.
   std::vector<float> inverse_square;                ///< 1/Σ(E/σ)².
   std::vector<float> alpha_weight;                  ///< 1/a.

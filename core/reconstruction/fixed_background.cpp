@@ -81,7 +81,7 @@ class FixedBackground final : public BackgroundModel {
 
   const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
     const bool is_displaced = !(conditions.displacement == Displacement{});
-    const bool is_plain = !is_displaced && conditions.drift == 0 && conditions.shift_px == 0;
+    const bool is_plain = !is_displaced && conditions.shift_px == 0;
     if (is_plain && is_weighed_plainly_) return expected_;
     if (is_displaced && displaced_.mean[0].empty())
       displaced_ = ExpectedPicture(expected_.width, expected_.height);
@@ -90,7 +90,8 @@ class FixedBackground final : public BackgroundModel {
       for (const PixelRun& run : closeup.Measured(y)) {
         if (is_displaced)
           picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
-        picture.Weigh(conditions, static_cast<std::size_t>(y) * expected_.width + run.begin,
+        picture.Weigh(conditions.shift_px,
+                      static_cast<std::size_t>(y) * expected_.width + run.begin,
                       run.end - run.begin);
       }
     }
@@ -115,7 +116,7 @@ class FixedBackground final : public BackgroundModel {
       const float shift = half_.usual_shift_px * expected_.slope[i];
       for (auto& variance : expected_.variance) variance[i] += shift * shift;
     }
-    expected_.Weigh({}, 0, static_cast<int>(sums.size()));
+    expected_.Weigh(0, 0, static_cast<int>(sums.size()));
   }
 
   void SumColors() {

@@ -361,7 +361,7 @@ class PanTiltBackground final : public BackgroundModel {
       pixels.mean[c] = &expected_.mean[c][row];
       pixels.inverse_sigma[c] = &expected_.inverse_sigma[c][row];
     }
-    WeighDrawn(pixels, length, variance_ + conditions.drift * conditions.drift,
+    WeighDrawn(pixels, length, variance_,
                shift_px_ * shift_px_ + conditions.shift_px * conditions.shift_px);
   }
 

@@ -36,13 +36,13 @@ class PixelClassifier {
   /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
   PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow);
 
-  /// Classifies a picture; the results hold until the next one.
+  /// Classifies a picture; the results hold until the next one, as long as `expected` does.
+  /// @param expected  weighed under these conditions for the pixels that are measured.
   void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                const std::array<float, 3>& gain, const Closeup& closeup);
+                const Conditions& conditions, const Closeup& closeup);
 
   /// Gives the class of a pixel that was measured.
-  /// @param expected  what the picture was classified with.
-  PixelClass ClassOf(const ExpectedPicture& expected, int x, int y) const;
+  PixelClass ClassOf(int x, int y) const;
   /// Where the class is foreground.
   const Silhouette& foreground() const { return foreground_; }
   /// Where background would be as rare as the training frames allow, but not clearly beyond that.
@@ -54,8 +54,12 @@ class PixelClassifier {
   void ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row);
   void ClassifyWindows(int y, const PixelRun& run, std::size_t k, const DistortionScan::Row& row);
 
+  const float* WeightsOf(int y, const PixelRun& run) const;
+
   DistortionThresholds thresholds_;
   float darkest_shadow_;
+  const ExpectedPicture* expected_ = nullptr;
+  float drift_ = 0;
   DistortionScan scan_;
   Image<float> alpha_shift_;
   // One byte a pixel of a run, before they are packed.

@@ -19,6 +19,8 @@ constexpr std::size_t kFewestFrames = 8;
 // refined outline.
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
+// What covers more of the picture may be somebody.
+constexpr double kLargestThingShare = 0.01;
 // A camera that moved by less is not worth following, nor one whose contours still do not fit.
 constexpr float kNudge_px = 0.25f;
 constexpr float kMuchLess = 0.8f;
@@ -53,21 +55,24 @@ class Segmenter::Impl {
   Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
        const SegmentationOptions& options)
       : background_(Learn(camera, background, options.detection_rate)),
+        coarse_(static_cast<float>(options.darkest_shadow)),
         classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
         smallest_blob_px_(
-            static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)) {}
+            static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)),
+        largest_thing_px_(
+            static_cast<int>(kLargestThingShare * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
     const Conditions conditions = Glance(image, angles);
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
-    classifier_.Classify(expected, image, conditions.gain, closeup_);
+    classifier_.Classify(expected, image, conditions, closeup_);
     silhouette = classifier_.foreground();
     cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
     refiner_.Refine(expected, image, conditions.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.FillHoles(kSmallestHole_px, silhouette);
-    cleaner_.KeepPerson(smallest_blob_px_, silhouette);
+    cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, silhouette);
   }
 
  private:
@@ -97,7 +102,7 @@ class Segmenter::Impl {
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
-  int smallest_blob_px_;
+  int smallest_blob_px_, largest_thing_px_;
 };
 
 Segmenter::Segmenter(const CameraCalibration& camera, std::span<const BackgroundFrame> background,

@@ -41,7 +41,7 @@ void Flip(Word* row, int begin, int end) {
 
 // A blob belongs to the person when it lies within such a share of the person's size, or is so
 // large a share of the largest blob.
-constexpr double kReach = 0.25;
+constexpr double kReach = 0.5;
 constexpr double kLarge = 0.5;
 
 int GapBetween(const PixelBox& a, const PixelBox& b) {
@@ -57,7 +57,7 @@ void SilhouetteCleaner::DropBlobs(int smallest, Silhouette& silhouette) {
       Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
 }
 
-void SilhouetteCleaner::KeepPerson(int smallest, Silhouette& silhouette) {
+void SilhouetteCleaner::KeepPerson(int smallest, int largest_thing, Silhouette& silhouette) {
   Connect(Kind::kBlobs, nullptr, silhouette);
   if (runs_.empty()) return;
   MeasureBoxes();
@@ -70,9 +70,9 @@ void SilhouetteCleaner::KeepPerson(int smallest, Silhouette& silhouette) {
       kReach * std::max(person.right - person.left + 1, person.bottom - person.top + 1);
   for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
     const int root = RootOf(i);
-    const bool is_large = runs_[root].area > kLarge * runs_[largest].area;
-    if (runs_[root].area >= smallest && (is_large || GapBetween(boxes_[root], person) <= reach))
-      continue;
+    const int area = runs_[root].area;
+    const bool is_large = area >= largest_thing || area > kLarge * runs_[largest].area;
+    if (area >= smallest && (is_large || GapBetween(boxes_[root], person) <= reach)) continue;
     Flip(silhouette.row(runs_[i].y), runs_[i].begin, runs_[i].end);
   }
 }

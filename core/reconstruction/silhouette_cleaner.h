@@ -15,10 +15,10 @@ class SilhouetteCleaner {
   /// Empties blobs of fewer than `smallest` pixels. Blobs hang together over corners too.
   void DropBlobs(int smallest, Silhouette& silhouette);
 
-  /// Empties blobs of fewer than `smallest` pixels, and those that are much smaller than the
-  /// largest and lie apart from it: there is one person, and things that were moved are not part of
-  /// it.
-  void KeepPerson(int smallest, Silhouette& silhouette);
+  /// Empties blobs of fewer than `smallest` pixels, and those of fewer than `largest_thing` that are
+  /// much smaller than the largest and lie apart from it: there is one person, and things that were
+  /// moved are not part of it.
+  void KeepPerson(int smallest, int largest_thing, Silhouette& silhouette);
 
   /// Fills holes of fewer than `smallest` pixels. What touches the picture's edge is no hole.
   void FillHoles(int smallest, Silhouette& silhouette);

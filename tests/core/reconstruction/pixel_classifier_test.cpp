@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -25,15 +26,15 @@ class PixelClassifierTest : public ::testing::Test {
   void Classify(const ExactPicture& picture) {
     Closeup everything;
     everything.SetAll(kWidth, kHeight);
-    expected_ = &background_->Expect(everything, {});
-    classifier_.Classify(*expected_, sensor_.Take(picture).view(), {1, 1, 1}, everything);
+    classifier_.Classify(background_->Expect(everything, {}), sensor_.Take(picture).view(), {},
+                         everything);
   }
   // Of the pixels in a box.
   double ShareOf(PixelClass wanted, const PixelBox& box) const {
     int count = 0, all = 0;
     for (int y = box.top; y <= box.bottom; ++y) {
       for (int x = box.left; x <= box.right; ++x) {
-        count += classifier_.ClassOf(*expected_, x, y) == wanted;
+        count += classifier_.ClassOf(x, y) == wanted;
         ++all;
       }
     }
@@ -46,7 +47,6 @@ class PixelClassifierTest : public ::testing::Test {
   ExactPicture studio_;
   std::unique_ptr<BackgroundModel> background_;
   PixelClassifier classifier_;
-  const ExpectedPicture* expected_ = nullptr;
 };
 
 TEST_F(PixelClassifierTest, TheEmptyStudioIsBackground) {
@@ -131,6 +131,151 @@ TEST_F(PixelClassifierTest, WindowsReachNoFartherThanWhatTheyFind) {
   EXPECT_EQ(CountSet(classifier_.foreground(), {32, 22, 77, 67}), 30 * 30);
 }
 
+// What the headers say, in double precision and pixel by pixel.
+class PlainClassifier {
+ public:
+  PlainClassifier(const ExpectedPicture& expected, const Image<Bgr>& image,
+                  const DistortionThresholds& thresholds, double darkest_shadow)
+      : width_(expected.width),
+        height_(expected.height),
+        shift_(width_, height_),
+        weight_(width_, height_),
+        distance_(width_, height_, Eigen::Vector3d::Zero()) {
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) Measure(expected, image, x, y);
+    clear_ = Image<std::uint8_t>(width_, height_);
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const double alpha = shift_(x, y) * weight_(x, y);
+        clear_(x, y) = distance_(x, y).norm() > PixelClassifier::kPixelMargin * thresholds.cd ||
+                       (shift_(x, y) < darkest_shadow - 1 &&
+                        alpha < PixelClassifier::kPixelMargin * thresholds.alpha_low);
+      }
+    }
+    for (const std::size_t k : {0, 1}) {
+      clear_windows_[k] = Image<std::uint8_t>(width_, height_);
+      for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+          clear_windows_[k](x, y) = IsClearWindow(k, x, y, thresholds.windows[k], darkest_shadow);
+    }
+  }
+
+  bool IsForeground(int x, int y) const {
+    return clear_(x, y) || (AllClearAround(0, x, y) && AllClearAround(1, x, y));
+  }
+
+ private:
+  void Measure(const ExpectedPicture& expected, const Image<Bgr>& image, int x, int y) {
+    const auto i = static_cast<std::size_t>(y * width_ + x);
+    const Eigen::Vector3d color(image(x, y).b, image(x, y).g, image(x, y).r);
+    Eigen::Vector3d z, m;
+    for (int c = 0; c < 3; ++c) {
+      const double sigma = std::sqrt(static_cast<double>(expected.variance[c][i]));
+      z[c] = color[c] / sigma;
+      m[c] = expected.mean[c][i] / sigma;
+    }
+    const double alpha = z.dot(m) / m.squaredNorm();
+    shift_(x, y) = alpha - 1;
+    weight_(x, y) = std::min(m.norm(), static_cast<double>(expected.alpha_limit[i]));
+    distance_(x, y) = z - alpha * m;
+  }
+
+  bool IsClearWindow(std::size_t k, int x, int y, const DistortionThresholds::Window& t,
+                     double darkest_shadow) const {
+    const int radius = DistortionScan::kRadii_px[k];
+    const double margin = PixelClassifier::kWindowMargins[k];
+    const double area = (2 * radius + 1) * (2 * radius + 1);
+    const double spread = area * (area - 1) / 12;
+    double sum = 0, sum_sq = 0, along = 0, down = 0;
+    Eigen::Vector3d distance = Eigen::Vector3d::Zero();
+    for (int v = -radius; v <= radius; ++v) {
+      for (int u = -radius; u <= radius; ++u) {
+        const int column = std::clamp(x + u, 0, width_ - 1);
+        const int row = std::clamp(y + v, 0, height_ - 1);
+        const double a = shift_(column, row);
+        sum += a, sum_sq += a * a, along += u * a, down += v * a;
+        distance += distance_(column, row);
+      }
+    }
+    const double alpha = sum / area * weight_(x, y);
+    const double roughness_sq =
+        (sum_sq - sum * sum / area - (along * along + down * down) / spread) / area;
+    const bool is_dark = sum / area < darkest_shadow - 1 && alpha < -margin * t.alpha;
+    return is_dark || alpha > margin * t.alpha || distance.norm() / area > margin * t.cd ||
+           std::sqrt(std::max(roughness_sq, 0.0)) * weight_(x, y) > margin * t.roughness;
+  }
+
+  bool AllClearAround(std::size_t k, int x, int y) const {
+    const int radius = DistortionScan::kRadii_px[k];
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height_ - 1); ++v)
+      for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width_ - 1); ++u)
+        if (!clear_windows_[k](u, v)) return false;
+    return true;
+  }
+
+  int width_, height_;
+  Image<double> shift_, weight_;
+  Image<Eigen::Vector3d> distance_;
+  Image<std::uint8_t> clear_;
+  std::array<Image<std::uint8_t>, 2> clear_windows_;
+};
+
+TEST_F(PixelClassifierTest, AgreesWithItsDefinitionPixelByPixel) {
+  ExactPicture picture = studio_;
+  Dim(picture, {0, 0, 40, 40}, 0.8f);
+  Paint(picture, {30, 20, 62, 80}, {95, 105, 118});
+  Paint(picture, {100, 90, kWidth - 1, kHeight - 1}, {60, 60, 90});
+  for (int y = 60; y < 100; ++y)
+    for (int x = 20; x < 90; ++x) picture(x, y)[0] += static_cast<float>(y - 60) / 6;
+  const Image<Bgr> image = sensor_.Take(picture);
+  Closeup everything;
+  everything.SetAll(kWidth, kHeight);
+  const ExpectedPicture& expected = background_->Expect(everything, {});
+  classifier_.Classify(expected, image.view(), {}, everything);
+  const PlainClassifier plain(expected, image, background_->thresholds(), 0.7f);
+  int foreground = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      ASSERT_EQ(classifier_.foreground().Test(x, y), plain.IsForeground(x, y)) << x << " " << y;
+      foreground += plain.IsForeground(x, y);
+    }
+  }
+  EXPECT_GT(foreground, 2000);
+  EXPECT_LT(foreground, kWidth * kHeight / 2);
+}
+
+TEST_F(PixelClassifierTest, ACloseupShowsWhatTheWholePictureShows) {
+  ExactPicture picture = studio_;
+  Paint(picture, kPatch, {90, 100, 160});
+  Paint(picture, {120, 0, kWidth - 1, 20}, {60, 60, 90});
+  const Image<Bgr> image = sensor_.Take(picture);
+  Closeup everything, part;
+  everything.SetAll(kWidth, kHeight);
+  Silhouette suspicious(kWidth / 8, kHeight / 8);
+  for (int y = 3; y <= 7; ++y)
+    for (int x = 5; x <= 8; ++x) suspicious.Set(x, y);
+  for (int x = 15; x < 20; ++x)
+    for (int y = 0; y <= 2; ++y) suspicious.Set(x, y);
+  part.Set(suspicious, kWidth, kHeight);
+  const ExpectedPicture& expected = background_->Expect(everything, {});
+  classifier_.Classify(expected, image.view(), {}, everything);
+  const Silhouette whole = classifier_.foreground();
+  classifier_.Classify(expected, image.view(), {}, part);
+  int judged = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (const PixelRun& run : part.Judged(y)) {
+      // Windows that reach beyond are taken for background.
+      for (int x = run.begin; x < run.end; ++x, ++judged) {
+        if (whole.Test(x, y) != classifier_.foreground().Test(x, y)) {
+          ADD_FAILURE() << x << " " << y;
+        }
+      }
+    }
+  }
+  EXPECT_GT(judged, 4000);
+  EXPECT_GT(CountSet(whole), 30 * 30 + 40 * 21 - 1);
+}
+
 TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearned) {
   NoisySensor sensor(2.0f, 13);
   const ExactPicture studio = EmptyStudio(kWidth, kHeight);
@@ -170,7 +315,7 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
-  expected.Weigh({}, 0, 1);
+  expected.Weigh(0, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
   Closeup everything;
   everything.SetAll(image.width(), image.height());
@@ -201,7 +346,7 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
       image(x, y) = {value, value, value};
     }
   }
-  expected.Weigh({}, 0, 40 * 30);
+  expected.Weigh(0, 0, 40 * 30);
   image(30, 20) = {255, 255, 255};
   Closeup everything;
   everything.SetAll(image.width(), image.height());

@@ -142,6 +142,52 @@ TEST_F(SegmenterTest, APersonAtTheEdgeIsKeptUpToTheEdge) {
   EXPECT_TRUE(silhouette.Test(0, kHeight - 1));
 }
 
+TEST_F(SegmenterTest, SomebodyWhoWalksInIsSeenFromTheFirstPixelsOn) {
+  for (const int right : {7, 15, 31}) {
+    ExactPicture picture = studio_;
+    Paint(picture, {0, 50, right, 109}, {60, 45, 50});
+    EXPECT_NEAR(CountSet(Segment(picture)), 60 * (right + 1), 40 + 2 * right) << right;
+  }
+}
+
+TEST_F(SegmenterTest, ADriftOfTheWallsHasNoSilhouette) {
+  ExactPicture picture = studio_;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto drift = static_cast<float>(
+          0.8 * (std::sin(x / 15.0) + std::cos(y / 20.0) + std::sin((x + y) / 27.0)));
+      picture(x, y)[0] += drift;
+      picture(x, y)[1] -= 0.5f * drift;
+    }
+  }
+  EXPECT_EQ(CountSet(Segment(picture)), 0);
+  Paint(picture, {80, 40, 109, 119}, {40, 50, 110});
+  EXPECT_NEAR(CountSet(Segment(picture)), 30 * 80, 150);
+}
+
+TEST_F(SegmenterTest, WhatWentBeforeDoesNotMatter) {
+  ExactPicture person = studio_;
+  Paint(person, {80, 40, 109, 119}, {70, 80, 110});
+  const Image<Bgr> image = sensor_.Take(person);
+  Silhouette before, after;
+  segmenter_.Segment(image.view(), {}, before);
+  ExactPicture changed = studio_;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) changed(x, y)[2] += static_cast<float>(8 * std::sin(x / 11.0));
+  Segment(changed);
+  segmenter_.Segment(image.view(), {}, after);
+  EXPECT_EQ(before.words(), after.words());
+}
+
+TEST_F(SegmenterTest, AThingThatWasMovedIsLeftOutBesideAPerson) {
+  ExactPicture picture = studio_;
+  Paint(picture, {20, 30, 49, 109}, {40, 50, 110});
+  Paint(picture, {150, 60, 164, 74}, {200, 190, 60});
+  const Silhouette silhouette = Segment(picture);
+  EXPECT_EQ(CountSet(silhouette, {100, 0, kWidth - 1, kHeight - 1}), 0);
+  EXPECT_NEAR(CountSet(silhouette), 30 * 80, 50);
+}
+
 TEST_F(SegmenterTest, MemoryOfAnotherSizeIsReused) {
   Silhouette silhouette(640, 480);
   silhouette.Set(5, 5);
@@ -173,6 +219,29 @@ TEST(Segmenter, ABackgroundOfAnotherSizeIsRefused) {
                  "background of camera cam3: found a frame of 64 x 48 px, wanted 200 x 150 px as "
                  "in the calibration");
   }
+}
+
+TEST(Segmenter, ANudgedCameraIsFollowed) {
+  NoisySensor sensor(2.0f, 26);
+  const auto look = [](float dx, float dy) {
+    ExactPicture picture(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const float u = (static_cast<float>(x) - dx) / 6, v = (static_cast<float>(y) - dy) / 7;
+        const float grey = 130 + 50 * std::sin(u) * std::cos(v);
+        picture(x, y) = {grey, 0.95f * grey, 0.9f * grey};
+      }
+    }
+    return picture;
+  };
+  Segmenter segmenter(SmallCamera(), TakeBackground(look(0, 0), 30, sensor), {});
+  ExactPicture picture = look(-0.3f, 1.3f);
+  Silhouette silhouette;
+  segmenter.Segment(sensor.Take(picture).view(), {}, silhouette);
+  EXPECT_EQ(CountSet(silhouette), 0);
+  Paint(picture, {80, 40, 109, 119}, {40, 30, 170});
+  segmenter.Segment(sensor.Take(picture).view(), {}, silhouette);
+  EXPECT_NEAR(CountSet(silhouette), 30 * 80, 80);
 }
 
 // A camera on a head in the middle of a large room with pictures on its walls.
@@ -234,6 +303,33 @@ TEST_F(PanTiltSegmenterTest, APersonIsFoundInAnyDirection) {
     segmenter.Segment(sensor_.Take(picture).view(), angles, silhouette);
     EXPECT_NEAR(CountSet(silhouette), 30 * 81, 60);
     EXPECT_NEAR(CountSet(silhouette, {80, 40, 109, 120}), 30 * 81, 60);
+  }
+}
+
+TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClosely) {
+  const auto background = LearnPanTiltBackground(camera_, background_, 0.999);
+  const PanTiltAngles angles{0.17, -0.04};
+  Closeup everything, part;
+  everything.SetAll(kWidth, kHeight);
+  background->Glance(angles, {});
+  const ExpectedPicture whole = background->Expect(everything, {});
+  Silhouette suspicious((kWidth + 7) / 8, (kHeight + 7) / 8);
+  suspicious.Set(3, 0);
+  suspicious.Set(12, 9);
+  suspicious.Set(24, 18);
+  part.Set(suspicious, kWidth, kHeight);
+  background->Glance({0.1, 0}, {});
+  background->Expect(everything, {});
+  background->Glance(angles, {});
+  const ExpectedPicture& partly = background->Expect(part, {});
+  for (int y = 0; y < kHeight; ++y) {
+    for (const PixelRun& run : part.Measured(y)) {
+      for (int x = run.begin; x < run.end; ++x) {
+        const auto i = static_cast<std::size_t>(y * kWidth + x);
+        ASSERT_EQ(partly.mean[1][i], whole.mean[1][i]) << x << " " << y;
+        ASSERT_EQ(partly.inverse_sigma[1][i], whole.inverse_sigma[1][i]) << x << " " << y;
+      }
+    }
   }
 }
 

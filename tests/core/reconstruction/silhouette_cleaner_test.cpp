@@ -106,5 +106,50 @@ TEST(SilhouetteCleaner, WorksAcrossWords) {
   EXPECT_FALSE(s.BoundingBox().has_value());
 }
 
+// A person of 20 x 40 pixels, and something else.
+Silhouette PersonAnd(const PixelBox& other) {
+  Silhouette s(200, 100);
+  for (int y = 30; y < 70; ++y)
+    for (int x = 50; x < 70; ++x) s.Set(x, y);
+  for (int y = other.top; y <= other.bottom; ++y)
+    for (int x = other.left; x <= other.right; ++x) s.Set(x, y);
+  return s;
+}
+
+TEST(SilhouetteCleaner, WhatLiesApartFromThePersonIsLeftOut) {
+  Silhouette s = PersonAnd({150, 20, 160, 40});
+  SilhouetteCleaner().KeepPerson(5, 1000, s);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{50, 30, 69, 69}));
+}
+
+TEST(SilhouetteCleaner, AHandCutOffStaysWithThePerson) {
+  const PixelBox hand{76, 30, 79, 33};
+  Silhouette s = PersonAnd(hand);
+  SilhouetteCleaner().KeepPerson(5, 1000, s);
+  EXPECT_EQ(s.words(), PersonAnd(hand).words());
+  SilhouetteCleaner().KeepPerson(17, 1000, s);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{50, 30, 69, 69}));
+}
+
+TEST(SilhouetteCleaner, NoHalfOfAPersonIsTakenForAThing) {
+  const PixelBox other{150, 20, 169, 49};
+  Silhouette s = PersonAnd(other);
+  SilhouetteCleaner().KeepPerson(5, 1000, s);
+  EXPECT_EQ(s.words(), PersonAnd(other).words());
+}
+
+TEST(SilhouetteCleaner, WhatIsLargeEnoughMayBeSomebody) {
+  const PixelBox other{150, 20, 160, 39};
+  Silhouette s = PersonAnd(other);
+  SilhouetteCleaner().KeepPerson(5, 11 * 20, s);
+  EXPECT_EQ(s.words(), PersonAnd(other).words());
+}
+
+TEST(SilhouetteCleaner, NobodyIsNobody) {
+  Silhouette s(100, 50);
+  SilhouetteCleaner().KeepPerson(5, 1000, s);
+  EXPECT_FALSE(s.BoundingBox().has_value());
+}
+
 }  // namespace
 }  // namespace mocap
