@@ -6,6 +6,7 @@
 #include "tools/calibrate.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
+#include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
 
@@ -19,5 +20,6 @@ int main(int argc, char** argv) {
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
   mocap::AddBackgroundCommand(app);
+  mocap::AddGigeStudioCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }
