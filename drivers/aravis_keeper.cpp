@@ -115,7 +115,7 @@ bool AravisKeeper::IsSilent() {
   const Session session = this->session();
   if (!session) return true;
   const std::uint64_t signs = session->SignsOfLife();
-  if (std::exchange(signs_, signs) != signs) last_sign_ = std::max(last_sign_, Clock::now());
+  if (std::exchange(signs_, signs) != signs) last_sign_ = Clock::now();
   return session->control_lost() ||
          Clock::now() - last_sign_ > SilenceLimit(session->agreed());
 }

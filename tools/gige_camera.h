@@ -55,7 +55,6 @@ class GigeCamera {
   bool is_streaming() const;
   /// Holds back all frames, as when the cable is pulled, while it still answers.
   void Stall(bool stalled) { stalled_.store(stalled, std::memory_order_relaxed); }
-  /// How long a client waits for its next frame to be sent is up to this.
   struct WakeUp;
 
  private:
