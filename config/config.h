@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/service_config.h"
 #include "core/reconstruction/segmenter.h"
 
 namespace mocap {
@@ -48,6 +49,7 @@ struct Config {
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;
+  ServiceConfig service;
 };
 
 }  // namespace mocap

@@ -3,13 +3,16 @@
 
 #include "daemon/run_program.h"
 #include "tools/calibrate.h"
+#include "tools/control.h"
+#include "tools/doctor.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
+#include "tools/watch.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Markerless motion capture from recorded takes", "mocap");
+  CLI::App app("Markerless motion capture: takes, calibration and the running mocapd", "mocap");
   app.require_subcommand(1);
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::AddSimulateCommand(app);
@@ -17,5 +20,8 @@ int main(int argc, char** argv) {
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
+  mocap::AddControlCommands(app);
+  mocap::AddWatchCommand(app);
+  mocap::AddDoctorCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }
