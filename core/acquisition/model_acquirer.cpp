@@ -38,18 +38,47 @@ struct Candidate {
   double cost_mm;
 };
 
-// Draws a guess to the voxels, coarsely.
-Candidate Fit(const BodyModel& body, SurfaceFit& fit, const PoseState& guess) {
-  constexpr int kIterations = 5;
+// How closely guesses are drawn to the voxels, and how many of them go on.
+struct Round {
+  SurfaceFitOptions options;
+  int iterations;
+  std::size_t kept;
+};
+
+SurfaceFitOptions Samples(int voxels, int edges) {
+  SurfaceFitOptions options;
+  options.voxels = voxels;
+  options.edges = edges;
+  return options;
+}
+
+void Improve(const BodyModel& body, SurfaceFit& fit, int iterations, Candidate& candidate) {
   PoseFilter filter{MotionNoise{}};
-  filter.Reset(guess, 100, 0.5);
+  filter.Reset(candidate.pose, 100, 0.5);
   filter.Update(
       body.table(),
       [&](const PoseState& pose, UpdateEquations& equations) {
         fit.Linearize(body, pose, equations);
       },
-      kIterations);
-  return {filter.pose(), fit.QualityAt(body, filter.pose()).Cost()};
+      iterations);
+  candidate = {filter.pose(), fit.QualityAt(body, filter.pose()).Cost()};
+}
+
+// Most guesses are far off, and a glance tells: the better they are, the closer they are looked at.
+// The best comes first.
+std::vector<Candidate> Compete(const BodyModel& body, const Evidence& evidence,
+                               const std::vector<PoseState>& guesses) {
+  const std::array<Round, 2> rounds = {Round{Samples(40, 80), 1, 10}, {Samples(150, 200), 4, 10}};
+  std::vector<Candidate> candidates;
+  for (const PoseState& guess : guesses) candidates.push_back({guess, 0});
+  for (const Round& round : rounds) {
+    SurfaceFit fit(round.options);
+    fit.SetEvidence(evidence);
+    for (Candidate& candidate : candidates) Improve(body, fit, round.iterations, candidate);
+    std::ranges::stable_sort(candidates, {}, &Candidate::cost_mm);
+    candidates.resize(std::min(candidates.size(), round.kept));
+  }
+  return candidates;
 }
 
 bool FaceApart(const PoseState& a, const PoseState& b) {
@@ -63,18 +92,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   if (!located) return false;
   height_mm_ = located->height_mm - kHairAndSolesMm;
   const BodyModel body(table_, known ? *known : AverageSizes(height_mm_));
-  SurfaceFitOptions coarse;
-  coarse.voxels = 150;
-  coarse.edges = 200;
-  SurfaceFit fit(coarse);
-  fit.SetEvidence(evidence);
-
-  std::vector<Candidate> candidates;
-  for (const PoseState& guess : PoseHypotheses(body, *located)) {
-    candidates.push_back(Fit(body, fit, guess));
-  }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; });
+  const std::vector<Candidate> candidates = Compete(body, evidence, PoseHypotheses(body, *located));
   if (candidates.front().cost_mm > kWorstCostMm) return false;
 
   hypotheses_.clear();

@@ -52,15 +52,14 @@ std::vector<Stance> LegStances() {
   return stances;
 }
 
-double UnexplainedShare(const std::vector<Contact>& contacts,
-                        const std::vector<PosedCapsule>& posed) {
+double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>& posed) {
+  const std::vector<ContactMatch>& matches = matcher.Match(posed, kReachMm);
   int edges = 0;
   int unexplained = 0;
-  for (const Contact& contact : contacts) {
-    if (!contact.is_edge) continue;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!matcher.contacts()[i].is_edge) continue;
     ++edges;
-    const ContactMatch match = MatchContact(contact, posed, kReachMm);
-    unexplained += match.capsule < 0 || std::abs(match.distance.outside_mm) > kUnexplainedMm;
+    unexplained += matches[i].DistanceOr(kReachMm) > kUnexplainedMm;
   }
   return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
 }
@@ -105,12 +104,12 @@ const std::vector<Stance>& LimbRecovery::StancesOf(Segment limb_end) const {
 
 bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
   body.PoseShape(body.PostureAt(pose), posed_);
-  return UnexplainedShare(contacts_, posed_) < kUnexplainedShare;
+  return UnexplainedShare(matcher_, posed_) < kUnexplainedShare;
 }
 
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                              PoseState& pose) const {
-  LimbSearch search(body, evidence, contacts_, limb_end, limb_end, pose);
+                              PoseState& pose) {
+  LimbSearch search(body, evidence, matcher_, limb_end, limb_end, pose);
   const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
   if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
   pose = best.pose;
@@ -118,13 +117,13 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
 }
 
 bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                               PoseState& pose) const {
+                               PoseState& pose) {
   const double before_mm = fit.QualityAt(body, pose).Cost();
-  LimbSearch left_search(body, evidence, contacts_, Segment::kHandL, Segment::kHandR, pose);
+  LimbSearch left_search(body, evidence, matcher_, Segment::kHandL, Segment::kHandR, pose);
   std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
   candidates.resize(std::min(candidates.size(), kLeftArms));
   for (Candidate& candidate : candidates) {
-    LimbSearch right_search(body, evidence, contacts_, Segment::kHandR, Segment::kHandR,
+    LimbSearch right_search(body, evidence, matcher_, Segment::kHandR, Segment::kHandR,
                             candidate.pose);
     candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
     candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
@@ -137,7 +136,9 @@ bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, 
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose) {
-  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
+  std::vector<Contact> contacts;
+  ChooseContacts(evidence, kVoxels, kEdges, contacts);
+  matcher_.SetContacts(contacts);
   if (IsExplained(body, pose)) return std::nullopt;
   PoseState now = pose;
   bool changed = false;

@@ -7,7 +7,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/stance.h"
-#include "core/tracking/contact.h"
+#include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/surface_fit.h"
 
@@ -30,14 +30,14 @@ class LimbRecovery {
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                  PoseState& pose) const;
+                  PoseState& pose);
   bool RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                   PoseState& pose) const;
+                   PoseState& pose);
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
   int resting_ = 0;  ///< Frames to go until both arms are searched together again.
-  std::vector<Contact> contacts_;
+  ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };
 
