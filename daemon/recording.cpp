@@ -25,8 +25,9 @@
 namespace mocap {
 namespace {
 
-/// Behind the pipeline's threads.
-constexpr int kNiceness = 10;
+/// How far behind the pipeline's threads.
+constexpr int kNicer = 10;
+constexpr int kNicest = 19;
 constexpr std::chrono::milliseconds kKeeperTick{100};
 /// What a loss of power costs at most, besides what the disk itself has not written.
 constexpr std::int64_t kSafeEveryNs = 500'000'000;
@@ -94,8 +95,8 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
 
 void StepBehind(const std::string& name) {
   pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
-  // Zero is the calling thread, of which niceness is one's own on Linux.
-  setpriority(PRIO_PROCESS, 0, kNiceness);
+  // Zero is the calling thread: on Linux each has its own.
+  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + kNicer, kNicest));
 }
 
 void WriteText(const std::filesystem::path& file, const std::string& text) {

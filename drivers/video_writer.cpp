@@ -40,7 +40,7 @@ Storage StorageOf(VideoPixels pixels, VideoCodec codec) {
     case VideoCodec::kFfv1:
       return {AV_CODEC_ID_FFV1, AV_PIX_FMT_BGR0, AVCOL_RANGE_UNSPECIFIED};
     case VideoCodec::kRaw:
-      return {AV_CODEC_ID_RAWVIDEO, AV_PIX_FMT_RGB24, AVCOL_RANGE_UNSPECIFIED};
+      return {AV_CODEC_ID_RAWVIDEO, AV_PIX_FMT_BGR24, AVCOL_RANGE_UNSPECIFIED};
   }
   MOCAP_CHECK(false);
 }
@@ -68,13 +68,14 @@ CodecPtr OpenEncoder(int width_px, int height_px, double fps, const Storage& sto
 
 void CopyPixels(ImageView<const Bgr> image, AVFrame& frame) {
   const bool is_rgb = frame.format == AV_PIX_FMT_RGB24;
+  const bool has_fourth = frame.format == AV_PIX_FMT_BGR0;
   for (int y = 0; y < image.height(); ++y) {
     std::uint8_t* to = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
     for (const Bgr* from = image.row(y); from != image.row(y) + image.width(); ++from) {
       *to++ = is_rgb ? from->r : from->b;
       *to++ = from->g;
       *to++ = is_rgb ? from->b : from->r;
-      if (!is_rgb) *to++ = 0;
+      if (has_fourth) *to++ = 0;
     }
   }
 }
@@ -148,6 +149,8 @@ class VideoWriter::Impl {
     // A cluster is kept back until it is whole: one for each frame.
     AVDictionary* options = nullptr;
     av_dict_set_int(&options, "cluster_size_limit", kLeastClusterBytes, 0);
+    // Raw colours are stored the way of old Windows programs, or not at all.
+    av_dict_set_int(&options, "allow_raw_vfw", 1, 0);
     const int written = avformat_write_header(output_.get(), &options);
     av_dict_free(&options);
     Check(written);
