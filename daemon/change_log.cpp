@@ -10,9 +10,11 @@ void ChangeLog::Add(const PipelineStatus& status) {
     spdlog::info("{}", kCaptureStateNames[static_cast<std::size_t>(status.state)]);
   }
   if (last_) CompareCameras(before, status);
+  const bool was_behind = calls_since_drop_ < kCallsToRecover;
   const bool drops = status.sets_dropped > before.sets_dropped;
-  if (drops && !is_behind_) spdlog::warn("tracking is behind: the stalest sets are dropped");
-  is_behind_ = drops;
+  calls_since_drop_ = drops ? 0 : calls_since_drop_ + 1;
+  if (drops && !was_behind) spdlog::warn("tracking is behind: the stalest sets are dropped");
+  if (was_behind && calls_since_drop_ == kCallsToRecover) spdlog::info("tracking keeps up again");
   last_ = status;
 }
 

@@ -16,8 +16,11 @@ class ChangeLog {
  private:
   void CompareCameras(const PipelineStatus& before, const PipelineStatus& now);
 
+  /// Calls without a drop after which being behind is over.
+  static constexpr int kCallsToRecover = 50;
+
   std::optional<PipelineStatus> last_;
-  bool is_behind_ = false;
+  int calls_since_drop_ = kCallsToRecover;  ///< Or more.
 };
 
 }  // namespace mocap
