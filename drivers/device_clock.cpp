@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace mocap {
 namespace {
 
 constexpr std::int64_t kSlot_ns = 500'000'000;
 /// Before that, a slope would be made of jitter.
-constexpr std::int64_t kSlopeNeeds_ns = 5'000'000'000;
+constexpr std::int64_t kSlopeNeeds_ns = 10'000'000'000;
 /// Before that, any frame may be the first that was not held up.
 constexpr std::int64_t kSettled_ns = 1'000'000'000;
-/// Quartz is within 100 ppm; both clocks may be at their limit, and the host's be slewed.
-constexpr double kSteepest = 700e-6;
+/// Quartz is within 100 ppm, and both clocks may be at their limit.
+constexpr double kSteepest = 200e-6;
 /// No frame can come so much too early unless a clock was set …
 constexpr std::int64_t kTooEarly_ns = 3'000'000;
 constexpr int kEarlyToBelieve = 3;
@@ -24,6 +25,11 @@ constexpr int kLateToBelieve = 30;
 
 std::int64_t DeviceClock::OffsetAt(std::int64_t device_ns) const {
   return base_ns_ + std::llround(slope_ * static_cast<double>(device_ns - origin_ns_));
+}
+
+bool DeviceClock::Fits(std::int64_t device_ns, std::int64_t arrival_ns) const {
+  return used_ > 0 && device_ns > last_ns_ &&
+         std::abs(arrival_ns - device_ns - OffsetAt(device_ns)) < kTooLate_ns;
 }
 
 void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
@@ -41,7 +47,8 @@ void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
 
 bool DeviceClock::IsDoubtful(const Point& point, std::int64_t above_ns) {
   const bool settled = last_ns_ - first_ns_ > kSettled_ns;
-  const bool early = point.device_ns <= last_ns_ || above_ns < (settled ? -kTooEarly_ns : -kTooLate_ns);
+  const bool early =
+      point.device_ns <= last_ns_ || above_ns < (settled ? -kTooEarly_ns : -kTooLate_ns);
   const bool late = above_ns > kTooLate_ns;
   early_ = early ? early_ + 1 : 0;
   late_ = late ? late_ + 1 : 0;

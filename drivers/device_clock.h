@@ -20,6 +20,9 @@ class DeviceClock {
   /// Tells of a frame. Times since any epoch each [ns].
   void Observe(std::int64_t device_ns, std::int64_t arrival_ns);
 
+  /// Whether a frame may well be of the clock that was observed so far.
+  bool Fits(std::int64_t device_ns, std::int64_t arrival_ns) const;
+
   /// Gives the host's time of a device time. @pre  some frame was observed.
   std::int64_t ToHost(std::int64_t device_ns) const { return device_ns + OffsetAt(device_ns); }
 

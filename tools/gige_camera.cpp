@@ -109,7 +109,11 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
   identity.name.copy(name.data(), name.size() - 1);
   arv_fake_camera_write_memory(registers_, kUserName, name.size(), name.data());
   const auto hash = std::hash<std::string>()(identity.serial);
-  const std::array<std::uint8_t, 8> mac{0, 0, 2, 0, static_cast<std::uint8_t>(hash >> 24),
+  const std::array<std::uint8_t, 8> mac{0,
+                                        0,
+                                        2,
+                                        0,
+                                        static_cast<std::uint8_t>(hash >> 24),
                                         static_cast<std::uint8_t>(hash >> 16),
                                         static_cast<std::uint8_t>(hash >> 8),
                                         static_cast<std::uint8_t>(hash)};
@@ -197,7 +201,8 @@ std::int64_t GigeCamera::DeviceTime(std::int64_t host_ns) const {
     return host_ns + kTai_ns;
   }
   const auto running_ns = static_cast<double>(host_ns - switched_on_ns_);
-  return host_ns + faults_.clock_offset_ns + std::llround(running_ns * faults_.clock_drift_ppm * 1e-6);
+  return host_ns + faults_.clock_offset_ns +
+         std::llround(running_ns * faults_.clock_drift_ppm * 1e-6);
 }
 
 void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned,
@@ -210,9 +215,11 @@ void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, uns
 void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigned pixel_format) {
   std::size_t size = 0;
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
-  const int width = arv_buffer_get_image_width(buffer), height = arv_buffer_get_image_height(buffer);
+  const int width = arv_buffer_get_image_width(buffer),
+            height = arv_buffer_get_image_height(buffer);
   // Aravis tells no size here; it allocated what the format needs.
-  size = static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
+  size =
+      static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
   const std::lock_guard lock(mutex_);
   if (picture_.width() != width || picture_.height() != height) {
     Image<Bgr> cut(width, height);
@@ -228,9 +235,9 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
 
 }  // namespace mocap
 
-/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers without
-/// a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is early.
-/// Threads that serve no camera of ours get what they ask for.
+/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers
+/// without a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is
+/// early. Threads that serve no camera of ours get what they ask for.
 extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
   static_assert(sizeof(GPollFD) == sizeof(pollfd));
   auto* wanted = reinterpret_cast<pollfd*>(fds);

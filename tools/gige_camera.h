@@ -22,10 +22,10 @@ namespace mocap {
 
 /// What is wrong with a served camera and its network.
 struct GigeFaults {
-  double lost_packets = 0;  ///< Share of them, 0 to 1.
+  double lost_packets = 0;           ///< Share of them, 0 to 1.
   std::int64_t clock_offset_ns = 0;  ///< Of its clock against the host's.
   double clock_drift_ppm = 0;
-  double jitter_ms = 0;      ///< Frames leave late by up to that.
+  double jitter_ms = 0;    ///< Frames leave late by up to that.
   std::uint64_t seed = 1;  ///< Of the jitter.
 };
 

@@ -48,7 +48,7 @@ TEST(DeviceClock, FindsMinutesOfOffsetAndDriftThroughJitter) {
       WrongClock camera{minutes * 60 * kSecond_ns, drift_ppm};
       DeviceClock clock;
       EXPECT_LE(LargestError_ms(clock, camera, 0, 30), kJitter_ms);
-      EXPECT_LT(LargestError_ms(clock, camera, 30, 30 * 20), 1.5);
+      EXPECT_LT(LargestError_ms(clock, camera, 30, 30 * 20), 1.2);
       EXPECT_LT(LargestError_ms(clock, camera, 30 * 20, 30 * 600), 0.5);
       EXPECT_NEAR(clock.drift_ppm(), -drift_ppm, 8);
       EXPECT_EQ(clock.restarts(), 0);
