@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/reconstruction/segmenter.h"
+#include "drivers/aravis_settings.h"
 #include "drivers/v4l2_settings.h"
 
 namespace mocap {
@@ -50,6 +51,7 @@ struct CameraConfig {
   std::optional<double> fps;                  ///< Empty: source.fps.
   std::optional<std::array<int, 2>> size_px;  ///< Empty: what the calibration says.
   V4l2Settings v4l2;                          ///< For source.driver "v4l2".
+  AravisSettings aravis;                      ///< For source.driver "aravis".
 };
 
 struct Config {

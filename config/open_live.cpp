@@ -7,6 +7,7 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "drivers/aravis_driver.h"
 #include "drivers/v4l2_driver.h"
 
 namespace mocap {
@@ -15,8 +16,7 @@ namespace {
 std::unique_ptr<CameraDriver> MakeDriver(const std::string& driver, const CameraConfig& camera,
                                          const CameraRequest& request) {
   if (driver == "v4l2") return std::make_unique<V4l2Driver>(request, camera.v4l2);
-  throw SetupError("source.driver is \"" + driver + "\", which this build lacks; " +
-                   request.device + " cannot be opened");
+  return std::make_unique<AravisDriver>(request, camera.aravis);
 }
 
 std::string SizeText(int width_px, int height_px) {

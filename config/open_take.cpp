@@ -109,7 +109,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   const bool realtime = options.rate == ReplayRate::kRealtime;
   const auto replay =
       std::make_shared<Replay>(SpanOf(tables, header.fps_nominal, take), options.loop,
-                               realtime ? MakeSystemClock() : nullptr);
+                               realtime ? MakeSystemClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
     camera.driver = std::make_unique<TakeDriver>(

@@ -12,6 +12,9 @@ constexpr double kLargestSide_px = 16384;
 constexpr double kLongestExposure_us = 1e6;
 constexpr double kMostGain = 1e6;
 constexpr double kMostFocus = 1e6;
+// Of a packet with its heads.
+constexpr int kLeastPacket = 576, kLargestPacket = 16000;
+constexpr double kLongestDelay_us = 1e4;
 
 std::optional<double> OptionalWithin(TomlSection& section, const std::string& key, double min,
                                      double max) {
@@ -19,10 +22,10 @@ std::optional<double> OptionalWithin(TomlSection& section, const std::string& ke
   return section.NumberWithin(key, min, max);
 }
 
-V4l2Settings ReadV4l2Settings(TomlSection& section) {
+V4l2Settings ReadV4l2Settings(TomlSection& section, const std::string& driver) {
   V4l2Settings settings;
   settings.format = section.Text("format", "");
-  if (settings.format.size() > 4) {
+  if (settings.format.size() > 4 && driver == "v4l2") {
     section.Fail("format", "is no format's four letters, such as \"YUYV\" or \"MJPG\"");
   }
   settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
@@ -36,6 +39,22 @@ V4l2Settings ReadV4l2Settings(TomlSection& section) {
     }
     settings.power_line_hz = hz;
   }
+  return settings;
+}
+
+AravisSettings ReadAravisSettings(TomlSection& section) {
+  AravisSettings settings;
+  settings.format = section.Text("format", "");
+  settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
+  settings.gain = OptionalWithin(section, "gain", 0, kMostGain);
+  settings.trigger = section.Text("trigger", "");
+  settings.ptp = section.Flag("ptp", settings.ptp);
+  if (section.Has("packet_bytes")) {
+    settings.packet_bytes =
+        static_cast<int>(section.IntegerWithin("packet_bytes", kLeastPacket, kLargestPacket));
+  }
+  settings.packet_delay_us = OptionalWithin(section, "packet_delay_us", 0, kLongestDelay_us);
+  if (section.Has("packet_socket")) settings.packet_socket = section.Flag("packet_socket", false);
   return settings;
 }
 
@@ -67,7 +86,8 @@ CameraConfig ReadCamera(TomlSection& section, const std::string& driver,
   if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
   camera.fps = OptionalWithin(section, "fps", 1, 1000);
   if (section.Has("size_px")) camera.size_px = ReadSize(section);
-  if (driver != "aravis") camera.v4l2 = ReadV4l2Settings(section);
+  if (driver != "aravis") camera.v4l2 = ReadV4l2Settings(section, driver);
+  if (driver != "v4l2") camera.aravis = ReadAravisSettings(section);
   section.RejectUnknownKeys();
   return camera;
 }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +14,7 @@
 
 #include "config/load_config.h"
 #include "config/open_live.h"
+#include "drivers/aravis_directory.h"
 #include "drivers/camera_listing.h"
 #include "drivers/v4l2_devices.h"
 #include "drivers/video_kernel.h"
@@ -37,7 +40,8 @@ void PrintListed(const ListedCamera& camera) {
 }
 
 void List() {
-  const std::vector<ListedCamera> cameras = ListV4l2Cameras(*SystemVideoKernel());
+  std::vector<ListedCamera> cameras = ListV4l2Cameras(*SystemVideoKernel());
+  std::ranges::move(ListAravisCameras(), std::back_inserter(cameras));
   for (const ListedCamera& camera : cameras) PrintListed(camera);
   if (cameras.empty()) Print("no camera is connected");
 }

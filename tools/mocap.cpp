@@ -7,6 +7,7 @@
 #include "tools/cameras.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
+#include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
 
@@ -21,5 +22,6 @@ int main(int argc, char** argv) {
   mocap::AddCalibrateCommand(app);
   mocap::AddBackgroundCommand(app);
   mocap::AddCamerasCommand(app);
+  mocap::AddGigeStudioCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }

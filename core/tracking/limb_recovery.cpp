@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "core/body/stance.h"
 #include "core/tracking/limb_search.h"
@@ -17,11 +17,15 @@ constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.01;
 constexpr double kBetterMm = 0.5;
 constexpr int kRefined = 10;
-constexpr std::size_t kLeftArms = 4;  // For each of them the right arm is searched.
+// For so many places of the left limb, this far apart, the right one is searched.
+constexpr std::size_t kDistinct = 4;
+constexpr double kApartMm = 150;
 constexpr int kRestFrames = 3;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
+constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
+    std::pair{Segment::kHandL, Segment::kHandR}, std::pair{Segment::kFootL, Segment::kFootR}};
 
 std::vector<Stance> ArmStances() {
   std::vector<Stance> stances;
@@ -93,6 +97,22 @@ std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
   return candidates;
 }
 
+// Of those that put the limb's end in the same place only the best.
+std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates) {
+  std::vector<Candidate> kept;
+  std::vector<Vector3> tips_W;
+  for (const Candidate& candidate : candidates) {
+    const Vector3 tip_W = search.TipAt(candidate.pose);
+    const bool is_known = std::ranges::any_of(
+        tips_W, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApartMm; });
+    if (is_known) continue;
+    tips_W.push_back(tip_W);
+    kept.push_back(candidate);
+    if (kept.size() == kDistinct) break;
+  }
+  return kept;
+}
+
 }  // namespace
 
 LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
@@ -116,16 +136,16 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   return true;
 }
 
-bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                               PoseState& pose) {
+bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
+                               Segment right, SurfaceFit& fit, PoseState& pose) {
   const double before_mm = fit.QualityAt(body, pose).Cost();
-  LimbSearch left_search(body, evidence, matcher_, Segment::kHandL, Segment::kHandR, pose);
-  std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
-  candidates.resize(std::min(candidates.size(), kLeftArms));
+  LimbSearch left_search(body, evidence, matcher_, left, right, pose);
+  std::vector<Candidate> candidates =
+      KeepDistinct(left_search, BestOf(left_search, body.table(), StancesOf(left), pose));
   for (Candidate& candidate : candidates) {
-    LimbSearch right_search(body, evidence, matcher_, Segment::kHandR, Segment::kHandR,
-                            candidate.pose);
-    candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
+    LimbSearch right_search(body, evidence, matcher_, right, right, candidate.pose);
+    candidate.pose =
+        BestOf(right_search, body.table(), StancesOf(right), candidate.pose).front().pose;
     candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
   }
   const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
@@ -148,11 +168,12 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   if (resting_ > 0) {
     --resting_;
   } else if (!IsExplained(body, now)) {
-    if (RecoverArms(body, evidence, fit, now)) {
-      changed = true;
-    } else {
-      resting_ = kRestFrames;
+    bool helped = false;
+    for (const auto& [left, right] : kPairs) {
+      helped |= RecoverPair(body, evidence, left, right, fit, now);
     }
+    changed |= helped;
+    if (!helped) resting_ = kRestFrames;
   }
   if (!changed) return std::nullopt;
   return now;

@@ -114,6 +114,11 @@ double LimbSearch::CostAt(const PoseState& pose) {
   return cost_mm + (kHollowWeight * hollow_mm + OverlapCost()) / places;
 }
 
+Vector3 LimbSearch::TipAt(const PoseState& pose) {
+  PoseLimb(pose);
+  return posed_.back().b_W;
+}
+
 void LimbSearch::Refine(PoseState& pose, int iterations) {
   const int n = static_cast<int>(rows_.size());
   LimbVector start(n);

@@ -27,6 +27,8 @@ class LimbSearch {
   double CostAt(const PoseState& pose);
   /// Improves the limb's angles from those in `pose`.
   void Refine(PoseState& pose, int iterations);
+  /// Where the limb ends with the angles that it has in `pose`: p_WQ.
+  Vector3 TipAt(const PoseState& pose);
   /// Of RowsOfLimb.
   const std::vector<int>& rows() const { return rows_; }
 

@@ -171,6 +171,20 @@ TEST(Carver, GivesTheSameAsThePlainDefinitionWhereThePersonLeavesPictures) {
   EXPECT_TRUE(Carve(studio.Views(), 40) == plain);
 }
 
+TEST(Carver, GivesTheSameAsThePlainDefinitionWithFourCamerasAndWithOneCloseBy) {
+  SyntheticStudio studio;
+  studio.cameras[1].X_CW = LookAt({-250, -500, 1900}, {0, 0, 800});
+  studio.Show(StandingPerson(0, 0));
+  std::vector<CarvingView> views = studio.Views();
+  const Voxels six = CarvePlainly(views, 40);
+  EXPECT_GT(six.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == six);
+  views.resize(4);
+  const Voxels four = CarvePlainly(views, 40);
+  EXPECT_GT(four.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == four);
+}
+
 TEST(Carver, AFootOutsideOnePictureDoesNotVanish) {
   SyntheticStudio studio;
   // Sees the person down to the knees.
