@@ -4,6 +4,7 @@
 #include "daemon/run_program.h"
 #include "tools/background.h"
 #include "tools/calibrate.h"
+#include "tools/cameras.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
 #include "tools/gige_studio.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
   mocap::AddBackgroundCommand(app);
+  mocap::AddCamerasCommand(app);
   mocap::AddGigeStudioCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }
