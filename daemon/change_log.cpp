@@ -10,10 +10,18 @@ void ChangeLog::Add(const PipelineStatus& status) {
     spdlog::info("{}", kCaptureStateNames[static_cast<std::size_t>(status.state)]);
   }
   if (last_) CompareCameras(before, status);
+  for (const CameraStatus& camera : status.cameras) TellRemarks(camera);
   const bool drops = status.sets_dropped > before.sets_dropped;
   if (drops && !is_behind_) spdlog::warn("tracking is behind: the stalest sets are dropped");
   is_behind_ = drops;
   last_ = status;
+}
+
+void ChangeLog::TellRemarks(const CameraStatus& camera) {
+  for (const std::string& remark : camera.remarks) {
+    const std::string line = camera.name + ": " + remark;
+    if (told_.insert(line).second) spdlog::warn("{}", line);
+  }
 }
 
 void ChangeLog::CompareCameras(const PipelineStatus& before, const PipelineStatus& now) {

@@ -20,7 +20,7 @@ constexpr milliseconds kLeastSilence{100};
 /// The first frame may take its time.
 constexpr milliseconds kGraceAfterOpening{1000};
 /// A camera whose link was cut goes on by itself; one that answers but sends nothing does not.
-constexpr milliseconds kStalled{500};
+constexpr milliseconds kStalled{1500};
 constexpr milliseconds kBetweenAttempts{200};
 /// Looking at a camera too often keeps alive whoever held it.
 constexpr milliseconds kBetweenLooksWhenHeld{4000};

@@ -20,6 +20,8 @@ constexpr int kEarlyToBelieve = 3;
 /// … and none comes so late for a second on end.
 constexpr std::int64_t kTooLate_ns = 500'000'000;
 constexpr int kLateToBelieve = 30;
+/// After a camera was away, its first frame may be held up by as much.
+constexpr std::int64_t kAway_ns = 5'000'000'000;
 
 }  // namespace
 
@@ -28,8 +30,9 @@ std::int64_t DeviceClock::OffsetAt(std::int64_t device_ns) const {
 }
 
 bool DeviceClock::Fits(std::int64_t device_ns, std::int64_t arrival_ns) const {
-  return used_ > 0 && device_ns > last_ns_ &&
-         std::abs(arrival_ns - device_ns - OffsetAt(device_ns)) < kTooLate_ns;
+  if (used_ == 0 || device_ns <= last_ns_) return false;
+  const std::int64_t above_ns = arrival_ns - device_ns - OffsetAt(device_ns);
+  return above_ns > -kAway_ns && above_ns < kAway_ns;
 }
 
 void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
@@ -47,8 +50,7 @@ void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
 
 bool DeviceClock::IsDoubtful(const Point& point, std::int64_t above_ns) {
   const bool settled = last_ns_ - first_ns_ > kSettled_ns;
-  const bool early =
-      point.device_ns <= last_ns_ || above_ns < (settled ? -kTooEarly_ns : -kTooLate_ns);
+  const bool early = point.device_ns <= last_ns_ || (settled && above_ns < -kTooEarly_ns);
   const bool late = above_ns > kTooLate_ns;
   early_ = early ? early_ + 1 : 0;
   late_ = late ? late_ + 1 : 0;

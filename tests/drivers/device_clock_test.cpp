@@ -100,6 +100,13 @@ TEST(DeviceClock, ClockThatBeganAnewIsLearnedAnew) {
   }
 }
 
+TEST(DeviceClock, FirstFramesThatWereHeldUpAreForgottenAtOnce) {
+  WrongClock camera{60 * kSecond_ns, 0};
+  DeviceClock clock;
+  clock.Observe(camera.DeviceTime(kStart_ns), kStart_ns + 3 * kSecond_ns);
+  EXPECT_LE(LargestError_ms(clock, camera, 1, 30), kJitter_ms);
+}
+
 TEST(DeviceClock, LearnsFromTwoFramesASecondToo) {
   WrongClock camera{60 * kSecond_ns, 50};
   DeviceClock clock;
