@@ -41,7 +41,7 @@ class WrongClocks {
       const std::string ip = AddressAfter("127.0.1.1", i);
       EnsureLoopbackAddress(ip);
       served_.push_back(std::make_unique<GigeCamera>(
-          GigeIdentity{ip, "cam", "C" + std::to_string(i), false},
+          GigeIdentity{ip, "cam", ip, false},
           std::make_unique<testing::PatternCamera>(kWidth_px, kHeight_px, kFps), faults[i]));
       AravisSettings settings;
       settings.format = "BGR8";
