@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::int64_t kSlot_ns = 500'000'000;
 /// Before that, a slope would be made of jitter.
-constexpr std::int64_t kSlopeNeeds_ns = 10'000'000'000;
+constexpr std::int64_t kSlopeNeeds_ns = 20'000'000'000;
+constexpr std::int64_t kRecent_ns = 5'000'000'000;
 /// Before that, any frame may be the first that was not held up.
 constexpr std::int64_t kSettled_ns = 1'000'000'000;
 /// Quartz is within 100 ppm, and both clocks may be at their limit.
@@ -87,16 +88,25 @@ void DeviceClock::Keep(const Point& point) {
 }
 
 void DeviceClock::Fit() {
-  const std::int64_t begin_ns = slot(used_ - 1).device_ns;
-  const std::int64_t span_ns = slot(0).device_ns - begin_ns;
-  if (span_ns < kSlopeNeeds_ns) return;
-  // The lower hull from left to right; the newest slot comes last.
-  std::array<Point, kSlots> hull;
-  std::size_t size = 0;
+  const std::int64_t newest_ns = slot(0).device_ns;
+  const std::int64_t span_ns = newest_ns - slot(used_ - 1).device_ns;
+  slope_ = span_ns < kSlopeNeeds_ns ? 0 : std::clamp(HullSlope(), -kSteepest, kSteepest);
+  // Where the line lies now, the last seconds know best, whatever is left of an error in the slope.
+  origin_ns_ = newest_ns;
+  base_ns_ = slot(0).offset_ns;
+  for (std::size_t age = 1; age < used_ && newest_ns - slot(age).device_ns < kRecent_ns; ++age) {
+    base_ns_ += std::min<std::int64_t>(0, slot(age).offset_ns - OffsetAt(slot(age).device_ns));
+  }
+}
+
+double DeviceClock::HullSlope() const {
   const auto slope = [](const Point& a, const Point& b) {
     return static_cast<double>(b.offset_ns - a.offset_ns) /
            static_cast<double>(b.device_ns - a.device_ns);
   };
+  // The lower hull from left to right; the newest slot comes last.
+  std::array<Point, kSlots> hull;
+  std::size_t size = 0;
   for (std::size_t age = used_; age-- > 0;) {
     const Point& point = slot(age);
     while (size >= 2 && slope(hull[size - 2], point) <= slope(hull[size - 2], hull[size - 1])) {
@@ -104,15 +114,10 @@ void DeviceClock::Fit() {
     }
     hull[size++] = point;
   }
+  const std::int64_t middle_ns = hull[0].device_ns / 2 + hull[size - 1].device_ns / 2;
   std::size_t right = 1;
-  while (right + 1 < size && hull[right].device_ns - begin_ns < span_ns / 2) ++right;
-  slope_ = std::clamp(slope(hull[right - 1], hull[right]), -kSteepest, kSteepest);
-  origin_ns_ = hull[right].device_ns;
-  base_ns_ = hull[right].offset_ns;
-  // A slope that was held back may leave points below.
-  for (std::size_t i = 0; i < size; ++i) {
-    base_ns_ += std::min<std::int64_t>(0, hull[i].offset_ns - OffsetAt(hull[i].device_ns));
-  }
+  while (right + 1 < size && hull[right].device_ns < middle_ns) ++right;
+  return slope(hull[right - 1], hull[right]);
 }
 
 }  // namespace mocap
