@@ -31,6 +31,8 @@ constexpr std::uint32_t kPeriod_us = 33'333;
 constexpr std::uint64_t kFrameNumbers = 65535;
 constexpr std::int64_t kTai_ns = 37'000'000'000;
 constexpr milliseconds kSourceTimeout{50};
+/// Longer than the server takes to see that a client has started it.
+constexpr milliseconds kPatience{150};
 
 std::int64_t Now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -175,7 +177,10 @@ bool GigeCamera::IsWanted(std::int64_t capture_ns) {
 
 void GigeCamera::Send(const Frame& frame) {
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    // Frames that a source delivers in a burst wait for each other.
+    taken_.wait_for(lock, kPatience, [this] { return !is_waiting_; });
+    is_waiting_ = true;
     if (picture_.width() != frame.image.width() || picture_.height() != frame.image.height()) {
       picture_ = Image<Bgr>(frame.image.width(), frame.image.height());
     }
@@ -231,6 +236,8 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
   EncodePicture(picture_.view(), pixel_format, std::span(data, size));
   arv_buffer_set_timestamp(buffer, DeviceTime(capture_ns_ - exposure_ns / 2));
   arv_buffer_set_frame_id(buffer, 1 + (sequence_ - 1) % kFrameNumbers);
+  is_waiting_ = false;
+  taken_.notify_one();
 }
 
 }  // namespace mocap

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -79,7 +80,9 @@ class GigeCamera {
   std::minstd_rand random_;
   std::atomic<bool> stopping_{false}, stalled_{false};
   std::int64_t next_wanted_ns_ = 0;
-  std::mutex mutex_;  ///< For the three below.
+  std::mutex mutex_;  ///< For what is below.
+  std::condition_variable taken_;
+  bool is_waiting_ = false;  ///< The picture was not sent yet.
   Image<Bgr> picture_;
   std::int64_t capture_ns_ = 0;
   std::uint64_t sequence_ = 0;

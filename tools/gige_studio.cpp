@@ -97,16 +97,16 @@ std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const Stu
                                          int camera, StudioStage& stage,
                                          std::function<bool()> is_streaming) {
   if (options.take.empty()) return SimulatedStudio(options.simulation).OpenCamera(camera);
-  const auto open = [&options, &plan, camera](std::int64_t begin_ns) {
-    Studio studio = OpenTake(options.take, {.rate = ReplayRate::kRealtime,
-                                            .loop = true,
-                                            .cameras = {plan.names[camera]},
-                                            .begin_ns = begin_ns});
-    return std::move(studio.cameras.front().driver);
-  };
+  // All of it, for what the cameras' times have in common.
+  Studio studio =
+      OpenTake(options.take,
+               {.rate = ReplayRate::kRealtime, .loop = true, .cameras = {}, .begin_ns = [&stage] {
+                  return stage.begin_ns.load();
+                }});
   return std::make_unique<StudioSource>(stage, camera, static_cast<int>(plan.names.size()),
                                         plan.fps, EmptyStudio(options.take, plan.names[camera]),
-                                        std::move(is_streaming), open);
+                                        std::move(studio.cameras[camera].driver),
+                                        std::move(is_streaming));
 }
 
 /// The life of a camera's process.

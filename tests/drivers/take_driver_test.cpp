@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "drivers/take_layout.h"
@@ -43,7 +43,7 @@ enum class Pace { kFast, kRealtime };
 class Recording {
  public:
   Recording(Pace pace, bool loop, const SmallTake& take = {},
-            std::optional<std::int64_t> begin_ns = std::nullopt)
+            std::function<std::int64_t()> begin_ns = nullptr)
       : take_(take) {
     WriteSmallTake(layout_.folder, take_);
     const ReplaySpan span{take_.first_ns, take_.frames * take_.interval_ns};
@@ -178,7 +178,7 @@ TEST(TakeDriver, LoopsGoOnIncreasingInStep) {
 
 TEST(TakeDriver, BeginsWhenItIsTold) {
   const std::int64_t begin_ns = kStart_ns + 20 * kMillisecond_ns;
-  Recording recording(Pace::kRealtime, true, {}, begin_ns);
+  Recording recording(Pace::kRealtime, true, {}, [begin_ns] { return begin_ns; });
   const auto driver = recording.Make(0);
   driver->Start();
   Frame frame;
@@ -190,7 +190,8 @@ TEST(TakeDriver, BeginsWhenItIsTold) {
 TEST(TakeDriver, JoinsTheLoopThatIsUnderWay) {
   const SmallTake take;
   const std::int64_t loop_ns = take.frames * take.interval_ns;
-  Recording recording(Pace::kRealtime, true, take, kStart_ns - 5 * loop_ns - take.interval_ns);
+  Recording recording(Pace::kRealtime, true, take,
+                      [&] { return kStart_ns - 5 * loop_ns - take.interval_ns; });
   const auto driver = recording.Make(0);
   driver->Start();
   Frame frame;
