@@ -53,6 +53,7 @@ void V4l2Driver::Stop() {
 
 void V4l2Driver::Connect() {
   stream_ = std::make_unique<V4l2Stream>(kernel_, node_, request_, settings_);
+  is_broken_ = false;
   trouble_.clear();
   kernel_sequence_.reset();
   last_sign_ = Steady::now();
@@ -61,6 +62,7 @@ void V4l2Driver::Connect() {
 GrabStatus V4l2Driver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
   if (!stream_) return TryToReturn(timeout);
+  if (is_broken_) return Lose("takes no buffers back");
   V4l2Buffer buffer;
   switch (stream_->Wait(timeout, buffer)) {
     case V4l2Wait::kNothing:
@@ -72,7 +74,9 @@ GrabStatus V4l2Driver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   }
   last_sign_ = Steady::now();
   const GrabStatus status = Take(buffer, frame);
-  return stream_->GiveBack(buffer) || status == GrabStatus::kFrame ? status : Lose("broke off");
+  // What was taken is good, even if nothing more will come.
+  is_broken_ = !stream_->GiveBack(buffer);
+  return status;
 }
 
 GrabStatus V4l2Driver::Take(const V4l2Buffer& buffer, Frame& frame) {

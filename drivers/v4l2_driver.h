@@ -53,6 +53,7 @@ class V4l2Driver : public CameraDriver {
   bool started_ = false;
   V4l2Node node_;
   std::unique_ptr<V4l2Stream> stream_;  ///< Null while the camera is lost.
+  bool is_broken_ = false;              ///< It will deliver no more.
   std::string trouble_;                 ///< Why it is.
   Steady::time_point last_sign_;        ///< Of life, or the last attempt to get it back.
   std::uint64_t sequence_ = 0;

@@ -4,6 +4,7 @@
 #include "daemon/run_program.h"
 #include "tools/background.h"
 #include "tools/calibrate.h"
+#include "tools/cameras.h"
 #include "tools/control.h"
 #include "tools/doctor.h"
 #include "tools/evaluate.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
   mocap::AddBackgroundCommand(app);
+  mocap::AddCamerasCommand(app);
   mocap::AddGigeStudioCommand(app);
   mocap::AddControlCommands(app);
   mocap::AddWatchCommand(app);
