@@ -1,7 +1,9 @@
 // From names in a file to cameras that deliver.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,8 @@ struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
   std::vector<std::string> cameras;  ///< Empty: all.
+  /// In real time, when its first frame is captured; empty: when the first camera starts.
+  std::optional<std::int64_t> begin_ns = {};
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background.

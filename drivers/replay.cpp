@@ -34,7 +34,12 @@ std::unique_ptr<ReplayClock> MakeSystemClock() { return std::make_unique<SystemC
 
 std::int64_t Replay::Join() {
   const std::lock_guard lock(mutex_);
-  if (cameras_++ == 0 && clock_) shift_ns_ = clock_->NowNs() - span_.first_ns;
+  if (cameras_++ > 0 || !clock_) return shift_ns_;
+  const std::int64_t now_ns = clock_->NowNs();
+  shift_ns_ = begin_ns_.value_or(now_ns) - span_.first_ns;
+  if (begin_ns_ && loop_ && now_ns > *begin_ns_) {
+    shift_ns_ += (now_ns - *begin_ns_) / span_.period_ns * span_.period_ns;
+  }
   return shift_ns_;
 }
 

@@ -2,14 +2,16 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/run_program.h"
+#include "tools/background.h"
 #include "tools/calibrate.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
+#include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Markerless motion capture from recorded takes", "mocap");
+  CLI::App app("Markerless motion capture", "mocap");
   app.require_subcommand(1);
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::AddSimulateCommand(app);
@@ -17,5 +19,7 @@ int main(int argc, char** argv) {
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
+  mocap::AddBackgroundCommand(app);
+  mocap::AddGigeStudioCommand(app);
   return mocap::RunProgram(app, argc, argv);
 }

@@ -44,21 +44,24 @@ void Improve(const BodyModel& start, SurfaceFit& fit, const Unknowns& prior,
 
   const int pose_dof = body.dof();
   const int n = pose_dof + kFittedCount;
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd row(n);
-  for (const SurfaceResidual& residual : residuals) {
-    row.head(pose_dof) = residual.J_outside_by_step.transpose();
+  Eigen::MatrixXd rows(n, residuals.size());
+  Eigen::VectorXd outside(residuals.size());
+  for (Eigen::Index k = 0; k < outside.size(); ++k) {
+    const SurfaceResidual& residual = residuals[k];
+    rows.col(k).head(pose_dof) = residual.J_outside_by_step;
     for (int i = 0; i < kFittedCount; ++i) {
       const PosedCapsule& from = shape[residual.capsule];
       const PosedCapsule& to = longer[i][residual.capsule];
       const Vector3 moved =
           (1 - residual.share) * (to.a_W - from.a_W) + residual.share * (to.b_W - from.b_W);
-      row[pose_dof + i] = residual.normal_W.dot(moved);
+      rows(pose_dof + i, k) = residual.normal_W.dot(moved);
     }
-    information += row * row.transpose() / residual.variance;
-    gradient += row * (residual.outside_mm / residual.variance);
+    const double weight = 1 / std::sqrt(residual.variance);
+    rows.col(k) *= weight;
+    outside[k] = weight * residual.outside_mm;
   }
+  Eigen::MatrixXd information = rows * rows.transpose();
+  Eigen::VectorXd gradient = rows * outside;
   const PoseStep step_from_prior = now.pose.Minus(prior.pose);
   for (int i = 0; i < n; ++i) {
     const double std = i < 3                         ? kPoseSpreadMm

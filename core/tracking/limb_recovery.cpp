@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "core/body/stance.h"
 #include "core/tracking/limb_search.h"
@@ -17,11 +17,15 @@ constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.01;
 constexpr double kBetterMm = 0.5;
 constexpr int kRefined = 10;
-constexpr std::size_t kLeftArms = 4;  // For each of them the right arm is searched.
+// For so many places of the left limb, this far apart, the right one is searched.
+constexpr std::size_t kDistinct = 4;
+constexpr double kApartMm = 150;
 constexpr int kRestFrames = 3;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
+constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
+    std::pair{Segment::kHandL, Segment::kHandR}, std::pair{Segment::kFootL, Segment::kFootR}};
 
 std::vector<Stance> ArmStances() {
   std::vector<Stance> stances;
@@ -52,15 +56,14 @@ std::vector<Stance> LegStances() {
   return stances;
 }
 
-double UnexplainedShare(const std::vector<Contact>& contacts,
-                        const std::vector<PosedCapsule>& posed) {
+double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>& posed) {
+  const std::vector<ContactMatch>& matches = matcher.Match(posed, kReachMm);
   int edges = 0;
   int unexplained = 0;
-  for (const Contact& contact : contacts) {
-    if (!contact.is_edge) continue;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!matcher.contacts()[i].is_edge) continue;
     ++edges;
-    const ContactMatch match = MatchContact(contact, posed, kReachMm);
-    unexplained += match.capsule < 0 || std::abs(match.distance.outside_mm) > kUnexplainedMm;
+    unexplained += matches[i].DistanceOr(kReachMm) > kUnexplainedMm;
   }
   return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
 }
@@ -94,6 +97,22 @@ std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
   return candidates;
 }
 
+// Of those that put the limb's end in the same place only the best.
+std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates) {
+  std::vector<Candidate> kept;
+  std::vector<Vector3> tips_W;
+  for (const Candidate& candidate : candidates) {
+    const Vector3 tip_W = search.TipAt(candidate.pose);
+    const bool is_known = std::ranges::any_of(
+        tips_W, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApartMm; });
+    if (is_known) continue;
+    tips_W.push_back(tip_W);
+    kept.push_back(candidate);
+    if (kept.size() == kDistinct) break;
+  }
+  return kept;
+}
+
 }  // namespace
 
 LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
@@ -105,28 +124,28 @@ const std::vector<Stance>& LimbRecovery::StancesOf(Segment limb_end) const {
 
 bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
   body.PoseShape(body.PostureAt(pose), posed_);
-  return UnexplainedShare(contacts_, posed_) < kUnexplainedShare;
+  return UnexplainedShare(matcher_, posed_) < kUnexplainedShare;
 }
 
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                              PoseState& pose) const {
-  LimbSearch search(body, evidence, contacts_, limb_end, limb_end, pose);
+                              PoseState& pose) {
+  LimbSearch search(body, evidence, matcher_, limb_end, limb_end, pose);
   const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
   if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
   pose = best.pose;
   return true;
 }
 
-bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                               PoseState& pose) const {
+bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
+                               Segment right, SurfaceFit& fit, PoseState& pose) {
   const double before_mm = fit.QualityAt(body, pose).Cost();
-  LimbSearch left_search(body, evidence, contacts_, Segment::kHandL, Segment::kHandR, pose);
-  std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
-  candidates.resize(std::min(candidates.size(), kLeftArms));
+  LimbSearch left_search(body, evidence, matcher_, left, right, pose);
+  std::vector<Candidate> candidates =
+      KeepDistinct(left_search, BestOf(left_search, body.table(), StancesOf(left), pose));
   for (Candidate& candidate : candidates) {
-    LimbSearch right_search(body, evidence, contacts_, Segment::kHandR, Segment::kHandR,
-                            candidate.pose);
-    candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
+    LimbSearch right_search(body, evidence, matcher_, right, right, candidate.pose);
+    candidate.pose =
+        BestOf(right_search, body.table(), StancesOf(right), candidate.pose).front().pose;
     candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
   }
   const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
@@ -137,7 +156,9 @@ bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, 
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose) {
-  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
+  std::vector<Contact> contacts;
+  ChooseContacts(evidence, kVoxels, kEdges, contacts);
+  matcher_.SetContacts(contacts);
   if (IsExplained(body, pose)) return std::nullopt;
   PoseState now = pose;
   bool changed = false;
@@ -147,11 +168,12 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   if (resting_ > 0) {
     --resting_;
   } else if (!IsExplained(body, now)) {
-    if (RecoverArms(body, evidence, fit, now)) {
-      changed = true;
-    } else {
-      resting_ = kRestFrames;
+    bool helped = false;
+    for (const auto& [left, right] : kPairs) {
+      helped |= RecoverPair(body, evidence, left, right, fit, now);
     }
+    changed |= helped;
+    if (!helped) resting_ = kRestFrames;
   }
   if (!changed) return std::nullopt;
   return now;

@@ -7,15 +7,15 @@
 
 #include "core/body/body_model.h"
 #include "core/body/stance.h"
-#include "core/tracking/contact.h"
+#include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/surface_fit.h"
 
 namespace mocap {
 
 /// Tries each arm and leg in many stances when outlines are left that no part explains, and both
-/// arms together when that does not help: each may have taken the other's place. Only what the rest
-/// of the body does not explain is matched, so that a stance costs microseconds.
+/// arms or both legs together when that does not help: each may have taken the other's place. Only
+/// what the rest of the body does not explain is matched, so that a stance costs microseconds.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -30,14 +30,14 @@ class LimbRecovery {
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                  PoseState& pose) const;
-  bool RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                   PoseState& pose) const;
+                  PoseState& pose);
+  bool RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
+                   SurfaceFit& fit, PoseState& pose);
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
-  int resting_ = 0;  ///< Frames to go until both arms are searched together again.
-  std::vector<Contact> contacts_;
+  int resting_ = 0;  ///< Frames to go until pairs are searched again.
+  ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };
 

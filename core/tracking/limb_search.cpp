@@ -36,12 +36,11 @@ std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end) {
   return rows;
 }
 
-LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence,
-                       const std::vector<Contact>& contacts, Segment limb_end, Segment absent,
-                       const PoseState& pose)
+LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
+                       Segment limb_end, Segment absent, const PoseState& pose)
     : body_(body),
       cloud_(evidence.cloud),
-      contacts_(contacts),
+      contacts_(contacts.contacts()),
       rows_(RowsOfLimb(body.table(), limb_end)) {
   const std::vector<int> absent_rows = RowsOfLimb(body.table(), absent);
   const auto holds = [](const std::vector<int>& rows, int row) {
@@ -58,17 +57,19 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence,
       other_parts_.push_back(body.shape()[i].part);
     }
   }
-  const auto edges = std::count_if(contacts.begin(), contacts.end(),
-                                   [](const Contact& contact) { return contact.is_edge; });
+  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
-  const double voxel_weight =
-      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(contacts) - edges));
-  for (const Contact& contact : contacts) {
-    const ContactMatch match = MatchContact(contact, others_, kReachMm);
-    const double other_mm = match.capsule < 0 ? kReachMm : std::abs(match.distance.outside_mm);
+  const double voxel_weight = kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(
+                                                 1, std::ssize(contacts_) - edges));
+  const std::vector<ContactMatch>& matches = contacts.Match(others_, kReachMm);
+  std::vector<Contact> open;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double other_mm = matches[i].DistanceOr(kReachMm);
     if (other_mm < kTakenMm) continue;
-    open_.push_back({contact, other_mm, contact.is_edge ? edge_weight : voxel_weight});
+    open.push_back(contacts_[i]);
+    claims_.push_back({other_mm, contacts_[i].is_edge ? edge_weight : voxel_weight});
   }
+  open_.SetContacts(open);
 }
 
 void LimbSearch::PoseLimb(const PoseState& pose) {
@@ -98,10 +99,9 @@ double LimbSearch::OverlapCost() const {
 double LimbSearch::CostAt(const PoseState& pose) {
   PoseLimb(pose);
   double cost_mm = 0;
-  for (const OpenContact& open : open_) {
-    const ContactMatch match = MatchContact(open.contact, posed_, kReachMm);
-    const double limb_mm = match.capsule < 0 ? kReachMm : std::abs(match.distance.outside_mm);
-    cost_mm += open.weight * std::min(open.other_mm, limb_mm);
+  const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    cost_mm += claims_[i].weight * std::min(claims_[i].other_mm, matches[i].DistanceOr(kReachMm));
   }
   double hollow_mm = 0;
   for (const PosedCapsule& capsule : posed_) {
@@ -114,6 +114,11 @@ double LimbSearch::CostAt(const PoseState& pose) {
   return cost_mm + (kHollowWeight * hollow_mm + OverlapCost()) / places;
 }
 
+Vector3 LimbSearch::TipAt(const PoseState& pose) {
+  PoseLimb(pose);
+  return posed_.back().b_W;
+}
+
 void LimbSearch::Refine(PoseState& pose, int iterations) {
   const int n = static_cast<int>(rows_.size());
   LimbVector start(n);
@@ -123,18 +128,19 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
     PoseLimb(pose);
     LimbMatrix information = LimbMatrix::Zero(n, n);
     LimbVector gradient = LimbVector::Zero(n);
-    for (const OpenContact& open : open_) {
-      const ContactMatch match = MatchContact(open.contact, posed_, kReachMm);
-      if (match.capsule < 0 || std::abs(match.distance.outside_mm) > open.other_mm) continue;
+    const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const ContactMatch& match = matches[i];
+      if (match.capsule < 0 || match.DistanceOr(0) > claims_[i].other_mm) continue;
       const Vector3 offset = match.distance.segment_W - match.distance.core_W;
       if (offset.norm() < 1) continue;
       const Vector3 normal_W = offset.normalized();
       const int carrier = body_.shape()[capsules_[match.capsule]].carrier;
       J.setZero();
-      for (int i = 0; i < n; ++i) {
-        if (rows_[i] > carrier) continue;
-        const Vector3 arm_W = match.distance.core_W - posture_.point_W[rows_[i]];
-        J[i] = posture_.axis_W[rows_[i]].dot(arm_W.cross(normal_W));
+      for (int row = 0; row < n; ++row) {
+        if (rows_[row] > carrier) continue;
+        const Vector3 arm_W = match.distance.core_W - posture_.point_W[rows_[row]];
+        J[row] = posture_.axis_W[rows_[row]].dot(arm_W.cross(normal_W));
       }
       const double scaled = match.distance.outside_mm / kOutlierMm;
       const double weight =

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/tracking/contact.h"
+#include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 
 namespace mocap {
@@ -19,7 +19,7 @@ class LimbSearch {
   /// @param limb_end  the segment at the limb's end: a hand or a foot.
   /// @param absent    the end of another limb that is to be ignored, or the same.
   /// @param pose      of the whole body; the limb's angles in it do not matter.
-  LimbSearch(const BodyModel& body, const Evidence& evidence, const std::vector<Contact>& contacts,
+  LimbSearch(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
              Segment limb_end, Segment absent, const PoseState& pose);
 
   /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
@@ -27,13 +27,14 @@ class LimbSearch {
   double CostAt(const PoseState& pose);
   /// Improves the limb's angles from those in `pose`.
   void Refine(PoseState& pose, int iterations);
+  /// Where the limb ends with the angles that it has in `pose`: p_WQ.
+  Vector3 TipAt(const PoseState& pose);
   /// Of RowsOfLimb.
   const std::vector<int>& rows() const { return rows_; }
 
  private:
-  struct OpenContact {
-    Contact contact;
-    double other_mm;  ///< How far the rest of the body is from it.
+  struct Claim {
+    double other_mm;  ///< How far the rest of the body is from the contact.
     double weight;
   };
   void PoseLimb(const PoseState& pose);
@@ -46,7 +47,8 @@ class LimbSearch {
   std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
   std::vector<BodyPart> other_parts_;
-  std::vector<OpenContact> open_;
+  ContactMatcher open_;        ///< The contacts that the rest of the body does not explain.
+  std::vector<Claim> claims_;  ///< Of each of them.
   Posture posture_;
   std::vector<PosedCapsule> posed_;  ///< The limb.
 };

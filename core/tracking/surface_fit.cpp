@@ -29,8 +29,9 @@ Vector3 LeanOf(const PosedCapsule& capsule, double share) {
 
 void SurfaceFit::SetEvidence(const Evidence& evidence) {
   cloud_ = &evidence.cloud;
-  ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
-  likely_.assign(contacts_.size(), -1);
+  std::vector<Contact> contacts;
+  ChooseContacts(evidence, options_.voxels, options_.edges, contacts);
+  matcher_.SetContacts(contacts);
 }
 
 void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
@@ -42,16 +43,15 @@ template <typename Visit>
 void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
   SurfaceResidual residual;
   const double variance = options_.noise_mm * options_.noise_mm / options_.independent;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm, likely_[i]);
-    likely_[i] = match.capsule;
+  const std::vector<ContactMatch>& matches = matcher_.Match(posed_, options_.reach_mm);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const ContactMatch& match = matches[i];
     if (match.capsule < 0) continue;
     const Vector3 offset = match.distance.segment_W - match.distance.core_W;
     const double length = offset.norm();
     if (length < 1) continue;
     residual.capsule = match.capsule;
-    residual.is_edge = contact.is_edge;
+    residual.is_edge = matcher_.contacts()[i].is_edge;
     residual.share = match.distance.share;
     residual.normal_W = offset / length - LeanOf(posed_[match.capsule], residual.share);
     residual.outside_mm = match.distance.outside_mm;
@@ -69,7 +69,7 @@ void SurfaceFit::ForEachHollow(const Visit& visit) const {
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(posed_[i], share);
-      if (const auto way_W = WayToFlesh(*cloud_, contacts_, p_W)) visit(i, p_W, *way_W);
+      if (const auto way_W = WayToFlesh(*cloud_, matcher_.contacts(), p_W)) visit(i, p_W, *way_W);
     }
   }
 }
@@ -126,16 +126,15 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   PoseCapsules(body, pose);
   SurfaceFitQuality quality;
   int edges = 0;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const ContactMatch match = MatchContact(contact, posed_, options_.reach_mm, likely_[i]);
-    const double distance_mm =
-        match.capsule < 0 ? options_.reach_mm : std::abs(match.distance.outside_mm);
-    (contact.is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
-    edges += contact.is_edge;
-    quality.unexplained_share += contact.is_edge && distance_mm > kUnexplainedMm;
+  const std::vector<ContactMatch>& matches = matcher_.Match(posed_, options_.reach_mm);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const bool is_edge = matcher_.contacts()[i].is_edge;
+    const double distance_mm = matches[i].DistanceOr(options_.reach_mm);
+    (is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
+    edges += is_edge;
+    quality.unexplained_share += is_edge && distance_mm > kUnexplainedMm;
   }
-  const int voxels = static_cast<int>(contacts_.size()) - edges;
+  const int voxels = static_cast<int>(matches.size()) - edges;
   quality.edge_mm /= std::max(1, edges);
   quality.unexplained_share /= std::max(1, edges);
   quality.surface_mm /= std::max(1, voxels);

@@ -8,7 +8,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/body_shape.h"
-#include "core/tracking/contact.h"
+#include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/pose_filter.h"
 
@@ -73,8 +73,7 @@ class SurfaceFit {
 
   SurfaceFitOptions options_;
   const VoxelCloud* cloud_ = nullptr;
-  std::vector<Contact> contacts_;
-  std::vector<int> likely_;  ///< The capsule that explained each contact last.
+  ContactMatcher matcher_;
   Posture posture_;
   std::vector<PosedCapsule> posed_;
 };

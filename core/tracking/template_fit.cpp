@@ -4,53 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/tracking/head_score.h"
+
 namespace mocap {
 namespace {
 
 constexpr int kMostTurns = 12;
 constexpr double kStillDegrees = 0.5;
-// Flesh just beyond the crust tells a shoulder or a hip from a head, which stands alone on its
-// neck.
-constexpr double kSurroundings = 1.45;
-
-struct CrustCells {
-  std::vector<Eigen::Vector3i> crust;
-  std::vector<Eigen::Vector3i> around;
-};
-
-CrustCells CellsOf(const HeadCrust& crust, double voxel_mm) {
-  CrustCells cells;
-  const int reach = static_cast<int>(std::ceil(kSurroundings * crust.outer_mm / voxel_mm));
-  for (int dz = -reach; dz <= reach; ++dz) {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        const Eigen::Vector3i step(dx, dy, dz);
-        const double distance_mm = step.cast<double>().norm() * voxel_mm;
-        if (distance_mm >= crust.inner_mm && distance_mm <= crust.outer_mm) {
-          cells.crust.push_back(step);
-        } else if (distance_mm > crust.outer_mm && distance_mm < kSurroundings * crust.outer_mm) {
-          cells.around.push_back(step);
-        }
-      }
-    }
-  }
-  return cells;
-}
-
-double ScoreAt(const VoxelCloud& cloud, const CrustCells& cells, const Eigen::Vector3i& center) {
-  int votes = 0;
-  for (const Eigen::Vector3i& step : cells.crust) {
-    const int index = cloud.IndexAt(Eigen::Vector3i(center + step));
-    if (index >= 0 && cloud.voxels()[index].surface) ++votes;
-  }
-  int flesh = 0;
-  for (const Eigen::Vector3i& step : cells.around) {
-    if (cloud.IndexAt(Eigen::Vector3i(center + step)) >= 0) ++flesh;
-  }
-  return static_cast<double>(votes) / cells.crust.size() -
-         static_cast<double>(flesh) / cells.around.size();
-}
-
 Vector3 BorderOf(const VoxelCloud& cloud, const Vector3& center_W, double radius_mm,
                  std::span<const int> inside) {
   Vector3 sum = Vector3::Zero();
@@ -103,18 +63,20 @@ Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels) {
 
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
                                 const std::optional<SearchSphere>& search) {
-  const CrustCells cells = CellsOf(crust, cloud.voxel_mm());
+  const HeadScore head_score(cloud, crust);
   HeadFit best;
   best.score = -std::numeric_limits<double>::infinity();
   int best_index = -1;
-  for (int i = 0; i < cloud.size(); ++i) {
+  // From above, where heads are.
+  for (int i = cloud.size() - 1; i >= 0; --i) {
     const Voxel& voxel = cloud.voxels()[i];
-    if (voxel.surface) continue;  // a head's centre lies deep inside
+    // A head's centre lies deep inside.
+    if (voxel.surface || !head_score.IsOnLattice(voxel.cell)) continue;
     if (search && (voxel.center_W - search->center_W).norm() > search->radius_mm) continue;
-    const double score = ScoreAt(cloud, cells, voxel.cell);
-    if (score <= best.score) continue;
-    best.score = score;
-    best_index = i;
+    if (const auto score = head_score.Above(best.score, voxel.cell)) {
+      best.score = *score;
+      best_index = i;
+    }
   }
   if (best_index < 0) return std::nullopt;
 

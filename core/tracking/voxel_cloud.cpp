@@ -23,11 +23,6 @@ void ForEachInCube(int radius, const Visit& visit) {
 
 }  // namespace
 
-int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
-  if ((cell.array() < 0).any() || (cell.array() >= size_.array()).any()) return -1;
-  return index_of_slot_[SlotOf(cell)];
-}
-
 int VoxelCloud::IndexAt(const Vector3& p_W) const {
   const Vector3 cell = ((p_W - origin_W_) / voxel_mm_).array().floor();
   return IndexAt(Eigen::Vector3i(cell.cast<int>()));

@@ -28,13 +28,22 @@ class VoxelCloud {
   int size() const { return static_cast<int>(voxels_.size()); }
   bool empty() const { return voxels_.empty(); }
   double voxel_mm() const { return voxel_mm_; }
+  /// The grid's extent, in cells.
+  const Eigen::Vector3i& size_cells() const { return size_; }
   double volume_litres() const { return size() * voxel_mm_ * voxel_mm_ * voxel_mm_ * 1e-6; }
   /// The block of cells that holds all voxels [mm].
   Eigen::AlignedBox3d box_W() const {
     return {origin_W_, origin_W_ + voxel_mm_ * size_.cast<double>()};
   }
   /// Index of the voxel in a cell; -1 where the cell is empty or outside.
-  int IndexAt(const Eigen::Vector3i& cell) const;
+  int IndexAt(const Eigen::Vector3i& cell) const {
+    // A negative number is a large one without its sign.
+    const auto is_inside = [&](int axis) {
+      return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
+    };
+    if (!is_inside(0) || !is_inside(1) || !is_inside(2)) return -1;
+    return index_of_slot_[SlotOf(cell)];
+  }
   /// Index of the voxel at a place; -1 where it is empty.
   int IndexAt(const Vector3& p_W) const;
   /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.

@@ -110,7 +110,7 @@ TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
   const BodyModel truth(body_.table(), person);
   SizeRefiner refiner(body_.sizes());
   BodyModel refined = body_;
-  for (int frame = 0; frame < 6; ++frame) {
+  for (int frame = 0; frame < 9; ++frame) {
     const double swing = 25 * std::sin(0.8 * frame);
     const PoseState pose = Standing(
         truth, {.arm_l = {.forward = swing}, .leg_l = {.hip = -swing}, .leg_r = {.hip = swing}});
@@ -119,7 +119,7 @@ TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
     refiner.Add(refined, fit_, FitFrom(pose, refined, fit_));
     refined.Resize(refiner.Sizes());
   }
-  EXPECT_EQ(refiner.frames(), 6);
+  EXPECT_EQ(refiner.frames(), 9);
   EXPECT_NEAR(refined.sizes().thigh_width, person.thigh_width,
               0.6 * (person.thigh_width - body_.sizes().thigh_width));
   EXPECT_NEAR(refined.sizes().torso_depth, person.torso_depth,
