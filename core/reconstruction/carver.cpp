@@ -335,8 +335,7 @@ bool Carver::Walk::SampleAgrees(const Block& block, const Eigen::Vector3i& voxel
   return seeing >= fewest_;
 }
 
-Carver::Carver(const CarvingOptions& options)
-    : options_(options), walk_(std::make_unique<Walk>(options.voxel_mm)) {}
+Carver::Carver(const CarvingOptions& options) : walk_(std::make_unique<Walk>(options.voxel_mm)) {}
 Carver::Carver(Carver&&) noexcept = default;
 Carver& Carver::operator=(Carver&&) noexcept = default;
 Carver::~Carver() = default;
