@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/service_config.h"
 #include "core/reconstruction/segmenter.h"
 #include "drivers/aravis_settings.h"
 #include "drivers/v4l2_settings.h"
@@ -64,6 +65,7 @@ struct Config {
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;
+  ServiceConfig service;
 };
 
 }  // namespace mocap

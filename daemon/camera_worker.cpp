@@ -18,10 +18,12 @@ constexpr int kRaysPerCamera = 100;
 
 }  // namespace
 
-CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders)
+CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+                           FrameTap* tap)
     : camera_(std::move(camera)),
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
+      tap_(tap),
       newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
 
 void CameraWorker::Stop() {
@@ -52,6 +54,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
       return Outcome::kEnd;
   }
   CountFrame(frame.sequence);
+  if (tap_) tap_->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
   if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     expectation_.store(Expectation::kPossible, std::memory_order_release);

@@ -13,6 +13,7 @@
 #include "core/reconstruction/silhouette.h"
 #include "daemon/stage.h"
 #include "daemon/synchronizer.h"
+#include "daemon/tap.h"
 #include "drivers/studio.h"
 
 namespace mocap {
@@ -46,7 +47,9 @@ struct CameraStatus {
 class CameraWorker {
  public:
   /// @param recorders  borrowed for the worker's life.
-  CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders);
+  /// @param tap        gets every frame, likewise; may be null.
+  CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+               FrameTap* tap = nullptr);
 
   void Start() { camera_.driver->Start(); }
   void Stop();
@@ -72,6 +75,7 @@ class CameraWorker {
   StudioCamera camera_;
   Segmenter segmenter_;
   StageRecorders& recorders_;
+  FrameTap* const tap_;
   std::uint64_t next_sequence_ = 0;
   std::atomic<CameraState> state_{CameraState::kStarting};
   std::atomic<Expectation> expectation_{Expectation::kPossible};

@@ -11,9 +11,11 @@ void ChangeLog::Add(const PipelineStatus& status) {
   }
   if (last_) CompareCameras(before, status);
   for (const CameraStatus& camera : status.cameras) TellRemarks(camera);
+  const bool was_behind = calls_since_drop_ < kCallsToRecover;
   const bool drops = status.sets_dropped > before.sets_dropped;
-  if (drops && !is_behind_) spdlog::warn("tracking is behind: the stalest sets are dropped");
-  is_behind_ = drops;
+  calls_since_drop_ = drops ? 0 : calls_since_drop_ + 1;
+  if (drops && !was_behind) spdlog::warn("tracking is behind: the stalest sets are dropped");
+  if (was_behind && calls_since_drop_ == kCallsToRecover) spdlog::info("tracking keeps up again");
   last_ = status;
 }
 

@@ -19,8 +19,11 @@ class ChangeLog {
   void TellRemarks(const CameraStatus& camera);
   void CompareCameras(const PipelineStatus& before, const PipelineStatus& now);
 
+  /// Calls without a drop after which being behind is over.
+  static constexpr int kCallsToRecover = 50;
+
   std::optional<PipelineStatus> last_;
-  bool is_behind_ = false;
+  int calls_since_drop_ = kCallsToRecover;  ///< Or more.
   std::set<std::string> told_;
 };
 
