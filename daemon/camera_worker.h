@@ -45,7 +45,8 @@ class CameraWorker {
   /// @param recorders  borrowed for the worker's life.
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders);
 
-  void Start() { camera_.driver->Start(); }
+  /// Logs what the camera does otherwise than it was asked.
+  void Start();
   void Stop();
 
   enum class Outcome { kFrame, kNothing, kEnd };
