@@ -51,7 +51,8 @@ class CameraWorker {
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
                FrameTap* tap = nullptr);
 
-  void Start() { camera_.driver->Start(); }
+  /// Logs what the camera does otherwise than it was asked.
+  void Start();
   void Stop();
 
   enum class Outcome { kFrame, kNothing, kEnd };
