@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera_model.h"
+#include "config/service_config.h"
 #include "core/reconstruction/segmenter.h"
 #include "drivers/aravis_settings.h"
 #include "drivers/v4l2_settings.h"
@@ -79,6 +80,7 @@ struct Config {
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;
+  ServiceConfig service;
 };
 
 }  // namespace mocap

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "config/load_service_config.h"
 #include "config/read_cameras.h"
 #include "config/toml_section.h"
 
@@ -12,12 +13,6 @@ namespace {
 constexpr double kSmallestVoxel_mm = 10;
 constexpr double kLargestVoxel_mm = 100;
 constexpr std::size_t kLongestPrefix = 32;
-
-// Paths in a file are meant from where the file lies.
-std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path) {
-  if (path.empty()) return {};
-  return (file.parent_path() / path).lexically_normal();
-}
 
 SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) {
   SourceConfig source;
@@ -95,6 +90,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   if (auto section = root.Section("segmentation")) config.segmentation = ReadSegmentation(*section);
   if (auto section = root.Section("lcm")) config.lcm = ReadLcm(*section);
   config.cameras = ReadCameras(root, config.source.driver);
+  config.service = ReadServiceConfig(root, file);
   root.RejectUnknownKeys();
   CheckLiveStudio(config, root);
   return config;

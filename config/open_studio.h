@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +23,8 @@ struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
   std::vector<std::string> cameras;  ///< Empty: all.
-  /// In real time, when its first frame is captured; empty: when the first camera starts.
-  std::optional<std::int64_t> begin_ns = {};
+  /// In real time, tells when its first frame is captured; null: when the first camera starts.
+  std::function<std::int64_t()> begin_ns = nullptr;
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background.

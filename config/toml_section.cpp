@@ -40,6 +40,11 @@ std::string ReadAll(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path) {
+  if (path.empty()) return {};
+  return (file.parent_path() / path).lexically_normal();
+}
+
 TomlSection TomlSection::ReadFile(const std::filesystem::path& file) {
   return ReadText(ReadAll(file), file.string());
 }

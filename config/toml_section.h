@@ -17,6 +17,9 @@
 
 namespace mocap {
 
+/// Gives a path in a file as meant from where the file lies; an empty one stays empty.
+std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path);
+
 /// One table of a TOML file. Without a fallback a key must be there.
 ///
 /// Every function throws SetupError for a value of the wrong kind or out of range.

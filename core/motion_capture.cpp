@@ -51,6 +51,12 @@ class MotionCapture::Impl {
     return result_;
   }
 
+  void StartOver(const std::optional<BodySizes>& given) {
+    given_ = given;
+    result_.state = CaptureState::kSearching;
+    ForgetPerson();
+  }
+
   const CaptureResult& result() const { return result_; }
   const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
   int acquisition_frames() const { return acquisition_frames_; }
@@ -63,8 +69,12 @@ class MotionCapture::Impl {
     if (result_.state == CaptureState::kTracking) result_.state = CaptureState::kLost;
     if (result_.state == CaptureState::kLost && empty_s_ < kForgetAfterS) return;
     result_.state = CaptureState::kSearching;
+    ForgetPerson();
+  }
+
+  void ForgetPerson() {
     tracker_.reset();
-    known_.reset();
+    known_ = given_;
     refiner_.reset();
   }
 
@@ -108,7 +118,7 @@ class MotionCapture::Impl {
 
   void RefineSizes() {
     if (tracker_->body().table().measurement != Measurement::kSurface) return;
-    if (refiner_->frames() >= kFramesToRefine) return;
+    if (given_ || refiner_->frames() >= kFramesToRefine) return;
     if (tracker_->quality().Cost() > kDoubtCostMm) return;
     refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
     tracker_->Resize(refiner_->Sizes());
@@ -158,6 +168,7 @@ class MotionCapture::Impl {
   Evidence evidence_;
   std::optional<Tracker> tracker_;
   std::optional<BodySizes> known_;
+  std::optional<BodySizes> given_;  ///< Known before the person was seen.
   std::optional<SizeRefiner> refiner_;
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
@@ -190,6 +201,8 @@ const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<cons
                                            std::int64_t capture_ns, UpdateObserver* observer) {
   return impl_->Update(grid, outlines, capture_ns, observer);
 }
+void MotionCapture::Forget() { impl_->StartOver({}); }
+void MotionCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
 const BodyModel& MotionCapture::body() const { return impl_->body(); }
 int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
 

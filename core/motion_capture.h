@@ -61,6 +61,12 @@ class MotionCapture {
   const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer = nullptr);
 
+  /// Forgets the person: whoever is seen next is measured.
+  void Forget();
+  /// Takes a person's sizes as known: whoever is seen from now on is followed with them, and
+  /// nothing is measured until Forget.
+  void Expect(const BodySizes& sizes);
+
   /// The body as it is known now.
   const BodyModel& body() const;
   /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before

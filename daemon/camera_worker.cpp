@@ -1,9 +1,8 @@
 #include "daemon/camera_worker.h"
 
-#include <spdlog/spdlog.h>
-
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "daemon/clock.h"
 
@@ -19,18 +18,13 @@ constexpr int kRaysPerCamera = 100;
 
 }  // namespace
 
-CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders)
+CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+                           FrameTap* tap)
     : camera_(std::move(camera)),
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
+      tap_(tap),
       newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
-
-void CameraWorker::Start() {
-  camera_.driver->Start();
-  for (const std::string& remark : camera_.driver->Facts().remarks) {
-    spdlog::warn("{}: {}", camera_.calibration.name, remark);
-  }
-}
 
 void CameraWorker::Stop() {
   camera_.driver->Stop();
@@ -52,7 +46,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
       torn_.fetch_add(1, std::memory_order_relaxed);
       return Outcome::kNothing;
     case GrabStatus::kLost:
-      state_.store(CameraState::kLost, std::memory_order_relaxed);
+      Enter(CameraState::kLost);
       expectation_.store(Expectation::kNone, std::memory_order_release);
       std::this_thread::sleep_for(kLostPause);
       return Outcome::kNothing;
@@ -60,6 +54,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
       return Outcome::kEnd;
   }
   CountFrame(frame.sequence);
+  if (tap_) tap_->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
   if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     expectation_.store(Expectation::kPossible, std::memory_order_release);
@@ -79,8 +74,15 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   return Outcome::kFrame;
 }
 
+void CameraWorker::Enter(CameraState state) {
+  if (state_.exchange(state, std::memory_order_relaxed) == state) return;
+  std::vector<std::string> remarks = camera_.driver->Facts().remarks;
+  const std::lock_guard lock(remarks_mutex_);
+  remarks_ = std::move(remarks);
+}
+
 void CameraWorker::CountFrame(std::uint64_t sequence) {
-  state_.store(CameraState::kStreaming, std::memory_order_relaxed);
+  Enter(CameraState::kStreaming);
   // The first frame's number means nothing, and a camera that came back counts from anew.
   const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
   if (!is_first && sequence > next_sequence_) {
@@ -97,6 +99,8 @@ CameraStatus CameraWorker::Status() const {
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);
   status.torn = torn_.load(std::memory_order_relaxed);
+  const std::lock_guard lock(remarks_mutex_);
+  status.remarks = remarks_;
   return status;
 }
 

@@ -4,13 +4,16 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "core/reconstruction/outline.h"
 #include "core/reconstruction/segmenter.h"
 #include "core/reconstruction/silhouette.h"
 #include "daemon/stage.h"
 #include "daemon/synchronizer.h"
+#include "daemon/tap.h"
 #include "drivers/studio.h"
 
 namespace mocap {
@@ -37,16 +40,18 @@ struct CameraStatus {
   std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
   std::int64_t late = 0;     ///< Came after their set had gone, or found none.
   std::int64_t torn = 0;
+  std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
 };
 
 /// Grabs and segments one camera's frames. Start, Next and Stop: one thread; the rest: any.
 class CameraWorker {
  public:
   /// @param recorders  borrowed for the worker's life.
-  CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders);
+  /// @param tap        gets every frame, likewise; may be null.
+  CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+               FrameTap* tap = nullptr);
 
-  /// Logs what the camera does otherwise than it was asked.
-  void Start();
+  void Start() { camera_.driver->Start(); }
   void Stop();
 
   enum class Outcome { kFrame, kNothing, kEnd };
@@ -65,10 +70,12 @@ class CameraWorker {
 
  private:
   void CountFrame(std::uint64_t sequence);
+  void Enter(CameraState state);
 
   StudioCamera camera_;
   Segmenter segmenter_;
   StageRecorders& recorders_;
+  FrameTap* const tap_;
   std::uint64_t next_sequence_ = 0;
   std::atomic<CameraState> state_{CameraState::kStarting};
   std::atomic<Expectation> expectation_{Expectation::kPossible};
@@ -76,6 +83,8 @@ class CameraWorker {
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> dropped_{0};
   std::atomic<std::int64_t> torn_{0};
+  mutable std::mutex remarks_mutex_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace mocap

@@ -3,22 +3,28 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "daemon/pose_sink.h"
+#include "daemon/service_report.h"
 #include "daemon/status_window.h"
 #include "daemon/truth_error.h"
 
 namespace mocap {
 
-/// Keeps the latest figures of the last thread for the line on the terminal. OnSet: the pipeline's
-/// thread; Line: any.
+/// Keeps the latest figures of the last thread for whoever asks. OnSet: the pipeline's thread; the
+/// rest: any.
 class LiveView : public PoseSink {
  public:
   /// @param error  may be empty.
   explicit LiveView(TruthError error) : error_(std::move(error)) {}
 
   void OnSet(const TrackedSet& set) override;
+  Fit fit() const;
+  /// The sizes of the person who is tracked; empty before they are known.
+  std::optional<BodySizes> sizes() const;
   /// One line without its end: state, rate, latency, residual, voxels, error.
   std::string Line(const StatusReport& report) const;
 
@@ -30,6 +36,10 @@ class LiveView : public PoseSink {
   std::atomic<double> residual_mm_{0};
   std::atomic<double> error_mm_{kUnknown};
   std::atomic<int> voxels_{0};
+  bool was_tracking_ = false;
+  bool sizes_are_new_ = true;
+  mutable std::mutex mutex_;  ///< Tried, never waited for, by the pipeline.
+  std::optional<BodySizes> sizes_;
 };
 
 }  // namespace mocap

@@ -19,12 +19,11 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", seconds, "stop after so long")->check(CLI::PositiveNumber);
   app.set_version_flag("--version", MOCAP_VERSION);
   app.callback([&] {
-    const mocap::Config config = file ? mocap::LoadConfig(*file) : mocap::Config();
     if (only_checks) {
-      mocap::CheckConfig(config);
+      mocap::CheckConfig(file ? mocap::LoadConfig(*file) : mocap::Config());
       std::puts("the configuration can be used");
     } else {
-      mocap::RunService(config, seconds);
+      mocap::RunService(file, seconds);
     }
   });
   return mocap::RunProgram(app, argc, argv);

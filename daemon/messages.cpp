@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "config/body_size_fields.h"
 #include "core/tracking/voxel_labels.h"
-#include "daemon/body_size_fields.h"
 
 namespace mocap {
 namespace {

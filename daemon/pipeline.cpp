@@ -1,5 +1,8 @@
 #include "daemon/pipeline.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <cmath>
 #include <future>
 #include <string>
@@ -14,6 +17,7 @@ constexpr std::size_t kFramesQueued = 4;
 constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.
 constexpr double kPatiencePeriods = 3;
+constexpr std::size_t kLongestThreadName = 15;
 
 /// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
 std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
@@ -40,14 +44,16 @@ Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
 
 /// One camera's thread and the queue it fills.
 struct Pipeline::CameraLine {
-  CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders, Overflow overflow,
-             Doorbell& carve_bell)
-      : worker(std::move(camera), std::move(segmenter), recorders),
+  CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders, FrameTap* tap,
+             Overflow overflow, Doorbell& carve_bell)
+      : worker(std::move(camera), std::move(segmenter), recorders, tap),
         queue(kFramesQueued, overflow, carve_bell) {}
 
   CameraWorker worker;
   SpscQueue<SegmentedFrame> queue;
   bool ended = false;  ///< Nothing more will come; the carving thread's view.
+  std::atomic<std::int64_t> turns{0};
+  std::atomic<bool> has_ended{false};  ///< The camera's thread is done.
 };
 
 Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,
@@ -66,8 +72,9 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   if (options.overflow == Overflow::kDropOldest) carve_->ControlLoad();
   std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
+    FrameTap* tap = options.taps ? &options.taps->at(i) : nullptr;
     lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
-                                                  std::move(segmenters[i]), recorders_,
+                                                  std::move(segmenters[i]), recorders_, tap,
                                                   options.overflow, carve_bell_));
   }
 }
@@ -89,19 +96,34 @@ void Pipeline::Guard(Body body) {
   }
 }
 
+template <typename Body>
+void Pipeline::Launch(const std::string& name, Body body) {
+  threads_.emplace_back([this, name, body] {
+    pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+    if (options_.priority > 0) {
+      // Whether it may is known by now; without it, frames are only more often late.
+      const sched_param parameter{.sched_priority = options_.priority};
+      pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+    }
+    body();
+  });
+}
+
 void Pipeline::Start() {
   for (const auto& line : lines_) {
-    threads_.emplace_back([this, &line = *line] {
+    Launch(line->worker.calibration().name, [this, &line = *line] {
       Guard([&] { RunCamera(line); });
+      line.has_ended.store(true, std::memory_order_relaxed);
       line.queue.Close();
     });
   }
-  threads_.emplace_back([this] {
+  Launch("carve", [this] {
     Guard([&] { RunCarving(); });
+    carving_has_ended_.store(true, std::memory_order_relaxed);
     for (const auto& line : lines_) line->queue.Close();
     sets_.Close();
   });
-  threads_.emplace_back([this] {
+  Launch("track", [this] {
     Guard([&] { RunTracking(); });
     sets_.Close();
     finished_.store(true, std::memory_order_release);
@@ -117,6 +139,7 @@ void Pipeline::Join() {
 void Pipeline::RunCamera(CameraLine& line) {
   line.worker.Start();
   while (!stop_.load(std::memory_order_relaxed)) {
+    line.turns.fetch_add(1, std::memory_order_relaxed);
     const CameraWorker::Outcome outcome =
         line.worker.Next(carve_->wanted_from_ns(), line.queue.back());
     if (outcome == CameraWorker::Outcome::kEnd) break;
@@ -149,6 +172,7 @@ bool Pipeline::FeedFromQueues() {
 void Pipeline::RunCarving() {
   for (;;) {
     const int seen = carve_bell_.count();
+    carving_turns_.fetch_add(1, std::memory_order_relaxed);
     carve_->SetTracked(track_.sets());
     const bool all_ended = FeedFromQueues();
     const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
@@ -214,6 +238,20 @@ PipelineStatus Pipeline::Status() const {
   }
   status.stages = StageHistograms(recorders_);
   return status;
+}
+
+FrameProgress Pipeline::Progress() const {
+  FrameProgress progress;
+  for (const auto& line : lines_) {
+    progress.cameras.push_back({line->turns.load(std::memory_order_relaxed),
+                                line->has_ended.load(std::memory_order_relaxed)});
+  }
+  progress.carving = {carving_turns_.load(std::memory_order_relaxed),
+                      carving_has_ended_.load(std::memory_order_relaxed)};
+  // Tracked first: what is matched in between then still waits.
+  progress.sets_tracked = track_.sets();
+  progress.sets_matched = carve_->complete_sets() + carve_->partial_sets();
+  return progress;
 }
 
 }  // namespace mocap

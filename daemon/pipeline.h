@@ -3,8 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -13,9 +16,11 @@
 #include "daemon/camera_worker.h"
 #include "daemon/carve_stage.h"
 #include "daemon/doorbell.h"
+#include "daemon/frame_progress.h"
 #include "daemon/pose_sink.h"
 #include "daemon/spsc_queue.h"
 #include "daemon/stage.h"
+#include "daemon/tap.h"
 #include "daemon/track_stage.h"
 #include "drivers/studio.h"
 
@@ -29,6 +34,9 @@ struct PipelineOptions {
   /// without.
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
+  int priority = 0;  ///< Of the threads, SCHED_FIFO; 0: as everybody.
+  /// One a camera, borrowed for the pipeline's life; null: nobody taps frames.
+  std::deque<FrameTap>* taps = nullptr;
 };
 
 /// How the pipeline does; counters never go back.
@@ -46,7 +54,8 @@ struct PipelineStatus {
 /// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
 /// allocated, locked or copied on a frame's way.
 ///
-/// Run once, with Start and Join or with RunSerially. RequestStop, finished and Status: any thread.
+/// Run once, with Start and Join or with RunSerially. RequestStop, finished, ChangeSubject, Status
+/// and Progress: any thread.
 class Pipeline {
  public:
   /// Learns every camera's background.
@@ -67,7 +76,13 @@ class Pipeline {
   /// Does everything in the calling thread, without dropping: the measure for the threads.
   void RunSerially();
 
+  /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
+  /// there.
+  void ChangeSubject(const std::optional<BodySizes>& sizes) { track_.ChangeSubject(sizes); }
+
   PipelineStatus Status() const;
+  /// How far each thread has come.
+  FrameProgress Progress() const;
 
  private:
   struct CameraLine;
@@ -77,6 +92,8 @@ class Pipeline {
   void RunTracking();
   bool FeedFromQueues();
   bool FeedSerially();
+  template <typename Body>
+  void Launch(const std::string& name, Body body);
   template <typename Body>
   void Guard(Body body);
 
@@ -89,6 +106,8 @@ class Pipeline {
   SpscQueue<CarvedSet> sets_;
   TrackStage track_;
   std::vector<std::thread> threads_;
+  std::atomic<std::int64_t> carving_turns_{0};
+  std::atomic<bool> carving_has_ended_{false};
   std::atomic<bool> stop_{false};
   std::atomic<bool> finished_{false};
   std::atomic<bool> has_failed_{false};

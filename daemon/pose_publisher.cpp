@@ -37,6 +37,8 @@ class QuietStandardError {
   int saved_;
 };
 
+}  // namespace
+
 bool HasMulticastRoute() {
   const int socket_fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in group{};
@@ -50,8 +52,6 @@ bool HasMulticastRoute() {
   close(socket_fd);
   return has_route;
 }
-
-}  // namespace
 
 std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
   std::unique_ptr<lcm::LCM> lcm;
@@ -85,21 +85,42 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       status_channel_(config.prefix + "MOCAP_STATUS"),
       cameras_(cameras),
       body_pacer_(1),
-      voxels_pacer_(config.voxels_hz) {}
+      voxels_pacer_(config.voxels_hz),
+      paced_voxels_hz_(config.voxels_hz),
+      voxels_hz_(config.voxels_hz) {}
+
+template <typename Message>
+void PosePublisher::Publish(const std::string& channel, const Message& message) {
+  bytes_.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes_.data(), 0, static_cast<int>(bytes_.size()));
+  lcm_.publish(channel, bytes_.data(), static_cast<unsigned>(bytes_.size()));
+  if (!tap_) return;
+  tap_->Offer([&](TappedMessage& copy) {
+    copy.channel = channel;
+    copy.bytes = bytes_;
+    copy.utime = EpochNs() / 1000;
+    return true;
+  });
+}
 
 void PosePublisher::OnSet(const TrackedSet& set) {
   FillPose(set, cameras_, pose_);
   pose_.publish_utime = EpochNs() / 1000;
-  lcm_.publish(pose_channel_, &pose_);
+  Publish(pose_channel_, pose_);
   const std::int64_t now_ns = SteadyNs();
   const bool body_is_due = body_pacer_.IsDue(now_ns);
   if (set.result.body_changed || body_is_due) {
     FillBody(set.body, set.capture_ns / 1000, body_);
-    lcm_.publish(body_channel_, &body_);
+    Publish(body_channel_, body_);
+  }
+  const double voxels_hz = voxels_hz_.load(std::memory_order_relaxed);
+  if (voxels_hz != paced_voxels_hz_) {
+    paced_voxels_hz_ = voxels_hz;
+    voxels_pacer_ = Pacer(voxels_hz);
   }
   if (voxels_pacer_.IsDue(now_ns)) {
     FillVoxels(set, voxels_);
-    lcm_.publish(voxels_channel_, &voxels_);
+    Publish(voxels_channel_, voxels_);
   }
 }
 

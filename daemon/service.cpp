@@ -1,6 +1,7 @@
 #include "daemon/service.h"
 
 #include <signal.h>
+#include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -8,15 +9,28 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "core/errors.h"
 #include "daemon/change_log.h"
 #include "daemon/clock.h"
+#include "daemon/control_socket.h"
+#include "daemon/frame_progress.h"
+#include "daemon/live_config.h"
 #include "daemon/live_view.h"
+#include "daemon/metrics_file.h"
 #include "daemon/pipeline.h"
 #include "daemon/pose_publisher.h"
+#include "daemon/realtime.h"
+#include "daemon/recorder.h"
+#include "daemon/service_control.h"
+#include "daemon/service_folders.h"
+#include "daemon/service_manager.h"
 #include "daemon/status_window.h"
 #include "daemon/truth_error.h"
 
@@ -25,29 +39,59 @@ namespace {
 
 constexpr std::int64_t kTickNs = 200'000'000;
 constexpr double kStatusHz = 1;
+constexpr double kMetricsHz = 0.2;
+constexpr std::size_t kLogBytes = 4'000'000;
+constexpr std::size_t kLogFiles = 4;
 
-sigset_t StopSignals() {
+sigset_t HeldSignals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
   return signals;
 }
 
-/// Sleeps for a tick. @return whether a signal asked to stop.
-bool WaitForStop() {
-  const sigset_t signals = StopSignals();
+/// Sleeps for a tick. @return the signal that came, or -1.
+int WaitForSignal() {
+  const sigset_t signals = HeldSignals();
   const timespec tick{0, kTickNs};
-  return sigtimedwait(&signals, nullptr, &tick) > 0;
+  return sigtimedwait(&signals, nullptr, &tick);
 }
 
-PipelineOptions OptionsFrom(const Config& config) {
+/// To standard error, which is the journal under systemd, and to a file where there is a place.
+void OpenLog() {
+  std::vector<spdlog::sink_ptr> sinks = {std::make_shared<spdlog::sinks::stderr_color_sink_mt>()};
+  sinks[0]->set_pattern("%n: %^%l%$: %v");
+  if (const std::filesystem::path folder = LogsFolder(); !folder.empty()) {
+    sinks.push_back(std::make_shared<spdlog::sinks::rotating_file_sink_mt>(folder / "mocapd.log",
+                                                                           kLogBytes, kLogFiles));
+    sinks[1]->set_pattern("%Y-%m-%d %T.%e %l: %v");
+  }
+  auto logger = std::make_shared<spdlog::logger>("mocapd", sinks.begin(), sinks.end());
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+PipelineOptions OptionsFrom(const Config& config, RecordingTaps& taps) {
   // A recording that is read as fast as it can be has old times, and can wait.
   const bool can_wait = config.source.driver == "take" && config.source.rate == ReplayRate::kFast;
   return {.segmentation = config.segmentation,
           .voxel_mm = config.voxel_mm,
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
-          .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture};
+          .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
+          .priority = config.service.realtime.priority,
+          .taps = &taps.frames};
+}
+
+/// What a recording needs to know before the cameras are handed to the pipeline.
+RecordedStudio RecordedStudioOf(const Studio& studio, const std::string& config_text) {
+  RecordedStudio recorded{.name = studio.name,
+                          .fps_nominal = studio.fps_nominal,
+                          .cameras = {},
+                          .config_text = config_text};
+  for (const StudioCamera& camera : studio.cameras) {
+    recorded.cameras.push_back({camera.calibration, camera.background});
+  }
+  return recorded;
 }
 
 /// The truth is known where the person is simulated.
@@ -70,31 +114,46 @@ class Outlet : public PoseSink {
   LiveView& view_;
 };
 
-/// The main thread's part while the pipeline runs: status, log, the line on the terminal.
+/// The main thread's part while the pipeline runs: status, log, systemd, the line on the terminal.
 class Watch {
  public:
-  Watch(Pipeline& pipeline, PosePublisher& publisher, LiveView& view)
-      : pipeline_(pipeline), publisher_(publisher), view_(view) {}
+  Watch(const ServiceParts& parts, ServiceControl& control, ServiceManager& manager,
+        ServiceReport about)
+      : parts_(parts), control_(control), manager_(manager), report_(std::move(about)) {
+    control_.SetReport(report_);
+  }
 
   void Tick() {
-    const PipelineStatus status = pipeline_.Status();
+    const PipelineStatus status = parts_.pipeline.Status();
     ClearLine();
     log_.Add(status);
-    if (status_pacer_.IsDue(SteadyNs())) {
-      report_ = window_.Add(status, SteadyNs());
-      publisher_.PublishStatus(report_);
+    if (status_pacer_.IsDue(SteadyNs())) Report(status);
+    if (status.sets_tracked > 0 && !manager_.is_ready()) {
+      spdlog::info("poses flow");
+      manager_.Ready();
     }
+    if (progress_.HasMoved(parts_.pipeline.Progress())) manager_.FeedWatchdog();
     if (on_terminal_) {
-      std::printf("%s", view_.Line(report_).c_str());
+      std::printf("%s", parts_.view.Line(report_.now).c_str());
       std::fflush(stdout);
     }
+  }
+
+  void Reload() {
+    manager_.BeginReload();
+    try {
+      control_.Reload();
+    } catch (const SetupError& error) {
+      spdlog::error("the configuration stays as it was: {}", error.what());
+    }
+    manager_.EndReload();
   }
 
   /// Says what has come of it all.
   void Conclude() {
     Tick();
     ClearLine();
-    const PipelineStatus status = pipeline_.Status();
+    const PipelineStatus status = parts_.pipeline.Status();
     const LatencyHistogram& latency = status.stages[Stage::kLatency];
     spdlog::info(
         "{} sets, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
@@ -104,25 +163,57 @@ class Watch {
   }
 
  private:
+  void Report(const PipelineStatus& status) {
+    report_.now = window_.Add(status, SteadyNs());
+    report_.fit = parts_.view.fit();
+    report_.recording = parts_.recorder.Status();
+    report_.up_ns = SteadyNs() - start_ns_;
+    parts_.publisher.PublishStatus(report_.now);
+    control_.SetReport(report_);
+    manager_.Say(ReportLine(report_));
+    const std::filesystem::path metrics = control_.metrics_file();
+    if (metrics.empty() || !metrics_pacer_.IsDue(SteadyNs())) return;
+    const bool could_write = WriteMetrics(metrics, report_);
+    if (could_write_metrics_ && !could_write)
+      spdlog::warn("{}: cannot be written", metrics.c_str());
+    could_write_metrics_ = could_write;
+  }
+
   void ClearLine() const {
     if (on_terminal_) std::printf("\r\x1b[K");
     std::fflush(stdout);
   }
 
-  Pipeline& pipeline_;
-  PosePublisher& publisher_;
-  LiveView& view_;
+  const ServiceParts parts_;
+  ServiceControl& control_;
+  ServiceManager& manager_;
+  ServiceReport report_;
+  const std::int64_t start_ns_ = SteadyNs();
   const bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
+  bool could_write_metrics_ = true;
+  ProgressWatch progress_;
   ChangeLog log_;
   StatusWindow window_;
-  StatusReport report_;
   Pacer status_pacer_{kStatusHz};
+  Pacer metrics_pacer_{kMetricsHz};
 };
+
+/// Runs until there is nothing more to do.
+void RunUntilStopped(Pipeline& pipeline, Watch& watch, std::optional<double> seconds) {
+  const std::int64_t end_ns = seconds ? SteadyNs() + std::llround(*seconds * 1e9)
+                                      : std::numeric_limits<std::int64_t>::max();
+  while (!pipeline.finished() && SteadyNs() < end_ns) {
+    const int signal = WaitForSignal();
+    if (signal == SIGINT || signal == SIGTERM) return;
+    if (signal == SIGHUP) watch.Reload();
+    watch.Tick();
+  }
+}
 
 }  // namespace
 
 void HoldSignals() {
-  const sigset_t signals = StopSignals();
+  const sigset_t signals = HeldSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
@@ -131,22 +222,40 @@ void CheckConfig(const Config& config) {
   OpenStudio(config);
 }
 
-void RunService(const Config& config, std::optional<double> seconds) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("mocapd"));
-  spdlog::set_pattern("%n: %^%l%$: %v");
+void RunService(const std::optional<std::filesystem::path>& file, std::optional<double> seconds) {
+  LiveConfig live(file);
+  const Config config = live.config();
+  OpenLog();
+  PrepareRealtime(config.service.realtime);
   const std::unique_ptr<lcm::LCM> lcm = OpenLcm(config.lcm.url);
   Studio studio = OpenStudio(config);
+  ServiceManager manager;
+  manager.Say("learning the empty studio");
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
+  ServiceReport about;
+  about.studio = studio.name;
+  about.fps_nominal = studio.fps_nominal;
+  about.lcm_url = config.lcm.url;
   PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));
+  Recorder recorder(RecordedStudioOf(studio, live.text()));
+  publisher.Tap(recorder.taps().messages);
   LiveView view(TruthFor(config.source));
   Outlet outlet(publisher, view);
-  Pipeline pipeline(std::move(studio), OptionsFrom(config), LoadBodyTable(config.body), outlet);
-  Watch watch(pipeline, publisher, view);
-  const std::int64_t end_ns = seconds ? SteadyNs() + std::llround(*seconds * 1e9)
-                                      : std::numeric_limits<std::int64_t>::max();
+  Pipeline pipeline(std::move(studio), OptionsFrom(config, recorder.taps()),
+                    LoadBodyTable(config.body), outlet);
+  const ServiceParts parts{live, pipeline, publisher, view, recorder};
+  ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
+  Watch watch(parts, control, manager, about);
+  std::optional<ControlServer> server;
+  if (const auto socket = ControlSocketOf(config.service.control.socket); !socket.empty()) {
+    server.emplace(socket, [&control](const ControlRequest& r) { return control.Answer(r); });
+  }
   spdlog::info("publishing on {}", config.lcm.url);
   pipeline.Start();
-  while (!pipeline.finished() && SteadyNs() < end_ns && !WaitForStop()) watch.Tick();
+  RunUntilStopped(pipeline, watch, seconds);
+  manager.Stopping();
+  server.reset();
+  if (recorder.Status().state == RecordingStatus::State::kRunning) recorder.Stop();
   pipeline.RequestStop();
   pipeline.Join();
   watch.Conclude();

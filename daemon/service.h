@@ -1,20 +1,23 @@
 // The daemon from its configuration to its last message.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "config/config.h"
 
 namespace mocap {
 
-/// Holds back SIGINT and SIGTERM from all threads that start afterwards, so that RunService can
-/// wait for them. Call first in main.
+/// Holds back SIGINT, SIGTERM and SIGHUP from all threads that start afterwards, so that RunService
+/// can wait for them. Call first in main.
 void HoldSignals();
 
-/// Captures and publishes until the source ends, a signal comes or the time is over.
+/// Captures and publishes until the source ends, a signal comes or the time is over; SIGHUP reads
+/// the configuration again.
+/// @param file     the configuration; without one, the simulated studio.
 /// @param seconds  how long to run at most.
 /// @throws SetupError  when the studio, its cameras or LCM cannot be used as configured.
-void RunService(const Config& config, std::optional<double> seconds);
+void RunService(const std::optional<std::filesystem::path>& file, std::optional<double> seconds);
 
 /// Looks whether RunService could begin, without cameras or LCM. @throws SetupError
 void CheckConfig(const Config& config);

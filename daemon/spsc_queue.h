@@ -30,9 +30,10 @@ class SpscQueue {
  public:
   /// @param consumer_bell  rung at each push and at closing; may be shared by several queues that
   ///                       one thread reads. Borrowed for the queue's life.
-  SpscQueue(std::size_t capacity, Overflow overflow, Doorbell& consumer_bell)
+  /// @param item           what every slot holds at first, so that its memory is there.
+  SpscQueue(std::size_t capacity, Overflow overflow, Doorbell& consumer_bell, const T& item = T())
       : overflow_(overflow),
-        slots_(capacity + 2),
+        slots_(capacity + 2, item),
         cells_(capacity),
         producer_slot_(capacity),
         consumer_slot_(capacity + 1),

@@ -16,6 +16,7 @@ StatusReport StatusWindow::Add(PipelineStatus status, std::int64_t now_ns) {
     };
     report.recent = status.stages.Since(then.stages);
     report.sets_per_second = rate(status.sets_tracked, then.sets_tracked);
+    report.sets_dropped_lately = status.sets_dropped - then.sets_dropped;
     for (std::size_t i = 0; i < status.cameras.size(); ++i) {
       report.frames_per_second[i] = rate(status.cameras[i].frames, then.cameras[i].frames);
     }

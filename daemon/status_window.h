@@ -15,6 +15,7 @@ struct StatusReport {
   PipelineStatus status;   ///< Counters; its timings are since the start.
   StageHistograms recent;  ///< Timings within the window.
   double sets_per_second = 0;
+  std::int64_t sets_dropped_lately = 0;
   std::vector<double> frames_per_second;  ///< By camera.
 };
 

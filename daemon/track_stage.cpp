@@ -1,5 +1,7 @@
 #include "daemon/track_stage.h"
 
+#include <memory>
+
 #include "daemon/clock.h"
 
 namespace mocap {
@@ -8,7 +10,17 @@ TrackStage::TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& si
                        StageRecorders& recorders)
     : capture_(body), origin_(origin), sink_(sink), recorders_(recorders) {}
 
+TrackStage::~TrackStage() { delete next_subject_.load(); }
+
+void TrackStage::ChangeSubject(const std::optional<BodySizes>& sizes) {
+  delete next_subject_.exchange(new Subject(sizes));
+}
+
 void TrackStage::Process(const CarvedSet& set) {
+  if (next_subject_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
+    *subject ? capture_.Expect(**subject) : capture_.Forget();
+  }
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
   const CaptureResult& result = capture_.Update(set.grid, set.outlines, set.capture_ns, this);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 #include "core/motion_capture.h"
 #include "daemon/carve_stage.h"
@@ -24,19 +25,27 @@ class TrackStage : private UpdateObserver {
   TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
              StageRecorders& recorders);
 
+  ~TrackStage();
+
   void Process(const CarvedSet& set);
+  /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
+  /// there. Any thread.
+  void ChangeSubject(const std::optional<BodySizes>& sizes);
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
+  using Subject = std::optional<BodySizes>;
+
   void OnStageEnd(UpdateStage stage) override;
 
   MotionCapture capture_;
   LatencyOrigin origin_;
   PoseSink& sink_;
   StageRecorders& recorders_;
-  std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
-  std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.
+  std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
+  std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
+  std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.
   std::atomic<std::int64_t> sets_{0};
   std::atomic<CaptureState> state_{CaptureState::kSearching};
 };

@@ -120,7 +120,8 @@ void Negotiation::SetFormat() {
         std::ranges::find_if(kAravisFormats, [&available](const AravisFormat& format) {
           return std::ranges::count(available, gint64{format.code}) > 0;
         });
-    if (wanted == kAravisFormats.end()) Fail("has no format that is understood; it has " + Formats());
+    if (wanted == kAravisFormats.end())
+      Fail("has no format that is understood; it has " + Formats());
     arv_camera_set_pixel_format(camera_, wanted->code, failure);
   }
   if (failure.failed()) {
@@ -184,8 +185,7 @@ void Negotiation::SetExposure() {
   if (settings_.exposure_us) {
     if (has_automatic) arv_camera_set_exposure_time_auto(camera_, ARV_AUTO_OFF, nullptr);
     arv_camera_set_exposure_time(camera_, *settings_.exposure_us, nullptr);
-  } else if (has_automatic &&
-             arv_camera_get_exposure_time_auto(camera_, nullptr) != ARV_AUTO_OFF) {
+  } else if (has_automatic && arv_camera_get_exposure_time_auto(camera_, nullptr) != ARV_AUTO_OFF) {
     Remark("sets its exposure by itself, so that its background changes: give exposure_us");
   }
   const double got_us = arv_camera_get_exposure_time(camera_, nullptr);
@@ -218,8 +218,8 @@ void Negotiation::SetGain() {
 void Negotiation::SetPtp() {
   if (!settings_.ptp) return;
   // As the standard names them now, and as it did.
-  constexpr std::pair<const char*, const char*> kNames[] = {
-      {"PtpEnable", "PtpStatus"}, {"GevIEEE1588", "GevIEEE1588Status"}};
+  constexpr std::pair<const char*, const char*> kNames[] = {{"PtpEnable", "PtpStatus"},
+                                                            {"GevIEEE1588", "GevIEEE1588Status"}};
   for (const auto& [enable, status] : kNames) {
     if (!Has(enable)) continue;
     GFailure failure;
@@ -234,7 +234,8 @@ bool Negotiation::HasStamps() const {
   ArvDevice* device = arv_camera_get_device(camera_);
   if (!ARV_IS_GV_DEVICE(device)) return true;
   GFailure failure;
-  return arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), failure) > 0;
+  const auto frequency = arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), failure);
+  return failure.failed() || frequency > 0;
 }
 
 }  // namespace

@@ -22,17 +22,11 @@ struct FoundCamera {
 
 std::string Text(const char* text) { return text ? text : ""; }
 
-/// Aravis keeps one list for the whole process, and hands out pointers into it.
-std::mutex& ListMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 std::vector<FoundCamera> LookAround() {
   // Cameras that start together share one look, which takes a second.
   static std::optional<std::chrono::steady_clock::time_point> looked;
   constexpr std::chrono::seconds kFresh{2};
-  const std::lock_guard lock(ListMutex());
+  const std::lock_guard lock(AravisMutex());
   if (!looked || std::chrono::steady_clock::now() - *looked > kFresh) {
     arv_update_device_list();
     looked = std::chrono::steady_clock::now();
@@ -55,14 +49,15 @@ AravisTarget TargetFor(const std::string& device, const FoundCamera& camera) {
 
 /// A name that was given to a camera is known to Aravis alone.
 std::optional<AravisTarget> OpenByUserName(const std::string& device) {
+  const std::lock_guard lock(AravisMutex());
   GFailure failure;
   const GPtr<ArvDevice> opened(arv_open_device(device.c_str(), failure));
   if (!opened) return std::nullopt;
   AravisTarget target{device, device, "", ""};
   if (!ARV_IS_GV_DEVICE(opened.get())) return target;
   GSocketAddress* address = arv_gv_device_get_device_address(ARV_GV_DEVICE(opened.get()));
-  const std::unique_ptr<char, GFree> ip(g_inet_address_to_string(
-      g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address))));
+  const std::unique_ptr<char, GFree> ip(
+      g_inet_address_to_string(g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address))));
   target.ip = ip.get();
   return target;
 }
@@ -76,6 +71,11 @@ std::string NamesOf(const std::vector<FoundCamera>& cameras) {
 }
 
 }  // namespace
+
+std::mutex& AravisMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 std::vector<ListedCamera> ListAravisCameras() {
   std::vector<ListedCamera> listed;

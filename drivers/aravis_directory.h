@@ -1,12 +1,17 @@
 // Which GigE Vision and USB3 Vision cameras there are, and which of them a name means.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "drivers/camera_listing.h"
 
 namespace mocap {
+
+/// To be held while Aravis lists or opens devices: its list, and what its XML parser knows of
+/// documents, are the process's and unguarded.
+std::mutex& AravisMutex();
 
 /// Looks for cameras on every network and USB; takes a second.
 std::vector<ListedCamera> ListAravisCameras();

@@ -23,7 +23,8 @@ constexpr milliseconds kSlice{20};
 constexpr milliseconds kClosing{500}, kClosingTheDead{10'000};
 
 std::chrono::microseconds Rest(steady_clock::time_point deadline) {
-  const auto rest = std::chrono::duration_cast<std::chrono::microseconds>(deadline - steady_clock::now());
+  const auto rest =
+      std::chrono::duration_cast<std::chrono::microseconds>(deadline - steady_clock::now());
   return std::clamp<std::chrono::microseconds>(rest, std::chrono::microseconds(0), kSlice);
 }
 
@@ -49,6 +50,7 @@ void AravisDriver::Stop() {
   if (!keeper_) return;
   GiveBack();
   session_.reset();
+  clock_.reset();
   generation_ = 0;
   keeper_->RequestStop();
   keeper_->WaitClosed(kClosing);
@@ -62,7 +64,8 @@ void AravisDriver::FollowKeeper() {
   session_ = keeper_->session();
   if (!session_) return;
   fresh_ = true;
-  clock_.emplace(session_->agreed().has_stamps, LeapSeconds());
+  if (!clock_) clock_.emplace(session_->agreed().has_stamps, LeapSeconds());
+  clock_->Doubt();
   counter_.Forget();
 }
 

@@ -44,7 +44,7 @@ class AravisDriver : public CameraDriver {
   std::shared_ptr<AravisKeeper> previous_;  ///< May still be closing the camera.
   std::shared_ptr<AravisSession> session_;
   unsigned generation_ = 0;
-  bool fresh_ = false;           ///< No whole frame came in this session yet.
+  bool fresh_ = false;          ///< No whole frame came in this session yet.
   _ArvBuffer* lent_ = nullptr;  ///< Its pixels were handed out.
   std::optional<CaptureClock> clock_;
   FrameCounter counter_;

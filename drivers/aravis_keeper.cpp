@@ -20,7 +20,7 @@ constexpr milliseconds kLeastSilence{100};
 /// The first frame may take its time.
 constexpr milliseconds kGraceAfterOpening{1000};
 /// A camera whose link was cut goes on by itself; one that answers but sends nothing does not.
-constexpr milliseconds kStalled{500};
+constexpr milliseconds kStalled{1500};
 constexpr milliseconds kBetweenAttempts{200};
 /// Looking at a camera too often keeps alive whoever held it.
 constexpr milliseconds kBetweenLooksWhenHeld{4000};
@@ -28,7 +28,8 @@ constexpr std::chrono::seconds kBetweenSearches{5};
 constexpr std::chrono::seconds kPtpPeriod{1};
 
 milliseconds SilenceLimit(const AravisAgreement& agreed) {
-  const auto missed_ms = static_cast<std::int64_t>(kMissedFrames * 1000 / std::max(agreed.fps, 0.1));
+  const auto missed_ms =
+      static_cast<std::int64_t>(kMissedFrames * 1000 / std::max(agreed.fps, 0.1));
   return std::max(kLeastSilence, milliseconds(missed_ms));
 }
 
@@ -41,8 +42,8 @@ void Close(AravisKeeper::Session session) {
 /// The next instant at which hosts that agree on the time trigger together.
 std::chrono::system_clock::time_point NextTrigger(double fps) {
   using std::chrono::system_clock;
-  const auto period = std::chrono::duration_cast<system_clock::duration>(
-      std::chrono::duration<double>(1 / fps));
+  const auto period =
+      std::chrono::duration_cast<system_clock::duration>(std::chrono::duration<double>(1 / fps));
   const auto since_epoch = system_clock::now().time_since_epoch();
   return system_clock::time_point((since_epoch / period + 1) * period);
 }
@@ -116,8 +117,7 @@ bool AravisKeeper::IsSilent() {
   if (!session) return true;
   const std::uint64_t signs = session->SignsOfLife();
   if (std::exchange(signs_, signs) != signs) last_sign_ = Clock::now();
-  return session->control_lost() ||
-         Clock::now() - last_sign_ > SilenceLimit(session->agreed());
+  return session->control_lost() || Clock::now() - last_sign_ > SilenceLimit(session->agreed());
 }
 
 void AravisKeeper::SeekGige() {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -95,11 +96,12 @@ AravisSession::~AravisSession() {
 
 void AravisSession::OpenCamera() {
   GFailure failure;
+  if (!target_.ip.empty()) RequireFree(target_);
+  const auto route = RouteTo(target_.ip);
+  const std::lock_guard lock(AravisMutex());
   if (target_.ip.empty()) {
     camera_.reset(arv_camera_new(target_.id.c_str(), failure));
   } else {
-    RequireFree(target_);
-    const auto route = RouteTo(target_.ip);
     if (!route) throw SetupError(target_.device + ": no network leads to " + target_.ip);
     const GPtr<GInetAddress> local(g_inet_address_new_from_string(route->local_ip.c_str()));
     const GPtr<GInetAddress> remote(g_inet_address_new_from_string(target_.ip.c_str()));
@@ -130,9 +132,8 @@ void AravisSession::ChoosePacketPath() {
         "net.core.rmem_max is " + std::to_string(allowed) + ", less than two frames, so that " +
         "packets will be lost: as root, sysctl -w net.core.rmem_max=" + std::to_string(2 * wanted));
   }
-  arv_camera_gv_set_stream_options(camera_.get(), use
-                                                      ? ARV_GV_STREAM_OPTION_NONE
-                                                      : ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
+  arv_camera_gv_set_stream_options(
+      camera_.get(), use ? ARV_GV_STREAM_OPTION_NONE : ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
 }
 
 void AravisSession::OpenStream() {
@@ -161,13 +162,13 @@ void AravisSession::OpenStream() {
   if (!stream_) throw SetupError(target_.device + ": cannot stream: " + failure.text());
   if (!is_gige) return;
   const double retention_us = kRetentionPeriods * 1e6 / std::max(agreed_.fps, 1.0);
-  g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
-               "socket-buffer-size", static_cast<int>(std::min<std::size_t>(LargestSocketBuffer(), 64 << 20)),
-               "packet-resend", ARV_GV_STREAM_PACKET_RESEND_ALWAYS, "packet-timeout",
-               kPacketTimeout_us, "frame-retention",
-               static_cast<unsigned>(std::clamp<double>(retention_us, kShortestRetention_us,
-                                                        kLongestRetention_us)),
-               nullptr);
+  g_object_set(
+      stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size",
+      static_cast<int>(std::min<std::size_t>(LargestSocketBuffer(), 64 << 20)), "packet-resend",
+      ARV_GV_STREAM_PACKET_RESEND_ALWAYS, "packet-timeout", kPacketTimeout_us, "frame-retention",
+      static_cast<unsigned>(
+          std::clamp<double>(retention_us, kShortestRetention_us, kLongestRetention_us)),
+      nullptr);
 }
 
 void AravisSession::FillPool() {

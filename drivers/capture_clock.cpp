@@ -3,6 +3,7 @@
 #include <sys/timex.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace mocap {
 namespace {
@@ -38,7 +39,9 @@ int LeapSeconds() {
 TimeSource CaptureClock::Choose(std::int64_t ahead_ns, bool ptp_locked) const {
   if (!has_stamps_) return TimeSource::kArrival;
   if (!ptp_locked) return TimeSource::kDeviceClock;
-  const auto limit_ns = [this](TimeSource source) { return source == source_ ? kFar_ns : kNear_ns; };
+  const auto limit_ns = [this](TimeSource source) {
+    return source == source_ ? kFar_ns : kNear_ns;
+  };
   if (std::abs(ahead_ns) < limit_ns(TimeSource::kPtp)) return TimeSource::kPtp;
   if (std::abs(ahead_ns - leap_ns_) < limit_ns(TimeSource::kPtpTai)) return TimeSource::kPtpTai;
   return TimeSource::kDeviceClock;
@@ -47,6 +50,7 @@ TimeSource CaptureClock::Choose(std::int64_t ahead_ns, bool ptp_locked) const {
 std::int64_t CaptureClock::MiddleOfExposure(std::int64_t stamp_ns, std::int64_t arrival_ns,
                                             std::int64_t exposure_ns, bool ptp_locked) {
   const std::int64_t begin_ns = arrival_ns - exposure_ns;
+  if (std::exchange(doubted_, false) && !fit_.Fits(stamp_ns, begin_ns)) fit_ = DeviceClock();
   if (has_stamps_) fit_.Observe(stamp_ns, begin_ns);
   source_ = Choose(stamp_ns - begin_ns, ptp_locked);
   std::int64_t capture_ns = begin_ns;

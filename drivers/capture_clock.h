@@ -28,7 +28,12 @@ class CaptureClock {
  public:
   /// @param leap_seconds  TAI less UTC.
   CaptureClock(bool has_stamps, int leap_seconds)
-      : has_stamps_(has_stamps), leap_ns_(leap_seconds * 1'000'000'000LL) {}
+      : has_stamps_(has_stamps),
+        leap_ns_(leap_seconds * 1'000'000'000LL),
+        source_(has_stamps ? TimeSource::kDeviceClock : TimeSource::kArrival) {}
+
+  /// Tells that the camera was away: its clock may have begun anew, or gone on.
+  void Doubt() { doubted_ = true; }
 
   /// Gives the middle of the exposure [ns since the Unix epoch].
   /// @param ptp_locked  the camera says that it follows a PTP master.
@@ -43,7 +48,8 @@ class CaptureClock {
 
   const bool has_stamps_;
   const std::int64_t leap_ns_;
-  TimeSource source_ = TimeSource::kArrival;
+  TimeSource source_;
+  bool doubted_ = false;
   DeviceClock fit_;
 };
 

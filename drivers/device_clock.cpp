@@ -2,28 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace mocap {
 namespace {
 
 constexpr std::int64_t kSlot_ns = 500'000'000;
 /// Before that, a slope would be made of jitter.
-constexpr std::int64_t kSlopeNeeds_ns = 5'000'000'000;
+constexpr std::int64_t kSlopeNeeds_ns = 20'000'000'000;
+constexpr std::int64_t kRecent_ns = 5'000'000'000;
 /// Before that, any frame may be the first that was not held up.
 constexpr std::int64_t kSettled_ns = 1'000'000'000;
-/// Quartz is within 100 ppm; both clocks may be at their limit, and the host's be slewed.
-constexpr double kSteepest = 700e-6;
+/// Quartz is within 100 ppm, and both clocks may be at their limit.
+constexpr double kSteepest = 200e-6;
 /// No frame can come so much too early unless a clock was set …
 constexpr std::int64_t kTooEarly_ns = 3'000'000;
 constexpr int kEarlyToBelieve = 3;
 /// … and none comes so late for a second on end.
 constexpr std::int64_t kTooLate_ns = 500'000'000;
 constexpr int kLateToBelieve = 30;
+/// After a camera was away, its first frame may be held up by as much.
+constexpr std::int64_t kAway_ns = 5'000'000'000;
 
 }  // namespace
 
 std::int64_t DeviceClock::OffsetAt(std::int64_t device_ns) const {
   return base_ns_ + std::llround(slope_ * static_cast<double>(device_ns - origin_ns_));
+}
+
+bool DeviceClock::Fits(std::int64_t device_ns, std::int64_t arrival_ns) const {
+  if (used_ == 0 || device_ns <= last_ns_) return false;
+  const std::int64_t above_ns = arrival_ns - device_ns - OffsetAt(device_ns);
+  return above_ns > -kAway_ns && above_ns < kAway_ns;
 }
 
 void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
@@ -41,7 +51,7 @@ void DeviceClock::Observe(std::int64_t device_ns, std::int64_t arrival_ns) {
 
 bool DeviceClock::IsDoubtful(const Point& point, std::int64_t above_ns) {
   const bool settled = last_ns_ - first_ns_ > kSettled_ns;
-  const bool early = point.device_ns <= last_ns_ || above_ns < (settled ? -kTooEarly_ns : -kTooLate_ns);
+  const bool early = point.device_ns <= last_ns_ || (settled && above_ns < -kTooEarly_ns);
   const bool late = above_ns > kTooLate_ns;
   early_ = early ? early_ + 1 : 0;
   late_ = late ? late_ + 1 : 0;
@@ -78,16 +88,25 @@ void DeviceClock::Keep(const Point& point) {
 }
 
 void DeviceClock::Fit() {
-  const std::int64_t begin_ns = slot(used_ - 1).device_ns;
-  const std::int64_t span_ns = slot(0).device_ns - begin_ns;
-  if (span_ns < kSlopeNeeds_ns) return;
-  // The lower hull from left to right; the newest slot comes last.
-  std::array<Point, kSlots> hull;
-  std::size_t size = 0;
+  const std::int64_t newest_ns = slot(0).device_ns;
+  const std::int64_t span_ns = newest_ns - slot(used_ - 1).device_ns;
+  slope_ = span_ns < kSlopeNeeds_ns ? 0 : std::clamp(HullSlope(), -kSteepest, kSteepest);
+  // Where the line lies now, the last seconds know best, whatever is left of an error in the slope.
+  origin_ns_ = newest_ns;
+  base_ns_ = slot(0).offset_ns;
+  for (std::size_t age = 1; age < used_ && newest_ns - slot(age).device_ns < kRecent_ns; ++age) {
+    base_ns_ += std::min<std::int64_t>(0, slot(age).offset_ns - OffsetAt(slot(age).device_ns));
+  }
+}
+
+double DeviceClock::HullSlope() const {
   const auto slope = [](const Point& a, const Point& b) {
     return static_cast<double>(b.offset_ns - a.offset_ns) /
            static_cast<double>(b.device_ns - a.device_ns);
   };
+  // The lower hull from left to right; the newest slot comes last.
+  std::array<Point, kSlots> hull;
+  std::size_t size = 0;
   for (std::size_t age = used_; age-- > 0;) {
     const Point& point = slot(age);
     while (size >= 2 && slope(hull[size - 2], point) <= slope(hull[size - 2], hull[size - 1])) {
@@ -95,15 +114,10 @@ void DeviceClock::Fit() {
     }
     hull[size++] = point;
   }
+  const std::int64_t middle_ns = hull[0].device_ns / 2 + hull[size - 1].device_ns / 2;
   std::size_t right = 1;
-  while (right + 1 < size && hull[right].device_ns - begin_ns < span_ns / 2) ++right;
-  slope_ = std::clamp(slope(hull[right - 1], hull[right]), -kSteepest, kSteepest);
-  origin_ns_ = hull[right].device_ns;
-  base_ns_ = hull[right].offset_ns;
-  // A slope that was held back may leave points below.
-  for (std::size_t i = 0; i < size; ++i) {
-    base_ns_ += std::min<std::int64_t>(0, hull[i].offset_ns - OffsetAt(hull[i].device_ns));
-  }
+  while (right + 1 < size && hull[right].device_ns < middle_ns) ++right;
+  return slope(hull[right - 1], hull[right]);
 }
 
 }  // namespace mocap

@@ -10,15 +10,18 @@ namespace mocap {
 /// Learns offset and drift of a camera's clock from when frames were stamped and when they arrived.
 ///
 /// Delays on the way only add, so the true line lies just below all points (device time; arrival
-/// minus device time). Of each half second the least delayed frame counts, over the last minute;
-/// the line is the edge of their lower convex hull below the middle, which neither jitter nor
-/// frames that were held up can move. A clock that was set or began anew is learned anew, once
-/// several frames agree. Some constant delay (reading out, the wire) remains in the result.
-/// Thread-bound; allocates nothing.
+/// minus device time). Of each half second the least delayed frame counts. The line's slope is that
+/// of the edge of the last minute's lower convex hull below its middle, and the last seconds lift
+/// it as far as they allow; neither jitter nor frames that were held up can move it. A clock that
+/// was set or began anew is learned anew, once several frames agree. Some constant delay (reading
+/// out, the wire) remains in the result. Thread-bound; allocates nothing.
 class DeviceClock {
  public:
   /// Tells of a frame. Times since any epoch each [ns].
   void Observe(std::int64_t device_ns, std::int64_t arrival_ns);
+
+  /// Whether a frame may well be of the clock that was observed so far.
+  bool Fits(std::int64_t device_ns, std::int64_t arrival_ns) const;
 
   /// Gives the host's time of a device time. @pre  some frame was observed.
   std::int64_t ToHost(std::int64_t device_ns) const { return device_ns + OffsetAt(device_ns); }
@@ -40,6 +43,7 @@ class DeviceClock {
   void Restart(const Point& point);
   void Keep(const Point& point);
   void Fit();
+  double HullSlope() const;
   const Point& slot(std::size_t age) const { return slots_[(newest_ + kSlots - age) % kSlots]; }
 
   std::array<Point, kSlots> slots_;  ///< A ring; the least delayed frame of each half second.

@@ -1,5 +1,6 @@
 #include "drivers/replay.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -36,10 +37,10 @@ std::int64_t Replay::Join() {
   const std::lock_guard lock(mutex_);
   if (cameras_++ > 0 || !clock_) return shift_ns_;
   const std::int64_t now_ns = clock_->NowNs();
-  shift_ns_ = begin_ns_.value_or(now_ns) - span_.first_ns;
-  if (begin_ns_ && loop_ && now_ns > *begin_ns_) {
-    shift_ns_ += (now_ns - *begin_ns_) / span_.period_ns * span_.period_ns;
-  }
+  const std::int64_t begin_ns = begin_ns_ ? begin_ns_() : now_ns;
+  const std::int64_t loops =
+      loop_ ? std::max<std::int64_t>(0, now_ns - begin_ns) / span_.period_ns : 0;
+  shift_ns_ = begin_ns - span_.first_ns + loops * span_.period_ns;
   return shift_ns_;
 }
 

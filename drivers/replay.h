@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
+#include <utility>
 
 namespace mocap {
 
@@ -35,10 +36,11 @@ struct ReplaySpan {
 class Replay {
  public:
   /// @param clock     null: as fast as possible.
-  /// @param begin_ns  when the first frame is captured; only with a clock.
+  /// @param begin_ns  tells, when the first camera starts, when the first frame is captured; null:
+  ///                  then. Only with a clock.
   Replay(const ReplaySpan& span, bool loop, std::unique_ptr<ReplayClock> clock,
-         std::optional<std::int64_t> begin_ns = std::nullopt)
-      : span_(span), loop_(loop), clock_(std::move(clock)), begin_ns_(begin_ns) {}
+         std::function<std::int64_t()> begin_ns = nullptr)
+      : span_(span), loop_(loop), clock_(std::move(clock)), begin_ns_(std::move(begin_ns)) {}
 
   bool loops() const { return loop_; }
   /// Null when the recording is read as fast as possible.
@@ -59,7 +61,7 @@ class Replay {
   const ReplaySpan span_;
   const bool loop_;
   const std::unique_ptr<ReplayClock> clock_;
-  const std::optional<std::int64_t> begin_ns_;
+  const std::function<std::int64_t()> begin_ns_;
   std::mutex mutex_;
   int cameras_ = 0;
   std::int64_t shift_ns_ = 0;

@@ -35,8 +35,9 @@ class TextFile {
 /// A video, with the table beside it if one is wanted.
 class RecordedVideo {
  public:
-  RecordedVideo(const std::filesystem::path& video, const CameraCalibration& camera, double fps)
-      : video_(video, camera.width_px, camera.height_px, fps, VideoPixels::kBgr),
+  RecordedVideo(const std::filesystem::path& video, const CameraCalibration& camera, double fps,
+                VideoCodec codec)
+      : video_(video, camera.width_px, camera.height_px, fps, VideoPixels::kBgr, codec),
         has_head_(camera.head) {}
 
   void AddTable(const std::filesystem::path& file) {
@@ -53,7 +54,7 @@ class RecordedVideo {
     if (table_) table_->Write(row + '\n');
   }
 
-  void Skip() { ++frame_; }
+  void Skip(std::uint64_t count) { frame_ += count; }
   void Finish() { video_.Finish(); }
 
  private:
@@ -64,6 +65,12 @@ class RecordedVideo {
   std::uint64_t frame_ = 0;
 };
 
+std::string NotesText(const std::vector<std::pair<std::string, std::string>>& notes) {
+  std::string text;
+  for (const auto& [key, value] : notes) text += key + " = " + TomlText(value) + '\n';
+  return text;
+}
+
 std::string DescriptionText(const TakeDescription& description) {
   std::string text = "name = " + TomlText(description.name) +
                      "\nfps_nominal = " + TomlNumber(description.fps_nominal) + "\ncameras = [";
@@ -71,8 +78,7 @@ std::string DescriptionText(const TakeDescription& description) {
     text += (text.back() == '[' ? "" : ", ") + TomlText(camera.name);
   }
   text += "]\n";
-  for (const auto& [key, value] : description.notes) text += key + " = " + TomlText(value) + '\n';
-  return text;
+  return text + NotesText(description.notes);
 }
 
 std::string Fixed(double value, int decimals) {
@@ -101,13 +107,15 @@ class TakeWriter::Impl {
       : folder_(folder.has_filename() ? folder : folder.parent_path()),
         layout_{folder_.string() + ".partial"},
         fps_(description.fps_nominal),
-        calibrations_(description.cameras) {
+        codec_(description.codec),
+        calibrations_(description.cameras),
+        description_(DescriptionText(description)) {
     CheckNames(description);
     MakeFolder();
-    TextFile(layout_.Description()).Write(DescriptionText(description));
+    TextFile(layout_.Description()).Write(description_);
     WriteCalibration(layout_.Calibration(), calibrations_);
     for (const CameraCalibration& camera : calibrations_) {
-      frames_.emplace_back(layout_.Video(camera.name), camera, fps_);
+      frames_.emplace_back(layout_.Video(camera.name), camera, fps_, codec_);
       frames_.back().AddTable(layout_.Table(camera.name));
     }
     backgrounds_.resize(calibrations_.size());
@@ -121,7 +129,7 @@ class TakeWriter::Impl {
     if (!video) {
       const CameraCalibration& calibration = calibrations_[camera];
       std::filesystem::create_directory(layout_.BackgroundVideo("x").parent_path());
-      video.emplace(layout_.BackgroundVideo(calibration.name), calibration, fps_);
+      video.emplace(layout_.BackgroundVideo(calibration.name), calibration, fps_, codec_);
       if (calibration.head) video->AddTable(layout_.BackgroundTable(calibration.name));
     }
     return *video;
@@ -167,6 +175,16 @@ class TakeWriter::Impl {
     TextFile(layout_.TruthSizes()).Write(text);
   }
 
+  const std::filesystem::path& partial_folder() const { return layout_.folder; }
+
+  void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
+    description_ += NotesText(notes);
+    // In one step: a take without its description would not open.
+    const std::filesystem::path unfinished = layout_.Description().string() + ".part";
+    TextFile(unfinished).Write(description_);
+    std::filesystem::rename(unfinished, layout_.Description());
+  }
+
   void Finish() {
     for (RecordedVideo& video : frames_) video.Finish();
     for (auto& video : backgrounds_) {
@@ -204,7 +222,9 @@ class TakeWriter::Impl {
   std::filesystem::path folder_;
   TakeLayout layout_;
   double fps_;
+  VideoCodec codec_;
   std::vector<CameraCalibration> calibrations_;
+  std::string description_;  ///< What take.toml says.
   std::vector<RecordedVideo> frames_;
   std::vector<std::optional<RecordedVideo>> backgrounds_;
   std::vector<std::optional<VideoWriter>> masks_;
@@ -221,7 +241,7 @@ void TakeWriter::WriteFrame(int camera, ImageView<const Bgr> image, std::int64_t
                             const PanTiltAngles& angles) {
   impl_->frames(camera).Write(image, capture_ns, angles);
 }
-void TakeWriter::SkipFrame(int camera) { impl_->frames(camera).Skip(); }
+void TakeWriter::SkipFrames(int camera, std::uint64_t count) { impl_->frames(camera).Skip(count); }
 void TakeWriter::WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                                  const PanTiltAngles& angles) {
   impl_->background(camera).Write(image, capture_ns, angles);
@@ -236,6 +256,10 @@ void TakeWriter::WriteTruth(std::int64_t capture_ns, std::span<const Vector3> po
   impl_->WriteTruth(capture_ns, points_W);
 }
 void TakeWriter::WriteTruthSizes(const TruthSizes& sizes) { impl_->WriteTruthSizes(sizes); }
+const std::filesystem::path& TakeWriter::partial_folder() const { return impl_->partial_folder(); }
+void TakeWriter::AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
+  impl_->AddNotes(notes);
+}
 void TakeWriter::Finish() { impl_->Finish(); }
 
 }  // namespace mocap

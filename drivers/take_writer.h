@@ -11,6 +11,7 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera_model.h"
+#include "drivers/video_writer.h"
 
 namespace mocap {
 
@@ -21,6 +22,7 @@ struct TakeDescription {
   std::vector<CameraCalibration> cameras;
   /// Further keys of take.toml, each a string: how the take came about.
   std::vector<std::pair<std::string, std::string>> notes;
+  VideoCodec codec = VideoCodec::kHuffYuv;
 };
 
 /// True sizes of the person in a take: truth.toml.
@@ -34,7 +36,8 @@ struct TruthSizes {
 /// Writes a take: into FOLDER.partial, which becomes FOLDER once all is there.
 ///
 /// What was written before an interruption stays in FOLDER.partial and opens as a take. The same
-/// calls give the same bytes. Thread-bound.
+/// calls give the same bytes. WriteFrame, SkipFrames and WriteBackground may be called by one
+/// thread for each camera; all else is thread-bound.
 class TakeWriter {
  public:
   /// @throws SetupError  when the folder or its .partial exists or cannot be created, or when the
@@ -47,8 +50,8 @@ class TakeWriter {
   /// @param angles      written for a camera on a head.
   void WriteFrame(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                   const PanTiltAngles& angles = {});
-  /// Tells that camera number `camera` missed a frame: its numbering skips one.
-  void SkipFrame(int camera);
+  /// Tells that camera number `camera` missed frames: its numbering skips them.
+  void SkipFrames(int camera, std::uint64_t count);
   /// Appends a frame of the empty studio.
   void WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                        const PanTiltAngles& angles = {});
@@ -60,6 +63,11 @@ class TakeWriter {
   /// Appends a row of truth: p_WQ of each named point [mm].
   void WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W);
   void WriteTruthSizes(const TruthSizes& sizes);
+
+  /// The folder while it is being written.
+  const std::filesystem::path& partial_folder() const;
+  /// Adds keys to take.toml.
+  void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes);
 
   /// Completes all files and gives the folder its name.
   /// @throws std::runtime_error  here and above, when something cannot be written.

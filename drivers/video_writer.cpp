@@ -10,6 +10,9 @@
 namespace mocap {
 namespace {
 
+/// The least that Matroska's muxer allows for.
+constexpr int kLeastClusterBytes = 1;
+
 struct OutputCloser {
   void operator()(AVFormatContext* p) const {
     avio_closep(&p->pb);
@@ -27,15 +30,22 @@ struct Storage {
 
 // HuffYUV takes twice the space of FFV1 and a quarter of its time: six cameras of 640 x 480 can be
 // replayed at 30 Hz on one core. Masks are small in FFV1.
-Storage StorageOf(VideoPixels pixels) {
+Storage StorageOf(VideoPixels pixels, VideoCodec codec) {
   if (pixels == VideoPixels::kGray) {
     return {AV_CODEC_ID_FFV1, AV_PIX_FMT_GRAY8, AVCOL_RANGE_JPEG};
   }
-  return {AV_CODEC_ID_HUFFYUV, AV_PIX_FMT_RGB24, AVCOL_RANGE_UNSPECIFIED};
+  switch (codec) {
+    case VideoCodec::kHuffYuv:
+      return {AV_CODEC_ID_HUFFYUV, AV_PIX_FMT_RGB24, AVCOL_RANGE_UNSPECIFIED};
+    case VideoCodec::kFfv1:
+      return {AV_CODEC_ID_FFV1, AV_PIX_FMT_BGR0, AVCOL_RANGE_UNSPECIFIED};
+    case VideoCodec::kRaw:
+      return {AV_CODEC_ID_RAWVIDEO, AV_PIX_FMT_BGR24, AVCOL_RANGE_UNSPECIFIED};
+  }
+  MOCAP_CHECK(false);
 }
 
-CodecPtr OpenEncoder(int width_px, int height_px, double fps, VideoPixels pixels) {
-  const Storage storage = StorageOf(pixels);
+CodecPtr OpenEncoder(int width_px, int height_px, double fps, const Storage& storage) {
   const AVCodec* codec = avcodec_find_encoder(storage.codec);
   CodecPtr encoder(avcodec_alloc_context3(codec));
   MOCAP_CHECK(codec && encoder);
@@ -57,12 +67,15 @@ CodecPtr OpenEncoder(int width_px, int height_px, double fps, VideoPixels pixels
 }
 
 void CopyPixels(ImageView<const Bgr> image, AVFrame& frame) {
+  const bool is_rgb = frame.format == AV_PIX_FMT_RGB24;
+  const bool has_fourth = frame.format == AV_PIX_FMT_BGR0;
   for (int y = 0; y < image.height(); ++y) {
     std::uint8_t* to = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
-    for (const Bgr* from = image.row(y); from != image.row(y) + image.width(); ++from, to += 3) {
-      to[0] = from->r;
-      to[1] = from->g;
-      to[2] = from->b;
+    for (const Bgr* from = image.row(y); from != image.row(y) + image.width(); ++from) {
+      *to++ = is_rgb ? from->r : from->b;
+      *to++ = from->g;
+      *to++ = is_rgb ? from->b : from->r;
+      if (has_fourth) *to++ = 0;
     }
   }
 }
@@ -79,7 +92,7 @@ void CopyPixels(ImageView<const std::uint8_t> image, AVFrame& frame) {
 class VideoWriter::Impl {
  public:
   Impl(const std::filesystem::path& file, int width_px, int height_px, double fps,
-       VideoPixels pixels)
+       VideoPixels pixels, VideoCodec codec)
       : file_(file.string()),
         pixels_(pixels),
         frame_(av_frame_alloc()),
@@ -90,7 +103,7 @@ class VideoWriter::Impl {
       throw SetupError(file_ + ": a video of " + std::to_string(width_px) + " x " +
                        std::to_string(height_px) + " pixels cannot be");
     }
-    encoder_ = OpenEncoder(width_px, height_px, fps, pixels);
+    encoder_ = OpenEncoder(width_px, height_px, fps, StorageOf(pixels, codec));
     frame_->format = encoder_->pix_fmt;
     frame_->width = width_px;
     frame_->height = height_px;
@@ -124,7 +137,7 @@ class VideoWriter::Impl {
     AVFormatContext* raw = nullptr;
     MOCAP_CHECK(avformat_alloc_output_context2(&raw, nullptr, "matroska", nullptr) >= 0);
     output_.reset(raw);
-    output_->flags |= AVFMT_FLAG_BITEXACT;
+    output_->flags |= AVFMT_FLAG_BITEXACT | AVFMT_FLAG_FLUSH_PACKETS;
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
     MOCAP_CHECK(stream);
     stream->time_base = encoder_->time_base;
@@ -133,7 +146,14 @@ class VideoWriter::Impl {
     if (avio_open(&output_->pb, ("file:" + file_).c_str(), AVIO_FLAG_WRITE) < 0) {
       throw SetupError(file_ + ": cannot be created");
     }
-    Check(avformat_write_header(output_.get(), nullptr));
+    // A cluster is kept back until it is whole: one for each frame.
+    AVDictionary* options = nullptr;
+    av_dict_set_int(&options, "cluster_size_limit", kLeastClusterBytes, 0);
+    // Raw colours are stored the way of old Windows programs, or not at all.
+    av_dict_set_int(&options, "allow_raw_vfw", 1, 0);
+    const int written = avformat_write_header(output_.get(), &options);
+    av_dict_free(&options);
+    Check(written);
   }
 
   void WritePackets() {
@@ -164,8 +184,8 @@ class VideoWriter::Impl {
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, int width_px, int height_px, double fps,
-                         VideoPixels pixels)
-    : impl_(std::make_unique<Impl>(file, width_px, height_px, fps, pixels)) {}
+                         VideoPixels pixels, VideoCodec codec)
+    : impl_(std::make_unique<Impl>(file, width_px, height_px, fps, pixels, codec)) {}
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 

@@ -9,11 +9,11 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/json_object.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/still_board.h"
-#include "tools/json_object.h"
 
 namespace mocap {
 namespace {

@@ -10,13 +10,13 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/json_object.h"
 #include "drivers/calibration_file.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
 #include "tools/calibration/sightings.h"
 #include "tools/camera_health.h"
-#include "tools/json_object.h"
 
 namespace mocap {
 namespace {

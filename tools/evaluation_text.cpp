@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/json_object.h"
+#include "daemon/json_object.h"
 
 namespace mocap {
 namespace {

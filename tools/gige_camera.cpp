@@ -31,6 +31,8 @@ constexpr std::uint32_t kPeriod_us = 33'333;
 constexpr std::uint64_t kFrameNumbers = 65535;
 constexpr std::int64_t kTai_ns = 37'000'000'000;
 constexpr milliseconds kSourceTimeout{50};
+/// Longer than the server takes to see that a client has started it.
+constexpr milliseconds kPatience{150};
 
 std::int64_t Now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -109,7 +111,11 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
   identity.name.copy(name.data(), name.size() - 1);
   arv_fake_camera_write_memory(registers_, kUserName, name.size(), name.data());
   const auto hash = std::hash<std::string>()(identity.serial);
-  const std::array<std::uint8_t, 8> mac{0, 0, 2, 0, static_cast<std::uint8_t>(hash >> 24),
+  const std::array<std::uint8_t, 8> mac{0,
+                                        0,
+                                        2,
+                                        0,
+                                        static_cast<std::uint8_t>(hash >> 24),
                                         static_cast<std::uint8_t>(hash >> 16),
                                         static_cast<std::uint8_t>(hash >> 8),
                                         static_cast<std::uint8_t>(hash)};
@@ -171,7 +177,10 @@ bool GigeCamera::IsWanted(std::int64_t capture_ns) {
 
 void GigeCamera::Send(const Frame& frame) {
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    // Frames that a source delivers in a burst wait for each other.
+    taken_.wait_for(lock, kPatience, [this] { return !is_waiting_; });
+    is_waiting_ = true;
     if (picture_.width() != frame.image.width() || picture_.height() != frame.image.height()) {
       picture_ = Image<Bgr>(frame.image.width(), frame.image.height());
     }
@@ -197,7 +206,8 @@ std::int64_t GigeCamera::DeviceTime(std::int64_t host_ns) const {
     return host_ns + kTai_ns;
   }
   const auto running_ns = static_cast<double>(host_ns - switched_on_ns_);
-  return host_ns + faults_.clock_offset_ns + std::llround(running_ns * faults_.clock_drift_ppm * 1e-6);
+  return host_ns + faults_.clock_offset_ns +
+         std::llround(running_ns * faults_.clock_drift_ppm * 1e-6);
 }
 
 void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned,
@@ -210,9 +220,11 @@ void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, uns
 void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigned pixel_format) {
   std::size_t size = 0;
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
-  const int width = arv_buffer_get_image_width(buffer), height = arv_buffer_get_image_height(buffer);
+  const int width = arv_buffer_get_image_width(buffer),
+            height = arv_buffer_get_image_height(buffer);
   // Aravis tells no size here; it allocated what the format needs.
-  size = static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
+  size =
+      static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
   const std::lock_guard lock(mutex_);
   if (picture_.width() != width || picture_.height() != height) {
     Image<Bgr> cut(width, height);
@@ -224,13 +236,15 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
   EncodePicture(picture_.view(), pixel_format, std::span(data, size));
   arv_buffer_set_timestamp(buffer, DeviceTime(capture_ns_ - exposure_ns / 2));
   arv_buffer_set_frame_id(buffer, 1 + (sequence_ - 1) % kFrameNumbers);
+  is_waiting_ = false;
+  taken_.notify_one();
 }
 
 }  // namespace mocap
 
-/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers without
-/// a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is early.
-/// Threads that serve no camera of ours get what they ask for.
+/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers
+/// without a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is
+/// early. Threads that serve no camera of ours get what they ask for.
 extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
   static_assert(sizeof(GPollFD) == sizeof(pollfd));
   auto* wanted = reinterpret_cast<pollfd*>(fds);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,10 +23,10 @@ namespace mocap {
 
 /// What is wrong with a served camera and its network.
 struct GigeFaults {
-  double lost_packets = 0;  ///< Share of them, 0 to 1.
+  double lost_packets = 0;           ///< Share of them, 0 to 1.
   std::int64_t clock_offset_ns = 0;  ///< Of its clock against the host's.
   double clock_drift_ppm = 0;
-  double jitter_ms = 0;      ///< Frames leave late by up to that.
+  double jitter_ms = 0;    ///< Frames leave late by up to that.
   std::uint64_t seed = 1;  ///< Of the jitter.
 };
 
@@ -79,7 +80,9 @@ class GigeCamera {
   std::minstd_rand random_;
   std::atomic<bool> stopping_{false}, stalled_{false};
   std::int64_t next_wanted_ns_ = 0;
-  std::mutex mutex_;  ///< For the three below.
+  std::mutex mutex_;  ///< For what is below.
+  std::condition_variable taken_;
+  bool is_waiting_ = false;  ///< The picture was not sent yet.
   Image<Bgr> picture_;
   std::int64_t capture_ns_ = 0;
   std::uint64_t sequence_ = 0;

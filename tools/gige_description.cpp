@@ -32,8 +32,9 @@ void Move(std::string& xml, const std::string& name, std::uint32_t from, std::ui
 }
 
 std::string Entry(std::string_view name, std::uint32_t value) {
-  return "\t\t<EnumEntry Name=\"" + std::string(name) + "\" NameSpace=\"Standard\">\n\t\t\t<Value>" +
-         std::to_string(value) + "</Value>\n\t\t</EnumEntry>\n";
+  return "\t\t<EnumEntry Name=\"" + std::string(name) +
+         "\" NameSpace=\"Standard\">\n\t\t\t<Value>" + std::to_string(value) +
+         "</Value>\n\t\t</EnumEntry>\n";
 }
 
 std::string Register(std::string_view name, std::uint32_t address) {
@@ -45,13 +46,14 @@ std::string Register(std::string_view name, std::uint32_t address) {
 }
 
 std::string Ptp() {
-  constexpr std::array<std::string_view, 9> kStates = {"Initializing", "Faulty",  "Disabled",
-                                                       "Listening",    "PreMaster", "Master",
+  constexpr std::array<std::string_view, 9> kStates = {"Initializing", "Faulty",       "Disabled",
+                                                       "Listening",    "PreMaster",    "Master",
                                                        "Passive",      "Uncalibrated", "Slave"};
-  std::string xml = "\t<Boolean Name=\"PtpEnable\" NameSpace=\"Standard\">\n"
-                    "\t\t<pValue>PtpEnableRegister</pValue>\n\t\t<OnValue>1</OnValue>\n"
-                    "\t\t<OffValue>0</OffValue>\n\t</Boolean>\n"
-                    "\t<Enumeration Name=\"PtpStatus\" NameSpace=\"Standard\">\n";
+  std::string xml =
+      "\t<Boolean Name=\"PtpEnable\" NameSpace=\"Standard\">\n"
+      "\t\t<pValue>PtpEnableRegister</pValue>\n\t\t<OnValue>1</OnValue>\n"
+      "\t\t<OffValue>0</OffValue>\n\t</Boolean>\n"
+      "\t<Enumeration Name=\"PtpStatus\" NameSpace=\"Standard\">\n";
   for (std::size_t i = 0; i < kStates.size(); ++i) {
     xml += Entry(kStates[i], static_cast<std::uint32_t>(i));
   }

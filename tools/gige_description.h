@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kPtpStatus = 0x3a4;
 
 enum class GigePtp : std::uint32_t { kDisabled = 2, kListening = 3, kSlave = 8 };
 
-/// Gives the description of Aravis's fake camera in GenICam's XML, with more pixel formats, triggers
-/// of our own, and PTP if wanted.
+/// Gives the description of Aravis's fake camera in GenICam's XML, with more pixel formats,
+/// triggers of our own, and PTP if wanted.
 std::string DescribeGigeCamera(bool has_ptp);
 
 }  // namespace mocap

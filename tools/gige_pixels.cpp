@@ -32,7 +32,8 @@ void ForEachPixel(ImageView<const Bgr> picture, Write write) {
 }
 
 void EncodeBayer(ImageView<const Bgr> picture, int red_x, int red_y, std::uint8_t* out) {
-  ForEachPixel(picture, [&](const Bgr& p, int x, int y) { *out++ = Filtered(p, x, y, red_x, red_y); });
+  ForEachPixel(picture,
+               [&](const Bgr& p, int x, int y) { *out++ = Filtered(p, x, y, red_x, red_y); });
 }
 
 void EncodeYuv(ImageView<const Bgr> picture, int brightness_at, std::uint8_t* out) {

@@ -6,9 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -23,7 +24,9 @@
 #include "config/open_studio.h"
 #include "core/errors.h"
 #include "drivers/simulated_studio.h"
+#include "drivers/take_layout.h"
 #include "drivers/toml_text.h"
+#include "drivers/video_reader.h"
 #include "tools/gige_camera.h"
 #include "tools/loopback.h"
 #include "tools/studio_source.h"
@@ -70,11 +73,23 @@ StudioPlan PlanFor(const StudioOptions& options) {
   for (std::size_t i = 0; i < plan.names.size(); ++i) {
     plan.ips.push_back(AddressAfter(options.first_ip, static_cast<int>(i)));
     if (!EnsureLoopbackAddress(plan.ips.back())) {
-      throw SetupError(plan.ips.back() + ": is none of this host's addresses; as root, ip addr add " +
+      throw SetupError(plan.ips.back() +
+                       ": is none of this host's addresses; as root, ip addr add " +
                        plan.ips.back() + "/8 dev lo");
     }
   }
   return plan;
+}
+
+/// One picture of the empty studio.
+Image<Bgr> EmptyStudio(const std::filesystem::path& take, const std::string& camera) {
+  const std::filesystem::path file = TakeLayout{take}.BackgroundVideo(camera);
+  VideoReader video(file);
+  ImageView<const Bgr> view;
+  if (video.Read(view) != VideoStatus::kFrame) throw SetupError(file.string() + ": has no picture");
+  Image<Bgr> image(view.width(), view.height());
+  for (int y = 0; y < view.height(); ++y) std::copy_n(view.row(y), view.width(), image.row(y));
+  return image;
 }
 
 /// Opens one camera of what is served.
@@ -82,19 +97,16 @@ std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const Stu
                                          int camera, StudioStage& stage,
                                          std::function<bool()> is_streaming) {
   if (options.take.empty()) return SimulatedStudio(options.simulation).OpenCamera(camera);
-  const auto open = [&options, &plan, camera](std::int64_t begin_ns) {
-    Studio studio = OpenTake(options.take, {.rate = ReplayRate::kRealtime,
-                                            .loop = true,
-                                            .cameras = {plan.names[camera]},
-                                            .begin_ns = begin_ns});
-    return std::move(studio.cameras.front().driver);
-  };
-  const Studio studio = OpenTake(options.take, {.cameras = {plan.names[camera]}});
-  std::vector<BackgroundFrame> background = studio.cameras.front().background();
-  if (background.empty()) throw SetupError(options.take.string() + ": has an empty background");
+  // All of it, for what the cameras' times have in common.
+  Studio studio =
+      OpenTake(options.take,
+               {.rate = ReplayRate::kRealtime, .loop = true, .cameras = {}, .begin_ns = [&stage] {
+                  return stage.begin_ns.load();
+                }});
   return std::make_unique<StudioSource>(stage, camera, static_cast<int>(plan.names.size()),
-                                        plan.fps, std::move(background.front().image),
-                                        std::move(is_streaming), open);
+                                        plan.fps, EmptyStudio(options.take, plan.names[camera]),
+                                        std::move(studio.cameras[camera].driver),
+                                        std::move(is_streaming));
 }
 
 /// The life of a camera's process.
@@ -120,6 +132,9 @@ std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const Stu
                      .has_ptp = options.has_ptp},
                     std::move(source), faults);
     served.store(&gige);
+    std::printf("%s at %s, serial number %s, process %d\n", plan.names[camera].c_str(),
+                plan.ips[camera].c_str(), SerialOf(camera).c_str(), getpid());
+    std::fflush(stdout);
     while (true) pause();
   } catch (const SetupError& error) {
     std::fprintf(stderr, "mocap: %s\n", error.what());
@@ -156,6 +171,12 @@ class Cast {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       if (members_[i].process == 0 && steady_clock::now() >= members_[i].returns) Begin(i);
     }
+    if (!told_ && stage_->begin_ns.load() > 0) {
+      told_ = true;
+      std::printf("all cameras stream; the take begins at %.6f s since the epoch\n",
+                  static_cast<double>(stage_->begin_ns.load()) * 1e-9);
+      std::fflush(stdout);
+    }
   }
 
  private:
@@ -170,9 +191,6 @@ class Cast {
     MOCAP_CHECK(process >= 0);
     if (process == 0) ServeCamera(options_, plan_, static_cast<int>(i), *stage_);
     members_[i].process = process;
-    std::printf("%s at %s, serial number %s, process %d\n", plan_.names[i].c_str(),
-                plan_.ips[i].c_str(), SerialOf(static_cast<int>(i)).c_str(), process);
-    std::fflush(stdout);
   }
 
   void NoteDeath(pid_t gone, int status) {
@@ -180,9 +198,9 @@ class Cast {
       if (members_[i].process != gone) continue;
       if (WIFEXITED(status)) throw SetupError(plan_.names[i] + ": could not be served");
       members_[i].process = 0;
-      members_[i].returns = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
-                                                      std::chrono::duration<double>(
-                                                          options_.return_after_s));
+      members_[i].returns =
+          steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
+                                    std::chrono::duration<double>(options_.return_after_s));
       std::printf("%s has gone, and returns in %g s\n", plan_.names[i].c_str(),
                   options_.return_after_s);
       std::fflush(stdout);
@@ -193,6 +211,7 @@ class Cast {
   const StudioPlan& plan_;
   StudioStage* stage_ = nullptr;
   std::vector<Member> members_;
+  bool told_ = false;
 };
 
 /// Writes a configuration with which mocapd uses the served studio.
@@ -222,8 +241,9 @@ void ServeStudio(const StudioOptions& options) {
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   Cast cast(options, plan);
   constexpr timespec kTick{0, 50'000'000};
-  for (int signal = 0; signal != SIGINT && signal != SIGTERM;) {
-    signal = sigtimedwait(&signals, nullptr, &kTick);
+  while (true) {
+    const int signal = sigtimedwait(&signals, nullptr, &kTick);
+    if (signal == SIGINT || signal == SIGTERM) return;
     cast.Tick();
   }
 }
@@ -234,28 +254,39 @@ void AddGigeStudioCommand(CLI::App& app) {
   const auto options = std::make_shared<StudioOptions>();
   CLI::App* command = app.add_subcommand(
       "gige-studio", "Serve a take or the simulated studio as GigE Vision cameras of this host");
-  command->add_option("take", options->take, "Take to serve, over and over; without, the simulated studio");
+  command->add_option("take", options->take,
+                      "Take to serve, over and over; without, the simulated studio");
   command->add_option("--motion", options->simulation.motion, "What the simulated person does")
       ->capture_default_str();
   command->add_option("--stature", options->simulation.stature_mm, "Height of that person [mm]")
       ->capture_default_str();
   command->add_option("--seed", options->simulation.seed, "Person, clothes, room, lenses and path")
       ->capture_default_str();
-  command->add_option("--address", options->first_ip, "Address of the first camera; the others follow")
+  command
+      ->add_option("--address", options->first_ip, "Address of the first camera; the others follow")
       ->capture_default_str();
   command->add_option("--config", options->config, "Write a configuration for mocapd to this file");
   command->add_flag("--ptp", options->has_ptp, "Cameras whose clocks follow PTP, in TAI");
-  command->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")
+  command
+      ->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--jitter", options->faults.jitter_ms, "Frames leave late by up to so many ms")
+  command
+      ->add_option("--jitter", options->faults.jitter_ms, "Frames leave late by up to so many ms")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--clock-offset", [options](const CLI::results_t& text) {
-        options->faults.clock_offset_ns = std::llround(std::stod(text.front()) * 1e9);
-        return true;
-      }, "The cameras' clocks against this host's [s]")->check(CLI::Number);
-  command->add_option("--clock-drift", options->faults.clock_drift_ppm, "And how much they gain [ppm]");
-  command->add_option("--return-after", options->return_after_s,
-                      "A camera whose process was killed returns after so many seconds")
+  command
+      ->add_option(
+          "--clock-offset",
+          [options](const CLI::results_t& text) {
+            options->faults.clock_offset_ns = std::llround(std::stod(text.front()) * 1e9);
+            return true;
+          },
+          "The cameras' clocks against this host's [s]")
+      ->check(CLI::Number);
+  command->add_option("--clock-drift", options->faults.clock_drift_ppm,
+                      "And how much they gain [ppm]");
+  command
+      ->add_option("--return-after", options->return_after_s,
+                   "A camera whose process was killed returns after so many seconds")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->callback([options] { ServeStudio(*options); });

@@ -41,9 +41,7 @@ bool HasAddress(std::uint32_t ip) {
   return false;
 }
 
-void SetName(ifreq& request, const std::string& name) {
-  name.copy(request.ifr_name, IFNAMSIZ - 1);
-}
+void SetName(ifreq& request, const std::string& name) { name.copy(request.ifr_name, IFNAMSIZ - 1); }
 
 void SetAddress(ifreq& request, std::uint32_t ip) {
   sockaddr_in address{};

@@ -7,8 +7,8 @@
 #include <mocap/pose_t.hpp>
 #include <string_view>
 
+#include "config/body_size_fields.h"
 #include "core/errors.h"
-#include "daemon/body_size_fields.h"
 
 namespace mocap {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "config/body_size_fields.h"
 #include "core/errors.h"
-#include "daemon/body_size_fields.h"
 #include "tools/pose_log.h"
 #include "tools/result.h"
 #include "tools/result_columns.h"
@@ -147,8 +147,8 @@ void RejectNonFinite(const Result& result, const std::filesystem::path& folder_o
   }
   for (const PoseRow& row : result.poses) {
     if (!row.has_pose) continue;
-    double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() +
-                 row.paper.torso_angle_rad + row.points_W.sum() + row.residual_mm;
+    double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() + row.paper.torso_angle_rad +
+                 row.points_W.sum() + row.residual_mm;
     for (const double theta_rad : row.paper.theta_rad) sum += theta_rad;
     if (!std::isfinite(sum)) {
       throw SetupError(folder_or_log.string() + ": frame " + std::to_string(row.frame) +

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::system_clock;
 
-constexpr std::chrono::milliseconds kHeadStart{500};
+constexpr std::chrono::milliseconds kHeadStart{300};
 
 std::int64_t Now_ns() {
   return std::chrono::duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
@@ -20,15 +20,15 @@ std::int64_t Now_ns() {
 }  // namespace
 
 StudioSource::StudioSource(StudioStage& stage, int camera, int cameras, double fps,
-                           Image<Bgr> empty, std::function<bool()> is_streaming,
-                           std::function<std::unique_ptr<CameraDriver>(std::int64_t)> open)
+                           Image<Bgr> empty, std::unique_ptr<CameraDriver> recording,
+                           std::function<bool()> is_streaming)
     : stage_(stage),
       camera_(camera),
       cameras_(cameras),
       period_ns_(std::llround(1e9 / fps)),
       empty_(std::move(empty)),
-      is_streaming_(std::move(is_streaming)),
-      open_(std::move(open)) {}
+      recording_(std::move(recording)),
+      is_streaming_(std::move(is_streaming)) {}
 
 bool StudioSource::HasBegun() {
   if (stage_.begin_ns.load() == 0) {
@@ -38,14 +38,11 @@ bool StudioSource::HasBegun() {
       return false;
     }
     std::int64_t not_yet = 0;
-    // All cameras shall have opened the recording by then.
+    // All cameras shall have seen it by then.
     const std::int64_t soon_ns = Now_ns() + nanoseconds(kHeadStart).count();
     stage_.begin_ns.compare_exchange_strong(not_yet, soon_ns);
   }
-  if (!recording_) {
-    recording_ = open_(stage_.begin_ns.load());
-    recording_->Start();
-  }
+  if (!std::exchange(started_, true)) recording_->Start();
   return Now_ns() >= stage_.begin_ns.load() - period_ns_;
 }
 
@@ -58,7 +55,7 @@ GrabStatus StudioSource::Grab(Frame& frame, std::chrono::milliseconds timeout) {
 }
 
 void StudioSource::Stop() {
-  if (recording_) recording_->Stop();
+  if (std::exchange(started_, false)) recording_->Stop();
 }
 
 }  // namespace mocap

@@ -24,11 +24,10 @@ struct StudioStage {
 /// is the same moment for all. A camera that comes later, or again, joins where the others are.
 class StudioSource : public CameraDriver {
  public:
+  /// @param recording     begins at the stage's time, once it is started.
   /// @param is_streaming  asks whether this camera's client has started it.
-  /// @param open          opens the recording so that it begins at a time [ns].
   StudioSource(StudioStage& stage, int camera, int cameras, double fps, Image<Bgr> empty,
-               std::function<bool()> is_streaming,
-               std::function<std::unique_ptr<CameraDriver>(std::int64_t)> open);
+               std::unique_ptr<CameraDriver> recording, std::function<bool()> is_streaming);
 
   void Start() override {}
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
@@ -41,9 +40,9 @@ class StudioSource : public CameraDriver {
   const int camera_, cameras_;
   const std::int64_t period_ns_;
   const Image<Bgr> empty_;
+  const std::unique_ptr<CameraDriver> recording_;
   const std::function<bool()> is_streaming_;
-  const std::function<std::unique_ptr<CameraDriver>(std::int64_t)> open_;
-  std::unique_ptr<CameraDriver> recording_;
+  bool started_ = false;
   std::uint64_t shown_ = 0;
 };
 

@@ -13,8 +13,8 @@
 #include "config/open_studio.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
+#include "daemon/json_object.h"
 #include "daemon/pipeline.h"
-#include "tools/json_object.h"
 #include "tools/result.h"
 
 namespace mocap {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "daemon/body_size_fields.h"
+#include "config/body_size_fields.h"
 #include "tools/result.h"
 #include "tools/result_columns.h"
 

@@ -37,7 +37,6 @@ class Carver {
  private:
   class Walk;
 
-  CarvingOptions options_;
   std::unique_ptr<Walk> walk_;
 };
 

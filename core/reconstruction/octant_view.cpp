@@ -1,5 +1,6 @@
 #include "core/reconstruction/octant_view.h"
 
+#include <bit>
 #include <cmath>
 
 #include "core/vectorized.h"
@@ -44,6 +45,16 @@ inline T Most(T a, T b) {
 
 // All bits of a negative number's sign.
 inline std::uint32_t Sign(int number) { return static_cast<std::uint32_t>(number >> 31); }
+
+// A byte of ones for each bit.
+std::uint64_t Spread(std::uint8_t bits) {
+  constexpr std::uint64_t kLowest = 0x0101010101010101;
+  // Bit i goes to the lowest of byte i.
+  const std::uint64_t low = bits & 0x7f;
+  const std::uint64_t spread = ((low * 0x02040810204081) & kLowest) | std::uint64_t{bits & 0x80u}
+                                                                          << 49;
+  return spread * 0xff;
+}
 
 struct Rectangles {
   alignas(32) Lanes x, y, reach_x, reach_y;
@@ -195,30 +206,97 @@ struct Frame {
   float reach_x, reach_y, error;
 };
 
+Frame FrameOf(const OctantFrames& frames, int lane) {
+  const auto at = [lane](const std::array<Lanes, 3>& lanes) {
+    return std::array<float, 3>{lanes[0][lane], lanes[1][lane], lanes[2][lane]};
+  };
+  return {frames.x[lane],   frames.y[lane],       at(frames.along_x),   at(frames.along_y),
+          at(frames.depth), frames.reach_x[lane], frames.reach_y[lane], frames.error[lane]};
+}
+
+// A linear function of eight places, and its values there.
+struct Slope {
+  float middle, x, y, z;
+  Slope(const std::array<float, 3>& slope, float constant, const std::array<float, 3>& offset,
+        float spread)
+      : middle(constant + slope[0] * offset[0] + slope[1] * offset[1] + slope[2] * offset[2]),
+        x(slope[0] * spread),
+        y(slope[1] * spread),
+        z(slope[2] * spread) {}
+  inline __attribute__((always_inline)) float At(int lane) const {
+    return middle + kSignX[lane] * x + kSignY[lane] * y + kSignZ[lane] * z;
+  }
+};
+
 MOCAP_VECTORIZED
 std::uint32_t GlanceAll(const Eye& eye, const Frame& f, const std::array<float, 3>& offset,
                         float spread, float half) {
-  const auto along = [&](const std::array<float, 3>& slope) {
-    return slope[0] * offset[0] + slope[1] * offset[1] + slope[2] * offset[2];
-  };
-  const float x = along(f.along_x), y = along(f.along_y), z = 1 + along(f.depth);
-  const float x0 = f.along_x[0] * spread, x1 = f.along_x[1] * spread, x2 = f.along_x[2] * spread;
-  const float y0 = f.along_y[0] * spread, y1 = f.along_y[1] * spread, y2 = f.along_y[2] * spread;
-  const float z0 = f.depth[0] * spread, z1 = f.depth[1] * spread, z2 = f.depth[2] * spread;
+  const Slope x(f.along_x, 0, offset, spread), y(f.along_y, 0, offset, spread);
+  const Slope z(f.depth, 1, offset, spread);
   const float reach_x = half * f.reach_x + f.error;
   const float reach_y = half * f.reach_y + f.error;
   Rectangles r;
 #pragma GCC ivdep
   for (int i = 0; i < kLanes; ++i) {
-    const float per_z = 1 / (z + kSignX[i] * z0 + kSignY[i] * z1 + kSignZ[i] * z2);
-    r.x[i] = f.x + (x + kSignX[i] * x0 + kSignY[i] * x1 + kSignZ[i] * x2) * per_z;
-    r.y[i] = f.y + (y + kSignX[i] * y0 + kSignY[i] * y1 + kSignZ[i] * y2) * per_z;
+    const float per_z = 1 / z.At(i);
+    r.x[i] = f.x + x.At(i) * per_z;
+    r.y[i] = f.y + y.At(i) * per_z;
     r.reach_x[i] = reach_x;
     r.reach_y[i] = reach_y;
     r.asked[i] = ~0u;
     r.known[i] = 0;
   }
   return JudgeAll(r, eye.planes);
+}
+
+// The samples of those voxels that are asked for, 32 bits for each voxel, where all of them lie in
+// the region that the planes cover and frames are good: windows of one pixel or two.
+MOCAP_VECTORIZED
+void GlanceSamplesAll(const WindowMap::Planes& planes, const Frame& f,
+                      const std::array<float, 3>& offset, float voxel_spread, float sample_spread,
+                      unsigned asked, std::uint32_t* verdicts) {
+  const std::uint32_t* const words = planes.words;
+  const int begin = planes.begins[1], next = planes.begins[2] - begin;
+  const int stride = planes.words_per_row;
+  const float error = f.error;
+  const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);
+  const float low_y = f.y + 0.5f - error - static_cast<float>(planes.top);
+  for (; asked != 0; asked &= asked - 1) {
+    const int voxel = std::countr_zero(asked);
+    const std::array<float, 3> middle = {offset[0] + kSignX[voxel] * voxel_spread,
+                                         offset[1] + kSignY[voxel] * voxel_spread,
+                                         offset[2] + kSignZ[voxel] * voxel_spread};
+    const Slope x(f.along_x, 0, middle, sample_spread), y(f.along_y, 0, middle, sample_spread);
+    const Slope z(f.depth, 1, middle, sample_spread);
+    std::uint32_t bits = 0;
+#pragma GCC ivdep
+    for (int i = 0; i < kLanes; ++i) {
+      const float per_z = 1 / z.At(i);
+      const float left = low_x + x.At(i) * per_z, top = low_y + y.At(i) * per_z;
+      const int column = static_cast<int>(left), row = static_cast<int>(top);
+      const int is_wide =
+          (static_cast<int>(left + 2 * error) - column) | (static_cast<int>(top + 2 * error) - row);
+      const std::uint32_t word =
+          words[begin + is_wide * next + row * stride + (column >> 4)] >> (column & 15);
+      const std::uint32_t inside = word & 1, outside = word >> 16 & 1;
+      const std::uint32_t gap = ~(inside | outside | static_cast<std::uint32_t>(is_wide)) & 1;
+      bits |= (inside | outside << 8 | gap << 24) << i;
+    }
+    verdicts[voxel] = bits;
+  }
+}
+
+// Whether all within so far of a place lies well within the planes' region.
+bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, const std::array<float, 3>& offset,
+                float half) {
+  const float per_z = 1 / Slope(f.depth, 1, offset, 0).middle;
+  const float x = f.x + Slope(f.along_x, 0, offset, 0).middle * per_z;
+  const float y = f.y + Slope(f.along_y, 0, offset, 0).middle * per_z;
+  const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
+  return x - reach_x > static_cast<float>(planes.left) &&
+         y - reach_y > static_cast<float>(planes.top) &&
+         x + reach_x < static_cast<float>(planes.right) &&
+         y + reach_y < static_cast<float>(planes.bottom);
 }
 
 }  // namespace
@@ -246,13 +324,37 @@ OctantVerdicts OctantView::Project(const Eigen::Vector3f& middle, float spread, 
 
 OctantVerdicts OctantView::Glance(const OctantFrames& frames, int lane,
                                   const Eigen::Vector3f& offset, float spread, float half) const {
-  const auto at = [lane](const std::array<Lanes, 3>& lanes) {
-    return std::array<float, 3>{lanes[0][lane], lanes[1][lane], lanes[2][lane]};
-  };
-  const Frame frame{frames.x[lane],       frames.y[lane],    at(frames.along_x),
-                    at(frames.along_y),   at(frames.depth),  frames.reach_x[lane],
-                    frames.reach_y[lane], frames.error[lane]};
-  return Unpack(GlanceAll(eye_, frame, {offset.x(), offset.y(), offset.z()}, spread, half));
+  return Unpack(
+      GlanceAll(eye_, FrameOf(frames, lane), {offset.x(), offset.y(), offset.z()}, spread, half));
+}
+
+SampleVerdicts OctantView::GlanceSamples(const OctantFrames& frames, int lane,
+                                         const Eigen::Vector3f& offset, float voxel_spread,
+                                         float sample_spread, std::uint8_t asked) const {
+  const Frame frame = FrameOf(frames, lane);
+  const std::array<float, 3> middle = {offset.x(), offset.y(), offset.z()};
+  const OctantVerdicts voxels = Unpack(GlanceAll(eye_, frame, middle, voxel_spread, sample_spread));
+  SampleVerdicts verdicts{Spread(voxels.inside), Spread(voxels.outside), Spread(voxels.unseen), 0};
+  unsigned open = asked & ~(voxels.inside | voxels.outside | voxels.unseen);
+  if (open == 0) return verdicts;
+  std::array<std::uint32_t, kLanes> bits;
+  if (IsInRegion(eye_.planes, frame, middle, voxel_spread + sample_spread)) {
+    GlanceSamplesAll(eye_.planes, frame, middle, voxel_spread, sample_spread, open, bits.data());
+  } else {
+    for (unsigned left = open; left != 0; left &= left - 1) {
+      const int voxel = std::countr_zero(left);
+      bits[voxel] = GlanceAll(
+          eye_, frame,
+          {middle[0] + kSignX[voxel] * voxel_spread, middle[1] + kSignY[voxel] * voxel_spread,
+           middle[2] + kSignZ[voxel] * voxel_spread},
+          sample_spread, 0);
+    }
+  }
+  for (; open != 0; open &= open - 1) {
+    const int voxel = std::countr_zero(open);
+    verdicts.Set(voxel, Unpack(bits[voxel]));
+  }
+  return verdicts;
 }
 
 }  // namespace mocap

@@ -12,10 +12,22 @@ namespace mocap {
 /// What a camera knows of each octant, one bit an octant: bit 0 is nearest to the origin, x grows
 /// with the lowest bit, then y, then z.
 struct OctantVerdicts {
-  std::uint8_t inside = 0;   ///< All of it is in the silhouette.
-  std::uint8_t outside = 0;  ///< All of it is outside the silhouette with its gaps closed.
-  std::uint8_t unseen = 0;   ///< All of it is outside the picture.
-  std::uint8_t gap = 0;      ///< All of it is in a gap; told of single pixels alone.
+  std::uint8_t inside;   ///< All of it is in the silhouette.
+  std::uint8_t outside;  ///< All of it is outside the silhouette with its gaps closed.
+  std::uint8_t unseen;   ///< All of it is outside the picture.
+  std::uint8_t gap;      ///< All of it is in a gap; told of single pixels alone.
+};
+
+/// What a camera knows of the samples of eight voxels: a byte a voxel, each as OctantVerdicts.
+struct SampleVerdicts {
+  std::uint64_t inside, outside, unseen, gap;
+
+  void Set(int voxel, const OctantVerdicts& samples) {
+    inside |= std::uint64_t{samples.inside} << 8 * voxel;
+    outside |= std::uint64_t{samples.outside} << 8 * voxel;
+    unseen |= std::uint64_t{samples.unseen} << 8 * voxel;
+    gap |= std::uint64_t{samples.gap} << 8 * voxel;
+  }
 };
 
 /// Where a camera sees eight places, and how that changes around each of them.
@@ -54,6 +66,11 @@ class OctantView {
   /// @param offset  of the block's middle from the frame's [mm].
   OctantVerdicts Glance(const OctantFrames& frames, int lane, const Eigen::Vector3f& offset,
                         float spread, float half) const;
+
+  /// Looks at the samples of the eight voxels of a block, likewise.
+  /// @param asked  the voxels whose samples matter; of others nothing may be told.
+  SampleVerdicts GlanceSamples(const OctantFrames& frames, int lane, const Eigen::Vector3f& offset,
+                               float voxel_spread, float sample_spread, std::uint8_t asked) const;
 
   struct Eye {
     std::array<std::array<float, 3>, 3> R;

@@ -16,10 +16,11 @@ constexpr double kReachMm = 150;
 constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.01;
 constexpr double kBetterMm = 0.5;
-constexpr int kRefined = 10;
-// For so many places of the left limb, this far apart, the right one is searched.
-constexpr std::size_t kDistinct = 4;
+// So many stances of a limb, which end this far apart, are looked at closely.
+constexpr std::size_t kRefined = 8;
+constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
+constexpr std::size_t kPairsTried = 3;
 constexpr int kRestFrames = 3;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
@@ -73,32 +74,15 @@ struct Candidate {
   double cost_mm;
 };
 
-bool IsCheaper(const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; }
+// A stance of a limb that is one of a pair.
+struct Option {
+  PoseState pose;
+  LimbClaim claim;
+};
 
-// The best of the stances, refined, the best first.
-std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
-                              const std::vector<Stance>& stances, const PoseState& pose) {
-  std::vector<Candidate> candidates;
-  for (const Stance& stance : stances) {
-    const JointAngles angles = AnglesOf(stance, table);
-    Candidate candidate{pose, 0};
-    for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
-    candidate.cost_mm = search.CostAt(candidate.pose);
-    candidates.push_back(candidate);
-  }
-  const auto end = candidates.begin() + std::min<std::ptrdiff_t>(kRefined, std::ssize(candidates));
-  std::partial_sort(candidates.begin(), end, candidates.end(), IsCheaper);
-  candidates.erase(end, candidates.end());
-  for (Candidate& candidate : candidates) {
-    search.Refine(candidate.pose, kIterations);
-    candidate.cost_mm = search.CostAt(candidate.pose);
-  }
-  std::sort(candidates.begin(), candidates.end(), IsCheaper);
-  return candidates;
-}
-
-// Of those that put the limb's end in the same place only the best.
-std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates) {
+// Of those that put the limb's end in the same place only the first.
+std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates,
+                                    std::size_t count) {
   std::vector<Candidate> kept;
   std::vector<Vector3> tips_W;
   for (const Candidate& candidate : candidates) {
@@ -108,9 +92,31 @@ std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candid
     if (is_known) continue;
     tips_W.push_back(tip_W);
     kept.push_back(candidate);
-    if (kept.size() == kDistinct) break;
+    if (kept.size() == count) break;
   }
   return kept;
+}
+
+// The best of the stances that put the limb's end in different places, refined, the best first.
+std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
+                              const std::vector<Stance>& stances, const PoseState& pose,
+                              std::size_t count) {
+  std::vector<Candidate> candidates;
+  for (const Stance& stance : stances) {
+    const JointAngles angles = AnglesOf(stance, table);
+    Candidate candidate{pose, 0};
+    for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
+    candidate.cost_mm = search.CostAt(candidate.pose);
+    candidates.push_back(candidate);
+  }
+  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
+  candidates = KeepDistinct(search, candidates, count);
+  for (Candidate& candidate : candidates) {
+    search.Refine(candidate.pose, kIterations);
+    candidate.cost_mm = search.CostAt(candidate.pose);
+  }
+  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
+  return candidates;
 }
 
 }  // namespace
@@ -130,7 +136,7 @@ bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                               PoseState& pose) {
   LimbSearch search(body, evidence, matcher_, limb_end, limb_end, pose);
-  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
+  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose, kRefined).front();
   if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
   pose = best.pose;
   return true;
@@ -138,18 +144,31 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
 
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
                                Segment right, SurfaceFit& fit, PoseState& pose) {
-  const double before_mm = fit.QualityAt(body, pose).Cost();
   LimbSearch left_search(body, evidence, matcher_, left, right, pose);
-  std::vector<Candidate> candidates =
-      KeepDistinct(left_search, BestOf(left_search, body.table(), StancesOf(left), pose));
-  for (Candidate& candidate : candidates) {
-    LimbSearch right_search(body, evidence, matcher_, right, right, candidate.pose);
-    candidate.pose =
-        BestOf(right_search, body.table(), StancesOf(right), candidate.pose).front().pose;
-    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
+  LimbSearch right_search(body, evidence, matcher_, right, left, pose);
+  const auto options = [&](LimbSearch& search, Segment limb_end) {
+    std::vector<Option> found;
+    for (const Candidate& candidate :
+         BestOf(search, body.table(), StancesOf(limb_end), pose, kPairRefined)) {
+      found.push_back({candidate.pose, search.ClaimAt(candidate.pose)});
+    }
+    return found;
+  };
+  const std::vector<Option> lefts = options(left_search, left);
+  const std::vector<Option> rights = options(right_search, right);
+  std::vector<Candidate> pairs;
+  for (const Option& l : lefts) {
+    for (const Option& r : rights) {
+      Candidate pair{l.pose, left_search.JointCost(l.claim, r.claim)};
+      for (const int row : right_search.rows()) pair.pose.theta[row] = r.pose.theta[row];
+      pairs.push_back(pair);
+    }
   }
-  const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
-  if (best.cost_mm > before_mm - kBetterMm) return false;
+  std::ranges::sort(pairs, {}, &Candidate::cost_mm);
+  pairs.resize(std::min(pairs.size(), kPairsTried));
+  for (Candidate& pair : pairs) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
+  const Candidate& best = *std::ranges::min_element(pairs, {}, &Candidate::cost_mm);
+  if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
   pose = best.pose;
   return true;
 }

@@ -193,8 +193,8 @@ device = "/dev/video2"
 
 TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
   const WrongConfig cases[] = {
-      {"format = \"MJPEG\"", 3, "cameras[0].format"},
       {"head = \"motor\"", 3, "cameras[0].head is \"motor\""},
+      {"packet_bytes = 100", 3, "cameras[0].packet_bytes is 100"},
       {"exposure_us = 0", 3, "cameras[0].exposure_us is 0"},
       {"power_line_hz = 55", 3, "cameras[0].power_line_hz is 55"},
       {"size_px = [640.5, 480]", 3, "cameras[0].size_px"},
@@ -202,12 +202,53 @@ TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
       {"exposure = 5", 3, "cameras[0].exposure is unknown"},
   };
   for (const WrongConfig& wrong : cases) {
-    const std::string text = "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) +
-                             "\ndevice = \"x\"\n[source]\ndriver = \"v4l2\"\n";
+    const std::string text =
+        "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) + "\ndevice = \"x\"\n";
     EXPECT_THAT(Error(text),
                 AllOf(HasSubstr(":" + std::to_string(wrong.line) + ": "), HasSubstr(wrong.says)))
         << wrong.text;
   }
+}
+
+TEST_F(ConfigFile, FormatsHaveTheNamesOfTheirDriver) {
+  const auto with = [](const std::string& driver, const std::string& format) {
+    return "calibration = \"c.toml\"\n[source]\ndriver = \"" + driver +
+           "\"\n[[cameras]]\nname = \"a\"\ndevice = \"x\"\nformat = \"" + format + "\"\n";
+  };
+  EXPECT_THAT(Error(with("v4l2", "BayerRG8")), HasSubstr("cameras[0].format"));
+  EXPECT_EQ(Error(with("aravis", "BayerRG8")), "none");
+}
+
+TEST_F(ConfigFile, SettingsOfAravisCamerasAreRead) {
+  const Config config = Load(R"(calibration = "c.toml"
+[source]
+driver = "aravis"
+[[cameras]]
+name = "cam1"
+device = "192.168.1.11"
+format = "BayerRG8"
+exposure_us = 8000
+gain = 3
+trigger = "Line1"
+ptp = false
+packet_bytes = 9000
+packet_delay_us = 12.5
+packet_socket = false
+[[cameras]]
+name = "cam2"
+device = "192.168.1.12"
+)");
+  const AravisSettings& settings = config.cameras.at(0).aravis;
+  EXPECT_EQ(settings.format, "BayerRG8");
+  EXPECT_EQ(settings.exposure_us, 8000);
+  EXPECT_EQ(settings.gain, 3);
+  EXPECT_EQ(settings.trigger, "Line1");
+  EXPECT_FALSE(settings.ptp);
+  EXPECT_EQ(settings.packet_bytes, 9000);
+  EXPECT_EQ(settings.packet_delay_us, 12.5);
+  EXPECT_EQ(settings.packet_socket, false);
+  EXPECT_TRUE(config.cameras.at(1).aravis.ptp);
+  EXPECT_EQ(config.cameras.at(1).aravis.packet_socket, std::nullopt);
 }
 
 TEST_F(ConfigFile, MissingFileIsNamed) {

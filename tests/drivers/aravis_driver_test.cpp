@@ -19,10 +19,10 @@
 namespace mocap {
 namespace {
 
+using std::chrono::milliseconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using std::chrono::milliseconds;
 using testing::PatternCamera;
 
 constexpr int kWidth_px = 160, kHeight_px = 120;
@@ -107,8 +107,8 @@ std::string WhyNotStarted(AravisDriver& driver) {
 TEST_F(AravisDriverTest, EveryFormatGivesTheSamePicture) {
   const std::string ip = NextAddress();
   const auto camera = Serve(ip);
-  for (const std::string format : {"BGR8", "RGB8", "Mono8", "BayerRG8", "BayerGR8", "BayerGB8",
-                                   "BayerBG8"}) {
+  for (const std::string format :
+       {"BGR8", "RGB8", "Mono8", "BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8"}) {
     AravisDriver driver(Request(ip), Settings(format));
     driver.Start();
     Frame frame;
@@ -278,7 +278,8 @@ TEST_F(AravisDriverTest, CameraThatWaitsForItsTriggerIsNotLost) {
   ASSERT_TRUE(GrabFrame(driver, frame));
   camera->Stall(true);
   ASSERT_EQ(GrabUntil(driver, GrabStatus::kTimeout), GrabStatus::kTimeout);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(driver.Grab(frame, milliseconds(50)), GrabStatus::kTimeout);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_EQ(driver.Grab(frame, milliseconds(50)), GrabStatus::kTimeout);
   camera->Stall(false);
   EXPECT_TRUE(GrabFrame(driver, frame));
 }

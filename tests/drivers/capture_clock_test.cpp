@@ -48,6 +48,23 @@ TEST(CaptureClock, PtpWithAnEpochOfItsOwnIsFitted) {
   EXPECT_EQ(clock.source(), TimeSource::kDeviceClock);
 }
 
+TEST(CaptureClock, CameraThatWasAwayKeepsItsClockIfItWentOn) {
+  CaptureClock clock(true, kLeapSeconds);
+  Middle(clock, 5 * kSecond_ns, false);
+  clock.Doubt();
+  // Held up by 300 ms more than the frame before.
+  const std::int64_t late_ns = kNow_ns + kSecond_ns + kExposure_ns + 302 * kMillisecond_ns;
+  EXPECT_EQ(clock.MiddleOfExposure(6 * kSecond_ns, late_ns, kExposure_ns, false),
+            kNow_ns + kSecond_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+}
+
+TEST(CaptureClock, CameraThatWasSwitchedOffIsLearnedAnewAtOnce) {
+  CaptureClock clock(true, kLeapSeconds);
+  Middle(clock, 500 * kSecond_ns, false);
+  clock.Doubt();
+  EXPECT_EQ(Middle(clock, 3 * kSecond_ns, false), kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+}
+
 TEST(FrameCounter, GoesOnWhereNumbersWrap) {
   FrameCounter counter;
   EXPECT_EQ(counter.Next(65534), 0u);

@@ -69,7 +69,7 @@ TEST_F(WrittenTake, InterruptedRecordingKeepsItsWholeFrames) {
 TEST_F(WrittenTake, SkippedFrameLeavesAGapInTheNumbers) {
   TakeWriter writer(layout_.folder, SmallDescription(take_));
   writer.WriteFrame(1, SmallPicture(take_, 1, 0).view(), 10);
-  writer.SkipFrame(1);
+  writer.SkipFrames(1, 1);
   writer.WriteFrame(1, SmallPicture(take_, 1, 2).view(), 30);
   writer.Finish();
   EXPECT_EQ(ReadText(layout_.Table("cam2")), "frame,timestamp_ns\n0,10\n2,30\n");

@@ -63,6 +63,26 @@ TEST_F(Video, ReadingGivesBackWhatWasWritten) {
   EXPECT_EQ(CountAndCompare(reader, take_), kFrames);
 }
 
+TEST_F(Video, EveryCodecGivesTheSamePixelsBack) {
+  for (const VideoCodec codec : {VideoCodec::kHuffYuv, VideoCodec::kFfv1, VideoCodec::kRaw}) {
+    {
+      VideoWriter writer(file_, take_.width_px, take_.height_px, 25, VideoPixels::kBgr, codec);
+      for (int i = 0; i < kFrames; ++i) writer.Write(SmallPicture(take_, 0, i).view());
+    }
+    VideoReader reader(file_);
+    EXPECT_EQ(CountAndCompare(reader, take_), kFrames) << static_cast<int>(codec);
+  }
+}
+
+TEST_F(Video, WhatIsWrittenIsReadableAtOnceButForTheLastFrames) {
+  for (const VideoCodec codec : {VideoCodec::kHuffYuv, VideoCodec::kFfv1, VideoCodec::kRaw}) {
+    VideoWriter writer(file_, take_.width_px, take_.height_px, 25, VideoPixels::kBgr, codec);
+    for (int i = 0; i < kFrames; ++i) writer.Write(SmallPicture(take_, 0, i).view());
+    VideoReader reader(file_);
+    EXPECT_GE(CountAndCompare(reader, take_), kFrames - 2) << static_cast<int>(codec);
+  }
+}
+
 TEST_F(Video, MasksComeBackAsTheyWere) {
   Image<std::uint8_t> mask(take_.width_px, take_.height_px);
   for (int y = 0; y < mask.height(); ++y) {

@@ -74,7 +74,7 @@ bool AgreesPlainly(const std::vector<PlainView>& views, std::size_t all, const V
 
 Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
   Voxels voxels;
-  const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(views);
+  const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(views);
   if (!volume) return voxels;
   std::vector<PlainView> seeing;
   for (const CarvingView& view : views)

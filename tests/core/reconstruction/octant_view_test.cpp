@@ -79,7 +79,7 @@ TEST_F(OctantViewTest, AVerdictHoldsForEveryPlaceInTheOctant) {
 
 TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
   std::uniform_real_distribution<double> across(-300, 300), up(0, 1800);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 500; ++i) {
     const std::size_t camera = i % eyes_.size();
     const Vector3 middle_W(across(random_), across(random_), up(random_));
     const double spread = 50, half = 43.75;
@@ -101,6 +101,35 @@ TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
         for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
           Check(camera, verdicts, octant, MiddleOf(frame_W + offset, side / 2, octant),
                 std::max(small_half, 0.0));
+      }
+    }
+  }
+  for (const int count : {inside_, outside_}) EXPECT_GT(count, 500);
+}
+
+TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
+  std::uniform_real_distribution<double> across(-300, 300), up(0, 1800);
+  for (int i = 0; i < 400; ++i) {
+    const std::size_t camera = i % eyes_.size();
+    const Vector3 middle_W(across(random_), across(random_), up(random_));
+    OctantFrames frames;
+    std::uint8_t framed;
+    eyes_[camera].Project((middle_W - kOrigin_W).cast<float>(), 25, 18.75f, frames, framed);
+    for (int lane = 0; lane < OctantFrames::kLanes; ++lane) {
+      if (~framed >> lane & 1) continue;
+      const std::uint8_t asked = i % 2 == 0 ? 0xff : 0x36;
+      const SampleVerdicts samples =
+          eyes_[camera].GlanceSamples(frames, lane, Eigen::Vector3f::Zero(), 12.5f, 6.25f, asked);
+      for (int voxel = 0; voxel < OctantFrames::kLanes; ++voxel) {
+        if (~asked >> voxel & 1) continue;
+        const auto of_voxel = [voxel](std::uint64_t bits) {
+          return static_cast<std::uint8_t>(bits >> 8 * voxel);
+        };
+        const OctantVerdicts verdicts{of_voxel(samples.inside), of_voxel(samples.outside),
+                                      of_voxel(samples.unseen), of_voxel(samples.gap)};
+        const Vector3 voxel_W = MiddleOf(MiddleOf(middle_W, 25, lane), 12.5, voxel);
+        for (int sample = 0; sample < OctantFrames::kLanes; ++sample)
+          Check(camera, verdicts, sample, MiddleOf(voxel_W, 6.25, sample), 0);
       }
     }
   }

@@ -1,4 +1,4 @@
-#include "tools/json_object.h"
+#include "daemon/json_object.h"
 
 #include <fmt/format.h>
 
@@ -33,12 +33,28 @@ void JsonObject::Add(std::string_view name, double value, int decimals) {
   AddRaw(name, fmt::format("{}", std::round(value * scale) / scale + 0.0));
 }
 
-void JsonObject::Add(std::string_view name, int value) { AddRaw(name, std::to_string(value)); }
+void JsonObject::Add(std::string_view name, std::int64_t value) {
+  AddRaw(name, std::to_string(value));
+}
+
+void JsonObject::Add(std::string_view name, bool value) { AddRaw(name, value ? "true" : "false"); }
 
 void JsonObject::Add(std::string_view name, std::string_view text) { AddRaw(name, Quoted(text)); }
 
 void JsonObject::Add(std::string_view name, const JsonObject& object) {
   AddRaw(name, object.Text());
+}
+
+void JsonObject::Add(std::string_view name, std::span<const JsonObject> objects) {
+  std::string list;
+  for (const JsonObject& object : objects) list += (list.empty() ? "" : ", ") + object.Text();
+  AddRaw(name, '[' + list + ']');
+}
+
+void JsonObject::Add(std::string_view name, std::span<const std::string> texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + Quoted(text);
+  AddRaw(name, '[' + list + ']');
 }
 
 void JsonObject::AddRaw(std::string_view name, std::string_view value) {

@@ -1,6 +1,8 @@
-// A JSON object as text, for commands that print one.
+// A JSON object as text, for programs that ask.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,9 +13,14 @@ class JsonObject {
  public:
   /// @param decimals  the number is rounded to them; it must be finite.
   void Add(std::string_view name, double value, int decimals);
-  void Add(std::string_view name, int value);
+  void Add(std::string_view name, std::int64_t value);
+  void Add(std::string_view name, int value) { Add(name, std::int64_t{value}); }
+  void Add(std::string_view name, bool value);
   void Add(std::string_view name, std::string_view text);
+  void Add(std::string_view name, const char* text) { Add(name, std::string_view(text)); }
   void Add(std::string_view name, const JsonObject& object);
+  void Add(std::string_view name, std::span<const JsonObject> objects);
+  void Add(std::string_view name, std::span<const std::string> texts);
 
   std::string Text() const { return '{' + members_ + '}'; }
 

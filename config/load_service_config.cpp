@@ -1,0 +1,48 @@
+#include "config/load_service_config.h"
+
+namespace mocap {
+namespace {
+
+// A socket's name has to fit into an address of the kernel's.
+constexpr std::size_t kLongestSocket = 100;
+// Above this are the kernel's own threads.
+constexpr int kHighestPriority = 49;
+
+RecordingConfig ReadRecording(TomlSection section, const std::filesystem::path& file) {
+  RecordingConfig recording;
+  recording.folder = Resolved(file, section.Text("folder", ""));
+  recording.codec = static_cast<VideoCodec>(section.Choice("codec", {"huffyuv", "ffv1", "raw"}, 0));
+  recording.buffer_mb = section.NumberWithin("buffer_mb", 16, 65536, recording.buffer_mb);
+  recording.keep_free_mb = section.NumberWithin("keep_free_mb", 0, 1e6, recording.keep_free_mb);
+  section.RejectUnknownKeys();
+  return recording;
+}
+
+}  // namespace
+
+ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& file) {
+  ServiceConfig config;
+  if (auto section = root.Section("control")) {
+    config.control.socket = Resolved(file, section->Text("socket", ""));
+    if (config.control.socket.native().size() > kLongestSocket) {
+      section->Fail("socket", "is longer than " + std::to_string(kLongestSocket) + " characters");
+    }
+    section->RejectUnknownKeys();
+  }
+  if (auto section = root.Section("recording")) {
+    config.recording = ReadRecording(*section, file);
+  }
+  if (auto section = root.Section("metrics")) {
+    config.metrics.file = Resolved(file, section->Text("file", ""));
+    section->RejectUnknownKeys();
+  }
+  if (auto section = root.Section("realtime")) {
+    config.realtime.priority =
+        static_cast<int>(section->IntegerWithin("priority", 0, kHighestPriority, 0));
+    config.realtime.lock_memory = section->Flag("lock_memory", false);
+    section->RejectUnknownKeys();
+  }
+  return config;
+}
+
+}  // namespace mocap

@@ -1,0 +1,46 @@
+#include "config/subject_file.h"
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "config/body_size_fields.h"
+#include "config/toml_section.h"
+#include "drivers/toml_text.h"
+
+namespace mocap {
+namespace {
+
+// Of any part of any person.
+constexpr double kSmallest_mm = 10;
+constexpr double kLargest_mm = 1500;
+
+}  // namespace
+
+BodySizes LoadSubject(const std::filesystem::path& file) {
+  TomlSection root = TomlSection::ReadFile(file);
+  auto section = root.Section("sizes");
+  if (!section) root.Fail("sizes", "is missing; a table of the person's sizes is wanted");
+  BodySizes sizes;
+  for (const BodySizeField& field : kBodySizeFields) {
+    sizes.*field.value =
+        section->NumberWithin(std::string(field.name) + "_mm", kSmallest_mm, kLargest_mm);
+  }
+  section->RejectUnknownKeys();
+  return sizes;
+}
+
+void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes) {
+  const std::filesystem::path unfinished = file.string() + ".part";
+  std::ofstream out(unfinished, std::ios::binary);
+  out << "stature_mm = " << TomlNumber(sizes.Stature()) << "\n\n[sizes]\n";
+  for (const BodySizeField& field : kBodySizeFields) {
+    out << field.name << "_mm = " << TomlNumber(sizes.*field.value) << '\n';
+  }
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(unfinished, file, error);
+  if (!out || error) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+}  // namespace mocap

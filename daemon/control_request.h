@@ -1,0 +1,56 @@
+// What the running daemon can be asked: one line of words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace mocap {
+
+struct StatusRequest {
+  bool as_json = false;
+};
+struct ReloadRequest {};
+struct RecordStartRequest {
+  std::string name;
+};
+struct RecordStopRequest {};
+struct SubjectNewRequest {};
+struct SubjectSaveRequest {
+  std::string name;
+};
+struct SubjectLoadRequest {
+  std::string name;
+};
+struct SubjectListRequest {};
+
+using ControlRequest =
+    std::variant<StatusRequest, ReloadRequest, RecordStartRequest, RecordStopRequest,
+                 SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest>;
+
+/// How it went, with the exit status of a program that asked.
+enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
+
+struct ControlReply {
+  ControlOutcome outcome = ControlOutcome::kDone;
+  std::string text;  ///< For people, or JSON where that was asked for.
+};
+
+/// Longer requests and replies are refused.
+inline constexpr std::size_t kLongestRequest = 512;
+inline constexpr std::size_t kLongestReply = 65536;
+
+/// Understands "status [json]", "reload", "record start NAME", "record stop", "subject new",
+/// "subject save NAME", "subject load NAME" and "subject list"; empty for anything else.
+std::optional<ControlRequest> ParseControlRequest(std::string_view line);
+
+/// Names become files: letters, digits, `.`, `_` and `-`, not beginning with `.` or `-`.
+bool IsFileName(std::string_view name);
+
+/// A reply as it is sent: "done", "failed" or "wrong", a line's end, the text.
+std::string EncodeReply(const ControlReply& reply);
+/// Empty when it is none.
+std::optional<ControlReply> DecodeReply(std::string_view message);
+
+}  // namespace mocap

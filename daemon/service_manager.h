@@ -1,0 +1,27 @@
+// What systemd hears of the daemon; nothing where it does not listen.
+#pragma once
+
+#include <string>
+
+namespace mocap {
+
+/// Speaks systemd's notification protocol. Main thread.
+class ServiceManager {
+ public:
+  /// The service has begun its work.
+  void Ready();
+  bool is_ready() const { return is_ready_; }
+  /// One line for people, as `systemctl status` shows it; sent when it has changed.
+  void Say(const std::string& line);
+  /// Frames move; without this for the unit's WatchdogSec the service is restarted.
+  void FeedWatchdog();
+  void BeginReload();
+  void EndReload();
+  void Stopping();
+
+ private:
+  bool is_ready_ = false;
+  std::string line_;
+};
+
+}  // namespace mocap

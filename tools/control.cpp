@@ -1,0 +1,95 @@
+#include "tools/control.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "core/errors.h"
+#include "daemon/control_request.h"
+#include "daemon/control_socket.h"
+
+namespace mocap {
+namespace {
+
+/// Prints the answer; what was refused or failed ends the program as such.
+void Ask(const std::filesystem::path& socket, const std::string& request) {
+  const ControlReply reply = AskDaemon(socket, request);
+  switch (reply.outcome) {
+    case ControlOutcome::kDone:
+      std::fputs(reply.text.c_str(), stdout);
+      return;
+    case ControlOutcome::kFailed:
+      throw std::runtime_error(reply.text);
+    case ControlOutcome::kWrong:
+      throw SetupError(reply.text);
+  }
+}
+
+/// Subcommands that become one request each.
+class RequestCommands {
+ public:
+  /// @param socket  where the daemon is asked; filled in when the command line is parsed.
+  explicit RequestCommands(std::shared_ptr<std::filesystem::path> socket)
+      : socket_(std::move(socket)) {}
+
+  CLI::App* Add(CLI::App& app, const std::string& name, const std::string& help,
+                const std::string& request) const {
+    CLI::App* command = app.add_subcommand(name, help);
+    AddSocket(*command);
+    command->callback([socket = socket_, request] { Ask(*socket, request); });
+    return command;
+  }
+
+  void AddNamed(CLI::App& app, const std::string& name, const std::string& help,
+                const std::string& request) const {
+    CLI::App* command = app.add_subcommand(name, help);
+    AddSocket(*command);
+    auto file_name = std::make_shared<std::string>();
+    command->add_option("NAME", *file_name, "letters, digits, `.`, `_` and `-`")
+        ->required()
+        ->check([](const std::string& text) {
+          return IsFileName(text) ? "" : "\"" + text + "\" is no name; letters, digits, . _ -";
+        });
+    command->callback(
+        [socket = socket_, request, file_name] { Ask(*socket, request + ' ' + *file_name); });
+  }
+
+  void AddSocket(CLI::App& command) const {
+    command.add_option("--socket", *socket_, "where mocapd answers; the system's if not given");
+  }
+
+ private:
+  std::shared_ptr<std::filesystem::path> socket_;
+};
+
+}  // namespace
+
+void AddControlCommands(CLI::App& app) {
+  const auto socket = std::make_shared<std::filesystem::path>();
+  const RequestCommands commands(socket);
+
+  auto as_json = std::make_shared<bool>(false);
+  CLI::App* status = app.add_subcommand("status", "Tells how the running mocapd does");
+  commands.AddSocket(*status);
+  status->add_flag("--json", *as_json, "print one JSON object");
+  status->callback([socket, as_json] { Ask(*socket, *as_json ? "status json" : "status"); });
+
+  CLI::App* record = app.add_subcommand("record", "Records a take while tracking goes on");
+  record->require_subcommand(1);
+  commands.AddNamed(*record, "start", "Begins a take", "record start");
+  commands.Add(*record, "stop", "Completes the take", "record stop");
+
+  CLI::App* subject = app.add_subcommand("subject", "Whose body is tracked");
+  subject->require_subcommand(1);
+  commands.Add(*subject, "new", "Measures whoever is there anew", "subject new");
+  commands.AddNamed(*subject, "save", "Keeps the sizes of the person who is tracked",
+                    "subject save");
+  commands.AddNamed(*subject, "load", "Tracks a person whose sizes were kept", "subject load");
+  commands.Add(*subject, "list", "Tells whose sizes are kept", "subject list");
+
+  commands.Add(app, "reload", "Reads the configuration again", "reload");
+}
+
+}  // namespace mocap

@@ -1,0 +1,74 @@
+#include "tools/doctor.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "config/load_config.h"
+#include "daemon/recorder.h"
+#include "tools/doctor_checks.h"
+
+namespace mocap {
+namespace {
+
+constexpr const char* kSystemConfig = "/etc/mocapd/mocapd.toml";
+/// Six cameras of 640 x 480 pixels at 30 Hz, coded without loss.
+constexpr double kUsualRecording = 90e6;
+
+struct DoctorOptions {
+  std::filesystem::path config;
+  std::filesystem::path socket;
+};
+
+const char* MarkOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return "good  ";
+    case Verdict::kAdvice:
+      return "advice";
+    case Verdict::kBad:
+      return "BAD   ";
+  }
+  return "";
+}
+
+Config ConfigFor(const DoctorOptions& options) {
+  if (!options.config.empty()) return LoadConfig(options.config);
+  return std::filesystem::exists(kSystemConfig) ? LoadConfig(kSystemConfig) : Config();
+}
+
+void Doctor(const DoctorOptions& options) {
+  const Config config = ConfigFor(options);
+  std::vector<Finding> findings = {
+      CheckMulticastRoute(),
+      CheckMulticastEcho(config.lcm.url),
+      CheckSocketBuffers(),
+      CheckLimits(config.service.realtime),
+      CheckClock(),
+      CheckProcessor(),
+      CheckDisk(TakesFolder(config.service.recording), kUsualRecording)};
+  std::ranges::move(CheckDevices(config), std::back_inserter(findings));
+  findings.push_back(CheckControl(options.socket));
+  for (const Finding& finding : findings) {
+    std::printf("%s  %s\n", MarkOf(finding.verdict), finding.what.c_str());
+    if (!finding.fix.empty()) std::printf("        -> %s\n", finding.fix.c_str());
+  }
+  const auto bad = std::ranges::count(findings, Verdict::kBad, &Finding::verdict);
+  if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be mended");
+}
+
+}  // namespace
+
+void AddDoctorCommand(CLI::App& app) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* command = app.add_subcommand(
+      "doctor", "Looks at network, limits, clock, disk and permissions, and says what to mend");
+  command->add_option("--config", options->config, "the daemon's; the system's if not given");
+  command->add_option("--socket", options->socket, "where mocapd answers");
+  command->callback([options] { Doctor(*options); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,207 @@
+#include "tools/doctor_checks.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <sys/timex.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <optional>
+
+#include "core/errors.h"
+#include "daemon/clock.h"
+#include "daemon/control_socket.h"
+#include "daemon/pose_publisher.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kLeastSocketBuffer = 2 * 1024 * 1024;
+constexpr std::int64_t kLeastUsbMegabytes = 1000;
+constexpr double kLeastHours = 1;
+constexpr std::size_t kTrialBytes = 64 << 20;
+constexpr const char* kEchoChannel = "MOCAP_DOCTOR";
+constexpr int kEchoTimeoutMs = 1000;
+
+std::optional<std::string> FirstLine(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) return {};
+  return line;
+}
+
+std::optional<std::int64_t> NumberIn(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::int64_t value = 0;
+  if (!(in >> value)) return {};
+  return value;
+}
+
+/// Writes and syncs; megabytes a second, empty where nothing may be written.
+std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
+  std::string name = (folder / ".mocap-doctor-XXXXXX").string();
+  const FileDescriptor file(mkostemp(name.data(), O_CLOEXEC));
+  if (!file.valid()) return {};
+  unlink(name.c_str());
+  const std::string block(1 << 20, '\x5a');
+  const std::int64_t begin_ns = SteadyNs();
+  for (std::size_t written = 0; written < kTrialBytes; written += block.size()) {
+    if (write(file.get(), block.data(), block.size()) != static_cast<ssize_t>(block.size())) {
+      return {};
+    }
+  }
+  if (fdatasync(file.get()) != 0) return {};
+  return kTrialBytes / 1e6 / (static_cast<double>(SteadyNs() - begin_ns) / 1e9);
+}
+
+Finding CheckDevice(const std::string& name, const std::filesystem::path& device) {
+  if (!std::filesystem::exists(device)) {
+    return {Verdict::kBad, fmt::format("{}: {} is not there", name, device.string()),
+            "plug the camera in; ls /dev/v4l/by-id tells what is there"};
+  }
+  if (access(device.c_str(), R_OK | W_OK) != 0) {
+    return {Verdict::kBad, fmt::format("{}: {} may not be used", name, device.string()),
+            "as root: adduser USER video, then log in again"};
+  }
+  return {Verdict::kGood, fmt::format("{}: {} is there", name, device.string()), ""};
+}
+
+}  // namespace
+
+Finding CheckMulticastRoute() {
+  if (HasMulticastRoute()) return {Verdict::kGood, "there is a multicast route for poses", ""};
+  return {Verdict::kBad, "there is no multicast route, so poses go nowhere",
+          "as root: ip link set lo up && ip route add 224.0.0.0/4 dev lo"};
+}
+
+Finding CheckMulticastEcho(const std::string& url) {
+  try {
+    const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
+    const std::unique_ptr<lcm::LCM> receiver = OpenLcm(url);
+    bool heard = false;
+    receiver->subscribeFunction(
+        kEchoChannel,
+        +[](const lcm::ReceiveBuffer*, const std::string&, bool* flag) { *flag = true; }, &heard);
+    const char greeting[] = "hello";
+    sender->publish(kEchoChannel, greeting, sizeof greeting);
+    const std::int64_t end_ns = SteadyNs() + std::int64_t{kEchoTimeoutMs} * 1'000'000;
+    while (!heard && SteadyNs() < end_ns) receiver->handleTimeout(kEchoTimeoutMs / 10);
+    if (heard) return {Verdict::kGood, "messages on " + url + " arrive", ""};
+  } catch (const SetupError& error) {
+    return {Verdict::kBad, error.what(), "see the line above"};
+  }
+  return {Verdict::kBad, "messages on " + url + " do not arrive",
+          "look at the firewall: UDP to 239.255.76.67 port 7667 has to pass"};
+}
+
+Finding CheckSocketBuffers() {
+  const std::int64_t most = NumberIn("/proc/sys/net/core/rmem_max").value_or(0);
+  const std::string what = fmt::format("sockets may buffer {} kB", most / 1024);
+  if (most >= kLeastSocketBuffer) return {Verdict::kGood, what, ""};
+  return {Verdict::kAdvice, what + "; voxels and network cameras lose packets",
+          fmt::format("as root: sysctl -w net.core.rmem_max={}; the package keeps it in "
+                      "/usr/lib/sysctl.d/60-mocapd.conf",
+                      kLeastSocketBuffer)};
+}
+
+Finding CheckLimits(const RealtimeConfig& config) {
+  rlimit priority{}, locked{};
+  getrlimit(RLIMIT_RTPRIO, &priority);
+  getrlimit(RLIMIT_MEMLOCK, &locked);
+  const bool may_go_first =
+      geteuid() == 0 || priority.rlim_cur >= static_cast<rlim_t>(config.priority);
+  const bool may_lock = geteuid() == 0 || !config.lock_memory || locked.rlim_cur == RLIM_INFINITY;
+  if (may_go_first && may_lock) {
+    return {Verdict::kGood, "limits allow the priority and locked memory that are configured", ""};
+  }
+  return {
+      Verdict::kBad, "limits do not allow what [realtime] asks for",
+      fmt::format("in the unit LimitRTPRIO={} and LimitMEMLOCK=infinity, or rtprio and memlock in "
+                  "/etc/security/limits.conf",
+                  config.priority)};
+}
+
+Finding CheckClock() {
+  timex state{};
+  if (adjtimex(&state) != TIME_ERROR && (state.status & STA_UNSYNC) == 0) {
+    return {Verdict::kGood,
+            fmt::format("the clock is synchronized, within {:.1f} ms",
+                        static_cast<double>(state.esterror) / 1000),
+            ""};
+  }
+  return {Verdict::kAdvice,
+          "the clock is not synchronized; capture times mean nothing on other machines",
+          "as root: apt install chrony, or timedatectl set-ntp true"};
+}
+
+Finding CheckProcessor() {
+  const std::optional<std::string> governor =
+      FirstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  if (!governor || *governor == "performance") {
+    return {Verdict::kGood, fmt::format("{} processors", sysconf(_SC_NPROCESSORS_ONLN)), ""};
+  }
+  return {Verdict::kAdvice,
+          fmt::format("the processor's speed follows its load ({}), which makes latency uneven",
+                      *governor),
+          "as root: cpupower frequency-set -g performance"};
+}
+
+Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second) {
+  std::filesystem::path place = folder;
+  while (!std::filesystem::exists(place) && place.has_relative_path()) place = place.parent_path();
+  struct statvfs space {};
+  if (statvfs(place.c_str(), &space) != 0) {
+    return {Verdict::kBad, place.string() + ": " + std::strerror(errno), "choose another folder"};
+  }
+  const double free_bytes =
+      static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
+  const double hours = free_bytes / bytes_per_second / 3600;
+  std::string what = fmt::format("{}: {:.1f} GB free, {:.1f} h of recording", folder.string(),
+                                 free_bytes / 1e9, hours);
+  const std::optional<double> speed = DiskSpeed(place);
+  if (speed) what += fmt::format(", {:.0f} MB/s", *speed);
+  if (speed && *speed * 1e6 < 1.5 * bytes_per_second) {
+    return {Verdict::kBad, what,
+            fmt::format("a disk that takes {:.0f} MB/s is wanted, or a codec "
+                        "that writes less",
+                        1.5 * bytes_per_second / 1e6)};
+  }
+  if (hours < kLeastHours) return {Verdict::kAdvice, what, "make room, or choose another folder"};
+  return {Verdict::kGood, what, ""};
+}
+
+std::vector<Finding> CheckDevices(const Config& config) {
+  std::vector<Finding> findings;
+  if (config.source.driver == "v4l2") {
+    for (const CameraConfig& camera : config.cameras) {
+      findings.push_back(CheckDevice(camera.name, camera.device));
+    }
+  }
+  const auto usb_mb = NumberIn("/sys/module/usbcore/parameters/usbfs_memory_mb");
+  if (config.source.driver == "aravis" && usb_mb && *usb_mb > 0 && *usb_mb < kLeastUsbMegabytes) {
+    findings.push_back({Verdict::kAdvice, fmt::format("USB cameras may buffer {} MB", *usb_mb),
+                        fmt::format("as root: echo {} > "
+                                    "/sys/module/usbcore/parameters/usbfs_memory_mb",
+                                    kLeastUsbMegabytes)});
+  }
+  return findings;
+}
+
+Finding CheckControl(const std::filesystem::path& socket) {
+  try {
+    AskDaemon(socket, "status");
+    return {Verdict::kGood, "mocapd runs and answers", ""};
+  } catch (const SetupError& error) {
+    return {Verdict::kBad, "mocapd runs, but you may not control it", error.what()};
+  } catch (const std::exception& error) {
+    return {Verdict::kAdvice, error.what(), "journalctl -u mocapd tells why it ended"};
+  }
+}
+
+}  // namespace mocap

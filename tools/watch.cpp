@@ -1,0 +1,208 @@
+#include "tools/watch.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <deque>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <mocap/body_t.hpp>
+#include <mocap/pose_t.hpp>
+#include <mocap/status_t.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "core/motion_capture.h"
+#include "daemon/clock.h"
+#include "daemon/pose_publisher.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kPageNs = 250'000'000;
+constexpr std::int64_t kLineNs = 1'000'000'000;
+/// Without a pose for so long, nobody publishes.
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+/// How far back rate and latency look.
+constexpr std::int64_t kWindowNs = 2'000'000'000;
+constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
+
+volatile sig_atomic_t stop_asked = 0;
+
+void StopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_asked = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+/// The latest of what was heard.
+class Hearing {
+ public:
+  Hearing(lcm::LCM& lcm, const std::string& prefix) {
+    lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
+    lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
+    lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
+  }
+
+  /// Forgets what lies outside of the window.
+  void Age(std::int64_t now_ns) {
+    while (!arrivals_.empty() && now_ns - arrivals_.front().time_ns > kWindowNs) {
+      arrivals_.pop_front();
+    }
+  }
+  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kSilenceNs; }
+  double Rate() const {
+    if (arrivals_.size() < 2) return 0;
+    const auto span_ns = static_cast<double>(arrivals_.back().time_ns - arrivals_.front().time_ns);
+    return span_ns > 0 ? static_cast<double>(arrivals_.size() - 1) * 1e9 / span_ns : 0;
+  }
+  double LatencyMs() const {
+    double sum = 0;
+    for (const Arrival& arrival : arrivals_) sum += arrival.latency_ms;
+    return arrivals_.empty() ? 0 : sum / static_cast<double>(arrivals_.size());
+  }
+  std::int64_t missed() const { return missed_; }
+  const std::optional<pose_t>& pose() const { return pose_; }
+  const std::optional<body_t>& body() const { return body_; }
+  const std::optional<status_t>& status() const { return status_; }
+
+ private:
+  struct Arrival {
+    std::int64_t time_ns = 0;
+    double latency_ms = 0;
+  };
+
+  void OnPose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) {
+    heard_ns_ = SteadyNs();
+    if (pose_ && pose->frame > pose_->frame + 1) missed_ += pose->frame - pose_->frame - 1;
+    arrivals_.push_back({heard_ns_, static_cast<double>(pose->publish_utime - pose->utime) / 1000});
+    pose_ = *pose;
+  }
+  void OnBody(const lcm::ReceiveBuffer*, const std::string&, const body_t* body) { body_ = *body; }
+  void OnStatus(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) {
+    heard_ns_ = SteadyNs();
+    status_ = *status;
+  }
+
+  std::int64_t heard_ns_ = SteadyNs();
+  std::deque<Arrival> arrivals_;
+  std::int64_t missed_ = 0;
+  std::optional<pose_t> pose_;
+  std::optional<body_t> body_;
+  std::optional<status_t> status_;
+};
+
+std::string PoseLine(const Hearing& hearing) {
+  const pose_t& pose = *hearing.pose();
+  const auto state = static_cast<std::size_t>(pose.state);
+  std::string line =
+      fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
+                  state < kCaptureStateNames.size() ? kCaptureStateNames[state] : "?",
+                  hearing.Rate(), hearing.LatencyMs());
+  if (pose.state == pose_t::TRACKING) line += fmt::format("  fit {:3.0f} mm", pose.residual_mm);
+  line += fmt::format("  {} voxels", pose.voxels);
+  if (hearing.missed() > 0) line += fmt::format("  {} missed here", hearing.missed());
+  return line;
+}
+
+void AppendCameras(const Hearing& hearing, std::string& page) {
+  const status_t& status = *hearing.status();
+  page += fmt::format("\n{:<16}{:<10}{:>9}{:>10}{:>8}{:>8}  {}\n", "camera", "state", "a second",
+                      "dropped", "late", "torn", "in the last set");
+  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
+    const camera_status_t& camera = status.cameras[i];
+    const auto state = static_cast<std::size_t>(camera.state);
+    const bool is_used =
+        hearing.pose() && i < hearing.pose()->camera_used.size() && hearing.pose()->camera_used[i];
+    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}  {}\n", camera.name,
+                        state < std::size(kCameraStates) ? kCameraStates[state] : "?",
+                        camera.frames_per_second, camera.dropped, camera.late, camera.torn,
+                        is_used ? "yes" : "no");
+  }
+  page += '\n';
+  for (const stage_timing_t& stage : status.stages) {
+    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", stage.name, stage.p50_ms,
+                        stage.p99_ms);
+  }
+  page += fmt::format(
+      "sets     {} complete, {} without some camera, {} left out; spread {:.1f} ms\n",
+      status.sets_complete, status.sets_partial, status.sets_dropped, status.spread_p50_ms);
+}
+
+std::string Page(const Hearing& hearing, const std::string& url) {
+  std::string page = "mocapd";
+  if (hearing.status()) page += ' ' + hearing.status()->version;
+  page += " on " + url + "    Ctrl-C ends\n\n";
+  if (hearing.pose()) page += PoseLine(hearing) + '\n';
+  if (hearing.pose() && hearing.pose()->state != pose_t::SEARCHING) {
+    const pose_t& pose = *hearing.pose();
+    page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", pose.torso_mm[0] / 1000,
+                        pose.torso_mm[1] / 1000, pose.torso_mm[2] / 1000);
+    if (hearing.body()) page += fmt::format(", stature {:.0f} mm", hearing.body()->stature_mm);
+    page += '\n';
+  }
+  if (hearing.status()) AppendCameras(hearing, page);
+  return page;
+}
+
+/// Rewrites the screen from its top, so that nothing flickers.
+void Show(const std::string& page) {
+  std::string text = "\x1b[H";
+  for (const char c : page) text += c == '\n' ? "\x1b[K\n" : std::string(1, c);
+  text += "\x1b[J";
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+struct WatchOptions {
+  std::string url = LcmConfig().url;
+  std::string prefix;
+  std::optional<double> seconds;
+};
+
+void Watch(const WatchOptions& options) {
+  const std::unique_ptr<lcm::LCM> lcm = OpenLcm(options.url);
+  Hearing hearing(*lcm, options.prefix);
+  StopOnSignals();
+  const bool on_terminal = isatty(STDOUT_FILENO) == 1;
+  if (on_terminal) std::fputs("\x1b[2J", stdout);
+  const std::int64_t begin_ns = SteadyNs();
+  std::int64_t next_ns = begin_ns + kPageNs;
+  while (stop_asked == 0) {
+    lcm->handleTimeout(50);
+    const std::int64_t now_ns = SteadyNs();
+    if (options.seconds && static_cast<double>(now_ns - begin_ns) > *options.seconds * 1e9) break;
+    if (now_ns < next_ns) continue;
+    next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
+    hearing.Age(now_ns);
+    const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
+    const std::string silence = "nothing is heard on " + options.url +
+                                ": does mocapd run? mocap doctor looks at the network\n";
+    if (on_terminal) {
+      Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, options.url));
+    } else {
+      std::fputs(is_silent ? silence.c_str() : (PoseLine(hearing) + '\n').c_str(), stdout);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+
+void AddWatchCommand(CLI::App& app) {
+  auto options = std::make_shared<WatchOptions>();
+  CLI::App* command =
+      app.add_subcommand("watch", "Shows rate, latency, cameras and fit, live in the terminal");
+  command->add_option("--url", options->url, "LCM's address")->capture_default_str();
+  command->add_option("--prefix", options->prefix, "what stands before each channel's name");
+  command->add_option("--seconds", options->seconds, "stop after so long")
+      ->check(CLI::PositiveNumber);
+  command->callback([options] { Watch(*options); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,10 @@
+// mocap watch: the running system, live in a terminal.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mocap {
+
+void AddWatchCommand(CLI::App& app);
+
+}  // namespace mocap
