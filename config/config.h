@@ -1,13 +1,17 @@
 // Every number that a person may change, with its default.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "config/service_config.h"
 #include "core/reconstruction/segmenter.h"
+#include "drivers/aravis_settings.h"
+#include "drivers/v4l2_settings.h"
 
 namespace mocap {
 
@@ -16,7 +20,7 @@ enum class ReplayRate { kRealtime, kFast };
 
 /// [source]: where frames come from.
 struct SourceConfig {
-  std::string driver = "simulated";  ///< "take", "simulated".
+  std::string driver = "simulated";  ///< "take", "simulated", "v4l2", "aravis".
   std::filesystem::path take;
   ReplayRate rate = ReplayRate::kRealtime;
   bool loop = false;
@@ -24,9 +28,15 @@ struct SourceConfig {
   std::string motion = "walk";
   double stature_mm = 1750;
   int cameras = 6;
-  double fps = 30;
   std::uint64_t seed = 1;
+  // For "simulated" and live cameras:
+  double fps = 30;
 };
+
+/// Whether frames come from [[cameras]].
+inline bool IsLive(const SourceConfig& source) {
+  return source.driver == "v4l2" || source.driver == "aravis";
+}
 
 /// [lcm]: where poses go.
 struct LcmConfig {
@@ -39,10 +49,16 @@ struct LcmConfig {
 struct CameraConfig {
   std::string name;
   std::string device;
+  std::optional<double> fps;                  ///< Empty: source.fps.
+  std::optional<std::array<int, 2>> size_px;  ///< Empty: what the calibration says.
+  V4l2Settings v4l2;                          ///< For source.driver "v4l2".
+  AravisSettings aravis;                      ///< For source.driver "aravis".
 };
 
 struct Config {
   std::filesystem::path calibration;
+  std::filesystem::path
+      background;  ///< Folder with the live cameras' pictures of the empty studio.
   SourceConfig source;
   double voxel_mm = 25;
   SegmentationOptions segmentation;

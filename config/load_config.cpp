@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "config/load_service_config.h"
+#include "config/read_cameras.h"
 #include "config/toml_section.h"
-#include "drivers/take_layout.h"
 
 namespace mocap {
 namespace {
@@ -65,26 +65,13 @@ LcmConfig ReadLcm(TomlSection section) {
   return lcm;
 }
 
-CameraConfig ReadCamera(TomlSection& section, const std::vector<CameraConfig>& others) {
-  CameraConfig camera{section.Text("name"), section.Text("device")};
-  if (!IsCameraName(camera.name)) {
-    section.Fail("name", "is no name of a camera; letters, digits, _ and - are wanted");
-  }
-  for (const CameraConfig& other : others) {
-    if (other.name == camera.name) section.Fail("name", "is the name of another camera as well");
-    if (other.device == camera.device) section.Fail("device", "is another camera's as well");
-  }
-  if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
-  section.RejectUnknownKeys();
-  return camera;
-}
-
 void CheckLiveStudio(const Config& config, const TomlSection& root) {
   const std::string& driver = config.source.driver;
-  if (driver != "v4l2" && driver != "aravis") return;
+  if (!IsLive(config.source)) return;
   const std::string reason = "; source.driver \"" + driver + "\" needs it";
   if (config.cameras.empty()) root.Fail("cameras", "is missing" + reason);
   if (config.calibration.empty()) root.Fail("calibration", "is missing" + reason);
+  if (config.background.empty()) root.Fail("background", "is empty" + reason);
 }
 
 }  // namespace
@@ -93,6 +80,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
   Config config;
   config.calibration = Resolved(file, root.Text("calibration", ""));
+  config.background = Resolved(file, root.Text("background", "background"));
   config.body = root.Text("body", config.body);
   const bool is_path = config.body.ends_with(".toml") || config.body.find('/') != std::string::npos;
   if (is_path) config.body = Resolved(file, config.body).string();
@@ -101,9 +89,7 @@ Config LoadConfig(const std::filesystem::path& file) {
     config.voxel_mm = ReadVoxels(*section, config.voxel_mm);
   if (auto section = root.Section("segmentation")) config.segmentation = ReadSegmentation(*section);
   if (auto section = root.Section("lcm")) config.lcm = ReadLcm(*section);
-  for (TomlSection& section : root.Sections("cameras")) {
-    config.cameras.push_back(ReadCamera(section, config.cameras));
-  }
+  config.cameras = ReadCameras(root, config.source.driver);
   config.service = ReadServiceConfig(root, file);
   root.RejectUnknownKeys();
   CheckLiveStudio(config, root);

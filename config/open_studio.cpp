@@ -1,6 +1,6 @@
 #include "config/open_studio.h"
 
-#include "core/errors.h"
+#include "config/open_live.h"
 
 namespace mocap {
 
@@ -20,9 +20,8 @@ Studio OpenStudio(const Config& config) {
   if (source.driver == "take") {
     return OpenTake(source.take, {.rate = source.rate, .loop = source.loop, .cameras = {}});
   }
-  if (source.driver == "simulated") return OpenSimulatedStudio(LiveSimulation(source));
-  throw SetupError("source.driver is \"" + source.driver +
-                   "\", which this build lacks; \"take\" or \"simulated\" is wanted");
+  if (IsLive(source)) return OpenLiveStudio(config);
+  return OpenSimulatedStudio(LiveSimulation(source));
 }
 
 }  // namespace mocap

@@ -1,7 +1,9 @@
 // From names in a file to cameras that deliver.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,8 @@ struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
   std::vector<std::string> cameras;  ///< Empty: all.
+  /// In real time, tells when its first frame is captured; null: when the first camera starts.
+  std::function<std::int64_t()> begin_ns = nullptr;
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background.

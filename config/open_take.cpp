@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "config/camera_files.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
 #include "config/toml_section.h"
@@ -9,15 +10,9 @@
 #include "drivers/quoted.h"
 #include "drivers/take_driver.h"
 #include "drivers/take_layout.h"
-#include "drivers/take_table.h"
-#include "drivers/video_reader.h"
 
 namespace mocap {
 namespace {
-
-// Enough for the statistics of a still picture; an hour of it would not fit into memory. A head
-// needs all it has.
-constexpr std::size_t kMostStillFrames = 200;
 
 /// What take.toml says that replaying needs; it may say more.
 struct TakeHeader {
@@ -65,65 +60,6 @@ std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std:
   return chosen;
 }
 
-VideoReader OpenVideo(const std::filesystem::path& file, const CameraCalibration& camera) {
-  VideoReader video(file);
-  if (video.width_px() != camera.width_px || video.height_px() != camera.height_px) {
-    const auto size = [](int width, int height) {
-      return std::to_string(width) + " x " + std::to_string(height);
-    };
-    throw SetupError(file.string() + ": has pictures of " +
-                     size(video.width_px(), video.height_px()) + "; " + camera.name +
-                     " is calibrated for " + size(camera.width_px, camera.height_px));
-  }
-  return video;
-}
-
-// Angles and a head belong together: one without the other would be wrong in silence.
-TakeTable ReadTable(const std::filesystem::path& file, const CameraCalibration& camera) {
-  TakeTable table = ReadTakeTable(file);
-  if (camera.head && !table.has_angles) {
-    throw SetupError(file.string() + ":1: has no pan_rad,tilt_rad, but calibration.toml has " +
-                     "cameras." + camera.name + ".pan_tilt");
-  }
-  const bool turns = std::any_of(table.rows.begin(), table.rows.end(),
-                                 [](const TakeRow& row) { return row.angles != PanTiltAngles{}; });
-  if (!camera.head && turns) {
-    throw SetupError(file.string() + ": has pan and tilt, but calibration.toml has no cameras." +
-                     camera.name + ".pan_tilt");
-  }
-  return table;
-}
-
-std::vector<BackgroundFrame> ReadBackground(const std::filesystem::path& file,
-                                            const CameraCalibration& camera,
-                                            const std::vector<TakeRow>& rows) {
-  VideoReader video = OpenVideo(file, camera);
-  std::vector<BackgroundFrame> frames;
-  ImageView<const Bgr> view;
-  const std::size_t most = camera.head ? rows.size() : kMostStillFrames;
-  for (std::size_t i = 0; i < most; ++i) {
-    const VideoStatus status = video.Read(view);
-    if (status == VideoStatus::kEnd) break;
-    if (status == VideoStatus::kBroken) continue;
-    BackgroundFrame frame{Image<Bgr>(view.width(), view.height()), {}};
-    for (int y = 0; y < view.height(); ++y) {
-      std::copy_n(view.row(y), view.width(), frame.image.row(y));
-    }
-    if (camera.head) frame.angles = rows[i].angles;
-    frames.push_back(std::move(frame));
-  }
-  return frames;
-}
-
-std::function<std::vector<BackgroundFrame>()> OpenBackground(const TakeLayout& layout,
-                                                             const CameraCalibration& camera) {
-  const std::filesystem::path file = layout.BackgroundVideo(camera.name);
-  OpenVideo(file, camera);
-  std::vector<TakeRow> rows;
-  if (camera.head) rows = ReadTable(layout.BackgroundTable(camera.name), camera).rows;
-  return [file, camera, rows = std::move(rows)] { return ReadBackground(file, camera, rows); };
-}
-
 const CameraCalibration& Find(const std::vector<CameraCalibration>& calibrations,
                               const std::string& name, const std::filesystem::path& file) {
   const auto camera = std::find_if(calibrations.begin(), calibrations.end(),
@@ -165,17 +101,19 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   std::vector<TakeTable> tables;
   for (const std::string& name : names) {
     const CameraCalibration& camera = Find(calibrations, name, layout.Calibration());
-    tables.push_back(ReadTable(layout.Table(name), camera));
-    studio.cameras.push_back({camera, nullptr, OpenBackground(layout, camera)});
+    tables.push_back(ReadCameraTable(layout.Table(name), camera));
+    studio.cameras.push_back(
+        {camera, nullptr,
+         OpenCameraBackground(layout.BackgroundVideo(name), layout.BackgroundTable(name), camera)});
   }
   const bool realtime = options.rate == ReplayRate::kRealtime;
   const auto replay =
       std::make_shared<Replay>(SpanOf(tables, header.fps_nominal, take), options.loop,
-                               realtime ? MakeSystemClock() : nullptr);
+                               realtime ? MakeSystemClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
     camera.driver = std::make_unique<TakeDriver>(
-        OpenVideo(layout.Video(names[i]), camera.calibration), std::move(tables[i]), replay);
+        OpenCameraVideo(layout.Video(names[i]), camera.calibration), std::move(tables[i]), replay);
   }
   return studio;
 }

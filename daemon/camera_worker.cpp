@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "daemon/clock.h"
 
@@ -45,7 +46,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
       torn_.fetch_add(1, std::memory_order_relaxed);
       return Outcome::kNothing;
     case GrabStatus::kLost:
-      state_.store(CameraState::kLost, std::memory_order_relaxed);
+      Enter(CameraState::kLost);
       expectation_.store(Expectation::kNone, std::memory_order_release);
       std::this_thread::sleep_for(kLostPause);
       return Outcome::kNothing;
@@ -73,8 +74,15 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   return Outcome::kFrame;
 }
 
+void CameraWorker::Enter(CameraState state) {
+  if (state_.exchange(state, std::memory_order_relaxed) == state) return;
+  std::vector<std::string> remarks = camera_.driver->Facts().remarks;
+  const std::lock_guard lock(remarks_mutex_);
+  remarks_ = std::move(remarks);
+}
+
 void CameraWorker::CountFrame(std::uint64_t sequence) {
-  state_.store(CameraState::kStreaming, std::memory_order_relaxed);
+  Enter(CameraState::kStreaming);
   // The first frame's number means nothing, and a camera that came back counts from anew.
   const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
   if (!is_first && sequence > next_sequence_) {
@@ -91,6 +99,8 @@ CameraStatus CameraWorker::Status() const {
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);
   status.torn = torn_.load(std::memory_order_relaxed);
+  const std::lock_guard lock(remarks_mutex_);
+  status.remarks = remarks_;
   return status;
 }
 

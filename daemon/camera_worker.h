@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "core/reconstruction/outline.h"
 #include "core/reconstruction/segmenter.h"
@@ -38,6 +40,7 @@ struct CameraStatus {
   std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
   std::int64_t late = 0;     ///< Came after their set had gone, or found none.
   std::int64_t torn = 0;
+  std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
 };
 
 /// Grabs and segments one camera's frames. Start, Next and Stop: one thread; the rest: any.
@@ -67,6 +70,7 @@ class CameraWorker {
 
  private:
   void CountFrame(std::uint64_t sequence);
+  void Enter(CameraState state);
 
   StudioCamera camera_;
   Segmenter segmenter_;
@@ -79,6 +83,8 @@ class CameraWorker {
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> dropped_{0};
   std::atomic<std::int64_t> torn_{0};
+  mutable std::mutex remarks_mutex_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace mocap

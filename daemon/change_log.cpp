@@ -10,12 +10,20 @@ void ChangeLog::Add(const PipelineStatus& status) {
     spdlog::info("{}", kCaptureStateNames[static_cast<std::size_t>(status.state)]);
   }
   if (last_) CompareCameras(before, status);
+  for (const CameraStatus& camera : status.cameras) TellRemarks(camera);
   const bool was_behind = calls_since_drop_ < kCallsToRecover;
   const bool drops = status.sets_dropped > before.sets_dropped;
   calls_since_drop_ = drops ? 0 : calls_since_drop_ + 1;
   if (drops && !was_behind) spdlog::warn("tracking is behind: the stalest sets are dropped");
   if (was_behind && calls_since_drop_ == kCallsToRecover) spdlog::info("tracking keeps up again");
   last_ = status;
+}
+
+void ChangeLog::TellRemarks(const CameraStatus& camera) {
+  for (const std::string& remark : camera.remarks) {
+    const std::string line = camera.name + ": " + remark;
+    if (told_.insert(line).second) spdlog::warn("{}", line);
+  }
 }
 
 void ChangeLog::CompareCameras(const PipelineStatus& before, const PipelineStatus& now) {

@@ -2,18 +2,21 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <string>
 
 #include "daemon/pipeline.h"
 
 namespace mocap {
 
-/// Logs how a status differs from the one before: the state, cameras that go and come back, sets
-/// that begin to be dropped.
+/// Logs how a status differs from the one before: the state, cameras that go and come back, what
+/// their drivers remark, sets that begin to be dropped.
 class ChangeLog {
  public:
   void Add(const PipelineStatus& status);
 
  private:
+  void TellRemarks(const CameraStatus& camera);
   void CompareCameras(const PipelineStatus& before, const PipelineStatus& now);
 
   /// Calls without a drop after which being behind is over.
@@ -21,6 +24,7 @@ class ChangeLog {
 
   std::optional<PipelineStatus> last_;
   int calls_since_drop_ = kCallsToRecover;  ///< Or more.
+  std::set<std::string> told_;
 };
 
 }  // namespace mocap

@@ -3,7 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "core/reconstruction/camera_model.h"
@@ -28,7 +29,20 @@ enum class GrabStatus {
   kEnd       ///< There will be no more frames.
 };
 
-/// Pulls frames from one camera. Thread-bound: one thread calls Start, Grab and Stop.
+/// What a live camera tells of itself, for people.
+struct CameraFacts {
+  std::string device;      ///< Where it was found: a node, an address.
+  std::string bus;         ///< What it shares its bandwidth on; empty: unknown.
+  double link_mbit_s = 0;  ///< What that carries; 0: unknown.
+  std::string format;      ///< As the camera names it.
+  double bytes_per_frame = 0;
+  double fps = 0;           ///< What the camera agreed to; 0: unknown.
+  std::string time_source;  ///< Where capture times come from.
+  /// What is not as it was asked for or ought to be, one line each, with what to do about it.
+  std::vector<std::string> remarks;
+};
+
+/// Pulls frames from one camera. Thread-bound: one thread at a time calls it.
 class CameraDriver {
  public:
   virtual ~CameraDriver() = default;
@@ -38,6 +52,9 @@ class CameraDriver {
   virtual GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) = 0;
   /// Ends delivery; the last frame's pixels are no longer valid.
   virtual void Stop() = 0;
+  /// Tells of the camera as it is since Start; called from the same thread. A driver without
+  /// hardware has nothing to tell.
+  virtual CameraFacts Facts() const { return {}; }
 };
 
 }  // namespace mocap

@@ -1,5 +1,6 @@
 #include "drivers/replay.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -34,7 +35,12 @@ std::unique_ptr<ReplayClock> MakeSystemClock() { return std::make_unique<SystemC
 
 std::int64_t Replay::Join() {
   const std::lock_guard lock(mutex_);
-  if (cameras_++ == 0 && clock_) shift_ns_ = clock_->NowNs() - span_.first_ns;
+  if (cameras_++ > 0 || !clock_) return shift_ns_;
+  const std::int64_t now_ns = clock_->NowNs();
+  const std::int64_t begin_ns = begin_ns_ ? begin_ns_() : now_ns;
+  const std::int64_t loops =
+      loop_ ? std::max<std::int64_t>(0, now_ns - begin_ns) / span_.period_ns : 0;
+  shift_ns_ = begin_ns - span_.first_ns + loops * span_.period_ns;
   return shift_ns_;
 }
 

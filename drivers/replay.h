@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace mocap {
 
@@ -28,13 +30,17 @@ struct ReplaySpan {
 /// One time line for all cameras of a take.
 ///
 /// With a clock the recording is replayed at its own pace, and its times are moved to the present:
-/// the first frame of the take is captured when the first camera starts. Without a clock frames
-/// keep the times of the recording and come as fast as they are read. Thread-safe.
+/// the first frame of the take is captured when the first camera starts, or at a time that was
+/// named; whoever starts later than that joins the loop then under way. Without a clock frames keep
+/// the times of the recording and come as fast as they are read. Thread-safe.
 class Replay {
  public:
-  /// @param clock  null: as fast as possible.
-  Replay(const ReplaySpan& span, bool loop, std::unique_ptr<ReplayClock> clock)
-      : span_(span), loop_(loop), clock_(std::move(clock)) {}
+  /// @param clock     null: as fast as possible.
+  /// @param begin_ns  tells, when the first camera starts, when the first frame is captured; null:
+  ///                  then. Only with a clock.
+  Replay(const ReplaySpan& span, bool loop, std::unique_ptr<ReplayClock> clock,
+         std::function<std::int64_t()> begin_ns = nullptr)
+      : span_(span), loop_(loop), clock_(std::move(clock)), begin_ns_(std::move(begin_ns)) {}
 
   bool loops() const { return loop_; }
   /// Null when the recording is read as fast as possible.
@@ -55,6 +61,7 @@ class Replay {
   const ReplaySpan span_;
   const bool loop_;
   const std::unique_ptr<ReplayClock> clock_;
+  const std::function<std::int64_t()> begin_ns_;
   std::mutex mutex_;
   int cameras_ = 0;
   std::int64_t shift_ns_ = 0;

@@ -2,11 +2,14 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/run_program.h"
+#include "tools/background.h"
 #include "tools/calibrate.h"
+#include "tools/cameras.h"
 #include "tools/control.h"
 #include "tools/doctor.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
+#include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
 #include "tools/watch.h"
@@ -20,6 +23,9 @@ int main(int argc, char** argv) {
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);
   mocap::AddCalibrateCommand(app);
+  mocap::AddBackgroundCommand(app);
+  mocap::AddCamerasCommand(app);
+  mocap::AddGigeStudioCommand(app);
   mocap::AddControlCommands(app);
   mocap::AddWatchCommand(app);
   mocap::AddDoctorCommand(app);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/acquisition/body_localizer.h"
 #include "core/acquisition/body_size_network.h"
 #include "core/tracking/tracker.h"
 
@@ -16,7 +17,8 @@ class ModelAcquirer {
   ModelAcquirer(const BodyTable& table, const BodyProportions& proportions)
       : table_(table), network_(proportions) {}
 
-  /// Looks for a body. With `known` sizes they are kept and acquisition is over at once.
+  /// Looks for a body. With `known` sizes they are kept and acquisition is over at once; else each
+  /// call tries some statures, and what none of them explains well is found after a few calls.
   /// @return whether one was found that explains the voxels.
   bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known);
 
@@ -34,6 +36,8 @@ class ModelAcquirer {
     double cost_sum = 0;
     BodySizes measured{};  ///< Mean over the frames so far.
   };
+  bool TryStature(const Evidence& evidence, const LocalizedBody& located);
+  void Begin(const std::vector<Tracker>& found, const Evidence& evidence);
   double RefineSizes(Hypothesis& hypothesis, bool remember);
 
   BodyTable table_;
@@ -41,6 +45,10 @@ class ModelAcquirer {
   std::vector<Hypothesis>
       hypotheses_;  ///< The likeliest first, then the one that faces the other way.
   double height_mm_ = 0;
+  bool is_upright_ = true;  ///< Then the height tells of the lengths.
+  int next_stature_ = 0;    ///< The next to try.
+  double likely_stature_ = 1;
+  double likely_cost_mm_ = 0;
   int frames_ = 0;
   bool settled_ = false;
 };

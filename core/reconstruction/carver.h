@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "core/reconstruction/carving_view.h"
-#include "core/reconstruction/distance_map.h"
 #include "core/reconstruction/voxel_grid.h"
 
 namespace mocap {
@@ -26,26 +25,19 @@ struct CarvingOptions {
 /// clothes of the background's colour leave such gaps. Thread-bound; reuses its memory.
 class Carver {
  public:
-  explicit Carver(const CarvingOptions& options) : options_(options) {}
+  explicit Carver(const CarvingOptions& options);
+  Carver(Carver&&) noexcept;
+  Carver& operator=(Carver&&) noexcept;
+  ~Carver();
 
   /// Carves one set. With nothing to see the grid has no voxels.
   /// @post the result does not depend on how the work is divided.
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
 
  private:
-  struct Block;
   class Walk;
-  // What the walk asks of one camera's silhouette, and of the same with its gaps closed.
-  struct Outline {
-    DistanceMap distances;
-    Silhouette closed;
-    DistanceMap closed_distances;
-  };
 
-  CarvingOptions options_;
-  std::vector<CarvingView> seeing_;
-  std::vector<Outline> outlines_;
-  Silhouette scratch_;
+  std::unique_ptr<Walk> walk_;
 };
 
 }  // namespace mocap

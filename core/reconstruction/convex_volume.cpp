@@ -6,24 +6,8 @@
 #include <utility>
 
 namespace mocap {
-namespace {
 
-// Puts the points of a cut into an order around their middle.
-void SortAround(const Vector3& normal, std::vector<Vector3>& points) {
-  Vector3 middle = Vector3::Zero();
-  for (const Vector3& p : points) middle += p / static_cast<double>(points.size());
-  const Vector3 u = normal.unitOrthogonal();
-  const Vector3 v = normal.cross(u);
-  const auto angle = [&](const Vector3& p) {
-    return std::atan2(v.dot(p - middle), u.dot(p - middle));
-  };
-  std::sort(points.begin(), points.end(),
-            [&](const Vector3& a, const Vector3& b) { return angle(a) < angle(b); });
-}
-
-}  // namespace
-
-ConvexVolume::ConvexVolume(const Eigen::AlignedBox3d& box) {
+void ConvexVolume::Reset(const Eigen::AlignedBox3d& box) {
   const auto corner = [&](int index) {
     return Vector3(index & 1 ? box.max().x() : box.min().x(),
                    index & 2 ? box.max().y() : box.min().y(),
@@ -31,38 +15,57 @@ ConvexVolume::ConvexVolume(const Eigen::AlignedBox3d& box) {
   };
   constexpr std::array<std::array<int, 4>, 6> kFaces = {
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
-  for (const auto& [a, b, c, d] : kFaces)
-    faces_.push_back({corner(a), corner(b), corner(c), corner(d)});
+  faces_.Clear();
+  for (const auto& face : kFaces) {
+    for (const int index : face) faces_.corners.push_back(corner(index));
+    faces_.ends.push_back(faces_.corners.size());
+  }
 }
 
 void ConvexVolume::Clip(const Vector3& normal, double offset) {
-  std::vector<Face> kept;
-  Face cut;
-  for (const Face& face : faces_) {
-    Face part;
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const Vector3& a = face[i];
-      const Vector3& b = face[(i + 1) % face.size()];
+  kept_.Clear();
+  cut_.clear();
+  std::size_t begin = 0;
+  for (const std::size_t end : faces_.ends) {
+    const std::size_t first_kept = kept_.corners.size();
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3& a = faces_.corners[i];
+      const Vector3& b = faces_.corners[i + 1 < end ? i + 1 : begin];
       const double beyond_a = normal.dot(a) - offset;
       const double beyond_b = normal.dot(b) - offset;
-      if (beyond_a <= 0) part.push_back(a);
+      if (beyond_a <= 0) kept_.corners.push_back(a);
       if ((beyond_a <= 0) == (beyond_b <= 0)) continue;
-      part.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
-      cut.push_back(part.back());
+      kept_.corners.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
+      cut_.push_back({kept_.corners.back()});
     }
-    if (part.size() >= 3) kept.push_back(std::move(part));
+    begin = end;
+    if (kept_.corners.size() >= first_kept + 3)
+      kept_.ends.push_back(kept_.corners.size());
+    else
+      kept_.corners.resize(first_kept);
   }
-  if (cut.size() >= 3) {
-    SortAround(normal.normalized(), cut);
-    kept.push_back(std::move(cut));
+  if (cut_.size() >= 3) {
+    SortCut(normal.normalized());
+    for (const Cut& cut : cut_) kept_.corners.push_back(cut.point);
+    kept_.ends.push_back(kept_.corners.size());
   }
-  faces_ = std::move(kept);
+  std::swap(faces_, kept_);
+}
+
+// Puts the points of a cut into an order around their middle.
+void ConvexVolume::SortCut(const Vector3& normal) {
+  Vector3 middle = Vector3::Zero();
+  for (const Cut& cut : cut_) middle += cut.point / static_cast<double>(cut_.size());
+  const Vector3 u = normal.unitOrthogonal();
+  const Vector3 v = normal.cross(u);
+  for (Cut& cut : cut_)
+    cut.angle = std::atan2(v.dot(cut.point - middle), u.dot(cut.point - middle));
+  std::sort(cut_.begin(), cut_.end(), [](const Cut& a, const Cut& b) { return a.angle < b.angle; });
 }
 
 Eigen::AlignedBox3d ConvexVolume::Extent() const {
   Eigen::AlignedBox3d extent;
-  for (const Face& face : faces_)
-    for (const Vector3& p : face) extent.extend(p);
+  for (const Vector3& corner : faces_.corners) extent.extend(corner);
   return extent;
 }
 

@@ -8,21 +8,37 @@
 
 namespace mocap {
 
-/// A convex polyhedron that starts as a box.
+/// A convex polyhedron that starts as a box. Reuses its memory.
 class ConvexVolume {
  public:
-  explicit ConvexVolume(const Eigen::AlignedBox3d& box);
+  /// Starts anew.
+  void Reset(const Eigen::AlignedBox3d& box);
 
   /// Keeps the part where normal · x <= offset.
   void Clip(const Vector3& normal, double offset);
 
-  bool empty() const { return faces_.empty(); }
+  bool empty() const { return faces_.ends.empty(); }
   /// The smallest upright box around what is left.
   Eigen::AlignedBox3d Extent() const;
 
  private:
-  using Face = std::vector<Vector3>;
-  std::vector<Face> faces_;
+  // The corners of face after face.
+  struct Faces {
+    std::vector<Vector3> corners;
+    std::vector<std::size_t> ends;
+    void Clear() {
+      corners.clear();
+      ends.clear();
+    }
+  };
+  struct Cut {
+    Vector3 point;
+    double angle = 0;
+  };
+  void SortCut(const Vector3& normal);
+
+  Faces faces_, kept_;
+  std::vector<Cut> cut_;
 };
 
 }  // namespace mocap

@@ -42,7 +42,7 @@ class DistortionHistograms {
  private:
   class Histogram {
    public:
-    void Add(float value);
+    void Add(const float* values, int count);
     float Quantile(double rate) const;
 
    private:

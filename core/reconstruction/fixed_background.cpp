@@ -6,44 +6,14 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/background_model.h"
+#include "core/reconstruction/background_sums.h"
 #include "core/reconstruction/coarse_scan.h"
 
 namespace mocap {
 namespace {
 
-using Color = std::array<float, 3>;
-
-// Below this [grey levels] rounding and the codec make the variation, not the sensor.
-constexpr float kLeastSigma = 1.5f;
 // So many frames fill the histograms well enough.
 constexpr std::size_t kMostHistogramFrames = 16;
-
-// What is summed up over the training frames for one pixel.
-struct Sums {
-  Color value{}, value_sq{};
-  float alpha_shift_sq = 0;
-  float cd_sq = 0;
-};
-
-// What a pixel is taken to be, from its sums over `count` frames.
-struct Statistics {
-  Color mean, sigma;
-  float alpha_variation;
-};
-
-Statistics StatisticsOf(const Sums& sums, float count) {
-  Statistics s;
-  for (int c = 0; c < 3; ++c) {
-    s.mean[c] = sums.value[c] / count;
-    const float variance = (sums.value_sq[c] / count - s.mean[c] * s.mean[c]) * count / (count - 1);
-    s.sigma[c] = std::max(std::sqrt(std::max(variance, 0.0f)), kLeastSigma);
-  }
-  s.alpha_variation = std::sqrt(sums.alpha_shift_sq / count);
-  // The variation of the chromaticity distortion is the square root of 2 where nothing but σ acts.
-  const float widening = std::max(std::sqrt(sums.cd_sq / count / 2), 1.0f);
-  for (float& sigma : s.sigma) sigma *= widening;
-  return s;
-}
 
 class FixedBackground final : public BackgroundModel {
  public:
@@ -55,19 +25,17 @@ class FixedBackground final : public BackgroundModel {
         expected_(frames[0].image.width(), frames[0].image.height()) {
     MOCAP_CHECK(frames.size() >= 2);
     // Once to see how the light flickered, and once without the flicker.
-    SumColors();
-    Expect(sums_, count());
-    LearnHalf();
-    LearnConditions();
-    SumColors();
-    Expect(sums_, count());
-    LearnHalf();
-    LearnConditions();
+    for (int i = 0; i < 2; ++i) {
+      SumColors();
+      Expect();
+      LearnHalf();
+      LearnConditions();
+    }
     SumDistortions();
     LearnThresholds(detection_rate);
-    Expect(sums_, count());
+    Expect();
     frames_ = {};
-    sums_ = {}, conditions_ = {};
+    sums_ = BackgroundSums(0), conditions_ = {};
   }
 
   const ExpectedHalf& Glance(const PanTiltAngles&, const Displacement& displacement) override {
@@ -102,33 +70,21 @@ class FixedBackground final : public BackgroundModel {
  private:
   float count() const { return static_cast<float>(frames_.size()); }
 
-  Color ColorOf(std::size_t frame, std::size_t pixel) const {
-    const Bgr& p = frames_[frame].image.pixels()[pixel];
-    const auto& gain = conditions_[frame].gain;
-    return {p.b * gain[0], p.g * gain[1], p.r * gain[2]};
-  }
+  const Bgr* RowOf(std::size_t frame, int y) const { return frames_[frame].image.row(y); }
+  std::size_t BeginOf(int y) const { return static_cast<std::size_t>(y) * expected_.width; }
 
-  void Expect(const std::vector<Sums>& sums, float frame_count) {
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const Statistics s = StatisticsOf(sums[i], frame_count);
-      expected_.SetPixel(i, s.mean, s.sigma, s.alpha_variation);
-      // What is left after σ was learned from so few frames shows at contours.
-      const float shift = half_.usual_shift_px * expected_.slope[i];
-      for (auto& variance : expected_.variance) variance[i] += shift * shift;
-    }
-    expected_.Weigh(0, 0, static_cast<int>(sums.size()));
+  void Expect() {
+    const int pixels = expected_.width * expected_.height;
+    sums_.Expect(0, pixels, count(), half_.usual_shift_px, 0, expected_);
+    expected_.Weigh(0, 0, pixels);
   }
 
   void SumColors() {
-    std::fill(sums_.begin(), sums_.end(), Sums{});
-    for (std::size_t f = 0; f < frames_.size(); ++f)
-      for (std::size_t i = 0; i < sums_.size(); ++i) AddColor(ColorOf(f, i), 1, sums_[i]);
-  }
-
-  static void AddColor(const Color& color, float times, Sums& sums) {
-    for (int c = 0; c < 3; ++c) {
-      sums.value[c] += times * color[c];
-      sums.value_sq[c] += times * color[c] * color[c];
+    const int width = expected_.width;
+    for (int y = 0; y < expected_.height; ++y) {
+      sums_.Clear(BeginOf(y), static_cast<std::size_t>(width));
+      for (std::size_t f = 0; f < frames_.size(); ++f)
+        sums_.AddColors(RowOf(f, y), width, conditions_[f].gain, 1, BeginOf(y));
     }
   }
 
@@ -136,8 +92,8 @@ class FixedBackground final : public BackgroundModel {
   void LearnHalf() {
     const int width = expected_.width;
     Image<Bgr> rounded(width, expected_.height);
-    std::vector<float> brightness(sums_.size());
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
+    std::vector<float> brightness(expected_.slope.size());
+    for (std::size_t i = 0; i < brightness.size(); ++i) {
       std::array<std::uint8_t, 3> color;
       for (int c = 0; c < 3; ++c) {
         color[c] = static_cast<std::uint8_t>(std::min(std::lround(expected_.mean[c][i]), 255L));
@@ -170,50 +126,37 @@ class FixedBackground final : public BackgroundModel {
   }
 
   void SumDistortions() {
-    for (std::size_t f = 0; f < frames_.size(); ++f)
-      for (std::size_t i = 0; i < sums_.size(); ++i) AddDistortion(ColorOf(f, i), i, 1, sums_[i]);
-  }
-
-  void AddDistortion(const Color& color, std::size_t i, float times, Sums& sums) const {
-    float along = 0, length_sq = 0, total_sq = 0;
-    for (int c = 0; c < 3; ++c) {
-      const float sigma = std::sqrt(expected_.variance[c][i]);
-      const float z = color[c] / sigma;
-      const float m = expected_.mean[c][i] / sigma;
-      along += z * m;
-      length_sq += m * m;
-      total_sq += (z - m) * (z - m);
-    }
-    const float shift = along / length_sq - 1;
-    sums.alpha_shift_sq += times * shift * shift;
-    sums.cd_sq += times * std::max(total_sq - shift * shift * length_sq, 0.0f);
+    for (int y = 0; y < expected_.height; ++y)
+      for (std::size_t f = 0; f < frames_.size(); ++f)
+        sums_.AddDistortions(RowOf(f, y), expected_.width, conditions_[f].gain, 1, expected_,
+                             BeginOf(y), BeginOf(y));
   }
 
   // Each frame is held against what the others alone would have taught.
   void LearnThresholds(double detection_rate) {
     DistortionHistograms histograms;
-    const ExpectedPicture all = expected_;
-    std::vector<Sums> others;
+    const int width = expected_.width;
+    ExpectedPicture by_others = expected_;
+    BackgroundSums others(static_cast<std::size_t>(width));
     const std::size_t used = std::min(frames_.size(), kMostHistogramFrames);
     for (std::size_t k = 0; k < used; ++k) {
       const std::size_t f = k * frames_.size() / used;
-      others = sums_;
-      for (std::size_t i = 0; i < others.size(); ++i) {
-        AddColor(ColorOf(f, i), -1, others[i]);
-        AddDistortion(ColorOf(f, i), i, -1, others[i]);
-        others[i].alpha_shift_sq = std::max(others[i].alpha_shift_sq, 0.0f);
-        others[i].cd_sq = std::max(others[i].cd_sq, 0.0f);
+      for (int y = 0; y < expected_.height; ++y) {
+        others.Copy(sums_, BeginOf(y), static_cast<std::size_t>(width));
+        others.AddColors(RowOf(f, y), width, conditions_[f].gain, -1, 0);
+        others.AddDistortions(RowOf(f, y), width, conditions_[f].gain, -1, expected_, BeginOf(y),
+                              0);
+        others.Expect(0, width, count() - 1, half_.usual_shift_px, BeginOf(y), by_others);
+        by_others.Weigh(0, BeginOf(y), width);
       }
-      Expect(others, count() - 1);
-      histograms.Add(expected_, frames_[f].image.view(), conditions_[f].gain);
-      expected_ = all;
+      histograms.Add(by_others, frames_[f].image.view(), conditions_[f].gain);
     }
     thresholds_ = histograms.At(detection_rate);
   }
 
   std::span<const BackgroundFrame> frames_;  // While learning.
   std::vector<Conditions> conditions_;
-  std::vector<Sums> sums_;
+  BackgroundSums sums_;
   ExpectedHalf half_;
   ExpectedPicture expected_;
   bool is_weighed_plainly_ = true;

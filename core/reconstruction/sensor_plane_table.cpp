@@ -68,7 +68,7 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
     FillNodes(camera.lens, cell_px / densest);
     if (WorstError_px(camera.lens) < kWantedError_px) break;
   }
-  pixels_per_unit_ = SteepestSlope();
+  MeasureBends();
 }
 
 void SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
@@ -109,30 +109,37 @@ double SensorPlaneTable::WorstError_px(const Lens& lens) const {
   return worst;
 }
 
-float SensorPlaneTable::SteepestSlope() const {
-  // Within a cell the Jacobian is a convex combination of those at its four corners.
-  float steepest = 0;
-  const auto along = [](const Place& a, const Place& b) {
-    return Eigen::Vector2f(b.x_px - a.x_px, b.y_px - a.y_px);
+void SensorPlaneTable::MeasureBends() {
+  const auto node = [&](int row, int column) {
+    const Place& p = nodes_[static_cast<std::size_t>(std::min(row, rows_ - 1)) * columns_ +
+                            std::min(column, columns_ - 1)];
+    return Eigen::Vector2f(p.x_px, p.y_px);
   };
+  const auto bend = [&](int row, int column) {
+    const Eigen::Vector2f here = node(row, column);
+    const Eigen::Vector2f right = node(row, column + 1), below = node(row + 1, column);
+    float largest = (node(row + 1, column + 1) - right - below + here).lpNorm<Eigen::Infinity>();
+    if (column + 2 < columns_)
+      largest =
+          std::max(largest, (node(row, column + 2) - 2 * right + here).lpNorm<Eigen::Infinity>());
+    if (row + 2 < rows_)
+      largest =
+          std::max(largest, (node(row + 2, column) - 2 * below + here).lpNorm<Eigen::Infinity>());
+    return largest;
+  };
+  bends_px_.assign(nodes_.size(), 0);
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
-      const Place* top = &nodes_[static_cast<std::size_t>(row) * columns_ + column];
-      const Place* bottom = top + columns_;
-      for (const Eigen::Vector2f& u : {along(top[0], top[1]), along(bottom[0], bottom[1])}) {
-        for (const Eigen::Vector2f& v : {along(top[0], bottom[0]), along(top[1], bottom[1])}) {
-          // The larger singular value of [u v].
-          const float sum = u.squaredNorm() + v.squaredNorm();
-          const float difference = u.squaredNorm() - v.squaredNorm();
-          const float cross = 2 * u.dot(v);
-          const float largest_sq =
-              0.5f * (sum + std::sqrt(difference * difference + cross * cross));
-          steepest = std::max(steepest, std::sqrt(largest_sq));
-        }
-      }
+      const float here = bend(row, column);
+      // The bend lies at the far sides of this cell.
+      for (int y = row - kBendReach_cells; y <= row + kBendReach_cells + 1; ++y)
+        for (int x = column - kBendReach_cells; x <= column + kBendReach_cells + 1; ++x)
+          if (y >= 0 && x >= 0 && y < rows_ && x < columns_) {
+            float& largest = bends_px_[static_cast<std::size_t>(y) * columns_ + x];
+            largest = std::max(largest, here);
+          }
     }
   }
-  return steepest * cells_per_unit_;
 }
 
 SensorPlaneTable::Window SensorPlaneTable::WindowOf(int left, int top, int right,

@@ -72,26 +72,36 @@ class SensorPlaneTable {
     return {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
   }
 
-  /// Tells that no direction within `radius` of this one is in the table: none of them is in the
-  /// picture.
-  bool Misses(double xu_over_f, double yu_over_f, double radius) const {
-    const double reach = radius + 1e-3;
-    if (xu_over_f * xu_over_f + yu_over_f * yu_over_f >
-        (field_radius_ + reach) * (field_radius_ + reach))
-      return true;
-    return xu_over_f < low_.x() - reach || xu_over_f > high_.x() + reach ||
-           yu_over_f < low_.y() - reach || yu_over_f > high_.y() + reach;
+  /// The table as loops over many directions want it.
+  struct Nodes {
+    const Place* nodes = nullptr;
+    int columns = 0;
+    float origin_x = 0, origin_y = 0;
+    float cells_per_unit = 0;
+    float last_column = 0, last_row = 0;
+    float field_radius = 0;
+    /// The part of the sensor plane that the picture shows.
+    float low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+    /// For each cell a bound on how much the slope of places [px per cell] changes from one cell to
+    /// the next, anywhere within kBendReach_cells of it.
+    const float* bends_px = nullptr;
+  };
+  static constexpr int kBendReach_cells = 2;
+  Nodes nodes() const {
+    return {nodes_.data(),
+            columns_,
+            origin_x_,
+            origin_y_,
+            cells_per_unit_,
+            last_column_,
+            last_row_,
+            static_cast<float>(field_radius_),
+            static_cast<float>(low_.x()),
+            static_cast<float>(low_.y()),
+            static_cast<float>(high_.x()),
+            static_cast<float>(high_.y()),
+            bends_px_.data()};
   }
-
-  /// Tells that the lens shows every direction within `radius` of this one, be it in the picture or
-  /// beside it.
-  bool Shows(double xu_over_f, double yu_over_f, double radius) const {
-    const double farthest = std::max(field_radius_ - radius, 0.0);
-    return xu_over_f * xu_over_f + yu_over_f * yu_over_f < farthest * farthest;
-  }
-
-  /// A bound on how many pixels a place moves when (Xu/f, Yu/f) moves by one unit.
-  float pixels_per_unit() const { return pixels_per_unit_; }
 
   /// An upright rectangle of (Xu/f, Yu/f).
   struct Window {
@@ -106,7 +116,7 @@ class SensorPlaneTable {
  private:
   void FillNodes(const Lens& lens, double cell);
   double WorstError_px(const Lens& lens) const;
-  float SteepestSlope() const;
+  void MeasureBends();
 
   int width_px_ = 0, height_px_ = 0;
   // The part of the sensor plane that the picture shows.
@@ -116,10 +126,10 @@ class SensorPlaneTable {
 
   float origin_x_ = 0, origin_y_ = 0;
   float cells_per_unit_ = 0;
-  float pixels_per_unit_ = 0;
   int columns_ = 0, rows_ = 0;
   float last_column_ = 0, last_row_ = 0;
   std::vector<Place> nodes_;
+  std::vector<float> bends_px_;  // Of the cell right of and below each node.
 
   // Directions of pixel corners, every kDirectionStep_px pixels, for WindowOf.
   int direction_columns_ = 0, direction_rows_ = 0;

@@ -1,7 +1,5 @@
 #include "core/reconstruction/volume_of_interest.h"
 
-#include "core/reconstruction/convex_volume.h"
-
 namespace mocap {
 namespace {
 
@@ -49,18 +47,19 @@ void ClipToSilhouette(const CarvingView& view, const PixelBox& box, ConvexVolume
 
 }  // namespace
 
-std::optional<Eigen::AlignedBox3d> FindVolumeOfInterest(std::span<const CarvingView> views) {
+std::optional<Eigen::AlignedBox3d> VolumeOfInterest::Find(std::span<const CarvingView> views) {
+  boxes_.clear();
+  for (const CarvingView& view : views) boxes_.push_back(view.silhouette->BoundingBox());
   if (views.empty()) return std::nullopt;
-  ConvexVolume volume(LookedAt(views));
+  volume_.Reset(LookedAt(views));
   int seeing = 0;
-  for (const CarvingView& view : views) {
-    const std::optional<PixelBox> box = view.silhouette->BoundingBox();
-    if (!box) continue;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!boxes_[i]) continue;
     ++seeing;
-    ClipToSilhouette(view, *box, volume);
+    ClipToSilhouette(views[i], *boxes_[i], volume_);
   }
-  if (seeing < 2 || volume.empty()) return std::nullopt;
-  return volume.Extent();
+  if (seeing < 2 || volume_.empty()) return std::nullopt;
+  return volume_.Extent();
 }
 
 }  // namespace mocap

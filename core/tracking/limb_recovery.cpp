@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "core/body/stance.h"
 #include "core/tracking/limb_search.h"
@@ -16,12 +16,17 @@ constexpr double kReachMm = 150;
 constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.01;
 constexpr double kBetterMm = 0.5;
-constexpr int kRefined = 10;
-constexpr std::size_t kLeftArms = 4;  // For each of them the right arm is searched.
+// So many stances of a limb, which end this far apart, are looked at closely.
+constexpr std::size_t kRefined = 8;
+constexpr std::size_t kPairRefined = 14;
+constexpr double kApartMm = 150;
+constexpr std::size_t kPairsTried = 3;
 constexpr int kRestFrames = 3;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
+constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
+    std::pair{Segment::kHandL, Segment::kHandR}, std::pair{Segment::kFootL, Segment::kFootR}};
 
 std::vector<Stance> ArmStances() {
   std::vector<Stance> stances;
@@ -69,11 +74,33 @@ struct Candidate {
   double cost_mm;
 };
 
-bool IsCheaper(const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; }
+// A stance of a limb that is one of a pair.
+struct Option {
+  PoseState pose;
+  LimbClaim claim;
+};
 
-// The best of the stances, refined, the best first.
+// Of those that put the limb's end in the same place only the first.
+std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates,
+                                    std::size_t count) {
+  std::vector<Candidate> kept;
+  std::vector<Vector3> tips_W;
+  for (const Candidate& candidate : candidates) {
+    const Vector3 tip_W = search.TipAt(candidate.pose);
+    const bool is_known = std::ranges::any_of(
+        tips_W, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApartMm; });
+    if (is_known) continue;
+    tips_W.push_back(tip_W);
+    kept.push_back(candidate);
+    if (kept.size() == count) break;
+  }
+  return kept;
+}
+
+// The best of the stances that put the limb's end in different places, refined, the best first.
 std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
-                              const std::vector<Stance>& stances, const PoseState& pose) {
+                              const std::vector<Stance>& stances, const PoseState& pose,
+                              std::size_t count) {
   std::vector<Candidate> candidates;
   for (const Stance& stance : stances) {
     const JointAngles angles = AnglesOf(stance, table);
@@ -82,14 +109,13 @@ std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
     candidate.cost_mm = search.CostAt(candidate.pose);
     candidates.push_back(candidate);
   }
-  const auto end = candidates.begin() + std::min<std::ptrdiff_t>(kRefined, std::ssize(candidates));
-  std::partial_sort(candidates.begin(), end, candidates.end(), IsCheaper);
-  candidates.erase(end, candidates.end());
+  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
+  candidates = KeepDistinct(search, candidates, count);
   for (Candidate& candidate : candidates) {
     search.Refine(candidate.pose, kIterations);
     candidate.cost_mm = search.CostAt(candidate.pose);
   }
-  std::sort(candidates.begin(), candidates.end(), IsCheaper);
+  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
   return candidates;
 }
 
@@ -110,26 +136,39 @@ bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                               PoseState& pose) {
   LimbSearch search(body, evidence, matcher_, limb_end, limb_end, pose);
-  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose).front();
+  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose, kRefined).front();
   if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
   pose = best.pose;
   return true;
 }
 
-bool LimbRecovery::RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                               PoseState& pose) {
-  const double before_mm = fit.QualityAt(body, pose).Cost();
-  LimbSearch left_search(body, evidence, matcher_, Segment::kHandL, Segment::kHandR, pose);
-  std::vector<Candidate> candidates = BestOf(left_search, body.table(), arm_stances_, pose);
-  candidates.resize(std::min(candidates.size(), kLeftArms));
-  for (Candidate& candidate : candidates) {
-    LimbSearch right_search(body, evidence, matcher_, Segment::kHandR, Segment::kHandR,
-                            candidate.pose);
-    candidate.pose = BestOf(right_search, body.table(), arm_stances_, candidate.pose).front().pose;
-    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
+bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
+                               Segment right, SurfaceFit& fit, PoseState& pose) {
+  LimbSearch left_search(body, evidence, matcher_, left, right, pose);
+  LimbSearch right_search(body, evidence, matcher_, right, left, pose);
+  const auto options = [&](LimbSearch& search, Segment limb_end) {
+    std::vector<Option> found;
+    for (const Candidate& candidate :
+         BestOf(search, body.table(), StancesOf(limb_end), pose, kPairRefined)) {
+      found.push_back({candidate.pose, search.ClaimAt(candidate.pose)});
+    }
+    return found;
+  };
+  const std::vector<Option> lefts = options(left_search, left);
+  const std::vector<Option> rights = options(right_search, right);
+  std::vector<Candidate> pairs;
+  for (const Option& l : lefts) {
+    for (const Option& r : rights) {
+      Candidate pair{l.pose, left_search.JointCost(l.claim, r.claim)};
+      for (const int row : right_search.rows()) pair.pose.theta[row] = r.pose.theta[row];
+      pairs.push_back(pair);
+    }
   }
-  const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), IsCheaper);
-  if (best.cost_mm > before_mm - kBetterMm) return false;
+  std::ranges::sort(pairs, {}, &Candidate::cost_mm);
+  pairs.resize(std::min(pairs.size(), kPairsTried));
+  for (Candidate& pair : pairs) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
+  const Candidate& best = *std::ranges::min_element(pairs, {}, &Candidate::cost_mm);
+  if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
   pose = best.pose;
   return true;
 }
@@ -148,11 +187,12 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   if (resting_ > 0) {
     --resting_;
   } else if (!IsExplained(body, now)) {
-    if (RecoverArms(body, evidence, fit, now)) {
-      changed = true;
-    } else {
-      resting_ = kRestFrames;
+    bool helped = false;
+    for (const auto& [left, right] : kPairs) {
+      helped |= RecoverPair(body, evidence, left, right, fit, now);
     }
+    changed |= helped;
+    if (!helped) resting_ = kRestFrames;
   }
   if (!changed) return std::nullopt;
   return now;

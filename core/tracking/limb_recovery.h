@@ -14,8 +14,8 @@
 namespace mocap {
 
 /// Tries each arm and leg in many stances when outlines are left that no part explains, and both
-/// arms together when that does not help: each may have taken the other's place. Only what the rest
-/// of the body does not explain is matched, so that a stance costs microseconds.
+/// arms or both legs together when that does not help: each may have taken the other's place. Only
+/// what the rest of the body does not explain is matched, so that a stance costs microseconds.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -31,12 +31,12 @@ class LimbRecovery {
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                   PoseState& pose);
-  bool RecoverArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                   PoseState& pose);
+  bool RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
+                   SurfaceFit& fit, PoseState& pose);
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
-  int resting_ = 0;  ///< Frames to go until both arms are searched together again.
+  int resting_ = 0;  ///< Frames to go until pairs are searched again.
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };

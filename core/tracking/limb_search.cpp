@@ -67,7 +67,7 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactM
     const double other_mm = matches[i].DistanceOr(kReachMm);
     if (other_mm < kTakenMm) continue;
     open.push_back(contacts_[i]);
-    claims_.push_back({other_mm, contacts_[i].is_edge ? edge_weight : voxel_weight});
+    terms_.push_back({other_mm, contacts_[i].is_edge ? edge_weight : voxel_weight});
   }
   open_.SetContacts(open);
 }
@@ -96,12 +96,12 @@ double LimbSearch::OverlapCost() const {
   return depth_mm;
 }
 
-double LimbSearch::CostAt(const PoseState& pose) {
+LimbClaim LimbSearch::ClaimAt(const PoseState& pose) {
   PoseLimb(pose);
-  double cost_mm = 0;
+  LimbClaim claim;
   const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    cost_mm += claims_[i].weight * std::min(claims_[i].other_mm, matches[i].DistanceOr(kReachMm));
+    claim.distances_mm.push_back(std::min(terms_[i].other_mm, matches[i].DistanceOr(kReachMm)));
   }
   double hollow_mm = 0;
   for (const PosedCapsule& capsule : posed_) {
@@ -111,7 +111,29 @@ double LimbSearch::CostAt(const PoseState& pose) {
     }
   }
   const double places = static_cast<double>(body_.shape().size() * kCoreShares.size());
-  return cost_mm + (kHollowWeight * hollow_mm + OverlapCost()) / places;
+  claim.own_cost_mm = (kHollowWeight * hollow_mm + OverlapCost()) / places;
+  return claim;
+}
+
+double LimbSearch::CostAt(const PoseState& pose) {
+  const LimbClaim claim = ClaimAt(pose);
+  double cost_mm = claim.own_cost_mm;
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    cost_mm += terms_[i].weight * claim.distances_mm[i];
+  return cost_mm;
+}
+
+double LimbSearch::JointCost(const LimbClaim& limb, const LimbClaim& other) const {
+  double cost_mm = limb.own_cost_mm + other.own_cost_mm;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    cost_mm += terms_[i].weight * std::min(limb.distances_mm[i], other.distances_mm[i]);
+  }
+  return cost_mm;
+}
+
+Vector3 LimbSearch::TipAt(const PoseState& pose) {
+  PoseLimb(pose);
+  return posed_.back().b_W;
 }
 
 void LimbSearch::Refine(PoseState& pose, int iterations) {
@@ -126,7 +148,7 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
     const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const ContactMatch& match = matches[i];
-      if (match.capsule < 0 || match.DistanceOr(0) > claims_[i].other_mm) continue;
+      if (match.capsule < 0 || match.DistanceOr(0) > terms_[i].other_mm) continue;
       const Vector3 offset = match.distance.segment_W - match.distance.core_W;
       if (offset.norm() < 1) continue;
       const Vector3 normal_W = offset.normalized();

@@ -13,6 +13,12 @@ namespace mocap {
 /// @param limb_end  the segment at the limb's end: a hand or a foot.
 std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end);
 
+/// What a limb in a certain stance explains.
+struct LimbClaim {
+  std::vector<double> distances_mm;  ///< Of each open contact to the limb or the rest of the body.
+  double own_cost_mm = 0;            ///< For lying in the void, and running into other parts.
+};
+
 /// Fits the joints of one limb while the rest of the body keeps its pose.
 class LimbSearch {
  public:
@@ -25,14 +31,20 @@ class LimbSearch {
   /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
   /// differ in this limb alone.
   double CostAt(const PoseState& pose);
+  /// The same in parts: what it explains of each contact that is open, and what it costs by itself.
+  LimbClaim ClaimAt(const PoseState& pose);
+  /// What two limbs cost together. @pre each was searched with the other absent.
+  double JointCost(const LimbClaim& limb, const LimbClaim& other) const;
   /// Improves the limb's angles from those in `pose`.
   void Refine(PoseState& pose, int iterations);
+  /// Where the limb ends with the angles that it has in `pose`: p_WQ.
+  Vector3 TipAt(const PoseState& pose);
   /// Of RowsOfLimb.
   const std::vector<int>& rows() const { return rows_; }
 
  private:
-  struct Claim {
-    double other_mm;  ///< How far the rest of the body is from the contact.
+  struct OpenContact {
+    double other_mm;  ///< How far the rest of the body is from it.
     double weight;
   };
   void PoseLimb(const PoseState& pose);
@@ -45,8 +57,8 @@ class LimbSearch {
   std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
   std::vector<BodyPart> other_parts_;
-  ContactMatcher open_;        ///< The contacts that the rest of the body does not explain.
-  std::vector<Claim> claims_;  ///< Of each of them.
+  ContactMatcher open_;             ///< The contacts that the rest of the body does not explain.
+  std::vector<OpenContact> terms_;  ///< Of each of them.
   Posture posture_;
   std::vector<PosedCapsule> posed_;  ///< The limb.
 };

@@ -62,6 +62,11 @@ class FakeDriver : public CameraDriver {
     return grab.status;
   }
   void Stop() override {}
+  CameraFacts Facts() const override {
+    CameraFacts facts;
+    facts.remarks = {"is fake"};
+    return facts;
+  }
 
  private:
   FakeScript script_;

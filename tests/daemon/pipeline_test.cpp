@@ -147,6 +147,14 @@ TEST(Pipeline, CountsTornFramesAndGoesOn) {
   EXPECT_EQ(pipeline.Status().cameras[1].torn, 4);
 }
 
+TEST(Pipeline, PassesOnWhatDriversRemark) {
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({SteadyFrames(2), SteadyFrames(2)}), Waiting(),
+                    LoadBodyTable("full"), sink);
+  pipeline.RunSerially();
+  EXPECT_EQ(pipeline.Status().cameras[1].remarks, std::vector<std::string>{"is fake"});
+}
+
 TEST(Pipeline, LiveLeavesSetsOutWhenTheSinkIsSlow) {
   // The first set is held until the cameras have delivered far more than may be under way.
   std::atomic<int> grabbed{0};

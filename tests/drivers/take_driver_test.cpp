@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -41,12 +42,14 @@ enum class Pace { kFast, kRealtime };
 /// A small take on disk, and the replay of its cameras.
 class Recording {
  public:
-  Recording(Pace pace, bool loop, const SmallTake& take = {}) : take_(take) {
+  Recording(Pace pace, bool loop, const SmallTake& take = {},
+            std::function<std::int64_t()> begin_ns = nullptr)
+      : take_(take) {
     WriteSmallTake(layout_.folder, take_);
     const ReplaySpan span{take_.first_ns, take_.frames * take_.interval_ns};
     std::unique_ptr<ReplayClock> clock;
     if (pace == Pace::kRealtime) clock = std::make_unique<FakeClock>(now_ns);
-    replay_ = std::make_shared<Replay>(span, loop, std::move(clock));
+    replay_ = std::make_shared<Replay>(span, loop, std::move(clock), begin_ns);
   }
 
   std::unique_ptr<TakeDriver> Make(int camera) const {
@@ -171,6 +174,30 @@ TEST(TakeDriver, LoopsGoOnIncreasingInStep) {
       EXPECT_TRUE(SamePixels<Bgr>(frame.image, SmallPicture(take, 1, i % take.frames).view()));
     }
   }
+}
+
+TEST(TakeDriver, BeginsWhenItIsTold) {
+  const std::int64_t begin_ns = kStart_ns + 20 * kMillisecond_ns;
+  Recording recording(Pace::kRealtime, true, {}, [begin_ns] { return begin_ns; });
+  const auto driver = recording.Make(0);
+  driver->Start();
+  Frame frame;
+  EXPECT_EQ(driver->Grab(frame, milliseconds(10)), GrabStatus::kTimeout);
+  ASSERT_EQ(driver->Grab(frame, milliseconds(1000)), GrabStatus::kFrame);
+  EXPECT_EQ(frame.capture_ns, begin_ns + recording.take().TimeNs(0, 0) - recording.take().first_ns);
+}
+
+TEST(TakeDriver, JoinsTheLoopThatIsUnderWay) {
+  const SmallTake take;
+  const std::int64_t loop_ns = take.frames * take.interval_ns;
+  Recording recording(Pace::kRealtime, true, take,
+                      [&] { return kStart_ns - 5 * loop_ns - take.interval_ns; });
+  const auto driver = recording.Make(0);
+  driver->Start();
+  Frame frame;
+  ASSERT_EQ(driver->Grab(frame, milliseconds(1000)), GrabStatus::kFrame);
+  EXPECT_EQ(frame.sequence, 0u);
+  EXPECT_EQ(frame.capture_ns, kStart_ns - take.interval_ns + take.TimeNs(0, 0) - take.first_ns);
 }
 
 TEST(TakeDriver, CutOffVideoStaysInStepWhenItLoops) {

@@ -74,7 +74,7 @@ bool AgreesPlainly(const std::vector<PlainView>& views, std::size_t all, const V
 
 Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
   Voxels voxels;
-  const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(views);
+  const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(views);
   if (!volume) return voxels;
   std::vector<PlainView> seeing;
   for (const CarvingView& view : views)
@@ -169,6 +169,20 @@ TEST(Carver, GivesTheSameAsThePlainDefinitionWhereThePersonLeavesPictures) {
   const Voxels plain = CarvePlainly(studio.Views(), 40);
   EXPECT_GT(plain.size(), 500u);
   EXPECT_TRUE(Carve(studio.Views(), 40) == plain);
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWithFourCamerasAndWithOneCloseBy) {
+  SyntheticStudio studio;
+  studio.cameras[1].X_CW = LookAt({-250, -500, 1900}, {0, 0, 800});
+  studio.Show(StandingPerson(0, 0));
+  std::vector<CarvingView> views = studio.Views();
+  const Voxels six = CarvePlainly(views, 40);
+  EXPECT_GT(six.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == six);
+  views.resize(4);
+  const Voxels four = CarvePlainly(views, 40);
+  EXPECT_GT(four.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == four);
 }
 
 TEST(Carver, AFootOutsideOnePictureDoesNotVanish) {

@@ -89,19 +89,43 @@ TEST(SensorPlaneTable, DirectionsBeyondTheTurnOfALensAreNotFoldedBackIntoThePict
   for (const double r : {0.58, 0.7, 0.9, 1.0, 1.5}) EXPECT_LT(table.Lookup(r, 0).x, 0) << r;
 }
 
-TEST(SensorPlaneTable, NoPlaceMovesFasterThanItsBound) {
+// The slope of a cell [px per cell], at places within it.
+struct Slope {
+  Eigen::Vector2f place, right, down;
+};
+
+Slope SlopeAt(const SensorPlaneTable::Nodes& t, float u, float v) {
+  const int column = static_cast<int>(u), row = static_cast<int>(v);
+  const auto node = [&](int x, int y) {
+    const SensorPlaneTable::Place& p = t.nodes[(row + y) * t.columns + column + x];
+    return Eigen::Vector2f(p.x_px, p.y_px);
+  };
+  const float a = u - static_cast<float>(column), b = v - static_cast<float>(row);
+  const Eigen::Vector2f top = node(1, 0) - node(0, 0), bottom = node(1, 1) - node(0, 1);
+  const Eigen::Vector2f left = node(0, 1) - node(0, 0), right = node(1, 1) - node(1, 0);
+  return {node(0, 0) + a * top + b * (left + a * (right - left)), top + b * (bottom - top),
+          left + a * (right - left)};
+}
+
+TEST(SensorPlaneTable, ItsBendsBoundHowFarAPlaceLiesFromWhereTheSlopeElsewhereLeads) {
   for (const auto& [name, camera] : DistortedCameras()) {
     SCOPED_TRACE(name);
     const SensorPlaneTable table(camera);
+    const SensorPlaneTable::Nodes t = table.nodes();
     std::mt19937 random(2);
-    std::uniform_real_distribution<float> x(-0.6f, 0.6f), step(-0.05f, 0.05f);
+    std::uniform_real_distribution<float> u(3, t.last_column - 3.01f), v(3, t.last_row - 3.01f);
+    constexpr float kReach = SensorPlaneTable::kBendReach_cells;
+    std::uniform_real_distribution<float> step(-kReach, kReach);
     for (int i = 0; i < 20000; ++i) {
-      const float a[2] = {x(random), x(random)};
-      const float b[2] = {a[0] + step(random), a[1] + step(random)};
-      SensorPlaneTable::Place p, q;
-      if (!table.Locate(a[0], a[1], p) || !table.Locate(b[0], b[1], q)) continue;
-      EXPECT_LE(std::hypot(p.x_px - q.x_px, p.y_px - q.y_px),
-                table.pixels_per_unit() * std::hypot(a[0] - b[0], a[1] - b[1]) + 0.01f);
+      const float at[2] = {u(random), v(random)};
+      const float by[2] = {step(random), step(random)};
+      const Slope here = SlopeAt(t, at[0], at[1]);
+      const Slope there = SlopeAt(t, at[0] + by[0], at[1] + by[1]);
+      const float bend = t.bends_px[static_cast<int>(at[1]) * t.columns + static_cast<int>(at[0])];
+      const float du = std::abs(by[0]), dv = std::abs(by[1]);
+      const Eigen::Vector2f led = here.place + by[0] * here.right + by[1] * here.down;
+      EXPECT_LE((there.place - led).lpNorm<Eigen::Infinity>(),
+                bend * (du * (du + 1) + dv * (dv + 1) + 2 * du * dv) + 1e-3f);
     }
   }
 }
@@ -123,8 +147,11 @@ TEST(SensorPlaneTable, AWindowHoldsTheDirectionsOfItsPixelsAndLittleMore) {
     EXPECT_TRUE((window.low.array() <= low.array()).all());
     EXPECT_TRUE((window.high.array() >= high.array()).all());
     // Some ten pixels near the middle of the picture.
-    EXPECT_LT((low - window.low).maxCoeff(), 20 / table.pixels_per_unit() * 3);
-    EXPECT_LT((window.high - high).maxCoeff(), 20 / table.pixels_per_unit() * 3);
+    const double pixel = (*NormalizedFromPixel(camera.lens, Vector2(321, 240)) -
+                          *NormalizedFromPixel(camera.lens, Vector2(320, 240)))
+                             .norm();
+    EXPECT_LT((low - window.low).maxCoeff(), 60 * pixel);
+    EXPECT_LT((window.high - high).maxCoeff(), 60 * pixel);
   }
 }
 

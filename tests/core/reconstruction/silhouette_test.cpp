@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/reconstruction/bit_filters.h"
-#include "core/reconstruction/distance_map.h"
 
 namespace mocap {
 namespace {
@@ -89,39 +88,6 @@ TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {
       }
     }
   }
-}
-
-TEST(DistanceMap, IsTheDistanceToTheNearestPixelOfTheOtherKind) {
-  Silhouette s = RandomSilhouette(90, 60, 400, 6);
-  for (int y = 20; y < 45; ++y)
-    for (int x = 30; x < 70; ++x)
-      if (x != 50 || y != 30) s.Set(x, y);
-  DistanceMap map;
-  map.Measure(RandomSilhouette(200, 100, 3, 7));
-  map.Measure(s);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 90; ++x) {
-      const bool inside = s.Test(x, y);
-      int nearest = DistanceMap::kFarthest;
-      for (int v = -1; v <= 60; ++v)
-        for (int u = -1; u <= 90; ++u)
-          if (IsSet(s, u, v, false) != inside)
-            nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
-      const int found = map.At(x, y);
-      EXPECT_EQ(found > 0, inside);
-      EXPECT_LE(std::abs(found), nearest);
-      const std::optional<PixelBox> box = s.BoundingBox();
-      if (x >= box->left && x <= box->right && y >= box->top && y <= box->bottom) {
-        EXPECT_EQ(std::abs(found), nearest) << x << " " << y;
-      }
-    }
-  }
-}
-
-TEST(DistanceMap, OfAnEmptySilhouetteEverythingIsFarAway) {
-  DistanceMap map;
-  map.Measure(Silhouette(64, 48));
-  EXPECT_LT(map.At(10, 10), 0);
 }
 
 }  // namespace

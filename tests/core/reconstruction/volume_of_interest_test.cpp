@@ -20,7 +20,8 @@ Eigen::AlignedBox3d BoxOf(const std::vector<Capsule>& capsules) {
 }
 
 TEST(ConvexVolume, ACornerCutOffACubeLeavesTheRest) {
-  ConvexVolume volume(Eigen::AlignedBox3d(Vector3::Zero(), Vector3::Ones()));
+  ConvexVolume volume;
+  volume.Reset(Eigen::AlignedBox3d(Vector3::Zero(), Vector3::Ones()));
   volume.Clip({1, 1, 1}, 1);
   EXPECT_NEAR((volume.Extent().max() - Vector3::Ones()).norm(), 0, 1e-12);
   volume.Clip({-1, 0, 0}, -0.5);
@@ -30,7 +31,8 @@ TEST(ConvexVolume, ACornerCutOffACubeLeavesTheRest) {
 }
 
 TEST(ConvexVolume, CutsBeyondItChangeNothingAndCutsBeforeItLeaveNothing) {
-  ConvexVolume volume(Eigen::AlignedBox3d(Vector3::Zero(), Vector3::Ones()));
+  ConvexVolume volume;
+  volume.Reset(Eigen::AlignedBox3d(Vector3::Zero(), Vector3::Ones()));
   volume.Clip({0, 0, 1}, 2);
   EXPECT_NEAR((volume.Extent().max() - Vector3::Ones()).norm(), 0, 1e-12);
   volume.Clip({0, 0, 1}, -0.1);
@@ -42,7 +44,7 @@ TEST(VolumeOfInterest, HoldsThePersonAndLittleMore) {
   for (const Vector2& at : {Vector2(0, 0), Vector2(900, -600)}) {
     const std::vector<Capsule> person = StandingPerson(at.x(), at.y());
     studio.Show(person);
-    const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(studio.Views());
+    const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(studio.Views());
     ASSERT_TRUE(volume.has_value());
     // What no pixel's centre hits, 13 mm apart, is not seen.
     const Eigen::AlignedBox3d box = BoxOf(person);
@@ -63,7 +65,7 @@ TEST(VolumeOfInterest, ASideThatRunsOutOfThePictureBoundsNothing) {
   studio.cameras[3].X_CW = LookAt({2900, 2700, 2200}, {3000, -2500, 900});
   studio.cameras[4].X_CW = LookAt({-150, 700, 1600}, {0, 0, 1300});
   studio.Show(person);
-  const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(studio.Views());
+  const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(studio.Views());
   ASSERT_TRUE(volume.has_value());
   const Eigen::AlignedBox3d box = BoxOf(person);
   EXPECT_TRUE(((volume->min() - box.min()).array() < 13).all());
@@ -73,7 +75,7 @@ TEST(VolumeOfInterest, ASideThatRunsOutOfThePictureBoundsNothing) {
 TEST(VolumeOfInterest, DoesNotReachBelowTheFloorsTolerance) {
   SyntheticStudio studio;
   studio.Show({{{0, 0, -400}, {0, 0, 500}, 100}});
-  const std::optional<Eigen::AlignedBox3d> volume = FindVolumeOfInterest(studio.Views());
+  const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(studio.Views());
   ASSERT_TRUE(volume.has_value());
   EXPECT_NEAR(volume->min().z(), -50, 1e-6);
 }
@@ -82,7 +84,7 @@ TEST(VolumeOfInterest, OneCameraAloneCannotPlaceAPerson) {
   SyntheticStudio studio;
   studio.Show(StandingPerson(0, 0));
   for (std::size_t c = 1; c < studio.silhouettes.size(); ++c) studio.silhouettes[c].Reset(320, 240);
-  EXPECT_FALSE(FindVolumeOfInterest(studio.Views()).has_value());
+  EXPECT_FALSE(VolumeOfInterest().Find(studio.Views()).has_value());
 }
 
 TEST(VolumeOfInterest, ConesThatDoNotMeetLeaveNothing) {
@@ -92,7 +94,7 @@ TEST(VolumeOfInterest, ConesThatDoNotMeetLeaveNothing) {
   studio.Show({{{1500, 0, 1000}, {1500, 0, 1000}, 80}});
   studio.silhouettes[0] = left[0];
   studio.silhouettes[3] = left[3];
-  EXPECT_FALSE(FindVolumeOfInterest(studio.Views()).has_value());
+  EXPECT_FALSE(VolumeOfInterest().Find(studio.Views()).has_value());
 }
 
 }  // namespace

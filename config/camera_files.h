@@ -1,0 +1,28 @@
+// The recorded files of one camera, held against its calibration.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "core/reconstruction/background_model.h"
+#include "core/reconstruction/camera_model.h"
+#include "drivers/take_table.h"
+#include "drivers/video_reader.h"
+
+namespace mocap {
+
+/// Opens a video. @throws SetupError  also when its pictures have another size than the camera's.
+VideoReader OpenCameraVideo(const std::filesystem::path& file, const CameraCalibration& camera);
+
+/// Reads a table. @throws SetupError  also when a head has no angles, or the other way round.
+TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibration& camera);
+
+/// Makes sure that a camera's pictures of the empty studio are there; reads them when called.
+/// @param table  of its angles; looked at for a camera on a head only.
+/// @throws SetupError  naming the file.
+std::function<std::vector<BackgroundFrame>()> OpenCameraBackground(
+    const std::filesystem::path& video, const std::filesystem::path& table,
+    const CameraCalibration& camera);
+
+}  // namespace mocap

@@ -1,0 +1,35 @@
+// Live cameras: from [[cameras]] to drivers.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "core/reconstruction/camera_model.h"
+#include "drivers/camera_driver.h"
+#include "drivers/camera_request.h"
+#include "drivers/studio.h"
+
+namespace mocap {
+
+/// One of [[cameras]], its driver not started yet.
+struct LiveCamera {
+  std::string name;
+  CameraRequest request;
+  std::optional<CameraCalibration> calibration;
+  std::unique_ptr<CameraDriver> driver;
+};
+
+/// Makes the drivers of all live cameras. A studio may be looked at before it is calibrated:
+/// without the calibration's file, cameras come without one.
+/// @throws SetupError  when source.driver is no live one, the calibration has no camera of a name,
+/// or its pictures another size.
+std::vector<LiveCamera> OpenLiveCameras(const Config& config);
+
+/// Opens all live cameras with their calibration and their pictures of the empty studio.
+/// @throws SetupError  also when one of these is missing.
+Studio OpenLiveStudio(const Config& config);
+
+}  // namespace mocap

@@ -1,0 +1,105 @@
+#include "config/read_cameras.h"
+
+#include <array>
+#include <cmath>
+
+#include "drivers/take_layout.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kLargestSide_px = 16384;
+constexpr double kLongestExposure_us = 1e6;
+constexpr double kMostGain = 1e6;
+constexpr double kMostFocus = 1e6;
+// Of a packet with its heads.
+constexpr int kLeastPacket = 576, kLargestPacket = 16000;
+constexpr double kLongestDelay_us = 1e4;
+
+std::optional<double> OptionalWithin(TomlSection& section, const std::string& key, double min,
+                                     double max) {
+  if (!section.Has(key)) return std::nullopt;
+  return section.NumberWithin(key, min, max);
+}
+
+V4l2Settings ReadV4l2Settings(TomlSection& section, const std::string& driver) {
+  V4l2Settings settings;
+  settings.format = section.Text("format", "");
+  if (settings.format.size() > 4 && driver == "v4l2") {
+    section.Fail("format", "is no format's four letters, such as \"YUYV\" or \"MJPG\"");
+  }
+  settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
+  settings.white_balance_k = OptionalWithin(section, "white_balance_k", 1000, 20000);
+  settings.gain = OptionalWithin(section, "gain", 0, kMostGain);
+  settings.focus = OptionalWithin(section, "focus", 0, kMostFocus);
+  if (section.Has("power_line_hz")) {
+    const auto hz = static_cast<int>(section.IntegerWithin("power_line_hz", 0, 60));
+    if (hz != 0 && hz != 50 && hz != 60) {
+      section.Fail("power_line_hz", "is " + std::to_string(hz) + "; 0, 50 or 60 is wanted");
+    }
+    settings.power_line_hz = hz;
+  }
+  return settings;
+}
+
+AravisSettings ReadAravisSettings(TomlSection& section) {
+  AravisSettings settings;
+  settings.format = section.Text("format", "");
+  settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
+  settings.gain = OptionalWithin(section, "gain", 0, kMostGain);
+  settings.trigger = section.Text("trigger", "");
+  settings.ptp = section.Flag("ptp", settings.ptp);
+  if (section.Has("packet_bytes")) {
+    settings.packet_bytes =
+        static_cast<int>(section.IntegerWithin("packet_bytes", kLeastPacket, kLargestPacket));
+  }
+  settings.packet_delay_us = OptionalWithin(section, "packet_delay_us", 0, kLongestDelay_us);
+  if (section.Has("packet_socket")) settings.packet_socket = section.Flag("packet_socket", false);
+  return settings;
+}
+
+std::array<int, 2> ReadSize(TomlSection& section) {
+  std::array<int, 2> size{};
+  const std::vector<double> numbers = section.Numbers("size_px", 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double side = numbers[i];
+    if (!(side >= 2 && side <= kLargestSide_px && side == std::floor(side))) {
+      section.Fail("size_px", "is no size of a picture; [width, height] in pixels is wanted");
+    }
+    size[i] = static_cast<int>(side);
+  }
+  return size;
+}
+
+CameraConfig ReadCamera(TomlSection& section, const std::string& driver,
+                        const std::vector<CameraConfig>& others) {
+  CameraConfig camera;
+  camera.name = section.Text("name");
+  camera.device = section.Text("device");
+  if (!IsCameraName(camera.name)) {
+    section.Fail("name", "is no name of a camera; letters, digits, _ and - are wanted");
+  }
+  for (const CameraConfig& other : others) {
+    if (other.name == camera.name) section.Fail("name", "is the name of another camera as well");
+    if (other.device == camera.device) section.Fail("device", "is another camera's as well");
+  }
+  if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
+  camera.fps = OptionalWithin(section, "fps", 1, 1000);
+  if (section.Has("size_px")) camera.size_px = ReadSize(section);
+  if (driver != "aravis") camera.v4l2 = ReadV4l2Settings(section, driver);
+  if (driver != "v4l2") camera.aravis = ReadAravisSettings(section);
+  section.RejectUnknownKeys();
+  return camera;
+}
+
+}  // namespace
+
+std::vector<CameraConfig> ReadCameras(TomlSection& root, const std::string& driver) {
+  std::vector<CameraConfig> cameras;
+  for (TomlSection& section : root.Sections("cameras")) {
+    cameras.push_back(ReadCamera(section, driver, cameras));
+  }
+  return cameras;
+}
+
+}  // namespace mocap

@@ -1,0 +1,129 @@
+// Runs the benchmarks, and tells of each how it compares with its peers.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/svg_plot.h"
+
+namespace mocap::bench {
+namespace {
+
+// What was measured, in microseconds, by the benchmark's whole name.
+class Results : public benchmark::ConsoleReporter {
+ public:
+  Results() : ConsoleReporter(OO_None) {}
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      // With repetitions their median counts.
+      const bool is_median = run.aggregate_name == "median";
+      if (run.error_occurred || (run.run_type == Run::RT_Aggregate && !is_median)) continue;
+      const double per_unit = 1e6 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+      us_[run.run_name.str()] = run.GetAdjustedCPUTime() * per_unit;
+    }
+    ConsoleReporter::ReportRuns(runs);
+  }
+  // Not a number where it was not measured.
+  double Us(const std::string& name) const {
+    const auto found = us_.find(name);
+    return found == us_.end() ? std::nan("") : found->second;
+  }
+
+ private:
+  std::map<std::string, double> us_;
+};
+
+struct Comparison {
+  const char *what, *ours, *peer;
+};
+constexpr Comparison kComparisons[] = {
+    {"segmentation, OpenCV MOG2", "SegmentFrame/480", "SegmentByMog2/480"},
+    {"segmentation, OpenCV KNN", "SegmentFrame/480", "SegmentByKnn/480"},
+    {"segmentation, memcpy of the frame", "SegmentFrame/480", "CopyFrame/480"},
+    {"carving, Open3D CarveSilhouette", "CarveSet/height:480/mm:25/cameras:6", "CarveByOpen3d"}};
+
+void PrintComparisons(const Results& results) {
+  std::printf("\n%-36s %12s %12s %10s\n", "against", "ours [us]", "theirs [us]", "ratio");
+  for (const Comparison& c : kComparisons) {
+    const double ours = results.Us(c.ours), theirs = results.Us(c.peer);
+    if (std::isnan(ours) || std::isnan(theirs)) continue;
+    std::printf("%-36s %12.1f %12.1f %10.2f\n", c.what, ours, theirs, theirs / ours);
+  }
+}
+
+// One curve, from what was measured at each value.
+PlotSeries Growth(const Results& results, const std::string& label, int color,
+                  const std::vector<std::pair<double, std::string>>& measured) {
+  PlotSeries series{.label = label, .points = {}, .color = color};
+  for (const auto& [at, name] : measured) series.points.emplace_back(at, results.Us(name) / 1e3);
+  return series;
+}
+
+std::string GrowthPlots(const Results& results) {
+  const auto carve = [](int height, int mm, int cameras) {
+    return "CarveSet/height:" + std::to_string(height) + "/mm:" + std::to_string(mm) +
+           "/cameras:" + std::to_string(cameras);
+  };
+  std::vector<std::pair<double, std::string>> segment, by_height, by_voxel, by_cameras;
+  for (const int height : {240, 480, 720, 1080}) {
+    const double megapixels = height * height * 4 / 3 * 1e-6;
+    segment.emplace_back(megapixels, "SegmentFrame/" + std::to_string(height));
+    by_height.emplace_back(megapixels, carve(height, 25, 6));
+  }
+  for (const int mm : {10, 15, 25, 50}) by_voxel.emplace_back(mm, carve(480, mm, 6));
+  for (const int cameras : {2, 4, 6, 8}) by_cameras.emplace_back(cameras, carve(480, 25, cameras));
+  const std::vector<std::pair<std::string, std::vector<PlotSeries>>> plots = {
+      {"resolution [megapixels]",
+       {Growth(results, "segmentation of a frame", 0, segment),
+        Growth(results, "carving of six", 1, by_height)}},
+      {"edge of a voxel [mm]", {Growth(results, "carving of six", 1, by_voxel)}},
+      {"cameras", {Growth(results, "carving, 25 mm", 1, by_cameras)}}};
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"760\" height=\"720\" "
+      "font-family=\"sans-serif\" font-size=\"12\">\n<style>.c0{stroke:#0072b2;fill:#0072b2}"
+      ".c1{stroke:#d55e00;fill:#d55e00}.axis{stroke:#444}.grid{stroke:#ddd}polyline,path{fill:none}"
+      "text{stroke:none;fill:#222}</style>\n<rect width=\"760\" height=\"720\" fill=\"#fff\"/>\n";
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const PlotAxes axes{.x_label = plots[i].first, .y_label = "ms"};
+    svg += "<g transform=\"translate(0," + std::to_string(240 * i) + ")\">" +
+           PlotSvg(axes, plots[i].second) + "</g>\n";
+  }
+  return svg + "</svg>\n";
+}
+
+// Takes our own option out of the command line.
+std::filesystem::path TakePlotOption(int& argc, char** argv) {
+  std::filesystem::path plot;
+  int kept = 1;
+  for (int i = 1; i < argc; ++i) {
+    constexpr char kOption[] = "--plot=";
+    if (std::strncmp(argv[i], kOption, sizeof kOption - 1) == 0)
+      plot = argv[i] + sizeof kOption - 1;
+    else
+      argv[kept++] = argv[i];
+  }
+  argc = kept;
+  return plot;
+}
+
+int Run(int argc, char** argv) {
+  const std::filesystem::path plot = TakePlotOption(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Results results;
+  benchmark::RunSpecifiedBenchmarks(&results);
+  PrintComparisons(results);
+  if (!plot.empty()) std::ofstream(plot) << GrowthPlots(results);
+  return 0;
+}
+
+}  // namespace
+}  // namespace mocap::bench
+
+int main(int argc, char** argv) { return mocap::bench::Run(argc, argv); }

@@ -1,0 +1,100 @@
+#include "config/open_live.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "config/load_config.h"
+#include "config/open_studio.h"
+#include "core/errors.h"
+#include "tests/support/small_take.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A studio of two cameras, of which a small take has calibration and background.
+class LiveStudio : public ::testing::Test {
+ protected:
+  LiveStudio() {
+    testing::WriteSmallTake(folder_.path() / "take", take_);
+    std::filesystem::copy(folder_.path() / "take/calibration.toml",
+                          folder_.path() / "calibration.toml");
+    std::filesystem::copy(folder_.path() / "take/background", folder_.path() / "background");
+  }
+
+  Config Load(const std::string& camera_settings = "", const std::string& name = "cam2") {
+    const std::filesystem::path file = folder_.path() / "mocapd.toml";
+    testing::WriteText(file,
+                       "calibration = \"calibration.toml\"\n[source]\ndriver = \"v4l2\"\n"
+                       "fps = 50\n[[cameras]]\nname = \"cam1\"\ndevice = \"/dev/video0\"\n"
+                       "[[cameras]]\nname = \"" +
+                           name + "\"\ndevice = \"/dev/video2\"\n" + camera_settings);
+    return LoadConfig(file);
+  }
+
+  static std::string Error(const Config& config) {
+    try {
+      OpenStudio(config);
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  testing::SmallTake take_;
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(LiveStudio, TakesTheCamerasThatTheConfigurationNames) {
+  const Studio studio = OpenStudio(Load("fps = 100\n"));
+  ASSERT_EQ(studio.cameras.size(), 2u);
+  EXPECT_EQ(studio.cameras[1].calibration.name, "cam2");
+  EXPECT_EQ(studio.cameras[1].background().size(), 3u);
+  EXPECT_NE(studio.cameras[1].driver, nullptr);
+  EXPECT_EQ(studio.fps_nominal, 100);
+}
+
+TEST_F(LiveStudio, AsksForTheSizeThatIsCalibrated) {
+  const std::vector<LiveCamera> cameras = OpenLiveCameras(Load("fps = 25\n"));
+  EXPECT_EQ(cameras.at(0).request.width_px, take_.width_px);
+  EXPECT_EQ(cameras.at(0).request.height_px, take_.height_px);
+  EXPECT_EQ(cameras.at(0).request.fps, 50);
+  EXPECT_EQ(cameras.at(1).request.fps, 25);
+}
+
+TEST_F(LiveStudio, CanBeLookedAtBeforeItIsCalibrated) {
+  std::filesystem::remove(folder_.path() / "calibration.toml");
+  const std::vector<LiveCamera> cameras = OpenLiveCameras(Load("size_px = [320, 240]\n"));
+  EXPECT_EQ(cameras.at(0).request.width_px, 0);
+  EXPECT_EQ(cameras.at(1).request.width_px, 320);
+  EXPECT_THAT(Error(Load()), AllOf(HasSubstr("calibration.toml"), HasSubstr("mocap calibrate")));
+}
+
+TEST_F(LiveStudio, NamesACameraThatIsNotCalibrated) {
+  EXPECT_THAT(Error(Load("", "cam9")), AllOf(HasSubstr("cameras.cam9"), HasSubstr("cam1, cam2")));
+}
+
+TEST_F(LiveStudio, NamesASizeThatIsNotTheCalibratedOne) {
+  EXPECT_THAT(Error(Load("size_px = [640, 480]\n")),
+              AllOf(HasSubstr("cam2"), HasSubstr("640 x 480"), HasSubstr("68 x 50")));
+}
+
+TEST_F(LiveStudio, SaysHowToLearnAMissingBackground) {
+  std::filesystem::remove(folder_.path() / "background/cam2.mkv");
+  EXPECT_THAT(Error(Load()), HasSubstr("cam2.mkv"));
+  std::filesystem::remove_all(folder_.path() / "background");
+  EXPECT_THAT(Error(Load()), HasSubstr("mocap background learn"));
+}
+
+TEST_F(LiveStudio, HasNoCamerasWhereTheSourceIsNotLive) {
+  EXPECT_THROW(OpenLiveCameras(Config()), SetupError);
+}
+
+}  // namespace
+}  // namespace mocap

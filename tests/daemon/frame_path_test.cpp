@@ -1,0 +1,135 @@
+// What happens on a frame's way, counted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "daemon/camera_worker.h"
+#include "daemon/carve_stage.h"
+#include "drivers/simulated_studio.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCountsAllocations = false;
+#else
+constexpr bool kCountsAllocations = true;
+thread_local std::int64_t allocations = 0;
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
+
+namespace mocap {
+namespace {
+
+constexpr int kCameras = 3;
+constexpr int kFrames = 4;
+constexpr std::int64_t kPeriodNs = 40'000'000;
+
+// Shows the same few pictures again and again.
+class LoopingDriver : public CameraDriver {
+ public:
+  explicit LoopingDriver(std::vector<Image<Bgr>> pictures) : pictures_(std::move(pictures)) {}
+  void Start() override {}
+  GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
+    frame.image = std::as_const(pictures_[next_ % kFrames]).view();
+    frame.capture_ns = (next_ + 1) * kPeriodNs;
+    frame.sequence = static_cast<std::uint64_t>(next_++);
+    frame.angles = {};
+    return GrabStatus::kFrame;
+  }
+  void Stop() override {}
+
+ private:
+  std::vector<Image<Bgr>> pictures_;
+  std::int64_t next_ = 0;
+};
+
+class FramePathTest : public testing::Test {
+ protected:
+  FramePathTest() {
+    SimulatedStudioOptions options = RecordedSimulation();
+    options.cameras = kCameras;
+    options.width_px = 240;
+    options.height_px = 180;
+    options.seconds = kFrames / options.fps;
+    const SimulatedStudio studio(options);
+    for (int c = 0; c < kCameras; ++c) {
+      std::vector<Image<Bgr>> pictures;
+      const std::unique_ptr<SimulatedCamera> camera = studio.OpenCamera(c);
+      camera->Start();
+      for (Frame frame; static_cast<int>(pictures.size()) < kFrames;) {
+        if (camera->Grab(frame, std::chrono::milliseconds(1000)) != GrabStatus::kFrame) break;
+        pictures.emplace_back(frame.image.width(), frame.image.height());
+        for (int y = 0; y < frame.image.height(); ++y)
+          std::copy_n(frame.image.row(y), frame.image.width(), pictures.back().row(y));
+      }
+      while (static_cast<int>(pictures.size()) < kFrames) pictures.push_back(pictures.back());
+      StudioCamera line;
+      line.calibration = studio.cameras()[c];
+      line.driver = std::make_unique<LoopingDriver>(std::move(pictures));
+      workers_.emplace_back(std::move(line),
+                            Segmenter(studio.cameras()[c], studio.Background(c), {}), recorders_);
+      workers_.back().Start();
+    }
+    carve_ = std::make_unique<CarveStage>(
+        studio.cameras(), Synchronizer(kCameras, kPeriodNs, Synchronizer::kWaitForever),
+        CarvingOptions{.voxel_mm = 40}, recorders_);
+  }
+
+  // Brings one set on its way; returns how many voxels there are.
+  std::int64_t Pass() {
+    for (int c = 0; c < kCameras; ++c) {
+      EXPECT_EQ(workers_[c].Next(carve_->wanted_from_ns(), frames_[c]),
+                CameraWorker::Outcome::kFrame);
+      carve_->Offer(c, frames_[c]);
+      carve_->synchronizer().Expect(c, Expectation::kCertain);
+    }
+    EXPECT_EQ(carve_->Next(set_), Synchronizer::Verdict::kSet);
+    std::int64_t voxels = 0;
+    for (const std::uint64_t word : set_.grid.words()) voxels += std::popcount(word);
+    return voxels;
+  }
+
+  StageRecorders recorders_;
+  std::deque<CameraWorker> workers_;
+  std::unique_ptr<CarveStage> carve_;
+  SegmentedFrame frames_[kCameras];
+  CarvedSet set_;
+};
+
+TEST_F(FramePathTest, SegmentingTracingMatchingAndCarvingAllocateNothingOnceTheyRun) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // Memory goes round between two places a camera.
+  std::int64_t voxels = 0;
+  for (int i = 0; i < 3 * kFrames; ++i) voxels = Pass();
+  EXPECT_GT(voxels, 200);
+  const std::int64_t before = allocations;
+  EXPECT_GT(before, 0);
+  for (int i = 0; i < 2 * kFrames; ++i) Pass();
+  EXPECT_EQ(allocations - before, 0);
+#endif
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,95 @@
+#include "tools/background.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "tools/background_recorder.h"
+
+namespace mocap {
+namespace {
+
+struct LearnOptions {
+  std::filesystem::path config;
+  double seconds = 4;
+};
+
+/// All cameras at the same time; of several failures the first camera's is thrown.
+std::vector<BackgroundRecord> RecordAll(std::vector<LiveCamera>& cameras,
+                                        const std::filesystem::path& folder, double seconds) {
+  std::vector<std::future<BackgroundRecord>> recordings;
+  for (LiveCamera& camera : cameras) {
+    recordings.push_back(std::async(std::launch::async, [&camera, &folder, seconds] {
+      return RecordBackground(camera, folder / (camera.name + ".mkv"), seconds);
+    }));
+  }
+  std::vector<BackgroundRecord> records;
+  for (auto& recording : recordings) records.push_back(recording.get());
+  return records;
+}
+
+void RequireStillRoom(const std::vector<LiveCamera>& cameras,
+                      const std::vector<BackgroundRecord>& records) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (records[i].changed <= kMostChange) continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << cameras[i].name << ": " << 100 * records[i].changed
+         << " % of its picture changed meanwhile; is somebody in the room, or is its exposure "
+            "automatic? What was learned before is kept";
+    throw std::runtime_error(text.str());
+  }
+}
+
+/// Puts a folder in another's place; whenever it is interrupted, one of them is whole.
+void Replace(const std::filesystem::path& folder, const std::filesystem::path& with) {
+  const std::filesystem::path old = folder.string() + ".old";
+  std::filesystem::remove_all(old);
+  if (std::filesystem::exists(folder)) std::filesystem::rename(folder, old);
+  std::filesystem::rename(with, folder);
+  std::filesystem::remove_all(old);
+}
+
+void Learn(const LearnOptions& options) {
+  const Config config = LoadConfig(options.config);
+  std::vector<LiveCamera> cameras = OpenLiveCameras(config);
+  const std::filesystem::path partial = config.background.string() + ".partial";
+  std::filesystem::remove_all(partial);
+  std::filesystem::create_directories(partial);
+  if (isatty(STDERR_FILENO)) {
+    std::fprintf(stderr, "recording the empty studio for %g s\n", options.seconds);
+  }
+  const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, options.seconds);
+  RequireStillRoom(cameras, records);
+  Replace(config.background, partial);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::printf("%s: %d frames\n", cameras[i].name.c_str(), records[i].frames);
+  }
+}
+
+}  // namespace
+
+void AddBackgroundCommand(CLI::App& app) {
+  CLI::App* background =
+      app.add_subcommand("background", "What the cameras see of the empty studio");
+  background->require_subcommand(1);
+  CLI::App* learn =
+      background->add_subcommand("learn", "Records it; nobody may be in the cameras' view");
+  auto options = std::make_shared<LearnOptions>();
+  learn->add_option("--config", options->config, "the daemon's TOML file")->required();
+  learn->add_option("--seconds", options->seconds, "how long to look")
+      ->check(CLI::Range(1.0, 600.0))
+      ->capture_default_str();
+  learn->callback([options] { Learn(*options); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,11 @@
+// `mocap background`: the live cameras' pictures of the empty studio.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mocap {
+
+/// Registers the subcommand; it runs when it is chosen on the command line.
+void AddBackgroundCommand(CLI::App& app);
+
+}  // namespace mocap

@@ -1,0 +1,115 @@
+#include "tools/cameras.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "config/load_config.h"
+#include "config/open_live.h"
+#include "drivers/aravis_directory.h"
+#include "drivers/camera_listing.h"
+#include "drivers/v4l2_devices.h"
+#include "drivers/video_kernel.h"
+#include "tools/camera_check.h"
+
+namespace mocap {
+namespace {
+
+struct CamerasOptions {
+  std::filesystem::path config;
+  double seconds = 5;
+};
+
+void Print(const std::string& line) { std::puts(line.c_str()); }
+
+void PrintListed(const ListedCamera& camera) {
+  std::string line = fmt::format("{}  {}, {}", camera.device, camera.model, camera.bus);
+  if (!camera.serial.empty()) line += fmt::format(", serial {}", camera.serial);
+  if (camera.link_mbit_s > 0) line += fmt::format(", {:g} Mbit/s", camera.link_mbit_s);
+  Print(line + fmt::format(" ({})", camera.driver));
+  for (const std::string& format : camera.formats) Print("    " + format);
+  for (const std::string& remark : camera.remarks) Print("  ! " + remark);
+}
+
+void List() {
+  std::vector<ListedCamera> cameras = ListV4l2Cameras(*SystemVideoKernel());
+  std::ranges::move(ListAravisCameras(), std::back_inserter(cameras));
+  for (const ListedCamera& camera : cameras) PrintListed(camera);
+  if (cameras.empty()) Print("no camera is connected");
+}
+
+/// @return  how many troubles there are.
+std::size_t PrintTroubles(const std::vector<std::string>& troubles) {
+  for (const std::string& trouble : troubles) Print("  ! " + trouble);
+  return troubles.size();
+}
+
+void PrintRun(const CameraRun& run) {
+  if (!run.error.empty()) {
+    Print(run.name);
+    return;
+  }
+  Print(fmt::format(
+      "{}  {}, {}: asked for {:g} frames a second, got {:.2f}; {} lost, {} damaged of {}; "
+      "times: {}",
+      run.name, run.facts.device, run.facts.format, run.request.fps, run.Fps(), run.MissedFrames(),
+      run.torn, run.sequences.size(), run.facts.time_source));
+}
+
+void Check(const CamerasOptions& options) {
+  const Config config = LoadConfig(options.config);
+  std::vector<LiveCamera> cameras = OpenLiveCameras(config);
+  if (isatty(STDERR_FILENO)) {
+    std::fprintf(stderr, "watching %zu cameras for %g s\n", cameras.size(), options.seconds);
+  }
+  const std::vector<CameraRun> runs = WatchCameras(cameras, options.seconds);
+  const std::vector<BusLoad> loads = LoadsOf(runs);
+  std::size_t troubles = 0;
+  for (const CameraRun& run : runs) {
+    PrintRun(run);
+    troubles += PrintTroubles(TroublesOf(run, loads));
+  }
+  for (const BusLoad& load : loads) {
+    if (load.link_mbit_s <= 0) continue;
+    Print(fmt::format("{}: {:.0f} of {:g} Mbit/s", load.bus, load.used_mbit_s, load.link_mbit_s));
+    troubles += PrintTroubles(TroublesOf(load));
+  }
+  const SetSummary sets = SummarizeSets(runs);
+  if (sets.sets > 0) {
+    Print(
+        fmt::format("sets: {} of {} complete; their times lie {:.1f} ms apart, 99 % within {:.1f}",
+                    sets.complete, sets.sets, sets.median_spread_ms, sets.p99_spread_ms));
+    troubles += PrintTroubles(TroublesOf(sets, runs));
+  }
+  if (troubles > 0) throw std::runtime_error(fmt::format("{} troubles, marked with !", troubles));
+}
+
+}  // namespace
+
+void AddCamerasCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "cameras", "Lists the cameras that are connected, or checks those of a configuration");
+  auto options = std::make_shared<CamerasOptions>();
+  command->add_option("--check", options->config,
+                      "stream from the cameras of this configuration, and say what to change");
+  command->add_option("--seconds", options->seconds, "how long to watch them")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->callback([options] {
+    if (options->config.empty()) {
+      List();
+    } else {
+      Check(*options);
+    }
+  });
+}
+
+}  // namespace mocap
