@@ -137,8 +137,8 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
       begin_ns_(SteadyNs()) {
   const TakeLayout layout{writer_.partial_folder()};
-  if (!studio.config_text.empty()) WriteText(layout.folder / "mocapd.toml", studio.config_text);
-  if (subject) SaveSubject(layout.folder / "subject.toml", *subject);
+  if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
+  if (subject) SaveSubject(layout.Subject(), *subject);
   const double buffer_mb = config.buffer_mb / static_cast<double>(studio.cameras.size());
   for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
     const CameraCalibration& camera = studio.cameras[i].calibration;
@@ -237,7 +237,7 @@ void Recording::RunKeeper() {
   StepBehind("rec keeper");
   std::int64_t safe_ns = SteadyNs();
   Guard([&] {
-    MessageLog log(writer_.partial_folder() / "poses.lcm");
+    MessageLog log(TakeLayout{writer_.partial_folder()}.Poses());
     const auto drain = [&] {
       while (taps_.messages.queue().TryPop()) log.Write(taps_.messages.queue().front());
       log.Flush();
