@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
 #include "config/service_config.h"
+#include "core/reconstruction/camera_model.h"
 #include "core/reconstruction/segmenter.h"
 #include "drivers/aravis_settings.h"
 #include "drivers/v4l2_settings.h"
