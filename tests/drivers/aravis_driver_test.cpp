@@ -331,9 +331,12 @@ TEST_F(AravisDriverTest, HalfTheRateIsHalfTheFrames) {
   ASSERT_TRUE(GrabFrame(driver, frame));
   const std::int64_t first_ns = frame.capture_ns;
   const std::uint64_t first = frame.sequence;
-  for (int i = 0; i < 20; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
-  EXPECT_NEAR(static_cast<double>(frame.capture_ns - first_ns),
-              static_cast<double>(frame.sequence - first) * 2 * kPeriod_ns, 2.0 * kPeriod_ns);
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
+  const double periods = static_cast<double>(frame.capture_ns - first_ns) / kPeriod_ns;
+  const double per_frame = periods / static_cast<double>(frame.sequence - first);
+  // A served camera keeps its rate as well as the machine lets it, but not by accident.
+  EXPECT_GT(per_frame, 1.5);
+  EXPECT_LT(per_frame, 3);
 }
 
 struct AravisFactory {
