@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/service_config.h"
+#include "core/reconstruction/camera_model.h"
 #include "core/reconstruction/segmenter.h"
 #include "drivers/aravis_settings.h"
 #include "drivers/v4l2_settings.h"
@@ -45,14 +46,28 @@ struct LcmConfig {
   double voxels_hz = 0;  ///< 0: voxels are not published.
 };
 
+/// What turns a live camera.
+enum class HeadKind { kNone, kFixed, kV4l2 };
+
+/// A camera's head.
+struct HeadConfig {
+  HeadKind kind = HeadKind::kNone;
+  PanTiltAngles angles;  ///< Of one that is fixed.
+  double delay_ms = 0;   ///< By which readings lag behind.
+  /// How far the studio lets it turn: least and most [rad]. Empty: as far as it can.
+  std::optional<std::array<double, 2>> pan_range_rad;
+  std::optional<std::array<double, 2>> tilt_range_rad;
+};
+
 /// One [[cameras]] entry of a live studio.
 struct CameraConfig {
   std::string name;
   std::string device;
   std::optional<double> fps;                  ///< Empty: source.fps.
   std::optional<std::array<int, 2>> size_px;  ///< Empty: what the calibration says.
-  V4l2Settings v4l2;                          ///< For source.driver "v4l2".
-  AravisSettings aravis;                      ///< For source.driver "aravis".
+  HeadConfig head;
+  V4l2Settings v4l2;      ///< For source.driver "v4l2".
+  AravisSettings aravis;  ///< For source.driver "aravis".
 };
 
 struct Config {

@@ -1,6 +1,7 @@
 #include "config/open_live.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -8,7 +9,9 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "drivers/aravis_driver.h"
+#include "drivers/pan_tilt_camera.h"
 #include "drivers/v4l2_driver.h"
+#include "drivers/v4l2_pan_tilt.h"
 
 namespace mocap {
 namespace {
@@ -17,6 +20,38 @@ std::unique_ptr<CameraDriver> MakeDriver(const std::string& driver, const Camera
                                          const CameraRequest& request) {
   if (driver == "v4l2") return std::make_unique<V4l2Driver>(request, camera.v4l2);
   return std::make_unique<AravisDriver>(request, camera.aravis);
+}
+
+std::unique_ptr<PanTilt> MakeHead(const CameraConfig& camera) {
+  if (camera.head.kind == HeadKind::kFixed) {
+    return std::make_unique<FixedPanTilt>(camera.head.angles);
+  }
+  const auto delay = std::chrono::duration<double, std::milli>(camera.head.delay_ms);
+  return std::make_unique<V4l2PanTilt>(camera.device,
+                                       std::chrono::duration_cast<std::chrono::nanoseconds>(delay));
+}
+
+/// Puts the camera on its head.
+void Mount(const CameraConfig& camera, LiveCamera& live) {
+  if (camera.head.kind == HeadKind::kNone) return;
+  auto mounted = std::make_unique<PanTiltCamera>(std::move(live.driver), MakeHead(camera));
+  live.head = &mounted->head();
+  live.driver = std::move(mounted);
+  constexpr std::array<double, 2> kAnywhere{-1e3, 1e3};
+  const auto pan = camera.head.pan_range_rad.value_or(kAnywhere);
+  const auto tilt = camera.head.tilt_range_rad.value_or(kAnywhere);
+  live.range = {{pan[0], tilt[0]}, {pan[1], tilt[1]}};
+}
+
+/// Angles and a head belong together: one without the other would be wrong in silence.
+void RequireHeadOrNone(const LiveCamera& live, const std::filesystem::path& calibration) {
+  const bool is_calibrated = live.calibration->head.has_value();
+  if (is_calibrated == (live.head != nullptr)) return;
+  const std::string table = "cameras." + live.name + ".pan_tilt";
+  throw SetupError(calibration.string() + ": " + table +
+                   (is_calibrated ? " is there, but [[cameras]] gives " + live.name +
+                                        " no head; head = \"v4l2\" or \"fixed\" is wanted"
+                                  : " is missing, but [[cameras]] gives " + live.name + " a head"));
 }
 
 std::string SizeText(int width_px, int height_px) {
@@ -76,6 +111,8 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config) {
     if (!calibrations.empty()) live.calibration = Find(calibrations, camera, config.calibration);
     live.request = RequestFor(config, camera, live.calibration);
     live.driver = MakeDriver(config.source.driver, camera, live.request);
+    Mount(camera, live);
+    if (live.calibration) RequireHeadOrNone(live, config.calibration);
   }
   return cameras;
 }
@@ -91,10 +128,6 @@ Studio OpenLiveStudio(const Config& config) {
   }
   Studio studio{"live studio", 0, {}};
   for (LiveCamera& live : OpenLiveCameras(config)) {
-    if (live.calibration->head) {
-      throw SetupError(config.calibration.string() + ": cameras." + live.name +
-                       ".pan_tilt: heads of live cameras are not supported");
-    }
     const std::filesystem::path base = config.background / live.name;
     studio.fps_nominal = std::max(studio.fps_nominal, live.request.fps);
     auto background =

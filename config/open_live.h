@@ -10,6 +10,7 @@
 #include "core/reconstruction/camera_model.h"
 #include "drivers/camera_driver.h"
 #include "drivers/camera_request.h"
+#include "drivers/pan_tilt.h"
 #include "drivers/studio.h"
 
 namespace mocap {
@@ -20,6 +21,8 @@ struct LiveCamera {
   CameraRequest request;
   std::optional<CameraCalibration> calibration;
   std::unique_ptr<CameraDriver> driver;
+  PanTilt* head = nullptr;  ///< The driver's; null: it has none.
+  PanTiltLimits range;      ///< How far the studio lets it turn, beside its own limits.
 };
 
 /// Makes the drivers of all live cameras. A studio may be looked at before it is calibrated:

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "drivers/take_layout.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kLargestSide_px = 16384;
 constexpr double kLongestExposure_us = 1e6;
+constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 constexpr double kMostGain = 1e6;
 constexpr double kMostFocus = 1e6;
 // Of a packet with its heads.
@@ -58,6 +60,31 @@ AravisSettings ReadAravisSettings(TomlSection& section) {
   return settings;
 }
 
+std::optional<std::array<double, 2>> ReadRange(TomlSection& section, const std::string& key) {
+  if (!section.Has(key)) return std::nullopt;
+  const std::vector<double> range = section.Numbers(key, 2);
+  if (!(range[0] < range[1] && range[0] >= -kFullTurn_rad && range[1] <= kFullTurn_rad)) {
+    section.Fail(key, "is no range; [least, most] in radians is wanted");
+  }
+  return std::array<double, 2>{range[0], range[1]};
+}
+
+HeadConfig ReadHead(TomlSection& section) {
+  HeadConfig head;
+  if (!section.Has("head")) return head;
+  if (section.Choice("head", {"fixed", "v4l2"}) == 0) {
+    head.kind = HeadKind::kFixed;
+    head.angles.pan_rad = section.NumberWithin("pan_rad", -kFullTurn_rad, kFullTurn_rad, 0);
+    head.angles.tilt_rad = section.NumberWithin("tilt_rad", -kFullTurn_rad, kFullTurn_rad, 0);
+    return head;
+  }
+  head.kind = HeadKind::kV4l2;
+  head.delay_ms = section.NumberWithin("head_delay_ms", 0, 1000, 0);
+  head.pan_range_rad = ReadRange(section, "pan_range_rad");
+  head.tilt_range_rad = ReadRange(section, "tilt_range_rad");
+  return head;
+}
+
 std::array<int, 2> ReadSize(TomlSection& section) {
   std::array<int, 2> size{};
   const std::vector<double> numbers = section.Numbers("size_px", 2);
@@ -86,6 +113,7 @@ CameraConfig ReadCamera(TomlSection& section, const std::string& driver,
   if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
   camera.fps = OptionalWithin(section, "fps", 1, 1000);
   if (section.Has("size_px")) camera.size_px = ReadSize(section);
+  camera.head = ReadHead(section);
   if (driver != "aravis") camera.v4l2 = ReadV4l2Settings(section, driver);
   if (driver != "v4l2") camera.aravis = ReadAravisSettings(section);
   section.RejectUnknownKeys();

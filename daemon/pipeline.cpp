@@ -16,7 +16,9 @@ namespace {
 constexpr std::size_t kFramesQueued = 4;
 constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.
-constexpr double kPatiencePeriods = 3;
+constexpr double kPatiencePeriods = 1.75;
+// By the time that a set went on without a camera, up to a period later, it must not be too old.
+static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
 constexpr std::size_t kLongestThreadName = 15;
 
 /// Learns all backgrounds at the same time; of several errors the first camera's is thrown.

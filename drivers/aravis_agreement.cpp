@@ -27,6 +27,16 @@ bool Differs(double got, double wanted) {
   return std::abs(got - wanted) > kSame * std::max(std::abs(wanted), 1.0);
 }
 
+/// A list that one of Aravis's functions gave, as text.
+std::string Joined(const char** names, guint count) {
+  const std::unique_ptr<const char*, GFree> owner(names);
+  std::string text;
+  for (const char* name : std::span(names, names ? count : 0)) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
 class Negotiation {
  public:
   Negotiation(ArvCamera* camera, const CameraRequest& request, const AravisSettings& settings)
@@ -98,13 +108,8 @@ void Negotiation::SetSize() {
 
 std::string Negotiation::Formats() const {
   guint count = 0;
-  const std::unique_ptr<const char*, GFree> names(
-      arv_camera_dup_available_pixel_formats_as_strings(camera_, &count, nullptr));
-  std::string text;
-  for (const char* name : std::span(names.get(), names ? count : 0)) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return text;
+  const char** names = arv_camera_dup_available_pixel_formats_as_strings(camera_, &count, nullptr);
+  return Joined(names, count);
 }
 
 void Negotiation::SetFormat() {
@@ -153,13 +158,8 @@ void Negotiation::SetRate() {
 
 std::string Negotiation::Triggers() const {
   guint count = 0;
-  const std::unique_ptr<const char*, GFree> names(
-      arv_camera_dup_available_trigger_sources(camera_, &count, nullptr));
-  std::string text;
-  for (const char* name : std::span(names.get(), names ? count : 0)) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return text;
+  const char** names = arv_camera_dup_available_trigger_sources(camera_, &count, nullptr);
+  return Joined(names, count);
 }
 
 void Negotiation::SetTrigger() {

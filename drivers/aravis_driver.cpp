@@ -108,9 +108,10 @@ std::optional<GrabStatus> AravisDriver::Take(ArvBuffer* buffer, Frame& frame) {
   const bool whole = IsWhole(buffer);
   // Packets of the first frame come before the socket has its buffer.
   const bool excused = !whole && fresh_;
-  if (!excused) frame.sequence = counter_.Next(arv_buffer_get_frame_id(buffer));
   if (whole) {
     fresh_ = false;
+    // Others may have lost the packet that tells their number, and keep that of an earlier frame.
+    frame.sequence = counter_.Next(arv_buffer_get_frame_id(buffer));
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
     const auto arrival_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
     const std::int64_t capture_ns = clock_->MiddleOfExposure(

@@ -29,7 +29,7 @@ std::vector<BackgroundRecord> RecordAll(std::vector<LiveCamera>& cameras,
   std::vector<std::future<BackgroundRecord>> recordings;
   for (LiveCamera& camera : cameras) {
     recordings.push_back(std::async(std::launch::async, [&camera, &folder, seconds] {
-      return RecordBackground(camera, folder / (camera.name + ".mkv"), seconds);
+      return RecordBackground(camera, folder, seconds);
     }));
   }
   std::vector<BackgroundRecord> records;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <vector>
 
 #include "config/open_live.h"
 
@@ -18,11 +18,18 @@ struct BackgroundRecord {
   double changed = 0;
 };
 
-/// Records some dozens of frames, spread over the time given, into `file`. Starts the camera, lets
-/// it settle for a second, and stops it.
-/// @throws SetupError  when the camera cannot be used.
-/// @throws std::runtime_error  when it delivers nothing for seconds, or nothing can be written.
-BackgroundRecord RecordBackground(LiveCamera& camera, const std::filesystem::path& file,
+/// Records what a camera sees into NAME.mkv in a folder. Starts the camera, lets it settle for a
+/// second, and stops it. A camera that stands still is watched for the time given; one on a head
+/// looks in all directions that it may, less than half a picture apart, and these are written to
+/// NAME.csv.
+/// @throws SetupError  when the camera cannot be used, or may turn so far that it would take hours.
+/// @throws std::runtime_error  when it delivers nothing for seconds, its head does not turn, or
+/// nothing can be written.
+BackgroundRecord RecordBackground(LiveCamera& camera, const std::filesystem::path& folder,
                                   double seconds);
+
+/// Gives the directions of a sweep, each next to the one before.
+/// @pre  the camera is calibrated and has a head that was started.
+std::vector<PanTiltAngles> SweepDirections(const LiveCamera& camera);
 
 }  // namespace mocap

@@ -79,7 +79,7 @@ std::string WhyMissed(const BusLoad* load) {
 std::int64_t CameraRun::MissedFrames() const {
   if (sequences.empty()) return 0;
   const auto taken = static_cast<std::int64_t>(sequences.back() - sequences.front()) + 1;
-  return taken - static_cast<std::int64_t>(sequences.size()) - torn;
+  return std::max<std::int64_t>(taken - static_cast<std::int64_t>(sequences.size()) - torn, 0);
 }
 
 double CameraRun::Fps() const {

@@ -43,7 +43,7 @@ bool StudioSource::HasBegun() {
     stage_.begin_ns.compare_exchange_strong(not_yet, soon_ns);
   }
   if (!std::exchange(started_, true)) recording_->Start();
-  return Now_ns() >= stage_.begin_ns.load() - period_ns_;
+  return Now_ns() >= stage_.begin_ns.load() - 2 * period_ns_;
 }
 
 GrabStatus StudioSource::Grab(Frame& frame, std::chrono::milliseconds timeout) {

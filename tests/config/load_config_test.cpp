@@ -194,6 +194,7 @@ device = "/dev/video2"
 TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
   const WrongConfig cases[] = {
       {"packet_bytes = 100", 3, "cameras[0].packet_bytes is 100"},
+      {"head = \"motor\"", 3, "cameras[0].head is \"motor\""},
       {"exposure_us = 0", 3, "cameras[0].exposure_us is 0"},
       {"power_line_hz = 55", 3, "cameras[0].power_line_hz is 55"},
       {"size_px = [640.5, 480]", 3, "cameras[0].size_px"},
@@ -201,8 +202,8 @@ TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
       {"exposure = 5", 3, "cameras[0].exposure is unknown"},
   };
   for (const WrongConfig& wrong : cases) {
-    const std::string text =
-        "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) + "\ndevice = \"x\"\n";
+    const std::string text = "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) +
+                             "\ndevice = \"x\"\n[source]\ndriver = \"v4l2\"\n";
     EXPECT_THAT(Error(text),
                 AllOf(HasSubstr(":" + std::to_string(wrong.line) + ": "), HasSubstr(wrong.says)))
         << wrong.text;

@@ -92,6 +92,29 @@ TEST_F(LiveStudio, SaysHowToLearnAMissingBackground) {
   EXPECT_THAT(Error(Load()), HasSubstr("mocap background learn"));
 }
 
+TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {
+  EXPECT_THAT(Error(Load("head = \"v4l2\"\n")), HasSubstr("cameras.cam2.pan_tilt is missing"));
+  std::filesystem::remove_all(folder_.path() / "take");
+  take_.heads = true;
+  testing::WriteSmallTake(folder_.path() / "take", take_);
+  for (const char* part : {"calibration.toml", "background"}) {
+    std::filesystem::remove_all(folder_.path() / part);
+    std::filesystem::copy(folder_.path() / "take" / part, folder_.path() / part);
+  }
+  EXPECT_THAT(Error(Load()), AllOf(HasSubstr("cam1"), HasSubstr("head = \"v4l2\"")));
+  const std::string fixed = "head = \"fixed\"\npan_rad = 0.02\ntilt_rad = -0.1\n";
+  testing::ReplaceInFile(folder_.path() / "mocapd.toml", "\"/dev/video0\"\n",
+                         "\"/dev/video0\"\n" + fixed);
+  EXPECT_THAT(Error(LoadConfig(folder_.path() / "mocapd.toml")), HasSubstr("cam2"));
+  testing::ReplaceInFile(folder_.path() / "mocapd.toml", "\"/dev/video2\"\n",
+                         "\"/dev/video2\"\nhead = \"v4l2\"\npan_range_rad = [-0.5, 1]\n");
+  const Config config = LoadConfig(folder_.path() / "mocapd.toml");
+  EXPECT_EQ(Error(config), "none");
+  const std::vector<LiveCamera> cameras = OpenLiveCameras(config);
+  EXPECT_EQ(cameras.at(0).head->At(0), (PanTiltAngles{0.02, -0.1}));
+  EXPECT_EQ(cameras.at(1).range.most.pan_rad, 1);
+}
+
 TEST_F(LiveStudio, HasNoCamerasWhereTheSourceIsNotLive) {
   EXPECT_THROW(OpenLiveCameras(Config()), SetupError);
 }

@@ -126,7 +126,9 @@ TEST(Loopback, PersonInFrontOfKernelDevicesIsTracked) {
     for (std::size_t i = 0; i < feeds.size() && goes_on; ++i) {
       Frame frame;
       goes_on = played.cameras[i].driver->Grab(frame, kPatience) == GrabStatus::kFrame;
-      if (goes_on) ASSERT_TRUE(feeds[i]->Write(frame.image));
+      if (goes_on) {
+        ASSERT_TRUE(feeds[i]->Write(frame.image));
+      }
     }
     // Devices have a format only once there is a picture.
     if (frames == 0) pipeline.Start();

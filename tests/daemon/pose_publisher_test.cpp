@@ -187,7 +187,12 @@ TEST_F(PosePublisherTest, TheStatusTellsCamerasAndStages) {
   PipelineStatus status;
   status.sets_complete = 90;
   status.sets_tracked = 60;
-  status.cameras = {{.name = "cam1", .state = CameraState::kLost, .frames = 60, .dropped = 2}};
+  CameraStatus camera;
+  camera.name = "cam1";
+  camera.state = CameraState::kLost;
+  camera.frames = 60;
+  camera.dropped = 2;
+  status.cameras = {camera};
   StatusWindow window;
   window.Add(status, 0);
   status.sets_tracked += 60;

@@ -158,7 +158,7 @@ int FakeVideoKernel::Open(const std::string& node) {
 void FakeVideoKernel::Close(int handle) {
   FakeCamera& camera = cameras.at(sessions_.at(handle).node);
   --camera.handles;
-  camera.streams = false;
+  if (sessions_.at(handle).streams) camera.streams = false;
   sessions_.erase(handle);
 }
 
@@ -230,10 +230,10 @@ int FakeVideoKernel::RequestOpen(Session& session, FakeCamera& camera, unsigned 
       return Fill(session, camera, *static_cast<v4l2_buffer*>(argument));
     case VIDIOC_STREAMON:
       if (camera.stream_error != 0) return -camera.stream_error;
-      camera.streams = true;
+      camera.streams = session.streams = true;
       return 0;
     case VIDIOC_STREAMOFF:
-      camera.streams = false;
+      camera.streams = session.streams = false;
       return 0;
     default:
       return -ENOTTY;

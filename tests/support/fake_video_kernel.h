@@ -71,6 +71,7 @@ class FakeVideoKernel : public VideoKernel {
     std::deque<std::uint32_t> queued;
     std::vector<std::vector<std::uint8_t>> memory;
     std::uint32_t sequence = 0;
+    bool streams = false;
   };
 
   int RequestOpen(Session& session, FakeCamera& camera, unsigned long request, void* argument);

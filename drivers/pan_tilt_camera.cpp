@@ -1,0 +1,28 @@
+#include "drivers/pan_tilt_camera.h"
+
+#include <utility>
+
+namespace mocap {
+
+PanTiltCamera::PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::unique_ptr<PanTilt> head)
+    : camera_(std::move(camera)), head_(std::move(head)) {}
+
+void PanTiltCamera::Start() {
+  camera_->Start();
+  head_->Start();
+}
+
+GrabStatus PanTiltCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
+  const GrabStatus status = camera_->Grab(frame, timeout);
+  // A frame was exposed some time ago: this reading and the one before lie around it.
+  head_->Update();
+  if (status == GrabStatus::kFrame) frame.angles = head_->At(frame.capture_ns);
+  return status;
+}
+
+void PanTiltCamera::Stop() {
+  head_->Stop();
+  camera_->Stop();
+}
+
+}  // namespace mocap
