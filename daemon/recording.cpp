@@ -33,7 +33,8 @@ constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr std::int64_t kSafeEveryNs = 500'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 4;
-constexpr std::size_t kMostFrames = 4096;
+/// What waits is lost when the program is killed: that shall not be more than this.
+constexpr double kMostWaitingS = 2;
 
 std::int64_t BytesFree(const std::filesystem::path& folder) {
   struct statvfs space {};
@@ -148,8 +149,9 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     TappedFrame item;
     item.image = Image<Bgr>(camera.width_px, camera.height_px);
     const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
-    const auto fitting = static_cast<std::size_t>(buffer_mb / frame_mb);
-    taps_.frames[i].Open(std::clamp(fitting, kFewestFrames, kMostFrames), item, line.bell);
+    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio.fps_nominal);
+    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
+                         line.bell);
   }
   taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
