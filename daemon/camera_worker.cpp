@@ -1,7 +1,5 @@
 #include "daemon/camera_worker.h"
 
-#include <spdlog/spdlog.h>
-
 #include <limits>
 #include <thread>
 #include <utility>
@@ -27,13 +25,6 @@ CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecord
       recorders_(recorders),
       tap_(tap),
       newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
-
-void CameraWorker::Start() {
-  camera_.driver->Start();
-  for (const std::string& remark : camera_.driver->Facts().remarks) {
-    spdlog::warn("{}: {}", camera_.calibration.name, remark);
-  }
-}
 
 void CameraWorker::Stop() {
   camera_.driver->Stop();

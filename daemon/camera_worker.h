@@ -51,8 +51,7 @@ class CameraWorker {
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
                FrameTap* tap = nullptr);
 
-  /// Logs what the camera does otherwise than it was asked.
-  void Start();
+  void Start() { camera_.driver->Start(); }
   void Stop();
 
   enum class Outcome { kFrame, kNothing, kEnd };

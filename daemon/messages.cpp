@@ -174,4 +174,21 @@ void FillStatus(const StatusReport& report, std::int64_t utime, status_t& messag
   message.num_stages = static_cast<std::int32_t>(message.stages.size());
 }
 
+void FillService(const ServiceReport& report, std::int64_t utime, service_t& message) {
+  message.utime = utime;
+  message.version = MOCAP_VERSION;
+  message.studio = report.studio;
+  message.up_seconds = report.up_ns / 1'000'000'000;
+  message.fps_nominal = report.fps_nominal;
+  message.complaint = Complaints(report);
+  message.num_complaints = static_cast<std::int32_t>(message.complaint.size());
+  const RecordingStatus& recording = report.recording;
+  message.recording_state = static_cast<std::int8_t>(recording.state);
+  message.recording_folder = recording.folder.string();
+  message.recording_seconds = static_cast<double>(recording.duration_ns) / 1e9;
+  message.recording_frames = recording.frames;
+  message.recording_dropped = recording.dropped;
+  message.recording_bytes_free = recording.bytes_free;
+}
+
 }  // namespace mocap

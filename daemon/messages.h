@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <mocap/body_t.hpp>
 #include <mocap/pose_t.hpp>
+#include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
 #include <mocap/voxels_t.hpp>
 
 #include "daemon/pose_sink.h"
+#include "daemon/service_report.h"
 #include "daemon/status_window.h"
 
 namespace mocap {
@@ -21,5 +23,7 @@ void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 void FillVoxels(const TrackedSet& set, voxels_t& message);
 
 void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);
+
+void FillService(const ServiceReport& report, std::int64_t utime, service_t& message);
 
 }  // namespace mocap

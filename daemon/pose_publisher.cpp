@@ -83,6 +83,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       body_channel_(config.prefix + "MOCAP_BODY"),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + "MOCAP_STATUS"),
+      service_channel_(config.prefix + "MOCAP_SERVICE"),
       cameras_(cameras),
       body_pacer_(1),
       voxels_pacer_(config.voxels_hz),
@@ -124,9 +125,12 @@ void PosePublisher::OnSet(const TrackedSet& set) {
   }
 }
 
-void PosePublisher::PublishStatus(const StatusReport& report) {
-  FillStatus(report, EpochNs() / 1000, status_);
+void PosePublisher::PublishStatus(const ServiceReport& report) {
+  const std::int64_t utime = EpochNs() / 1000;
+  FillStatus(report.now, utime, status_);
   lcm_.publish(status_channel_, &status_);
+  FillService(report, utime, service_);
+  lcm_.publish(service_channel_, &service_);
 }
 
 }  // namespace mocap

@@ -11,7 +11,7 @@
 #include "config/config.h"
 #include "daemon/messages.h"
 #include "daemon/pose_sink.h"
-#include "daemon/status_window.h"
+#include "daemon/service_report.h"
 #include "daemon/tap.h"
 
 namespace mocap {
@@ -48,7 +48,7 @@ class PosePublisher : public PoseSink {
   /// From now on, what OnSet publishes is offered to the tap as well; borrowed for the publisher's
   /// life. Before the first OnSet.
   void Tap(MessageTap& tap) { tap_ = &tap; }
-  void PublishStatus(const StatusReport& report);
+  void PublishStatus(const ServiceReport& report);
   /// How often voxels are published from now on. Any thread.
   void SetVoxelsHz(double hz) { voxels_hz_.store(hz, std::memory_order_relaxed); }
 
@@ -59,7 +59,8 @@ class PosePublisher : public PoseSink {
   lcm::LCM& lcm_;
   MessageTap* tap_ = nullptr;
   std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
-  const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_;
+  const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
+      service_channel_;
   const int cameras_;
   Pacer body_pacer_;
   Pacer voxels_pacer_;
@@ -70,6 +71,7 @@ class PosePublisher : public PoseSink {
   body_t body_;
   voxels_t voxels_;
   status_t status_;
+  service_t service_;
 };
 
 }  // namespace mocap

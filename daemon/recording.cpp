@@ -33,7 +33,8 @@ constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr std::int64_t kSafeEveryNs = 500'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 4;
-constexpr std::size_t kMostFrames = 4096;
+/// What waits is lost when the program is killed: that shall not be more than this.
+constexpr double kMostWaitingS = 2;
 
 std::int64_t BytesFree(const std::filesystem::path& folder) {
   struct statvfs space {};
@@ -137,8 +138,8 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
       begin_ns_(SteadyNs()) {
   const TakeLayout layout{writer_.partial_folder()};
-  if (!studio.config_text.empty()) WriteText(layout.folder / "mocapd.toml", studio.config_text);
-  if (subject) SaveSubject(layout.folder / "subject.toml", *subject);
+  if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
+  if (subject) SaveSubject(layout.Subject(), *subject);
   const double buffer_mb = config.buffer_mb / static_cast<double>(studio.cameras.size());
   for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
     const CameraCalibration& camera = studio.cameras[i].calibration;
@@ -148,8 +149,9 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     TappedFrame item;
     item.image = Image<Bgr>(camera.width_px, camera.height_px);
     const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
-    const auto fitting = static_cast<std::size_t>(buffer_mb / frame_mb);
-    taps_.frames[i].Open(std::clamp(fitting, kFewestFrames, kMostFrames), item, line.bell);
+    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio.fps_nominal);
+    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
+                         line.bell);
   }
   taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -237,7 +239,7 @@ void Recording::RunKeeper() {
   StepBehind("rec keeper");
   std::int64_t safe_ns = SteadyNs();
   Guard([&] {
-    MessageLog log(writer_.partial_folder() / "poses.lcm");
+    MessageLog log(TakeLayout{writer_.partial_folder()}.Poses());
     const auto drain = [&] {
       while (taps_.messages.queue().TryPop()) log.Write(taps_.messages.queue().front());
       log.Flush();

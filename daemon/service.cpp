@@ -168,7 +168,7 @@ class Watch {
     report_.fit = parts_.view.fit();
     report_.recording = parts_.recorder.Status();
     report_.up_ns = SteadyNs() - start_ns_;
-    parts_.publisher.PublishStatus(report_.now);
+    parts_.publisher.PublishStatus(report_);
     control_.SetReport(report_);
     manager_.Say(ReportLine(report_));
     const std::filesystem::path metrics = control_.metrics_file();

@@ -37,6 +37,12 @@ struct TakeLayout {
   std::filesystem::path Mask(const std::string& camera) const {
     return folder / "silhouette" / (camera + ".mkv");
   }
+  /// The person's sizes, where they were known.
+  std::filesystem::path Subject() const { return folder / "subject.toml"; }
+  /// What was published while the take was recorded: an LCM log.
+  std::filesystem::path Poses() const { return folder / "poses.lcm"; }
+  /// The daemon's configuration.
+  std::filesystem::path Config() const { return folder / "mocapd.toml"; }
   std::filesystem::path TruthTable() const { return folder / "truth.csv"; }
   std::filesystem::path TruthSizes() const { return folder / "truth.toml"; }
 };

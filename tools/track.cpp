@@ -11,10 +11,12 @@
 #include "config/config.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
 #include "daemon/json_object.h"
 #include "daemon/pipeline.h"
+#include "drivers/take_layout.h"
 #include "tools/result.h"
 
 namespace mocap {
@@ -26,6 +28,7 @@ struct TrackOptions {
   double voxel_mm = Config().voxel_mm;
   std::string body = Config().body;
   std::vector<std::string> cameras;
+  bool measure = false;
   bool json = false;
 };
 
@@ -105,6 +108,10 @@ void Track(const TrackOptions& options) {
                      .overflow = Overflow::kWait,
                      .latency_origin = LatencyOrigin::kArrival},
                     LoadBodyTable(options.body), sink);
+  const std::filesystem::path subject = TakeLayout{options.take}.Subject();
+  if (!options.measure && std::filesystem::exists(subject)) {
+    pipeline.ChangeSubject(LoadSubject(subject));
+  }
   MakeFolder(options.out);
   const std::int64_t begin_ns = SteadyNs();
   pipeline.Start();
@@ -138,6 +145,8 @@ void AddTrackCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--cameras", options->cameras, "use these only, as in cam1,cam2")
       ->delimiter(',');
+  command->add_flag("--measure", options->measure,
+                    "measure the person even where the take has the sizes");
   command->add_flag("--json", options->json, "print one JSON object");
   command->callback([options] { Track(*options); });
 }

@@ -10,14 +10,18 @@
 #include <memory>
 #include <mocap/body_t.hpp>
 #include <mocap/pose_t.hpp>
+#include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/config.h"
 #include "core/motion_capture.h"
 #include "daemon/clock.h"
+#include "daemon/decode_message.h"
 #include "daemon/pose_publisher.h"
 
 namespace mocap {
@@ -40,6 +44,10 @@ void StopOnSignals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
+  return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
+}
+
 /// The latest of what was heard.
 class Hearing {
  public:
@@ -47,6 +55,7 @@ class Hearing {
     lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
     lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
+    lcm.subscribe(prefix + "MOCAP_SERVICE", &Hearing::OnService, this);
   }
 
   /// Forgets what lies outside of the window.
@@ -70,6 +79,7 @@ class Hearing {
   const std::optional<pose_t>& pose() const { return pose_; }
   const std::optional<body_t>& body() const { return body_; }
   const std::optional<status_t>& status() const { return status_; }
+  const std::optional<service_t>& service() const { return service_; }
 
  private:
   struct Arrival {
@@ -77,16 +87,28 @@ class Hearing {
     double latency_ms = 0;
   };
 
-  void OnPose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) {
+  void OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    std::optional<pose_t> pose = DecodeMessage<pose_t>(BytesOf(*buffer));
+    if (!pose) return;
     heard_ns_ = SteadyNs();
     if (pose_ && pose->frame > pose_->frame + 1) missed_ += pose->frame - pose_->frame - 1;
     arrivals_.push_back({heard_ns_, static_cast<double>(pose->publish_utime - pose->utime) / 1000});
-    pose_ = *pose;
+    pose_ = std::move(pose);
   }
-  void OnBody(const lcm::ReceiveBuffer*, const std::string&, const body_t* body) { body_ = *body; }
-  void OnStatus(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) {
+  void OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    Take(DecodeMessage<body_t>(BytesOf(*buffer)), body_);
+  }
+  void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    Take(DecodeMessage<status_t>(BytesOf(*buffer)), status_);
+  }
+  void OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    Take(DecodeMessage<service_t>(BytesOf(*buffer)), service_);
+  }
+  template <typename Message>
+  void Take(std::optional<Message> heard, std::optional<Message>& kept) {
+    if (!heard) return;
     heard_ns_ = SteadyNs();
-    status_ = *status;
+    kept = std::move(heard);
   }
 
   std::int64_t heard_ns_ = SteadyNs();
@@ -95,6 +117,7 @@ class Hearing {
   std::optional<pose_t> pose_;
   std::optional<body_t> body_;
   std::optional<status_t> status_;
+  std::optional<service_t> service_;
 };
 
 std::string PoseLine(const Hearing& hearing) {
@@ -134,6 +157,15 @@ void AppendCameras(const Hearing& hearing, std::string& page) {
       status.sets_complete, status.sets_partial, status.sets_dropped, status.spread_p50_ms);
 }
 
+void AppendService(const service_t& service, std::string& page) {
+  for (const std::string& complaint : service.complaint) page += "! " + complaint + '\n';
+  if (service.recording_state != service_t::RUNNING) return;
+  page += fmt::format("recording {}, {:.0f} s, {} frames, {} dropped, {:.1f} GB free\n",
+                      service.recording_folder, service.recording_seconds, service.recording_frames,
+                      service.recording_dropped,
+                      static_cast<double>(service.recording_bytes_free) / 1e9);
+}
+
 std::string Page(const Hearing& hearing, const std::string& url) {
   std::string page = "mocapd";
   if (hearing.status()) page += ' ' + hearing.status()->version;
@@ -146,6 +178,7 @@ std::string Page(const Hearing& hearing, const std::string& url) {
     if (hearing.body()) page += fmt::format(", stature {:.0f} mm", hearing.body()->stature_mm);
     page += '\n';
   }
+  if (hearing.service()) AppendService(*hearing.service(), page);
   if (hearing.status()) AppendCameras(hearing, page);
   return page;
 }

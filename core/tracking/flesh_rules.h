@@ -26,6 +26,9 @@ inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
 std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
                                   const Vector3& p_W);
 
+/// A bone that lies farther from flesh than this is no worse: the flesh may have been carved away.
+inline constexpr double kMostHollowMm = 100;
+
 /// How deep a place on the core of `limb` sticks in `other`, beyond what flesh gives way [mm].
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other);
 

@@ -21,7 +21,7 @@ constexpr std::size_t kRefined = 8;
 constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
-constexpr int kRestFrames = 3;
+constexpr int kRestFrames = 1;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};

@@ -107,7 +107,7 @@ LimbClaim LimbSearch::ClaimAt(const PoseState& pose) {
   for (const PosedCapsule& capsule : posed_) {
     for (const double share : kCoreShares) {
       const auto way_W = WayToFlesh(cloud_, contacts_, CorePlace(capsule, share));
-      if (way_W) hollow_mm += std::min(kReachMm, way_W->norm());
+      if (way_W) hollow_mm += std::min(kMostHollowMm, way_W->norm());
     }
   }
   const double places = static_cast<double>(body_.shape().size() * kCoreShares.size());

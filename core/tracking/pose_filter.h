@@ -70,6 +70,9 @@ class PoseFilter {
   const PoseState& pose() const { return pose_; }
   const PoseCovariance& covariance() const { return P_; }
 
+  /// Moves the whole body, as if it had been predicted there.
+  void Shift(const Vector3& by_W) { pose_.X_WT.p += by_W; }
+
   /// Goes to a pose that was found by other means: what was correlated with the old one is unknown
   /// again.
   void Jump(const PoseState& pose);

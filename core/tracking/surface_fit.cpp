@@ -140,7 +140,7 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   quality.surface_mm /= std::max(1, voxels);
   const double places = static_cast<double>(posed_.size() * kCoreShares.size());
   ForEachHollow([&](std::size_t, const Vector3&, const Vector3& way_W) {
-    quality.hollow_mm += std::min(options_.reach_mm, way_W.norm()) / places;
+    quality.hollow_mm += std::min(kMostHollowMm, way_W.norm()) / places;
   });
   ForEachOverlap(body, [&](std::size_t, const Vector3&, std::size_t, const Vector3&,
                            double depth_mm) { quality.overlap_mm += depth_mm / places; });

@@ -7,6 +7,8 @@ using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 
 
 constexpr int kIterations = 5;
 constexpr double kPointStdMm = 40;
+// The person was seen to move so much farther than was foreseen: the fit would not reach.
+constexpr double kLeapMm = 50;
 constexpr double kStartStdMm = 50;
 constexpr double kStartStdRad = 0.3;
 
@@ -18,14 +20,30 @@ Tracker::Tracker(const BodyModel& body, const PoseState& pose)
 }
 
 void Tracker::Update(const Evidence& evidence, double dt_s) {
+  const Vector3 before_W = filter_.pose().X_WT.p;
   if (dt_s > 0) filter_.Predict(dt_s);
   surface_fit_.SetEvidence(evidence);
+  FollowLeap(evidence.cloud, filter_.pose().X_WT.p - before_W);
   if (body_.table().measurement == Measurement::kPoints) {
     FollowPoints(evidence.cloud);
   } else {
     FollowSurface(evidence);
   }
   quality_ = surface_fit_.QualityAt(body_, filter_.pose());
+}
+
+void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
+  const Vector3 middle_W = cloud.Centroid();
+  if (middle_W_) {
+    const Vector3 unforeseen_W = middle_W - *middle_W_ - foreseen_W;
+    PoseState leapt = filter_.pose();
+    leapt.X_WT.p += unforeseen_W;
+    if (unforeseen_W.norm() > kLeapMm && surface_fit_.QualityAt(body_, leapt).Cost() <
+                                             surface_fit_.QualityAt(body_, filter_.pose()).Cost()) {
+      filter_.Shift(unforeseen_W);
+    }
+  }
+  middle_W_ = middle_W;
 }
 
 void Tracker::FollowPoints(const VoxelCloud& cloud) {

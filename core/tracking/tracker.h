@@ -1,6 +1,8 @@
 // §6: follows a body of known sizes from frame to frame. Fig. 4.
 #pragma once
 
+#include <optional>
+
 #include "core/body/body_model.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/limb_recovery.h"
@@ -28,6 +30,8 @@ class Tracker {
   const SurfaceFitQuality& quality() const { return quality_; }
 
  private:
+  // Goes with the voxels where they went farther than was foreseen, if that explains them better.
+  void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
   void FollowPoints(const VoxelCloud& cloud);
   void FollowSurface(const Evidence& evidence);
   void FitSurface();
@@ -37,6 +41,7 @@ class Tracker {
   VoxelLabeler labeler_;
   SurfaceFit surface_fit_;
   LimbRecovery limb_recovery_;
+  std::optional<Vector3> middle_W_;  ///< Of the voxels of the frame before.
   SurfaceFitQuality quality_;
 };
 

@@ -28,6 +28,12 @@ int VoxelCloud::IndexAt(const Vector3& p_W) const {
   return IndexAt(Eigen::Vector3i(cell.cast<int>()));
 }
 
+Vector3 VoxelCloud::Centroid() const {
+  Vector3 sum = Vector3::Zero();
+  for (const Voxel& voxel : voxels_) sum += voxel.center_W;
+  return empty() ? sum : Vector3(sum / size());
+}
+
 void VoxelCloud::Build(const VoxelGrid& grid) {
   size_ = grid.size();
   origin_W_ = grid.origin_W();

@@ -28,6 +28,8 @@ class VoxelCloud {
   int size() const { return static_cast<int>(voxels_.size()); }
   bool empty() const { return voxels_.empty(); }
   double voxel_mm() const { return voxel_mm_; }
+  /// Mean of all centres; zero of an empty cloud.
+  Vector3 Centroid() const;
   /// The grid's extent, in cells.
   const Eigen::Vector3i& size_cells() const { return size_; }
   double volume_litres() const { return size() * voxel_mm_ * voxel_mm_ * voxel_mm_ * 1e-6; }

@@ -147,6 +147,12 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
   }
 }
 
+TEST_F(ConfigFile, PacketsHaveASizeThatNetworksCarry) {
+  EXPECT_THAT(Error("[[cameras]]\nname = \"a\"\npacket_bytes = 100\ndevice = \"x\"\n"
+                    "[source]\ndriver = \"aravis\"\n"),
+              HasSubstr(":3: cameras[0].packet_bytes is 100"));
+}
+
 TEST_F(ConfigFile, LiveStudioNeedsCamerasAndCalibration) {
   const std::string source = "[source]\ndriver = \"v4l2\"\n";
   const std::string camera = "[[cameras]]\nname = \"a\"\ndevice = \"x\"\n";
@@ -193,13 +199,13 @@ device = "/dev/video2"
 
 TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
   const WrongConfig cases[] = {
-      {"packet_bytes = 100", 3, "cameras[0].packet_bytes is 100"},
       {"head = \"motor\"", 3, "cameras[0].head is \"motor\""},
       {"exposure_us = 0", 3, "cameras[0].exposure_us is 0"},
       {"power_line_hz = 55", 3, "cameras[0].power_line_hz is 55"},
       {"size_px = [640.5, 480]", 3, "cameras[0].size_px"},
       {"fps = 0", 3, "cameras[0].fps is 0"},
       {"exposure = 5", 3, "cameras[0].exposure is unknown"},
+      {"packet_bytes = 1500", 3, "cameras[0].packet_bytes is unknown"},
   };
   for (const WrongConfig& wrong : cases) {
     const std::string text = "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) +

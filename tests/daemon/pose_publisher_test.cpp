@@ -177,7 +177,7 @@ TEST_F(PosePublisherTest, ThePrefixStandsBeforeEachChannelsName) {
   config.prefix = "STAGE2_";
   PosePublisher publisher(lcm_, config, 3);
   publisher.OnSet(Set());
-  publisher.PublishStatus(StatusReport{});
+  publisher.PublishStatus(ServiceReport{});
   Deliver();
   EXPECT_EQ(poses.messages.size(), 1u);
   EXPECT_EQ(statuses.messages.size(), 1u);
@@ -201,7 +201,9 @@ TEST_F(PosePublisherTest, TheStatusTellsCamerasAndStages) {
   recorders[Stage::kCarve].Record(20'000'000);
   status.stages = StageHistograms(recorders);
   Inbox<status_t> inbox(lcm_, "MOCAP_STATUS");
-  PosePublisher(lcm_, {}, 1).PublishStatus(window.Add(status, 2'000'000'000));
+  ServiceReport report;
+  report.now = window.Add(status, 2'000'000'000);
+  PosePublisher(lcm_, {}, 1).PublishStatus(report);
   Deliver();
   ASSERT_EQ(inbox.messages.size(), 1u);
   const status_t& message = inbox.messages[0];

@@ -121,9 +121,10 @@ TEST_F(BackgroundRecorder, HeadLooksInAllDirectionsThatTheStudioAllows) {
     most_pan = std::max(most_pan, frame.angles.pan_rad);
     most_tilt = std::max(most_tilt, frame.angles.tilt_rad);
   }
-  EXPECT_EQ(least_pan, -0.2);
-  EXPECT_EQ(most_pan, 0.4);
-  EXPECT_EQ(most_tilt, 0.5);
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(least_pan, -0.2, kRounding);
+  EXPECT_NEAR(most_pan, 0.4, kRounding);
+  EXPECT_NEAR(most_tilt, 0.5, kRounding);
 }
 
 TEST_F(BackgroundRecorder, NeighboursOfASweepOverlapByMoreThanHalf) {

@@ -99,7 +99,7 @@ TEST(CameraCheck, CamerasOutOfStepOrAtDifferentRatesAreTold) {
   for (std::size_t i = 0; i < half.times_ns.size(); ++i) {
     half.times_ns[i] = half.times_ns.front() + 2 * static_cast<std::int64_t>(i) * kPeriod_ns;
   }
-  runs = {GoodRun("a"), half};
+  runs = {GoodRun("a"), GoodRun("b"), half};
   EXPECT_THAT(TroublesOf(SummarizeSets(runs), runs), Contains(HasSubstr("lack a camera")));
 }
 

@@ -1,0 +1,31 @@
+// Messages from the network, which may be anything.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <mocap/body_t.hpp>
+#include <mocap/pose_t.hpp>
+#include <mocap/service_t.hpp>
+#include <mocap/status_t.hpp>
+#include <optional>
+#include <span>
+
+namespace mocap {
+
+/// Whether the lengths and counts in a message's bytes fit into it. Generated decoders believe a
+/// count, and take the memory for it, before they look whether anything follows.
+bool HasSoundCounts(const pose_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const body_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
+
+/// Decodes a message; empty for what is none of its type.
+template <typename Message>
+std::optional<Message> DecodeMessage(std::span<const std::uint8_t> bytes) {
+  std::optional<Message> message(std::in_place);
+  if (bytes.size() > std::numeric_limits<int>::max() || !HasSoundCounts(*message, bytes)) return {};
+  if (message->decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return {};
+  return message;
+}
+
+}  // namespace mocap

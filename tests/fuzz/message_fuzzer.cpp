@@ -1,0 +1,10 @@
+#include "daemon/decode_message.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span<const std::uint8_t> bytes(data, size);
+  mocap::DecodeMessage<mocap::pose_t>(bytes);
+  mocap::DecodeMessage<mocap::body_t>(bytes);
+  mocap::DecodeMessage<mocap::status_t>(bytes);
+  mocap::DecodeMessage<mocap::service_t>(bytes);
+  return 0;
+}
