@@ -156,7 +156,12 @@ void GigeCamera::RunSource() {
     const std::int64_t exposure_ns = Read(ARV_FAKE_CAMERA_REGISTER_EXPOSURE_TIME_US) * 1000LL;
     const auto late_ns = static_cast<std::int64_t>(jitter_ms(random_) * 1e6);
     SleepUntil(frame.capture_ns + exposure_ns / 2 + late_ns);
-    if (is_streaming() && !stalled_.load(std::memory_order_relaxed)) Send(frame);
+    if (!is_streaming()) {
+      const std::lock_guard lock(mutex_);
+      is_flowing_ = is_waiting_ = false;
+    } else if (!stalled_.load(std::memory_order_relaxed)) {
+      Send(frame);
+    }
   }
   source_->Stop();
 }
@@ -171,15 +176,15 @@ bool GigeCamera::IsWanted(std::int64_t capture_ns) {
   const std::int64_t period_ns = is_triggered ? 0 : Read(gige_register::kFramePeriod_us) * 1000LL;
   // Frames jitter about their times, and rates are not quite what they are called.
   if (capture_ns < next_wanted_ns_ - period_ns / 4) return false;
-  next_wanted_ns_ = std::max(next_wanted_ns_ + period_ns, capture_ns + period_ns / 2);
+  next_wanted_ns_ = std::max(next_wanted_ns_ + period_ns, capture_ns + period_ns * 9 / 10);
   return true;
 }
 
 void GigeCamera::Send(const Frame& frame) {
   {
     std::unique_lock lock(mutex_);
-    // Frames that a source delivers in a burst wait for each other.
-    taken_.wait_for(lock, kPatience, [this] { return !is_waiting_; });
+    // Frames that a source delivers in a burst wait for each other; the first is as new as can be.
+    taken_.wait_for(lock, kPatience, [this] { return !is_waiting_ || !is_flowing_; });
     is_waiting_ = true;
     if (picture_.width() != frame.image.width() || picture_.height() != frame.image.height()) {
       picture_ = Image<Bgr>(frame.image.width(), frame.image.height());
@@ -237,6 +242,7 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
   arv_buffer_set_timestamp(buffer, DeviceTime(capture_ns_ - exposure_ns / 2));
   arv_buffer_set_frame_id(buffer, 1 + (sequence_ - 1) % kFrameNumbers);
   is_waiting_ = false;
+  is_flowing_ = true;
   taken_.notify_one();
 }
 

@@ -83,6 +83,7 @@ class GigeCamera {
   std::mutex mutex_;  ///< For what is below.
   std::condition_variable taken_;
   bool is_waiting_ = false;  ///< The picture was not sent yet.
+  bool is_flowing_ = false;  ///< Some picture was, since the client started the camera.
   Image<Bgr> picture_;
   std::int64_t capture_ns_ = 0;
   std::uint64_t sequence_ = 0;

@@ -95,6 +95,12 @@ std::int64_t OffBeat_ns(std::int64_t capture_ns) {
   return std::min(rest, kPeriod_ns - rest);
 }
 
+/// Whether a picture is the one that was taken at its capture time.
+bool IsOfItsTime(const Frame& frame) {
+  const std::int64_t beat = (frame.capture_ns + kPeriod_ns / 2) / kPeriod_ns;
+  return frame.image(0, 0).g == PatternCamera::GreyAt(beat);
+}
+
 std::string WhyNotStarted(AravisDriver& driver) {
   try {
     driver.Start();
@@ -192,14 +198,10 @@ TEST_F(AravisDriverTest, CaptureTimesAreTheHostsWhateverTheCamerasClockSays) {
   driver.Start();
   Frame frame;
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
-  // Packets take their time, and so may this machine; half a period would be another frame's.
-  EXPECT_LT(OffBeat_ns(frame.capture_ns), kPeriod_ns / 2);
-  const std::int64_t first_ns = frame.capture_ns;
-  const std::uint64_t first = frame.sequence;
-  for (int i = 0; i < 50; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
-  const auto frames = static_cast<std::int64_t>(frame.sequence - first);
-  EXPECT_NEAR(static_cast<double>(frame.capture_ns - first_ns),
-              static_cast<double>(frames * kPeriod_ns), kPeriod_ns / 2.0);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(GrabFrame(driver, frame));
+    EXPECT_TRUE(IsOfItsTime(frame));
+  }
   EXPECT_EQ(driver.Facts().time_source, "device clock, fitted");
 }
 
@@ -329,14 +331,12 @@ TEST_F(AravisDriverTest, HalfTheRateIsHalfTheFrames) {
   driver.Start();
   Frame frame;
   ASSERT_TRUE(GrabFrame(driver, frame));
-  const std::int64_t first_ns = frame.capture_ns;
-  const std::uint64_t first = frame.sequence;
-  for (int i = 0; i < 40; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
-  const double periods = static_cast<double>(frame.capture_ns - first_ns) / kPeriod_ns;
-  const double per_frame = periods / static_cast<double>(frame.sequence - first);
-  // A served camera keeps its rate as well as the machine lets it, but not by accident.
-  EXPECT_GT(per_frame, 1.5);
-  EXPECT_LT(per_frame, 3);
+  for (int i = 0; i < 20; ++i) {
+    const int before = frame.image(0, 0).g;
+    ASSERT_TRUE(GrabFrame(driver, frame));
+    EXPECT_NE(frame.image(0, 0).g, before);
+    EXPECT_NE(frame.image(0, 0).g, before + 1);
+  }
 }
 
 struct AravisFactory {

@@ -27,6 +27,11 @@ class PatternCamera : public CameraDriver {
     return first.b == first.g && first.g == first.r && first.g >= kDarkest;
   }
 
+  /// The grey of the picture at so many periods since the epoch.
+  static std::uint8_t GreyAt(std::int64_t beat) {
+    return static_cast<std::uint8_t>(kDarkest + beat % 100);
+  }
+
   void Start() override {}
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
     using std::chrono::nanoseconds;
@@ -35,7 +40,7 @@ class PatternCamera : public CameraDriver {
         std::chrono::duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
     const std::int64_t due_ns = (now_ns / period_ns_ + 1) * period_ns_;
     std::this_thread::sleep_until(std::chrono::sys_time<nanoseconds>(nanoseconds(due_ns)));
-    const auto grey = static_cast<std::uint8_t>(kDarkest + due_ns / period_ns_ % 100);
+    const std::uint8_t grey = GreyAt(due_ns / period_ns_);
     for (Bgr& pixel : picture_.pixels()) pixel = {grey, grey, grey};
     frame = {picture_.view(), due_ns, sequence_++, {}};
     return GrabStatus::kFrame;
