@@ -18,9 +18,9 @@ namespace mocap {
 class LoadControl {
  public:
   /// Sets from matching to tracking; at this many, no more are wanted.
-  static constexpr std::int64_t kMostUnderWay = 4;
+  static constexpr std::int64_t kMostUnderWay = 8;
   /// How old a set may be when it is complete, or while others wait behind it.
-  static constexpr std::int64_t kTolerancePeriods = 3;
+  static constexpr std::int64_t kTolerancePeriods = 7;
 
   /// Takes note of a set as it is matched.
   /// @param arrival_ns  when the last of its frames had arrived.
