@@ -30,8 +30,9 @@ TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
 
 TEST(LoadControl, AnOldSetIsFollowedByTheNextFrameToBeCaptured) {
   LoadControl control;
-  Add(control, 0, 7 * kPeriod + 5);
-  EXPECT_EQ(control.wanted_from_ns(), 7 * kPeriod + kPeriod / 2);
+  constexpr std::int64_t kAge = LoadControl::kTolerancePeriods * kPeriod;
+  Add(control, 0, kAge + 5);
+  EXPECT_EQ(control.wanted_from_ns(), kAge + kPeriod / 2);
 }
 
 TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
@@ -66,12 +67,13 @@ TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {
 
 TEST(LoadControl, CountsTheSetsThatWereLeftOut) {
   LoadControl control;
-  Add(control, 0, 7 * kPeriod);
+  constexpr std::int64_t kTooOld = LoadControl::kTolerancePeriods + 1;
+  Add(control, 0, kTooOld * kPeriod);
   EXPECT_EQ(control.skipped(), 0) << "the set after the gap has not come yet";
-  Add(control, 8 * kPeriod + 100, kPeriod);
-  EXPECT_EQ(control.skipped(), 7);
-  Add(control, 10 * kPeriod, kPeriod);
-  EXPECT_EQ(control.skipped(), 7) << "a frame that no camera took was not left out here";
+  Add(control, (kTooOld + 1) * kPeriod + 100, kPeriod);
+  EXPECT_EQ(control.skipped(), kTooOld);
+  Add(control, (kTooOld + 3) * kPeriod, kPeriod);
+  EXPECT_EQ(control.skipped(), kTooOld) << "a frame that no camera took was not left out here";
 }
 
 TEST(LoadControl, AConstantDelayBeforeArrivalIsNoAge) {
