@@ -20,7 +20,7 @@ constexpr std::size_t kFewestFrames = 8;
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
 // What covers more of the picture may be somebody.
-constexpr double kLargestThingShare = 0.01;
+constexpr double kLargestThingShare = 0.02;
 // A camera that moved by less is not worth following, nor one whose contours still do not fit.
 constexpr float kNudge_px = 0.25f;
 constexpr float kMuchLess = 0.8f;
