@@ -6,6 +6,7 @@
 #include "core/acquisition/size_refiner.h"
 #include "core/body/stance.h"
 #include "core/tracking/limb_recovery.h"
+#include "core/tracking/tracker.h"
 #include "tests/support/seen_body.h"
 
 namespace mocap {
@@ -94,6 +95,29 @@ TEST_F(Fit, ALostArmIsFoundAgain) {
   const std::optional<PoseState> found = LimbRecovery().Recover(body_, evidence, fit_, lost);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
+  constexpr LegStance kFront{.hip = 35, .knee = 15};
+  constexpr LegStance kBack{.hip = -15, .knee = 30};
+  const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  const PoseState exchanged =
+      FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
+  ASSERT_GT(Error(exchanged, truth), 40);
+  const std::optional<PoseState> found = LimbRecovery().Recover(body_, evidence, fit_, exchanged);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
+  PoseState truth = Standing(body_, {.arm_l = kArmOut});
+  Tracker tracker(body_, truth);
+  tracker.Update(studio_.Show(body_, truth), 0);
+  truth.X_WT.p += Vector3(60, 0, 300);
+  tracker.Update(studio_.Show(body_, truth), 0.1);
+  EXPECT_LT(Error(tracker.filter().pose(), truth), 20);
 }
 
 TEST_F(Fit, NothingIsRecoveredWhereNothingIsLost) {
