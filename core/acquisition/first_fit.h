@@ -1,0 +1,17 @@
+// §7.1, §7.3: the first pose of a body of given sizes, and the one that faces the other way.
+#pragma once
+
+#include <vector>
+
+#include "core/acquisition/body_localizer.h"
+#include "core/tracking/tracker.h"
+
+namespace mocap {
+
+/// Draws guesses at the pose of a body that was just located to the evidence.
+/// @return  the best fit, then the best of those that face the other way, if there is any; none
+/// when all guesses end upside down.
+std::vector<Tracker> FitBody(const BodyModel& body, const Evidence& evidence,
+                             const LocalizedBody& located);
+
+}  // namespace mocap
