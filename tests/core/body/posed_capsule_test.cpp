@@ -1,22 +1,7 @@
-#include "core/body/body_shape.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
+#include "tests/support/random_capsules.h"
 
 namespace mocap {
 namespace {
-
-class RandomCapsules : public testing::Test {
- protected:
-  Vector3 Place() { return 300 * Vector3(unit_(random_), unit_(random_), unit_(random_)); }
-  PosedCapsule Capsule() {
-    return {Place(), Place(), 40 + 20 * unit_(random_), 40 + 20 * unit_(random_)};
-  }
-
-  std::mt19937 random_{11};
-  std::uniform_real_distribution<double> unit_{-1, 1};
-};
 
 TEST_F(RandomCapsules, SegmentsAreAsFarAsTheirNearestPlace) {
   for (int trial = 0; trial < 50; ++trial) {

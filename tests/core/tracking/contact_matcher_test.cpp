@@ -3,23 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
+
+#include "tests/support/random_capsules.h"
 
 namespace mocap {
 namespace {
 
 constexpr double kReachMm = 150;
-
-class RandomContacts : public testing::Test {
- protected:
-  Vector3 Place() { return 300 * Vector3(unit_(random_), unit_(random_), unit_(random_)); }
-  PosedCapsule Capsule() {
-    return {Place(), Place(), 40 + 20 * unit_(random_), 40 + 20 * unit_(random_)};
-  }
-
-  std::mt19937 random_{11};
-  std::uniform_real_distribution<double> unit_{-1, 1};
-};
 
 double MismatchOf(const Contact& contact, const PosedCapsule& capsule) {
   const PosedCapsule::SegmentDistance distance = capsule.DistanceTo(contact.from_W, contact.to_W);
@@ -28,7 +18,7 @@ double MismatchOf(const Contact& contact, const PosedCapsule& capsule) {
   return std::abs(distance.outside_mm) + 40 * (1 - facing);
 }
 
-TEST_F(RandomContacts, GoToTheCapsuleOfTheLeastMismatch) {
+TEST_F(RandomCapsules, GetTheContactsThatTheyMatchBest) {
   std::vector<PosedCapsule> capsules;
   for (int i = 0; i < 12; ++i) capsules.push_back(Capsule());
   std::vector<Contact> contacts;
