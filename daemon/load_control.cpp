@@ -27,7 +27,7 @@ void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {
 bool LoadControl::IsFull(std::int64_t sets, std::int64_t now_ns) const {
   if (sets < 2) return false;
   if (sets >= kMostUnderWay) return true;
-  const std::int64_t oldest_ns = captures_ns_[(sets_ - sets) % kMostUnderWay];
+  const std::int64_t oldest_ns = captures_ns_[(sets_ - std::min(sets, sets_)) % kMostUnderWay];
   return now_ns - least_delay_ns_ - oldest_ns > kTolerancePeriods * period_ns_;
 }
 
