@@ -27,6 +27,7 @@ struct LocalizedBody {
 
 /// Locates head, torso and limbs. Empty when there is nothing like a head above a torso. Figs. 10
 /// and 11.
-std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud);
+/// @param crust  of the head that is looked for.
+std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud, const HeadCrust& crust);
 
 }  // namespace mocap
