@@ -142,11 +142,16 @@ std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud, const HeadCru
   if (!head) return std::nullopt;
   LocalizedBody body;
   body.head = *head;
-  // Hands may be higher.
+  // Hands may be higher than the head, and a block or a leap carries the feet.
+  const double half_mm = cloud.voxel_mm() / 2;
+  double top_mm = 0, bottom_mm = head->center_W.z();
   for (const int index : head->voxels) {
-    const double voxel_top_mm = cloud.voxels()[index].center_W.z() + cloud.voxel_mm() / 2;
-    body.height_mm = std::max(body.height_mm, voxel_top_mm);
+    top_mm = std::max(top_mm, cloud.voxels()[index].center_W.z() + half_mm);
   }
+  for (const Voxel& voxel : cloud.voxels()) {
+    bottom_mm = std::min(bottom_mm, voxel.center_W.z() - half_mm);
+  }
+  body.height_mm = top_mm - std::max(0.0, bottom_mm);
 
   std::vector<bool> free(cloud.size(), true);
   for (const int index : head->voxels) free[index] = false;

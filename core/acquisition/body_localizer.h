@@ -22,7 +22,7 @@ struct LocalizedBody {
   HeadFit head;
   Cylinder torso;               ///< Anchored at the neck.
   std::vector<LimbBlob> limbs;  ///< At most four, the largest first.
-  double height_mm = 0;         ///< Vertex above the floor.
+  double height_mm = 0;         ///< Vertex above the lowest place.
 };
 
 /// Locates head, torso and limbs. Empty when there is nothing like a head above a torso. Figs. 10

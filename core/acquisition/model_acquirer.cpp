@@ -35,6 +35,10 @@ constexpr std::array<double BodySizes::*, 14> kMeasured = {
     &BodySizes::calf_width,      &BodySizes::shoulder_width,
     &BodySizes::hip_width,       &BodySizes::neck};
 
+// Widths differ among people by some 10 % (ANSUR, Gordon et al. 1989), and clothes, hulls and what
+// touches a part make them err as much.
+constexpr double kMeasuredShare = 0.5;
+
 // The statures that are tried, as shares of the height: of somebody who sits, crouches or jumps it
 // says little.
 constexpr std::array<double, 6> kStatures = {1, 1.12, 0.89, 1.25, 0.8, 1.4};
@@ -126,7 +130,10 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
                              .height = {}};
   if (is_upright_) lengths.height = height_mm_ - sizes.neck - sizes.head / 2;
   const double change_mm = network_.Update(lengths, remember, sizes);
-  for (double BodySizes::*width : kWidths) sizes.*width = mean.*width;
+  const BodySizes average = AverageSizes(sizes.Stature());
+  for (double BodySizes::*width : kWidths) {
+    sizes.*width = average.*width + kMeasuredShare * (mean.*width - average.*width);
+  }
   tracker.Resize(sizes);
   return change_mm;
 }

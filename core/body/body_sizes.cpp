@@ -41,10 +41,10 @@ BodySizes AverageSizes(double stature_mm) {
           .lower_arm = 0.258 * h,
           .thigh = thigh,
           .calf = calf,
-          .upper_arm_width = 0.055 * h,
+          .upper_arm_width = 0.058 * h,
           .lower_arm_width = 0.042 * h,
-          .thigh_width = 0.090 * h,
-          .calf_width = 0.060 * h,
+          .thigh_width = 0.105 * h,
+          .calf_width = 0.068 * h,
           .shoulder_width = 0.207 * h,
           .hip_width = 0.110 * h};
 }
