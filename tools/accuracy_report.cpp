@@ -22,6 +22,21 @@ std::string SweepTable(const AccuracySweep& sweep) {
   return text;
 }
 
+std::string GridTable(const std::vector<AccuracyRow>& rows) {
+  std::string text =
+      "\n## Take by take\n\n| motion | stature mm | seed | mean mm | 95 % below mm | degrees | "
+      "lengths mm | tracked % | head % | acquired in | wrong |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const AccuracyRow& row : rows) {
+    text += fmt::format(
+        "| {} | {:.0f} | {} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} | {} | {} |\n",
+        row.motion, row.stature_mm, row.seed, row.mpjpe_mm, row.p95_mm, row.angle_deg,
+        row.length_error_mm, 100 * row.tracked_share, 100 * row.head_found_share,
+        row.acquisition_frames, row.longest_wrong_stretch);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string AccuracyHeader() {
@@ -55,29 +70,20 @@ std::string AccuracySummaryText(const AccuracySummary& summary) {
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   std::string text = fmt::format(
       "# Accuracy on simulated people\n\n"
-      "Written by `mocap benchmark --out docs`: {} takes of {:.0f} s, six VGA cameras, voxels of "
+      "Written by `mocap benchmark --out docs`: takes of {:.0f} s, six VGA cameras and voxels of "
       "25 "
-      "mm. Errors are over 14 points and 8 angles, as\n`mocap evaluate` has them; *wrong* is the "
-      "longest stretch of sets that were called tracked with a mean error above {:.0f} mm.\n\n",
-      benchmark.grid.size(), benchmark.seconds, kWrongMm);
-  text += AccuracySummaryText(Summarize(benchmark.grid));
+      "mm where nothing else is said. Errors are over 14 points\nand 8 angles, as `mocap evaluate` "
+      "has them; *wrong* is the longest stretch of sets that were called tracked with a mean error "
+      "above {:.0f} mm.\n\n",
+      benchmark.seconds, kWrongMm);
+  if (!benchmark.grid.empty()) text += AccuracySummaryText(Summarize(benchmark.grid));
   if (!benchmark.sweeps.empty()) {
     text +=
         "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "
         "down.\n\n![Mean error along each sweep](accuracy.svg)\n";
     for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
   }
-  text +=
-      "\n## Take by take\n\n| motion | stature mm | seed | mean mm | 95 % below mm | degrees | "
-      "lengths mm | tracked % | head % | acquired in | wrong |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const AccuracyRow& row : benchmark.grid) {
-    text += fmt::format(
-        "| {} | {:.0f} | {} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} | {} | {} |\n",
-        row.motion, row.stature_mm, row.seed, row.mpjpe_mm, row.p95_mm, row.angle_deg,
-        row.length_error_mm, 100 * row.tracked_share, 100 * row.head_found_share,
-        row.acquisition_frames, row.longest_wrong_stretch);
-  }
+  if (!benchmark.grid.empty()) text += GridTable(benchmark.grid);
   return text;
 }
 

@@ -8,7 +8,6 @@
 #include "core/reconstruction/camera_model.h"
 #include "daemon/pipeline.h"
 #include "drivers/simulation/random.h"
-#include "tools/disturbed_camera.h"
 #include "tools/result_sink.h"
 
 namespace mocap {
@@ -35,8 +34,9 @@ void Disturb(const AccuracyTrial& trial, Studio& studio) {
       Misalign(trial.calibration_error_px, random, camera.calibration);
     }
     PictureDisturbance disturbance{.covered_share = trial.covered_share, .seed = random.Bits()};
-    if (trial.loses_a_camera && i == 0) {
-      disturbance.lost_from_ns =
+    if (i == 0) {
+      disturbance.mishap = trial.mishap;
+      disturbance.mishap_ns =
           trial.studio.start_ns + static_cast<std::int64_t>(trial.studio.seconds / 2 * 1e9);
     }
     camera.driver = std::make_unique<DisturbedCamera>(

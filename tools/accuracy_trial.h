@@ -3,6 +3,7 @@
 
 #include "config/config.h"
 #include "drivers/simulated_studio.h"
+#include "tools/disturbed_camera.h"
 #include "tools/evaluation.h"
 
 namespace mocap {
@@ -15,8 +16,8 @@ struct AccuracyTrial {
   /// Every camera is calibrated wrongly: turned by what moves its picture's middle by this much, in
   /// a direction of its own.
   double calibration_error_px = 0;
-  double covered_share = 0;     ///< As PictureDisturbance's.
-  bool loses_a_camera = false;  ///< The first camera falls silent in the middle of the take.
+  double covered_share = 0;       ///< As PictureDisturbance's.
+  Mishap mishap = Mishap::kNone;  ///< Of the first camera, in the middle of the take.
 };
 
 struct TrialOutcome {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -24,8 +25,13 @@ struct BenchmarkOptions {
   std::vector<std::string> motions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
   std::vector<double> statures_mm = {1150, 1550, 1950};
   int seeds = 3;
-  bool grid_only = false;
+  std::vector<std::string> parts = {"grid",    "cameras",     "voxels",
+                                    "covered", "calibration", "mishap"};
 };
+
+bool Wants(const BenchmarkOptions& options, const std::string& part) {
+  return std::ranges::find(options.parts, part) != options.parts.end();
+}
 
 void Print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
@@ -60,7 +66,13 @@ struct Step {
   std::function<void(AccuracyTrial&)> change;
 };
 
-std::vector<std::pair<std::string, std::vector<Step>>> PlannedSweeps() {
+struct SweepPlan {
+  std::string part;
+  std::string what;
+  std::vector<Step> steps;
+};
+
+std::vector<SweepPlan> PlannedSweeps() {
   const auto cameras = [](int count) {
     return Step{std::to_string(count),
                 [count](AccuracyTrial& trial) { trial.studio.cameras = count; }};
@@ -77,21 +89,27 @@ std::vector<std::pair<std::string, std::vector<Step>>> PlannedSweeps() {
     return Step{std::to_string(error_px),
                 [error_px](AccuracyTrial& trial) { trial.calibration_error_px = error_px; }};
   };
-  const auto lost = [](bool loses) {
-    return Step{loses ? "one of six" : "none",
-                [loses](AccuracyTrial& trial) { trial.loses_a_camera = loses; }};
+  const auto happens = [](const char* what, Mishap mishap) {
+    return Step{what, [mishap](AccuracyTrial& trial) { trial.mishap = mishap; }};
   };
-  return {{"cameras", {cameras(4), cameras(5), cameras(6), cameras(8)}},
-          {"edge of a voxel [mm]", {voxels(10), voxels(25), voxels(50)}},
-          {"pictures covered by squares [%]", {covered(0), covered(2), covered(5), covered(10)}},
-          {"error of calibration [px]",
+  return {{"cameras", "cameras", {cameras(4), cameras(5), cameras(6), cameras(8)}},
+          {"voxels", "edge of a voxel [mm]", {voxels(10), voxels(25), voxels(50)}},
+          {"covered",
+           "pictures covered by squares [%]",
+           {covered(0), covered(2), covered(5), covered(10)}},
+          {"calibration",
+           "error of calibration [px]",
            {calibration(0), calibration(1), calibration(2), calibration(5)}},
-          {"camera lost in the middle", {lost(false), lost(true)}}};
+          {"mishap",
+           "one camera of six, from the middle on",
+           {happens("well", Mishap::kNone), happens("lost", Mishap::kLost),
+            happens("blinded", Mishap::kBlinded), happens("turned by 20 px", Mishap::kTurned)}}};
 }
 
-std::vector<AccuracySweep> RunSweeps(double seconds) {
+std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
   std::vector<AccuracySweep> sweeps;
-  for (const auto& [what, steps] : PlannedSweeps()) {
+  for (const auto& [part, what, steps] : PlannedSweeps()) {
+    if (!Wants(options, part)) continue;
     AccuracySweep& sweep = sweeps.emplace_back(AccuracySweep{what, {}});
     for (const Step& step : steps) {
       Print(fmt::format("\n{}: {}\n", what, step.label));
@@ -99,7 +117,7 @@ std::vector<AccuracySweep> RunSweeps(double seconds) {
       for (const char* motion : {"walk", "dance", "sit"}) {
         AccuracyTrial trial;
         trial.studio.motion = motion;
-        trial.studio.seconds = seconds;
+        trial.studio.seconds = options.seconds;
         step.change(trial);
         rows.push_back(MeasureAndPrint(trial));
       }
@@ -121,9 +139,11 @@ void RunBenchmark(const BenchmarkOptions& options) {
   if (!options.out.empty()) Write(options.out / "accuracy.md", "");
   AccuracyBenchmark benchmark{.seconds = options.seconds, .grid = {}, .sweeps = {}};
   Print(AccuracyHeader());
-  benchmark.grid = RunGrid(options);
-  Print("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
-  if (!options.grid_only) benchmark.sweeps = RunSweeps(options.seconds);
+  if (Wants(options, "grid")) {
+    benchmark.grid = RunGrid(options);
+    Print("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
+  }
+  benchmark.sweeps = RunSweeps(options);
   if (options.out.empty()) return;
   Write(options.out / "accuracy.md", AccuracyMarkdown(benchmark));
   if (!benchmark.sweeps.empty()) {
@@ -149,7 +169,10 @@ void AddBenchmarkCommand(CLI::App& app) {
   command->add_option("--seeds", options->seeds, "how many people of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--grid-only", options->grid_only, "leave out the sweeps");
+  command->add_option("--parts", options->parts, "what to measure")
+      ->delimiter(',')
+      ->check(CLI::IsMember(options->parts))
+      ->capture_default_str();
   command->add_option("--out", options->out, "folder for accuracy.md and accuracy.svg")
       ->check(CLI::ExistingDirectory);
   command->callback([options] { RunBenchmark(*options); });

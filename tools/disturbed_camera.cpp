@@ -9,6 +9,7 @@ namespace mocap {
 namespace {
 
 constexpr double kLeastSide_px = 6, kMostSide_px = 30;
+constexpr int kTurned_px = 20;
 
 }  // namespace
 
@@ -19,19 +20,31 @@ DisturbedCamera::DisturbedCamera(std::unique_ptr<CameraDriver> camera, Image<Bgr
 GrabStatus DisturbedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   const GrabStatus status = camera_->Grab(frame, timeout);
   if (status != GrabStatus::kFrame) return status;
-  if (frame.capture_ns >= disturbance_.lost_from_ns) return GrabStatus::kEnd;
-  if (disturbance_.covered_share > 0) {
-    Cover(frame);
-    frame.image = std::as_const(picture_).view();
-  }
+  const bool has_happened = frame.capture_ns >= disturbance_.mishap_ns;
+  const Mishap mishap = has_happened ? disturbance_.mishap : Mishap::kNone;
+  if (mishap == Mishap::kLost) return GrabStatus::kEnd;
+  if (mishap == Mishap::kNone && disturbance_.covered_share == 0) return status;
+  Copy(frame, mishap == Mishap::kTurned ? kTurned_px : 0);
+  if (mishap == Mishap::kBlinded) std::ranges::fill(picture_.pixels(), Bgr{255, 255, 255});
+  Cover(frame.sequence);
+  frame.image = std::as_const(picture_).view();
   return status;
 }
 
-void DisturbedCamera::Cover(const Frame& frame) {
+// What turning shows anew at the left is as good as what was there.
+void DisturbedCamera::Copy(const Frame& frame, int shift_px) {
   const int width = frame.image.width(), height = frame.image.height();
   if (picture_.width() != width || picture_.height() != height) picture_ = {width, height};
-  for (int y = 0; y < height; ++y) std::copy_n(frame.image.row(y), width, picture_.row(y));
-  simulation::Random random(simulation::Mix(disturbance_.seed, frame.sequence));
+  for (int y = 0; y < height; ++y) {
+    const Bgr* row = frame.image.row(y);
+    std::copy_n(row, shift_px, picture_.row(y));
+    std::copy_n(row, width - shift_px, picture_.row(y) + shift_px);
+  }
+}
+
+void DisturbedCamera::Cover(std::uint64_t sequence) {
+  const int width = picture_.width(), height = picture_.height();
+  simulation::Random random(simulation::Mix(disturbance_.seed, sequence));
   double left_px = disturbance_.covered_share * width * height;
   for (bool is_hole = true; left_px > 0; is_hole = !is_hole) {
     const int side = static_cast<int>(random.Uniform(kLeastSide_px, kMostSide_px));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 
 #include "core/image.h"
@@ -10,13 +9,16 @@
 
 namespace mocap {
 
+/// What may happen to a camera: it falls silent, a light shines into it, or somebody turns it.
+enum class Mishap { kNone, kLost, kBlinded, kTurned };
+
 /// What goes wrong with a camera's pictures.
 struct PictureDisturbance {
   /// Share of each picture that squares cover, anew in every frame: every other one shows the empty
   /// studio, a hole in whoever stands there, and the others a grey that is nobody.
   double covered_share = 0;
-  /// No frames come from this capture time on.
-  std::int64_t lost_from_ns = std::numeric_limits<std::int64_t>::max();
+  Mishap mishap = Mishap::kNone;
+  std::int64_t mishap_ns = 0;  ///< Capture time from which on it has happened.
   std::uint64_t seed = 1;
 };
 
@@ -32,7 +34,8 @@ class DisturbedCamera : public CameraDriver {
   void Stop() override { camera_->Stop(); }
 
  private:
-  void Cover(const Frame& frame);
+  void Copy(const Frame& frame, int shift_px);
+  void Cover(std::uint64_t sequence);
 
   const std::unique_ptr<CameraDriver> camera_;
   const Image<Bgr> empty_;

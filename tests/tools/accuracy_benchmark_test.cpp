@@ -50,7 +50,7 @@ TEST(AccuracyTrial, ACameraThatFallsSilentAndWrongCalibrationCostALittle) {
   EXPECT_EQ(well.longest_wrong_stretch, 0);
   EXPECT_EQ(Measure(trial).mpjpe_mm, well.mpjpe_mm);
   trial.calibration_error_px = 1;
-  trial.loses_a_camera = true;
+  trial.mishap = Mishap::kLost;
   const AccuracyRow worse = Measure(trial);
   EXPECT_GT(worse.mpjpe_mm, well.mpjpe_mm);
   EXPECT_LT(worse.mpjpe_mm, 4 * well.mpjpe_mm);

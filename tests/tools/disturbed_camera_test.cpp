@@ -50,12 +50,27 @@ TEST_F(DisturbedCameraTest, CoversAboutAsMuchAsIsAskedForAndTheSameEachTime) {
 }
 
 TEST_F(DisturbedCameraTest, FallsSilentForGood) {
-  const auto camera = Open({.lost_from_ns = options_.start_ns + 500'000'000});
+  const auto camera = Open({.mishap = Mishap::kLost, .mishap_ns = options_.start_ns + 500'000'000});
   Frame frame;
   int frames = 0;
   while (camera->Grab(frame, kAtOnce) == GrabStatus::kFrame) ++frames;
   EXPECT_EQ(frames, 15);
   EXPECT_EQ(camera->Grab(frame, kAtOnce), GrabStatus::kEnd);
+}
+
+TEST_F(DisturbedCameraTest, ShiftsThePictureOfACameraThatWasTurned) {
+  const auto plain = Open({}), turned = Open({.mishap = Mishap::kTurned});
+  Frame before, after;
+  plain->Grab(before, kAtOnce);
+  turned->Grab(after, kAtOnce);
+  for (int x = 0; x < 100; ++x) EXPECT_EQ(after.image(x + 20, 60), before.image(x, 60));
+}
+
+TEST_F(DisturbedCameraTest, ShowsABlindedCameraNothing) {
+  const auto camera = Open({.mishap = Mishap::kBlinded});
+  Frame frame;
+  camera->Grab(frame, kAtOnce);
+  EXPECT_EQ(frame.image(80, 60), (Bgr{255, 255, 255}));
 }
 
 }  // namespace
