@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "config/camera_files.h"
+#include "config/load_config.h"
 #include "core/errors.h"
 #include "tests/daemon/fake_studio.h"
 #include "tests/support/temporary_folder.h"

@@ -27,7 +27,7 @@ TEST(HealthWatch, KnowsTheCamerasOnceSomebodyHasWalkedAbout) {
     if (health.moments < HealthWatch::kFewestMoments) continue;
     ++known;
     EXPECT_LT(health.shift_px.norm(), 1.5);
-    EXPECT_GT(health.overlap, 0.8);
+    EXPECT_GT(health.overlap, 0.75);
   }
   EXPECT_GE(known, 4);
 }
@@ -43,7 +43,8 @@ TEST(HealthWatch, NamesTheCameraThatWasTurnedAsTheOneFarthestOff) {
   const std::vector<CameraHealth> health = watch.Health();
   EXPECT_GT(health[3].shift_px.norm(), 3);
   for (std::size_t c = 0; c < health.size(); ++c) {
-    if (c != 3) EXPECT_LT(health[c].shift_px.norm(), health[3].shift_px.norm()) << c;
+    if (c == 3) continue;
+    EXPECT_LT(health[c].shift_px.norm(), health[3].shift_px.norm()) << c;
   }
 }
 

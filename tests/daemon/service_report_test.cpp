@@ -82,7 +82,7 @@ TEST(ServiceReport, TellsAgesInWords) {
   report.epoch_s = 2'000'000;
   report.calibration = {"/etc/c.toml", report.epoch_s - 9 * 86'400};
   report.background = {"/var/b", report.epoch_s - 3 * 3600};
-  EXPECT_THAT(ReportText(report), HasSubstr("calibration 9 days old, /etc/c.toml"));
+  EXPECT_THAT(ReportText(report), HasSubstr("calibration  9 days old, /etc/c.toml"));
   EXPECT_THAT(BackgroundText(report), StartsWith("3 h old, /var/b\n"));
 }
 
