@@ -1,6 +1,12 @@
 #include "config/camera_files.h"
 
+#include <fcntl.h>
+#include <stdio.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -72,6 +78,14 @@ std::function<std::vector<BackgroundFrame>()> OpenCameraBackground(
   std::vector<TakeRow> rows;
   if (camera.head) rows = ReadCameraTable(table, camera).rows;
   return [video, camera, rows = std::move(rows)] { return ReadBackground(video, camera, rows); };
+}
+
+void ReplaceFolder(const std::filesystem::path& folder, const std::filesystem::path& with) {
+  if (!std::filesystem::exists(folder)) return std::filesystem::rename(with, folder);
+  if (renameat2(AT_FDCWD, with.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) != 0) {
+    throw std::runtime_error(folder.string() + ": cannot be replaced: " + std::strerror(errno));
+  }
+  std::filesystem::remove_all(with);
 }
 
 }  // namespace mocap

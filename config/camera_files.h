@@ -25,4 +25,8 @@ std::function<std::vector<BackgroundFrame>()> OpenCameraBackground(
     const std::filesystem::path& video, const std::filesystem::path& table,
     const CameraCalibration& camera);
 
+/// Puts a folder in another's place in one step, and takes the other away.
+/// @throws std::runtime_error, std::filesystem::filesystem_error  when that cannot be.
+void ReplaceFolder(const std::filesystem::path& folder, const std::filesystem::path& with);
+
 }  // namespace mocap

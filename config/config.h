@@ -30,6 +30,7 @@ struct SourceConfig {
   double stature_mm = 1750;
   int cameras = 6;
   std::uint64_t seed = 1;
+  double losses_per_minute = 0;  ///< How often each camera fails for two seconds.
   // For "simulated" and live cameras:
   double fps = 30;
 };

@@ -31,6 +31,8 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.fps = section.NumberWithin("fps", 1, 1000, source.fps);
   source.seed = static_cast<std::uint64_t>(section.IntegerWithin(
       "seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(source.seed)));
+  source.losses_per_minute =
+      section.NumberWithin("losses_per_minute", 0, 12, source.losses_per_minute);
   section.RejectUnknownKeys();
   return source;
 }

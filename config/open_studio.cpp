@@ -11,6 +11,7 @@ SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
   options.fps = source.fps;
   options.cameras = source.cameras;
   options.seed = source.seed;
+  options.losses_per_minute = source.losses_per_minute;
   options.realtime = true;
   return options;
 }

@@ -1,5 +1,7 @@
 #include "daemon/camera_worker.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <thread>
 #include <utility>
@@ -15,15 +17,19 @@ constexpr std::chrono::milliseconds kGrabTimeout{100};
 constexpr std::chrono::milliseconds kLostPause{20};
 /// More say little that is new.
 constexpr int kRaysPerCamera = 100;
+/// A worker comes round ten times a second; one that does not hangs.
+constexpr std::chrono::milliseconds kReplacePause{5};
+constexpr int kReplacePauses = 400;
+constexpr float kLeastGain = 0.01f;
 
 }  // namespace
 
 CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-                           FrameTap* tap)
+                           std::vector<FrameTap*> taps)
     : camera_(std::move(camera)),
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
-      tap_(tap),
+      taps_(std::move(taps)),
       newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
 
 void CameraWorker::Stop() {
@@ -36,6 +42,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   if (expectation() == Expectation::kCertain) {
     expectation_.store(Expectation::kPossible, std::memory_order_release);
   }
+  TakeReplacement();
   Frame frame;
   switch (camera_.driver->Grab(frame, kGrabTimeout)) {
     case GrabStatus::kFrame:
@@ -54,7 +61,9 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
       return Outcome::kEnd;
   }
   CountFrame(frame.sequence);
-  if (tap_) tap_->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
+  for (FrameTap* tap : taps_) {
+    tap->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
+  }
   if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     expectation_.store(Expectation::kPossible, std::memory_order_release);
@@ -69,9 +78,41 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
   TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
+  NoteConditions();
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
   return Outcome::kFrame;
+}
+
+bool CameraWorker::Replace(Segmenter segmenter) {
+  {
+    const std::scoped_lock lock(replacement_mutex_);
+    replacement_ = std::move(segmenter);
+    replacement_waits_.store(true);
+  }
+  for (int i = 0; replacement_waits_.load() && i < kReplacePauses; ++i) {
+    std::this_thread::sleep_for(kReplacePause);
+  }
+  std::optional<Segmenter> left_over;
+  const std::scoped_lock lock(replacement_mutex_);
+  std::swap(left_over, replacement_);
+  return !replacement_waits_.exchange(false);
+}
+
+void CameraWorker::TakeReplacement() {
+  if (!replacement_waits_.load(std::memory_order_relaxed)) return;
+  const std::unique_lock lock(replacement_mutex_, std::try_to_lock);
+  if (!lock || !replacement_waits_.load()) return;
+  std::swap(segmenter_, *replacement_);
+  replacement_waits_.store(false);
+}
+
+void CameraWorker::NoteConditions() {
+  const Conditions& conditions = segmenter_.conditions();
+  constexpr int kGreen = 1;
+  light_.store(1 / std::max(conditions.gain[kGreen], kLeastGain), std::memory_order_relaxed);
+  nudged_px_.store(std::hypot(conditions.displacement.x_px, conditions.displacement.y_px),
+                   std::memory_order_relaxed);
 }
 
 void CameraWorker::Enter(CameraState state) {
@@ -99,6 +140,8 @@ CameraStatus CameraWorker::Status() const {
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);
   status.torn = torn_.load(std::memory_order_relaxed);
+  status.light = light_.load(std::memory_order_relaxed);
+  status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
   const std::lock_guard lock(remarks_mutex_);
   status.remarks = remarks_;
   return status;

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/reconstruction/outline.h"
 #include "core/reconstruction/segmenter.h"
 #include "core/reconstruction/silhouette.h"
+#include "daemon/health_watch.h"
 #include "daemon/stage.h"
 #include "daemon/synchronizer.h"
 #include "daemon/tap.h"
@@ -40,6 +42,9 @@ struct CameraStatus {
   std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
   std::int64_t late = 0;     ///< Came after their set had gone, or found none.
   std::int64_t torn = 0;
+  double light = 1;                  ///< Brightness, over that of the empty studio as learned.
+  double nudged_px = 0;              ///< How far the picture lies from where it was learned.
+  CameraHealth health;               ///< Whether the other cameras agree.
   std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
 };
 
@@ -47,9 +52,9 @@ struct CameraStatus {
 class CameraWorker {
  public:
   /// @param recorders  borrowed for the worker's life.
-  /// @param tap        gets every frame, likewise; may be null.
+  /// @param taps       get every frame, likewise.
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-               FrameTap* tap = nullptr);
+               std::vector<FrameTap*> taps = {});
 
   void Start() { camera_.driver->Start(); }
   void Stop();
@@ -58,6 +63,11 @@ class CameraWorker {
   /// Waits a moment for the next frame and segments it into `frame`; one captured before
   /// `wanted_from_ns`, as it is by then, is dropped instead.
   Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame);
+
+  /// Segments with another knowledge of the empty studio from the next frame on. Any thread but the
+  /// worker's, one at a time; waits until the worker has taken it, so that what it had before ends
+  /// here. @return  false when the worker does not come round.
+  bool Replace(Segmenter segmenter);
 
   const CameraCalibration& calibration() const { return camera_.calibration; }
   /// Whether another frame is to come. It stays kCertain until the next call of Next, so that a
@@ -69,13 +79,18 @@ class CameraWorker {
   CameraStatus Status() const;
 
  private:
+  void TakeReplacement();
+  void NoteConditions();
   void CountFrame(std::uint64_t sequence);
   void Enter(CameraState state);
 
   StudioCamera camera_;
   Segmenter segmenter_;
   StageRecorders& recorders_;
-  FrameTap* const tap_;
+  const std::vector<FrameTap*> taps_;
+  std::mutex replacement_mutex_;  ///< Tried, never waited for, by the worker.
+  std::optional<Segmenter> replacement_;
+  std::atomic<bool> replacement_waits_{false};
   std::uint64_t next_sequence_ = 0;
   std::atomic<CameraState> state_{CameraState::kStarting};
   std::atomic<Expectation> expectation_{Expectation::kPossible};
@@ -83,6 +98,8 @@ class CameraWorker {
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> dropped_{0};
   std::atomic<std::int64_t> torn_{0};
+  std::atomic<double> light_{1};
+  std::atomic<double> nudged_px_{0};
   mutable std::mutex remarks_mutex_;
   std::vector<std::string> remarks_;
 };

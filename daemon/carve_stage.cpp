@@ -46,9 +46,25 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   set.work_ns += carve_ns;
   recorders_[Stage::kCarve].Record(carve_ns);
   recorders_[Stage::kSpread].Record(synchronizer_.spread_ns());
+  if (seen_ && seen_pacer_.IsDue(SteadyNs())) OfferToWatch();
   const bool complete = views_.size() == cameras_.size();
   (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
   return verdict;
+}
+
+void CarveStage::OfferToWatch() {
+  seen_->Offer([this](SeenSet& copy) {
+    copy.cameras.clear();
+    copy.X_CW.clear();
+    copy.silhouettes.resize(views_.size());
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      if (!synchronizer_.members()[i]) continue;
+      copy.silhouettes[copy.cameras.size()] = cameras_[i].front.silhouette;
+      copy.X_CW.push_back(cameras_[i].front.X_CW);
+      copy.cameras.push_back(static_cast<int>(i));
+    }
+    return true;
+  });
 }
 
 void CarveStage::SetTracked(std::int64_t sets) {

@@ -11,7 +11,9 @@
 #include "core/reconstruction/carver.h"
 #include "core/reconstruction/sensor_plane_table.h"
 #include "daemon/camera_worker.h"
+#include "daemon/health_watch.h"
 #include "daemon/load_control.h"
+#include "daemon/pacer.h"
 #include "daemon/stage.h"
 #include "daemon/synchronizer.h"
 
@@ -38,6 +40,8 @@ class CarveStage {
              const CarvingOptions& options, StageRecorders& recorders);
   /// Leaves out sets when there is too much to do. Without it, every set is carved.
   void ControlLoad() { load_control_.emplace(); }
+  /// Offers copies of a set's silhouettes now and then; borrowed for the stage's life.
+  void Show(SetTap& tap) { seen_ = &tap; }
 
   int camera_count() const { return static_cast<int>(cameras_.size()); }
   bool NeedsFrame(int camera) const { return !synchronizer_.has_front(camera); }
@@ -76,6 +80,7 @@ class CarveStage {
   };
 
   void Gather(CarvedSet& set);
+  void OfferToWatch();
   void PublishLoad();
 
   std::deque<Camera> cameras_;  // Cameras with counters do not move.
@@ -84,6 +89,8 @@ class CarveStage {
   Carver carver_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
+  SetTap* seen_ = nullptr;
+  Pacer seen_pacer_{HealthWatch::kHz};
   std::int64_t next_frame_ = 0;
   std::atomic<std::int64_t> wanted_from_ns_{std::numeric_limits<std::int64_t>::min()};
   std::atomic<std::int64_t> skipped_sets_{0};

@@ -32,6 +32,8 @@ std::optional<ControlRequest> WithoutName(const std::string_view first,
   if (first == "record" && second == "stop") return RecordStopRequest{};
   if (first == "subject" && second == "new") return SubjectNewRequest{};
   if (first == "subject" && second == "list") return SubjectListRequest{};
+  if (first == "background" && second == "learn") return BackgroundLearnRequest{};
+  if (first == "background" && second == "status") return BackgroundStatusRequest{};
   if (first == "status" && second == "json") return StatusRequest{.as_json = true};
   return {};
 }
@@ -55,6 +57,9 @@ std::optional<ControlRequest> ParseControlRequest(std::string_view line) {
   if (words.size() == 1 && words[0] == "reload") return ReloadRequest{};
   if (words.size() == 2) return WithoutName(words[0], words[1]);
   if (words.size() != 3) return {};
+  if (words[0] == "background" && words[1] == "learn" && words[2] == "anyway") {
+    return BackgroundLearnRequest{.anyway = true};
+  }
   if (words[0] == "record" && words[1] == "start") return Named<RecordStartRequest>(words[2]);
   if (words[0] == "subject" && words[1] == "save") return Named<SubjectSaveRequest>(words[2]);
   if (words[0] == "subject" && words[1] == "load") return Named<SubjectLoadRequest>(words[2]);

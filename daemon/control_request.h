@@ -24,10 +24,15 @@ struct SubjectLoadRequest {
   std::string name;
 };
 struct SubjectListRequest {};
+struct BackgroundLearnRequest {
+  bool anyway = false;  ///< Also where somebody is believed to be in the room.
+};
+struct BackgroundStatusRequest {};
 
 using ControlRequest =
     std::variant<StatusRequest, ReloadRequest, RecordStartRequest, RecordStopRequest,
-                 SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest>;
+                 SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest,
+                 BackgroundLearnRequest, BackgroundStatusRequest>;
 
 /// How it went, with the exit status of a program that asked.
 enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
@@ -42,7 +47,8 @@ inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
 /// Understands "status [json]", "reload", "record start NAME", "record stop", "subject new",
-/// "subject save NAME", "subject load NAME" and "subject list"; empty for anything else.
+/// "subject save NAME", "subject load NAME", "subject list", "background learn [anyway]" and
+/// "background status"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
 /// Names become files: letters, digits, `.`, `_` and `-`, not beginning with `.` or `-`.

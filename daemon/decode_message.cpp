@@ -97,9 +97,15 @@ bool HasSoundCounts(const service_t&, std::span<const std::uint8_t> bytes) {
   skimmer.Texts(2);
   skimmer.Skip(2 * kNumber);
   skimmer.Texts(skimmer.Count(4));
+  for (int made = 0; made < 2; ++made) {
+    skimmer.Text();
+    skimmer.Skip(kNumber);
+  }
+  skimmer.Skip(kNumber);
+  skimmer.Skip(3 * kNumber * skimmer.Count(3 * kNumber));
   skimmer.Skip(1);
   skimmer.Text();
-  skimmer.Skip(4 * kNumber);
+  skimmer.Skip(3 * kNumber);
   return skimmer.sound();
 }
 

@@ -6,6 +6,7 @@
 
 #include "config/body_size_fields.h"
 #include "core/tracking/voxel_labels.h"
+#include "daemon/complaints.h"
 
 namespace mocap {
 namespace {
@@ -182,13 +183,27 @@ void FillService(const ServiceReport& report, std::int64_t utime, service_t& mes
   message.fps_nominal = report.fps_nominal;
   message.complaint = Complaints(report);
   message.num_complaints = static_cast<std::int32_t>(message.complaint.size());
+  message.calibration = report.calibration.where;
+  message.calibration_made_s = report.calibration.made_s;
+  message.background = report.background.where;
+  message.background_made_s = report.background.made_s;
+  message.bytes_free = report.bytes_free;
+  message.camera_trust.clear();
+  message.camera_off_px.clear();
+  message.camera_light.clear();
+  for (const CameraStatus& camera : report.now.status.cameras) {
+    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
+    message.camera_trust.push_back(is_known ? camera.health.overlap : -1);
+    message.camera_off_px.push_back(is_known ? camera.health.shift_px.norm() : 0);
+    message.camera_light.push_back(camera.light);
+  }
+  message.num_cameras = static_cast<std::int32_t>(message.camera_trust.size());
   const RecordingStatus& recording = report.recording;
   message.recording_state = static_cast<std::int8_t>(recording.state);
   message.recording_folder = recording.folder.string();
   message.recording_seconds = static_cast<double>(recording.duration_ns) / 1e9;
   message.recording_frames = recording.frames;
   message.recording_dropped = recording.dropped;
-  message.recording_bytes_free = recording.bytes_free;
 }
 
 }  // namespace mocap

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "daemon/complaints.h"
+
 namespace mocap {
 namespace {
 
@@ -53,6 +55,19 @@ void WriteCameras(const ServiceReport& report, MetricsWriter& writer) {
   }
 }
 
+void WriteHealth(const ServiceReport& report, MetricsWriter& writer) {
+  const auto& cameras = report.now.status.cameras;
+  writer.Family("camera_light_ratio", "gauge", "Brightness over that of the empty studio.");
+  for (const CameraStatus& camera : cameras) {
+    writer.Sample(fmt::format("camera=\"{}\"", camera.name), camera.light);
+  }
+  writer.Family("camera_trust_ratio", "gauge", "Overlap with the hull of the other cameras.");
+  for (const CameraStatus& camera : cameras) {
+    if (camera.health.moments < HealthWatch::kFewestMoments) continue;
+    writer.Sample(fmt::format("camera=\"{}\"", camera.name), camera.health.overlap);
+  }
+}
+
 void WriteStages(const ServiceReport& report, MetricsWriter& writer) {
   writer.Family("stage_seconds", "gauge", "Recent duration of a stage; latency from capture.");
   for (int i = 0; i < kStageCount; ++i) {
@@ -87,6 +102,9 @@ std::string MetricsText(const ServiceReport& report) {
                 static_cast<double>(Complaints(report).size()));
   WriteStages(report, writer);
   WriteCameras(report, writer);
+  WriteHealth(report, writer);
+  writer.Single("free_bytes", "gauge", "Room on the disk for takes.",
+                static_cast<double>(report.bytes_free));
   return writer.Take();
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <future>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -46,9 +47,9 @@ Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
 
 /// One camera's thread and the queue it fills.
 struct Pipeline::CameraLine {
-  CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders, FrameTap* tap,
-             Overflow overflow, Doorbell& carve_bell)
-      : worker(std::move(camera), std::move(segmenter), recorders, tap),
+  CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+             std::vector<FrameTap*> taps, Overflow overflow, Doorbell& carve_bell)
+      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps)),
         queue(kFramesQueued, overflow, carve_bell) {}
 
   CameraWorker worker;
@@ -71,13 +72,18 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
                                         CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
-  if (options.overflow == Overflow::kDropOldest) carve_->ControlLoad();
+  if (options.overflow == Overflow::kDropOldest) {
+    carve_->ControlLoad();
+    health_ = std::make_unique<HealthWatch>(calibrations);
+    carve_->Show(health_->tap());
+  }
   std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
-    FrameTap* tap = options.taps ? &options.taps->at(i) : nullptr;
+    std::vector<FrameTap*> taps;
+    for (std::deque<FrameTap>* of_all : options.taps) taps.push_back(&of_all->at(i));
     lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
-                                                  std::move(segmenters[i]), recorders_, tap,
-                                                  options.overflow, carve_bell_));
+                                                  std::move(segmenters[i]), recorders_,
+                                                  std::move(taps), options.overflow, carve_bell_));
   }
 }
 
@@ -226,6 +232,13 @@ void Pipeline::RunSerially() {
   finished_.store(true, std::memory_order_release);
 }
 
+void Pipeline::ReplaceBackground(int camera, std::span<const BackgroundFrame> background) {
+  CameraWorker& worker = lines_.at(static_cast<std::size_t>(camera))->worker;
+  if (!worker.Replace(Segmenter(worker.calibration(), background, options_.segmentation))) {
+    throw std::runtime_error(worker.calibration().name + " did not take over what was learned");
+  }
+}
+
 PipelineStatus Pipeline::Status() const {
   PipelineStatus status;
   status.state = track_.state();
@@ -237,6 +250,10 @@ PipelineStatus Pipeline::Status() const {
     CameraStatus& camera = status.cameras.emplace_back(lines_[i]->worker.Status());
     camera.late = carve_->late(i);
     camera.dropped += lines_[i]->queue.dropped() + carve_->left_out(i) + camera.late;
+  }
+  if (health_) {
+    const std::vector<CameraHealth> health = health_->Health();
+    for (std::size_t i = 0; i < health.size(); ++i) status.cameras[i].health = health[i];
   }
   status.stages = StageHistograms(recorders_);
   return status;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "daemon/carve_stage.h"
 #include "daemon/doorbell.h"
 #include "daemon/frame_progress.h"
+#include "daemon/health_watch.h"
 #include "daemon/pose_sink.h"
 #include "daemon/spsc_queue.h"
 #include "daemon/stage.h"
@@ -35,8 +37,8 @@ struct PipelineOptions {
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
   int priority = 0;  ///< Of the threads, SCHED_FIFO; 0: as everybody.
-  /// One a camera, borrowed for the pipeline's life; null: nobody taps frames.
-  std::deque<FrameTap>* taps = nullptr;
+  /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.
+  std::vector<std::deque<FrameTap>*> taps = {};
 };
 
 /// How the pipeline does; counters never go back.
@@ -54,8 +56,8 @@ struct PipelineStatus {
 /// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
 /// allocated, locked or copied on a frame's way.
 ///
-/// Run once, with Start and Join or with RunSerially. RequestStop, finished, ChangeSubject, Status
-/// and Progress: any thread.
+/// Run once, with Start and Join or with RunSerially. RequestStop, finished, ChangeSubject,
+/// ReplaceBackground, Status and Progress: any thread.
 class Pipeline {
  public:
   /// Learns every camera's background.
@@ -80,6 +82,12 @@ class Pipeline {
   /// there.
   void ChangeSubject(const std::optional<BodySizes>& sizes) { track_.ChangeSubject(sizes); }
 
+  /// Segments a camera's frames against other pictures of the empty studio from now on; learns
+  /// them in the calling thread. One call at a time.
+  /// @throws SetupError  for pictures that cannot be used; std::runtime_error for a camera whose
+  /// thread does not take them over.
+  void ReplaceBackground(int camera, std::span<const BackgroundFrame> background);
+
   PipelineStatus Status() const;
   /// How far each thread has come.
   FrameProgress Progress() const;
@@ -102,6 +110,7 @@ class Pipeline {
   Doorbell carve_bell_;
   Doorbell track_bell_;
   std::vector<std::unique_ptr<CameraLine>> lines_;
+  std::unique_ptr<HealthWatch> health_;  ///< Live only.
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
   TrackStage track_;

@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -66,15 +65,6 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
   }
   throw SetupError("lcm.url: \"" + url +
                    "\" cannot be opened, wanted one like udpm://239.255.76.67:7667?ttl=0");
-}
-
-Pacer::Pacer(double hz) : period_ns_(hz > 0 ? std::llround(1e9 / hz) : 0) {}
-
-bool Pacer::IsDue(std::int64_t now_ns) {
-  if (period_ns_ == 0 || now_ns < next_ns_) return false;
-  // In step with the times before, unless those have long gone.
-  next_ns_ = now_ns - next_ns_ < period_ns_ ? next_ns_ + period_ns_ : now_ns + period_ns_;
-  return true;
 }
 
 PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras)

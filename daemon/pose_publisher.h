@@ -10,6 +10,7 @@
 
 #include "config/config.h"
 #include "daemon/messages.h"
+#include "daemon/pacer.h"
 #include "daemon/pose_sink.h"
 #include "daemon/service_report.h"
 #include "daemon/tap.h"
@@ -23,18 +24,6 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
 
 /// Whether the kernel knows where to send LCM's multicast.
 bool HasMulticastRoute();
-
-/// Says when something that comes too often shall be sent again.
-class Pacer {
- public:
-  explicit Pacer(double hz);
-  /// Whether it is time now; if so, the next time is a period later. Never with 0 Hz.
-  bool IsDue(std::int64_t now_ns);
-
- private:
-  std::int64_t period_ns_;
-  std::int64_t next_ns_ = 0;
-};
 
 /// Publishes what the contract's table of channels says. OnSet: one thread; PublishStatus: one
 /// thread, the same or another.

@@ -3,12 +3,27 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/errors.h"
 
 namespace mocap {
+namespace {
+
+constexpr int kNicer = 10;
+constexpr int kNicest = 19;
+constexpr std::size_t kLongestThreadName = 15;
+
+}  // namespace
+
+void StepBehind(const std::string& name) {
+  pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+  // Zero is the calling thread: on Linux each has its own.
+  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + kNicer, kNicest));
+}
 
 void PrepareRealtime(const RealtimeConfig& config) {
   if (config.priority > 0) {

@@ -2,10 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <pthread.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,28 +16,21 @@
 #include "core/errors.h"
 #include "daemon/clock.h"
 #include "daemon/control_socket.h"
+#include "daemon/disk_space.h"
 #include "daemon/message_log.h"
+#include "daemon/realtime.h"
 #include "drivers/take_layout.h"
 
 namespace mocap {
 namespace {
 
-/// How far behind the pipeline's threads.
-constexpr int kNicer = 10;
-constexpr int kNicest = 19;
 constexpr std::chrono::milliseconds kKeeperTick{100};
-/// What a loss of power costs at most, besides what the disk itself has not written.
-constexpr std::int64_t kSafeEveryNs = 500'000'000;
+/// What waits is lost when the program is killed, and what was not made safe when the power fails:
+/// together less than a second.
+constexpr double kMostWaitingS = 0.5;
+constexpr std::int64_t kSafeEveryNs = 300'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 4;
-/// What waits is lost when the program is killed: that shall not be more than this.
-constexpr double kMostWaitingS = 2;
-
-std::int64_t BytesFree(const std::filesystem::path& folder) {
-  struct statvfs space {};
-  if (statvfs(folder.c_str(), &space) != 0) return 0;
-  return static_cast<std::int64_t>(space.f_bavail) * static_cast<std::int64_t>(space.f_frsize);
-}
 
 std::string UtcNow() {
   const std::time_t now = std::time(nullptr);
@@ -92,12 +82,6 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
                                  folder.parent_path().string(), free_mb, config.keep_free_mb));
   }
   return folder;
-}
-
-void StepBehind(const std::string& name) {
-  pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
-  // Zero is the calling thread: on Linux each has its own.
-  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + kNicer, kNicest));
 }
 
 void WriteText(const std::filesystem::path& file, const std::string& text) {
@@ -311,7 +295,6 @@ RecordingStatus Recording::Status() const {
   status.problem = problem_;
   const bool is_complete = state_ == RecordingStatus::State::kComplete;
   status.folder = is_complete ? folder_ : writer_.partial_folder();
-  status.bytes_free = BytesFree(folder_.parent_path());
   return status;
 }
 

@@ -51,10 +51,9 @@ struct RecordingStatus {
   State state = State::kNone;
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
-  std::int64_t frames = 0;      ///< Written, of all cameras.
-  std::int64_t dropped = 0;     ///< Came from the cameras and had no room, of all cameras.
-  std::int64_t bytes_free = 0;  ///< On the disk.
-  std::string problem;          ///< Why it ended by itself.
+  std::int64_t frames = 0;   ///< Written, of all cameras.
+  std::int64_t dropped = 0;  ///< Came from the cameras and had no room, of all cameras.
+  std::string problem;       ///< Why it ended by itself.
 };
 
 /// Records until Stop, until the disk is nearly full or until something cannot be written.

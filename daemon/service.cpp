@@ -20,7 +20,10 @@
 #include "daemon/change_log.h"
 #include "daemon/clock.h"
 #include "daemon/control_socket.h"
+#include "daemon/cut_off_takes.h"
+#include "daemon/disk_space.h"
 #include "daemon/frame_progress.h"
+#include "daemon/light_watch.h"
 #include "daemon/live_config.h"
 #include "daemon/live_view.h"
 #include "daemon/metrics_file.h"
@@ -31,8 +34,8 @@
 #include "daemon/service_control.h"
 #include "daemon/service_folders.h"
 #include "daemon/service_manager.h"
+#include "daemon/service_setup.h"
 #include "daemon/status_window.h"
-#include "daemon/truth_error.h"
 
 namespace mocap {
 namespace {
@@ -71,35 +74,6 @@ void OpenLog() {
   spdlog::set_default_logger(std::move(logger));
 }
 
-PipelineOptions OptionsFrom(const Config& config, RecordingTaps& taps) {
-  // A recording that is read as fast as it can be has old times, and can wait.
-  const bool can_wait = config.source.driver == "take" && config.source.rate == ReplayRate::kFast;
-  return {.segmentation = config.segmentation,
-          .voxel_mm = config.voxel_mm,
-          .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
-          .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
-          .priority = config.service.realtime.priority,
-          .taps = &taps.frames};
-}
-
-/// What a recording needs to know before the cameras are handed to the pipeline.
-RecordedStudio RecordedStudioOf(const Studio& studio, const std::string& config_text) {
-  RecordedStudio recorded{.name = studio.name,
-                          .fps_nominal = studio.fps_nominal,
-                          .cameras = {},
-                          .config_text = config_text};
-  for (const StudioCamera& camera : studio.cameras) {
-    recorded.cameras.push_back({camera.calibration, camera.background});
-  }
-  return recorded;
-}
-
-/// The truth is known where the person is simulated.
-TruthError TruthFor(const SourceConfig& source) {
-  if (source.driver != "simulated") return {};
-  return SimulatedTruthError(LiveSimulation(source));
-}
-
 /// Everything that becomes of a tracked set.
 class Outlet : public PoseSink {
  public:
@@ -120,6 +94,11 @@ class Watch {
   Watch(const ServiceParts& parts, ServiceControl& control, ServiceManager& manager,
         ServiceReport about)
       : parts_(parts), control_(control), manager_(manager), report_(std::move(about)) {
+    report_.cut_off = FindCutOffTakes(TakesFolder(control_.config().service.recording));
+    for (const CutOffTake& take : report_.cut_off) {
+      spdlog::warn("{} was cut off after {:.1f} s; it opens as it is", take.folder.c_str(),
+                   static_cast<double>(take.duration_ns) / 1e9);
+    }
     control_.SetReport(report_);
   }
 
@@ -168,15 +147,38 @@ class Watch {
     report_.fit = parts_.view.fit();
     report_.recording = parts_.recorder.Status();
     report_.up_ns = SteadyNs() - start_ns_;
+    report_.epoch_s = EpochNs() / 1'000'000'000;
+    LookAtStudio(status);
+    LookAtDisk();
     parts_.publisher.PublishStatus(report_);
     control_.SetReport(report_);
     manager_.Say(ReportLine(report_));
-    const std::filesystem::path metrics = control_.metrics_file();
+    const std::filesystem::path metrics = control_.config().service.metrics.file;
     if (metrics.empty() || !metrics_pacer_.IsDue(SteadyNs())) return;
     const bool could_write = WriteMetrics(metrics, report_);
     if (could_write_metrics_ && !could_write)
       spdlog::warn("{}: cannot be written", metrics.c_str());
     could_write_metrics_ = could_write;
+  }
+
+  void LookAtStudio(const PipelineStatus& status) {
+    report_.background = BackgroundOf(control_.config());
+    const std::optional<LightChange> change = light_.Add(status, SteadyNs());
+    const bool is_new =
+        change && (!report_.light_change || change->time_ns != report_.light_change->time_ns);
+    report_.light_change = change;
+    if (!is_new) return;
+    spdlog::warn("the light changed all of a sudden, by {:+.0f} % in {}",
+                 100 * (change->factor - 1), change->cameras.front());
+  }
+
+  void LookAtDisk() {
+    const RecordingConfig recording = control_.config().service.recording;
+    report_.takes = TakesFolder(recording);
+    report_.keep_free_mb = recording.keep_free_mb;
+    report_.bytes_free = BytesFree(report_.takes);
+    std::erase_if(report_.cut_off,
+                  [](const CutOffTake& take) { return !std::filesystem::exists(take.folder); });
   }
 
   void ClearLine() const {
@@ -194,6 +196,7 @@ class Watch {
   ProgressWatch progress_;
   ChangeLog log_;
   StatusWindow window_;
+  LightWatch light_;
   Pacer status_pacer_{kStatusHz};
   Pacer metrics_pacer_{kMetricsHz};
 };
@@ -232,18 +235,20 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   ServiceManager manager;
   manager.Say("learning the empty studio");
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
-  ServiceReport about;
-  about.studio = studio.name;
-  about.fps_nominal = studio.fps_nominal;
-  about.lcm_url = config.lcm.url;
+  const ServiceReport about = ReportAbout(config, studio);
+  const LearningPlace learning = LearningPlaceFor(config, studio);
   PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));
-  Recorder recorder(RecordedStudioOf(studio, live.text()));
+  KnownBackgrounds known = KnownBackgroundsOf(studio);
+  Recorder recorder(RecordedStudioOf(studio, known, live.text()));
   publisher.Tap(recorder.taps().messages);
   LiveView view(TruthFor(config.source));
   Outlet outlet(publisher, view);
-  Pipeline pipeline(std::move(studio), OptionsFrom(config, recorder.taps()),
+  std::deque<FrameTap> learning_taps(studio.cameras.size());
+  Pipeline pipeline(std::move(studio),
+                    PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps}),
                     LoadBodyTable(config.body), outlet);
-  const ServiceParts parts{live, pipeline, publisher, view, recorder};
+  BackgroundLearner learner(pipeline, learning_taps, known, learning);
+  const ServiceParts parts{live, pipeline, publisher, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   Watch watch(parts, control, manager, about);
   std::optional<ControlServer> server;

@@ -27,9 +27,9 @@ std::string ServiceControl::Reload() {
   return text;
 }
 
-std::filesystem::path ServiceControl::metrics_file() {
+Config ServiceControl::config() {
   const std::scoped_lock lock(reload_mutex_);
-  return parts_.config.config().service.metrics.file;
+  return parts_.config.config();
 }
 
 std::string ServiceControl::Do(const StatusRequest& request) {
@@ -40,12 +40,8 @@ std::string ServiceControl::Do(const StatusRequest& request) {
 std::string ServiceControl::Do(const ReloadRequest&) { return Reload() + '\n'; }
 
 std::string ServiceControl::Do(const RecordStartRequest& request) {
-  RecordingConfig config;
-  {
-    const std::scoped_lock lock(reload_mutex_);
-    config = parts_.config.config().service.recording;
-  }
-  const auto folder = parts_.recorder.Start(request.name, config, parts_.view.sizes());
+  const auto folder =
+      parts_.recorder.Start(request.name, config().service.recording, parts_.view.sizes());
   spdlog::info("recording {}", folder.c_str());
   return fmt::format("recording {}\n", folder.string());
 }
@@ -83,6 +79,22 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   spdlog::info("subject {} is followed", request.name);
   return fmt::format("{} is followed from now on: stature {:.0f} mm\n", request.name,
                      sizes.Stature());
+}
+
+std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
+  if (parts_.recorder.Status().state == RecordingStatus::State::kRunning) {
+    throw std::runtime_error(
+        "a take is being recorded, which has one background; "
+        "mocap record stop comes first");
+  }
+  const std::string text = parts_.background.Learn(request.anyway);
+  spdlog::info("the empty studio was learned anew");
+  return text;
+}
+
+std::string ServiceControl::Do(const BackgroundStatusRequest&) {
+  const std::scoped_lock lock(report_mutex_);
+  return BackgroundText(report_);
 }
 
 std::string ServiceControl::Do(const SubjectListRequest&) {

@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "daemon/background_learner.h"
 #include "daemon/control_request.h"
 #include "daemon/live_config.h"
 #include "daemon/live_view.h"
@@ -21,6 +22,7 @@ struct ServiceParts {
   PosePublisher& publisher;
   LiveView& view;
   Recorder& recorder;
+  BackgroundLearner& background;
 };
 
 /// Answers requests. Thread-safe.
@@ -35,8 +37,8 @@ class ServiceControl {
   void SetReport(const ServiceReport& report);
   /// Reads the configuration again. @throws SetupError
   std::string Reload();
-  /// Where figures are written at present; empty: nowhere.
-  std::filesystem::path metrics_file();
+  /// What holds at present.
+  Config config();
 
  private:
   std::string Do(const StatusRequest& request);
@@ -47,6 +49,8 @@ class ServiceControl {
   std::string Do(const SubjectSaveRequest& request);
   std::string Do(const SubjectLoadRequest& request);
   std::string Do(const SubjectListRequest&);
+  std::string Do(const BackgroundLearnRequest& request);
+  std::string Do(const BackgroundStatusRequest&);
 
   const ServiceParts parts_;
   const Subjects subjects_;

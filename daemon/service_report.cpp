@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "daemon/complaints.h"
 #include "daemon/json_object.h"
 
 namespace mocap {
@@ -12,10 +13,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kCameraStateNames = {"starting", "streaming", "lost",
                                                                "ended"};
-/// A camera that gives less than this share of its frames is named.
-constexpr double kGoodRate = 0.9;
-/// Cameras further apart than this share of a period blur whoever moves.
-constexpr double kWideSpread = 0.25;
 constexpr std::array kTold = {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter,
                               Stage::kTotal};
 
@@ -32,13 +29,6 @@ int Streaming(const PipelineStatus& status) {
                                              [](const CameraStatus& c) { return c.state; }));
 }
 
-std::string Duration(std::int64_t ns) {
-  const std::int64_t seconds = ns / 1'000'000'000;
-  if (seconds < 120) return fmt::format("{} s", seconds);
-  if (seconds < 7200) return fmt::format("{} min", seconds / 60);
-  return fmt::format("{} h {} min", seconds / 3600, seconds / 60 % 60);
-}
-
 std::string StateText(const ServiceReport& report) {
   const CaptureState state = report.now.status.state;
   std::string text(NameOf(state));
@@ -51,25 +41,6 @@ std::string StateText(const ServiceReport& report) {
 std::string Percentiles(const LatencyHistogram& histogram) {
   return fmt::format("{:.1f} ms (99 % below {:.1f})", histogram.PercentileMs(0.5),
                      histogram.PercentileMs(0.99));
-}
-
-void ComplainOfCameras(const ServiceReport& report, std::vector<std::string>& complaints) {
-  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
-    const CameraStatus& camera = report.now.status.cameras[i];
-    if (camera.state == CameraState::kLost) {
-      complaints.push_back(camera.name + " is lost: look at its cable and power");
-    } else if (camera.state == CameraState::kStarting) {
-      complaints.push_back(camera.name + " has not delivered a frame yet");
-    }
-    const double rate = report.now.frames_per_second[i];
-    const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * report.fps_nominal;
-    if (camera.state == CameraState::kStreaming && is_slow) {
-      complaints.push_back(
-          fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
-                      "bus or network, and the processor's load",
-                      camera.name, rate, report.fps_nominal));
-    }
-  }
 }
 
 using Recorded = RecordingStatus::State;
@@ -85,9 +56,6 @@ std::string RecordingText(const RecordingStatus& recording) {
   if (recording.state == Recorded::kComplete) text = "complete: " + text;
   if (recording.state == Recorded::kFailed) text = "FAILED: " + text;
   if (!recording.problem.empty()) text += "; " + recording.problem;
-  if (recording.state == Recorded::kRunning) {
-    text += fmt::format("; {:.1f} GB free", static_cast<double>(recording.bytes_free) / 1e9);
-  }
   return text;
 }
 
@@ -98,7 +66,6 @@ JsonObject RecordingJson(const RecordingStatus& recording) {
   json.Add("seconds", static_cast<double>(recording.duration_ns) / 1e9, 1);
   json.Add("frames", recording.frames);
   json.Add("dropped", recording.dropped);
-  json.Add("bytes_free", recording.bytes_free);
   json.Add("problem", recording.problem);
   return json;
 }
@@ -111,6 +78,56 @@ JsonObject TimingJson(const LatencyHistogram& histogram) {
   return json;
 }
 
+std::string Line(const std::string& label, const std::string& text) {
+  return fmt::format("{:<12} {}\n", label, text);
+}
+
+/// "9 days old, /etc/mocapd/calibration.toml".
+std::string MadeText(const Made& made, std::int64_t epoch_s) {
+  if (made.made_s == 0) return made.where;
+  return Duration((epoch_s - made.made_s) * 1'000'000'000) + " old, " + made.where;
+}
+
+bool IsCompared(const CameraStatus& camera) {
+  return camera.health.moments >= HealthWatch::kFewestMoments;
+}
+
+/// How well the cameras' silhouettes agree with each other.
+std::string AgreementText(const PipelineStatus& status) {
+  double worst_px = 0;
+  for (const CameraStatus& camera : status.cameras) {
+    if (IsCompared(camera)) worst_px = std::max(worst_px, camera.health.shift_px.norm());
+  }
+  if (std::ranges::none_of(status.cameras, IsCompared)) {
+    return "not held against a person who walks about yet";
+  }
+  return fmt::format("cameras agree within {:.1f} px", worst_px);
+}
+
+std::string CameraTable(const ServiceReport& report) {
+  std::string text =
+      fmt::format("{:<16}{:<10}{:>9}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}\n", "camera", "state",
+                  "a second", "frames", "dropped", "late", "torn", "trust", "off px", "light");
+  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
+    const CameraStatus& camera = report.now.status.cameras[i];
+    const bool known = IsCompared(camera);
+    text += fmt::format("{:<16}{:<10}{:>9.1f}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}\n", camera.name,
+                        NameOf(camera.state), report.now.frames_per_second[i], camera.frames,
+                        camera.dropped, camera.late, camera.torn,
+                        known ? fmt::format("{:.0f} %", 100 * camera.health.overlap) : "-",
+                        known ? fmt::format("{:.1f}", camera.health.shift_px.norm()) : "-",
+                        fmt::format("{:.0f} %", 100 * camera.light));
+  }
+  return text;
+}
+
+JsonObject MadeJson(const Made& made) {
+  JsonObject json;
+  json.Add("where", made.where);
+  json.Add("made_s", made.made_s);
+  return json;
+}
+
 JsonObject CameraJson(const CameraStatus& camera, double frames_per_second) {
   JsonObject json;
   json.Add("name", camera.name);
@@ -120,36 +137,16 @@ JsonObject CameraJson(const CameraStatus& camera, double frames_per_second) {
   json.Add("dropped", camera.dropped);
   json.Add("late", camera.late);
   json.Add("torn", camera.torn);
+  json.Add("compared_moments", camera.health.moments);
+  json.Add("trust", camera.health.overlap, 3);
+  json.Add("right_px", camera.health.shift_px.x(), 2);
+  json.Add("down_px", camera.health.shift_px.y(), 2);
+  json.Add("light", camera.light, 3);
+  json.Add("nudged_px", camera.nudged_px, 2);
   return json;
 }
 
 }  // namespace
-
-std::vector<std::string> Complaints(const ServiceReport& report) {
-  std::vector<std::string> complaints;
-  if (report.recording.state == Recorded::kFailed) {
-    complaints.push_back("the recording failed: " + report.recording.problem);
-  }
-  if (report.recording.state == Recorded::kRunning && report.recording.dropped > 0) {
-    complaints.push_back(fmt::format(
-        "{} frames had no room in the recording: a faster disk or another codec is wanted",
-        report.recording.dropped));
-  }
-  ComplainOfCameras(report, complaints);
-  if (report.now.sets_dropped_lately > 0) {
-    complaints.push_back(
-        fmt::format("{} frame sets were left out lately: the processor is too slow for this rate "
-                    "and voxel size, or has other work",
-                    report.now.sets_dropped_lately));
-  }
-  const double spread_ms = report.now.recent[Stage::kSpread].PercentileMs(0.99);
-  if (report.fps_nominal > 0 && spread_ms > kWideSpread * 1000 / report.fps_nominal) {
-    complaints.push_back(
-        fmt::format("the cameras' exposures are {:.1f} ms apart: look at the trigger or the clocks",
-                    spread_ms));
-  }
-  return complaints;
-}
 
 std::string ReportLine(const ServiceReport& report) {
   const PipelineStatus& status = report.now.status;
@@ -172,26 +169,36 @@ std::string ReportText(const ServiceReport& report) {
   const std::vector<std::string> complaints = Complaints(report);
   std::string text = complaints.empty() ? "all is good\n" : "";
   for (const std::string& complaint : complaints) text += "! " + complaint + '\n';
+  text += '\n' + Line("mocapd", fmt::format("{}, up {}; {}", MOCAP_VERSION, Duration(report.up_ns),
+                                            report.studio));
+  text += Line("poses", "on " + report.lcm_url);
+  text += Line("state", StateText(report));
   text +=
-      fmt::format("\nmocapd {}, up {}; {}\n", MOCAP_VERSION, Duration(report.up_ns), report.studio);
-  text += fmt::format("poses     on {}\n", report.lcm_url);
-  text += fmt::format("state     {}\n", StateText(report));
-  text += fmt::format(
-      "sets      {:.1f} a second; {} complete, {} without some camera, {} left out\n",
-      report.now.sets_per_second, status.sets_complete, status.sets_partial, status.sets_dropped);
-  text += fmt::format("spread    {}\n", Percentiles(recent[Stage::kSpread]));
-  text += fmt::format("latency   {}\n", Percentiles(recent[Stage::kLatency]));
+      Line("sets", fmt::format("{:.1f} a second; {} complete, {} without some camera, {} left out",
+                               report.now.sets_per_second, status.sets_complete,
+                               status.sets_partial, status.sets_dropped));
+  text += Line("spread", Percentiles(recent[Stage::kSpread]));
+  text += Line("latency", Percentiles(recent[Stage::kLatency]));
   for (const Stage stage : kTold) {
-    text += fmt::format("  {:<8}{}\n", NameOf(stage), Percentiles(recent[stage]));
+    text += Line("  " + std::string(NameOf(stage)), Percentiles(recent[stage]));
   }
-  text += fmt::format("recording {}\n", RecordingText(report.recording));
-  text += fmt::format("\n{:<16}{:<10}{:>9}{:>12}{:>9}{:>9}{:>9}\n", "camera", "state", "a second",
-                      "frames", "dropped", "late", "torn");
-  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
-    const CameraStatus& camera = status.cameras[i];
-    text += fmt::format("{:<16}{:<10}{:>9.1f}{:>12}{:>9}{:>9}{:>9}\n", camera.name,
-                        NameOf(camera.state), report.now.frames_per_second[i], camera.frames,
-                        camera.dropped, camera.late, camera.torn);
+  text += Line("recording", RecordingText(report.recording));
+  text += Line("disk",
+               fmt::format("{:.1f} GB free for takes in {}",
+                           static_cast<double>(report.bytes_free) / 1e9, report.takes.string()));
+  text += Line("calibration",
+               MadeText(report.calibration, report.epoch_s) + "; " + AgreementText(status));
+  text += Line("background", MadeText(report.background, report.epoch_s)) + '\n';
+  return text + CameraTable(report);
+}
+
+std::string BackgroundText(const ServiceReport& report) {
+  std::string text = MadeText(report.background, report.epoch_s) + '\n';
+  for (const CameraStatus& camera : report.now.status.cameras) {
+    text +=
+        fmt::format("{}: {:.0f} % of the light that was learned", camera.name, 100 * camera.light);
+    if (camera.nudged_px > 0) text += fmt::format(", {:.1f} px beside", camera.nudged_px);
+    text += '\n';
   }
   return text;
 }
@@ -221,6 +228,10 @@ std::string ReportJson(const ServiceReport& report) {
     cameras.push_back(CameraJson(status.cameras[i], report.now.frames_per_second[i]));
   }
   json.Add("cameras", cameras);
+  json.Add("calibration", MadeJson(report.calibration));
+  json.Add("background", MadeJson(report.background));
+  json.Add("takes", report.takes.string());
+  json.Add("bytes_free", report.bytes_free);
   json.Add("recording", RecordingJson(report.recording));
   return json.Text() + '\n';
 }

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "daemon/cut_off_takes.h"
+#include "daemon/light_watch.h"
 #include "daemon/recording.h"
 #include "daemon/status_window.h"
 
@@ -16,6 +20,12 @@ struct Fit {
   int voxels = 0;
 };
 
+/// Something that was made once and gets old: the calibration, the pictures of the empty studio.
+struct Made {
+  std::string where;        ///< A file or folder, or what else it comes from.
+  std::int64_t made_s = 0;  ///< Since the Unix epoch; 0: unknown.
+};
+
 /// Everything that is told of the service when somebody asks.
 struct ServiceReport {
   StatusReport now;
@@ -23,17 +33,24 @@ struct ServiceReport {
   std::string studio;
   double fps_nominal = 0;
   std::string lcm_url;
-  std::int64_t up_ns = 0;  ///< Since the start.
+  std::int64_t epoch_s = 0;  ///< When this was.
+  std::int64_t up_ns = 0;    ///< Since the start.
+  Made calibration;
+  Made background;
+  std::optional<LightChange> light_change;
   RecordingStatus recording;
+  std::filesystem::path takes;  ///< Where recordings go.
+  std::int64_t bytes_free = 0;  ///< There.
+  double keep_free_mb = 0;
+  std::vector<CutOffTake> cut_off;
 };
-
-/// Says what is not as it should be and what helps, the worst first; empty when all is good.
-std::vector<std::string> Complaints(const ServiceReport& report);
 
 /// One line for people: the state, rate, latency, cameras, and the first complaint.
 std::string ReportLine(const ServiceReport& report);
 /// A page for people.
 std::string ReportText(const ServiceReport& report);
+/// What the cameras see of the empty studio, when that was learned, and in what light.
+std::string BackgroundText(const ServiceReport& report);
 /// One JSON object.
 std::string ReportJson(const ServiceReport& report);
 

@@ -6,12 +6,17 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "drivers/simulation/random.h"
 #include "drivers/simulation/scene.h"
 
 namespace mocap {
 namespace {
 
 constexpr int kBackgroundFrames = 40;
+/// A camera that fails does so at the beginning of such a slot, for so long.
+constexpr std::int64_t kLossSlotNs = 5'000'000'000;
+constexpr std::int64_t kLossNs = 2'000'000'000;
+constexpr double kSlotsPerMinute = 12;
 
 std::int64_t Now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -89,8 +94,21 @@ bool SimulatedCamera::PaintNext() {
   return true;
 }
 
+bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
+  const SimulatedStudioOptions& options = view_->scene().options();
+  if (options.losses_per_minute <= 0 || time_ns % kLossSlotNs >= kLossNs) return false;
+  const auto slot = static_cast<std::uint64_t>(time_ns / kLossSlotNs);
+  const auto camera = static_cast<std::uint64_t>(view_->camera());
+  simulation::Random random(simulation::Mix(options.seed, simulation::Tag("loss"), camera, slot));
+  return random.Uniform(0, kSlotsPerMinute) < options.losses_per_minute;
+}
+
 GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
+  if (view_->scene().options().realtime && IsLost(Now_ns())) {
+    painted_ = false;
+    return GrabStatus::kLost;
+  }
   const std::int64_t patience_ns = std::chrono::nanoseconds(timeout).count();
   const std::int64_t until_ns = view_->scene().options().realtime ? Now_ns() + patience_ns : 0;
   if (!painted_ && !PaintNext()) return GrabStatus::kEnd;

@@ -27,6 +27,8 @@ struct SimulatedStudioOptions {
   std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
   bool realtime = false;   ///< Frames come when the system clock says that they are due.
   double seconds = 0;      ///< Length unless realtime; 0: without end.
+  /// How often each camera is lost for some seconds, in real time only.
+  double losses_per_minute = 0;
   /// Capture time at which the motion begins. In real time it may stay 0: then the motion follows
   /// the clock, and any process with these options knows the truth of a capture time.
   std::int64_t start_ns = 0;
@@ -76,6 +78,7 @@ class SimulatedCamera : public CameraDriver {
 
  private:
   bool PaintNext();
+  bool IsLost(std::int64_t time_ns) const;
 
   std::shared_ptr<const simulation::SceneView> view_;
   std::unique_ptr<simulation::ScenePainter> painter_;

@@ -10,9 +10,6 @@
 namespace mocap {
 namespace {
 
-/// The least that Matroska's muxer allows for.
-constexpr int kLeastClusterBytes = 1;
-
 struct OutputCloser {
   void operator()(AVFormatContext* p) const {
     avio_closep(&p->pb);
@@ -146,9 +143,7 @@ class VideoWriter::Impl {
     if (avio_open(&output_->pb, ("file:" + file_).c_str(), AVIO_FLAG_WRITE) < 0) {
       throw SetupError(file_ + ": cannot be created");
     }
-    // A cluster is kept back until it is whole: one for each frame.
     AVDictionary* options = nullptr;
-    av_dict_set_int(&options, "cluster_size_limit", kLeastClusterBytes, 0);
     // Raw colours are stored the way of old Windows programs, or not at all.
     av_dict_set_int(&options, "allow_raw_vfw", 1, 0);
     const int written = avformat_write_header(output_.get(), &options);
@@ -166,6 +161,8 @@ class VideoWriter::Impl {
       packet_->stream_index = 0;
       Check(av_write_frame(output_.get(), packet_.get()));
       av_packet_unref(packet_.get());
+      // A cluster is kept back until it is whole: one for each frame.
+      Check(av_write_frame(output_.get(), nullptr));
       Check(output_->pb->error);
     }
   }

@@ -11,15 +11,20 @@
 #include <string>
 #include <vector>
 
+#include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "core/reconstruction/change_meter.h"
 #include "tools/background_recorder.h"
+#include "tools/control.h"
 
 namespace mocap {
 namespace {
 
 struct LearnOptions {
   std::filesystem::path config;
+  std::filesystem::path socket;
+  bool anyway = false;
   double seconds = 4;
 };
 
@@ -50,15 +55,6 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
   }
 }
 
-/// Puts a folder in another's place; whenever it is interrupted, one of them is whole.
-void Replace(const std::filesystem::path& folder, const std::filesystem::path& with) {
-  const std::filesystem::path old = folder.string() + ".old";
-  std::filesystem::remove_all(old);
-  if (std::filesystem::exists(folder)) std::filesystem::rename(folder, old);
-  std::filesystem::rename(with, folder);
-  std::filesystem::remove_all(old);
-}
-
 void Learn(const LearnOptions& options) {
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
@@ -70,7 +66,7 @@ void Learn(const LearnOptions& options) {
   }
   const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, options.seconds);
   RequireStillRoom(cameras, records);
-  Replace(config.background, partial);
+  ReplaceFolder(config.background, partial);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::printf("%s: %d frames\n", cameras[i].name.c_str(), records[i].frames);
   }
@@ -83,13 +79,28 @@ void AddBackgroundCommand(CLI::App& app) {
       app.add_subcommand("background", "What the cameras see of the empty studio");
   background->require_subcommand(1);
   CLI::App* learn =
-      background->add_subcommand("learn", "Records it; nobody may be in the cameras' view");
+      background->add_subcommand("learn", "Learns it; nobody may be in the cameras' view");
   auto options = std::make_shared<LearnOptions>();
-  learn->add_option("--config", options->config, "the daemon's TOML file")->required();
+  auto* config =
+      learn->add_option("--config", options->config,
+                        "use the cameras of this TOML file, while no mocapd does; else the running "
+                        "mocapd learns");
   learn->add_option("--seconds", options->seconds, "how long to look")
       ->check(CLI::Range(1.0, 600.0))
-      ->capture_default_str();
-  learn->callback([options] { Learn(*options); });
+      ->capture_default_str()
+      ->needs(config);
+  learn->add_flag("--anyway", options->anyway, "although somebody is tracked, who is nobody")
+      ->excludes(config);
+  CLI::App* status =
+      background->add_subcommand("status", "How old it is, and in what light it holds");
+  for (CLI::App* command : {learn, status}) {
+    command->add_option("--socket", options->socket, "where mocapd answers");
+  }
+  learn->callback([options] {
+    if (!options->config.empty()) return Learn(*options);
+    AskAndPrint(options->socket, options->anyway ? "background learn anyway" : "background learn");
+  });
+  status->callback([options] { AskAndPrint(options->socket, "background status"); });
 }
 
 }  // namespace mocap

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "core/reconstruction/change_meter.h"
 #include "daemon/clock.h"
 #include "drivers/video_writer.h"
 
@@ -19,43 +19,12 @@ constexpr int kFrames = 50;
 constexpr std::int64_t kSettle_ns = 1'000'000'000;
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
 constexpr std::chrono::milliseconds kGrabTimeout{200};
-/// Beyond noise and the flicker of lamps.
-constexpr int kClearDifference = 40;
-constexpr int kStep_px = 4;
 /// Of a head's sweep: the share of the picture by which it turns, and what standing still is.
 constexpr double kSweepStep = 0.4;
 constexpr double kStill_rad = 1e-4;
 constexpr int kStillFrames = 5;
 constexpr int kFramesADirection = 2;
 constexpr std::size_t kMostDirections = 300;
-
-bool Differs(const Bgr& a, const Bgr& b) {
-  return std::abs(a.b - b.b) > kClearDifference || std::abs(a.g - b.g) > kClearDifference ||
-         std::abs(a.r - b.r) > kClearDifference;
-}
-
-/// Keeps every fourth pixel of the first frame, each way, and holds later ones against them.
-class ChangeMeter {
- public:
-  double Measure(ImageView<const Bgr> image) {
-    const int columns = (image.width() + kStep_px - 1) / kStep_px;
-    const int rows = (image.height() + kStep_px - 1) / kStep_px;
-    const bool is_first = first_.empty();
-    if (is_first) first_ = Image<Bgr>(columns, rows);
-    int changed = 0;
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const Bgr pixel = image(x * kStep_px, y * kStep_px);
-        if (is_first) first_(x, y) = pixel;
-        changed += Differs(pixel, first_(x, y));
-      }
-    }
-    return static_cast<double>(changed) / (columns * rows);
-  }
-
- private:
-  Image<Bgr> first_;
-};
 
 /// Gives the next frame, whatever the weather.
 void GrabNext(LiveCamera& camera, Frame& frame) {

@@ -8,9 +8,6 @@
 
 namespace mocap {
 
-/// How much of the picture changes between frames, at the most that a still room may.
-inline constexpr double kMostChange = 0.004;
-
 /// What became of a recording.
 struct BackgroundRecord {
   int frames = 0;

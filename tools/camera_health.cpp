@@ -4,14 +4,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "core/reconstruction/carver.h"
 #include "core/reconstruction/sensor_plane_table.h"
+#include "core/reconstruction/silhouette_shift.h"
 #include "drivers/take_layout.h"
 #include "drivers/take_table.h"
 #include "tools/hull_overlap.h"
@@ -20,7 +19,6 @@ namespace mocap {
 namespace {
 
 constexpr double kVoxelMm = 20;
-constexpr int kFarthest_px = 14;
 constexpr int kFewestMoments = 4;
 constexpr double kSettled_px = 0.25;
 constexpr double kLeastOverlap = 0.5;
@@ -35,77 +33,6 @@ Silhouette BitsOf(const Image<std::uint8_t>& mask) {
     }
   }
   return bits;
-}
-
-std::int64_t CountOf(const Silhouette& bits) {
-  std::int64_t count = 0;
-  for (const std::uint64_t word : bits.words()) count += std::popcount(word);
-  return count;
-}
-
-// Pixels that are set in `seen` and in `expected` moved by (dx, dy).
-std::int64_t CommonPixels(const Silhouette& seen, const Silhouette& expected, int dx, int dy) {
-  const int words = seen.words_per_row();
-  const int whole = dx >= 0 ? dx / 64 : -((-dx + 63) / 64), part = dx - 64 * whole;
-  std::int64_t count = 0;
-  for (int y = std::max(0, dy); y < std::min(seen.height(), seen.height() + dy); ++y) {
-    const std::uint64_t* a = seen.row(y);
-    const std::uint64_t* b = expected.row(y - dy);
-    const auto word = [&](int i) { return i >= 0 && i < words ? b[i] : std::uint64_t{0}; };
-    for (int i = 0; i < words; ++i) {
-      std::uint64_t moved = word(i - whole) << part;
-      if (part > 0) moved |= word(i - whole - 1) >> (64 - part);
-      count += std::popcount(a[i] & moved);
-    }
-  }
-  return count;
-}
-
-bool TouchesBorder(const Silhouette& silhouette) {
-  const auto box = silhouette.BoundingBox();
-  return !box || box->left < 2 || box->top < 2 || box->right > silhouette.width() - 3 ||
-         box->bottom > silhouette.height() - 3;
-}
-
-struct Match {
-  Vector2 shift_px;
-  double overlap = 0;
-};
-
-// The shift with the largest intersection over union, to a fraction of a pixel by a parabola.
-Match BestShift(const Silhouette& seen, const Silhouette& expected) {
-  const std::int64_t both = CountOf(seen) + CountOf(expected);
-  const auto overlap = [&](int dx, int dy) {
-    const std::int64_t common = CommonPixels(seen, expected, dx, dy);
-    return static_cast<double>(common) /
-           static_cast<double>(std::max<std::int64_t>(1, both - common));
-  };
-  int best_x = 0, best_y = 0;
-  double best = overlap(0, 0);
-  for (int step = 8; step >= 1; step /= 2) {
-    for (bool better = true; better;) {
-      better = false;
-      for (const auto& [x, y] : {std::pair(step, 0), {-step, 0}, {0, step}, {0, -step}}) {
-        if (std::abs(best_x + x) > kFarthest_px || std::abs(best_y + y) > kFarthest_px) continue;
-        const double value = overlap(best_x + x, best_y + y);
-        if (value <= best) continue;
-        best = value;
-        best_x += x;
-        best_y += y;
-        better = true;
-      }
-    }
-  }
-  // Three pixels either way: a single one is at the mercy of the outline's steps.
-  const auto fraction = [&](int ux, int uy) {
-    constexpr int kReach = 3;
-    const double low = overlap(best_x - kReach * ux, best_y - kReach * uy);
-    const double high = overlap(best_x + kReach * ux, best_y + kReach * uy);
-    const double left = best - low, right = best - high;
-    // The overlap falls like a roof: the top is where both slopes meet.
-    return left + right > 0 ? kReach * (left - right) / (2 * std::max(left, right)) : 0.0;
-  };
-  return {{best_x + fraction(1, 0), best_y + fraction(0, 1)}, best};
 }
 
 VoxelGrid CarveWithout(const SampledMoment& moment, const std::vector<SensorPlaneTable>& tables,
@@ -154,13 +81,14 @@ struct TurnFit {
   Vector3 Solve() const { return H.ldlt().solve(g); }
 };
 
-Vector2 Median(std::vector<Match> matches) {
+Vector2 Median(std::vector<SilhouetteShift> matches) {
   Vector2 median;
   for (int axis = 0; axis < 2; ++axis) {
     const auto middle = matches.begin() + static_cast<std::ptrdiff_t>(matches.size() / 2);
-    std::nth_element(
-        matches.begin(), middle, matches.end(),
-        [axis](const Match& a, const Match& b) { return a.shift_px[axis] < b.shift_px[axis]; });
+    std::nth_element(matches.begin(), middle, matches.end(),
+                     [axis](const SilhouetteShift& a, const SilhouetteShift& b) {
+                       return a.shift_px[axis] < b.shift_px[axis];
+                     });
     median[axis] = middle->shift_px[axis];
   }
   return median;
@@ -196,7 +124,7 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     CameraShift shift;
     shift.camera = cameras[c].name;
-    std::vector<Match> matches;
+    std::vector<SilhouetteShift> matches;
     TurnFit turn;
     for (const SampledMoment& moment : samples.moments) {
       if (!moment.views[c] || TouchesBorder(moment.views[c]->silhouette)) continue;
@@ -208,7 +136,7 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
       const VoxelGrid hull = CarveWithout(moment, tables, X_CW, c, carver);
       const Silhouette expected = BitsOf(ProjectVoxels(hull, cameras[c], X_CW[c]));
       if (TouchesBorder(expected)) continue;
-      const Match match = BestShift(moment.views[c]->silhouette, expected);
+      const SilhouetteShift match = MeasureShift(moment.views[c]->silhouette, expected);
       if (match.overlap < kLeastOverlap) continue;
       matches.push_back(match);
       const PixelBox box = *expected.BoundingBox();
@@ -217,7 +145,7 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
     shift.moments = static_cast<int>(matches.size());
     if (shift.moments >= kFewestMoments) {
       shift.shift_px = Median(matches);
-      for (const Match& match : matches) {
+      for (const SilhouetteShift& match : matches) {
         shift.overlap += match.overlap / shift.moments;
         shift.spread_px += (match.shift_px - shift.shift_px).norm() / shift.moments;
       }

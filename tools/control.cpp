@@ -13,20 +13,6 @@
 namespace mocap {
 namespace {
 
-/// Prints the answer; what was refused or failed ends the program as such.
-void Ask(const std::filesystem::path& socket, const std::string& request) {
-  const ControlReply reply = AskDaemon(socket, request);
-  switch (reply.outcome) {
-    case ControlOutcome::kDone:
-      std::fputs(reply.text.c_str(), stdout);
-      return;
-    case ControlOutcome::kFailed:
-      throw std::runtime_error(reply.text);
-    case ControlOutcome::kWrong:
-      throw SetupError(reply.text);
-  }
-}
-
 /// Subcommands that become one request each.
 class RequestCommands {
  public:
@@ -38,7 +24,7 @@ class RequestCommands {
                 const std::string& request) const {
     CLI::App* command = app.add_subcommand(name, help);
     AddSocket(*command);
-    command->callback([socket = socket_, request] { Ask(*socket, request); });
+    command->callback([socket = socket_, request] { AskAndPrint(*socket, request); });
     return command;
   }
 
@@ -52,8 +38,9 @@ class RequestCommands {
         ->check([](const std::string& text) {
           return IsFileName(text) ? "" : "\"" + text + "\" is no name; letters, digits, . _ -";
         });
-    command->callback(
-        [socket = socket_, request, file_name] { Ask(*socket, request + ' ' + *file_name); });
+    command->callback([socket = socket_, request, file_name] {
+      AskAndPrint(*socket, request + ' ' + *file_name);
+    });
   }
 
   void AddSocket(CLI::App& command) const {
@@ -66,6 +53,19 @@ class RequestCommands {
 
 }  // namespace
 
+void AskAndPrint(const std::filesystem::path& socket, const std::string& request) {
+  const ControlReply reply = AskDaemon(socket, request);
+  switch (reply.outcome) {
+    case ControlOutcome::kDone:
+      std::fputs(reply.text.c_str(), stdout);
+      return;
+    case ControlOutcome::kFailed:
+      throw std::runtime_error(reply.text);
+    case ControlOutcome::kWrong:
+      throw SetupError(reply.text);
+  }
+}
+
 void AddControlCommands(CLI::App& app) {
   const auto socket = std::make_shared<std::filesystem::path>();
   const RequestCommands commands(socket);
@@ -74,7 +74,8 @@ void AddControlCommands(CLI::App& app) {
   CLI::App* status = app.add_subcommand("status", "Tells how the running mocapd does");
   commands.AddSocket(*status);
   status->add_flag("--json", *as_json, "print one JSON object");
-  status->callback([socket, as_json] { Ask(*socket, *as_json ? "status json" : "status"); });
+  status->callback(
+      [socket, as_json] { AskAndPrint(*socket, *as_json ? "status json" : "status"); });
 
   CLI::App* record = app.add_subcommand("record", "Records a take while tracking goes on");
   record->require_subcommand(1);

@@ -15,6 +15,7 @@ namespace mocap {
 namespace {
 
 constexpr const char* kSystemConfig = "/etc/mocapd/mocapd.toml";
+constexpr const char* kSystemTakes = "/var/lib/mocapd/takes";
 /// Six cameras of 640 x 480 pixels at 30 Hz, coded without loss.
 constexpr double kUsualRecording = 90e6;
 
@@ -40,6 +41,12 @@ Config ConfigFor(const DoctorOptions& options) {
   return std::filesystem::exists(kSystemConfig) ? LoadConfig(kSystemConfig) : Config();
 }
 
+/// The system's daemon has a folder of its own, whoever asks.
+std::filesystem::path TakesFor(const DoctorOptions& options, const RecordingConfig& recording) {
+  const bool is_system = options.config.empty() && std::filesystem::exists(kSystemConfig);
+  return is_system && recording.folder.empty() ? kSystemTakes : TakesFolder(recording);
+}
+
 void Doctor(const DoctorOptions& options) {
   const Config config = ConfigFor(options);
   std::vector<Finding> findings = {
@@ -49,7 +56,7 @@ void Doctor(const DoctorOptions& options) {
       CheckLimits(config.service.realtime),
       CheckClock(),
       CheckProcessor(),
-      CheckDisk(TakesFolder(config.service.recording), kUsualRecording)};
+      CheckDisk(TakesFor(options, config.service.recording), kUsualRecording)};
   std::ranges::move(CheckDevices(config), std::back_inserter(findings));
   findings.push_back(CheckControl(options.socket));
   for (const Finding& finding : findings) {

@@ -180,6 +180,8 @@ std::vector<Finding> CheckDevices(const Config& config) {
   std::vector<Finding> findings;
   if (config.source.driver == "v4l2") {
     for (const CameraConfig& camera : config.cameras) {
+      // A bus or a serial number is looked up by `mocap cameras --check`.
+      if (!camera.device.starts_with('/')) continue;
       findings.push_back(CheckDevice(camera.name, camera.device));
     }
   }

@@ -133,19 +133,31 @@ std::string PoseLine(const Hearing& hearing) {
   return line;
 }
 
+/// Trust, how far off, light of a camera.
+std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
+  const bool is_told = service && camera < service->camera_trust.size();
+  if (!is_told) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", "-");
+  const double trust = service->camera_trust[camera];
+  const std::string light = fmt::format("{:.0f} %", 100 * service->camera_light[camera]);
+  if (trust < 0) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", light);
+  return fmt::format("{:>8}{:>8.1f}{:>8}", fmt::format("{:.0f} %", 100 * trust),
+                     service->camera_off_px[camera], light);
+}
+
 void AppendCameras(const Hearing& hearing, std::string& page) {
   const status_t& status = *hearing.status();
-  page += fmt::format("\n{:<16}{:<10}{:>9}{:>10}{:>8}{:>8}  {}\n", "camera", "state", "a second",
-                      "dropped", "late", "torn", "in the last set");
+  page += fmt::format("\n{:<16}{:<10}{:>9}{:>10}{:>8}{:>8}{:>8}{:>8}{:>8}  {}\n", "camera", "state",
+                      "a second", "dropped", "late", "torn", "trust", "off px", "light",
+                      "in the last set");
   for (std::size_t i = 0; i < status.cameras.size(); ++i) {
     const camera_status_t& camera = status.cameras[i];
     const auto state = static_cast<std::size_t>(camera.state);
     const bool is_used =
         hearing.pose() && i < hearing.pose()->camera_used.size() && hearing.pose()->camera_used[i];
-    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}  {}\n", camera.name,
+    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}{}  {}\n", camera.name,
                         state < std::size(kCameraStates) ? kCameraStates[state] : "?",
                         camera.frames_per_second, camera.dropped, camera.late, camera.torn,
-                        is_used ? "yes" : "no");
+                        HealthCells(hearing.service(), i), is_used ? "yes" : "no");
   }
   page += '\n';
   for (const stage_timing_t& stage : status.stages) {
@@ -162,8 +174,7 @@ void AppendService(const service_t& service, std::string& page) {
   if (service.recording_state != service_t::RUNNING) return;
   page += fmt::format("recording {}, {:.0f} s, {} frames, {} dropped, {:.1f} GB free\n",
                       service.recording_folder, service.recording_seconds, service.recording_frames,
-                      service.recording_dropped,
-                      static_cast<double>(service.recording_bytes_free) / 1e9);
+                      service.recording_dropped, static_cast<double>(service.bytes_free) / 1e9);
 }
 
 std::string Page(const Hearing& hearing, const std::string& url) {

@@ -63,17 +63,19 @@ class Segmenter::Impl {
             static_cast<int>(kLargestThingShare * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
-    const Conditions conditions = Glance(image, angles);
+    conditions_ = Glance(image, angles);
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
-    const ExpectedPicture& expected = background_->Expect(closeup_, conditions);
-    classifier_.Classify(expected, image, conditions, closeup_);
+    const ExpectedPicture& expected = background_->Expect(closeup_, conditions_);
+    classifier_.Classify(expected, image, conditions_, closeup_);
     silhouette = classifier_.foreground();
     cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
     cleaner_.DropBlobs(smallest_blob_px_, silhouette);
-    refiner_.Refine(expected, image, conditions.gain, classifier_.alpha_shift(), silhouette);
+    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.FillHoles(kSmallestHole_px, silhouette);
     cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, silhouette);
   }
+
+  const Conditions& conditions() const { return conditions_; }
 
  private:
   // Compares the picture as a whole, and follows a camera that was nudged.
@@ -98,6 +100,7 @@ class Segmenter::Impl {
 
   std::unique_ptr<BackgroundModel> background_;
   CoarseScan coarse_;
+  Conditions conditions_;
   Closeup closeup_;
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
@@ -116,5 +119,7 @@ void Segmenter::Segment(ImageView<const Bgr> image, const PanTiltAngles& angles,
                         Silhouette& silhouette) {
   impl_->Segment(image, angles, silhouette);
 }
+
+const Conditions& Segmenter::conditions() const { return impl_->conditions(); }
 
 }  // namespace mocap

@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "core/reconstruction/background_model.h"
 #include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/conditions.h"
 #include "core/reconstruction/silhouette.h"
 
 namespace mocap {
@@ -37,6 +38,9 @@ class Segmenter {
 
   /// Segments one frame into `silhouette`, whose memory is reused.
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette);
+
+  /// How the last picture as a whole differed from the empty studio.
+  const Conditions& conditions() const;
 
  private:
   class Impl;

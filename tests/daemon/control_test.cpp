@@ -28,6 +28,11 @@ TEST(ControlRequest, UnderstandsWhatMocapSends) {
   EXPECT_TRUE(std::holds_alternative<RecordStopRequest>(*ParseControlRequest("record stop")));
   EXPECT_EQ(std::get<SubjectSaveRequest>(*ParseControlRequest("subject save eve")).name, "eve");
   EXPECT_EQ(std::get<SubjectLoadRequest>(*ParseControlRequest("subject load eve")).name, "eve");
+  EXPECT_FALSE(std::get<BackgroundLearnRequest>(*ParseControlRequest("background learn")).anyway);
+  EXPECT_TRUE(
+      std::get<BackgroundLearnRequest>(*ParseControlRequest("background learn anyway")).anyway);
+  EXPECT_TRUE(
+      std::holds_alternative<BackgroundStatusRequest>(*ParseControlRequest("background status")));
 }
 
 TEST(ControlRequest, RefusesEverythingElse) {

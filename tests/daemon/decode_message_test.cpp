@@ -56,6 +56,11 @@ service_t SomeService() {
   service.studio = "small";
   service.num_complaints = 1;
   service.complaint = {"cam1 is lost"};
+  service.calibration = "calibration.toml";
+  service.num_cameras = 2;
+  service.camera_trust = {0.9, -1};
+  service.camera_off_px = {0.4, 0};
+  service.camera_light = {1, 0.8};
   return service;
 }
 

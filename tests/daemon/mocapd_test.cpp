@@ -15,9 +15,12 @@
 #include <mocap/pose_t.hpp>
 #include <mocap/status_t.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "config/open_studio.h"
 #include "core/errors.h"
+#include "daemon/control_socket.h"
 #include "daemon/pose_publisher.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
@@ -127,10 +130,10 @@ class MocapdTest : public ::testing::Test {
   TemporaryFolder folder_;
   const std::filesystem::path log_ = folder_.path() / "errors";
 
-  std::string WriteConfig(const std::string& source) {
+  std::string WriteConfig(const std::string& source, const std::string& more = "") {
     const std::filesystem::path file = folder_.path() / "mocapd.toml";
-    testing::WriteText(file,
-                       "[source]\n" + source + "[lcm]\nurl = \"" + url_ + "\"\nprefix = \"T_\"\n");
+    testing::WriteText(
+        file, "[source]\n" + source + "[lcm]\nurl = \"" + url_ + "\"\nprefix = \"T_\"\n" + more);
     return file;
   }
   /// Null, with the reason, where LCM has no way out.
@@ -187,6 +190,47 @@ TEST_F(MocapdTest, ASignalEndsItCleanly) {
     EXPECT_THAT(daemon.Errors(), HasSubstr(" sets, "));
     while (lcm->handleTimeout(10) > 0) {
     }
+  }
+}
+
+/// Frames that the daemon says it has written; -1 while it does not answer.
+std::int64_t FramesWritten(const std::filesystem::path& socket) {
+  try {
+    const std::string status = AskDaemon(socket, "status json").text;
+    const std::size_t recording = status.find("\"recording\"");
+    const std::size_t frames = status.find("\"frames\": ", recording);
+    return recording == std::string::npos ? -1 : std::stoll(status.substr(frames + 10));
+  } catch (const std::runtime_error&) {
+    return -1;
+  }
+}
+
+TEST_F(MocapdTest, WhatItSaysIsWrittenSurvivesAKill) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take", {.frames = 50});
+  const std::filesystem::path socket = folder_.path() / "control";
+  const std::string config =
+      WriteConfig("driver = \"take\"\ntake = \"take\"\nloop = true\n",
+                  "[control]\nsocket = \"control\"\n[recording]\nfolder = \"takes\"\n");
+  for (const std::int64_t enough : {1, 20, 100}) {
+    Daemon daemon({"--config", config}, log_);
+    while (FramesWritten(socket) < 0 && !daemon.HasEnded()) std::this_thread::yield();
+    ASSERT_EQ(AskDaemon(socket, "record start killed").outcome, ControlOutcome::kDone);
+    std::int64_t said = 0;
+    while (said < enough && !daemon.HasEnded()) said = FramesWritten(socket);
+    daemon.Signal(SIGKILL);
+    ASSERT_EQ(daemon.Wait(), -SIGKILL) << daemon.Errors();
+    const std::filesystem::path take = folder_.path() / "takes" / "killed.partial";
+    std::int64_t there = 0;
+    for (StudioCamera& camera : OpenTake(take, {}).cameras) {
+      camera.driver->Start();
+      Frame frame;
+      while (camera.driver->Grab(frame, std::chrono::seconds(1)) == GrabStatus::kFrame) ++there;
+      camera.driver->Stop();
+    }
+    EXPECT_GE(there, said);
+    std::filesystem::remove_all(take);
   }
 }
 

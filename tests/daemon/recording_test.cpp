@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "config/open_studio.h"
 #include "config/subject_file.h"
 #include "core/errors.h"
+#include "daemon/cut_off_takes.h"
 #include "daemon/recorder.h"
 #include "drivers/take_layout.h"
 #include "drivers/take_table.h"
@@ -77,6 +80,21 @@ TEST_F(RecordingTest, WhileItRunsTheTakeOpensAsPartial) {
   EXPECT_EQ(status.state, RecordingStatus::State::kRunning);
   EXPECT_TRUE(status.folder.string().ends_with("one.partial"));
   EXPECT_TRUE(std::filesystem::exists(status.folder / "background" / "cam2.mkv"));
+}
+
+TEST_F(RecordingTest, WhatARunThatWasKilledLeftIsFound) {
+  recorder_->Start("one", config_, {});
+  for (std::uint64_t i = 0; i < 5; ++i) Offer(0, i);
+  while (recorder_->Status().frames < 5) std::this_thread::yield();
+  const std::vector<CutOffTake> found = FindCutOffTakes(config_.folder);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].folder, recorder_->Status().folder);
+  EXPECT_EQ(found[0].duration_ns, 4 * testing::kFakePeriodNs);
+  EXPECT_EQ(found[0].last_ns, 5 * testing::kFakePeriodNs);
+  Offer(1, 0);
+  recorder_->Stop();
+  EXPECT_TRUE(FindCutOffTakes(config_.folder).empty());
+  EXPECT_TRUE(FindCutOffTakes(folder_.path() / "nowhere").empty());
 }
 
 TEST_F(RecordingTest, OnlyOneAtATimeAndNoneTwice) {

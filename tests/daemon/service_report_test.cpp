@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "daemon/complaints.h"
 #include "daemon/metrics_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,6 +65,33 @@ TEST(ServiceReport, AFailedRecordingComesFirst) {
   report.recording.state = RecordingStatus::State::kFailed;
   report.recording.problem = "the disk is gone";
   EXPECT_EQ(Complaints(report).front(), "the recording failed: the disk is gone");
+}
+
+TEST(ServiceReport, NamesOnlyTheCameraThatIsFarthestFromTheOthers) {
+  ServiceReport report = Good();
+  report.now.status.cameras[0].health = {.moments = 9, .shift_px = {2.5, 0}, .overlap = 0.8};
+  report.now.status.cameras[1].health = {.moments = 9, .shift_px = {0, -6}, .overlap = 0.7};
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("cam2 sees the person 6.0 px beside")));
+  report.now.status.cameras[1].health.moments = HealthWatch::kFewestMoments - 1;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("cam1 sees the person 2.5 px beside")))
+      << "what was hardly compared says nothing";
+}
+
+TEST(ServiceReport, TellsAgesInWords) {
+  ServiceReport report = Good();
+  report.epoch_s = 2'000'000;
+  report.calibration = {"/etc/c.toml", report.epoch_s - 9 * 86'400};
+  report.background = {"/var/b", report.epoch_s - 3 * 3600};
+  EXPECT_THAT(ReportText(report), HasSubstr("calibration  9 days old, /etc/c.toml"));
+  EXPECT_THAT(BackgroundText(report), StartsWith("3 h old, /var/b\n"));
+}
+
+TEST(ServiceReport, ATakeThatWasCutOffIsToldWithWhatItHolds) {
+  ServiceReport report = Good();
+  report.cut_off = {{"/takes/walk.partial", 12'300'000'000, 45'296'000'000'000}};
+  EXPECT_THAT(
+      Complaints(report),
+      ElementsAre(StartsWith("the recording walk was cut off at 12:34:56 UTC after 12.3 s")));
 }
 
 TEST(MetricsFile, HasOneHeadForEachFamilyAndOneSampleForEachCamera) {

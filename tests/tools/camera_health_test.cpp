@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "drivers/simulated_studio.h"
+#include "tests/support/walking_silhouettes.h"
 
 namespace mocap {
 namespace {
@@ -17,31 +17,15 @@ using ::testing::IsEmpty;
 
 constexpr double kBump_rad = 0.5 * std::numbers::pi / 180;
 
-/// Ten seconds of a walk as the cameras truly see it, a moment a second.
 const TakeSamples& Walk() {
   static const TakeSamples samples = [] {
-    SimulatedStudioOptions options = RecordedSimulation();
-    options.fps = 1;
-    options.seconds = 10;
-    options.seed = 2;
-    const SimulatedStudio studio(options);
+    const testing::WalkingSilhouettes& seen = testing::WalkOfTenSeconds();
     TakeSamples walk;
-    walk.cameras = studio.cameras();
-    walk.moments.resize(10);
-    for (std::size_t c = 0; c < walk.cameras.size(); ++c) {
-      const auto camera = studio.OpenCamera(static_cast<int>(c));
-      camera->Start();
-      for (SampledMoment& moment : walk.moments) {
-        Frame frame;
-        camera->Grab(frame, std::chrono::milliseconds(0));
-        const ImageView<const std::uint8_t> mask = camera->TrueMask();
-        Silhouette silhouette(mask.width(), mask.height());
-        for (int y = 0; y < mask.height(); ++y) {
-          for (int x = 0; x < mask.width(); ++x) {
-            if (mask(x, y) != 0) silhouette.Set(x, y);
-          }
-        }
-        moment.views.push_back(SampledView{walk.cameras[c].X_CW, std::move(silhouette), {}});
+    walk.cameras = seen.cameras;
+    for (const std::vector<Silhouette>& silhouettes : seen.moments) {
+      SampledMoment& moment = walk.moments.emplace_back();
+      for (std::size_t c = 0; c < silhouettes.size(); ++c) {
+        moment.views.push_back(SampledView{walk.cameras[c].X_CW, silhouettes[c], {}});
       }
     }
     return walk;

@@ -1,0 +1,129 @@
+// docs/operating.md against the code: every complaint and every line of the status is explained,
+// and nothing is explained that does not exist.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "daemon/complaints.h"
+#include "daemon/service_report.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+/// What stands in the first column of the manual's tables, in backquotes.
+std::vector<std::string> FirstColumns() {
+  const std::string manual =
+      testing::ReadText(std::filesystem::path(MOCAP_SOURCE_DIR) / "docs/operating.md");
+  static const std::regex kRow(R"(\| `([^`]+)`)");
+  std::vector<std::string> columns;
+  std::istringstream lines(manual);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_search(line, match, kRow, std::regex_constants::match_continuous)) {
+      columns.push_back(match[1]);
+    }
+  }
+  return columns;
+}
+
+/// Numbers and names differ from case to case.
+std::string Pattern(const std::string& text) {
+  const std::string without_names = std::regex_replace(text, std::regex("cam\\d+|walk-\\d+"), "@");
+  return std::regex_replace(without_names, std::regex(R"([-+]?\d+([.:]\d+)*)"), "#");
+}
+
+/// Everything goes wrong that can.
+std::vector<std::string> EveryComplaint() {
+  ServiceReport report;
+  report.fps_nominal = 25;
+  report.now.sets_per_second = 25;
+  report.now.sets_dropped_lately = 12;
+  report.keep_free_mb = 500;
+  report.takes = "/takes";
+  report.bytes_free = 3'000'000;
+  report.cut_off = {{"/takes/walk-01.partial", 12'300'000'000, 45'296'000'000'000}};
+  report.light_change = LightChange{.time_ns = 1, .cameras = {"cam1"}, .factor = 1.4};
+  StageRecorders recorders;
+  recorders[Stage::kSpread].Record(15'000'000);
+  report.now.recent = StageHistograms(recorders);
+  const auto add = [&report](CameraState state, double rate) -> CameraStatus& {
+    CameraStatus& camera = report.now.status.cameras.emplace_back();
+    camera.name = "cam" + std::to_string(report.now.status.cameras.size());
+    camera.state = state;
+    report.now.frames_per_second.push_back(rate);
+    return camera;
+  };
+  add(CameraState::kLost, 0);
+  add(CameraState::kStarting, 0);
+  CameraStatus& poor = add(CameraState::kStreaming, 20);
+  poor.light = 0.4;
+  poor.nudged_px = 1.2;
+  poor.health = {.moments = 9, .shift_px = {6, 0}, .overlap = 0.7};
+  std::set<std::string> all;
+  using State = RecordingStatus::State;
+  for (const State state : {State::kFailed, State::kComplete, State::kRunning}) {
+    report.recording.state = state;
+    report.recording.problem = "ended because the disk has 400 MB left";
+    report.recording.dropped = 12;
+    const std::vector<std::string> some = Complaints(report);
+    all.insert(some.begin(), some.end());
+  }
+  return {all.begin(), all.end()};
+}
+
+TEST(OperatingManual, SaysWhatToDoAboutEveryComplaint) {
+  const std::vector<std::string> columns = FirstColumns();
+  for (const std::string& complaint : EveryComplaint()) {
+    EXPECT_TRUE(std::ranges::any_of(columns, [&](const std::string& column) {
+      return column.size() > 12 && Pattern(complaint).starts_with(Pattern(column));
+    })) << complaint;
+  }
+}
+
+TEST(OperatingManual, ExplainsEveryLineAndColumnOfTheStatus) {
+  const std::vector<std::string> columns = FirstColumns();
+  ServiceReport report;
+  report.now.status.cameras.emplace_back().name = "cam1";
+  report.now.frames_per_second.push_back(0);
+  std::istringstream lines(ReportText(report));
+  std::set<std::string> labels;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string first = line.substr(0, line.find(' '));
+    if (line.starts_with("  ")) labels.insert(line.substr(2, line.find(' ', 2) - 2));
+    if (first == "camera") {
+      std::istringstream words(line);
+      for (std::string word; words >> word;) labels.insert(word);
+    } else if (!first.empty() && first != "cam1" && first != "all" && first != "!") {
+      labels.insert(first);
+    }
+  }
+  // Of two words: "a second", "off px".
+  for (const char* part : {"a", "px", "mocapd"}) labels.erase(part);
+  EXPECT_GE(labels.size(), 18u);
+  for (const std::string& label : labels) {
+    EXPECT_TRUE(std::ranges::any_of(columns, [&](const std::string& column) {
+      return column == label || column == "a " + label || column == label + " px";
+    })) << label;
+  }
+}
+
+TEST(OperatingManual, TellsOfNoComplaintThatIsNot) {
+  std::vector<std::string> patterns;
+  for (const std::string& complaint : EveryComplaint()) patterns.push_back(Pattern(complaint));
+  for (const std::string& column : FirstColumns()) {
+    const bool is_sentence = column.find(' ') != std::string::npos && column.size() > 12;
+    if (!is_sentence) continue;
+    EXPECT_TRUE(std::ranges::any_of(patterns, [&](const std::string& pattern) {
+      return pattern.starts_with(Pattern(column));
+    })) << column;
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,50 @@
+// What the cameras of the simulated studio truly see of somebody who walks.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "core/reconstruction/silhouette.h"
+#include "drivers/simulated_studio.h"
+
+namespace mocap::testing {
+
+struct WalkingSilhouettes {
+  std::vector<CameraCalibration> cameras;
+  std::vector<std::vector<Silhouette>> moments;  ///< By moment, a second apart, then by camera.
+};
+
+inline Silhouette SilhouetteOf(ImageView<const std::uint8_t> mask) {
+  Silhouette silhouette(mask.width(), mask.height());
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      if (mask(x, y) != 0) silhouette.Set(x, y);
+    }
+  }
+  return silhouette;
+}
+
+/// Ten seconds, made once.
+inline const WalkingSilhouettes& WalkOfTenSeconds() {
+  static const WalkingSilhouettes walk = [] {
+    SimulatedStudioOptions options = RecordedSimulation();
+    options.fps = 1;
+    options.seconds = 10;
+    options.seed = 2;
+    const SimulatedStudio studio(options);
+    WalkingSilhouettes made{studio.cameras(), std::vector<std::vector<Silhouette>>(10)};
+    for (std::size_t c = 0; c < made.cameras.size(); ++c) {
+      const auto camera = studio.OpenCamera(static_cast<int>(c));
+      camera->Start();
+      for (std::vector<Silhouette>& moment : made.moments) {
+        Frame frame;
+        camera->Grab(frame, std::chrono::milliseconds(0));
+        moment.push_back(SilhouetteOf(camera->TrueMask()));
+      }
+    }
+    return made;
+  }();
+  return walk;
+}
+
+}  // namespace mocap::testing
