@@ -315,7 +315,7 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
-  expected.Weigh(0, 0, 1);
+  expected.Weigh(0, 0, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
   Closeup everything;
   everything.SetAll(image.width(), image.height());
