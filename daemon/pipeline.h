@@ -34,7 +34,8 @@ struct PipelineOptions {
   /// without.
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
-  int priority = 0;  ///< Of the threads, SCHED_FIFO; 0: as everybody.
+  int priority = 0;             ///< Of the threads, SCHED_FIFO; 0: as everybody.
+  std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// One a camera, borrowed for the pipeline's life; null: nobody taps frames.
   std::deque<FrameTap>* taps = nullptr;
 };

@@ -79,6 +79,7 @@ PipelineOptions OptionsFrom(const Config& config, RecordingTaps& taps) {
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
           .priority = config.service.realtime.priority,
+          .processors = config.service.realtime.processors,
           .taps = &taps.frames};
 }
 
