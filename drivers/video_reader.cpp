@@ -1,7 +1,6 @@
 #include "drivers/video_reader.h"
 
 #include <algorithm>
-
 #include <optional>
 #include <string>
 #include <vector>

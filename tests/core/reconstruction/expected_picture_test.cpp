@@ -12,9 +12,10 @@ TEST(ExpectedPicture, WeightsAreThoseOfHorprasert) {
   ExpectedPicture picture(1, 1);
   picture.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
   picture.Weigh(0, 0, 0, 1);
+  const std::array sigma = {2.0, 4.0, 3.0};
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(picture.MeanAt(0, 0, c), 100 - 20 * c, WeighedPixels::kMeanUnit / 2);
-    EXPECT_NEAR(picture.InverseSigmaAt(0, 0, c), 1 / std::array{2.0, 4.0, 3.0}[c],
+    EXPECT_NEAR(picture.InverseSigmaAt(0, 0, c), 1 / sigma[c],
                 0.6 * WeighedPixels::kInverseSigmaUnit);
   }
   EXPECT_NEAR(picture.AlphaWeightAt(0, 0), std::sqrt(3300.0),
