@@ -52,14 +52,10 @@ std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& 
 
 }  // namespace
 
-Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result) {
-  if (!std::filesystem::is_directory(take)) {
-    throw SetupError(take.string() + ": is no folder; a take is wanted");
-  }
+Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   Evaluation evaluation;
-  evaluation.take = std::filesystem::weakly_canonical(take).filename().string();
-  evaluation.result = ReadResult(result);
-  evaluation.truth = ReadTakeTruth(take);
+  evaluation.result = std::move(result);
+  evaluation.truth = std::move(truth);
   CountStates(evaluation);
   evaluation.precision = MeasurePrecision(TrackedRuns(evaluation.result.poses), {});
   if (!evaluation.truth) return evaluation;
@@ -69,6 +65,15 @@ Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::pa
   }
   evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
+  return evaluation;
+}
+
+Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result) {
+  if (!std::filesystem::is_directory(take)) {
+    throw SetupError(take.string() + ": is no folder; a take is wanted");
+  }
+  Evaluation evaluation = Evaluate(ReadResult(result), ReadTakeTruth(take));
+  evaluation.take = std::filesystem::weakly_canonical(take).filename().string();
   return evaluation;
 }
 

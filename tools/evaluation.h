@@ -37,6 +37,9 @@ struct Evaluation {
   std::vector<LengthPair> lengths;
 };
 
+/// Says how good a result is, by itself and, where there is one, against the truth.
+Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
+
 /// Reads a take's truth and a result and compares them.
 /// @throws SetupError  when either cannot be read.
 Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result);

@@ -3,6 +3,7 @@
 
 #include "daemon/run_program.h"
 #include "tools/background.h"
+#include "tools/benchmark.h"
 #include "tools/calibrate.h"
 #include "tools/cameras.h"
 #include "tools/control.h"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   mocap::AddTrackCommand(app);
   mocap::AddEvaluateCommand(app);
   mocap::AddExportCommand(app);
+  mocap::AddBenchmarkCommand(app);
   mocap::AddCalibrateCommand(app);
   mocap::AddBackgroundCommand(app);
   mocap::AddCamerasCommand(app);

@@ -217,4 +217,22 @@ std::string PlotSvg(const PlotAxes& axes, std::span<const PlotSeries> series) {
   return svg + Labels(axes, frame) + Legend(series) + "</svg>\n";
 }
 
+std::string StackedSvg(std::span<const std::string> plots, int width, int height) {
+  const auto total = static_cast<int>(plots.size()) * height;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "font-family=\"sans-serif\" font-size=\"12\">\n<style>.c0{{stroke:#0072b2;fill:#0072b2}}"
+      ".c1{{stroke:#d55e00;fill:#d55e00}}.axis{{stroke:#444;fill:none}}.grid{{stroke:#ddd}}"
+      ".line{{fill:none;stroke-width:2}}text{{stroke:none;fill:#222}}</style>\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
+      width, total);
+  int top = 0;
+  for (const std::string& plot : plots) {
+    svg += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n", top, width, height,
+                       plot);
+    top += height;
+  }
+  return svg + "</svg>\n";
+}
+
 }  // namespace mocap

@@ -35,6 +35,9 @@ struct PlotAxes {
 /// Draws a plot. The result is an <svg> element.
 std::string PlotSvg(const PlotAxes& axes, std::span<const PlotSeries> series);
 
+/// Puts plots of one size below each other into a file of its own, with colours.
+std::string StackedSvg(std::span<const std::string> plots, int width, int height);
+
 /// Steps of 1, 2 or 5 times a power of ten that fall into a range, about `count` of them.
 std::vector<double> RoundTicks(double low, double high, int count);
 

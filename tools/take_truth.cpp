@@ -78,13 +78,6 @@ class TruthTable {
   std::vector<std::string> cells_;
 };
 
-/// The joint of a rig that a scored point is read from.
-std::string RigJoint(Point point) {
-  if (point == Point::kFootL) return "ankle_l";
-  if (point == Point::kFootR) return "ankle_r";
-  return std::string(kPointNames[static_cast<int>(point)]);
-}
-
 std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm) {
   TruthTable table(file);
   const std::size_t time_column = table.Column("timestamp_ns");
@@ -106,10 +99,7 @@ std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double an
         frame.points_W(axis, i) = table.Value<double>(columns[i][axis]);
       }
     }
-    for (int foot = kScoredPointCount - 2; foot < kScoredPointCount; ++foot) {
-      const Vector3 shank = frame.points_W.col(foot) - frame.points_W.col(foot - 2);
-      frame.points_W.col(foot) += ankle_to_sole_mm * shank.stableNormalized();
-    }
+    ProlongShanks(ankle_to_sole_mm, frame.points_W);
     frames.push_back(std::move(frame));
   }
   if (frames.empty()) throw SetupError(file.string() + ": has no rows; at least one is wanted");
@@ -117,6 +107,19 @@ std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double an
 }
 
 }  // namespace
+
+std::string RigJoint(Point point) {
+  if (point == Point::kFootL) return "ankle_l";
+  if (point == Point::kFootR) return "ankle_r";
+  return std::string(kPointNames[static_cast<int>(point)]);
+}
+
+void ProlongShanks(double ankle_to_sole_mm, ScoredPoints& points_W) {
+  for (int foot = kScoredPointCount - 2; foot < kScoredPointCount; ++foot) {
+    const Vector3 shank = points_W.col(foot) - points_W.col(foot - 2);
+    points_W.col(foot) += ankle_to_sole_mm * shank.stableNormalized();
+  }
+}
 
 std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
   const TakeLayout layout{take};

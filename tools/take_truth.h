@@ -17,10 +17,15 @@ struct TakeTruth {
   std::map<std::string, double> lengths_mm;  ///< Without the unit: "torso", "thigh" …
 };
 
+/// The joint of a rig that a scored point is read from.
+std::string RigJoint(Point point);
+
+/// Moves the feet of points that were read from RigJoint: a true foot is the sole under the ankle,
+/// the shank prolonged.
+void ProlongShanks(double ankle_to_sole_mm, ScoredPoints& points_W);
+
 /// Reads truth.csv and truth.toml of a take.
 ///
-/// A true foot is the sole under the ankle: the shank prolonged from the ankle by truth.toml's
-/// ankle_to_sole_mm.
 /// @return  empty when the take has no truth.csv.
 /// @throws SetupError  naming file and line: a column that is missing, a word for a number, times
 /// that do not increase, lengths that are none.

@@ -17,7 +17,7 @@
 #include "daemon/json_object.h"
 #include "daemon/pipeline.h"
 #include "drivers/take_layout.h"
-#include "tools/result.h"
+#include "tools/result_sink.h"
 
 namespace mocap {
 namespace {
@@ -30,49 +30,6 @@ struct TrackOptions {
   std::vector<std::string> cameras;
   bool measure = false;
   bool json = false;
-};
-
-/// Keeps every set as a row, and shows on a terminal how far it is.
-class ResultSink : public PoseSink {
- public:
-  void OnSet(const TrackedSet& set) override {
-    PoseRow& row = result_.poses.emplace_back();
-    row.frame = set.frame;
-    row.timestamp_ns = set.capture_ns;
-    row.state = set.result.state;
-    row.has_pose = row.state != CaptureState::kSearching;
-    if (row.has_pose) {
-      row.paper = set.body.PaperStateOf(set.result.pose);
-      row.points_W = set.result.points_W;
-      row.residual_mm = set.result.residual_mm;
-    }
-    row.voxels = set.result.voxels;
-    result_.body = RecordOf(set.body);
-    acquisition_frames_ = set.acquisition_frames;
-    tracked_frames_ += row.state == CaptureState::kTracking;
-    if (shows_progress_) ShowProgress(row);
-  }
-
-  const Result& result() const { return result_; }
-  std::size_t frames() const { return result_.poses.size(); }
-  std::size_t tracked_frames() const { return tracked_frames_; }
-  int acquisition_frames() const { return acquisition_frames_; }
-
-  void EndProgress() const {
-    if (shows_progress_) std::fprintf(stderr, "\r\x1b[K");
-  }
-
- private:
-  void ShowProgress(const PoseRow& row) const {
-    const std::string state(kCaptureStateNames[static_cast<std::size_t>(row.state)]);
-    std::fprintf(stderr, "\r\x1b[Kframe %lld  %s", static_cast<long long>(row.frame),
-                 state.c_str());
-  }
-
-  const bool shows_progress_ = isatty(STDERR_FILENO) == 1;
-  Result result_;
-  std::size_t tracked_frames_ = 0;
-  int acquisition_frames_ = 0;
 };
 
 std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double seconds) {
@@ -102,7 +59,7 @@ void MakeFolder(const std::filesystem::path& folder) {
 
 void Track(const TrackOptions& options) {
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
-  ResultSink sink;
+  ResultSink sink(isatty(STDERR_FILENO) == 1);
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
                      .overflow = Overflow::kWait,

@@ -14,6 +14,8 @@ constexpr double kTorsoRadius = 0.09;
 constexpr double kSmallTorso = 0.4;
 constexpr double kLargestTorso = 1.4;
 constexpr double kSmallestLimbLitres = 0.3;
+// How round a head is at least, as a share of what else is round.
+constexpr double kNearlyAsRound = 0.6;
 
 // The direction square to the axis in which the voxels in a cylinder spread most: from side to
 // side.
@@ -123,16 +125,33 @@ LimbBlob LimbOf(const VoxelCloud& cloud, std::vector<int> region, const std::vec
   return limb;
 }
 
+// Nobody is acquired upside down, yet a heel may be nearly as round as a head.
+std::optional<HeadFit> FindUprightHead(const VoxelCloud& cloud, const HeadCrust& crust) {
+  const std::optional<HeadFit> anywhere = FindHead(cloud, crust, {});
+  const double middle_mm = cloud.Centroid().z();
+  if (!anywhere || anywhere->center_W.z() > middle_mm) return anywhere;
+  const std::optional<HeadFit> above = FindHead(cloud, crust, {.lowest_mm = middle_mm});
+  if (!above || above->score < kNearlyAsRound * anywhere->score) return std::nullopt;
+  return above;
+}
+
 }  // namespace
 
-std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud) {
-  const std::optional<HeadFit> head = FindHead(cloud, HeadCrust{}, std::nullopt);
+std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud, const HeadCrust& crust) {
+  const std::optional<HeadFit> head = FindUprightHead(cloud, crust);
   if (!head) return std::nullopt;
   LocalizedBody body;
   body.head = *head;
-  for (const Voxel& voxel : cloud.voxels()) {
-    body.height_mm = std::max(body.height_mm, voxel.center_W.z() + cloud.voxel_mm() / 2);
+  // Hands may be higher than the head, and a block or a leap carries the feet.
+  const double half_mm = cloud.voxel_mm() / 2;
+  double top_mm = 0, bottom_mm = head->center_W.z();
+  for (const int index : head->voxels) {
+    top_mm = std::max(top_mm, cloud.voxels()[index].center_W.z() + half_mm);
   }
+  for (const Voxel& voxel : cloud.voxels()) {
+    bottom_mm = std::min(bottom_mm, voxel.center_W.z() - half_mm);
+  }
+  body.height_mm = top_mm - std::max(0.0, bottom_mm);
 
   std::vector<bool> free(cloud.size(), true);
   for (const int index : head->voxels) free[index] = false;

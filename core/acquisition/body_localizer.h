@@ -22,11 +22,12 @@ struct LocalizedBody {
   HeadFit head;
   Cylinder torso;               ///< Anchored at the neck.
   std::vector<LimbBlob> limbs;  ///< At most four, the largest first.
-  double height_mm = 0;         ///< Vertex above the floor.
+  double height_mm = 0;         ///< Vertex above the lowest place.
 };
 
 /// Locates head, torso and limbs. Empty when there is nothing like a head above a torso. Figs. 10
 /// and 11.
-std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud);
+/// @param crust  of the head that is looked for.
+std::optional<LocalizedBody> LocalizeBody(const VoxelCloud& cloud, const HeadCrust& crust);
 
 }  // namespace mocap

@@ -12,7 +12,9 @@ namespace {
 
 // Hair and soles, which a silhouette shows and a stadiometer does not.
 constexpr double kHairAndSolesMm = 25;
+// A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
 constexpr double kWorstCostMm = 60;
+constexpr double kMostHollowMm = 25;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
@@ -33,6 +35,10 @@ constexpr std::array<double BodySizes::*, 14> kMeasured = {
     &BodySizes::calf_width,      &BodySizes::shoulder_width,
     &BodySizes::hip_width,       &BodySizes::neck};
 
+// Widths differ among people by some 10 % (ANSUR, Gordon et al. 1989), and clothes, hulls and what
+// touches a part make them err as much.
+constexpr double kMeasuredShare = 0.5;
+
 // The statures that are tried, as shares of the height: of somebody who sits, crouches or jumps it
 // says little.
 constexpr std::array<double, 6> kStatures = {1, 1.12, 0.89, 1.25, 0.8, 1.4};
@@ -41,17 +47,24 @@ constexpr double kSmallestMm = 1000;
 constexpr double kLargestMm = 2100;
 // What costs no more needs no other stature.
 constexpr double kGoodCostMm = 30;
+
 double CostOf(const std::vector<Tracker>& found) {
-  return found.empty() ? std::numeric_limits<double>::infinity() : found.front().quality().Cost();
+  const bool is_body = !found.empty() && found.front().quality().hollow_mm < kMostHollowMm;
+  return is_body ? found.front().quality().Cost() : std::numeric_limits<double>::infinity();
+}
+
+double HeightOf(const VoxelCloud& cloud) {
+  double height_mm = 0;
+  for (const Voxel& voxel : cloud.voxels()) height_mm = std::max(height_mm, voxel.center_W.z());
+  return height_mm;
 }
 
 }  // namespace
 
 bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySizes>& known) {
-  const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud);
-  if (!located) return false;
-  height_mm_ = located->height_mm - kHairAndSolesMm;
   if (known) {
+    const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud, CrustOf(*known));
+    if (!located) return false;
     const std::vector<Tracker> found = FitBody(BodyModel(table_, *known), evidence, *located);
     if (CostOf(found) > kWorstCostMm) return false;
     Begin(found, evidence);
@@ -60,21 +73,25 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
     return true;
   }
   for (int i = 0; i < kStaturesPerFrame; ++i) {
-    if (TryStature(evidence, *located)) return true;
+    if (TryStature(evidence)) return true;
   }
   return false;
 }
 
-bool ModelAcquirer::TryStature(const Evidence& evidence, const LocalizedBody& located) {
+bool ModelAcquirer::TryStature(const Evidence& evidence) {
   // After all of them comes the likeliest again.
   const bool is_last = next_stature_ == std::ssize(kStatures);
   const double share = is_last ? likely_stature_ : kStatures[next_stature_];
   next_stature_ = is_last ? 0 : next_stature_ + 1;
   if (next_stature_ == 1) likely_cost_mm_ = kWorstCostMm;
+  const HeadCrust crust = CrustOf(AverageSizes(share * HeightOf(evidence.cloud)));
+  const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud, crust);
+  if (!located) return false;
+  height_mm_ = located->height_mm - kHairAndSolesMm;
   const double stature_mm = share * height_mm_;
   if (stature_mm < kSmallestMm || stature_mm > kLargestMm) return false;
   const std::vector<Tracker> found =
-      FitBody(BodyModel(table_, AverageSizes(stature_mm)), evidence, located);
+      FitBody(BodyModel(table_, AverageSizes(stature_mm)), evidence, *located);
   const double cost_mm = CostOf(found);
   if (cost_mm < likely_cost_mm_) {
     likely_cost_mm_ = cost_mm;
@@ -113,7 +130,10 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
                              .height = {}};
   if (is_upright_) lengths.height = height_mm_ - sizes.neck - sizes.head / 2;
   const double change_mm = network_.Update(lengths, remember, sizes);
-  for (double BodySizes::*width : kWidths) sizes.*width = mean.*width;
+  const BodySizes average = AverageSizes(sizes.Stature());
+  for (double BodySizes::*width : kWidths) {
+    sizes.*width = average.*width + kMeasuredShare * (mean.*width - average.*width);
+  }
   tracker.Resize(sizes);
   return change_mm;
 }
@@ -134,7 +154,9 @@ void ModelAcquirer::Refine(const Evidence& evidence, double dt_s) {
     const bool clear = hypotheses_[1].cost_sum > kClearlyBetter * hypotheses_[0].cost_sum;
     if (clear || frames_ >= kFramesToDecide) hypotheses_.pop_back();
   }
-  settled_ = hypotheses_.size() == 1 && frames_ > 1 && change_mm < kSettledMm;
+  // Somebody who crouches leaves lengths open: what tracking shows of them is taken in later.
+  const bool at_rest = frames_ > 1 && (change_mm < kSettledMm || frames_ >= kFramesToDecide);
+  settled_ = hypotheses_.size() == 1 && at_rest;
 }
 
 }  // namespace mocap

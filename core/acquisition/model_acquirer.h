@@ -36,7 +36,7 @@ class ModelAcquirer {
     double cost_sum = 0;
     BodySizes measured{};  ///< Mean over the frames so far.
   };
-  bool TryStature(const Evidence& evidence, const LocalizedBody& located);
+  bool TryStature(const Evidence& evidence);
   void Begin(const std::vector<Tracker>& found, const Evidence& evidence);
   double RefineSizes(Hypothesis& hypothesis, bool remember);
 

@@ -23,20 +23,28 @@ constexpr double kAnkleHeight = 0.137;
 
 BodySizes AverageSizes(double stature_mm) {
   const double h = stature_mm;
-  return {.torso = 0.330 * h,
+  // A child's legs are shorter (Bogin and Varela-Silva 2010), and its head is nearly as large as an
+  // adult's (Snyder et al. 1977).
+  const double childhood = std::clamp((1600 - h) / 500, 0.0, 1.0);
+  const double leg_share = 1 - 0.07 * childhood;
+  const double head = 228 + 0.0545 * (h - 1755);
+  const double neck = 0.577 * head;
+  const double thigh = 0.245 * leg_share * h;
+  const double calf = 0.285 * leg_share * h;
+  return {.torso = h - head / 2 - neck - thigh - calf,
           .torso_width = 0.180 * h,
           .torso_depth = 0.130 * h,
-          .head = 0.130 * h,
-          .head_width = 0.098 * h,
-          .neck = 0.075 * h,
+          .head = head,
+          .head_width = 0.75 * head,
+          .neck = neck,
           .upper_arm = 0.162 * h,
           .lower_arm = 0.258 * h,
-          .thigh = 0.245 * h,
-          .calf = 0.285 * h,
-          .upper_arm_width = 0.055 * h,
+          .thigh = thigh,
+          .calf = calf,
+          .upper_arm_width = 0.058 * h,
           .lower_arm_width = 0.042 * h,
-          .thigh_width = 0.090 * h,
-          .calf_width = 0.060 * h,
+          .thigh_width = 0.105 * h,
+          .calf_width = 0.068 * h,
           .shoulder_width = 0.207 * h,
           .hip_width = 0.110 * h};
 }

@@ -61,8 +61,12 @@ Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels) {
   return voxels.empty() ? sum : Vector3(sum / static_cast<double>(voxels.size()));
 }
 
+HeadCrust CrustOf(const BodySizes& sizes) {
+  return {.inner_mm = 0.35 * sizes.head_width, .outer_mm = 0.54 * sizes.head};
+}
+
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
-                                const std::optional<SearchSphere>& search) {
+                                const HeadRegion& region) {
   const HeadScore head_score(cloud, crust);
   HeadFit best;
   best.score = -std::numeric_limits<double>::infinity();
@@ -72,7 +76,7 @@ std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
     const Voxel& voxel = cloud.voxels()[i];
     // A head's centre lies deep inside.
     if (voxel.surface || !head_score.IsOnLattice(voxel.cell)) continue;
-    if (search && (voxel.center_W - search->center_W).norm() > search->radius_mm) continue;
+    if (!region.Contains(voxel.center_W)) continue;
     if (const auto score = head_score.Above(best.score, voxel.cell)) {
       best.score = *score;
       best_index = i;

@@ -2,25 +2,35 @@
 // head, a cylinder anchored at a joint for torso, upper arms and thighs.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/body/body_sizes.h"
 #include "core/geometry.h"
 #include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 
-/// The smallest and largest radius [mm] of the head that is looked for.
+/// The smallest and largest radius of the head that is looked for.
 struct HeadCrust {
-  double inner_mm = 65;
-  double outer_mm = 125;
+  double inner_mm;
+  double outer_mm;
 };
 
-/// Where to look; the whole cloud when absent.
-struct SearchSphere {
-  Vector3 center_W;
-  double radius_mm;
+/// The crust of a body's head.
+HeadCrust CrustOf(const BodySizes& sizes);
+
+/// Where a head's centre may lie; anywhere unless it is said.
+struct HeadRegion {
+  Vector3 center_W = Vector3::Zero();
+  double radius_mm = std::numeric_limits<double>::infinity();
+  double lowest_mm = -std::numeric_limits<double>::infinity();
+
+  bool Contains(const Vector3& p_WQ) const {
+    return p_WQ.z() >= lowest_mm && (p_WQ - center_W).norm() <= radius_mm;
+  }
 };
 
 struct HeadFit {
@@ -33,7 +43,7 @@ struct HeadFit {
 /// Finds the centre of the crust that holds the most surface voxels and the least flesh beyond it.
 /// Fig. 6.
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
-                                const std::optional<SearchSphere>& search);
+                                const HeadRegion& region);
 
 /// A cylinder with an elliptic section that hangs from its anchor.
 struct Cylinder {

@@ -79,10 +79,8 @@ const LabeledVoxels& VoxelLabeler::Label(const VoxelCloud& cloud, const BodyMode
 }
 
 bool VoxelLabeler::LabelHead(const Vector3& predicted_W) {
-  const BodySizes& sizes = body_->sizes();
-  const HeadCrust crust{.inner_mm = 0.35 * sizes.head_width, .outer_mm = 0.52 * sizes.head};
-  const std::optional<HeadFit> head =
-      FindHead(*cloud_, crust, SearchSphere{predicted_W, kHeadSearchMm});
+  const std::optional<HeadFit> head = FindHead(
+      *cloud_, CrustOf(body_->sizes()), {.center_W = predicted_W, .radius_mm = kHeadSearchMm});
   if (!head) return false;
   head_ = *head;
   for (const int index : head_.voxels) {

@@ -84,20 +84,12 @@ std::string GrowthPlots(const Results& results) {
         Growth(results, "carving of six", 1, by_height)}},
       {"edge of a voxel [mm]", {Growth(results, "carving of six", 1, by_voxel)}},
       {"cameras", {Growth(results, "carving, 25 mm", 1, by_cameras)}}};
-  std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"760\" height=\"720\" "
-      "font-family=\"sans-serif\" font-size=\"12\">\n<style>.c0{stroke:#0072b2;fill:#0072b2}"
-      ".c1{stroke:#d55e00;fill:#d55e00}.axis{stroke:#444;fill:none}.grid{stroke:#ddd}.line{fill:"
-      "none;stroke-width:2}"
-      "text{stroke:none;fill:#222}</style>\n<rect width=\"760\" height=\"720\" fill=\"#fff\"/>\n";
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const PlotAxes axes{.x_label = plots[i].first, .y_label = "ms"};
-    // A frame that gives the plot its place and size.
-    svg += "<svg y=\"" + std::to_string(axes.height * i) + "\" width=\"" +
-           std::to_string(axes.width) + "\" height=\"" + std::to_string(axes.height) + "\">" +
-           PlotSvg(axes, plots[i].second) + "</svg>\n";
+  std::vector<std::string> drawn;
+  const PlotAxes size;
+  for (const auto& [x_label, series] : plots) {
+    drawn.push_back(PlotSvg({.x_label = x_label, .y_label = "ms"}, series));
   }
-  return svg + "</svg>\n";
+  return StackedSvg(drawn, size.width, size.height);
 }
 
 // Takes our own option out of the command line.

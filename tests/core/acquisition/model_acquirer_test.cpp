@@ -23,9 +23,10 @@ class Acquisition : public testing::Test {
     return pose;
   }
   /// How far the joints are off after some frames of this pose.
-  double ErrorAfter(int frames, const PoseState& truth) {
-    const Evidence evidence = studio_.Show(body_, truth);
-    ModelAcquirer acquirer(body_.table(), {});
+  double ErrorAfter(int frames, const PoseState& truth) { return ErrorAfter(frames, truth, body_); }
+  double ErrorAfter(int frames, const PoseState& truth, const BodyModel& body) {
+    const Evidence evidence = studio_.Show(body, truth);
+    ModelAcquirer acquirer(body.table(), {});
     bool located = false;
     for (int i = 0; i < frames; ++i) {
       if (located) {
@@ -38,7 +39,7 @@ class Acquisition : public testing::Test {
     if (!located) return 1e9;
     const Tracker& best = acquirer.best();
     return (best.body().PointsAt(best.body().PostureAt(best.filter().pose())) -
-            body_.PointsAt(body_.PostureAt(truth)))
+            body.PointsAt(body.PostureAt(truth)))
         .colwise()
         .norm()
         .mean();
@@ -60,13 +61,32 @@ TEST_F(Acquisition, FindsSomebodyWhoseHeightIsNotTheStature) {
             60);
 }
 
-TEST_F(Acquisition, NobodyIsFoundUpsideDown) {
-  PoseState upside_down = Pose(1000, {});
-  upside_down.X_WT.R.col(1) *= -1;
-  upside_down.X_WT.R.col(2) *= -1;
-  const Evidence evidence = studio_.Show(body_, upside_down);
+TEST_F(Acquisition, FindsAChildWhoseHeadIsSmall) {
+  const BodyModel child(body_.table(), AverageSizes(1150));
+  const BodySizes& sizes = child.sizes();
+  EXPECT_LT(ErrorAfter(4, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {}), child), 30);
+}
+
+TEST_F(Acquisition, RaisedArmsMakeNobodyTaller) {
+  const BodySizes& sizes = body_.sizes();
+  constexpr ArmStance kRaised{.raise = 80};
+  const Evidence evidence = studio_.Show(body_, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf,
+                                                     {.arm_l = kRaised, .arm_r = kRaised}));
   ModelAcquirer acquirer(body_.table(), {});
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(acquirer.Locate(evidence, std::nullopt));
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt));
+  EXPECT_NEAR(acquirer.best().body().sizes().Stature(), 1750, 50);
+}
+
+TEST_F(Acquisition, NobodyIsFoundUpsideDown) {
+  for (const double stature_mm : {1150, 1750}) {
+    const BodyModel body(body_.table(), AverageSizes(stature_mm));
+    PoseState upside_down = Pose(0.57 * stature_mm, {});
+    upside_down.X_WT.R.col(1) *= -1;
+    upside_down.X_WT.R.col(2) *= -1;
+    const Evidence evidence = studio_.Show(body, upside_down);
+    ModelAcquirer acquirer(body_.table(), {});
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(acquirer.Locate(evidence, std::nullopt));
+  }
 }
 
 }  // namespace

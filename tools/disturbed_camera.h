@@ -1,0 +1,46 @@
+// A camera whose pictures are worse than they could be, to find out what tracking bears.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/image.h"
+#include "drivers/camera_driver.h"
+
+namespace mocap {
+
+/// What may happen to a camera: it falls silent, a light shines into it, or somebody turns it.
+enum class Mishap { kNone, kLost, kBlinded, kTurned };
+
+/// What goes wrong with a camera's pictures.
+struct PictureDisturbance {
+  /// Share of each picture that squares cover, anew in every frame: every other one shows the empty
+  /// studio, a hole in whoever stands there, and the others a grey that is nobody.
+  double covered_share = 0;
+  Mishap mishap = Mishap::kNone;
+  std::int64_t mishap_ns = 0;  ///< Capture time from which on it has happened.
+  std::uint64_t seed = 1;
+};
+
+/// Passes on another camera's frames, disturbed. Same frames, same disturbance.
+class DisturbedCamera : public CameraDriver {
+ public:
+  /// @param empty  the camera's picture of the empty studio.
+  DisturbedCamera(std::unique_ptr<CameraDriver> camera, Image<Bgr> empty,
+                  const PictureDisturbance& disturbance);
+
+  void Start() override { camera_->Start(); }
+  GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
+  void Stop() override { camera_->Stop(); }
+
+ private:
+  void Copy(const Frame& frame, int shift_px);
+  void Cover(std::uint64_t sequence);
+
+  const std::unique_ptr<CameraDriver> camera_;
+  const Image<Bgr> empty_;
+  const PictureDisturbance disturbance_;
+  Image<Bgr> picture_;
+};
+
+}  // namespace mocap
