@@ -119,34 +119,42 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       taps_(taps),
       writer_(WithRoom(folder, config), DescriptionOf(folder, config, studio)),
       folder_(folder),
-      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
-      begin_ns_(SteadyNs()) {
+      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())) {
   const TakeLayout layout{writer_.partial_folder()};
   if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
   if (subject) SaveSubject(layout.Subject(), *subject);
-  const double buffer_mb = config.buffer_mb / static_cast<double>(studio.cameras.size());
   for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-    const CameraCalibration& camera = studio.cameras[i].calibration;
+    const std::string& name = studio.cameras[i].calibration.name;
     Line& line = *lines_.emplace_back(std::make_unique<Line>());
-    line.video = OpenToSync(layout.Video(camera.name));
-    line.table = OpenToSync(layout.Table(camera.name));
-    TappedFrame item;
-    item.image = Image<Bgr>(camera.width_px, camera.height_px);
-    const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
-    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio.fps_nominal);
-    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
-                         line.bell);
+    line.video = OpenToSync(layout.Video(name));
+    line.table = OpenToSync(layout.Table(name));
   }
-  taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
   }
-  keeper_ = std::thread([this] { RunKeeper(); });
   backgrounds_.wait();
+  Begin();
   if (has_failed_.load()) {
     Stop();
     throw std::runtime_error(Status().problem);
   }
+}
+
+void Recording::Begin() {
+  begin_ns_ = SteadyNs();
+  const double buffer_mb = config_.buffer_mb / static_cast<double>(lines_.size());
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const CameraCalibration& camera = studio_.cameras[i].calibration;
+    TappedFrame item;
+    item.image = Image<Bgr>(camera.width_px, camera.height_px);
+    const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
+    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio_.fps_nominal);
+    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
+                         lines_[i]->bell);
+  }
+  taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
+  begun_.count_down();
+  keeper_ = std::thread([this] { RunKeeper(); });
 }
 
 Recording::~Recording() { Stop(); }
@@ -186,6 +194,7 @@ void Recording::RunCamera(std::size_t camera) {
     }
   });
   backgrounds_.count_down();
+  begun_.wait();
   Guard([&] { WriteFrames(camera); });
 }
 

@@ -62,7 +62,8 @@ struct RecordingStatus {
 /// loss of power and completes the take; all behind the pipeline's threads in priority.
 class Recording {
  public:
-  /// Begins; frames are kept from here on. Returns once the take can be opened whatever comes.
+  /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
+  /// return on.
   /// @param folder   of the take to be. @param subject  whose sizes are known, if they are.
   /// @param taps     borrowed for the recording's life.
   /// @throws SetupError          when the folder cannot be made, or there is too little room.
@@ -81,6 +82,7 @@ class Recording {
  private:
   struct Line;
 
+  void Begin();
   void RunCamera(std::size_t camera);
   void WriteFrames(std::size_t camera);
   void RunKeeper();
@@ -99,7 +101,8 @@ class Recording {
   std::vector<std::unique_ptr<Line>> lines_;
   Doorbell keeper_bell_;
   std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
-  const std::int64_t begin_ns_;
+  std::latch begun_{1};     ///< Frames are kept from here on.
+  std::int64_t begin_ns_ = 0;
   std::atomic<std::int64_t> end_ns_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_failed_{false};
