@@ -20,7 +20,7 @@ std::string Reference() { return testing::ReadText(kSource / "config/mocapd.toml
 /// Keys that the readers of the configuration ask for.
 std::set<std::string> KeysInCode() {
   static const std::regex kAsked(
-      R"re((?:Text|Texts|Flag|Choice|Number|Numbers|NumberWithin|IntegerWithin|Section|Sections|Has)\(\s*"(\w+)")re");
+      R"re((?:Text|Texts|Flag|Choice|Number|Numbers|NumberWithin|IntegerWithin|Integers|Section|Sections|Has)\(\s*"(\w+)")re");
   static const std::regex kOptional(R"re((?:OptionalWithin|ReadRange)\(section, "(\w+)")re");
   std::set<std::string> keys;
   for (const char* file : {"load_config.cpp", "load_service_config.cpp", "read_cameras.cpp"}) {
