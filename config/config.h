@@ -25,6 +25,7 @@ struct SourceConfig {
   std::filesystem::path take;
   ReplayRate rate = ReplayRate::kRealtime;
   bool loop = false;
+  bool in_memory = false;  ///< The take is decoded before it starts.
   // For "simulated":
   std::string motion = "walk";
   double stature_mm = 1750;

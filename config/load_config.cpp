@@ -25,6 +25,7 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.rate = section.Choice("rate", {"realtime", "fast"}, 0) == 0 ? ReplayRate::kRealtime
                                                                      : ReplayRate::kFast;
   source.loop = section.Flag("loop", source.loop);
+  source.in_memory = section.Flag("in_memory", source.in_memory);
   source.motion = section.Text("motion", source.motion);
   source.stature_mm = section.NumberWithin("stature_mm", 500, 2500, source.stature_mm);
   source.cameras = static_cast<int>(section.IntegerWithin("cameras", 1, 64, source.cameras));

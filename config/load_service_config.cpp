@@ -3,6 +3,8 @@
 namespace mocap {
 namespace {
 
+// As many as the kernel's plain sets of processors hold.
+constexpr int kHighestProcessor = 1023;
 // A socket's name has to fit into an address of the kernel's.
 constexpr std::size_t kLongestSocket = 100;
 // Above this are the kernel's own threads.
@@ -40,6 +42,7 @@ ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& 
     config.realtime.priority =
         static_cast<int>(section->IntegerWithin("priority", 0, kHighestPriority, 0));
     config.realtime.lock_memory = section->Flag("lock_memory", false);
+    config.realtime.processors = section->Integers("processors", 0, kHighestProcessor);
     section->RejectUnknownKeys();
   }
   return config;

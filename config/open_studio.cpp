@@ -19,7 +19,10 @@ SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
 Studio OpenStudio(const Config& config) {
   const SourceConfig& source = config.source;
   if (source.driver == "take") {
-    return OpenTake(source.take, {.rate = source.rate, .loop = source.loop, .cameras = {}});
+    return OpenTake(source.take, {.rate = source.rate,
+                                  .loop = source.loop,
+                                  .in_memory = source.in_memory,
+                                  .cameras = {}});
   }
   if (IsLive(source)) return OpenLiveStudio(config);
   return OpenSimulatedStudio(LiveSimulation(source));

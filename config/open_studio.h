@@ -22,6 +22,7 @@ Studio OpenStudio(const Config& config);
 struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
+  bool in_memory = false;  ///< Decodes the whole take at once.
   std::vector<std::string> cameras;  ///< Empty: all.
   /// In real time, tells when its first frame is captured; null: when the first camera starts.
   std::function<std::int64_t()> begin_ns = nullptr;

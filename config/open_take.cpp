@@ -112,8 +112,9 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
                                realtime ? MakeSystemClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
-    camera.driver = std::make_unique<TakeDriver>(
-        OpenCameraVideo(layout.Video(names[i]), camera.calibration), std::move(tables[i]), replay);
+    VideoReader video = OpenCameraVideo(layout.Video(names[i]), camera.calibration);
+    if (options.in_memory) video.KeepInMemory();
+    camera.driver = std::make_unique<TakeDriver>(std::move(video), std::move(tables[i]), replay);
   }
   return studio;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "drivers/video_writer.h"
 
@@ -29,6 +30,7 @@ struct MetricsConfig {
 struct RealtimeConfig {
   int priority = 0;          ///< Of the frame path, SCHED_FIFO; 0: as everybody.
   bool lock_memory = false;  ///< Nothing is paged out.
+  std::vector<int> processors;  ///< That the frame path keeps to; empty: all.
 };
 
 struct ServiceConfig {

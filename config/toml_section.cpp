@@ -159,6 +159,23 @@ std::vector<double> TomlSection::Numbers(const std::string& key, std::size_t cou
   return numbers;
 }
 
+std::vector<int> TomlSection::Integers(const std::string& key, int min, int max) {
+  if (!Has(key)) return {};
+  const std::string wanted = "an array of whole numbers from " + std::to_string(min) + " to " +
+                             std::to_string(max) + " is wanted";
+  const toml::node& node = Need(key, "an array of whole numbers");
+  const toml::array* array = node.as_array();
+  if (!array) Fail(key, "is " + Shown(node) + "; " + wanted);
+  std::vector<int> integers;
+  for (const toml::node& element : *array) {
+    const auto integer = element.value_exact<std::int64_t>();
+    if (!integer || *integer < min || *integer > max)
+      Fail(key, "has " + Shown(element) + "; " + wanted);
+    integers.push_back(static_cast<int>(*integer));
+  }
+  return integers;
+}
+
 Vector3 TomlSection::Vector(const std::string& key) {
   const std::vector<double> numbers = Numbers(key, 3);
   return {numbers[0], numbers[1], numbers[2]};

@@ -47,6 +47,8 @@ class TomlSection {
                      std::optional<std::size_t> fallback = {});
   std::vector<std::string> Texts(const std::string& key);
   std::vector<double> Numbers(const std::string& key, std::size_t count);
+  /// Whole numbers within bounds, as many as there are; none when the key is not there.
+  std::vector<int> Integers(const std::string& key, int min, int max);
   Vector3 Vector(const std::string& key);
   Matrix3 Matrix(const std::string& key);
   /// A table in this one; empty when it is not there.

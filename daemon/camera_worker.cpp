@@ -21,6 +21,10 @@ constexpr int kRaysPerCamera = 100;
 constexpr std::chrono::milliseconds kReplacePause{5};
 constexpr int kReplacePauses = 400;
 constexpr float kLeastGain = 0.01f;
+/// Nobody covers more of a camera that can see the whole of a person.
+constexpr double kBlindShare = 0.35;
+/// Beyond this, pixels are at the end of their range.
+constexpr float kMostLightFactor = 2;
 
 }  // namespace
 
@@ -78,7 +82,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
   TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
-  NoteConditions();
+  out.is_blind = NoteConditions(out.silhouette);
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
   return Outcome::kFrame;
@@ -109,12 +113,17 @@ void CameraWorker::TakeReplacement() {
   replacement_waits_.store(false);
 }
 
-void CameraWorker::NoteConditions() {
+bool CameraWorker::NoteConditions(const Silhouette& silhouette) {
   const Conditions& conditions = segmenter_.conditions();
   constexpr int kGreen = 1;
-  light_.store(1 / std::max(conditions.gain[kGreen], kLeastGain), std::memory_order_relaxed);
+  const float light = 1 / std::max(conditions.gain[kGreen], kLeastGain);
+  const bool is_blind = silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
+                        light < 1 / kMostLightFactor;
+  is_blind_.store(is_blind, std::memory_order_relaxed);
+  light_.store(light, std::memory_order_relaxed);
   nudged_px_.store(std::hypot(conditions.displacement.x_px, conditions.displacement.y_px),
                    std::memory_order_relaxed);
+  return is_blind;
 }
 
 void CameraWorker::Enter(CameraState state) {
@@ -145,6 +154,7 @@ CameraStatus CameraWorker::Status() const {
   status.replacements = replacements_.load(std::memory_order_relaxed);
   status.light = light_.load(std::memory_order_relaxed);
   status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
+  status.is_blind = is_blind_.load(std::memory_order_relaxed);
   const std::lock_guard lock(remarks_mutex_);
   status.remarks = remarks_;
   return status;

@@ -29,6 +29,8 @@ struct SegmentedFrame {
   std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.
   std::int64_t segment_ns = 0;  ///< How long segmentation took.
+  /// Most of the picture is unlike the empty studio: whoever stands there is not to be seen.
+  bool is_blind = false;
 };
 
 /// Numbers as in camera_status_t.
@@ -45,6 +47,7 @@ struct CameraStatus {
   int replacements = 0;              ///< How often the background was learned since the start.
   double light = 1;                  ///< Brightness, over that of the empty studio as learned.
   double nudged_px = 0;              ///< How far the picture lies from where it was learned.
+  bool is_blind = false;             ///< As the last frame's.
   CameraHealth health;               ///< Whether the other cameras agree.
   std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
 };
@@ -81,7 +84,8 @@ class CameraWorker {
 
  private:
   void TakeReplacement();
-  void NoteConditions();
+  /// @return  whether the camera is blind.
+  bool NoteConditions(const Silhouette& silhouette);
   void CountFrame(std::uint64_t sequence);
   void Enter(CameraState state);
 
@@ -102,6 +106,7 @@ class CameraWorker {
   std::atomic<int> replacements_{0};
   std::atomic<double> light_{1};
   std::atomic<double> nudged_px_{0};
+  std::atomic<bool> is_blind_{false};
   mutable std::mutex remarks_mutex_;
   std::vector<std::string> remarks_;
 };

@@ -89,15 +89,18 @@ void CarveStage::Gather(CarvedSet& set) {
   set.complete_ns = set.work_ns = 0;
   set.cameras = 0;
   views_.clear();
-  set.outlines.resize(std::ranges::count(synchronizer_.members(), true));
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!synchronizer_.members()[i]) continue;
     const Camera& camera = cameras_[i];
-    views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
-    set.outlines[views_.size() - 1] = camera.front.outline;
     set.complete_ns = std::max(set.complete_ns, camera.front.arrival_ns);
     set.work_ns = std::max(set.work_ns, camera.front.segment_ns);
+    if (camera.front.is_blind) continue;
+    views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
     set.cameras |= std::uint64_t{1} << i;
+  }
+  set.outlines.resize(views_.size());
+  for (std::size_t i = 0, view = 0; i < cameras_.size(); ++i) {
+    if (set.cameras >> i & 1) set.outlines[view++] = cameras_[i].front.outline;
   }
 }
 

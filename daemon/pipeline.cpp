@@ -1,7 +1,6 @@
 #include "daemon/pipeline.h"
 
 #include <pthread.h>
-#include <sched.h>
 
 #include <cmath>
 #include <future>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "daemon/realtime.h"
 
 namespace mocap {
 namespace {
@@ -108,11 +108,9 @@ template <typename Body>
 void Pipeline::Launch(const std::string& name, Body body) {
   threads_.emplace_back([this, name, body] {
     pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-    if (options_.priority > 0) {
-      // Whether it may is known by now; without it, frames are only more often late.
-      const sched_param parameter{.sched_priority = options_.priority};
-      pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
-    }
+    // Whether they may is known by now; without it, frames are only more often late.
+    if (options_.priority > 0) TakePriority(options_.priority);
+    KeepToProcessors(options_.processors);
     body();
   });
 }

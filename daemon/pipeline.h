@@ -36,7 +36,8 @@ struct PipelineOptions {
   /// without.
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
-  int priority = 0;  ///< Of the threads, SCHED_FIFO; 0: as everybody.
+  int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: as everybody.
+  std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.
   std::vector<std::deque<FrameTap>*> taps = {};
 };

@@ -2,16 +2,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/service_config.h"
 
 namespace mocap {
 
-/// Locks memory and looks whether threads may have the priority that is wished.
+/// Locks memory and looks whether threads may have the priority and the processors that are wished.
 /// @throws SetupError  naming the limit that stands against it.
 void PrepareRealtime(const RealtimeConfig& config);
 
 /// Names the calling thread and puts it behind the pipeline's.
 void StepBehind(const std::string& name);
+
+/// Keeps the calling thread to these processors; to none in particular when there are none.
+/// @return  false where that is not possible.
+bool KeepToProcessors(const std::vector<int>& processors);
+
+/// Lets the calling thread go before others, by SCHED_FIFO; 0: as everybody.
+/// @return  false where the limits do not allow it.
+bool TakePriority(int priority);
 
 }  // namespace mocap

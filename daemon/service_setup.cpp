@@ -36,6 +36,7 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
           .priority = config.service.realtime.priority,
+          .processors = config.service.realtime.processors,
           .taps = std::move(taps)};
 }
 

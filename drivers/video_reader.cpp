@@ -1,5 +1,6 @@
 #include "drivers/video_reader.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,7 +98,46 @@ class VideoReader::Impl {
     return whole ? VideoStatus::kFrame : VideoStatus::kBroken;
   }
 
+  void KeepInMemory() {
+    Open();
+    KeptFrame frame;
+    for (ImageView<const Bgr> image; (frame.status = Decoded(image)) != VideoStatus::kEnd;) {
+      frame.image = Image<Bgr>(width_px_, height_px_);
+      if (frame.status == VideoStatus::kFrame) {
+        for (int y = 0; y < height_px_; ++y)
+          std::copy_n(image.row(y), width_px_, frame.image.row(y));
+      }
+      kept_.push_back(std::move(frame));
+    }
+    decoder_.reset();
+    input_.reset();
+  }
+
   VideoStatus Read(ImageView<const Bgr>& image) {
+    if (kept_.empty()) return Decoded(image);
+    if (next_kept_ == kept_.size()) return VideoStatus::kEnd;
+    const KeptFrame& frame = kept_[next_kept_++];
+    image = frame.image.view();
+    return frame.status;
+  }
+
+  VideoStatus Skip() {
+    if (kept_.empty()) return Next();
+    return next_kept_ == kept_.size() ? VideoStatus::kEnd : kept_[next_kept_++].status;
+  }
+
+  void Rewind() {
+    next_kept_ = 0;
+    if (kept_.empty()) Open();
+  }
+
+ private:
+  struct KeptFrame {
+    VideoStatus status = VideoStatus::kEnd;
+    Image<Bgr> image;
+  };
+
+  VideoStatus Decoded(ImageView<const Bgr>& image) {
     const VideoStatus status = Next();
     if (status != VideoStatus::kFrame) return status;
     if (!Convert()) return VideoStatus::kBroken;
@@ -105,7 +145,6 @@ class VideoReader::Impl {
     return status;
   }
 
- private:
   // A recording may begin with frames whose key frame was not recorded: they are none of the
   // take's.
   bool DecodeFirst() {
@@ -173,6 +212,8 @@ class VideoReader::Impl {
   bool input_ended_ = false;
   bool first_waits_ = false;
   std::vector<Bgr> pixels_;
+  std::vector<KeptFrame> kept_;  // Empty: frames are decoded when they are read.
+  std::size_t next_kept_ = 0;
 };
 
 VideoReader::VideoReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>(file)) {}
@@ -183,7 +224,8 @@ VideoReader::~VideoReader() = default;
 int VideoReader::width_px() const { return impl_->width_px(); }
 int VideoReader::height_px() const { return impl_->height_px(); }
 VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(image); }
-VideoStatus VideoReader::Skip() { return impl_->Next(); }
-void VideoReader::Rewind() { impl_->Open(); }
+VideoStatus VideoReader::Skip() { return impl_->Skip(); }
+void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }
+void VideoReader::Rewind() { impl_->Rewind(); }
 
 }  // namespace mocap

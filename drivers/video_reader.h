@@ -35,6 +35,8 @@ class VideoReader {
   VideoStatus Read(ImageView<const Bgr>& image);
   /// Passes over the next frame, which costs less than to read it.
   VideoStatus Skip();
+  /// Decodes the whole file at once; from then on frames come from memory, the first of them first.
+  void KeepInMemory();
   /// Starts over. @throws SetupError  when the file can no longer be opened.
   void Rewind();
 

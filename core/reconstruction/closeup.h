@@ -15,11 +15,13 @@ struct PixelRun {
   int end = 0;
 };
 
-/// Whole tiles of a picture, and around them as much again as it takes to judge them.
+/// Whole tiles of a picture, and around them as much as it takes to judge them.
 ///
 /// Reuses its memory.
 class Closeup {
  public:
+  static constexpr int kMargin_px = HalfPicture::kTile_px / 2;
+
   /// Takes in the suspicious tiles and their neighbours.
   /// @param suspicious     one pixel a tile of HalfPicture::kTile_px pixels.
   /// @param width, height  of the picture.
@@ -31,26 +33,30 @@ class Closeup {
   int height() const { return height_; }
   /// The pixels of a row that are judged, in runs from left to right.
   std::span<const PixelRun> Judged(int y) const { return judged_.Row(y); }
-  /// The pixels of a row whose colours count: those that are judged, and at least
-  /// HalfPicture::kTile_px pixels more in every direction.
+  /// The pixels of a row whose colours count: those that are judged, and kMargin_px pixels more in
+  /// every direction.
   std::span<const PixelRun> Measured(int y) const { return measured_.Row(y); }
 
  private:
+  // Runs of rows of pixels, so many of which have the same.
   class Runs {
    public:
-    void Set(const Silhouette& tiles, int width);
+    void Clear(int row_px);
+    template <typename Test>
+    void AddRow(int columns, int width, int margin_px, Test test);
     std::span<const PixelRun> Row(int y) const {
-      const int row = y / HalfPicture::kTile_px;
+      const int row = y / row_px_;
       return {runs_.data() + begins_[row], runs_.data() + begins_[row + 1]};
     }
 
    private:
+    int row_px_ = 1;
     std::vector<PixelRun> runs_;
     std::vector<int> begins_;
   };
 
   int width_ = 0, height_ = 0;
-  Silhouette tiles_, wider_;
+  Silhouette tiles_;
   Runs judged_, measured_;
 };
 

@@ -1,6 +1,7 @@
 #include "core/reconstruction/coarse_scan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/errors.h"
@@ -14,16 +15,14 @@ constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
 // A pixel of the half is so many of the picture's wide.
 constexpr float kPixel_px = 2;
-// Every so many tiles or pixels are enough for a median; few pictures are a multiple of that wide.
+// Every so many tiles are enough for a median; few pictures are a multiple of that wide.
 constexpr std::size_t kTileStep = 7;
-constexpr std::size_t kPixelStep = 7;
 // A colour has a ratio to another only away from black [grey levels].
 constexpr float kDarkest = 8;
 constexpr float kLargestGain = 4;
 // What differs more from the middle than by this share is no background.
 constexpr float kFlatness = 0.06f;
-// Contours steeper than this [grey levels per pixel of the half] show how far they moved.
-constexpr int kSteep = 15;
+// Fewer contours do not tell how far they moved.
 constexpr std::size_t kFewestSteep = 50;
 constexpr float kLargestShift_px = 1;
 // Persons, shadows and what is bright from them may cover more than half: standard deviations are
@@ -52,13 +51,26 @@ constexpr float kDistanceMargin = 2;
 constexpr float kContourMargin = 2;
 // Fewer tiles than this by themselves are noise.
 constexpr int kFewestTiles = 4;
+// Whole rows move on by so many from one picture to the next: what grows from one side is met soon.
+constexpr int kBandStep = 3;
+// So many tiles around what was suspicious are looked at.
+constexpr int kRegionMargin = 4;
 
 float Square(float x) { return x * x; }
 
+// Of values that are not negative: among the others of its size, as their bits order numbers.
 float Quantile(std::vector<float>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), place, values.end());
+  constexpr int kShift = 21;
+  std::array<std::uint32_t, std::size_t{1} << (31 - kShift)> counts{};
+  const auto bin_of = [](float value) { return std::bit_cast<std::uint32_t>(value) >> kShift; };
+  for (const float value : values) ++counts[bin_of(value)];
+  auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  std::uint32_t bin = 0;
+  while (counts[bin] <= rank) rank -= counts[bin++];
+  const auto end = std::partition(values.begin(), values.end(),
+                                  [&](float value) { return bin_of(value) == bin; });
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), place, end);
   return *place;
 }
 
@@ -133,8 +145,53 @@ CoarseScan::CoarseScan(float darkest_shadow) : darkest_shadow_(darkest_shadow) {
 
 void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
   Resize(expected, image);
-  Halve(image, live_, row_sums_);
-  for (int c = 0; c < 3; ++c) AverageTiles(live_, c, tiles_.mean[c], row_sums_);
+  LookAtAll();
+  CompareTiles(expected, image);
+  Conclude();
+}
+
+void CoarseScan::Watch(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  Resize(expected, image);
+  if (!knows_region_) return Compare(expected, image);
+  LookAtRegion();
+  CompareTiles(expected, image);
+  if (conditions_.shift_px > 0 || ShowsBesideRegion()) return Compare(expected, image);
+  Conclude();
+}
+
+void CoarseScan::LookAtAll() {
+  looks_.clear();
+  whole_rows_.clear();
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    looks_.push_back(live_.RowOfTiles(row));
+    whole_rows_.push_back(row);
+  }
+  samples_.clear();
+  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep) samples_.push_back(i);
+}
+
+void CoarseScan::LookAtRegion() {
+  looks_.clear();
+  whole_rows_.clear();
+  samples_.clear();
+  first_band_ = (first_band_ + kBandStep) % kBandRows;
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    if (row % kBandRows == first_band_) {
+      looks_.push_back(live_.RowOfTiles(row));
+      whole_rows_.push_back(row);
+      const std::size_t first = static_cast<std::size_t>(row) * live_.tile_columns();
+      for (int i = 0; i < live_.tile_columns(); ++i) samples_.push_back(first + i);
+    } else if (region_ && row >= region_->top && row <= region_->bottom) {
+      looks_.push_back({row, region_->left, region_->right + 1});
+    }
+  }
+}
+
+void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  for (const TileRun& look : looks_) {
+    Halve(image, look, live_, row_sums_);
+    for (int c = 0; c < 3; ++c) AverageTiles(live_, c, look, tiles_.mean[c], row_sums_);
+  }
   for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(expected, c);
   distance_ = MeasureDistance(expected);
   conditions_.drift = std::min(
@@ -142,15 +199,45 @@ void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> imag
   drift_ = std::max(conditions_.drift, kDistanceMargin * distance_);
   shift_px_ = MeasureShift(expected);
   conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
-  MeasureTints(expected);
-  MeasureMisfit(expected);
+  for (const TileRun& look : looks_) {
+    MeasureTints(expected, look);
+    MeasureMisfit(expected, look);
+  }
   Judge(expected);
+}
+
+// By itself a tile is noise. What reaches the region's edge goes on behind it.
+bool CoarseScan::ShowsBesideRegion() const {
+  const int columns = suspicious_.width(), rows = suspicious_.height();
+  for (const TileRun& look : looks_) {
+    for (int i = look.begin; i + 1 < look.end; ++i) {
+      if (!suspicious_.Test(i, look.row) || !suspicious_.Test(i + 1, look.row)) continue;
+      const bool is_within = region_ && (look.row > region_->top || region_->top == 0) &&
+                             (look.row < region_->bottom || region_->bottom == rows - 1) &&
+                             (i > region_->left || region_->left == 0) &&
+                             (i + 1 < region_->right || region_->right == columns - 1);
+      if (!is_within) return true;
+    }
+  }
+  return false;
+}
+
+void CoarseScan::Conclude() {
+  cleaner_.DropBlobs(kFewestTiles, suspicious_);
+  region_ = suspicious_.BoundingBox();
+  knows_region_ = true;
+  if (!region_) return;
+  region_->left = std::max(region_->left - kRegionMargin, 0);
+  region_->top = std::max(region_->top - kRegionMargin, 0);
+  region_->right = std::min(region_->right + kRegionMargin, suspicious_.width() - 1);
+  region_->bottom = std::min(region_->bottom + kRegionMargin, suspicious_.height() - 1);
 }
 
 void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image) {
   if (image.width() != full_width_ || image.height() != full_height_) {
     full_width_ = image.width();
     full_height_ = image.height();
+    knows_region_ = false;
     live_ = HalfPicture(full_width_, full_height_);
     alphas_.resize(static_cast<std::size_t>(live_.width));
     columns_.resize(static_cast<std::size_t>(live_.width));
@@ -165,7 +252,7 @@ float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
   const std::vector<float>& live = tiles_.mean[channel];
   const std::vector<float>& expected = expected_half.tile_mean[channel];
   values_.clear();
-  for (std::size_t i = 0; i < live.size(); i += kTileStep)
+  for (const std::size_t i : samples_)
     if (IsKnown(expected_half, i) && expected[i] >= kDarkest)
       values_.push_back(live[i] / expected[i]);
   if (values_.empty()) return 1;
@@ -178,7 +265,7 @@ float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
 
 float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
   values_.clear();
-  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep) {
+  for (const std::size_t i : samples_) {
     if (!IsKnown(expected, i)) continue;
     float length_sq = 0;
     for (int c = 0; c < 3; ++c) {
@@ -193,70 +280,69 @@ float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
 float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
   values_.clear();
   const float gain = conditions_.gain[1];
-  for (std::size_t i = 0; i < live_.size(); i += kPixelStep) {
-    const int slope = expected.slope[i];
-    if (slope < kSteep || expected.variance[i] >= kUnknownVariance) continue;
-    const float difference = gain * live_.color[1][i] - expected.mean.color[1][i];
-    values_.push_back(std::abs(difference) / static_cast<float>(slope));
+  const int pixels_per_row = kTile * live_.width;
+  for (const int row : whole_rows_) {
+    const auto end = std::ranges::lower_bound(expected.steep, (row + 1) * pixels_per_row);
+    for (auto i = std::ranges::lower_bound(expected.steep, row * pixels_per_row); i != end; ++i) {
+      const float difference = gain * live_.color[1][*i] - expected.mean.color[1][*i];
+      values_.push_back(std::abs(difference) / static_cast<float>(expected.slope[*i]));
+    }
   }
-  if (values_.size() < kFewestSteep) return 0;
+  if (values_.size() * live_.tile_rows() < kFewestSteep * whole_rows_.size()) return 0;
   return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
                   kLargestShift_px);
 }
 
-void CoarseScan::MeasureMisfit(const ExpectedHalf& expected) {
+void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
   const float drift_sq = Square(drift_);
   const float shift_sq = Square(kContourMargin * shift_px_ / kPixel_px);
-  const int columns = live_.tile_columns();
-  for (int row = 0; row < live_.tile_rows(); ++row) {
-    const std::size_t first = static_cast<std::size_t>(row) * columns;
-    for (int i = 0; i < live_.width; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
-    std::fill(columns_.begin(), columns_.end(), 0.0f);
-    for (int y = row * kTile; y < (row + 1) * kTile; ++y) {
-      const std::size_t begin = static_cast<std::size_t>(y) * live_.width;
-      PixelRow pixels{{}, {}, &expected.variance[begin], &expected.slope[begin], alphas_.data()};
-      for (int c = 0; c < 3; ++c) {
-        pixels.live[c] = &live_.color[c][begin];
-        pixels.expected[c] = &expected.mean.color[c][begin];
-      }
-      AddMisfits(pixels, live_.width, conditions_.gain, drift_sq, shift_sq, columns_.data());
+  const int count = run.end - run.begin;
+  const std::size_t first = FirstOf(run);
+  for (int i = 0; i < count * kTile; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
+  std::fill_n(columns_.begin(), count * kTile, 0.0f);
+  for (int y = run.row * kTile; y < (run.row + 1) * kTile; ++y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * live_.width + run.begin * kTile;
+    PixelRow pixels{{}, {}, &expected.variance[begin], &expected.slope[begin], alphas_.data()};
+    for (int c = 0; c < 3; ++c) {
+      pixels.live[c] = &live_.color[c][begin];
+      pixels.expected[c] = &expected.mean.color[c][begin];
     }
-    for (int i = 0; i < columns; ++i) {
-      const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
-      tiles_.misfit[first + i] = (sums[0] + sums[1] + sums[2] + sums[3]) / kArea;
-    }
+    AddMisfits(pixels, count * kTile, conditions_.gain, drift_sq, shift_sq, columns_.data());
+  }
+  for (int i = 0; i < count; ++i) {
+    const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
+    tiles_.misfit[first + i] = (sums[0] + sums[1] + sums[2] + sums[3]) / kArea;
   }
 }
 
-void CoarseScan::MeasureTints(const ExpectedHalf& expected) {
-  TileMeans tiles{{}, {}, expected.tile_variance.data(), expected.tile_slope_sq.data()};
+void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {
+  const std::size_t first = FirstOf(run);
+  TileMeans tiles{{}, {}, &expected.tile_variance[first], &expected.tile_slope_sq[first]};
   for (int c = 0; c < 3; ++c) {
-    tiles.live[c] = tiles_.mean[c].data();
-    tiles.expected[c] = expected.tile_mean[c].data();
+    tiles.live[c] = &tiles_.mean[c][first];
+    tiles.expected[c] = &expected.tile_mean[c][first];
   }
-  MeasureTiles(tiles, static_cast<int>(live_.tiles()), conditions_.gain, Square(drift_),
-               Square(kContourMargin * shift_px_ / kPixel_px), tiles_.alpha.data(),
-               tiles_.tint.data(), tiles_.glare.data());
+  MeasureTiles(tiles, run.end - run.begin, conditions_.gain, Square(drift_),
+               Square(kContourMargin * shift_px_ / kPixel_px), &tiles_.alpha[first],
+               &tiles_.tint[first], &tiles_.glare[first]);
 }
 
 void CoarseScan::Judge(const ExpectedHalf& expected) {
   values_.clear();
-  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep)
+  for (const std::size_t i : samples_)
     if (IsKnown(expected, i)) values_.push_back(tiles_.misfit[i]);
   const float harmless =
       kHarmlessMisfit * std::max(values_.empty() ? 0 : Median(values_), kLeastMisfit);
-  const int columns = live_.tile_columns();
-  suspicious_.Reset(columns, live_.tile_rows());
-  for (int row = 0; row < live_.tile_rows(); ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * columns + column;
+  suspicious_.Reset(live_.tile_columns(), live_.tile_rows());
+  for (const TileRun& look : looks_) {
+    for (int column = look.begin; column < look.end; ++column) {
+      const std::size_t i = FirstOf(look) + (column - look.begin);
       if (IsKnown(expected, i) &&
           (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
            tiles_.alpha[i] < darkest_shadow_ + kDarkMargin || tiles_.glare[i] > kHarmlessGlare))
-        suspicious_.Set(column, row);
+        suspicious_.Set(column, look.row);
     }
   }
-  cleaner_.DropBlobs(kFewestTiles, suspicious_);
 }
 
 }  // namespace mocap

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/image.h"
@@ -25,6 +26,12 @@ class CoarseScan {
   /// Compares a picture; the results hold until the next one.
   void Compare(const ExpectedHalf& expected, ImageView<const Bgr> image);
 
+  /// Compares what was suspicious in the picture before, what lies around that, and every
+  /// kBandRows-th row of tiles: other rows in each picture. The rest is taken for background; when
+  /// something shows beside the region, or contours shift, the whole picture is compared.
+  void Watch(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  static constexpr int kBandRows = 8;
+
   /// Conditions but for the displacement.
   const Conditions& conditions() const { return conditions_; }
   /// How far tiles lie from what is expected, in the median [grey levels].
@@ -44,18 +51,34 @@ class CoarseScan {
     std::vector<float> alpha, tint, glare, misfit;
   };
   void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  void LookAtAll();
+  void LookAtRegion();
+  void CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  bool ShowsBesideRegion() const;
+  void Conclude();
   float MeasureGain(const ExpectedHalf& expected, int channel);
   float MeasureDistance(const ExpectedHalf& expected);
   float MeasureShift(const ExpectedHalf& expected);
-  void MeasureTints(const ExpectedHalf& expected);
-  void MeasureMisfit(const ExpectedHalf& expected);
+  std::size_t FirstOf(const TileRun& run) const {
+    return static_cast<std::size_t>(run.row) * live_.tile_columns() + run.begin;
+  }
+  void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
+  void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);
 
   float darkest_shadow_;
+  // What is looked at in this picture, and the rows among it that are whole.
+  std::vector<TileRun> looks_;
+  std::vector<int> whole_rows_;
+  // Tiles that everything suspicious in the last picture lies well within.
+  std::optional<PixelBox> region_;
+  bool knows_region_ = false;
+  int first_band_ = 0;
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;
   std::vector<std::uint16_t> row_sums_;
   Tiles tiles_;
+  std::vector<std::size_t> samples_;  // Of the tiles that are looked at.
   std::vector<float> columns_, alphas_, values_;
   Conditions conditions_;
   float distance_ = 0, drift_ = 0, shift_px_ = 0;

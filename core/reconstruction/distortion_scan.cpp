@@ -18,49 +18,55 @@ inline float Sum(Function f) {
 
 constexpr int SideOf(std::size_t window) { return 2 * DistortionScan::kRadii_px[window] + 1; }
 
-MOCAP_VECTORIZED
-void Separate(const Bgr* pixels, int count, const std::array<float, 3>& gain, float* b, float* g,
-              float* r) {
-  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    b[x] = pixels[x].b * gain0;
-    g[x] = pixels[x].g * gain1;
-    r[x] = pixels[x].r * gain2;
-  }
-}
+constexpr int kPixels = WeighedPixels::kPixels;
 
-struct Pixels {
-  std::array<const float*, 3> color, mean, inverse_sigma;
-  const float* inverse_square;
-};
 struct Distortions {
   float* alpha_shift;
   std::array<float*, 3> cd;
-  float* cd_sq;
+  float *cd_sq, *alpha_weight, *inverse_sigma;
 };
 
+// Measures pixels, one group after the other.
 MOCAP_VECTORIZED
-void MeasurePixels(const Pixels& p, int count, const Distortions& d) {
-  const auto [c0, c1, c2] = p.color;
-  const auto [e0, e1, e2] = p.mean;
-  const auto [w0, w1, w2] = p.inverse_sigma;
-  const auto [d0, d1, d2] = d.cd;
-  const float* const inverse_square = p.inverse_square;
-  float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
+void MeasureGroups(const WeighedPixels* groups, const Bgr* pixels, int count,
+                   const std::array<float, 3>& gain, const Distortions& d) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  for (int g = 0; g < count; ++g) {
+    const WeighedPixels& group = groups[g];
+    const Bgr* const from = pixels + g * kPixels;
+    const int first = g * kPixels;
+    alignas(32) std::array<std::array<float, kPixels>, 3> color;
 #pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float m0 = e0[x] * w0[x], m1 = e1[x] * w1[x], m2 = e2[x] * w2[x];
-    const float z0 = c0[x] * w0[x], z1 = c1[x] * w1[x], z2 = c2[x] * w2[x];
-    const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) * inverse_square[x];
-    const float f0 = z0 - alpha * m0;
-    const float f1 = z1 - alpha * m1;
-    const float f2 = z2 - alpha * m2;
-    alpha_shift[x] = alpha - 1;
-    d0[x] = f0;
-    d1[x] = f1;
-    d2[x] = f2;
-    cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
+    for (int k = 0; k < kPixels; ++k) {
+      color[0][k] = from[k].b * gain0;
+      color[1][k] = from[k].g * gain1;
+      color[2][k] = from[k].r * gain2;
+    }
+    float *const alpha_shift = d.alpha_shift + first, *const cd_sq = d.cd_sq + first;
+    float *const d0 = d.cd[0] + first, *const d1 = d.cd[1] + first, *const d2 = d.cd[2] + first;
+    float* const alpha_weight = d.alpha_weight + first;
+    float* const inverse_sigma = d.inverse_sigma + first;
+#pragma GCC ivdep
+    for (int k = 0; k < kPixels; ++k) {
+      const float w0 = group.inverse_sigma[0][k] * WeighedPixels::kInverseSigmaUnit;
+      const float w1 = group.inverse_sigma[1][k] * WeighedPixels::kInverseSigmaUnit;
+      const float w2 = group.inverse_sigma[2][k] * WeighedPixels::kInverseSigmaUnit;
+      const float m0 = group.mean[0][k] * (WeighedPixels::kMeanUnit * w0);
+      const float m1 = group.mean[1][k] * (WeighedPixels::kMeanUnit * w1);
+      const float m2 = group.mean[2][k] * (WeighedPixels::kMeanUnit * w2);
+      const float z0 = color[0][k] * w0, z1 = color[1][k] * w1, z2 = color[2][k] * w2;
+      const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / (m0 * m0 + m1 * m1 + m2 * m2);
+      const float f0 = z0 - alpha * m0;
+      const float f1 = z1 - alpha * m1;
+      const float f2 = z2 - alpha * m2;
+      alpha_shift[k] = alpha - 1;
+      d0[k] = f0;
+      d1[k] = f1;
+      d2[k] = f2;
+      cd_sq[k] = f0 * f0 + f1 * f1 + f2 * f2;
+      alpha_weight[k] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
+      inverse_sigma[k] = w1;
+    }
   }
 }
 
@@ -154,17 +160,18 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   gain_ = gain;
   next_ = 0;
   measured_ = 0;
-  const auto width = static_cast<std::size_t>(expected.width);
+  // Whole groups are measured.
+  const auto width = static_cast<std::size_t>(expected.width) + kPixels;
   for (Line& line : lines_) {
     line.alpha_shift.resize(width + 2 * kPad);
     for (auto& cd : line.cd) cd.resize(width + 2 * kPad);
-    line.cd_sq.resize(width);
+    for (auto* values : {&line.cd_sq, &line.alpha_weight, &line.inverse_sigma})
+      values->resize(width);
     for (Sums& sums : line.sums) {
       for (auto* values : {&sums.alpha, &sums.alpha_sq, &sums.moment}) values->resize(width);
       for (auto& cd : sums.cd) cd.resize(width);
     }
   }
-  for (auto& plane : color_) plane.resize(width);
   for (Results& r : results_)
     for (auto* values : {&r.alpha_shift, &r.cd_sq, &r.roughness_sq}) values->resize(width);
 }
@@ -181,44 +188,47 @@ const DistortionScan::Row& DistortionScan::Next() {
   const Line& line = lines_[static_cast<std::size_t>(y % kLines)];
   row_.alpha_shift = line.alpha_shift.data() + kPad;
   row_.cd_sq = line.cd_sq.data();
-  row_.alpha_weight =
-      expected_->alpha_weight.data() + static_cast<std::size_t>(y) * expected_->width;
+  row_.alpha_weight = line.alpha_weight.data();
+  row_.inverse_sigma = line.inverse_sigma.data();
   for (std::size_t w = 0; w < kWindows; ++w)
     row_.windows[w] = {results_[w].alpha_shift.data(), results_[w].cd_sq.data(),
                        results_[w].roughness_sq.data()};
   return row_;
 }
 
-void DistortionScan::Measure(int y, Line& line) {
-  const Bgr* const pixels = image_.row(y);
-  const std::size_t begin = static_cast<std::size_t>(y) * expected_->width;
+void DistortionScan::Measure(int y, Line& line) const {
+  int done = 0;
   for (const PixelRun& run : closeup_->Measured(y)) {
-    const int count = run.end - run.begin;
-    const std::size_t i = begin + run.begin;
-    Separate(pixels + run.begin, count, gain_, color_[0].data(), color_[1].data(),
-             color_[2].data());
-    Pixels from{{}, {}, {}, &expected_->inverse_square[i]};
-    Distortions to{&line.alpha_shift[run.begin + kPad], {}, &line.cd_sq[run.begin]};
-    for (int c = 0; c < 3; ++c) {
-      from.color[c] = color_[c].data();
-      from.mean[c] = &expected_->mean[c][i];
-      from.inverse_sigma[c] = &expected_->inverse_sigma[c][i];
-      to.cd[c] = &line.cd[c][run.begin + kPad];
-    }
-    MeasurePixels(from, count, to);
+    const int first = std::max(run.begin / kPixels, done);
+    done = (run.end + kPixels - 1) / kPixels;
+    const int whole = std::min(done, expected_->width / kPixels);
+    MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first, line);
+    if (whole == done) continue;
+    // The picture ends within the last group.
+    std::array<Bgr, kPixels> rest{};
+    std::copy(image_.row(y) + whole * kPixels, image_.row(y) + expected_->width, rest.begin());
+    MeasureFrom(y, whole, rest.data(), 1, line);
   }
   RepeatEnds(line);
   // What is summed beyond the ends is judged nowhere.
-  for (const PixelRun& run : closeup_->Measured(y)) {
-    SumAlong(run, line);
-  }
+  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(run, line);
+}
+
+void DistortionScan::MeasureFrom(int y, int group, const Bgr* pixels, int count, Line& line) const {
+  const int first = group * kPixels;
+  MeasureGroups(expected_->Row(y) + group, pixels, count, gain_,
+                {&line.alpha_shift[first + kPad],
+                 {&line.cd[0][first + kPad], &line.cd[1][first + kPad], &line.cd[2][first + kPad]},
+                 &line.cd_sq[first],
+                 &line.alpha_weight[first],
+                 &line.inverse_sigma[first]});
 }
 
 void DistortionScan::RepeatEnds(Line& line) const {
   const int width = expected_->width;
   for (auto* values : {&line.alpha_shift, &line.cd[0], &line.cd[1], &line.cd[2]}) {
     std::fill_n(values->begin(), kPad, (*values)[kPad]);
-    std::fill_n(values->end() - kPad, kPad, (*values)[width + kPad - 1]);
+    std::fill_n(values->begin() + width + kPad, kPad, (*values)[width + kPad - 1]);
   }
 }
 
@@ -251,7 +261,7 @@ void DistortionScan::SumDown(int y, const PixelRun& run) {
     for (int c = 0; c < 3; ++c) d[c][i] = &sums.cd[c][run.begin];
   }
   const float* const alpha_weight =
-      &expected_->alpha_weight[static_cast<std::size_t>(y) * expected_->width + run.begin];
+      &lines_[static_cast<std::size_t>(y % kLines)].alpha_weight[run.begin];
   Results& results = results_[window];
   JoinAlphas<kSide>(a, q, m, alpha_weight, count, &results.alpha_shift[run.begin],
                     &results.roughness_sq[run.begin]);

@@ -34,9 +34,10 @@ class DistortionScan {
   /// Results of one row; each pointer leads to one value a pixel, and is valid until the next row,
   /// for the pixels that are judged.
   struct Row {
-    const float* alpha_shift = nullptr;   ///< α − 1; also for the pixels that are measured.
-    const float* cd_sq = nullptr;         ///< CD².
-    const float* alpha_weight = nullptr;  ///< 1/a: (α − 1)/a is normalised.
+    const float* alpha_shift = nullptr;    ///< α − 1; also for the pixels that are measured.
+    const float* cd_sq = nullptr;          ///< CD².
+    const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
+    const float* inverse_sigma = nullptr;  ///< 1/σ of green.
     std::array<Windows, kWindows> windows;
   };
 
@@ -52,7 +53,7 @@ class DistortionScan {
  private:
   static constexpr int kPad = kRadii_px.back();
   static constexpr int kLines = 2 * kPad + 1;
-  static_assert(kPad < HalfPicture::kTile_px);
+  static_assert(kPad <= Closeup::kMargin_px);
 
   // Sums along a row within the width of a window.
   struct Sums {
@@ -61,14 +62,15 @@ class DistortionScan {
   };
   // Pixels and their sums; pixels are padded by kPad on both sides.
   struct Line {
-    std::vector<float> alpha_shift, cd_sq;
+    std::vector<float> alpha_shift, cd_sq, alpha_weight, inverse_sigma;
     std::array<std::vector<float>, 3> cd;
     std::array<Sums, kWindows> sums;
   };
   struct Results {
     std::vector<float> alpha_shift, cd_sq, roughness_sq;
   };
-  void Measure(int y, Line& line);
+  void Measure(int y, Line& line) const;
+  void MeasureFrom(int y, int group, const Bgr* pixels, int count, Line& line) const;
   void RepeatEnds(Line& line) const;
   static void SumAlong(const PixelRun& run, Line& line);
   template <std::size_t window>
@@ -81,7 +83,6 @@ class DistortionScan {
   int next_ = 0;
   int measured_ = 0;
   std::array<Line, kLines> lines_;
-  std::array<std::vector<float>, 3> color_;
   std::array<Results, kWindows> results_;
   Row row_;
 };

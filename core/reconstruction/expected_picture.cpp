@@ -8,35 +8,44 @@
 namespace mocap {
 namespace {
 
+constexpr float kNoLimit = 1e6f;
+
 struct Source {
   std::array<const float*, 3> mean, variance;
   const float* alpha_limit;
   const std::uint8_t* slope;
 };
-struct Weights {
-  std::array<float*, 3> inverse_sigma;
-  float *inverse_square, *alpha_weight;
-};
+constexpr int kPixels = WeighedPixels::kPixels;
+
+inline std::uint16_t Rounded(float value) {
+  return static_cast<std::uint16_t>(static_cast<int>(std::min(value, 65535.0f) + 0.5f));
+}
 
 MOCAP_VECTORIZED
-void WeighPixels(const Source& from, int count, float shift_sq, const Weights& to) {
+void WeighGroups(const Source& from, int groups, float shift_sq, WeighedPixels* to) {
   const auto [e0, e1, e2] = from.mean;
   const auto [v0, v1, v2] = from.variance;
-  const auto [w0, w1, w2] = to.inverse_sigma;
   const float* const alpha_limit = from.alpha_limit;
   const std::uint8_t* const slopes = from.slope;
-  float *const inverse_square = to.inverse_square, *const alpha_weight = to.alpha_weight;
+  for (int g = 0; g < groups; ++g) {
+    WeighedPixels& group = to[g];
+    const int first = g * kPixels;
 #pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float slope = slopes[x];
-    const float more = shift_sq * slope * slope;
-    const float i0 = 1 / (v0[x] + more), i1 = 1 / (v1[x] + more), i2 = 1 / (v2[x] + more);
-    const float square = e0[x] * e0[x] * i0 + e1[x] * e1[x] * i1 + e2[x] * e2[x] * i2;
-    w0[x] = std::sqrt(i0);
-    w1[x] = std::sqrt(i1);
-    w2[x] = std::sqrt(i2);
-    inverse_square[x] = 1 / square;
-    alpha_weight[x] = std::min(std::sqrt(square), alpha_limit[x]);
+    for (int k = 0; k < kPixels; ++k) {
+      const int x = first + k;
+      const float slope = slopes[x];
+      const float more = shift_sq * slope * slope;
+      const float i0 = 1 / (v0[x] + more), i1 = 1 / (v1[x] + more), i2 = 1 / (v2[x] + more);
+      const float square = e0[x] * e0[x] * i0 + e1[x] * e1[x] * i1 + e2[x] * e2[x] * i2;
+      const float alpha_weight = std::min(std::sqrt(square), alpha_limit[x]);
+      group.mean[0][k] = Rounded(e0[x] / WeighedPixels::kMeanUnit);
+      group.mean[1][k] = Rounded(e1[x] / WeighedPixels::kMeanUnit);
+      group.mean[2][k] = Rounded(e2[x] / WeighedPixels::kMeanUnit);
+      group.inverse_sigma[0][k] = Rounded(std::sqrt(i0) / WeighedPixels::kInverseSigmaUnit);
+      group.inverse_sigma[1][k] = Rounded(std::sqrt(i1) / WeighedPixels::kInverseSigmaUnit);
+      group.inverse_sigma[2][k] = Rounded(std::sqrt(i2) / WeighedPixels::kInverseSigmaUnit);
+      group.alpha_weight[k] = Rounded(alpha_weight / WeighedPixels::kAlphaWeightUnit);
+    }
   }
 }
 
@@ -52,11 +61,15 @@ void MixPixels(const float* top, const float* bottom, int count, float a, float 
 }  // namespace
 
 ExpectedPicture::ExpectedPicture(int picture_width, int picture_height)
-    : width(picture_width), height(picture_height) {
-  const std::size_t size = static_cast<std::size_t>(width) * height;
-  for (auto* planes : {&mean, &variance, &inverse_sigma})
-    for (auto& plane : *planes) plane.resize(size);
-  for (auto* plane : {&alpha_limit, &inverse_square, &alpha_weight}) plane->resize(size);
+    : width(picture_width),
+      height(picture_height),
+      groups_per_row_((picture_width + kPixels - 1) / kPixels),
+      weighed_(static_cast<std::size_t>(groups_per_row_) * picture_height) {
+  // Whole groups are weighed.
+  const std::size_t size = static_cast<std::size_t>(width) * height + kPixels;
+  for (auto& plane : mean) plane.resize(size, 255);
+  for (auto& plane : variance) plane.resize(size, kUnknownVariance);
+  alpha_limit.resize(size, kNoLimit);
   slope.resize(size);
 }
 
@@ -69,15 +82,17 @@ void ExpectedPicture::SetPixel(std::size_t i, const std::array<float, 3>& color,
   alpha_limit[i] = 1 / std::max(alpha_variation, 1e-6f);
 }
 
-void ExpectedPicture::Weigh(float shift_px, std::size_t begin, int count) {
-  Source from{{}, {}, &alpha_limit[begin], &slope[begin]};
-  Weights to{{}, &inverse_square[begin], &alpha_weight[begin]};
+void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
+  const int group = begin / kPixels;
+  const int groups = (end + kPixels - 1) / kPixels - group;
+  const std::size_t first = static_cast<std::size_t>(y) * width + group * kPixels;
+  Source from{{}, {}, &alpha_limit[first], &slope[first]};
   for (int c = 0; c < 3; ++c) {
-    from.mean[c] = &mean[c][begin];
-    from.variance[c] = &variance[c][begin];
-    to.inverse_sigma[c] = &inverse_sigma[c][begin];
+    from.mean[c] = &mean[c][first];
+    from.variance[c] = &variance[c][first];
   }
-  WeighPixels(from, count, shift_px * shift_px, to);
+  WeighGroups(from, groups, shift_px * shift_px,
+              &weighed_[static_cast<std::size_t>(y) * groups_per_row_ + group]);
 }
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,
@@ -93,7 +108,7 @@ void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& 
   const std::size_t line = static_cast<std::size_t>(y) * width;
   const auto forget = [&](int x) {
     for (int c = 0; c < 3; ++c) mean[c][line + x] = 255, variance[c][line + x] = kUnknownVariance;
-    alpha_limit[line + x] = 1e6f;
+    alpha_limit[line + x] = kNoLimit;
     slope[line + x] = 0;
   };
   for (int x = begin; x < first; ++x) forget(x);

@@ -43,7 +43,7 @@ class FixedBackground final : public BackgroundModel {
     if (displaced_half_.variance.empty())
       displaced_half_ = ExpectedHalf(expected_.width, expected_.height);
     displaced_half_.Displace(half_, displacement);
-    displaced_half_.AverageTiles();
+    displaced_half_.Finish();
     return displaced_half_;
   }
 
@@ -58,9 +58,7 @@ class FixedBackground final : public BackgroundModel {
       for (const PixelRun& run : closeup.Measured(y)) {
         if (is_displaced)
           picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
-        picture.Weigh(conditions.shift_px,
-                      static_cast<std::size_t>(y) * expected_.width + run.begin,
-                      run.end - run.begin);
+        picture.Weigh(conditions.shift_px, y, run.begin, run.end);
       }
     }
     is_weighed_plainly_ = is_weighed_plainly_ && is_displaced;
@@ -76,7 +74,7 @@ class FixedBackground final : public BackgroundModel {
   void Expect() {
     const int pixels = expected_.width * expected_.height;
     sums_.Expect(0, pixels, count(), half_.usual_shift_px, 0, expected_);
-    expected_.Weigh(0, 0, pixels);
+    for (int y = 0; y < expected_.height; ++y) expected_.Weigh(0, y, 0, expected_.width);
   }
 
   void SumColors() {
@@ -92,7 +90,7 @@ class FixedBackground final : public BackgroundModel {
   void LearnHalf() {
     const int width = expected_.width;
     Image<Bgr> rounded(width, expected_.height);
-    std::vector<float> brightness(expected_.slope.size());
+    std::vector<float> brightness(rounded.pixels().size());
     for (std::size_t i = 0; i < brightness.size(); ++i) {
       std::array<std::uint8_t, 3> color;
       for (int c = 0; c < 3; ++c) {
@@ -101,7 +99,7 @@ class FixedBackground final : public BackgroundModel {
       }
       rounded.pixels()[i] = {color[0], color[1], color[2]};
     }
-    expected_.slope = SlopeOf(brightness, width, expected_.height);
+    std::ranges::copy(SlopeOf(brightness, width, expected_.height), expected_.slope.begin());
     half_.LearnFrom(rounded.view());
     for (int y = 0; y < expected_.height / 2; ++y) {
       for (int x = 0; x < width / 2; ++x) {
@@ -112,7 +110,7 @@ class FixedBackground final : public BackgroundModel {
         half_.variance[static_cast<std::size_t>(y) * half_.mean.width + x] = sum / 12;
       }
     }
-    half_.AverageTiles();
+    half_.Finish();
   }
 
   void LearnConditions() {
@@ -147,7 +145,7 @@ class FixedBackground final : public BackgroundModel {
         others.AddDistortions(RowOf(f, y), width, conditions_[f].gain, -1, expected_, BeginOf(y),
                               0);
         others.Expect(0, width, count() - 1, half_.usual_shift_px, BeginOf(y), by_others);
-        by_others.Weigh(0, BeginOf(y), width);
+        by_others.Weigh(0, y, 0, width);
       }
       histograms.Add(by_others, frames_[f].image.view(), conditions_[f].gain);
     }

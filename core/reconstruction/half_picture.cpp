@@ -34,10 +34,11 @@ void JoinColumns(const std::uint16_t* sums, int count, std::uint8_t* means) {
 constexpr float kArea = HalfPicture::kTile * HalfPicture::kTile;
 
 MOCAP_VECTORIZED
-void AverageRow(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means) {
+void AverageRow(const std::uint8_t* pixels, int stride, int width, std::uint16_t* columns,
+                float* means) {
   for (int x = 0; x < width; ++x)
-    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
-                                            pixels[3 * width + x]);
+    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[stride + x] +
+                                            pixels[2 * stride + x] + pixels[3 * stride + x]);
   for (int i = 0; i < width / HalfPicture::kTile; ++i)
     means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
                                   columns[4 * i + 3]) /
@@ -81,14 +82,14 @@ HalfPicture::HalfPicture(int full_width, int full_height)
   for (auto& plane : color) plane.resize(size());
 }
 
-void AverageTiles(const HalfPicture& half, int channel, std::vector<float>& tiles,
-                  std::vector<std::uint16_t>& scratch) {
+void AverageTiles(const HalfPicture& half, int channel, const TileRun& run,
+                  std::vector<float>& tiles, std::vector<std::uint16_t>& scratch) {
   scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(half.width)));
-  for (int row = 0; row < half.tile_rows(); ++row) {
-    const std::size_t begin = static_cast<std::size_t>(row) * HalfPicture::kTile * half.width;
-    AverageRow(&half.color[channel][begin], half.width, scratch.data(),
-               &tiles[static_cast<std::size_t>(row) * half.tile_columns()]);
-  }
+  const std::size_t first = static_cast<std::size_t>(run.row) * HalfPicture::kTile * half.width +
+                            run.begin * HalfPicture::kTile;
+  AverageRow(&half.color[channel][first], half.width, (run.end - run.begin) * HalfPicture::kTile,
+             scratch.data(),
+             &tiles[static_cast<std::size_t>(run.row) * half.tile_columns() + run.begin]);
 }
 
 ExpectedHalf::ExpectedHalf(int full_width, int full_height)
@@ -101,14 +102,18 @@ ExpectedHalf::ExpectedHalf(int full_width, int full_height)
   for (auto& tiles : tile_mean) tiles.resize(mean.tiles());
 }
 
-void ExpectedHalf::AverageTiles() {
-  for (int c = 0; c < 3; ++c) mocap::AverageTiles(mean, c, tile_mean[c], sums_);
+void ExpectedHalf::Finish() {
   for (int row = 0; row < mean.tile_rows(); ++row) {
+    for (int c = 0; c < 3; ++c) AverageTiles(mean, c, mean.RowOfTiles(row), tile_mean[c], sums_);
     const std::size_t begin = static_cast<std::size_t>(row) * HalfPicture::kTile * mean.width;
     const std::size_t tile = static_cast<std::size_t>(row) * mean.tile_columns();
     AverageVariances(&variance[begin], &slope[begin], mean.width, columns_.data(),
                      &tile_variance[tile], &tile_slope_sq[tile]);
   }
+  steep.clear();
+  for (std::size_t i = 0; i < mean.size(); i += kSteepStep)
+    if (slope[i] >= kSteep && variance[i] < kUnknownVariance)
+      steep.push_back(static_cast<std::int32_t>(i));
 }
 
 void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
@@ -156,19 +161,26 @@ void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displa
 }
 
 void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint16_t>& scratch) {
-  const int columns = image.width() / 2;
-  const int rows = image.height() / 2;
+  for (int row = 0; row < half.tile_rows(); ++row)
+    Halve(image, half.RowOfTiles(row), half, scratch);
+}
+
+void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
+           std::vector<std::uint16_t>& scratch) {
   MOCAP_CHECK(RoundUp(image.width(), HalfPicture::kTile_px) == 2 * half.width &&
               RoundUp(image.height(), HalfPicture::kTile_px) == 2 * half.height);
+  const int first = run.begin * HalfPicture::kTile;
+  const int columns = std::min(run.end * HalfPicture::kTile, image.width() / 2) - first;
+  const int last_row = std::min((run.row + 1) * HalfPicture::kTile, image.height() / 2);
   const auto width = static_cast<std::size_t>(2) * columns;
   scratch.resize(std::max(scratch.size(), 3 * width));
   std::uint16_t* const sums = scratch.data();
-  for (int y = 0; y < rows; ++y) {
-    SeparateRows(image.row(2 * y), image.row(2 * y + 1), 2 * columns, sums, sums + width,
-                 sums + 2 * width);
+  for (int y = run.row * HalfPicture::kTile; y < last_row; ++y) {
+    SeparateRows(image.row(2 * y) + 2 * first, image.row(2 * y + 1) + 2 * first, 2 * columns, sums,
+                 sums + width, sums + 2 * width);
     for (int c = 0; c < 3; ++c)
       JoinColumns(sums + c * width, columns,
-                  half.color[c].data() + static_cast<std::size_t>(y) * half.width);
+                  half.color[c].data() + static_cast<std::size_t>(y) * half.width + first);
   }
 }
 

@@ -40,7 +40,76 @@ unsigned ValidAround(int x, int width) {
   return valid & ((1u << kSide) - 1);
 }
 
+constexpr unsigned kAll = (1u << kSide) - 1;
+
+// The channels of so many pixels in a row, and as many bytes as are added at once.
+constexpr int kBytes = 3 * kSide;
+constexpr int kLanes = 24;
+static_assert(kLanes >= kBytes && kLanes % 4 == 0);
+
+// For each set of a row's pixels, the bytes or values that count.
+template <typename T, int lanes, int per_pixel>
+constexpr auto MasksOf() {
+  std::array<std::array<T, lanes>, kAll + 1> masks{};
+  for (unsigned bits = 0; bits <= kAll; ++bits)
+    for (int i = 0; i < per_pixel * kSide; ++i)
+      if (bits >> (i / per_pixel) & 1) masks[bits][i] = static_cast<T>(~T{0});
+  return masks;
+}
+constexpr auto kCounts = [] {
+  std::array<std::uint8_t, kAll + 1> counts{};
+  for (unsigned bits = 1; bits <= kAll; ++bits)
+    counts[bits] = static_cast<std::uint8_t>(counts[bits >> 1] + (bits & 1));
+  return counts;
+}();
+constexpr auto kByteMasks = MasksOf<std::uint8_t, kLanes, 3>();
+constexpr auto kValueMasks = MasksOf<std::uint32_t, kSide + 1, 1>();
+
 }  // namespace
+
+// The person's colours and the background's brightness around a pixel.
+struct OutlineRefiner::Around {
+  // Channels in turn.
+  std::array<std::uint16_t, kLanes> person{};
+  std::array<float, kSide + 1> alphas{};
+  int person_count = 0, background_count = 0;
+
+  // Adds a row of kSide pixels; of those behind them nothing is counted.
+  void Add(const Bgr* pixels, unsigned inside, const float* alpha_shift, unsigned outside) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixels);
+    for (int i = 0; i < kLanes; ++i)
+      person[i] = static_cast<std::uint16_t>(person[i] + (bytes[i] & kByteMasks[inside][i]));
+    for (int i = 0; i <= kSide; ++i)
+      alphas[i] += std::bit_cast<float>(std::bit_cast<std::uint32_t>(alpha_shift[i]) &
+                                        kValueMasks[outside][i]);
+    person_count += kCounts[inside];
+    background_count += kCounts[outside];
+  }
+
+  void AddSome(const Picture& picture, int x, int y, unsigned inside, unsigned outside) {
+    for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
+      const Bgr& p = picture.image(x - kRadius_px + std::countr_zero(bits), y);
+      person[0] = static_cast<std::uint16_t>(person[0] + p.b);
+      person[1] = static_cast<std::uint16_t>(person[1] + p.g);
+      person[2] = static_cast<std::uint16_t>(person[2] + p.r);
+    }
+    for (unsigned bits = outside; bits != 0; bits &= bits - 1, ++background_count)
+      alphas[0] += picture.alpha_shift(x - kRadius_px + std::countr_zero(bits), y);
+  }
+
+  std::array<int, 3> PersonSums() const {
+    std::array<std::uint16_t, kLanes / 2> half;
+    for (int i = 0; i < kLanes / 2; ++i)
+      half[i] = static_cast<std::uint16_t>(person[i] + person[i + kLanes / 2]);
+    std::array<int, 3> sums;
+    for (int c = 0; c < 3; ++c) sums[c] = half[c] + half[c + 3] + half[c + 6] + half[c + 9];
+    return sums;
+  }
+  float AlphaSum() const {
+    return ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
+           ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
+  }
+};
 
 void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr> image,
                             const std::array<float, 3>& gain, const Image<float>& alpha_shift,
@@ -64,31 +133,30 @@ void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr
 bool OutlineRefiner::IsCovered(const Picture& picture, int x, int y, bool otherwise) const {
   const int height = inside_.height();
   const unsigned valid = ValidAround(x, inside_.width());
-  std::array<int, 3> person{};
-  float background_alpha = 0;
-  int person_count = 0, background_count = 0;
+  // Near the edge there are not as many pixels as are added at once.
+  const bool is_near_edge = x < kRadius_px || x + kRadius_px + 1 >= inside_.width();
+  Around around;
   // Every other row tells enough.
   for (int v = y - kRadius_px; v <= y + kRadius_px; v += 2) {
     if (v < 0 || v >= height) continue;
     const unsigned inside = BitsAround(inside_, x, v);
     const unsigned outside = ~BitsAround(near_, x, v) & valid;
-    for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
-      const Bgr& p = picture.image(x - kRadius_px + std::countr_zero(bits), v);
-      person[0] += p.b, person[1] += p.g, person[2] += p.r;
-    }
-    for (unsigned bits = outside; bits != 0; bits &= bits - 1, ++background_count)
-      background_alpha += picture.alpha_shift(x - kRadius_px + std::countr_zero(bits), v);
+    if (is_near_edge)
+      around.AddSome(picture, x, v, inside, outside);
+    else
+      around.Add(&picture.image(x - kRadius_px, v), inside, &picture.alpha_shift(x - kRadius_px, v),
+                 outside);
   }
-  if (person_count == 0 || background_count == 0) return otherwise;
-  const std::size_t i = static_cast<std::size_t>(y) * inside_.width() + x;
+  if (around.person_count == 0 || around.background_count == 0) return otherwise;
+  const std::array<int, 3> person = around.PersonSums();
+  const float alpha = 1 + around.AlphaSum() / static_cast<float>(around.background_count);
   const Bgr& p = picture.image(x, y);
   const std::array<int, 3> color = {p.b, p.g, p.r};
   float along = 0, contrast_sq = 0;
   for (int c = 0; c < 3; ++c) {
-    const float background =
-        picture.expected.mean[c][i] * (1 + background_alpha / static_cast<float>(background_count));
+    const float background = picture.expected.MeanAt(x, y, c) * alpha;
     const float contrast =
-        static_cast<float>(person[c]) * picture.gain[c] / static_cast<float>(person_count) -
+        static_cast<float>(person[c]) * picture.gain[c] / static_cast<float>(around.person_count) -
         background;
     along += contrast * (static_cast<float>(color[c]) * picture.gain[c] - background);
     contrast_sq += contrast * contrast;

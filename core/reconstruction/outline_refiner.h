@@ -31,6 +31,7 @@ class OutlineRefiner {
     const std::array<float, 3>& gain;
     const Image<float>& alpha_shift;
   };
+  struct Around;
   bool IsCovered(const Picture& picture, int x, int y, bool otherwise) const;
 
   Silhouette inside_, near_;

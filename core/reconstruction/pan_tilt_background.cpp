@@ -24,8 +24,6 @@ static_assert(HalfPicture::kTile_px % kCell_px == 0);
 // or twice as much moves a pixel by a third of a pixel at most, from one learned view to the next.
 constexpr double kRoomDepth_mm = 6000;
 constexpr int kMostViews = 4;
-// Less weight has only what is unknown.
-constexpr float kLeastKnown = 1e-3f;
 constexpr double kSameDirection_rad = 1e-4;
 constexpr float kLeastSigma = 1.5f;
 // Slopes [grey levels per pixel] that show noise alone, and those that show how contours shift.
@@ -57,36 +55,14 @@ MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, f
   }
 }
 
-struct DrawnPixels {
-  const std::uint8_t *is_known, *slope;
-  std::array<float*, 3> mean, inverse_sigma;
-  float *inverse_square, *alpha_weight;
-};
-
-// Weighs what was drawn: all channels vary alike.
+// Gives what was drawn its variance, which is the same in all channels, and the rest none.
 MOCAP_VECTORIZED
-void WeighDrawn(const DrawnPixels& pixels, int count, float noise_sq, float shift_sq) {
-  const std::uint8_t *const is_known = pixels.is_known, *const slopes = pixels.slope;
-  const auto [e0, e1, e2] = pixels.mean;
-  const auto [w0, w1, w2] = pixels.inverse_sigma;
-  float *const inverse_square = pixels.inverse_square, *const alpha_weight = pixels.alpha_weight;
-  constexpr float kDarkest = ExpectedPicture::kDarkestMean;
+void FinishDrawn(const std::uint8_t* is_known, int count, float variance, float* mean,
+                 float* variances) {
 #pragma GCC ivdep
   for (int x = 0; x < count; ++x) {
-    const float slope = slopes[x];
-    const float variance = is_known[x] ? noise_sq + shift_sq * slope * slope : kUnknownVariance;
-    const float b = std::max(e0[x], kDarkest), g = std::max(e1[x], kDarkest);
-    const float r = std::max(e2[x], kDarkest);
-    e0[x] = is_known[x] ? b : 255;
-    e1[x] = is_known[x] ? g : 255;
-    e2[x] = is_known[x] ? r : 255;
-    const float square = e0[x] * e0[x] + e1[x] * e1[x] + e2[x] * e2[x];
-    const float weight = 1 / std::sqrt(variance);
-    w0[x] = weight;
-    w1[x] = weight;
-    w2[x] = weight;
-    inverse_square[x] = variance / square;
-    alpha_weight[x] = std::sqrt(square) * weight;
+    mean[x] = is_known[x] ? std::max(mean[x], ExpectedPicture::kDarkestMean) : 255;
+    variances[x] = is_known[x] ? variance : kUnknownVariance;
   }
 }
 
@@ -188,7 +164,7 @@ class PanTiltBackground final : public BackgroundModel {
       const float gain = scan.conditions().gain[1];
       const std::vector<Bgr>& pixels = images_[v].pixels();
       for (std::size_t i = v % 7; i < pixels.size(); i += 7) {
-        if (expected_.inverse_sigma[1][i] < kLeastKnown) continue;
+        if (expected_.variance[1][i] >= kUnknownVariance) continue;
         const float difference = std::abs(pixels[i].g * gain - expected_.mean[1][i]);
         const auto slope = static_cast<int>(views_[v].pixels[i] >> 24);
         if (slope < kFlat) flat.push_back(difference);
@@ -231,7 +207,7 @@ class PanTiltBackground final : public BackgroundModel {
       sources_[k].is_projected = false;
     }
     for (int y = 0; y < camera_.height_px / 2; ++y) DrawHalfRow(y);
-    half_.AverageTiles();
+    half_.Finish();
   }
 
   // Where in a source's view the corners of the cells of a picture from X_CW_ lie. Views are as
@@ -351,18 +327,10 @@ class PanTiltBackground final : public BackgroundModel {
       };
       if (DrawUnknown(has_all && k == 0, places, last_x, last_y, length, draw)) break;
     }
-    DrawnPixels pixels{is_known_.data(),
-                       &expected_.slope[row],
-                       {},
-                       {},
-                       &expected_.inverse_square[row],
-                       &expected_.alpha_weight[row]};
-    for (int c = 0; c < 3; ++c) {
-      pixels.mean[c] = &expected_.mean[c][row];
-      pixels.inverse_sigma[c] = &expected_.inverse_sigma[c][row];
-    }
-    WeighDrawn(pixels, length, variance_,
-               shift_px_ * shift_px_ + conditions.shift_px * conditions.shift_px);
+    for (int c = 0; c < 3; ++c)
+      FinishDrawn(is_known_.data(), length, variance_, &expected_.mean[c][row],
+                  &expected_.variance[c][row]);
+    expected_.Weigh(std::hypot(shift_px_, conditions.shift_px), y, run.begin, run.end);
   }
 
   CameraCalibration camera_;

@@ -110,9 +110,7 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
 
 PixelClass PixelClassifier::ClassOf(int x, int y) const {
   if (foreground_.Test(x, y)) return PixelClass::kForeground;
-  const float normalized =
-      alpha_shift_(x, y) *
-      expected_->alpha_weight[static_cast<std::size_t>(y) * expected_->width + x];
+  const float normalized = alpha_shift_(x, y) * expected_->AlphaWeightAt(x, y);
   if (normalized < thresholds_.alpha_low) return PixelClass::kShadow;
   return normalized > thresholds_.alpha_high ? PixelClass::kHighlight : PixelClass::kBackground;
 }
@@ -120,7 +118,7 @@ PixelClass PixelClassifier::ClassOf(int x, int y) const {
 void PixelClassifier::ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row) {
   const auto count = static_cast<std::size_t>(run.end - run.begin);
   MarkPixels({row.alpha_shift + run.begin, row.alpha_weight + run.begin, row.cd_sq + run.begin,
-              nullptr, WeightsOf(y, run)},
+              nullptr, row.inverse_sigma + run.begin},
              run.end - run.begin, {darkest_shadow_ - 1, kPixelMargin * thresholds_.alpha_low},
              Square(kPixelMargin * thresholds_.cd), drift_, clear_row_.data());
   PackRow({clear_row_.data(), count}, run.begin, clear_pixels_.row(y));
@@ -132,17 +130,11 @@ void PixelClassifier::ClassifyWindows(int y, const PixelRun& run, std::size_t k,
   const DistortionThresholds::Window& t = thresholds_.windows[k];
   const auto count = static_cast<std::size_t>(run.end - run.begin);
   MarkWindows({w.alpha_shift + run.begin, row.alpha_weight + run.begin, w.cd_sq + run.begin,
-               w.roughness_sq + run.begin, WeightsOf(y, run)},
+               w.roughness_sq + run.begin, row.inverse_sigma + run.begin},
               run.end - run.begin, {darkest_shadow_ - 1, -kWindowMargins[k] * t.alpha}, t,
               kWindowMargins[k], drift_, doubtful_row_.data(), clear_row_.data());
   PackRow({doubtful_row_.data(), count}, run.begin, doubtful_windows_[k].row(y));
   PackRow({clear_row_.data(), count}, run.begin, clear_windows_[k].row(y));
-}
-
-// Green stands for all channels.
-const float* PixelClassifier::WeightsOf(int y, const PixelRun& run) const {
-  return expected_->inverse_sigma[1].data() + static_cast<std::size_t>(y) * expected_->width +
-         run.begin;
 }
 
 }  // namespace mocap

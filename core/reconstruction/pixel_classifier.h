@@ -54,8 +54,6 @@ class PixelClassifier {
   void ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row);
   void ClassifyWindows(int y, const PixelRun& run, std::size_t k, const DistortionScan::Row& row);
 
-  const float* WeightsOf(int y, const PixelRun& run) const;
-
   DistortionThresholds thresholds_;
   float darkest_shadow_;
   const ExpectedPicture* expected_ = nullptr;

@@ -54,7 +54,8 @@ class Segmenter::Impl {
  public:
   Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
        const SegmentationOptions& options)
-      : background_(Learn(camera, background, options.detection_rate)),
+      : has_head_(camera.head.has_value()),
+        background_(Learn(camera, background, options.detection_rate)),
         coarse_(static_cast<float>(options.darkest_shadow)),
         classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
         smallest_blob_px_(
@@ -81,7 +82,11 @@ class Segmenter::Impl {
   // Compares the picture as a whole, and follows a camera that was nudged.
   Conditions Glance(ImageView<const Bgr> image, const PanTiltAngles& angles) {
     const ExpectedHalf& expected = background_->Glance(angles, {});
-    coarse_.Compare(expected, image);
+    // Where a head turns, the person's place in the last picture says little.
+    if (has_head_)
+      coarse_.Compare(expected, image);
+    else
+      coarse_.Watch(expected, image);
     const Conditions conditions = coarse_.conditions();
     if (conditions.shift_px == 0) return conditions;
     const auto displacement = MeasureDisplacement(coarse_.live(), conditions.gain[1], expected);
@@ -98,6 +103,7 @@ class Segmenter::Impl {
     return conditions;
   }
 
+  bool has_head_;
   std::unique_ptr<BackgroundModel> background_;
   CoarseScan coarse_;
   Conditions conditions_;

@@ -23,4 +23,11 @@ std::optional<PixelBox> Silhouette::BoundingBox() const {
   return box;
 }
 
+double Silhouette::CoveredShare() const {
+  if (width_ == 0 || height_ == 0) return 0;
+  std::int64_t count = 0;
+  for (const std::uint64_t word : words_) count += std::popcount(word);
+  return static_cast<double>(count) / (static_cast<double>(width_) * height_);
+}
+
 }  // namespace mocap

@@ -52,6 +52,8 @@ class Silhouette {
   }
   /// The smallest box that holds every pixel that is set; empty when none is.
   std::optional<PixelBox> BoundingBox() const;
+  /// Share of the pixels that are set.
+  double CoveredShare() const;
   const std::vector<std::uint64_t>& words() const { return words_; }
 
  private:

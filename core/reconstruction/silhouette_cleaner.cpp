@@ -114,33 +114,37 @@ void SilhouetteCleaner::Connect(Kind kind, const Silhouette* doubtful,
                                 const Silhouette& silhouette) {
   CollectRuns(kind, doubtful, silhouette);
   const int reach = kind == Kind::kBlobs ? 1 : 0;
-  for (int y = 1; y < silhouette.height(); ++y) {
-    int above = row_begins_[y - 1];
-    for (int here = row_begins_[y]; here < row_begins_[y + 1]; ++here) {
-      while (above < row_begins_[y] && runs_[above].end + reach <= runs_[here].begin) ++above;
-      for (int i = above; i < row_begins_[y] && runs_[i].begin < runs_[here].end + reach; ++i)
+  for (std::size_t row = 1; row + 1 < row_begins_.size(); ++row) {
+    int above = row_begins_[row - 1];
+    for (int here = row_begins_[row]; here < row_begins_[row + 1]; ++here) {
+      while (above < row_begins_[row] && runs_[above].end + reach <= runs_[here].begin) ++above;
+      for (int i = above; i < row_begins_[row] && runs_[i].begin < runs_[here].end + reach; ++i)
         Join(i, here);
     }
   }
 }
 
+// What lies beside the silhouette's box hangs together, and with what touches the box from inside:
+// the box's edge is as good as the picture's.
 void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette* doubtful,
                                     const Silhouette& silhouette) {
-  const int width = silhouette.width();
-  const Word flip = kind == Kind::kBlobs ? 0 : ~Word{0};
   runs_.clear();
   row_begins_.clear();
-  for (int y = 0; y < silhouette.height(); ++y) {
+  const std::optional<PixelBox> box = silhouette.BoundingBox();
+  if (!box) return;
+  const int first = box->left, last = box->right + 1;
+  const Word flip = kind == Kind::kBlobs ? 0 : ~Word{0};
+  for (int y = box->top; y <= box->bottom; ++y) {
     row_begins_.push_back(static_cast<int>(runs_.size()));
     const Word* row = silhouette.row(y);
-    for (int end = 0;;) {
-      const int begin = FindSet(row, end, width, flip);
-      if (begin == width) break;
-      end = FindSet(row, begin, width, ~flip);
+    for (int end = first;;) {
+      const int begin = FindSet(row, end, last, flip);
+      if (begin == last) break;
+      end = FindSet(row, begin, last, ~flip);
       Run run{.y = y, .begin = begin, .end = end, .parent = static_cast<int>(runs_.size())};
       run.area = end - begin;
       if (doubtful != nullptr) run.doubtful = CountSet(doubtful->row(y), begin, end);
-      run.at_edge = y == 0 || y == silhouette.height() - 1 || begin == 0 || end == width;
+      run.at_edge = y == box->top || y == box->bottom || begin == first || end == last;
       runs_.push_back(run);
     }
   }

@@ -1,6 +1,7 @@
 #include "core/tracking/bounding_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace mocap {
@@ -33,13 +34,16 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
                                  const Range& in_box) {
   const double step_mm = kStep * cloud.voxel_mm();
   const Vector3 eye_W = ray.eye_W - kInward * cloud.voxel_mm() * ray.outward_W;
-  std::optional<Range> stretch;
-  for (double t = in_box.from_mm; t < in_box.to_mm; t += step_mm) {
-    if (cloud.IndexAt(Vector3(eye_W + t * ray.direction_W)) < 0) continue;
-    if (!stretch) stretch = Range{t, t};
-    stretch->to_mm = t;
-  }
-  return stretch;
+  const auto is_held = [&](int step) {
+    return cloud.Holds(eye_W + (in_box.from_mm + step * step_mm) * ray.direction_W);
+  };
+  const int steps = static_cast<int>(std::ceil((in_box.to_mm - in_box.from_mm) / step_mm));
+  int first = 0;
+  while (first < steps && !is_held(first)) ++first;
+  if (first == steps) return std::nullopt;
+  int last = steps - 1;
+  while (last > first && !is_held(last)) --last;
+  return Range{in_box.from_mm + first * step_mm, in_box.from_mm + last * step_mm};
 }
 
 BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {

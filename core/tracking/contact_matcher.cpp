@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "core/vectorized.h"
 
 namespace mocap {
 namespace {
+
+using Block = ContactMatcher::Block;
+using SlimCapsule = ContactMatcher::SlimCapsule;
 
 // A place on the inside of the left leg is no evidence for the right one: surfaces that face
 // square to each other count as this far apart.
@@ -14,48 +18,41 @@ constexpr float kSquare_mm = 40;
 // Lengths are no less, so that nothing is divided by zero.
 constexpr float kLeastSq_mm2 = 1e-3f;
 constexpr float kParallel = 1e-4f;
+// More than rounding makes of a distance between boxes.
+constexpr float kRounding_mm = 0.1f;
+// Contacts are sorted by cells of this size; edges longer than that by themselves, for their boxes
+// are large.
+constexpr double kCell_mm = 128;
+constexpr double kLong_mm = 400;
+constexpr int kIndexBits = 16;
 
-struct Contacts {
-  const float *from_x, *from_y, *from_z;
-  const float *along_x, *along_y, *along_z, *along_sq;
-  const float *outward_x, *outward_y, *outward_z;
-};
-
-struct SlimCapsule {
-  explicit SlimCapsule(const PosedCapsule& capsule)
-      : a(capsule.a_W.cast<float>()),
-        core((capsule.b_W - capsule.a_W).cast<float>()),
-        core_sq(std::max(core.squaredNorm(), kLeastSq_mm2)),
-        radius(static_cast<float>(capsule.radius_a_mm)),
-        taper(static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm)) {}
-
-  Eigen::Vector3f a, core;
-  float core_sq, radius, taper;
+struct Best {
+  alignas(32) std::array<float, Block::kContacts> mismatch;
+  alignas(32) std::array<std::int32_t, Block::kContacts> capsule;
 };
 
 inline float Clamped(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
 // Closest places of two segments (Ericson 2005, §5.1.9), without branches.
-MOCAP_VECTORIZED
-void TryCapsule(const Contacts& contacts, int count, const SlimCapsule& capsule, int index,
-                float* mismatch, std::int32_t* best) {
+inline __attribute__((always_inline)) void TryCapsule(const Block& block,
+                                                      const SlimCapsule& capsule, int index,
+                                                      Best& best) {
   const float ax = capsule.a.x(), ay = capsule.a.y(), az = capsule.a.z();
   const float cx = capsule.core.x(), cy = capsule.core.y(), cz = capsule.core.z();
   const float core_sq = capsule.core_sq, radius = capsule.radius, taper = capsule.taper;
   const float per_core_sq = 1 / core_sq;
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float lx = contacts.along_x[i], ly = contacts.along_y[i], lz = contacts.along_z[i];
-    const float bx = ax - contacts.from_x[i], by = ay - contacts.from_y[i],
-                bz = az - contacts.from_z[i];
-    const float along_sq = contacts.along_sq[i];
+  for (int i = 0; i < Block::kContacts; ++i) {
+    const float lx = block.along[0][i], ly = block.along[1][i], lz = block.along[2][i];
+    const float bx = ax - block.from[0][i], by = ay - block.from[1][i], bz = az - block.from[2][i];
+    const float along_sq = block.along_sq[i];
     const float dot = cx * lx + cy * ly + cz * lz;
     const float c = cx * bx + cy * by + cz * bz;
     const float f = lx * bx + ly * by + lz * bz;
     const float slant = core_sq * along_sq - dot * dot;
     const float least = kParallel * core_sq * along_sq;
     const float first = Clamped((dot * f - c * along_sq) / (slant > least ? slant : least));
-    const float on_segment = Clamped((dot * first + f) / along_sq);
+    const float on_segment = Clamped((dot * first + f) * block.per_along_sq[i]);
     const float share = Clamped((dot * on_segment - c) * per_core_sq);
     const float x = on_segment * lx - bx - share * cx;
     const float y = on_segment * ly - by - share * cy;
@@ -63,56 +60,114 @@ void TryCapsule(const Contacts& contacts, int count, const SlimCapsule& capsule,
     const float length = std::sqrt(x * x + y * y + z * z);
     const float apart = std::abs(length - radius - share * taper);
     const float facing =
-        (contacts.outward_x[i] * x + contacts.outward_y[i] * y + contacts.outward_z[i] * z) /
+        (block.outward[0][i] * x + block.outward[1][i] * y + block.outward[2][i] * z) /
         (length + 1);
     const float value = apart + kSquare_mm * (1 - facing);
-    const bool is_better = value < mismatch[i];
-    best[i] = is_better ? index : best[i];
-    mismatch[i] = is_better ? value : mismatch[i];
+    const float least_yet = best.mismatch[i];
+    const std::int32_t best_yet = best.capsule[i];
+    best.capsule[i] = value < least_yet ? index : best_yet;
+    best.mismatch[i] = value < least_yet ? value : least_yet;
   }
 }
 
-void Resize(std::array<std::vector<float>, 3>& columns, std::size_t count) {
-  for (auto& column : columns) column.resize(count);
+float GapBetween(const Block& block, const SlimCapsule& capsule) {
+  return (capsule.low - block.high).cwiseMax(block.low - capsule.high).maxCoeff();
+}
+
+// A capsule's mismatch is no less than the gap to it.
+MOCAP_VECTORIZED
+void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, float reach,
+                Best& best) {
+  best.mismatch.fill(reach);
+  best.capsule.fill(-1);
+  float worst = reach;
+  for (int k = 0; k < count; ++k) {
+    if (GapBetween(block, capsules[k]) > worst + kRounding_mm) continue;
+    TryCapsule(block, capsules[k], k, best);
+    worst = 0;
+    for (const float mismatch : best.mismatch) worst = worst < mismatch ? mismatch : worst;
+  }
 }
 
 }  // namespace
 
+ContactMatcher::SlimCapsule::SlimCapsule(const PosedCapsule& capsule)
+    : a(capsule.a_W.cast<float>()),
+      core((capsule.b_W - capsule.a_W).cast<float>()),
+      core_sq(std::max(core.squaredNorm(), kLeastSq_mm2)),
+      radius(static_cast<float>(capsule.radius_a_mm)),
+      taper(static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm)) {
+  const Eigen::Vector3f b = a + core;
+  const auto widest = Eigen::Vector3f::Constant(std::max(radius, radius + taper));
+  low = a.cwiseMin(b) - widest;
+  high = a.cwiseMax(b) + widest;
+}
+
 void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   contacts_.assign(contacts.begin(), contacts.end());
-  for (auto* columns : {&from_, &along_, &outward_}) Resize(*columns, contacts.size());
-  along_sq_.resize(contacts.size());
-  mismatch_.resize(contacts.size());
-  best_.resize(contacts.size());
   matches_.resize(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& contact = contacts[i];
+  SortByPlace();
+  blocks_.resize((contacts.size() + Block::kContacts - 1) / Block::kContacts);
+  for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);
+}
+
+// Rows of cells, one above the other.
+void ContactMatcher::SortByPlace() {
+  MOCAP_CHECK(contacts_.size() < std::size_t{1} << kIndexBits);
+  order_.clear();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const Vector3 place = (contact.from_W + contact.to_W) / (2 * kCell_mm);
+    const auto cell = [&](int axis, unsigned bits) {
+      return static_cast<std::uint32_t>(std::lround(place[axis])) & ((1u << bits) - 1);
+    };
+    const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
+    const std::uint32_t key =
+        (is_long ? 1u : 0u) << 15 | cell(2, 5) << 10 | cell(1, 5) << 5 | cell(0, 5);
+    order_.push_back(key << kIndexBits | static_cast<std::uint32_t>(i));
+  }
+  std::ranges::sort(order_);
+  for (std::uint32_t& place : order_) place &= (1u << kIndexBits) - 1;
+}
+
+// Behind the last contact it is repeated.
+void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
+  for (int i = 0; i < Block::kContacts; ++i) {
+    const Contact& contact =
+        contacts_[order_[std::min(first + static_cast<std::size_t>(i), order_.size() - 1)]];
+    const Eigen::Vector3f from = contact.from_W.cast<float>();
+    const Eigen::Vector3f to = contact.to_W.cast<float>();
     for (int axis = 0; axis < 3; ++axis) {
-      from_[axis][i] = static_cast<float>(contact.from_W[axis]);
-      along_[axis][i] = static_cast<float>(contact.to_W[axis] - contact.from_W[axis]);
-      outward_[axis][i] = static_cast<float>(contact.outward_W[axis]);
+      block.from[axis][i] = from[axis];
+      block.along[axis][i] = static_cast<float>(contact.to_W[axis] - contact.from_W[axis]);
+      block.outward[axis][i] = static_cast<float>(contact.outward_W[axis]);
     }
-    along_sq_[i] =
+    block.along_sq[i] =
         std::max(static_cast<float>((contact.to_W - contact.from_W).squaredNorm()), kLeastSq_mm2);
+    block.per_along_sq[i] = 1 / block.along_sq[i];
+    block.low = i == 0 ? from.cwiseMin(to).eval() : block.low.cwiseMin(from).cwiseMin(to).eval();
+    block.high = i == 0 ? from.cwiseMax(to).eval() : block.high.cwiseMax(from).cwiseMax(to).eval();
   }
 }
 
 const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
                                                        double reach_mm) {
-  const Contacts columns{from_[0].data(),   from_[1].data(),    from_[2].data(),
-                         along_[0].data(),  along_[1].data(),   along_[2].data(),
-                         along_sq_.data(),  outward_[0].data(), outward_[1].data(),
-                         outward_[2].data()};
-  std::ranges::fill(mismatch_, static_cast<float>(reach_mm));
-  std::ranges::fill(best_, -1);
-  for (int k = 0; k < std::ssize(capsules); ++k) {
-    TryCapsule(columns, static_cast<int>(contacts_.size()), SlimCapsule(capsules[k]), k,
-               mismatch_.data(), best_.data());
-  }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    matches_[i].capsule = best_[i];
-    if (best_[i] < 0) continue;
-    matches_[i].distance = capsules[best_[i]].DistanceTo(contacts_[i].from_W, contacts_[i].to_W);
+  slim_.clear();
+  for (const PosedCapsule& capsule : capsules) slim_.emplace_back(capsule);
+  Best best;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    MatchBlock(blocks_[block], slim_.data(), static_cast<int>(slim_.size()),
+               static_cast<float>(reach_mm), best);
+    const std::size_t first = block * Block::kContacts;
+    const std::size_t count = std::min<std::size_t>(Block::kContacts, order_.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t contact = order_[first + i];
+      ContactMatch& match = matches_[contact];
+      match.capsule = best.capsule[i];
+      if (match.capsule < 0) continue;
+      match.distance =
+          capsules[match.capsule].DistanceTo(contacts_[contact].from_W, contacts_[contact].to_W);
+    }
   }
   return matches_;
 }

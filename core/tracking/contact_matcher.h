@@ -23,7 +23,8 @@ struct ContactMatch {
 };
 
 /// Matches the same contacts with one posed body after another. Which capsule is the best is found
-/// in single precision, in loops over all contacts; how far it is, in double.
+/// in single precision, for a block of neighbouring contacts at a time, and among the capsules that
+/// can reach it; how far the capsule is, in double.
 class ContactMatcher {
  public:
   void SetContacts(std::span<const Contact> contacts);
@@ -35,16 +36,32 @@ class ContactMatcher {
   /// @return  one match a contact, valid until the next call.
   const std::vector<ContactMatch>& Match(std::span<const PosedCapsule> capsules, double reach_mm);
 
+  /// A capsule in single precision.
+  struct SlimCapsule {
+    explicit SlimCapsule(const PosedCapsule& capsule);
+
+    Eigen::Vector3f a, core;
+    Eigen::Vector3f low, high;  ///< The corners of a box around it.
+    float core_sq, radius, taper;
+  };
+  /// So many contacts, in columns.
+  struct Block {
+    static constexpr int kContacts = 16;
+    using Column = std::array<float, kContacts>;
+
+    std::array<Column, 3> from, along, outward;
+    Column along_sq, per_along_sq;
+    Eigen::Vector3f low, high;  ///< The corners of a box around them.
+  };
+
  private:
-  using Column = std::vector<float>;
+  void SortByPlace();
+  void FillBlock(std::size_t first, Block& block) const;
 
   std::vector<Contact> contacts_;
-  std::array<Column, 3> from_;
-  std::array<Column, 3> along_;
-  std::array<Column, 3> outward_;
-  Column along_sq_;
-  Column mismatch_;
-  std::vector<std::int32_t> best_;
+  std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
+  std::vector<Block> blocks_;
+  std::vector<SlimCapsule> slim_;
   std::vector<ContactMatch> matches_;
 };
 

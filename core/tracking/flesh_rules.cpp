@@ -25,7 +25,7 @@ bool MayOverlap(BodyPart limb, BodyPart other) {
 
 std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
                                   const Vector3& p_W) {
-  if (cloud.IndexAt(p_W) >= 0) return std::nullopt;
+  if (cloud.Holds(p_W)) return std::nullopt;
   std::optional<Vector3> nearest;
   double nearest_sq = std::numeric_limits<double>::infinity();
   for (const Contact& contact : contacts) {

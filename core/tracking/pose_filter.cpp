@@ -1,9 +1,11 @@
 #include "core/tracking/pose_filter.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -28,6 +30,23 @@ void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquatio
   }
 }
 
+// Adds a row's product with itself to the upper triangle. A measurement depends on one chain of
+// joints: most of its row is zero.
+MOCAP_VECTORIZED
+void AddSquare(const UpdateEquations::Column& row, int dof, double weight,
+               UpdateEquations::Column* columns) {
+  constexpr int kStep = 8;
+  for (int j = 0; j < dof; ++j) {
+    if (row[j] == 0) continue;
+    const double factor = weight * row[j];
+    double* const column = columns[j].data();
+    for (int begin = 0; begin <= j; begin += kStep) {
+#pragma GCC ivdep
+      for (int i = begin; i < begin + kStep; ++i) column[i] += factor * row[i];
+    }
+  }
+}
+
 PoseCovariance InverseOfPositive(const PoseCovariance& matrix) {
   const Eigen::LLT<PoseCovariance> cholesky(matrix);
   MOCAP_CHECK(cholesky.info() == Eigen::Success);
@@ -39,26 +58,24 @@ PoseCovariance InverseOfPositive(const PoseCovariance& matrix) {
 }  // namespace
 
 void UpdateEquations::Reset(int dof) {
-  information_.setZero(dof, dof);
+  dof_ = dof;
+  for (int j = 0; j < dof; ++j) columns_[j].fill(0);
   gradient_.setZero(dof);
-  rows_.resize(dof, kBlock);
-  waiting_ = 0;
 }
 
 void UpdateEquations::Add(const PoseStep& J, double residual, double variance) {
-  rows_.col(waiting_++) = J / std::sqrt(variance);
+  alignas(64) Column row;
+  std::copy_n(J.data(), dof_, row.begin());
+  std::fill(row.begin() + dof_, row.end(), 0);
+  AddSquare(row, dof_, 1 / variance, columns_.data());
   gradient_ += J * (residual / variance);
-  if (waiting_ == kBlock) Flush();
-}
-
-void UpdateEquations::Flush() {
-  information_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.leftCols(waiting_));
-  waiting_ = 0;
 }
 
 const PoseCovariance& UpdateEquations::information() {
-  Flush();
-  information_.triangularView<Eigen::StrictlyUpper>() = information_.transpose();
+  information_.resize(dof_, dof_);
+  for (int j = 0; j < dof_; ++j) {
+    for (int i = 0; i <= j; ++i) information_(i, j) = information_(j, i) = columns_[j][i];
+  }
   return information_;
 }
 

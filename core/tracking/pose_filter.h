@@ -5,6 +5,7 @@
 // cost of the state's size.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "core/body/body_model.h"
@@ -24,17 +25,18 @@ class UpdateEquations {
   void AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
                 const Vector3& residual_mm, double variance_mm2);
 
-  /// The sums of all that was added.
+  /// The sums of all that was added; valid until more is.
   const PoseCovariance& information();
   const PoseStep& gradient() const { return gradient_; }
 
- private:
-  // Rows wait here until there are enough for a product of matrices.
-  static constexpr int kBlock = 48;
-  void Flush();
+  /// Places in memory for a vector of any body, a multiple of the processor's vectors.
+  static constexpr int kPlaces = (kMaxDof + 7) / 8 * 8;
+  using Column = std::array<double, kPlaces>;
 
-  Eigen::Matrix<double, Eigen::Dynamic, kBlock, 0, kMaxDof, kBlock> rows_;
-  int waiting_ = 0;
+ private:
+  int dof_ = 0;
+  // The upper triangle; what lies below the diagonal means nothing.
+  alignas(64) std::array<Column, kMaxDof> columns_;
   PoseCovariance information_;
   PoseStep gradient_;
 };

@@ -4,29 +4,49 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace mocap {
 namespace {
+
+using Word = std::uint64_t;
 
 // A piece that is torn off the body is kept from this share of the body on, and this near to it.
 constexpr double kPieceShare = 0.005;
 constexpr double kPieceReachMm = 150;
 
-template <typename Visit>
-void ForEachInCube(int radius, const Visit& visit) {
-  for (int dz = -radius; dz <= radius; ++dz) {
-    for (int dy = -radius; dy <= radius; ++dy) {
-      for (int dx = -radius; dx <= radius; ++dx) visit(Eigen::Vector3i(dx, dy, dz));
-    }
-  }
+// Bits [begin, begin + count) of a row that has an empty word on each side.
+unsigned BitsOf(const Word* row, int begin, int count) {
+  // A negative number is rounded down.
+  const Word* const word = row + (begin >> 6);
+  const int shift = begin & 63;
+  Word bits = word[0] >> shift;
+  if (shift > 64 - count) bits |= word[1] << (64 - shift);
+  return static_cast<unsigned>(bits) & ((1u << count) - 1);
 }
+
+// Bits [begin, end) of the word that starts at bit 64 i.
+Word MaskOf(int i, int begin, int end) {
+  Word mask = ~Word{0};
+  if (begin > i * 64) mask <<= begin - i * 64;
+  if (end < i * 64 + 64) mask &= ~Word{0} >> (i * 64 + 64 - end);
+  return mask;
+}
+
+// For each pattern of bits, how many are set, and the sum of their places.
+constexpr int kMostBits = 7;
+struct BitSums {
+  int count = 0, places = 0;
+};
+constexpr auto kBitSums = [] {
+  std::array<BitSums, 1 << kMostBits> sums{};
+  for (unsigned bits = 0; bits < sums.size(); ++bits)
+    for (int place = 0; place < kMostBits; ++place)
+      if (bits >> place & 1) ++sums[bits].count, sums[bits].places += place;
+  return sums;
+}();
 
 }  // namespace
-
-int VoxelCloud::IndexAt(const Vector3& p_W) const {
-  const Vector3 cell = ((p_W - origin_W_) / voxel_mm_).array().floor();
-  return IndexAt(Eigen::Vector3i(cell.cast<int>()));
-}
 
 Vector3 VoxelCloud::Centroid() const {
   Vector3 sum = Vector3::Zero();
@@ -38,102 +58,157 @@ void VoxelCloud::Build(const VoxelGrid& grid) {
   size_ = grid.size();
   origin_W_ = grid.origin_W();
   voxel_mm_ = grid.voxel_mm();
-  voxels_.clear();
-  surface_.clear();
-  const Eigen::Matrix<std::size_t, 3, 1> padded = (size_.array() + 2 * kMargin).cast<std::size_t>();
-  index_of_slot_.assign(padded.prod(), -1);
+  CopyBits(grid);
+  DropIslands();
+  ListVoxels(grid);
+}
+
+void VoxelCloud::CopyBits(const VoxelGrid& grid) {
+  words_per_row_ = grid.words_per_row() + 1;
+  const std::ptrdiff_t rows = std::ptrdiff_t{size_.y() + 2 * kMargin} * (size_.z() + 2 * kMargin);
+  bits_.assign(1 + rows * words_per_row_, 0);
+  for (int k = 0; k < size_.z(); ++k)
+    for (int j = 0; j < size_.y(); ++j)
+      std::copy_n(grid.row(j, k), grid.words_per_row(), &bits_[WordOf(j, k)]);
+}
+
+void VoxelCloud::FindRuns() {
+  runs_.clear();
+  row_begins_.clear();
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
-      const std::uint64_t* row = grid.row(j, k);
-      for (int word = 0; word < grid.words_per_row(); ++word) {
-        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
-          const Eigen::Vector3i cell(word * 64 + std::countr_zero(bits), j, k);
-          index_of_slot_[SlotOf(cell)] = size();
-          voxels_.push_back({.center_W = grid.CenterOf(cell.x(), j, k), .cell = cell});
+      const Word* const row = RowOf(j, k);
+      row_begins_.push_back(static_cast<int>(runs_.size()));
+      for (int i = 0; i + 1 < words_per_row_; ++i) {
+        for (Word bits = row[i]; bits != 0;) {
+          const int first = std::countr_zero(bits);
+          const int length = std::countr_one(bits >> first);
+          const int begin = i * 64 + first, end = begin + length;
+          if (static_cast<int>(runs_.size()) > row_begins_.back() && runs_.back().end == begin)
+            runs_.back().end = end;
+          else
+            runs_.push_back({k * size_.y() + j, begin, end, static_cast<int>(runs_.size())});
+          bits &= ~MaskOf(0, first, first + length);
         }
       }
     }
   }
-  DropIslands();
-  FindSurface();
+  row_begins_.push_back(static_cast<int>(runs_.size()));
 }
 
-std::vector<std::ptrdiff_t> VoxelCloud::CubeOffsets(int radius) const {
-  std::vector<std::ptrdiff_t> offsets;
-  const std::ptrdiff_t middle = SlotOf(Eigen::Vector3i::Zero());
-  ForEachInCube(radius,
-                [&](const Eigen::Vector3i& step) { offsets.push_back(SlotOf(step) - middle); });
-  return offsets;
+int VoxelCloud::RootOf(int run) {
+  while (runs_[run].parent != run) {
+    runs_[run].parent = runs_[runs_[run].parent].parent;
+    run = runs_[run].parent;
+  }
+  return run;
+}
+
+// Runs hang together over corners too.
+void VoxelCloud::JoinRuns(int row, int other_row) {
+  int other = row_begins_[other_row];
+  for (int run = row_begins_[row]; run < row_begins_[row + 1]; ++run) {
+    while (other < row_begins_[other_row + 1] && runs_[other].end < runs_[run].begin) ++other;
+    for (int i = other; i < row_begins_[other_row + 1] && runs_[i].begin <= runs_[run].end; ++i) {
+      int a = RootOf(run), b = RootOf(i);
+      if (a < b) std::swap(a, b);
+      runs_[a].parent = b;
+    }
+  }
+}
+
+bool VoxelCloud::IsNearBody(const Run& run, int body, int reach) {
+  const int j = run.row % size_.y(), k = run.row / size_.y();
+  for (int z = std::max(k - reach, 0); z <= std::min(k + reach, size_.z() - 1); ++z) {
+    const int first = z * size_.y() + std::max(j - reach, 0);
+    const int last = z * size_.y() + std::min(j + reach, size_.y() - 1);
+    for (int i = row_begins_[first]; i < row_begins_[last + 1]; ++i) {
+      const Run& other = runs_[i];
+      const int gap = std::max(other.begin - run.end, run.begin - other.end) + 1;
+      if (gap <= reach && RootOf(i) == body) return true;
+    }
+  }
+  return false;
 }
 
 void VoxelCloud::DropIslands() {
-  component_.assign(voxels_.size(), -1);
-  std::vector<int> sizes;
-  const std::vector<std::ptrdiff_t> neighbours = CubeOffsets(1);
-  for (int seed = 0; seed < size(); ++seed) {
-    if (component_[seed] >= 0) continue;
-    const int component = static_cast<int>(sizes.size());
-    sizes.push_back(0);
-    component_[seed] = component;
-    stack_.assign(1, seed);
-    while (!stack_.empty()) {
-      const std::ptrdiff_t slot = SlotOf(voxels_[stack_.back()].cell);
-      stack_.pop_back();
-      ++sizes[component];
-      for (const std::ptrdiff_t offset : neighbours) {
-        const int neighbour = index_of_slot_[slot + offset];
-        if (neighbour < 0 || component_[neighbour] >= 0) continue;
-        component_[neighbour] = component;
-        stack_.push_back(neighbour);
-      }
+  FindRuns();
+  if (runs_.empty()) return;
+  for (int k = 0; k < size_.z(); ++k) {
+    for (int j = 0; j < size_.y(); ++j) {
+      const int row = k * size_.y() + j;
+      if (row_begins_[row] == row_begins_[row + 1]) continue;
+      if (j > 0) JoinRuns(row, row - 1);
+      if (k == 0) continue;
+      for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size_.y() - 1); ++y)
+        JoinRuns(row, (k - 1) * size_.y() + y);
     }
   }
-  if (sizes.size() <= 1) return;
+  sizes_.assign(runs_.size(), 0);
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
+    sizes_[RootOf(i)] += runs_[i].end - runs_[i].begin;
+  const int body = static_cast<int>(std::ranges::max_element(sizes_) - sizes_.begin());
 
-  const int body = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  std::vector<bool> near_body(sizes.size(), false);
+  near_body_.assign(runs_.size(), false);
+  near_body_[body] = true;
   const int reach = static_cast<int>(kPieceReachMm / voxel_mm_);
-  for (int i = 0; i < size(); ++i) {
-    const int component = component_[i];
-    if (near_body[component] || sizes[component] < kPieceShare * sizes[body]) continue;
-    ForEachInCube(reach, [&](const Eigen::Vector3i& step) {
-      const int neighbour = IndexAt(Eigen::Vector3i(voxels_[i].cell + step));
-      if (neighbour >= 0 && component_[neighbour] == body) near_body[component] = true;
-    });
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    const int root = RootOf(i);
+    if (near_body_[root] || sizes_[root] < kPieceShare * sizes_[body]) continue;
+    near_body_[root] = IsNearBody(runs_[i], body, reach);
   }
-
-  int kept = 0;
-  for (int i = 0; i < size(); ++i) {
-    const bool keep = component_[i] == body || near_body[component_[i]];
-    index_of_slot_[SlotOf(voxels_[i].cell)] = keep ? kept : -1;
-    if (keep) voxels_[kept++] = voxels_[i];
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    if (near_body_[RootOf(i)]) continue;
+    const Run& run = runs_[i];
+    Word* const row = &bits_[WordOf(run.row % size_.y(), run.row / size_.y())];
+    for (int word = run.begin / 64; word <= (run.end - 1) / 64; ++word)
+      row[word] &= ~MaskOf(word, run.begin, run.end);
   }
-  voxels_.resize(kept);
 }
 
-void VoxelCloud::FindSurface() {
-  const std::ptrdiff_t middle = SlotOf(Eigen::Vector3i::Zero());
-  const std::array<std::ptrdiff_t, 3> faces = {SlotOf(Eigen::Vector3i::UnitX()) - middle,
-                                               SlotOf(Eigen::Vector3i::UnitY()) - middle,
-                                               SlotOf(Eigen::Vector3i::UnitZ()) - middle};
-  for (int i = 0; i < size(); ++i) {
-    const std::ptrdiff_t slot = SlotOf(voxels_[i].cell);
-    voxels_[i].surface = std::ranges::any_of(faces, [&](std::ptrdiff_t face) {
-      return index_of_slot_[slot + face] < 0 || index_of_slot_[slot - face] < 0;
-    });
-    if (voxels_[i].surface) surface_.push_back(i);
+void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
+  voxels_.clear();
+  surface_.clear();
+  const Eigen::Matrix<std::size_t, 3, 1> padded = (size_.array() + 2 * kMargin).cast<std::size_t>();
+  index_of_slot_.assign(padded.prod(), -1);
+  const std::ptrdiff_t above = WordOf(0, 1) - WordOf(0, 0);
+  for (int k = 0; k < size_.z(); ++k) {
+    for (int j = 0; j < size_.y(); ++j) {
+      const Word* const row = RowOf(j, k);
+      const std::ptrdiff_t slot = SlotOf({0, j, k});
+      for (int i = 0; i + 1 < words_per_row_; ++i) {
+        const Word* const here = row + i;
+        const Word within = (here[0] << 1 | here[-1] >> 63) & (here[0] >> 1 | here[1] << 63) &
+                            here[words_per_row_] & here[-words_per_row_] & here[above] &
+                            here[-above];
+        for (Word bits = here[0]; bits != 0; bits &= bits - 1) {
+          const int bit = std::countr_zero(bits);
+          const int x = i * 64 + bit;
+          const bool is_surface = (within >> bit & 1) == 0;
+          if (is_surface) surface_.push_back(size());
+          index_of_slot_[slot + x] = size();
+          voxels_.push_back({grid.CenterOf(x, j, k), {x, j, k}, is_surface});
+        }
+      }
+    }
   }
 }
 
 Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {
   // Wide enough that a normal does not follow the steps of the grid.
   const int radius = std::clamp(static_cast<int>(std::lround(50 / voxel_mm_)), 1, kMargin);
-  Vector3 inward = Vector3::Zero();
-  ForEachInCube(radius, [&](const Eigen::Vector3i& step) {
-    if (index_of_slot_[SlotOf(voxel.cell + step)] >= 0) inward += step.cast<double>();
-  });
-  const double length = inward.norm();
-  return length > 0 ? Vector3(-inward / length) : Vector3::Zero();
+  static_assert(2 * kMargin + 1 <= kMostBits);
+  Eigen::Vector3i inward = Eigen::Vector3i::Zero();
+  for (int dz = -radius; dz <= radius; ++dz) {
+    for (int dy = -radius; dy <= radius; ++dy) {
+      const Word* const row = RowOf(voxel.cell.y() + dy, voxel.cell.z() + dz);
+      const unsigned bits = BitsOf(row, voxel.cell.x() - radius, 2 * radius + 1);
+      const auto [count, places] = kBitSums[bits];
+      inward += Eigen::Vector3i(places - radius * count, dy * count, dz * count);
+    }
+  }
+  const double length = inward.cast<double>().norm();
+  return length > 0 ? Vector3(-inward.cast<double>() / length) : Vector3::Zero();
 }
 
 }  // namespace mocap

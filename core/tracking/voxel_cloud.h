@@ -47,7 +47,16 @@ class VoxelCloud {
     return index_of_slot_[SlotOf(cell)];
   }
   /// Index of the voxel at a place; -1 where it is empty.
-  int IndexAt(const Vector3& p_W) const;
+  int IndexAt(const Vector3& p_W) const { return IndexAt(CellAt(p_W)); }
+  /// Whether there is a voxel at a place.
+  bool Holds(const Vector3& p_W) const {
+    const Eigen::Vector3i cell = CellAt(p_W);
+    const auto is_inside = [&](int axis) {
+      return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
+    };
+    return is_inside(0) && is_inside(1) && is_inside(2) &&
+           (RowOf(cell.y(), cell.z())[cell.x() >> 6] >> (cell.x() & 63) & 1) != 0;
+  }
   /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
   Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
@@ -56,24 +65,52 @@ class VoxelCloud {
  private:
   // The grid is kept with empty cells around it, so that neighbours need no check.
   static constexpr int kMargin = 3;
+  // Voxels of one row without a gap: [begin, end) along x.
+  struct Run {
+    int row;  // j + k · size_.y().
+    int begin, end;
+    int parent;
+  };
+
   std::ptrdiff_t SlotOf(const Eigen::Vector3i& cell) const {
     const auto inner = (cell.array() + kMargin).cast<std::ptrdiff_t>();
     return (inner.z() * (size_.y() + 2 * kMargin) + inner.y()) * (size_.x() + 2 * kMargin) +
            inner.x();
   }
-  /// How far the slots of the cells in a cube around a cell lie from its own.
-  std::vector<std::ptrdiff_t> CubeOffsets(int radius) const;
+  Eigen::Vector3i CellAt(const Vector3& p_W) const {
+    const Vector3 place = (p_W - origin_W_) / voxel_mm_;
+    const Eigen::Vector3i towards_zero = place.cast<int>();
+    return towards_zero -
+           (place.array() < towards_zero.cast<double>().array()).cast<int>().matrix();
+  }
+  // A row of bits; behind its last word is an empty one, and so is the one before the first row.
+  std::ptrdiff_t WordOf(int j, int k) const {
+    const std::ptrdiff_t rows = size_.y() + 2 * kMargin;
+    return 1 + ((k + kMargin) * rows + j + kMargin) * words_per_row_;
+  }
+  const std::uint64_t* RowOf(int j, int k) const { return &bits_[WordOf(j, k)]; }
+
+  void CopyBits(const VoxelGrid& grid);
   void DropIslands();
-  void FindSurface();
+  void FindRuns();
+  void JoinRuns(int row, int other_row);
+  int RootOf(int run);
+  bool IsNearBody(const Run& run, int body, int reach);
+  void ListVoxels(const VoxelGrid& grid);
 
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
   Vector3 origin_W_ = Vector3::Zero();
   double voxel_mm_ = 25;
+  std::ptrdiff_t words_per_row_ = 1;
+  std::vector<std::uint64_t> bits_;
   std::vector<std::int32_t> index_of_slot_;
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
-  std::vector<int> component_;
-  std::vector<int> stack_;
+  // While islands are dropped.
+  std::vector<Run> runs_;
+  std::vector<int> row_begins_;
+  std::vector<int> sizes_;  // Of the runs that hang together, at their root.
+  std::vector<char> near_body_;
 };
 
 }  // namespace mocap

@@ -41,6 +41,7 @@ void ExpectSame(const Config& a, const Config& b) {
   EXPECT_EQ(a.source.take, b.source.take);
   EXPECT_EQ(a.source.rate, b.source.rate);
   EXPECT_EQ(a.source.loop, b.source.loop);
+  EXPECT_EQ(a.source.in_memory, b.source.in_memory);
   EXPECT_EQ(a.source.motion, b.source.motion);
   EXPECT_EQ(a.source.stature_mm, b.source.stature_mm);
   EXPECT_EQ(a.source.cameras, b.source.cameras);
@@ -69,6 +70,7 @@ driver = "take"
 take = "../takes/walk"
 rate = "fast"
 loop = true
+in_memory = true
 [voxels]
 size_mm = 50
 [lcm]
@@ -85,6 +87,7 @@ device = "192.168.0.7"
   EXPECT_EQ(config.source.take, folder_.path().parent_path() / "takes/walk");
   EXPECT_EQ(config.source.rate, ReplayRate::kFast);
   EXPECT_TRUE(config.source.loop);
+  EXPECT_TRUE(config.source.in_memory);
   EXPECT_EQ(config.voxel_mm, 50);
   EXPECT_EQ(config.lcm.url, "udpm://239.255.76.67:7700?ttl=1");
   EXPECT_EQ(config.lcm.prefix, "STAGE_");

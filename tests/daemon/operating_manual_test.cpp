@@ -61,6 +61,7 @@ std::vector<std::string> EveryComplaint() {
   };
   add(CameraState::kLost, 0);
   add(CameraState::kStarting, 0);
+  add(CameraState::kStreaming, 25).is_blind = true;
   CameraStatus& poor = add(CameraState::kStreaming, 20);
   poor.light = 0.4;
   poor.nudged_px = 1.2;

@@ -120,6 +120,18 @@ TEST_F(Video, RewindingStartsOver) {
   EXPECT_EQ(CountAndCompare(reader, take_), kFrames);
 }
 
+TEST_F(Video, KeptInMemoryItNeedsNoFile) {
+  WriteVideo();
+  VideoReader reader(file_);
+  reader.KeepInMemory();
+  std::filesystem::remove(file_);
+  EXPECT_EQ(CountAndCompare(reader, take_), kFrames);
+  reader.Rewind();
+  EXPECT_EQ(reader.Skip(), VideoStatus::kFrame);
+  EXPECT_EQ(CountAndCompare(reader, take_, 1), kFrames - 1);
+  EXPECT_EQ(reader.Skip(), VideoStatus::kEnd);
+}
+
 TEST_F(Video, SkippingPassesOverOneFrame) {
   WriteVideo();
   VideoReader reader(file_);

@@ -40,7 +40,7 @@ TEST(AccuracyReport, ShowsAPlotOnlyOfSweepsThatWereMade) {
   EXPECT_THAT(AccuracySweepsSvg(benchmark.sweeps), HasSubstr("cameras"));
 }
 
-TEST(AccuracyTrial, ACameraThatFallsSilentAndWrongCalibrationCostALittle) {
+TEST(AccuracyTrial, CamerasThatFailAndWrongCalibrationCostALittle) {
   AccuracyTrial trial;
   trial.studio.width_px = 320;
   trial.studio.height_px = 240;
@@ -54,6 +54,11 @@ TEST(AccuracyTrial, ACameraThatFallsSilentAndWrongCalibrationCostALittle) {
   const AccuracyRow worse = Measure(trial);
   EXPECT_GT(worse.mpjpe_mm, well.mpjpe_mm);
   EXPECT_LT(worse.mpjpe_mm, 4 * well.mpjpe_mm);
+  trial.calibration_error_px = 0;
+  trial.mishap = Mishap::kBlinded;
+  const AccuracyRow blinded = Measure(trial);
+  EXPECT_EQ(blinded.tracked_share, 1);
+  EXPECT_LT(blinded.mpjpe_mm, 1.5 * well.mpjpe_mm);
 }
 
 }  // namespace

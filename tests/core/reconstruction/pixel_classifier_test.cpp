@@ -315,7 +315,7 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
-  expected.Weigh(0, 0, 1);
+  expected.Weigh(0, 0, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
   Closeup everything;
   everything.SetAll(image.width(), image.height());
@@ -346,7 +346,7 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
       image(x, y) = {value, value, value};
     }
   }
-  expected.Weigh(0, 0, 40 * 30);
+  for (int y = 0; y < 30; ++y) expected.Weigh(0, y, 0, 40);
   image(30, 20) = {255, 255, 255};
   Closeup everything;
   everything.SetAll(image.width(), image.height());

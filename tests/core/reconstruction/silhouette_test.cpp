@@ -23,6 +23,13 @@ bool IsSet(const Silhouette& s, int x, int y, bool beyond) {
   return x < 0 || y < 0 || x >= s.width() || y >= s.height() ? beyond : s.Test(x, y);
 }
 
+TEST(Silhouette, CountsTheShareThatItCovers) {
+  Silhouette s(200, 50);
+  EXPECT_EQ(s.CoveredShare(), 0);
+  for (int x = 0; x < 200; ++x) s.Set(x, 49);
+  EXPECT_DOUBLE_EQ(s.CoveredShare(), 0.02);
+}
+
 TEST(Silhouette, ABoundingBoxIsTightAcrossWords) {
   Silhouette s(200, 50);
   EXPECT_FALSE(s.BoundingBox().has_value());
