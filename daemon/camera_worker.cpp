@@ -108,6 +108,8 @@ void CameraWorker::TakeReplacement() {
   const std::unique_lock lock(replacement_mutex_, std::try_to_lock);
   if (!lock || !replacement_waits_.load()) return;
   std::swap(segmenter_, *replacement_);
+  light_.store(1, std::memory_order_relaxed);
+  replacements_.fetch_add(1, std::memory_order_relaxed);
   replacement_waits_.store(false);
 }
 
@@ -149,6 +151,7 @@ CameraStatus CameraWorker::Status() const {
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);
   status.torn = torn_.load(std::memory_order_relaxed);
+  status.replacements = replacements_.load(std::memory_order_relaxed);
   status.light = light_.load(std::memory_order_relaxed);
   status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
   status.is_blind = is_blind_.load(std::memory_order_relaxed);

@@ -44,6 +44,7 @@ struct CameraStatus {
   std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
   std::int64_t late = 0;     ///< Came after their set had gone, or found none.
   std::int64_t torn = 0;
+  int replacements = 0;              ///< How often the background was learned since the start.
   double light = 1;                  ///< Brightness, over that of the empty studio as learned.
   double nudged_px = 0;              ///< How far the picture lies from where it was learned.
   bool is_blind = false;             ///< As the last frame's.
@@ -102,6 +103,7 @@ class CameraWorker {
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> dropped_{0};
   std::atomic<std::int64_t> torn_{0};
+  std::atomic<int> replacements_{0};
   std::atomic<double> light_{1};
   std::atomic<double> nudged_px_{0};
   std::atomic<bool> is_blind_{false};

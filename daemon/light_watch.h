@@ -30,7 +30,13 @@ class LightWatch {
   std::optional<LightChange> Add(const PipelineStatus& status, std::int64_t now_ns);
 
  private:
-  std::deque<std::vector<double>> past_;
+  struct Seen {
+    double light = 0;      ///< 0: the camera does not stream.
+    int replacements = 0;  ///< What the light is compared with.
+  };
+  static std::vector<Seen> SeenIn(const PipelineStatus& status);
+
+  std::deque<std::vector<Seen>> past_;
   std::optional<LightChange> change_;
 };
 

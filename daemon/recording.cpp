@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr double kMostWaitingS = 0.5;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
-constexpr std::size_t kFewestFrames = 4;
+constexpr std::size_t kFewestFrames = 2;
 
 std::string UtcNow() {
   const std::time_t now = std::time(nullptr);

@@ -34,6 +34,8 @@ Config ServiceControl::config() {
 
 std::string ServiceControl::Do(const StatusRequest& request) {
   const std::scoped_lock lock(report_mutex_);
+  // Who has just begun or ended a recording wants to see that.
+  report_.recording = parts_.recorder.Status();
   return request.as_json ? ReportJson(report_) : ReportText(report_);
 }
 

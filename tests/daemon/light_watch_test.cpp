@@ -47,6 +47,12 @@ TEST_F(LightWatchTest, EveningIsNotSudden) {
   EXPECT_LT(light, 0.1);
 }
 
+TEST_F(LightWatchTest, LearningTheStudioInAnotherLightIsNoChangeOfLight) {
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(After(1.4));
+  for (CameraStatus& camera : status_.cameras) ++camera.replacements;
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(After(1));
+}
+
 TEST_F(LightWatchTest, ACameraThatWasAwayStartsAnew) {
   After(1);
   status_.cameras[0].state = CameraState::kLost;
