@@ -6,6 +6,7 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/take_layout.h"
+#include "drivers/utc_time.h"
 
 namespace mocap {
 namespace {
@@ -86,6 +87,9 @@ PanTiltHead ReadHead(TomlSection& section) {
   head.pan_point_W = section.Vector("pan_point_mm");
   head.tilt_axis_W = ReadAxis(section, "tilt_axis");
   head.tilt_point_W = section.Vector("tilt_point_mm");
+  head.pan_scale = section.PositiveNumber("pan_scale", 1);
+  head.tilt_scale = section.PositiveNumber("tilt_scale", 1);
+  head.zero = {section.Number("pan_zero_rad", 0), section.Number("tilt_zero_rad", 0)};
   section.RejectUnknownKeys();
   return head;
 }
@@ -109,7 +113,43 @@ CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
   return camera;
 }
 
+std::int64_t ReadTime(TomlSection& section, const std::string& key) {
+  if (!section.Has(key)) return 0;
+  const std::optional<std::int64_t> time_s = UtcFromText(section.Text(key));
+  if (!time_s) section.Fail(key, "is no time as \"2026-11-21T20:05:00Z\"");
+  return *time_s;
+}
+
+void ReadHealth(TomlSection health, CalibrationRecord& record) {
+  record.checked_s = ReadTime(health, "time");
+  std::optional<TomlSection> cameras = health.Section("cameras");
+  for (const std::string& name : cameras ? cameras->Keys() : std::vector<std::string>{}) {
+    std::optional<TomlSection> camera = cameras->Section(name);
+    if (!camera) cameras->Fail(name, "is no table of off_px and moved");
+    record.offsets.push_back({name, camera->Number("off_px"), camera->Flag("moved")});
+    camera->RejectUnknownKeys();
+  }
+  health.RejectUnknownKeys();
+}
+
+CalibrationRecord ReadRecord(TomlSection& root) {
+  CalibrationRecord record;
+  if (std::optional<TomlSection> made = root.Section("made")) {
+    record.made_s = ReadTime(*made, "time");
+    record.reprojection_px = made->NumberWithin("reprojection_px", 0, 1000, 0);
+    record.refined_s = ReadTime(*made, "refined");
+    made->RejectUnknownKeys();
+  }
+  if (std::optional<TomlSection> health = root.Section("health")) ReadHealth(*health, record);
+  return record;
+}
+
 }  // namespace
+
+CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file) {
+  TomlSection root = TomlSection::ReadFile(file);
+  return ReadRecord(root);
+}
 
 std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
@@ -123,6 +163,7 @@ std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file
       cameras.push_back(ReadCamera(name, *section->Section(name)));
     }
   }
+  ReadRecord(root);
   root.RejectUnknownKeys();
   if (cameras.empty()) root.Fail("cameras", "has none; [cameras.cam1] is wanted");
   return cameras;

@@ -8,6 +8,7 @@
 #include "config/config.h"
 #include "core/body/body_model.h"
 #include "core/reconstruction/camera_model.h"
+#include "drivers/calibration_file.h"
 
 namespace mocap {
 
@@ -20,6 +21,9 @@ Config LoadConfig(const std::filesystem::path& file);
 /// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without
 /// size.
 std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file);
+
+/// Reads what calibration.toml says of itself. @throws SetupError
+CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file);
 
 /// Finds a body table: one of those built in ("mikic2003", "full") or a TOML file's path.
 BodyTable LoadBodyTable(const std::string& name_or_path);

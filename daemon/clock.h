@@ -20,4 +20,7 @@ inline std::int64_t EpochNs() {
       .count();
 }
 
+/// Since the Unix epoch [s].
+inline std::int64_t EpochS() { return EpochNs() / 1'000'000'000; }
+
 }  // namespace mocap

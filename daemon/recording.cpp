@@ -20,6 +20,7 @@
 #include "daemon/message_log.h"
 #include "daemon/realtime.h"
 #include "drivers/take_layout.h"
+#include "drivers/utc_time.h"
 
 namespace mocap {
 namespace {
@@ -31,15 +32,6 @@ constexpr double kMostWaitingS = 0.5;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
-
-std::string UtcNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
 
 constexpr const char* NameOf(VideoCodec codec) {
   switch (codec) {
@@ -58,7 +50,7 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
   TakeDescription description{.name = folder.filename(),
                               .fps_nominal = studio.fps_nominal,
                               .cameras = {},
-                              .notes = {{"created", UtcNow()},
+                              .notes = {{"created", UtcText(EpochS())},
                                         {"recorded_by", std::string("mocapd ") + MOCAP_VERSION},
                                         {"studio", studio.name}},
                               .codec = config.codec};

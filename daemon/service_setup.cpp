@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "config/load_config.h"
 #include "config/open_studio.h"
 #include "drivers/take_layout.h"
 
@@ -20,9 +21,18 @@ std::int64_t WrittenAt(const std::filesystem::path& file) {
 
 Made MadeBy(const std::filesystem::path& file) { return {file.string(), WrittenAt(file)}; }
 
+/// A calibration may tell when it was made: a copy is no younger.
+Made CalibrationMadeBy(const std::filesystem::path& file) {
+  Made made = MadeBy(file);
+  const CalibrationRecord record = LoadCalibrationRecord(file);
+  if (record.made_s != 0) made.made_s = record.made_s;
+  return made;
+}
+
 Made CalibrationOf(const Config& config) {
-  if (config.source.driver == "take") return MadeBy(TakeLayout{config.source.take}.Calibration());
-  if (IsLive(config.source)) return MadeBy(config.calibration);
+  if (config.source.driver == "take")
+    return CalibrationMadeBy(TakeLayout{config.source.take}.Calibration());
+  if (IsLive(config.source)) return CalibrationMadeBy(config.calibration);
   return {"the simulated studio's own", 0};
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "drivers/toml_text.h"
+#include "drivers/utc_time.h"
 
 namespace mocap {
 namespace {
@@ -44,6 +45,11 @@ const char* ModelOf(const Lens& lens) {
   return std::holds_alternative<OpenCvLens>(lens) ? "opencv" : "fisheye";
 }
 
+// What readers may leave out.
+void WriteUnless(double usual, const char* key, double value, std::ostream& out) {
+  if (value != usual) out << key << " = " << TomlNumber(value) << '\n';
+}
+
 void Write(std::ostream& out, const CameraCalibration& camera) {
   out << "[cameras." << camera.name << "]\n"
       << "model = \"" << ModelOf(camera.lens) << "\"\n"
@@ -57,17 +63,41 @@ void Write(std::ostream& out, const CameraCalibration& camera) {
       << "pan_point_mm = " << Array(camera.head->pan_point_W) << '\n'
       << "tilt_axis = " << Array(camera.head->tilt_axis_W) << '\n'
       << "tilt_point_mm = " << Array(camera.head->tilt_point_W) << '\n';
+  WriteUnless(1, "pan_scale", camera.head->pan_scale, out);
+  WriteUnless(1, "tilt_scale", camera.head->tilt_scale, out);
+  WriteUnless(0, "pan_zero_rad", camera.head->zero.pan_rad, out);
+  WriteUnless(0, "tilt_zero_rad", camera.head->zero.tilt_rad, out);
+}
+
+void Write(std::ostream& out, const CalibrationRecord& record) {
+  const auto write_time = [&out](const char* key, std::int64_t epoch_s) {
+    if (epoch_s != 0) out << key << " = " << TomlText(UtcText(epoch_s)) << '\n';
+  };
+  if (record.made_s != 0) {
+    out << "\n[made]\n";
+    write_time("time", record.made_s);
+    WriteUnless(0, "reprojection_px", record.reprojection_px, out);
+    write_time("refined", record.refined_s);
+  }
+  if (record.checked_s == 0) return;
+  out << "\n[health]\n";
+  write_time("time", record.checked_s);
+  for (const CameraOffset& offset : record.offsets) {
+    out << "[health.cameras." << offset.camera << "]\noff_px = " << TomlNumber(offset.px)
+        << "\nmoved = " << (offset.has_moved ? "true" : "false") << '\n';
+  }
 }
 
 }  // namespace
 
-void WriteCalibration(const std::filesystem::path& file,
-                      std::span<const CameraCalibration> cameras) {
+void WriteCalibration(const std::filesystem::path& file, std::span<const CameraCalibration> cameras,
+                      const CalibrationRecord& record) {
   std::ofstream out(file, std::ios::binary);
   for (const CameraCalibration& camera : cameras) {
     if (&camera != cameras.data()) out << '\n';
     Write(out, camera);
   }
+  Write(out, record);
   out.close();
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }

@@ -11,12 +11,15 @@
 #include "config/load_config.h"
 #include "core/calibration/tsai.h"
 #include "core/errors.h"
+#include "daemon/clock.h"
 #include "drivers/calibration_file.h"
+#include "tools/calibrate_live.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibrate_takes.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration_report.h"
 #include "tools/camera_health.h"
+#include "tools/camera_names.h"
 #include "tools/take_samples.h"
 
 namespace mocap {
@@ -36,11 +39,14 @@ void WriteFile(const std::filesystem::path& file, const std::string& text) {
 
 void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
   const std::vector<Finding> findings = CheckAll(arguments, fit);
-  WriteCalibration(arguments.out, fit.bundle.cameras);
+  CalibrationRecord record;
+  record.made_s = EpochS();
+  record.reprojection_px = fit.rms_px;
+  WriteCalibration(arguments.out, fit.bundle.cameras, record);
   if (!arguments.report.empty())
     WriteFile(arguments.report,
-              CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(), fit,
-                                    findings));
+              CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(),
+                                    record.made_s, fit, findings));
   const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
   std::fputs(text.c_str(), stdout);
 }
@@ -52,11 +58,28 @@ void AddFootage(CLI::App* command, const Arguments& a) {
   command
       ->add_option("--board", a->board,
                    "chess:COLUMNSxROWS:MM (inner corners) or "
-                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares)")
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares); for "
+                   "extrinsics also wand:MM, two lights")
       ->required();
   command->add_option("--most-frames", a->most_frames, "look at so many frames of a camera")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+}
+
+void AddLive(CLI::App* command, const Arguments& a) {
+  CLI::Option* config = command->add_option(
+      "--config", a->config,
+      "the daemon's TOML file: record FOOTAGE, and the --floor's, from its cameras first");
+  command->add_option("--seconds", a->most_seconds, "record no longer than that")
+      ->needs(config)
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+}
+
+/// Runs one of the steps that look at footage.
+void Run(const CalibrateArguments& a, StudioFit (*step)(const CalibrateArguments&)) {
+  if (!a.config.empty()) RecordFootage(a);
+  Finish(a, step(a));
 }
 
 void AddOutput(CLI::App* command, const Arguments& a) {
@@ -96,7 +119,8 @@ void AddStudio(CLI::App* parent) {
   AddReport(command, a);
   AddLens(command, a);
   AddWorld(command, a);
-  command->callback([a] { Finish(*a, CalibrateStudio(*a)); });
+  AddLive(command, a);
+  command->callback([a] { Run(*a, CalibrateStudio); });
 }
 
 void AddIntrinsics(CLI::App* parent) {
@@ -105,7 +129,8 @@ void AddIntrinsics(CLI::App* parent) {
   AddFootage(command, a);
   AddOutput(command, a);
   AddLens(command, a);
-  command->callback([a] { Finish(*a, CalibrateIntrinsics(*a)); });
+  AddLive(command, a);
+  command->callback([a] { Run(*a, CalibrateIntrinsics); });
 }
 
 void AddExtrinsics(CLI::App* parent) {
@@ -121,7 +146,8 @@ void AddExtrinsics(CLI::App* parent) {
   command->add_flag("--still", a->still,
                     "the board lies still on the floor where all cameras see it: it is the world");
   command->add_flag("--keep-lenses", a->keep_lenses, "leave the lenses as they are");
-  command->callback([a] { Finish(*a, CalibrateExtrinsics(*a)); });
+  AddLive(command, a);
+  command->callback([a] { Run(*a, CalibrateExtrinsics); });
 }
 
 void AddFloor(CLI::App* parent) {
@@ -138,7 +164,7 @@ void AddFloor(CLI::App* parent) {
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);
     SetWorld(*a, fit);
-    WriteCalibration(a->out, fit.bundle.cameras);
+    WriteCalibration(a->out, fit.bundle.cameras, LoadCalibrationRecord(a->calibration));
     const std::string verdict = Verdict(CheckAll(*a, fit)) + '\n';
     std::fputs(verdict.c_str(), stdout);
   });
@@ -201,6 +227,11 @@ void AddConvert(CLI::App* parent) {
 // A person's feet are on the floor and the head is as high as heads are.
 void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
   const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
+  if (const auto swapped = FindSwappedCameras(samples)) {
+    findings.insert(findings.begin(),
+                    {Severity::kWrong, take.string() + ": " + SwappedText(*swapped)});
+    return;
+  }
   const StandingPerson person = MeasurePerson(samples);
   const auto add = [&](Severity severity, const std::string& text) {
     findings.insert(findings.begin(), {severity, take.string() + ": " + text});
@@ -215,10 +246,31 @@ void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findin
     add(Severity::kWrong,
         "the person's feet are at z = " + std::to_string(std::lround(person.lowest_mm)) +
             " mm, not on the floor; set the floor again");
+  const std::string reach =
+      "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) + " mm";
   if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
     add(Severity::kWarning,
-        "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) +
-            " mm; was the board's square typed right, and does somebody stand there?");
+        reach + "; was the board's square typed right, and does somebody stand there?");
+  else
+    findings.push_back({Severity::kNote, take.string() + ": " + reach});
+}
+
+std::string Days(std::int64_t from_s, std::int64_t to_s) {
+  return std::to_string((to_s - from_s) / (24 * 3600)) + " days ago";
+}
+
+// Age, and what the last look at the cameras' health found.
+std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
+  if (record.made_s == 0) return "does not say when it was made\n";
+  std::string text = "made " + Days(record.made_s, now_s);
+  if (record.refined_s != 0) text += ", refined " + Days(record.refined_s, now_s);
+  text += record.checked_s == 0 ? "; nobody has looked at its health yet"
+                                : "; health looked at " + Days(record.checked_s, now_s);
+  for (const CameraOffset& offset : record.offsets) {
+    if (offset.has_moved)
+      text += ", " + offset.camera + " " + std::to_string(std::lround(offset.px)) + " px off";
+  }
+  return text + '\n';
 }
 
 void AddCheck(CLI::App* parent) {
@@ -235,6 +287,7 @@ void AddCheck(CLI::App* parent) {
     fit.has_floor = true;
     std::vector<Finding> findings = CheckAll(*a, fit);
     if (!a->footage.empty()) CheckPerson(a->footage, findings);
+    std::fputs(RecordText(LoadCalibrationRecord(a->calibration), EpochS()).c_str(), stdout);
     for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
     std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
   });

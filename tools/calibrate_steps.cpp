@@ -51,7 +51,27 @@ BoardSightings Collect(const Footage& footage, const CalibrateArguments& argumen
     progress.Show(fmt::format("{}: frame {} of {}, {} views{}{}", camera, done, total, found,
                               hint.empty() ? "" : "; ", hint));
   };
-  return CollectSightings(footage, ParseBoard(arguments.board), options);
+  const Board board = ParseBoard(arguments.board);
+  if (board.kind == BoardKind::kWand && still)
+    throw SetupError(
+        "--floor: a wand shows no floor; set it with mocap calibrate floor, from a "
+        "board or --floor-points");
+  return CollectSightings(footage, board, options);
+}
+
+// Two lights tell next to nothing of a lens.
+void RefuseWand(const CalibrateArguments& arguments) {
+  if (ParseBoard(arguments.board).kind == BoardKind::kWand)
+    throw SetupError("--board " + arguments.board +
+                     ": a wand shows no lens; take a board for mocap calibrate intrinsics, then "
+                     "the wand for mocap calibrate extrinsics --intrinsics");
+}
+
+std::string NamesOf(const std::vector<CameraCalibration>& cameras) {
+  std::string names;
+  for (const CameraCalibration& camera : cameras)
+    names += (names.empty() ? "" : ", ") + camera.name;
+  return names;
 }
 
 // Lenses from a file, in the order of the footage.
@@ -63,12 +83,14 @@ std::vector<CameraCalibration> LensesFor(const BoardSightings& sightings,
     const auto lens = std::find_if(
         all.begin(), all.end(), [&](const CameraCalibration& c) { return c.name == camera.name; });
     if (lens == all.end())
-      throw SetupError(fmt::format("{}: has no camera {}; the footage has one", file.string(),
-                                   Quoted(camera.name)));
+      throw SetupError(fmt::format("{}: has no camera {}, of which there is footage; it has {}",
+                                   file.string(), Quoted(camera.name), NamesOf(all)));
     if (lens->width_px != camera.width_px || lens->height_px != camera.height_px)
-      throw SetupError(fmt::format("{}: {} is calibrated for {} x {}; its footage is {} x {}",
-                                   file.string(), camera.name, lens->width_px, lens->height_px,
-                                   camera.width_px, camera.height_px));
+      throw SetupError(fmt::format(
+          "{}: {} is calibrated for {} x {}; its footage is {} x {}: record it in that resolution, "
+          "or calibrate its lens in this one",
+          file.string(), camera.name, lens->width_px, lens->height_px, camera.width_px,
+          camera.height_px));
     lenses.push_back(*lens);
   }
   return lenses;
@@ -105,7 +127,7 @@ StudioFit FitPoses(const BoardSightings& sightings, const std::vector<CameraCali
   if (arguments.still)
     return FitToStillBoard(sightings, lenses, sightings.still_pictures, arguments.thickness_mm);
   ExtrinsicsOptions options;
-  options.refine_lenses = !arguments.keep_lenses;
+  options.refine_lenses = !arguments.keep_lenses && sightings.board.kind != BoardKind::kWand;
   return FitExtrinsics(sightings, lenses, options);
 }
 
@@ -117,6 +139,7 @@ std::string SeverityText(Severity severity) {
 }  // namespace
 
 StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
+  RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
   StudioFit fit;
   fit.sightings = Collect(footage, arguments, false, true);
@@ -141,6 +164,7 @@ StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
 }
 
 StudioFit CalibrateStudio(const CalibrateArguments& arguments) {
+  RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
   const BoardSightings sightings = Collect(footage, arguments, false, true);
   const std::vector<LensFit> lenses = FitLenses(sightings, arguments);
@@ -168,7 +192,8 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit) {
                                        [&](const CameraCalibration& c) { return c.name == name; });
       if (camera == fit.bundle.cameras.end())
         throw SetupError(arguments.floor.string() + ": has a camera " + Quoted(name) +
-                         " that is not calibrated");
+                         " that is not calibrated; the calibration has " +
+                         NamesOf(fit.bundle.cameras));
       s.camera = static_cast<int>(camera - fit.bundle.cameras.begin());
     }
     const RigidTransform X_WB = FindStillBoard(still, fit.bundle.cameras);

@@ -21,6 +21,8 @@ struct CalibrateArguments {
   std::filesystem::path floor;         ///< Footage of the board on the floor.
   std::filesystem::path floor_points;  ///< Three points instead.
   std::filesystem::path calibration;   ///< The one to change or check.
+  std::filesystem::path config;        ///< Of live cameras, which record the footage first.
+  double most_seconds = 180;           ///< Of that recording.
   std::string lens = "opencv";
   std::vector<double> pitch_mm = {0.01, 0.01};
   std::string distance;  ///< Measured with a tape: cam1:cam2:MM.

@@ -10,28 +10,29 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/clock.h"
 #include "daemon/json_object.h"
 #include "drivers/calibration_file.h"
-#include "drivers/quoted.h"
+#include "drivers/take_layout.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
 #include "tools/calibration/sightings.h"
 #include "tools/camera_health.h"
+#include "tools/camera_names.h"
 
 namespace mocap {
 namespace {
 
 constexpr int kHealthMoments = 16;
-constexpr double kEncoderTolerance = 0.005;
 
 struct PanTiltArguments {
-  std::filesystem::path calibration, out;
+  std::filesystem::path calibration, out, posed_by;
   std::vector<std::filesystem::path> footage;
   std::string board;
 };
 
 struct TakeArguments {
-  std::filesystem::path take, out;
+  std::filesystem::path take, out, note;
   double from_s = 0, to_s = 10;
   bool json = false;
 };
@@ -50,6 +51,17 @@ std::vector<BoardSighting> ViewsOf(const std::string& camera,
   return views;
 }
 
+// What a camera's encoders read while the recording was made from which its pose comes.
+PanTiltAngles PosedAt(const std::string& camera, const Footage& posed_by) {
+  for (const FootageCamera& recorded : posed_by.cameras) {
+    if (recorded.name != camera) continue;
+    std::vector<PanTiltAngles> readings;
+    for (const FootageFrame& frame : recorded.frames) readings.push_back(frame.angles);
+    return StandingAngles(camera, readings);
+  }
+  throw SetupError(posed_by.folder.string() + ": has no recording of " + camera);
+}
+
 void RunPanTilt(const PanTiltArguments& a) {
   const Board board = ParseBoard(a.board);
   std::vector<CameraCalibration> cameras = LoadCalibration(a.calibration);
@@ -58,6 +70,7 @@ void RunPanTilt(const PanTiltArguments& a) {
   options.all_must_see = false;
   for (const std::filesystem::path& folder : a.footage)
     recordings.push_back(CollectSightings(OpenFootage(folder), board, options));
+  const Footage posed_by = a.posed_by.empty() ? Footage{} : OpenFootage(a.posed_by);
   for (CameraCalibration& camera : cameras) {
     const std::vector<BoardSighting> views = ViewsOf(camera.name, recordings);
     const bool turns = std::any_of(views.begin(), views.end(), [](const BoardSighting& view) {
@@ -65,23 +78,22 @@ void RunPanTilt(const PanTiltArguments& a) {
     });
     if (!turns) continue;
     camera.head.reset();
-    const HeadFit fit = FitHead(camera, board, views);
+    const PanTiltAngles posed_at =
+        a.posed_by.empty() ? PanTiltAngles{} : PosedAt(camera.name, posed_by);
+    const HeadFit fit = FitHead(camera, posed_at, board, views);
     camera.head = fit.head;
-    std::fprintf(stdout, "%s: %d views, %.3f px, encoder scale %.4f (pan) %.4f (tilt)\n",
-                 camera.name.c_str(), fit.views, fit.rms_px, fit.pan_scale, fit.tilt_scale);
-    if (std::abs(fit.pan_scale - 1) > kEncoderTolerance ||
-        std::abs(fit.tilt_scale - 1) > kEncoderTolerance)
-      std::fprintf(
-          stdout,
-          "look: %s: its encoder counts wrongly; multiply its angles by these scales where "
-          "they are read, then run this again\n",
-          camera.name.c_str());
+    const std::string line = fmt::format(
+        "{}: {} views, {:.3f} px; encoders' scale {:.4f} (pan) {:.4f} (tilt), zero {:.4f} {:.4f} "
+        "rad\n",
+        camera.name, fit.views, fit.rms_px, fit.head.pan_scale, fit.head.tilt_scale,
+        posed_at.pan_rad, posed_at.tilt_rad);
+    std::fputs(line.c_str(), stdout);
   }
   if (std::none_of(cameras.begin(), cameras.end(),
                    [](const CameraCalibration& c) { return c.head.has_value(); }))
     throw SetupError(a.footage.front().string() +
                      ": no camera turns; camN.csv with pan_rad,tilt_rad is wanted");
-  WriteCalibration(a.out, cameras);
+  WriteCalibration(a.out, cameras, LoadCalibrationRecord(a.calibration));
 }
 
 const char* Directions(const Vector2& shift) {
@@ -89,15 +101,18 @@ const char* Directions(const Vector2& shift) {
   return shift.y() > 0 ? "down" : "up";
 }
 
+bool IsZoomed(const CameraShift& shift) { return std::abs(shift.growth) > kZoomedShare; }
+
 std::string ShiftText(const std::vector<CameraShift>& shifts) {
-  std::string text;
+  std::string text = fmt::format("{:<12}{:>7}  {:<8}{:>16}{:>9}{:>9}{:>9}\n", "camera", "px",
+                                 "towards", "(right, down)", "spread", "larger", "overlap");
   for (const CameraShift& s : shifts) {
-    text +=
-        s.moments == 0
-            ? fmt::format("{}: sees no whole person\n", s.camera)
-            : fmt::format("{}: {:.1f} px {} ({:+.1f}, {:+.1f}; spread {:.1f}), overlap {:.0f} %\n",
-                          s.camera, s.shift_px.norm(), Directions(s.shift_px), s.shift_px.x(),
-                          s.shift_px.y(), s.spread_px, 100 * s.overlap);
+    text += s.moments == 0
+                ? fmt::format("{:<12}sees too little of the person to tell\n", s.camera)
+                : fmt::format("{:<12}{:>7.1f}  {:<8}{:>16}{:>9.1f}{:>7.1f} %{:>7.0f} %\n", s.camera,
+                              s.shift_px.norm(), Directions(s.shift_px),
+                              fmt::format("({:+.1f}, {:+.1f})", s.shift_px.x(), s.shift_px.y()),
+                              s.spread_px, 100 * s.growth, 100 * s.overlap);
   }
   return text;
 }
@@ -110,6 +125,7 @@ std::string ShiftJson(const RefinedStudio& refined) {
       JsonObject one;
       one.Add("right_px", s.shift_px.x(), 2);
       one.Add("down_px", s.shift_px.y(), 2);
+      one.Add("growth", s.growth, 4);
       one.Add("overlap", s.overlap, 3);
       one.Add("moments", s.moments);
       cameras.Add(s.camera, one);
@@ -124,17 +140,61 @@ std::string ShiftJson(const RefinedStudio& refined) {
   return json.Text() + '\n';
 }
 
-TakeSamples Sample(const TakeArguments& a) {
-  return SampleTake(a.take, ChooseHealthMoments(a.take, a.from_s, a.to_s, kHealthMoments), 50);
+std::string VerdictText(const RefinedStudio& refined) {
+  std::string text;
+  for (const std::string& name : refined.moved)
+    text += name +
+            ": has moved since it was calibrated; mocap calibrate refine turns it back, a board "
+            "calibrates it anew\n";
+  for (const CameraShift& s : refined.before) {
+    if (IsZoomed(s))
+      text += fmt::format(
+          "{}: its picture has become {:.1f} % {}; was its focus or zoom touched? Calibrate its "
+          "lens anew\n",
+          s.camera, 100 * std::abs(s.growth), s.growth > 0 ? "larger" : "smaller");
+  }
+  return text.empty() ? "no camera has moved\n" : text;
 }
 
-void Print(const TakeArguments& a, const RefinedStudio& refined) {
-  std::string text = a.json ? ShiftJson(refined) : ShiftText(refined.before);
-  if (!a.json) {
-    for (const std::string& name : refined.moved)
-      text += name + ": has moved since it was calibrated\n";
-    if (refined.moved.empty()) text += "no camera has moved\n";
+std::vector<CameraOffset> OffsetsOf(const std::vector<CameraShift>& shifts,
+                                    const std::vector<std::string>& moved) {
+  std::vector<CameraOffset> offsets;
+  for (const CameraShift& s : shifts) {
+    const bool has_moved = std::find(moved.begin(), moved.end(), s.camera) != moved.end();
+    if (s.moments > 0) offsets.push_back({s.camera, s.shift_px.norm(), has_moved || IsZoomed(s)});
   }
+  return offsets;
+}
+
+TakeSamples Sample(const TakeArguments& a) {
+  TakeSamples samples =
+      SampleTake(a.take, ChooseHealthMoments(a.take, a.from_s, a.to_s, kHealthMoments), 50);
+  if (const auto swapped = FindSwappedCameras(samples))
+    throw SetupError(a.take.string() + ": " + SwappedText(*swapped));
+  return samples;
+}
+
+void RunHealth(const TakeArguments& a) {
+  const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
+  const std::string text =
+      a.json ? ShiftJson(refined) : ShiftText(refined.before) + VerdictText(refined);
+  std::fputs(text.c_str(), stdout);
+  if (a.note.empty()) return;
+  CalibrationRecord record = LoadCalibrationRecord(a.note);
+  record.checked_s = EpochS();
+  record.offsets = OffsetsOf(refined.before, refined.moved);
+  WriteCalibration(a.note, LoadCalibration(a.note), record);
+}
+
+void RunRefine(const TakeArguments& a) {
+  const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
+  CalibrationRecord record = LoadCalibrationRecord(TakeLayout{a.take}.Calibration());
+  record.refined_s = record.checked_s = EpochS();
+  record.offsets = OffsetsOf(refined.after, {});
+  WriteCalibration(a.out, refined.cameras, record);
+  const std::string text = a.json ? ShiftJson(refined)
+                                  : ShiftText(refined.before) + VerdictText(refined) + "after:\n" +
+                                        ShiftText(refined.after);
   std::fputs(text.c_str(), stdout);
 }
 
@@ -151,8 +211,10 @@ void AddPanTilt(CLI::App* parent) {
   const auto a = std::make_shared<PanTiltArguments>();
   CLI::App* command = parent->add_subcommand(
       "pan-tilt", "Axes of heads, from a board that lies still while the cameras turn");
-  command->add_option("CALIBRATION", a->calibration, "calibration.toml at pan = tilt = 0")
-      ->required();
+  command->add_option("CALIBRATION", a->calibration, "calibration.toml with poses")->required();
+  command->add_option("--posed-by", a->posed_by,
+                      "recording that the poses come from: what the encoders read there is where "
+                      "the poses hold; without it, they hold at zero");
   command
       ->add_option("--footage", a->footage,
                    "recording with camN.csv of pan_rad,tilt_rad; one for each place of the board")
@@ -167,7 +229,10 @@ void AddHealth(CLI::App* parent) {
   CLI::App* command =
       parent->add_subcommand("health", "Whether cameras still stand where they were calibrated");
   AddTake(command, a);
-  command->callback([a] { Print(*a, RefineFromSilhouettes(Sample(*a))); });
+  command->add_option(
+      "--note", a->note,
+      "calibration.toml in use, to note the result in: mocap calibrate check tells it");
+  command->callback([a] { RunHealth(*a); });
 }
 
 void AddRefine(CLI::App* parent) {
@@ -176,12 +241,7 @@ void AddRefine(CLI::App* parent) {
       "refine", "Puts small motions of cameras right, from silhouettes of a moving person alone");
   AddTake(command, a);
   command->add_option("--out", a->out, "calibration.toml to write")->required();
-  command->callback([a] {
-    const RefinedStudio refined = RefineFromSilhouettes(Sample(*a));
-    WriteCalibration(a->out, refined.cameras);
-    Print(*a, refined);
-    if (!a->json) std::fputs(("after:\n" + ShiftText(refined.after)).c_str(), stdout);
-  });
+  command->callback([a] { RunRefine(*a); });
 }
 
 }  // namespace mocap

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/calibration/bundle_errors.h"
 #include "tools/calibration/extrinsics.h"
 #include "tools/calibration/studio_check.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/utc_time.h"
 #include "tools/calibration_figures.h"
 #include "tools/report_style.h"
 #include "tools/svg_plot.h"
@@ -141,8 +142,8 @@ std::string WorstViews(const StudioFit& fit, const std::vector<CornerError>& err
 
 }  // namespace
 
-std::string CalibrationReportHtml(const std::string& title, const StudioFit& fit,
-                                  const std::vector<Finding>& findings) {
+std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
+                                  const StudioFit& fit, const std::vector<Finding>& findings) {
   const std::vector<CornerError> errors = BundleErrors(fit.sightings, fit.bundle);
   const SeenVolume volume = MeasureSeenVolume(fit.bundle.cameras);
   const char* mood = findings.empty() || findings[0].severity == Severity::kNote ? "good"
@@ -151,12 +152,12 @@ std::string CalibrationReportHtml(const std::string& title, const StudioFit& fit
   std::string html = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}{2}</style><main><h1>{0}</h1>"
-      "<p class=\"under\">{3}; {4}</p>"
+      "<p class=\"under\">{7}; {3}; {4}</p>"
       "<p class=\"verdict {5}\">{6}</p>\n",
       EscapeHtml(title), kReportStyle, kStyle, EscapeHtml(fit.sightings.board.Text()),
       fit.has_floor ? "world right-handed, z up, floor at z = 0, millimetres"
                     : "world of the first camera (x right, y down, z forward), millimetres",
-      mood, EscapeHtml(Verdict(findings)));
+      mood, EscapeHtml(Verdict(findings)), UtcText(made_s));
   html += Tiles(fit, volume);
   html += "<h2>What was noticed</h2>\n" + FindingList(findings);
   html += "<h2>Cameras</h2>\n" + CameraTable(fit);

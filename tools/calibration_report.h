@@ -1,6 +1,7 @@
 // The report of `mocap calibrate`: one HTML file that needs nothing beside it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 namespace mocap {
 
 /// Writes the page: verdict, errors in pixels and millimetres, coverage, plan, seen volume, worst
-/// views.
-std::string CalibrationReportHtml(const std::string& title, const StudioFit& fit,
-                                  const std::vector<Finding>& findings);
+/// views. @param made_s  when, since the Unix epoch.
+std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
+                                  const StudioFit& fit, const std::vector<Finding>& findings);
 
 }  // namespace mocap

@@ -22,6 +22,7 @@ constexpr double kVoxelMm = 20;
 constexpr int kFewestMoments = 4;
 constexpr double kSettled_px = 0.25;
 constexpr double kLeastOverlap = 0.5;
+constexpr double kUsualFatness = 0.2;
 constexpr int kFewestInLayer = 3;
 
 /// A mask as bits, for shifting.
@@ -55,31 +56,50 @@ RigidTransform PoseNow(const CameraCalibration& original, const CameraCalibratio
   return now.X_CW * original.X_CW.Inverse() * sampled;
 }
 
-/// Turn of a camera that moves pixels as seen: least squares over moments.
-struct TurnFit {
-  Matrix3 H = Matrix3::Identity() * 1e-3;
-  Vector3 g = Vector3::Zero();
+/// Turn and growth of a camera's picture that move pixels as seen: least squares over moments.
+class PictureChange {
+ public:
+  explicit PictureChange(const CameraCalibration& camera) : camera_(camera) {
+    // A roll moves the picture's middle least and is known least: it is kept small. A zoom shows
+    // only in as much as the person walks about.
+    H_(2, 2) += 1e3;
+    H_(3, 3) += 1 / (kUsualGrowth * kUsualGrowth);
+  }
 
-  void Add(const CameraCalibration& camera, const Vector2& middle_px, const Vector2& shift_px) {
-    const auto n = NormalizedFromPixel(camera.lens, middle_px);
+  void Add(const SilhouetteShift& match) {
+    const auto n = NormalizedFromPixel(camera_.lens, match.middle_px);
     if (!n) return;
-    Eigen::Matrix<double, 2, 3> J;
+    Eigen::Matrix<double, 2, 4> J;
     const Vector3 ray = n->homogeneous();
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double kStep = 1e-4;
       const Vector3 turned = ExpRotation(kStep * Vector3::Unit(axis)) * ray;
-      const auto pixel = PixelFromNormalized(camera.lens, turned.head<2>() / turned.z());
+      const auto pixel = PixelFromNormalized(camera_.lens, turned.head<2>() / turned.z());
       if (!pixel) return;
-      J.col(axis) = (*pixel - middle_px) / kStep;
+      J.col(axis) = (*pixel - match.middle_px) / kStep;
     }
-    // A roll moves the picture's middle least and is known least: it is kept small.
-    H += J.transpose() * J;
-    H(2, 2) += 1e3;
-    g += J.transpose() * shift_px;
+    J.col(3) = match.middle_px - Vector2(camera_.width_px - 1, camera_.height_px - 1) / 2;
+    H_ += J.transpose() * J;
+    g_ += J.transpose() * match.shift_px;
   }
 
-  Vector3 Solve() const { return H.ldlt().solve(g); }
+  /// Rotation vector in the camera's frame [rad], then the growth.
+  Eigen::Vector4d Solve() const { return H_.ldlt().solve(g_); }
+
+ private:
+  static constexpr double kUsualGrowth = 0.02;
+
+  const CameraCalibration& camera_;
+  Eigen::Matrix4d H_ = Eigen::Matrix4d::Identity() * 1e-3;
+  Eigen::Vector4d g_ = Eigen::Vector4d::Zero();
 };
+
+// A shift over what may be an accident: a hull that is much fatter than the person, as few cameras
+// carve it, can be fatter on one side.
+double Excess(const CameraShift& shift) {
+  const double fatness = std::max(1.0, (1 - shift.overlap) / kUsualFatness);
+  return shift.shift_px.norm() / (kMovedPx * fatness);
+}
 
 Vector2 Median(std::vector<SilhouetteShift> matches) {
   Vector2 median;
@@ -125,9 +145,9 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
     CameraShift shift;
     shift.camera = cameras[c].name;
     std::vector<SilhouetteShift> matches;
-    TurnFit turn;
+    PictureChange change(cameras[c]);
     for (const SampledMoment& moment : samples.moments) {
-      if (!moment.views[c] || TouchesBorder(moment.views[c]->silhouette)) continue;
+      if (!moment.views[c] || !moment.views[c]->silhouette.BoundingBox()) continue;
       std::vector<RigidTransform> X_CW(cameras.size());
       for (std::size_t k = 0; k < cameras.size(); ++k) {
         if (moment.views[k])
@@ -135,12 +155,10 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
       }
       const VoxelGrid hull = CarveWithout(moment, tables, X_CW, c, carver);
       const Silhouette expected = BitsOf(ProjectVoxels(hull, cameras[c], X_CW[c]));
-      if (TouchesBorder(expected)) continue;
       const SilhouetteShift match = MeasureShift(moment.views[c]->silhouette, expected);
       if (match.overlap < kLeastOverlap) continue;
       matches.push_back(match);
-      const PixelBox box = *expected.BoundingBox();
-      turn.Add(cameras[c], Vector2(box.left + box.right, box.top + box.bottom) / 2, match.shift_px);
+      change.Add(match);
     }
     shift.moments = static_cast<int>(matches.size());
     if (shift.moments >= kFewestMoments) {
@@ -149,7 +167,9 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
         shift.overlap += match.overlap / shift.moments;
         shift.spread_px += (match.shift_px - shift.shift_px).norm() / shift.moments;
       }
-      shift.rotation_C = turn.Solve();
+      const Eigen::Vector4d solved = change.Solve();
+      shift.rotation_C = solved.head<3>();
+      shift.growth = solved[3];
     }
     shifts.push_back(shift);
   }
@@ -195,14 +215,12 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
     throw SetupError(
         fmt::format("{} cameras see a whole person who moves; three at least are wanted", seeing));
   for (std::size_t round = 0; round < 3 * refined.cameras.size(); ++round) {
-    const auto worst = std::max_element(refined.after.begin(), refined.after.end(),
-                                        [](const CameraShift& a, const CameraShift& b) {
-                                          return a.shift_px.norm() < b.shift_px.norm();
-                                        });
+    const auto worst =
+        std::ranges::max_element(refined.after, {}, [](const CameraShift& s) { return Excess(s); });
     const bool known =
         std::find(refined.moved.begin(), refined.moved.end(), worst->camera) != refined.moved.end();
     // One that moved is brought home as near as can be; the others are left alone.
-    if (worst->shift_px.norm() < (known ? kSettled_px : kMovedPx)) break;
+    if (known ? worst->shift_px.norm() < kSettled_px : Excess(*worst) < 1) break;
     if (!known) refined.moved.push_back(worst->camera);
     if (2 * refined.moved.size() > refined.cameras.size())
       throw SetupError(

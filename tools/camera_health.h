@@ -20,10 +20,13 @@ struct CameraShift {
   int moments = 0;                     ///< That could be compared.
   Vector3 rotation_C =
       Vector3::Zero();  ///< Turn of the camera that explains it [rad], in its frame.
+  double growth = 0;    ///< Of its picture since it was calibrated, as a share: focus or zoom.
 };
 
 /// A shift as large as this is no accident of silhouettes [px].
 inline constexpr double kMovedPx = 1.5;
+/// Nor is so large a growth of the picture.
+inline constexpr double kZoomedShare = 0.015;
 
 /// Chooses moments spread evenly over a take, or over its part from `from_s` to `to_s`.
 std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take, double from_s,

@@ -32,6 +32,8 @@ Image<Bgr> Copy(ImageView<const Bgr> view) {
 std::vector<Nearest> NearestFrames(CameraDriver& driver, const std::vector<SampleRequest>& requests,
                                    std::int64_t tolerance_ns) {
   std::vector<Nearest> nearest(requests.size());
+  std::int64_t last_ns = 0;
+  for (const SampleRequest& request : requests) last_ns = std::max(last_ns, request.timestamp_ns);
   driver.Start();
   Frame frame;
   // A recording that is read fast is never late, so a timeout cannot pass for its end.
@@ -39,6 +41,7 @@ std::vector<Nearest> NearestFrames(CameraDriver& driver, const std::vector<Sampl
     const GrabStatus status = driver.Grab(frame, std::chrono::milliseconds(1000));
     if (status == GrabStatus::kEnd || status == GrabStatus::kLost) break;
     if (status != GrabStatus::kFrame) continue;
+    if (frame.capture_ns > last_ns + tolerance_ns) break;
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const std::int64_t apart_ns = std::abs(frame.capture_ns - requests[i].timestamp_ns);
       if (apart_ns > tolerance_ns || apart_ns >= nearest[i].apart_ns) continue;

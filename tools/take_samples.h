@@ -38,7 +38,7 @@ struct SampleRequest {
   bool keep_images = false;
 };
 
-/// Reads a take once from end to end and keeps, for each camera, the frame nearest to each moment
+/// Reads a take up to the last moment and keeps, for each camera, the frame nearest to each moment
 /// and no farther than half a frame's time.
 /// @throws SetupError  as OpenTake and Segmenter.
 TakeSamples SampleTake(const std::filesystem::path& take,

@@ -218,10 +218,12 @@ std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixe
   return std::visit([&](const auto& l) { return Unproject(l, pixel); }, lens);
 }
 
-RigidTransform CameraCalibration::PoseAt(const PanTiltAngles& angles) const {
+RigidTransform CameraCalibration::PoseAt(const PanTiltAngles& readings) const {
   if (!head) return X_CW;
-  const RigidTransform M = RotationAbout(head->pan_axis_W, head->pan_point_W, angles.pan_rad) *
-                           RotationAbout(head->tilt_axis_W, head->tilt_point_W, angles.tilt_rad);
+  const double pan_rad = head->pan_scale * (readings.pan_rad - head->zero.pan_rad);
+  const double tilt_rad = head->tilt_scale * (readings.tilt_rad - head->zero.tilt_rad);
+  const RigidTransform M = RotationAbout(head->pan_axis_W, head->pan_point_W, pan_rad) *
+                           RotationAbout(head->tilt_axis_W, head->tilt_point_W, tilt_rad);
   return X_CW * M.Inverse();
 }
 

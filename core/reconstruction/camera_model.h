@@ -50,20 +50,24 @@ std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixe
 /// which the sensor plane is no map of directions any more.
 double FieldRadius(const Lens& lens);
 
-/// Where a pan-tilt head points at the moment of exposure [rad].
+/// Where a pan-tilt head points at the moment of exposure, as its encoders read [rad].
 struct PanTiltAngles {
   double pan_rad = 0;
   double tilt_rad = 0;
   friend bool operator==(const PanTiltAngles&, const PanTiltAngles&) = default;
 };
 
-/// The two axes of a pan-tilt head at pan = tilt = 0, in the world frame; they need not pass
-/// through the lens.
+/// A pan-tilt head: its two axes at pan = tilt = 0, in the world frame, which need not pass through
+/// the lens; and what its encoders' readings mean.
 struct PanTiltHead {
   Vector3 pan_axis_W = Vector3::UnitZ();
   Vector3 pan_point_W = Vector3::Zero();
   Vector3 tilt_axis_W = Vector3::UnitX();
   Vector3 tilt_point_W = Vector3::Zero();
+  /// True angle over the encoder's.
+  double pan_scale = 1, tilt_scale = 1;
+  /// What the encoders read where pan = tilt = 0.
+  PanTiltAngles zero;
 };
 
 /// One calibrated camera.
@@ -75,9 +79,9 @@ struct CameraCalibration {
   RigidTransform X_CW;              ///< At pan = tilt = 0.
   std::optional<PanTiltHead> head;  ///< Only for a camera on a head.
 
-  /// Gives the pose for a direction of the head: X_CW M⁻¹ with M = M_pan M_tilt. Without a head it
-  /// is X_CW.
-  RigidTransform PoseAt(const PanTiltAngles& angles) const;
+  /// Gives the pose for what the head's encoders read: X_CW M⁻¹ with M = M_pan M_tilt. Without a
+  /// head it is X_CW.
+  RigidTransform PoseAt(const PanTiltAngles& readings) const;
 };
 
 }  // namespace mocap

@@ -35,6 +35,23 @@ std::int64_t CommonPixels(const Silhouette& seen, const Silhouette& expected, in
   return count;
 }
 
+// All that no shift brings to the picture's edge.
+Silhouette InnerPart(int width, int height) {
+  Silhouette inner(width, height);
+  for (int y = kFarthest_px; y < height - kFarthest_px; ++y) {
+    for (int x = kFarthest_px; x < width - kFarthest_px; ++x) inner.Set(x, y);
+  }
+  return inner;
+}
+
+Silhouette Common(const Silhouette& a, const Silhouette& b) {
+  Silhouette common = a;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int i = 0; i < a.words_per_row(); ++i) common.row(y)[i] &= b.row(y)[i];
+  }
+  return common;
+}
+
 }  // namespace
 
 bool TouchesBorder(const Silhouette& silhouette) {
@@ -43,12 +60,17 @@ bool TouchesBorder(const Silhouette& silhouette) {
          box->bottom > silhouette.height() - 3;
 }
 
-SilhouetteShift MeasureShift(const Silhouette& seen, const Silhouette& expected) {
-  const std::int64_t both = CountOf(seen) + CountOf(expected);
+SilhouetteShift MeasureShift(const Silhouette& silhouette, const Silhouette& expected) {
+  const bool is_cut = TouchesBorder(silhouette) || TouchesBorder(expected);
+  const Silhouette inner =
+      is_cut ? InnerPart(silhouette.width(), silhouette.height()) : Silhouette();
+  const Silhouette seen = is_cut ? Common(silhouette, inner) : silhouette;
+  const std::int64_t seen_count = CountOf(seen), expected_count = CountOf(expected);
   const auto overlap = [&](int dx, int dy) {
     const std::int64_t common = CommonPixels(seen, expected, dx, dy);
+    const std::int64_t compared = is_cut ? CommonPixels(inner, expected, dx, dy) : expected_count;
     return static_cast<double>(common) /
-           static_cast<double>(std::max<std::int64_t>(1, both - common));
+           static_cast<double>(std::max<std::int64_t>(1, seen_count + compared - common));
   };
   int best_x = 0, best_y = 0;
   double best = overlap(0, 0);
@@ -75,7 +97,10 @@ SilhouetteShift MeasureShift(const Silhouette& seen, const Silhouette& expected)
     // The overlap falls like a roof: the top is where both slopes meet.
     return left + right > 0 ? kReach * (left - right) / (2 * std::max(left, right)) : 0.0;
   };
-  return {{best_x + fraction(1, 0), best_y + fraction(0, 1)}, best};
+  const PixelBox box = seen.BoundingBox().value_or(PixelBox{});
+  return {{best_x + fraction(1, 0), best_y + fraction(0, 1)},
+          best,
+          Vector2(box.left + box.right, box.top + box.bottom) / 2};
 }
 
 }  // namespace mocap

@@ -29,6 +29,8 @@ class Calibration : public ::testing::Test {
     const testing::SmallTake take{.heads = true};
     std::vector<CameraCalibration> cameras = {
         testing::SmallCamera(take, 0), testing::SmallCamera({}, 1), testing::SmallCamera({}, 2)};
+    cameras[0].head->pan_scale = 1.03;
+    cameras[0].head->zero.tilt_rad = -0.25;
     OpenCvLens opencv;
     opencv.K << 490.756439, 0, 334.690674, 0, 493.26358, 222.39888, 0, 0, 1;
     opencv.distortion = {-0.368704915, 0.203186616, 1e-20, 1.78072587e-05, -0.1};
@@ -72,6 +74,36 @@ TEST_F(Calibration, ComesBackToTheLastBit) {
             std::get<FisheyeLens>(cameras[2].lens).distortion);
   EXPECT_EQ(loaded[0].head->tilt_point_W, cameras[0].head->tilt_point_W);
   EXPECT_EQ(loaded[0].head->pan_axis_W, cameras[0].head->pan_axis_W);
+  EXPECT_EQ(loaded[0].head->pan_scale, 1.03);
+  EXPECT_EQ(loaded[0].head->tilt_scale, 1);
+  EXPECT_EQ(loaded[0].head->zero, (PanTiltAngles{0, -0.25}));
+}
+
+TEST_F(Calibration, TellsItsAgeAndHealth) {
+  CalibrationRecord record;
+  record.made_s = 1'795'291'261;
+  record.reprojection_px = 0.21;
+  record.refined_s = 1'795'291'262;
+  record.checked_s = 1'795'291'263;
+  record.offsets = {{"cam2", 0.4, false}, {"cam1", 5.25, true}};
+  WriteCalibration(file_, AllModels(), record);
+  EXPECT_EQ(LoadCalibration(file_).size(), 3u);
+  const CalibrationRecord loaded = LoadCalibrationRecord(file_);
+  EXPECT_EQ(loaded.made_s, record.made_s);
+  EXPECT_EQ(loaded.reprojection_px, 0.21);
+  EXPECT_EQ(loaded.refined_s, record.refined_s);
+  EXPECT_EQ(loaded.checked_s, record.checked_s);
+  ASSERT_EQ(loaded.offsets.size(), 2u);
+  EXPECT_EQ(loaded.offsets[1].camera, "cam1");
+  EXPECT_EQ(loaded.offsets[1].px, 5.25);
+  EXPECT_TRUE(loaded.offsets[1].has_moved);
+  EXPECT_FALSE(loaded.offsets[0].has_moved);
+}
+
+TEST_F(Calibration, OneThatSaysNothingOfItselfIsOfUnknownAge) {
+  WriteCalibration(file_, AllModels());
+  EXPECT_EQ(LoadCalibrationRecord(file_).made_s, 0);
+  EXPECT_EQ(LoadCalibrationRecord(file_).checked_s, 0);
 }
 
 TEST_F(Calibration, CamerasKeepTheOrderOfTheFile) {

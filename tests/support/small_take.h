@@ -55,7 +55,8 @@ inline CameraCalibration SmallCamera(const SmallTake& take, int camera) {
   calibration.lens = lens;
   calibration.X_CW = {ExpRotation({0.3, 0.1 * camera, -0.2}), {10.0 * camera, 800, 4600}};
   if (take.heads) {
-    calibration.head = PanTiltHead{Vector3::UnitZ(), {1, 2, 3}, Vector3(0.6, 0.8, 0), {4, 5, 6.5}};
+    calibration.head =
+        PanTiltHead{Vector3::UnitZ(), {1, 2, 3}, Vector3(0.6, 0.8, 0), {4, 5, 6.5}, 1, 1, {}};
   }
   return calibration;
 }

@@ -6,7 +6,10 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "core/reconstruction/carver.h"
+#include "core/reconstruction/sensor_plane_table.h"
 #include "tests/support/walking_silhouettes.h"
+#include "tools/camera_names.h"
 
 namespace mocap {
 namespace {
@@ -63,6 +66,79 @@ TEST(CameraHealthTest, NamesACameraThatWasBumpedByHalfADegreeAndPutsItRight) {
   EXPECT_LT(left_rad, 0.3 * kBump_rad);
   EXPECT_LT(refined.after[3].shift_px.norm(), 0.6);
   EXPECT_EQ(refined.cameras[0].X_CW.p, Walk().cameras[0].X_CW.p);
+}
+
+/// The recording as it would be through a longer lens.
+TakeSamples Zoomed(TakeSamples samples, std::size_t camera, double growth) {
+  std::get<TsaiLens>(samples.cameras[camera].lens).focal_mm /= 1 + growth;
+  return samples;
+}
+
+TEST(CameraHealthTest, NamesTheCameraWhoseZoomWasTouched) {
+  for (const CameraShift& shift : RefineFromSilhouettes(Walk()).before)
+    EXPECT_LT(std::abs(shift.growth), kZoomedShare) << shift.camera;
+  const RefinedStudio refined = RefineFromSilhouettes(Zoomed(Walk(), 2, 0.04));
+  EXPECT_GT(refined.before[2].growth, kZoomedShare);
+}
+
+TEST(CameraHealthTest, PeopleWhomThePictureCutsOffAreComparedAsFarAsTheyAreSeen) {
+  TakeSamples cut = Bumped(Walk(), 3, kBump_rad * Vector3(0.5, -1, 0.2).normalized());
+  // Camera 4 no longer shows what is below its 300th row.
+  for (SampledMoment& moment : cut.moments) {
+    const Silhouette whole = moment.views[3]->silhouette;
+    Silhouette& upper = moment.views[3]->silhouette;
+    upper.Reset(whole.width(), 300);
+    for (int y = 0; y < 300; ++y) std::copy_n(whole.row(y), whole.words_per_row(), upper.row(y));
+  }
+  cut.cameras[3].height_px = 300;
+  const RefinedStudio refined = RefineFromSilhouettes(cut);
+  EXPECT_THAT(refined.moved, ElementsAre("cam4"));
+  EXPECT_LT(TurnBetween(refined.cameras[3], Walk().cameras[3]), 0.4 * kBump_rad);
+}
+
+/// The walk with a floor that lies so much too low.
+StandingPerson PersonAbove(double raised_mm) {
+  TakeSamples samples = Walk();
+  const std::vector<SensorPlaneTable> tables(samples.cameras.begin(), samples.cameras.end());
+  Carver carver({25});
+  for (SampledMoment& moment : samples.moments) {
+    std::vector<CarvingView> views;
+    for (std::size_t c = 0; c < tables.size(); ++c) {
+      RigidTransform X_CW = moment.views[c]->X_CW;
+      X_CW.p -= X_CW.R * Vector3(0, 0, raised_mm);
+      views.push_back({&tables[c], &moment.views[c]->silhouette, X_CW});
+    }
+    carver.Carve(views, moment.voxels);
+  }
+  return MeasurePerson(samples);
+}
+
+TEST(StandingPersonTest, ReachesFromTheFloorToTheStature) {
+  const StandingPerson person = PersonAbove(0);
+  EXPECT_EQ(person.moments, 10);
+  EXPECT_NEAR(person.lowest_mm, 0, 50);
+  EXPECT_NEAR(person.highest_mm, RecordedSimulation().stature_mm, 80);
+}
+
+TEST(StandingPersonTest, TellsAFloorThatLiesElsewhere) {
+  EXPECT_NEAR(PersonAbove(300).lowest_mm, 300, 50);
+}
+
+TEST(CameraNamesTest, FindsTwoRecordingsThatGoByEachOthersName) {
+  EXPECT_FALSE(FindSwappedCameras(Walk()));
+  TakeSamples swapped = Walk();
+  for (SampledMoment& moment : swapped.moments)
+    std::swap(moment.views[1]->silhouette, moment.views[4]->silhouette);
+  EXPECT_EQ(FindSwappedCameras(swapped), CameraPair("cam2", "cam5"));
+}
+
+TEST(CameraNamesTest, GuessesNothingWhereNoExchangeHelps) {
+  TakeSamples mixed = Walk();
+  for (SampledMoment& moment : mixed.moments)
+    std::swap(moment.views[0]->silhouette, moment.views[1]->silhouette);
+  for (SampledMoment& moment : mixed.moments)
+    std::swap(moment.views[2]->silhouette, moment.views[4]->silhouette);
+  EXPECT_FALSE(FindSwappedCameras(mixed));
 }
 
 TEST(CameraHealthTest, SaysSoWhenNobodyIsSeen) {

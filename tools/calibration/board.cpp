@@ -13,8 +13,9 @@ namespace {
 
 [[noreturn]] void Refuse(const std::string& text, const std::string& why) {
   throw SetupError("--board " + Quoted(text) + ": " + why +
-                   "; wanted is chess:COLUMNSxROWS:MM (inner corners) or "
-                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares)");
+                   "; wanted is chess:COLUMNSxROWS:MM (inner corners), "
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares) or "
+                   "wand:MM (from light to light)");
 }
 
 bool ReadNumber(const std::string& text, double& value) {
@@ -43,6 +44,7 @@ void ReadSize(const std::string& text, const std::string& size, Board& board) {
 }  // namespace
 
 std::string Board::Text() const {
+  if (kind == BoardKind::kWand) return fmt::format("wand with lights {} mm apart", square_mm);
   if (kind == BoardKind::kChessboard)
     return fmt::format("chessboard of {} x {} inner corners, squares of {} mm", columns, rows,
                        square_mm);
@@ -52,6 +54,12 @@ std::string Board::Text() const {
 
 Board ParseBoard(const std::string& text) {
   const std::vector<std::string> parts = Split(text, ':');
+  if (parts.size() == 2 && parts[0] == "wand") {
+    Board wand{BoardKind::kWand, 2, 1, 0, "", 0, false};
+    if (!ReadNumber(parts[1], wand.square_mm) || !(wand.square_mm >= 50 && wand.square_mm <= 3000))
+      Refuse(text, Quoted(parts[1]) + " is not a wand's length of 50 to 3000 mm");
+    return wand;
+  }
   if (parts.size() < 3) Refuse(text, "has too few parts");
   Board board;
   if (parts[0] == "charuco") {

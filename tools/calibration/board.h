@@ -1,4 +1,4 @@
-// A flat board whose corners are known: a chessboard or a ChArUco board.
+// What is shown to cameras: a flat board whose corners are known, or a wand with two lights.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-enum class BoardKind { kChessboard, kCharuco };
+enum class BoardKind { kChessboard, kCharuco, kWand };
 
 /// A board as it was printed and measured.
 struct Board {
@@ -16,7 +16,7 @@ struct Board {
   /// Inner corners across and down. (A ChArUco board is named by its squares, one more each way.)
   int columns = 0;
   int rows = 0;
-  double square_mm = 0;
+  double square_mm = 0;                    ///< Of a wand: from light to light; it is 2 x 1.
   std::string dictionary = "DICT_4X4_50";  ///< ChArUco only, OpenCV's name.
   double marker_share = 0.75;              ///< Side of a marker over the side of a square.
   bool inverted = false;                   ///< Printed white on black.
@@ -33,8 +33,8 @@ struct Board {
   std::string Text() const;
 };
 
-/// Reads `chess:8x6:115` (inner corners, mm) or `charuco:4x5:54[:DICT_4X4_50][:0.75][:inverted]`
-/// (squares, mm, dictionary, marker over square).
+/// Reads `chess:8x6:115` (inner corners, mm), `charuco:4x5:54[:DICT_4X4_50][:0.75][:inverted]`
+/// (squares, mm, dictionary, marker over square) or `wand:500` (mm from light to light).
 /// @throws SetupError  saying what is wanted.
 Board ParseBoard(const std::string& text);
 

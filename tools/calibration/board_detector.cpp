@@ -1,7 +1,10 @@
 #include "tools/calibration/board_detector.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -9,6 +12,7 @@
 #include "core/errors.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/board_rectifier.h"
+#include "tools/calibration/wand.h"
 
 namespace mocap {
 namespace {
@@ -86,15 +90,65 @@ class BoardDetector::Impl {
   }
 
   std::optional<BoardCorners> Detect(ImageView<const Bgr> image, Effort effort) const {
+    if (board_.kind == BoardKind::kWand) return DetectLights(image);
+    const cv::Mat gray = Gray(image);
+    return charuco_ ? DetectCharuco(gray) : DetectChessboard(gray, effort);
+  }
+
+  std::string WhyNot(ImageView<const Bgr> image) const {
+    if (board_.kind == BoardKind::kWand) return "";
+    const cv::Mat gray = Gray(image);
+    return charuco_ ? WhyNoCharuco(gray) : WhyNoChessboard(gray);
+  }
+
+ private:
+  cv::Mat Gray(ImageView<const Bgr> image) const {
     const cv::Mat view(image.height(), image.width(), CV_8UC3, const_cast<Bgr*>(image.row(0)),
                        image.stride() * sizeof(Bgr));
     cv::Mat gray;
     cv::cvtColor(view, gray, cv::COLOR_BGR2GRAY);
     if (board_.inverted) cv::bitwise_not(gray, gray);
-    return charuco_ ? DetectCharuco(gray) : DetectChessboard(gray, effort);
+    return gray;
   }
 
- private:
+  std::string WhyNoCharuco(const cv::Mat& gray) const {
+    cv::Mat changed;
+    cv::flip(gray, changed, 1);
+    if (DetectCharuco(changed))
+      return "shows the board mirrored; switch mirroring off, or print the board unmirrored";
+    cv::bitwise_not(gray, changed);
+    if (!DetectCharuco(changed)) return "";
+    return board_.inverted ? "shows the board black on white; leave :inverted out of --board"
+                           : "shows the board white on black; add :inverted to --board";
+  }
+
+  std::string WhyNoChessboard(const cv::Mat& gray) const {
+    const int flags = cv::CALIB_CB_NORMALIZE_IMAGE;
+    const cv::Size size(board_.columns, board_.rows);
+    std::vector<cv::Point2f> corners;
+    if (cv::findChessboardCornersSB(gray, size, corners, flags))
+      return "shows the board blurred; hold it still, focus, or shorten the exposure";
+    // Who counts squares instead of the corners between them, or the other way round.
+    for (const int more : {-1, 1}) {
+      const cv::Size other(size.width + more, size.height + more);
+      if (other.width >= 3 && other.height >= 3 &&
+          cv::findChessboardCornersSB(gray, other, corners, flags))
+        return fmt::format(
+            "shows a board of {} x {} inner corners; --board counts those, not squares",
+            other.width, other.height);
+    }
+    return "";
+  }
+
+  // All lights: which two are the wand's shows only over time.
+  static std::optional<BoardCorners> DetectLights(ImageView<const Bgr> image) {
+    BoardCorners lights;
+    lights.pixels = FindSpots(image);
+    lights.ids.resize(lights.pixels.size());
+    std::iota(lights.ids.begin(), lights.ids.end(), 0);
+    return lights.ids.size() < 2 ? std::nullopt : std::optional(lights);
+  }
+
   std::optional<BoardCorners> DetectCharuco(const cv::Mat& gray) const {
     std::vector<std::vector<cv::Point2f>> markers;
     std::vector<int> marker_ids;
@@ -206,6 +260,8 @@ class BoardDetector::Impl {
 BoardDetector::BoardDetector(const Board& board) : impl_(std::make_unique<Impl>(board)) {}
 BoardDetector::~BoardDetector() = default;
 BoardDetector::BoardDetector(BoardDetector&&) noexcept = default;
+
+std::string BoardDetector::WhyNot(ImageView<const Bgr> image) const { return impl_->WhyNot(image); }
 
 std::optional<BoardCorners> BoardDetector::Detect(ImageView<const Bgr> image, Effort effort) const {
   return impl_->Detect(image, effort);

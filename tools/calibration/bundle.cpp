@@ -1,6 +1,7 @@
 #include "tools/calibration/bundle.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,6 @@ namespace mocap {
 namespace {
 
 constexpr double kUnseen_px = 1000;
-constexpr double kLeastOutlier_px = 1, kOutlierMedians = 3;
-constexpr std::size_t kFewestCorners = 4;
 
 using Pose = std::array<double, 6>;  ///< Rotation vector [rad] and translation [mm].
 
@@ -25,13 +24,6 @@ Pose PoseFrom(const RigidTransform& X) {
 
 RigidTransform TransformFrom(const double* pose) {
   return {ExpRotation({pose[0], pose[1], pose[2]}), {pose[3], pose[4], pose[5]}};
-}
-
-// How far a corner moved in the picture from the moment's time to the exposure.
-Vector2 MovedSince(const BoardSighting& sighting, std::size_t corner, double lateness_s) {
-  if (sighting.motions.empty()) return Vector2::Zero();
-  // The motion is told about the frame's own time.
-  return -sighting.motions[corner].After(-(sighting.late_s + lateness_s));
 }
 
 // One view of the board: blocks are lens, camera, board, lateness.
@@ -63,7 +55,7 @@ class ViewCost : public ceres::CostFunction {
       const Vector3 p_C = X_CB * points_B_[i];
       const auto pixel = Project(lens, p_C);
       Eigen::Map<Vector2>(residuals + 2 * i) =
-          pixel ? Vector2(*pixel - pixels_[i] + MovedSince(sighting_, i, *blocks[3]))
+          pixel ? Vector2(*pixel - pixels_[i] + sighting_.MovedSince(i, *blocks[3]))
                 : Vector2::Constant(kUnseen_px).eval();
       if (jacobians == nullptr || !pixel) continue;
       if (jacobians[3] != nullptr && !sighting_.motions.empty()) {
@@ -222,6 +214,18 @@ void AddViews(const BoardSightings& sightings, const BundleOptions& options, con
   }
 }
 
+// A wand shows nothing of its roll; a breath of a prior keeps the equations regular.
+void HoldRolls(Blocks& blocks, ceres::Problem& problem) {
+  constexpr double kWeight = 0.01;
+  for (Pose& wand : blocks.boards) {
+    if (!problem.HasParameterBlock(wand.data())) continue;
+    ceres::Matrix weights = ceres::Matrix::Zero(3, 6);
+    weights.leftCols<3>() = kWeight * Matrix3::Identity();
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> now(wand.data());
+    problem.AddResidualBlock(new ceres::NormalPrior(weights, now), nullptr, wand.data());
+  }
+}
+
 void HoldConstant(const BundleOptions& options, Blocks& blocks, ceres::Problem& problem) {
   const auto hold = [&problem](double* block) {
     if (problem.HasParameterBlock(block)) problem.SetParameterBlockConstant(block);
@@ -255,6 +259,7 @@ bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options,
   ceres::Problem problem;
   AddViews(sightings, options, bundle, blocks, problem);
   if (problem.NumResidualBlocks() == 0) return false;
+  if (sightings.board.kind == BoardKind::kWand) HoldRolls(blocks, problem);
   for (std::size_t c = 0; options.refine_lenses && c < bundle.cameras.size(); ++c) {
     if (problem.HasParameterBlock(blocks.lenses[c].data()))
       problem.AddResidualBlock(new LensPrior(bundle.cameras[c]), nullptr, blocks.lenses[c].data());
@@ -277,73 +282,6 @@ bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options,
   }
   bundle.lateness_s = blocks.lateness_s;
   return summary.IsSolutionUsable();
-}
-
-std::vector<CornerError> BundleErrors(const BoardSightings& sightings, const Bundle& bundle) {
-  std::vector<CornerError> errors;
-  for (std::size_t s = 0; s < sightings.sightings.size(); ++s) {
-    const BoardSighting& sighting = sightings.sightings[s];
-    if (!bundle.X_WB[sighting.moment]) continue;
-    const CameraCalibration& camera = bundle.cameras[sighting.camera];
-    const RigidTransform X_CB = camera.X_CW * *bundle.X_WB[sighting.moment];
-    const double lateness_s = bundle.lateness_s.empty() ? 0 : bundle.lateness_s[sighting.camera];
-    for (std::size_t i = 0; i < sighting.corners.ids.size(); ++i) {
-      const Vector3 p_C = X_CB * sightings.board.Corner(sighting.corners.ids[i]);
-      CornerError error{static_cast<int>(s), sighting.corners.pixels[i],
-                        Vector2::Constant(HUGE_VAL), p_C.z()};
-      if (p_C.z() > 0) {
-        const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
-        if (pixel) error.error_px = *pixel - error.pixel + MovedSince(sighting, i, lateness_s);
-      }
-      errors.push_back(error);
-    }
-  }
-  return errors;
-}
-
-double RmsPx(const std::vector<CornerError>& errors, const BoardSightings& sightings, int camera) {
-  double sum = 0;
-  int count = 0;
-  for (const CornerError& error : errors) {
-    if (camera >= 0 && sightings.sightings[error.sighting].camera != camera) continue;
-    sum += error.error_px.squaredNorm();
-    ++count;
-  }
-  return count == 0 ? 0 : std::sqrt(sum / count);
-}
-
-int DropOutliers(const Bundle& bundle, BoardSightings& sightings) {
-  const std::vector<CornerError> errors = BundleErrors(sightings, bundle);
-  if (errors.empty()) return 0;
-  std::vector<double> lengths;
-  for (const CornerError& error : errors) lengths.push_back(error.error_px.norm());
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  const double limit = std::max(kLeastOutlier_px, kOutlierMedians * *middle);
-  std::vector<BoardCorners> kept(sightings.sightings.size());
-  std::vector<std::vector<CornerMotion>> motions(sightings.sightings.size());
-  std::vector<std::size_t> next(sightings.sightings.size(), 0);
-  int dropped = 0;
-  for (const CornerError& error : errors) {
-    const BoardCorners& corners = sightings.sightings[error.sighting].corners;
-    const std::size_t i = next[error.sighting]++;
-    if (!(error.error_px.norm() <= limit)) {
-      ++dropped;
-      continue;
-    }
-    kept[error.sighting].ids.push_back(corners.ids[i]);
-    kept[error.sighting].pixels.push_back(corners.pixels[i]);
-    if (!sightings.sightings[error.sighting].motions.empty())
-      motions[error.sighting].push_back(sightings.sightings[error.sighting].motions[i]);
-  }
-  for (std::size_t s = 0; s < kept.size(); ++s) {
-    if (next[s] == 0) continue;
-    sightings.sightings[s].corners = kept[s];
-    sightings.sightings[s].motions = motions[s];
-  }
-  std::erase_if(sightings.sightings,
-                [](const BoardSighting& s) { return s.corners.ids.size() < kFewestCorners; });
-  return dropped;
 }
 
 }  // namespace mocap

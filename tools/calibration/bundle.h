@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/reconstruction/camera_model.h"
@@ -33,23 +32,5 @@ struct BundleOptions {
 /// Refines in place with Ceres. Sightings of unknown boards are passed over. Deterministic.
 /// @return  false when it did not settle.
 bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options, Bundle& bundle);
-
-/// Distance between a corner as projected and as seen.
-struct CornerError {
-  int sighting = 0;
-  Vector2 pixel;  ///< Seen.
-  Vector2 error_px;
-  double depth_mm = 0;
-};
-
-/// Errors of all corners of known boards; infinite where the camera could not see the place.
-std::vector<CornerError> BundleErrors(const BoardSightings& sightings, const Bundle& bundle);
-
-/// Root mean square of the distances; of one camera or (-1) of all.
-double RmsPx(const std::vector<CornerError>& errors, const BoardSightings& sightings, int camera);
-
-/// Removes corners that lie more than three times the common error (and a pixel) from where the
-/// bundle puts them, and views that keep fewer than four. @return  how many corners went.
-int DropOutliers(const Bundle& bundle, BoardSightings& sightings);
 
 }  // namespace mocap

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
 #include "core/errors.h"
 #include "tools/calibration/board_pose.h"
+#include "tools/calibration/bundle_errors.h"
+#include "tools/calibration/wand.h"
 
 namespace mocap {
 namespace {
@@ -41,15 +44,10 @@ PoseTable FindPoses(const BoardSightings& sightings,
   return table;
 }
 
-/// How camera B's points come to camera A, as most shared views say.
-struct PairLink {
-  int shared = 0;
-  RigidTransform X_AB;
-};
-
-PairLink LinkPair(const PoseTable& poses, int a, int b) {
+// How camera B's points come to camera A, as most shared views say.
+CameraLink LinkPair(const PoseTable& poses, int a, int b) {
   std::vector<RigidTransform> candidates;
-  PairLink link;
+  CameraLink link;
   for (std::size_t m = 0; m < poses[a].size(); ++m) {
     if (poses[a][m].empty() || poses[b][m].empty()) continue;
     ++link.shared;
@@ -72,15 +70,16 @@ PairLink LinkPair(const PoseTable& poses, int a, int b) {
 }
 
 // The strongest links first, until all cameras hang together.
-void PlaceCameras(const PoseTable& poses, std::vector<CameraCalibration>& cameras) {
+void PlaceCameras(const std::function<CameraLink(int, int)>& link_of,
+                  std::vector<CameraCalibration>& cameras) {
   const int n = static_cast<int>(cameras.size());
   std::vector<bool> placed(cameras.size(), false);
   placed[0] = true;
   cameras[0].X_CW = {};
-  std::map<std::pair<int, int>, PairLink> links;
+  std::map<std::pair<int, int>, CameraLink> links;
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
-      if (a < b) links[{a, b}] = LinkPair(poses, a, b);
+      if (a < b) links[{a, b}] = link_of(a, b);
     }
   }
   for (int round = 1; round < n; ++round) {
@@ -134,6 +133,22 @@ void PlaceBoards(const BoardSightings& sightings, const PoseTable& poses, Bundle
   }
 }
 
+void PlaceShown(BoardSightings& sightings, Bundle& bundle) {
+  if (sightings.board.kind == BoardKind::kWand) return PlaceWands(sightings, bundle);
+  PlaceBoards(sightings, FindPoses(sightings, bundle.cameras), bundle);
+}
+
+void PlaceAll(BoardSightings& sightings, Bundle& bundle) {
+  const std::vector<CameraCalibration> lenses = bundle.cameras;
+  if (sightings.board.kind == BoardKind::kWand) {
+    PlaceCameras([&](int a, int b) { return LinkByWand(sightings, lenses, a, b); }, bundle.cameras);
+  } else {
+    const PoseTable poses = FindPoses(sightings, lenses);
+    PlaceCameras([&](int a, int b) { return LinkPair(poses, a, b); }, bundle.cameras);
+  }
+  PlaceShown(sightings, bundle);
+}
+
 // A moment that only one camera saw tells nothing of where cameras are, but still of its lens.
 void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
   BundleOptions refine;
@@ -159,6 +174,17 @@ std::vector<int> SharedCorners(const BoardSightings& sightings) {
   return shared;
 }
 
+// The first view of a camera that was dropped; where none was, the worst.
+std::string MisfitFrame(const BoardSightings& before, const StudioFit& fit, int camera) {
+  for (const BoardSighting& s : before.sightings) {
+    const bool kept = std::ranges::any_of(fit.sightings.sightings, [&](const BoardSighting& k) {
+      return k.camera == camera && k.name == s.name;
+    });
+    if (s.camera == camera && !kept) return s.name;
+  }
+  return WorstView(BundleErrors(fit.sightings, fit.bundle), fit.sightings, camera).frame;
+}
+
 // Alone with the board, any camera is right: what counts is what it shares with others. The one
 // that fits worst is named, since it drags the others along.
 void RefuseContradiction(const BoardSightings& before, const StudioFit& fit) {
@@ -176,10 +202,11 @@ void RefuseContradiction(const BoardSightings& before, const StudioFit& fit) {
     return;
   throw SetupError(
       fmt::format("{}: contradicts the other cameras ({:.1f} px, {:.0f} % of what it shares with "
-                  "them fits); its "
-                  "recording may be another camera's, not of the same time, mirrored, or of "
-                  "another lens or size",
-                  camera.name, camera.rms_px, 100 * share(worst)));
+                  "them fits, not {}); its recording may be another camera's, not of the same "
+                  "time, mirrored, or of another lens or size: record all cameras at once, under "
+                  "their own names",
+                  camera.name, camera.rms_px, 100 * share(worst),
+                  MisfitFrame(before, fit, static_cast<int>(worst))));
 }
 
 }  // namespace
@@ -220,15 +247,13 @@ StudioFit FitExtrinsics(const BoardSightings& sightings,
   StudioFit fit;
   fit.sightings = sightings;
   fit.bundle.cameras = lenses;
-  const PoseTable poses = FindPoses(sightings, lenses);
-  PlaceCameras(poses, fit.bundle.cameras);
-  PlaceBoards(sightings, poses, fit.bundle);
+  PlaceAll(fit.sightings, fit.bundle);
   Adjust(options, fit);
   if (sightings.timed) {
     // Boards of one moment may have been taken of different ones as long as cameras lagged.
     fit.sightings = sightings;
     MatchAgain(fit.bundle.lateness_s, fit.sightings);
-    PlaceBoards(fit.sightings, FindPoses(fit.sightings, fit.bundle.cameras), fit.bundle);
+    PlaceShown(fit.sightings, fit.bundle);
     Adjust(options, fit);
   }
   MeasureFit(fit);

@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/board_pose.h"
+#include "tools/calibration/bundle_errors.h"
 
 namespace mocap {
 namespace {
@@ -83,7 +84,7 @@ RigidTransform FindStillBoard(const BoardSightings& still,
     throw SetupError(
         fmt::format("{}: sees the floor's board {:.1f} px from where the other cameras put it; was "
                     "it moved while it "
-                    "was recorded, or the camera since the board was carried?",
+                    "was recorded, or the camera since the board was carried? Record it again",
                     cameras[static_cast<std::size_t>(worst)].name, rms_px));
   return *bundle.X_WB[0];
 }

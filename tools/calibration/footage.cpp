@@ -114,7 +114,9 @@ void ReadSharedTimes(const fs::path& file, Footage& footage) {
 
 cv::Mat ReadPicture(const fs::path& file) {
   cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (picture.empty()) throw SetupError(file.string() + ": is no picture that can be read");
+  if (picture.empty())
+    throw SetupError(file.string() +
+                     ": is no picture that can be read; take it out or save it anew");
   return picture;
 }
 
@@ -133,7 +135,8 @@ FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::p
       if (picture.size() != size)
         throw SetupError(files[i].string() + ": is " + std::to_string(picture.cols) + " x " +
                          std::to_string(picture.rows) + "; the pictures before it are " +
-                         std::to_string(size.width) + " x " + std::to_string(size.height));
+                         std::to_string(size.width) + " x " + std::to_string(size.height) +
+                         "; all of one camera in one resolution are wanted");
       use(static_cast<int>(i), ImageView<const Bgr>(picture.ptr<Bgr>(), picture.cols, picture.rows,
                                                     static_cast<std::ptrdiff_t>(picture.step / 3)));
     }

@@ -17,6 +17,7 @@ namespace {
 constexpr int kFewestViews = 8;
 constexpr double kLeastSpan_rad = 10 * std::numbers::pi / 180;
 constexpr double kWorstRms_px = 2;
+constexpr double kStanding_rad = 0.002;
 // Axis (2) and point (2) of pan, of tilt, then both scales; six a place follow.
 constexpr int kHeadParameters = 10;
 
@@ -41,8 +42,8 @@ Model Moved(const Model& model, const Eigen::VectorXd& x) {
   head.pan_point_W += pan * x.segment<2>(2);
   head.tilt_axis_W = (head.tilt_axis_W + tilt * x.segment<2>(4)).normalized();
   head.tilt_point_W += tilt * x.segment<2>(6);
-  moved.fit.pan_scale += x[8];
-  moved.fit.tilt_scale += x[9];
+  head.pan_scale += x[8];
+  head.tilt_scale += x[9];
   for (std::size_t place = 0; place < moved.X_WB.size(); ++place) {
     const Eigen::Index at = kHeadParameters + 6 * static_cast<Eigen::Index>(place);
     RigidTransform& X_WB = moved.X_WB[place];
@@ -52,9 +53,9 @@ Model Moved(const Model& model, const Eigen::VectorXd& x) {
   return moved;
 }
 
-RigidTransform PoseAt(CameraCalibration camera, const HeadFit& fit, const PanTiltAngles& encoder) {
+RigidTransform PoseAt(CameraCalibration camera, const HeadFit& fit, const PanTiltAngles& readings) {
   camera.head = fit.head;
-  return camera.PoseAt({fit.pan_scale * encoder.pan_rad, fit.tilt_scale * encoder.tilt_rad});
+  return camera.PoseAt(readings);
 }
 
 Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
@@ -110,33 +111,67 @@ std::vector<BoardSighting> NumberPlaces(std::span<const BoardSighting> sightings
   return views;
 }
 
-// Heads stand upright and tilt about the picture's rows, through the lens, more or less.
-Model FirstGuess(const CameraCalibration& camera, const Board& board,
-                 const std::vector<BoardSighting>& views, int places) {
-  Model model;
-  const Vector3 p_WC = camera.X_CW.Inverse().p;
-  model.fit.head = {Vector3::UnitZ(), p_WC, camera.X_CW.R.row(0).transpose(), p_WC};
-  model.X_WB.resize(static_cast<std::size_t>(places));
-  std::vector<double> nearest(static_cast<std::size_t>(places), HUGE_VAL);
+// Boards where the views that are turned least put them.
+std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const Board& board,
+                                        const std::vector<BoardSighting>& views, int places,
+                                        const HeadFit& fit) {
+  std::vector<RigidTransform> X_WB(static_cast<std::size_t>(places));
+  std::vector<double> nearest(X_WB.size(), HUGE_VAL);
   for (const BoardSighting& view : views) {
-    const double turned = std::hypot(view.angles.pan_rad, view.angles.tilt_rad);
+    const double turned = std::hypot(view.angles.pan_rad - fit.head.zero.pan_rad,
+                                     view.angles.tilt_rad - fit.head.zero.tilt_rad);
+    const auto place = static_cast<std::size_t>(view.moment);
+    if (turned >= nearest[place]) continue;
     const std::vector<BoardPose> poses = FindBoardPoses(camera.lens, board, view.corners);
-    if (poses.empty() || turned >= nearest[static_cast<std::size_t>(view.moment)]) continue;
-    nearest[static_cast<std::size_t>(view.moment)] = turned;
-    model.X_WB[static_cast<std::size_t>(view.moment)] =
-        PoseAt(camera, model.fit, view.angles).Inverse() * poses.front().X_CB;
+    if (poses.empty()) continue;
+    nearest[place] = turned;
+    X_WB[place] = PoseAt(camera, fit, view.angles).Inverse() * poses.front().X_CB;
   }
-  return model;
+  return X_WB;
+}
+
+// Heads stand upright and tilt about the picture's rows, through the lens, more or less; either way
+// round.
+Model FirstGuess(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
+                 const std::vector<BoardSighting>& views, int places) {
+  const Vector3 p_WC = camera.X_CW.Inverse().p;
+  const Vector3 right_W = camera.X_CW.R.row(0);
+  Model best;
+  double least = HUGE_VAL;
+  for (const auto& [pan, tilt] : {std::pair(1, 1), {1, -1}, {-1, 1}, {-1, -1}}) {
+    Model model;
+    model.fit.head = {pan * Vector3::UnitZ(), p_WC, tilt * right_W, p_WC, 1, 1, posed_at};
+    model.X_WB = PlaceBoards(camera, board, views, places, model.fit);
+    const double cost = Residuals(camera, board, views, model).squaredNorm();
+    if (cost >= least) continue;
+    least = cost;
+    best = model;
+  }
+  return best;
 }
 
 }  // namespace
 
-HeadFit FitHead(const CameraCalibration& camera, const Board& board,
+PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltAngles> readings) {
+  MOCAP_CHECK(!readings.empty());
+  for (const PanTiltAngles& reading : readings) {
+    const double turned_rad =
+        std::hypot(reading.pan_rad - readings[0].pan_rad, reading.tilt_rad - readings[0].tilt_rad);
+    if (turned_rad > kStanding_rad)
+      throw SetupError(
+          fmt::format("{}: its head turned by {:.1f} degrees while it was posed; let heads stand "
+                      "while the board is carried about",
+                      camera, turned_rad * 180 / std::numbers::pi));
+  }
+  return readings[0];
+}
+
+HeadFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
                 std::span<const BoardSighting> sightings) {
   int places = 0;
   const std::vector<BoardSighting> views = NumberPlaces(sightings, places);
   RefuseTooLittleTurning(camera.name, views);
-  Model model = FirstGuess(camera, board, views, places);
+  Model model = FirstGuess(camera, posed_at, board, views, places);
   Eigen::VectorXd scale = Eigen::VectorXd::Constant(kHeadParameters + 6 * places, 1);
   scale.segment<2>(2).setConstant(100);
   scale.segment<2>(6).setConstant(100);

@@ -10,21 +10,23 @@ namespace mocap {
 
 struct HeadFit {
   PanTiltHead head;
-  /// True angle over the encoder's. An offset needs no number of its own: it is part of where the
-  /// axes and the camera are at the encoder's zero.
-  double pan_scale = 1, tilt_scale = 1;
   double rms_px = 0;
   int views = 0;
 };
 
 /// Finds both axes, a point on each and the encoders' scales.
 ///
-/// @param camera     with its lens and its pose at pan = tilt = 0, which stay.
+/// @param camera     with its lens and its pose, which stay.
+/// @param posed_at   what the encoders read where that pose holds: pan = tilt = 0 of the head.
 /// @param sightings  of this camera; boards of one moment number are at one place, wherever that
 /// is.
 /// @throws SetupError  naming the camera: too few views, too little turning, or views that no head
 /// explains.
-HeadFit FitHead(const CameraCalibration& camera, const Board& board,
+HeadFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
                 std::span<const BoardSighting> sightings);
+
+/// Gives what a camera's encoders read while it was posed.
+/// @throws SetupError  when the head turned meanwhile.
+PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltAngles> readings);
 
 }  // namespace mocap

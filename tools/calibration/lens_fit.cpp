@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "tools/calibration/board_pose.h"
 #include "tools/calibration/bundle.h"
+#include "tools/calibration/bundle_errors.h"
 #include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
@@ -139,8 +140,16 @@ LensProblem MakeProblem(const BoardSightings& all, int camera, const std::vector
   return problem;
 }
 
+// "frame 3 to frame 41", in the order in which they were looked at.
+std::string FramesText(const BoardSightings& sightings, const std::vector<int>& views) {
+  if (views.empty()) return "no frame";
+  const std::string &first = sightings.sightings[views.front()].name,
+                    &last = sightings.sightings[views.back()].name;
+  return first == last ? first : first + " to " + last;
+}
+
 // Boards that all lie in parallel planes leave the focal length open, however many they are.
-void RefuseOneTilt(const std::string& name, const Bundle& bundle) {
+void RefuseOneTilt(const std::string& name, const std::string& frames, const Bundle& bundle) {
   double widest_rad = 0;
   for (const auto& a : bundle.X_WB) {
     for (const auto& b : bundle.X_WB)
@@ -149,10 +158,9 @@ void RefuseOneTilt(const std::string& name, const Bundle& bundle) {
   }
   if (widest_rad < kLeastTilts_rad)
     throw SetupError(
-        fmt::format("{}: its {} views of the board are tilted alike (within {:.0f} degrees); tilt "
-                    "the board by 30 "
-                    "degrees and more, in all directions",
-                    name, bundle.X_WB.size(), widest_rad * 180 / std::numbers::pi));
+        fmt::format("{}: its {} views of the board ({}) are tilted alike (within {:.0f} degrees); "
+                    "tilt the board by 30 degrees and more, in all directions",
+                    name, bundle.X_WB.size(), frames, widest_rad * 180 / std::numbers::pi));
 }
 
 }  // namespace
@@ -162,19 +170,18 @@ LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOption
   const std::vector<int> views = ChooseViews(sightings, camera, options.most_views);
   if (static_cast<int>(views.size()) < kFewestViews)
     throw SetupError(
-        fmt::format("{}: {} views of the board do not determine a lens; show it in at least {}, "
-                    "tilted this way "
-                    "and that and in all parts of the picture",
-                    c.name, views.size(), kFewestViews));
+        fmt::format("{}: {} views of the board ({}) do not determine a lens; show it in at least "
+                    "{}, tilted this way and that and in all parts of the picture",
+                    c.name, views.size(), FramesText(sightings, views), kFewestViews));
   const Zhang zhang = FirstLens(sightings, camera, views);
   if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())
     throw SetupError(
-        fmt::format("{}: its {} views leave the focal length uncertain by {:.0f} %; tilt the board "
-                    "by 30 degrees "
-                    "and more, in all directions",
-                    c.name, views.size(), std::min(999.0, 100 * zhang.focal_sigma_share)));
+        fmt::format("{}: its {} views ({}) leave the focal length uncertain by {:.0f} %; tilt the "
+                    "board by 30 degrees and more, in all directions",
+                    c.name, views.size(), FramesText(sightings, views),
+                    std::min(999.0, 100 * zhang.focal_sigma_share)));
   LensProblem problem = MakeProblem(sightings, camera, views, MakeLens(zhang, options));
-  RefuseOneTilt(c.name, problem.bundle);
+  RefuseOneTilt(c.name, FramesText(sightings, views), problem.bundle);
   BundleOptions refine;
   refine.robust_px = 1;
   RefineBundle(problem.sightings, refine, problem.bundle);
@@ -188,11 +195,12 @@ LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOption
   fit.focal_sigma_share = zhang.focal_sigma_share;
   fit.used = views;
   if (!settled || !(fit.rms_px < kWorstRms_px))
-    throw SetupError(
-        fmt::format("{}: no lens explains the corners ({:.2f} px remain in {} views); the board "
-                    "may be bent, its "
-                    "columns and rows swapped, or the focus or zoom changed while it was shown",
-                    c.name, fit.rms_px, fit.views));
+    throw SetupError(fmt::format(
+        "{}: no lens explains the corners ({:.2f} px remain in {} views, most in {}); "
+        "the board may be bent, its columns and rows swapped, or the focus or zoom "
+        "changed while it was shown",
+        c.name, fit.rms_px, fit.views,
+        WorstView(BundleErrors(problem.sightings, problem.bundle), problem.sightings, 0).frame));
   return fit;
 }
 

@@ -6,12 +6,14 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "tools/calibration/wand.h"
 
 namespace mocap {
 namespace {
 
 // Frames farther apart than this many intervals tell nothing of the motion between them.
 constexpr double kLongestGaps = 1.8;
+constexpr int kFramesToDiagnose = 10;
 
 class MeanPicture {
  public:
@@ -88,8 +90,18 @@ void MeasureMotions(std::vector<BoardSighting>& sightings, std::size_t first,
   }
 }
 
+// Looks at some of the frames once more for what was wrong with them.
 [[noreturn]] void RefuseUnseen(const Footage& footage, const FootageCamera& camera,
-                               const Board& board) {
+                               const Board& board, const BoardDetector& detector) {
+  std::string reason;
+  const int step = std::max(1, static_cast<int>(camera.frames.size()) / kFramesToDiagnose);
+  camera.ForEach([&](int frame, ImageView<const Bgr> view) {
+    if (!reason.empty() || frame % step != 0) return;
+    if (const std::string why = detector.WhyNot(view); !why.empty())
+      reason = camera.frames[frame].name + " " + why;
+  });
+  if (!reason.empty())
+    throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason);
   throw SetupError(footage.folder.string() + ": " + camera.name + " sees no board in its " +
                    std::to_string(camera.frames.size()) + " frames; looked for was a " +
                    board.Text() +
@@ -103,6 +115,20 @@ std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std:
     if (moments[m].frames[camera] >= 0) moment_of[moments[m].frames[camera]] = static_cast<int>(m);
   }
   return moment_of;
+}
+
+// Of a wand's camera, all lights were taken for sightings. @return  how many are left.
+int KeepWandsFrom(std::size_t first, BoardSightings& sightings, std::vector<double>& times_s) {
+  const auto begin = sightings.sightings.begin() + static_cast<std::ptrdiff_t>(first);
+  std::vector<BoardSighting> of_camera(begin, sightings.sightings.end());
+  KeepWands(of_camera);
+  sightings.sightings.erase(begin, sightings.sightings.end());
+  times_s.clear();
+  for (BoardSighting& s : of_camera) {
+    times_s.push_back(s.time_s);
+    sightings.sightings.push_back(std::move(s));
+  }
+  return static_cast<int>(of_camera.size());
 }
 
 double MeanInterval(const FootageCamera& camera) {
@@ -170,9 +196,10 @@ BoardSightings CollectSightings(const Footage& footage, const Board& board,
       keep(detector.Detect(result.still_pictures.back().view(), Effort::kThorough), 0, 0);
     }
     result.cameras.back().frames = looked_at;
+    if (board.kind == BoardKind::kWand) found = KeepWandsFrom(first, result, times_s);
     if (!options.still && result.timed)
       MeasureMotions(result.sightings, first, times_s, kLongestGaps * stride * interval_s);
-    if (found == 0 && options.all_must_see) RefuseUnseen(footage, camera, board);
+    if (found == 0 && options.all_must_see) RefuseUnseen(footage, camera, board, detector);
   }
   return result;
 }

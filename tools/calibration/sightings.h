@@ -34,6 +34,14 @@ struct BoardSighting {
   /// Motion of each corner in the picture, a parabola through the frames before and after; zero
   /// where those do not show it.
   std::vector<CornerMotion> motions;
+
+  /// How far a corner moved in the picture from the moment's time to the exposure, when that is so
+  /// much later than the time stamp.
+  Vector2 MovedSince(std::size_t corner, double lateness_s) const {
+    // The motion is told about the frame's own time.
+    return motions.empty() ? Vector2(Vector2::Zero())
+                           : -motions[corner].After(-(late_s + lateness_s));
+  }
 };
 
 /// A camera of which nothing but its name and size need be known.

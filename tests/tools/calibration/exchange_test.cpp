@@ -84,6 +84,32 @@ TEST(ExchangeTest, Pose2SimIsReadAsItsOwnDocumentationHasIt) {
   EXPECT_EQ(std::get<OpenCvLens>(cameras[0].lens).distortion[4], 0);
 }
 
+TEST(ExchangeTest, AFisheyeOfPose2SimComesBackTheSame) {
+  const TemporaryFolder folder;
+  Cameras fisheyes = Asymmetric();
+  for (CameraCalibration& camera : fisheyes)
+    camera.lens = FisheyeLens{std::get<OpenCvLens>(camera.lens).K, {0.04, -0.011, 0.003, -0.0007}};
+  WritePose2Sim(folder.path() / "Calib.toml", fisheyes, 1000);
+  const Cameras back = ReadPose2Sim(folder.path() / "Calib.toml", 1000);
+  EXPECT_TRUE(std::holds_alternative<FisheyeLens>(back[0].lens));
+  ExpectSameViews(fisheyes, back, 1e-6);
+}
+
+TEST(ExchangeTest, AniposelibsUnitIsThatOfItsBoard) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "calibration.toml";
+  WritePose2Sim(file, Asymmetric(), 25.4);
+  ExpectSameViews(Asymmetric(), ReadPose2Sim(file, 25.4), 1e-6);
+  WriteText(file,
+            "[cam_0]\nname = \"A\"\nsize = [ 1280, 1024,]\nmatrix = [ [ 1400.0, 0.0, 639.5,], "
+            "[ 0.0, 1400.0, 511.5,], [ 0.0, 0.0, 1.0,],]\ndistortions = [ -0.1, 0.0, 0.0, 0.0, "
+            "0.0,]\nrotation = [ 0.0, 0.0, 0.0,]\ntranslation = [ 1.0, 2.0, 30.0,]\n\n"
+            "[metadata]\nadjusted = false\nerror = 0.4\n");
+  const Cameras cameras = ReadPose2Sim(file, 10);
+  EXPECT_EQ(cameras[0].name, "A");
+  EXPECT_EQ(cameras[0].X_CW.p, Vector3(10, 20, 300));
+}
+
 TEST(ExchangeTest, EasyMocapComesBackTheSame) {
   const TemporaryFolder folder;
   WriteEasyMocap(folder.path() / "easy", Asymmetric());

@@ -16,6 +16,7 @@ struct HeadWalk {
   Board board = testing::BoardWalk{}.board;
   double noise_px = 0.15;
   double pan_scale = 1, tilt_scale = 1;
+  PanTiltAngles zero;
 };
 
 std::vector<CameraCalibration> Rig(unsigned seed) {
@@ -43,7 +44,8 @@ std::vector<BoardSighting> LookAbout(const CameraCalibration& camera, const Head
       BoardSighting s;
       s.moment = 10 * place;
       s.corners = *corners;
-      s.angles = {truly.pan_rad / walk.pan_scale, truly.tilt_rad / walk.tilt_scale};
+      s.angles = {truly.pan_rad / walk.pan_scale + walk.zero.pan_rad,
+                  truly.tilt_rad / walk.tilt_scale + walk.zero.tilt_rad};
       views.push_back(s);
     }
   }
@@ -57,7 +59,7 @@ CameraCalibration WithoutHead(CameraCalibration camera) {
 
 std::string ReasonOf(const CameraCalibration& camera, const std::vector<BoardSighting>& views) {
   try {
-    FitHead(camera, testing::BoardWalk{}.board, views);
+    FitHead(camera, {}, testing::BoardWalk{}.board, views);
   } catch (const SetupError& error) {
     return error.what();
   }
@@ -69,9 +71,9 @@ TEST(HeadFitTest, PlacesPointsWithinFourMillimetresAtAnyAngle) {
     const std::vector<CameraCalibration> truth = Rig(seed);
     std::vector<CameraCalibration> found;
     for (const CameraCalibration& camera : truth) {
-      const HeadFit fit = FitHead(WithoutHead(camera), HeadWalk{}.board, LookAbout(camera, {}));
+      const HeadFit fit = FitHead(WithoutHead(camera), {}, HeadWalk{}.board, LookAbout(camera, {}));
       EXPECT_NEAR(fit.rms_px, 0.15 * std::sqrt(2.0), 0.03);
-      EXPECT_NEAR(fit.pan_scale, 1, 0.002);
+      EXPECT_NEAR(fit.head.pan_scale, 1, 0.002);
       found.push_back(camera);
       found.back().head = fit.head;
     }
@@ -95,14 +97,45 @@ TEST(HeadFitTest, PlacesPointsWithinFourMillimetresAtAnyAngle) {
   }
 }
 
-TEST(HeadFitTest, FindsTheEncodersScale) {
+TEST(HeadFitTest, PosesAreRightWhateverTheEncodersCount) {
   HeadWalk walk;
   walk.pan_scale = 1.03;
   walk.tilt_scale = 0.98;
-  const CameraCalibration camera = Rig(4)[2];
-  const HeadFit fit = FitHead(WithoutHead(camera), walk.board, LookAbout(camera, walk));
-  EXPECT_NEAR(fit.pan_scale, 1.03, 0.002);
-  EXPECT_NEAR(fit.tilt_scale, 0.98, 0.003);
+  walk.zero = {0.4, -0.15};
+  const CameraCalibration truth = Rig(4)[2];
+  const HeadFit fit = FitHead(WithoutHead(truth), walk.zero, walk.board, LookAbout(truth, walk));
+  EXPECT_NEAR(fit.head.pan_scale, 1.03, 0.002);
+  EXPECT_NEAR(fit.head.tilt_scale, 0.98, 0.003);
+  CameraCalibration found = truth;
+  found.head = fit.head;
+  for (const PanTiltAngles& truly : {PanTiltAngles{0.2, 0.1}, {-0.25, -0.15}, {0, 0}}) {
+    const PanTiltAngles reading{truly.pan_rad / walk.pan_scale + walk.zero.pan_rad,
+                                truly.tilt_rad / walk.tilt_scale + walk.zero.tilt_rad};
+    const RigidTransform off = found.PoseAt(reading) * truth.PoseAt(truly).Inverse();
+    EXPECT_LT(LogRotation(off.R).norm(), 0.0005);
+    EXPECT_LT(off.p.norm(), 2);
+  }
+}
+
+TEST(HeadFitTest, FindsHeadsThatTurnTheOtherWay) {
+  HeadWalk walk;
+  walk.pan_scale = walk.tilt_scale = -1;
+  const CameraCalibration truth = Rig(5)[1];
+  const HeadFit fit = FitHead(WithoutHead(truth), {}, walk.board, LookAbout(truth, walk));
+  EXPECT_LT(fit.head.pan_axis_W.z(), -0.9);
+  EXPECT_NEAR(fit.head.pan_scale, 1, 0.002);
+}
+
+TEST(HeadFitTest, HeadsThatTurnedWhileTheyWerePosedAreRefused) {
+  const std::vector<PanTiltAngles> still = {{0.3, 0.1}, {0.3005, 0.1}, {0.3, 0.1002}};
+  EXPECT_EQ(StandingAngles("cam1", still), still[0]);
+  const std::vector<PanTiltAngles> turning = {{0.3, 0.1}, {0.32, 0.1}};
+  try {
+    StandingAngles("cam1", turning);
+    FAIL() << "accepted";
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cam1: its head turned by 1.1 degrees"));
+  }
 }
 
 TEST(HeadFitTest, RefusesWhatDoesNotDetermineAHead) {

@@ -1,8 +1,12 @@
-// What a person may do wrong: each ends with a line that names what it was and what to do.
+// What a person may do wrong: each ends with one line that names camera and frame, where there is
+// one, and what to do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/core.hpp>
 
 #include "core/errors.h"
 #include "drivers/calibration_file.h"
@@ -12,13 +16,15 @@
 #include "tests/tools/calibration/simulated_board.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibration/floor.h"
+#include "tools/calibration/head_fit.h"
+#include "tools/camera_names.h"
 
 namespace mocap {
 namespace {
 
-using ::testing::AllOf;
 using testing::BoardWalk;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TemporaryFolder;
 using testing::WalkBoard;
 using testing::WriteText;
@@ -32,211 +38,357 @@ std::string ReasonOf(const std::function<void()>& step) {
   return "accepted";
 }
 
+std::string FirstOf(const std::vector<Finding>& findings) {
+  return findings.empty() ? "accepted" : findings[0].text;
+}
+
 std::vector<CameraCalibration> Rig() { return simulation::HangCameras({}); }
 
-void WriteVideo(const std::filesystem::path& file, const Image<Bgr>& picture, int frames) {
-  VideoWriter writer(file, picture.width(), picture.height(), 10, VideoPixels::kBgr);
-  for (int i = 0; i < frames; ++i) writer.Write(picture.view());
-  writer.Finish();
-}
-
-/// Two cameras that see the board, and one picture over and over.
-class WrongFootageTest : public ::testing::Test {
- protected:
-  WrongFootageTest() {
-    arguments_.footage = folder_.path() / "footage";
-    arguments_.board = "chess:8x5:100";
-    std::filesystem::create_directory(arguments_.footage);
-    const Matrix3 R = ExpRotation({0.3, 0.2, 0.1});
-    seen_ = testing::PaintBoard(camera_, {R, Vector3(0, 0, 1900) - R * Vector3(350, 200, 0)},
-                                BoardWalk{}.board);
-  }
-
-  void Write(const std::string& camera, const Image<Bgr>& picture, int frames = 2) {
-    WriteVideo(arguments_.footage / (camera + ".mkv"), picture, frames);
-  }
-  void WriteIntrinsics(int width, const std::string& second_name) {
-    CameraCalibration a = camera_, b = camera_;
-    a.name = "cam1";
-    b.name = second_name;
-    b.width_px = width;
-    arguments_.intrinsics = folder_.path() / "lenses.toml";
-    WriteCalibration(arguments_.intrinsics, std::vector<CameraCalibration>{a, b});
-  }
-  std::string Intrinsics() {
-    return ReasonOf([this] { CalibrateIntrinsics(arguments_); });
-  }
-  std::string Extrinsics() {
-    return ReasonOf([this] { CalibrateExtrinsics(arguments_); });
-  }
-
-  TemporaryFolder folder_;
-  CalibrateArguments arguments_;
-  CameraCalibration camera_ = Rig()[0];
-  Image<Bgr> seen_;
-  const Image<Bgr> empty_{640, 480, Bgr{120, 120, 120}};
-};
-
-TEST_F(WrongFootageTest, NoFolder) {
-  arguments_.footage = folder_.path() / "missing";
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("missing"), HasSubstr("is no folder")));
-}
-
-TEST_F(WrongFootageTest, NothingInTheFolder) { EXPECT_THAT(Intrinsics(), HasSubstr("cam1.mkv")); }
-
-TEST_F(WrongFootageTest, APictureThatIsNone) {
-  WriteText(arguments_.footage / "a.png", "not a picture");
-  EXPECT_THAT(Intrinsics(), HasSubstr("a.png: is no picture"));
-}
-
-TEST_F(WrongFootageTest, ACameraThatSeesNoBoard) {
-  Write("cam1", seen_);
-  Write("cam2", empty_);
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("cam2 sees no board"), HasSubstr("8 x 5 inner corners"),
-                                  HasSubstr("sharp")));
-}
-
-TEST_F(WrongFootageTest, ABoardOfAnotherSize) {
-  Write("cam1", seen_);
-  arguments_.board = "chess:9x6:100";
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("cam1 sees no board"), HasSubstr("9 x 6")));
-}
-
-TEST_F(WrongFootageTest, ABlurredBoard) {
-  Image<Bgr> blurred = seen_;
+Image<Bgr> Blurred(const Image<Bgr>& sharp) {
+  Image<Bgr> blurred = sharp;
   for (int y = 20; y < 460; ++y) {
     for (int x = 20; x < 620; ++x) {
       int sum = 0;
-      for (int i = 0; i < 49; ++i) sum += seen_(x + 2 * (i % 7) - 6, y + 2 * (i / 7) - 6).g;
+      for (int i = 0; i < 49; ++i) sum += sharp(x + 2 * (i % 7) - 6, y + 2 * (i / 7) - 6).g;
       const auto mean = static_cast<std::uint8_t>(sum / 49);
       blurred(x, y) = {mean, mean, mean};
     }
   }
-  Write("cam1", blurred);
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("cam1 sees no board"), HasSubstr("sharp")));
+  return blurred;
 }
 
-TEST_F(WrongFootageTest, TooFewViews) {
-  Write("cam1", seen_, 3);
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("cam1: 3 views"), HasSubstr("tilted")));
-}
-
-TEST_F(WrongFootageTest, AlwaysTheSameView) {
-  Write("cam1", seen_, 8);
-  EXPECT_THAT(Intrinsics(), AllOf(HasSubstr("cam1: its 8 views"), HasSubstr("tilt the board")));
-}
-
-TEST_F(WrongFootageTest, LensesOfAnotherResolution) {
-  Write("cam1", seen_);
-  Write("cam2", seen_);
-  WriteIntrinsics(1280, "cam2");
-  EXPECT_THAT(Extrinsics(), AllOf(HasSubstr("cam2 is calibrated for 1280 x 480"),
-                                  HasSubstr("its footage is 640 x 480")));
-}
-
-TEST_F(WrongFootageTest, LensesOfOtherCameras) {
-  Write("cam1", seen_);
-  Write("cam2", seen_);
-  WriteIntrinsics(640, "cam7");
-  EXPECT_THAT(Extrinsics(), HasSubstr("has no camera \"cam2\""));
-}
-
-TEST_F(WrongFootageTest, TooFewSharedViews) {
-  Write("cam1", seen_);
-  Write("cam2", seen_);
-  WriteIntrinsics(640, "cam2");
-  EXPECT_THAT(Extrinsics(), AllOf(HasSubstr("cam2: shares fewer"), HasSubstr("carry the board")));
-}
-
-TEST_F(WrongFootageTest, AFloorOfCamerasThatAreNotCalibrated) {
-  Write("cam9", seen_);
-  StudioFit fit;
-  fit.bundle.cameras = {camera_};
-  arguments_.floor = arguments_.footage;
-  EXPECT_THAT(ReasonOf([&] { SetWorld(arguments_, fit); }),
-              HasSubstr("\"cam9\" that is not calibrated"));
-}
-
-TEST(WrongSightingsTest, AMirroredPicture) {
-  BoardSightings sightings = WalkBoard(Rig(), {});
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera != 2) continue;
-    // As the detector names the corners of a mirrored picture.
-    for (Vector2& pixel : s.corners.pixels) pixel.x() = 639 - pixel.x();
-    for (int row = 0; row < 5; ++row)
-      std::reverse(s.corners.pixels.begin() + 8 * row, s.corners.pixels.begin() + 8 * row + 8);
+/// A ChArUco board of 5 x 4 squares that fills most of a picture.
+Image<Bgr> Charuco() {
+  const auto board = cv::aruco::CharucoBoard::create(
+      5, 4, 40, 30, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50));
+  cv::Mat drawn;
+  board->draw(cv::Size(500, 400), drawn, 20);
+  Image<Bgr> picture(640, 480, Bgr{120, 120, 120});
+  for (int y = 0; y < drawn.rows; ++y) {
+    for (int x = 0; x < drawn.cols; ++x) {
+      const std::uint8_t value = drawn.at<std::uint8_t>(y, x);
+      picture(x + 70, y + 40) = {value, value, value};
+    }
   }
-  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); }),
-              AllOf(HasSubstr("cam3"), HasSubstr("mirrored")));
+  return picture;
 }
 
-TEST(WrongSightingsTest, TwoRecordingsSwapped) {
-  BoardSightings sightings = WalkBoard(Rig(), {});
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera == 1) s.moment = (s.moment + 40) % sightings.moments;
+Image<Bgr> Changed(const Image<Bgr>& picture, bool mirrored, bool inverted) {
+  Image<Bgr> changed = picture;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const std::uint8_t value = picture(mirrored ? picture.width() - 1 - x : x, y).g;
+      const auto g = static_cast<std::uint8_t>(inverted ? 255 - value : value);
+      changed(x, y) = {g, g, g};
+    }
   }
-  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); }), HasSubstr("cam2"));
+  return changed;
 }
 
-TEST(WrongSightingsTest, RowsAndColumnsThatFitNoLens) {
-  BoardSightings sightings = WalkBoard(Rig(), {});
-  sightings.board.columns = 5;
-  sightings.board.rows = 8;
-  EXPECT_THAT(ReasonOf([&] { FitLens(sightings, 3, {}); }), HasSubstr("cam4"));
+/// A Windows bitmap of one colour.
+void WriteBitmap(const std::filesystem::path& file, std::int32_t width, std::int32_t height) {
+  std::ofstream out(file, std::ios::binary);
+  const auto number = [&out](auto value) {
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  out << "BM";
+  for (const std::int32_t n : {54 + 3 * width * height, 0, 54, 40, width, height}) number(n);
+  for (const std::int16_t n : {1, 24}) number(n);
+  for (const std::int32_t n : {0, 3 * width * height, 0, 0, 0, 0}) number(n);
+  out << std::string(static_cast<std::size_t>(3) * width * height, 'x');
 }
 
-TEST(WrongSightingsTest, AFloorBoardThatWasMoved) {
-  const BoardWalk walk;
-  BoardSightings still =
-      testing::SeeStillBoard(Rig(), walk.board, testing::BoardOnFloor(), walk.noise_px);
-  ASSERT_GE(still.sightings.size(), 3u);
-  for (Vector2& pixel : still.sightings[1].corners.pixels) pixel.x() += 25;
-  EXPECT_THAT(ReasonOf([&] { FindStillBoard(still, Rig()); }),
-              AllOf(HasSubstr(Rig()[static_cast<std::size_t>(still.sightings[1].camera)].name),
-                    HasSubstr("was it moved")));
-}
+/// A folder for footage, and pictures of a board to put there.
+struct Bench {
+  Bench() {
+    arguments.footage = folder.path() / "footage";
+    arguments.board = "chess:8x5:100";
+    std::filesystem::create_directory(arguments.footage);
+    const Matrix3 R = ExpRotation({0.3, 0.2, 0.1});
+    seen = testing::PaintBoard(camera, {R, Vector3(0, 0, 1900) - R * Vector3(350, 200, 0)},
+                               BoardWalk{}.board);
+  }
 
-TEST(WrongWorldTest, AFloorPointThatOneCameraSees) {
-  const std::vector<FloorPoint> points = {{0, 0, {1, 1}}, {1, 0, {1, 1}}, {0, 1, {5, 5}}};
-  EXPECT_THAT(ReasonOf([&] { WorldOnPoints(points, Rig()); }),
-              AllOf(HasSubstr("\"x\""), HasSubstr("two at least")));
-}
+  void Write(const std::string& name, const Image<Bgr>& picture, int frames = 2) const {
+    VideoWriter writer(arguments.footage / (name + ".mkv"), picture.width(), picture.height(), 10,
+                       VideoPixels::kBgr);
+    for (int i = 0; i < frames; ++i) writer.Write(picture.view());
+    writer.Finish();
+  }
+  void WriteIntrinsics(int width, const std::string& second_name) {
+    CameraCalibration a = camera, b = camera;
+    a.name = "cam1";
+    b.name = second_name;
+    b.width_px = width;
+    arguments.intrinsics = folder.path() / "lenses.toml";
+    WriteCalibration(arguments.intrinsics, std::vector<CameraCalibration>{a, b});
+  }
+  std::string Intrinsics() const {
+    return ReasonOf([this] { CalibrateIntrinsics(arguments); });
+  }
+  std::string Extrinsics() const {
+    return ReasonOf([this] { CalibrateExtrinsics(arguments); });
+  }
 
-TEST(WrongWorldTest, ATableOfFloorPointsWithAnUnknownCamera) {
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "points.csv";
-  WriteText(file, "point,camera,x_px,y_px\norigin,cam1,3,4\nx,cam77,3,4\n");
-  EXPECT_THAT(ReasonOf([&] { ReadFloorPoints(file.string(), Rig()); }), HasSubstr("points.csv:3"));
-}
-
-TEST(WrongWorldTest, ABoardOfAnotherSizeThanTyped) {
+  TemporaryFolder folder;
   CalibrateArguments arguments;
-  StudioFit fit;
-  fit.bundle.cameras = Rig();
-  fit.bundle.X_WB = {RigidTransform{}};
-  fit.has_floor = true;
-  const double true_mm = DistanceMm({"cam1", "cam4", 1}, fit.bundle.cameras);
-  arguments.distance = "cam1:cam4:" + std::to_string(true_mm * 0.9);
-  const std::vector<Finding> findings = CheckAll(arguments, fit);
-  ASSERT_FALSE(findings.empty());
-  EXPECT_THAT(findings[0].text, AllOf(HasSubstr("cam1 and cam4"), HasSubstr("0.90 times")));
-  arguments.distance = "cam1:cam4";
-  EXPECT_THAT(ReasonOf([&] { CheckAll(arguments, fit); }), HasSubstr("CAMERA:CAMERA:MM"));
+  CameraCalibration camera = Rig()[0];
+  Image<Bgr> seen;
+  const Image<Bgr> empty{640, 480, Bgr{120, 120, 120}};
+};
+
+struct WrongInput {
+  const char* name;
+  std::string (*reason)(Bench&);
+  /// What, where, and what to do.
+  std::vector<std::string> says;
+};
+
+class WrongInputTest : public ::testing::TestWithParam<WrongInput> {};
+
+TEST_P(WrongInputTest, EndsWithALineThatNamesItAndTheRemedy) {
+  Bench bench;
+  const std::string reason = GetParam().reason(bench);
+  for (const std::string& words : GetParam().says) EXPECT_THAT(reason, HasSubstr(words));
+  EXPECT_THAT(reason, Not(HasSubstr("\n")));
 }
 
-TEST(WrongWorldTest, LengthsInMetres) {
-  std::vector<CameraCalibration> cameras = Rig();
-  for (CameraCalibration& camera : cameras) camera.X_CW.p /= 1000;
-  const std::vector<Finding> findings = CheckCameras(cameras, true);
-  ASSERT_FALSE(findings.empty());
-  EXPECT_THAT(findings[0].text, HasSubstr("metres"));
-}
+const WrongInput kWrongRecordings[] = {
+    {"NoFolder",
+     [](Bench& b) {
+       b.arguments.footage = b.folder.path() / "missing";
+       return b.Intrinsics();
+     },
+     {"missing", "is no folder", "a take or a folder of recordings is wanted"}},
+    {"NothingInTheFolder", [](Bench& b) { return b.Intrinsics(); }, {"footage", "cam1.mkv"}},
+    {"APictureThatIsNone",
+     [](Bench& b) {
+       WriteText(b.arguments.footage / "a.png", "not a picture");
+       return b.Intrinsics();
+     },
+     {"a.png", "is no picture", "take it out"}},
+    {"PicturesOfTwoSizes",
+     [](Bench& b) {
+       WriteBitmap(b.arguments.footage / "a.bmp", 640, 480);
+       WriteBitmap(b.arguments.footage / "b.bmp", 320, 240);
+       return b.Intrinsics();
+     },
+     {"b.bmp", "320 x 240", "640 x 480", "one resolution"}},
+    {"ACameraThatSeesNoBoard",
+     [](Bench& b) {
+       b.Write("cam1", b.seen);
+       b.Write("cam2", b.empty);
+       return b.Intrinsics();
+     },
+     {"cam2 sees no board", "2 frames", "8 x 5 inner corners", "show all of it, sharp"}},
+    {"SquaresCountedForCorners",
+     [](Bench& b) {
+       b.Write("cam1", b.seen);
+       b.arguments.board = "chess:9x6:100";
+       return b.Intrinsics();
+     },
+     {"cam1: frame 0", "8 x 5 inner corners", "--board counts those"}},
+    {"ABlurredBoard",
+     [](Bench& b) {
+       b.Write("cam1", Blurred(b.seen));
+       return b.Intrinsics();
+     },
+     {"cam1: frame 0", "blurred", "hold it still"}},
+    {"AMirroredBoard",
+     [](Bench& b) {
+       b.arguments.board = "charuco:5x4:40";
+       b.Write("cam1", Changed(Charuco(), true, false));
+       return b.Intrinsics();
+     },
+     {"cam1: frame 0", "mirrored", "switch mirroring off"}},
+    {"ABoardPrintedWhiteOnBlack",
+     [](Bench& b) {
+       b.arguments.board = "charuco:5x4:40";
+       b.Write("cam1", Changed(Charuco(), false, true));
+       return b.Intrinsics();
+     },
+     {"cam1: frame 0", "white on black", "add :inverted"}},
+    {"TooFewViews",
+     [](Bench& b) {
+       b.Write("cam1", b.seen, 3);
+       return b.Intrinsics();
+     },
+     {"cam1: 3 views", "frame 0 to frame 2", "tilted"}},
+    {"AlwaysTheSameView",
+     [](Bench& b) {
+       b.Write("cam1", b.seen, 8);
+       return b.Intrinsics();
+     },
+     {"cam1: its 8 views", "frame 0 to frame 7", "tilt the board"}},
+    {"AWandForALens",
+     [](Bench& b) {
+       b.arguments.board = "wand:500";
+       return b.Intrinsics();
+     },
+     {"wand:500", "shows no lens", "take a board"}},
+    {"LensesOfAnotherResolution",
+     [](Bench& b) {
+       b.Write("cam1", b.seen);
+       b.Write("cam2", b.seen);
+       b.WriteIntrinsics(1280, "cam2");
+       return b.Extrinsics();
+     },
+     {"cam2 is calibrated for 1280 x 480", "its footage is 640 x 480", "calibrate its lens"}},
+    {"LensesOfOtherCameras",
+     [](Bench& b) {
+       b.Write("cam1", b.seen);
+       b.Write("cam2", b.seen);
+       b.WriteIntrinsics(640, "cam7");
+       return b.Extrinsics();
+     },
+     {"lenses.toml", "has no camera \"cam2\"", "it has cam1, cam7"}},
+    {"TooFewSharedViews",
+     [](Bench& b) {
+       b.Write("cam1", b.seen);
+       b.Write("cam2", b.seen);
+       b.WriteIntrinsics(640, "cam2");
+       return b.Extrinsics();
+     },
+     {"cam2: shares fewer", "carry the board"}},
+    {"AFloorOfCamerasThatAreNotCalibrated",
+     [](Bench& b) {
+       b.Write("cam9", b.seen);
+       StudioFit fit;
+       fit.bundle.cameras = {b.camera};
+       b.arguments.floor = b.arguments.footage;
+       return ReasonOf([&] { SetWorld(b.arguments, fit); });
+     },
+     {"\"cam9\" that is not calibrated", "cam1"}},
+};
 
-TEST(WrongWorldTest, AMirroredCalibration) {
-  std::vector<CameraCalibration> cameras = Rig();
-  cameras[2].X_CW.R.col(0) *= -1;
-  EXPECT_THAT(CheckCameras(cameras, true)[0].text, AllOf(HasSubstr("cam3"), HasSubstr("mirrored")));
-}
+const WrongInput kWrongSightings[] = {
+    {"AMirroredCamera",
+     [](Bench&) {
+       BoardSightings sightings = WalkBoard(Rig(), {});
+       for (BoardSighting& s : sightings.sightings) {
+         if (s.camera != 2) continue;
+         // As the detector names the corners of a mirrored picture.
+         for (Vector2& pixel : s.corners.pixels) pixel.x() = 639 - pixel.x();
+         for (int row = 0; row < 5; ++row)
+           std::reverse(s.corners.pixels.begin() + 8 * row, s.corners.pixels.begin() + 8 * row + 8);
+       }
+       return ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); });
+     },
+     {"cam3: contradicts", "not frame", "mirrored"}},
+    {"ARecordingOfAnotherTime",
+     [](Bench&) {
+       BoardSightings sightings = WalkBoard(Rig(), {});
+       for (BoardSighting& s : sightings.sightings) {
+         if (s.camera == 1) s.moment = (s.moment + 40) % sightings.moments;
+       }
+       return ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); });
+     },
+     {"cam2: contradicts", "not frame", "record all cameras at once"}},
+    {"ABoardThatLooksTheSameTurned",
+     [](Bench&) {
+       BoardWalk walk;
+       walk.board.rows = 6;
+       return ReasonOf([&] { FitExtrinsics(WalkBoard(Rig(), walk), Rig(), {}); });
+     },
+     {"8 x 6", "half a turn", "one side odd and the other even"}},
+    {"RowsAndColumnsThatFitNoLens",
+     [](Bench&) {
+       BoardSightings sightings = WalkBoard(Rig(), {});
+       sightings.board.columns = 5;
+       sightings.board.rows = 8;
+       return ReasonOf([&] { FitLens(sightings, 3, {}); });
+     },
+     {"cam4: ", "most in frame", "columns and rows swapped"}},
+    {"AFloorBoardThatWasMoved",
+     [](Bench&) {
+       const BoardWalk walk;
+       BoardSightings still =
+           testing::SeeStillBoard(Rig(), walk.board, testing::BoardOnFloor(), walk.noise_px);
+       still.sightings[1].camera = 1;
+       for (Vector2& pixel : still.sightings[1].corners.pixels) pixel.x() += 25;
+       return ReasonOf([&] { FindStillBoard(still, Rig()); });
+     },
+     {"cam2: sees the floor's board", "was it moved", "Record it again"}},
+    {"AHeadThatTurned",
+     [](Bench&) {
+       const std::vector<PanTiltAngles> readings = {{0.3, 0.1}, {0.32, 0.1}};
+       return ReasonOf([&] { StandingAngles("cam4", readings); });
+     },
+     {"cam4: its head turned", "let heads stand"}},
+};
+
+const WrongInput kWrongWorlds[] = {
+    {"AFloorPointThatOneCameraSees",
+     [](Bench&) {
+       const std::vector<FloorPoint> points = {{0, 0, {1, 1}}, {1, 0, {1, 1}}, {0, 1, {5, 5}}};
+       return ReasonOf([&] { WorldOnPoints(points, Rig()); });
+     },
+     {"\"x\"", "two at least"}},
+    {"ATableOfFloorPointsWithAnUnknownCamera",
+     [](Bench& b) {
+       const std::filesystem::path file = b.folder.path() / "points.csv";
+       WriteText(file, "point,camera,x_px,y_px\norigin,cam1,3,4\nx,cam77,3,4\n");
+       return ReasonOf([&] { ReadFloorPoints(file.string(), Rig()); });
+     },
+     {"points.csv:3", "cam77", "origin|x|y,CAMERA,X,Y"}},
+    {"ABoardOfAnotherSizeThanTyped",
+     [](Bench& b) {
+       StudioFit fit;
+       fit.bundle.cameras = Rig();
+       fit.bundle.X_WB = {RigidTransform{}};
+       fit.has_floor = true;
+       const double true_mm = DistanceMm({"cam1", "cam4", 1}, fit.bundle.cameras);
+       b.arguments.distance = "cam1:cam4:" + std::to_string(true_mm * 0.9);
+       return FirstOf(CheckAll(b.arguments, fit));
+     },
+     {"cam1 and cam4", "by the tape", "0.90 times"}},
+    {"ATapeWithoutALength",
+     [](Bench& b) {
+       StudioFit fit;
+       fit.bundle.cameras = Rig();
+       b.arguments.distance = "cam1:cam4";
+       return ReasonOf([&] { CheckAll(b.arguments, fit); });
+     },
+     {"cam1:cam4", "CAMERA:CAMERA:MM"}},
+    {"LengthsInMetres",
+     [](Bench&) {
+       std::vector<CameraCalibration> cameras = Rig();
+       for (CameraCalibration& camera : cameras) camera.X_CW.p /= 1000;
+       return FirstOf(CheckCameras(cameras, true));
+     },
+     {"cam1 and cam2", "metres"}},
+    {"AMirroredCalibration",
+     [](Bench&) {
+       std::vector<CameraCalibration> cameras = Rig();
+       cameras[2].X_CW.R.col(0) *= -1;
+       return FirstOf(CheckCameras(cameras, true));
+     },
+     {"cam3: its rotation is a reflection", "mirrored"}},
+    {"AFloorThatIsUpsideDown",
+     [](Bench&) {
+       std::vector<CameraCalibration> cameras = Rig();
+       const RigidTransform over{ExpRotation({std::numbers::pi, 0, 0}), Vector3::Zero()};
+       for (CameraCalibration& camera : cameras) camera.X_CW = camera.X_CW * over.Inverse();
+       std::string all;
+       for (const Finding& finding : CheckCameras(cameras, true)) all += finding.text + "; ";
+       return all;
+     },
+     {"cam1: hangs", "below the floor", "set the floor again"}},
+    {"CamerasThatGoByEachOthersName",
+     [](Bench&) {
+       return SwappedText({"cam2", "cam5"});
+     },
+     {"cam2 and cam5", "exchange"}},
+};
+
+constexpr auto kNameOf = [](const ::testing::TestParamInfo<WrongInput>& info) {
+  return std::string(info.param.name);
+};
+
+INSTANTIATE_TEST_SUITE_P(Recordings, WrongInputTest, ::testing::ValuesIn(kWrongRecordings),
+                         kNameOf);
+INSTANTIATE_TEST_SUITE_P(Sightings, WrongInputTest, ::testing::ValuesIn(kWrongSightings), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Worlds, WrongInputTest, ::testing::ValuesIn(kWrongWorlds), kNameOf);
 
 }  // namespace
 }  // namespace mocap

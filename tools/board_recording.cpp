@@ -1,0 +1,215 @@
+#include "tools/board_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <fstream>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "core/errors.h"
+#include "daemon/clock.h"
+#include "drivers/quoted.h"
+#include "drivers/video_writer.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::chrono::milliseconds kGrabTimeout{200};
+constexpr std::chrono::milliseconds kLookInterval{50};
+constexpr std::size_t kKeptPictures = 3;
+
+/// A frame's place on the common beat of all cameras, and its pixels.
+struct BeatPicture {
+  std::int64_t beat = 0;
+  Image<Bgr> picture;
+};
+
+/// Records one camera in a thread of its own and keeps its newest pictures for whoever looks.
+class CameraRecording {
+ public:
+  CameraRecording(LiveCamera& camera, const BoardRecordingOptions& options)
+      : camera_(camera),
+        base_(options.folder / camera.name),
+        fps_(options.frames_per_second),
+        beat_ns_(std::llround(1e9 / options.frames_per_second)),
+        table_(base_.string() + ".csv") {
+    table_ << "frame,timestamp_ns" << (camera.head ? ",pan_rad,tilt_rad" : "") << '\n';
+  }
+
+  void Run(const std::atomic<bool>& stop) {
+    camera_.driver->Start();
+    Frame frame;
+    std::int64_t last_beat = -1;
+    do {
+      const GrabStatus status = camera_.driver->Grab(frame, kGrabTimeout);
+      if (status == GrabStatus::kEnd) break;
+      if (status != GrabStatus::kFrame) continue;
+      const std::int64_t beat = frame.capture_ns / beat_ns_;
+      if (beat <= last_beat) continue;
+      last_beat = beat;
+      Write(frame);
+      Keep(beat, frame.image);
+    } while (!stop);
+    camera_.driver->Stop();
+    Finish();
+  }
+
+  std::int64_t NewestBeat() const {
+    const std::scoped_lock lock(mutex_);
+    return kept_.empty() ? -1 : kept_.back().beat;
+  }
+
+  std::optional<Image<Bgr>> PictureAt(std::int64_t beat) const {
+    const std::scoped_lock lock(mutex_);
+    const auto kept = std::ranges::find(kept_, beat, &BeatPicture::beat);
+    return kept == kept_.end() ? std::nullopt : std::optional(kept->picture);
+  }
+
+ private:
+  void Write(const Frame& frame) {
+    const int width = frame.image.width(), height = frame.image.height();
+    if (!video_) {
+      video_.emplace(base_.string() + ".mkv", width, height, fps_, VideoPixels::kGray);
+      gray_ = Image<std::uint8_t>(width, height);
+    }
+    for (int y = 0; y < height; ++y) {
+      const Bgr* from = frame.image.row(y);
+      std::uint8_t* to = gray_.row(y);
+      // Rec. 601, as detectors of boards have it.
+      for (int x = 0; x < width; ++x)
+        to[x] = static_cast<std::uint8_t>(
+            (1868 * from[x].b + 9617 * from[x].g + 4899 * from[x].r + 8192) >> 14);
+    }
+    video_->Write(gray_.view());
+    table_ << frames_++ << ',' << frame.capture_ns;
+    if (camera_.head) table_ << fmt::format(",{},{}", frame.angles.pan_rad, frame.angles.tilt_rad);
+    table_ << '\n';
+  }
+
+  void Keep(std::int64_t beat, ImageView<const Bgr> image) {
+    BeatPicture kept{beat, Image<Bgr>(image.width(), image.height())};
+    for (int y = 0; y < image.height(); ++y)
+      std::copy_n(image.row(y), image.width(), kept.picture.row(y));
+    const std::scoped_lock lock(mutex_);
+    kept_.push_back(std::move(kept));
+    if (kept_.size() > kKeptPictures) kept_.pop_front();
+  }
+
+  void Finish() {
+    if (frames_ == 0)
+      throw std::runtime_error(camera_.name + " (" + camera_.request.device +
+                               ") has delivered no frame");
+    video_->Finish();
+    table_.close();
+    if (!table_) throw std::runtime_error(base_.string() + ".csv: cannot be written");
+  }
+
+  LiveCamera& camera_;
+  const std::filesystem::path base_;
+  const double fps_;
+  const std::int64_t beat_ns_;
+  std::ofstream table_;
+  std::optional<VideoWriter> video_;
+  Image<std::uint8_t> gray_;
+  int frames_ = 0;
+  mutable std::mutex mutex_;
+  std::deque<BeatPicture> kept_;
+};
+
+using Recordings = std::vector<std::unique_ptr<CameraRecording>>;
+
+/// Looks for the board in what all cameras saw at one beat after the other, as fast as it can.
+class Looker {
+ public:
+  Looker(const Board& board, const std::vector<LiveCamera>& cameras) : detector_(board) {
+    seen_.board = board;
+    for (const LiveCamera& camera : cameras) seen_.cameras.push_back({camera.name, 1, 1, 0});
+  }
+
+  /// @return  false when there is nothing new to look at.
+  bool Look(const Recordings& recordings) {
+    std::int64_t newest = -1;
+    for (const auto& recording : recordings) newest = std::max(newest, recording->NewestBeat());
+    // The one before: by now every camera has it.
+    const std::int64_t beat = newest - 1;
+    if (beat <= last_beat_) return false;
+    last_beat_ = beat;
+    for (std::size_t c = 0; c < recordings.size(); ++c) {
+      const std::optional<Image<Bgr>> picture = recordings[c]->PictureAt(beat);
+      if (!picture) continue;
+      seen_.cameras[c].width_px = picture->width();
+      seen_.cameras[c].height_px = picture->height();
+      auto corners = detector_.Detect(picture->view(), Effort::kQuick);
+      if (!corners) continue;
+      BoardSighting& sighting = seen_.sightings.emplace_back();
+      sighting.camera = static_cast<int>(c);
+      sighting.moment = seen_.moments;
+      sighting.corners = std::move(*corners);
+    }
+    ++seen_.moments;
+    return true;
+  }
+
+  std::vector<CameraHint> Hints() const { return HintsFor(seen_); }
+
+ private:
+  BoardDetector detector_;
+  BoardSightings seen_;
+  std::int64_t last_beat_ = -1;
+};
+
+/// Lets threads end however the block that waits for them is left.
+struct StopAtEnd {
+  std::atomic<bool>& stop;
+  ~StopAtEnd() { stop = true; }
+};
+
+bool AnyEnded(const std::vector<std::future<void>>& threads) {
+  return std::ranges::any_of(threads, [](const std::future<void>& thread) {
+    return thread.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+}
+
+}  // namespace
+
+void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& options,
+                 const HintListener& listener) {
+  if (std::filesystem::exists(options.folder))
+    throw SetupError(options.folder.string() +
+                     ": exists already; another folder to record into is wanted");
+  std::filesystem::create_directories(options.folder);
+  Looker looker(options.board, cameras);
+  Recordings recordings;
+  for (LiveCamera& camera : cameras)
+    recordings.push_back(std::make_unique<CameraRecording>(camera, options));
+  std::atomic<bool> stop = false;
+  std::vector<std::future<void>> threads;
+  for (const auto& recording : recordings)
+    threads.push_back(
+        std::async(std::launch::async, [&recording, &stop] { recording->Run(stop); }));
+  {
+    const StopAtEnd stop_at_end{stop};
+    const std::int64_t end_ns = SteadyNs() + std::llround(1e9 * options.most_seconds);
+    // A camera that ends or fails ends it for all.
+    while (!stop && SteadyNs() < end_ns && !AnyEnded(threads)) {
+      if (looker.Look(recordings)) {
+        stop = listener(looker.Hints());
+      } else {
+        threads.front().wait_for(kLookInterval);
+      }
+    }
+  }
+  for (const auto& thread : threads) thread.wait();
+  if (looker.Look(recordings)) listener(looker.Hints());
+  for (auto& thread : threads) thread.get();
+}
+
+}  // namespace mocap

@@ -1,0 +1,23 @@
+// What is still missing while a board is shown to live cameras.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/calibration/sightings.h"
+
+namespace mocap {
+
+/// How far one camera is.
+struct CameraHint {
+  std::string camera;
+  int views = 0;
+  double covered = 0;   ///< Share of the picture's parts that showed the board.
+  std::string missing;  ///< What to do next, for people; empty: it has seen enough.
+};
+
+/// Tells for each camera what it has not seen yet: views, parts of the picture, and views that it
+/// shares with the other cameras.
+std::vector<CameraHint> HintsFor(const BoardSightings& sightings);
+
+}  // namespace mocap
