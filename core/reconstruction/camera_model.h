@@ -67,7 +67,7 @@ struct PanTiltHead {
   /// True angle over the encoder's.
   double pan_scale = 1, tilt_scale = 1;
   /// What the encoders read where pan = tilt = 0.
-  PanTiltAngles zero;
+  PanTiltAngles zero{};
 };
 
 /// One calibrated camera.
