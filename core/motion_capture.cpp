@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastLitres = 12;
 constexpr double kLostCostMm = 55;
 // A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
-// must be clearly better and face the same way.
+// must be clearly better.
 constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
@@ -126,16 +126,25 @@ class MotionCapture::Impl {
     result_.body_changed = true;
   }
 
+  // Sizes that are still young may be what is wrong: then they are not taken for granted, nor is
+  // the way that the person faces.
   void LookAgainInDoubt() {
     const double cost_mm = tracker_->quality().Cost();
     doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
     if (doubtful_frames_ < kFramesToLose) return;
     doubtful_frames_ = 0;
-    if (!acquirer_.Locate(evidence_, known_)) return;
+    const bool sizes_are_known = given_ || refiner_->frames() >= kFramesToRefine;
+    if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
-    if (same_way && found.quality().Cost() < kClearlyBetter * cost_mm) tracker_ = found;
+    if (sizes_are_known && !same_way) return;
+    if (found.quality().Cost() > kClearlyBetter * cost_mm) return;
+    tracker_ = found;
+    if (sizes_are_known) return;
+    known_ = found.body().sizes();
+    refiner_.emplace(*known_);
+    result_.body_changed = true;
   }
 
   void NoticeLoss() {
