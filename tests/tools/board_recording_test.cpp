@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <stdexcept>
 #include <utility>
 
@@ -22,11 +23,14 @@ using ::testing::IsEmpty;
 constexpr std::int64_t kBegin_ns = 1'000'000'000'000, kInterval_ns = 33'333'333;
 
 /// Shows one picture again and again, 30 times a second of its own time, for as long as it has.
+/// Cameras with a barrier in common go frame by frame together.
 class PictureCamera : public CameraDriver {
  public:
-  PictureCamera(Image<Bgr> picture, int frames) : picture_(std::move(picture)), frames_(frames) {}
+  PictureCamera(Image<Bgr> picture, int frames, std::barrier<>* together)
+      : picture_(std::move(picture)), frames_(frames), together_(together) {}
   void Start() override {}
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
+    if (together_) together_->arrive_and_wait();
     if (next_ == frames_) return GrabStatus::kEnd;
     frame.image = std::as_const(picture_).view();
     frame.capture_ns = kBegin_ns + next_++ * kInterval_ns;
@@ -37,6 +41,7 @@ class PictureCamera : public CameraDriver {
  private:
   const Image<Bgr> picture_;
   const int frames_;
+  std::barrier<>* const together_;
   int next_ = 0;
 };
 
@@ -51,10 +56,11 @@ class BoardRecordingTest : public ::testing::Test {
                             {R, Vector3(0, 0, 1900) - R * Vector3(350, 200, 0)}, options_.board);
   }
 
-  void AddCamera(const std::string& name, const Image<Bgr>& picture, int frames) {
+  void AddCamera(const std::string& name, const Image<Bgr>& picture, int frames,
+                 std::barrier<>* together = nullptr) {
     LiveCamera& camera = cameras_.emplace_back();
     camera.name = name;
-    camera.driver = std::make_unique<PictureCamera>(picture, frames);
+    camera.driver = std::make_unique<PictureCamera>(picture, frames, together);
   }
 
   testing::TemporaryFolder folder_;
@@ -64,8 +70,9 @@ class BoardRecordingTest : public ::testing::Test {
 };
 
 TEST_F(BoardRecordingTest, LeavesFootageOfTheSameMomentsOfAllCameras) {
-  AddCamera("cam1", seen_, 30);
-  AddCamera("cam2", seen_, 30);
+  std::barrier together(2);
+  AddCamera("cam1", seen_, 30, &together);
+  AddCamera("cam2", seen_, 30, &together);
   std::vector<CameraHint> last;
   RecordBoard(cameras_, options_, [&](const std::vector<CameraHint>& hints) {
     last = hints;
