@@ -1,7 +1,6 @@
 #include "tools/calibrate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -13,20 +12,15 @@
 #include "core/errors.h"
 #include "daemon/clock.h"
 #include "drivers/calibration_file.h"
+#include "tools/calibrate_check.h"
 #include "tools/calibrate_live.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibrate_takes.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration_report.h"
-#include "tools/camera_health.h"
-#include "tools/camera_names.h"
-#include "tools/take_samples.h"
 
 namespace mocap {
 namespace {
-
-constexpr double kFeetTolerance_mm = 100;
-constexpr double kLowestHead_mm = 1100, kHighestHead_mm = 2400;
 
 using Arguments = std::shared_ptr<CalibrateArguments>;
 
@@ -221,75 +215,6 @@ void AddConvert(CLI::App* parent) {
     WriteAny(*a, cameras);
     for (const Finding& finding : CheckCameras(cameras, true))
       std::fprintf(stdout, "look: %s\n", finding.text.c_str());
-  });
-}
-
-// A person's feet are on the floor and the head is as high as heads are.
-void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
-  const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
-  if (const auto swapped = FindSwappedCameras(samples)) {
-    findings.insert(findings.begin(),
-                    {Severity::kWrong, take.string() + ": " + SwappedText(*swapped)});
-    return;
-  }
-  const StandingPerson person = MeasurePerson(samples);
-  const auto add = [&](Severity severity, const std::string& text) {
-    findings.insert(findings.begin(), {severity, take.string() + ": " + text});
-  };
-  if (person.moments == 0) {
-    add(Severity::kWrong,
-        "the cameras' views of the person meet nowhere; poses or camera names are "
-        "mixed up");
-    return;
-  }
-  if (std::abs(person.lowest_mm) > kFeetTolerance_mm)
-    add(Severity::kWrong,
-        "the person's feet are at z = " + std::to_string(std::lround(person.lowest_mm)) +
-            " mm, not on the floor; set the floor again");
-  const std::string reach =
-      "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) + " mm";
-  if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
-    add(Severity::kWarning,
-        reach + "; was the board's square typed right, and does somebody stand there?");
-  else
-    findings.push_back({Severity::kNote, take.string() + ": " + reach});
-}
-
-std::string Days(std::int64_t from_s, std::int64_t to_s) {
-  return std::to_string((to_s - from_s) / (24 * 3600)) + " days ago";
-}
-
-// Age, and what the last look at the cameras' health found.
-std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
-  if (record.made_s == 0) return "does not say when it was made\n";
-  std::string text = "made " + Days(record.made_s, now_s);
-  if (record.refined_s != 0) text += ", refined " + Days(record.refined_s, now_s);
-  text += record.checked_s == 0 ? "; nobody has looked at its health yet"
-                                : "; health looked at " + Days(record.checked_s, now_s);
-  for (const CameraOffset& offset : record.offsets) {
-    if (offset.has_moved)
-      text += ", " + offset.camera + " " + std::to_string(std::lround(offset.px)) + " px off";
-  }
-  return text + '\n';
-}
-
-void AddCheck(CLI::App* parent) {
-  const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command = parent->add_subcommand("check", "What a calibration is worth");
-  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
-  command->add_option("--distance", a->distance,
-                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
-  command->add_option("--take", a->footage,
-                      "a take with this calibration in which a person stands or walks");
-  command->callback([a] {
-    StudioFit fit;
-    fit.bundle.cameras = LoadCalibration(a->calibration);
-    fit.has_floor = true;
-    std::vector<Finding> findings = CheckAll(*a, fit);
-    if (!a->footage.empty()) CheckPerson(a->footage, findings);
-    std::fputs(RecordText(LoadCalibrationRecord(a->calibration), EpochS()).c_str(), stdout);
-    for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
-    std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
   });
 }
 

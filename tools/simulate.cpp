@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
+#include "drivers/simulated_board.h"
 #include "drivers/simulated_studio.h"
 #include "drivers/simulation/motion.h"
 #include "drivers/take_writer.h"
@@ -18,9 +20,15 @@
 namespace mocap {
 namespace {
 
+const std::map<std::string, BoardPlace> kBoardPlaces = {{"carried", BoardPlace::kCarried},
+                                                        {"floor", BoardPlace::kOnFloor}};
+
 struct SimulateOptions {
   std::filesystem::path out;
   SimulatedStudioOptions studio = RecordedSimulation();
+  std::string board;  ///< One of kBoardPlaces, or nothing: a person.
+
+  int frames() const { return static_cast<int>(std::lround(studio.seconds * studio.fps)); }
 };
 
 std::string Text(double value) {
@@ -29,18 +37,22 @@ std::string Text(double value) {
   return text.str();
 }
 
-TakeDescription Describe(const SimulateOptions& options, const SimulatedStudio& studio) {
+TakeDescription Describe(const SimulateOptions& options,
+                         const std::vector<CameraCalibration>& cameras) {
   TakeDescription description;
   description.name = options.out.filename().empty() ? options.out.parent_path().filename().string()
                                                     : options.out.filename().string();
   description.fps_nominal = options.studio.fps;
-  description.cameras = studio.cameras();
+  description.cameras = cameras;
   // The simulated time, so that the same options give the same bytes.
-  description.notes = {{"created", "1970-01-01T00:16:40Z"},
-                       {"source", "simulated"},
-                       {"motion", options.studio.motion},
-                       {"stature_mm", Text(options.studio.stature_mm)},
-                       {"seed", std::to_string(options.studio.seed)}};
+  description.notes = {{"created", "1970-01-01T00:16:40Z"}, {"source", "simulated"}};
+  if (!options.board.empty()) {
+    description.notes.emplace_back("board", "chess:8x5:100");
+  } else {
+    description.notes.emplace_back("motion", options.studio.motion);
+    description.notes.emplace_back("stature_mm", Text(options.studio.stature_mm));
+  }
+  description.notes.emplace_back("seed", std::to_string(options.studio.seed));
   return description;
 }
 
@@ -81,9 +93,8 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
     cameras.push_back(studio.OpenCamera(static_cast<int>(c)));
     cameras.back()->Start();
   }
-  const int frames = static_cast<int>(std::lround(options.studio.seconds * options.studio.fps));
-  const Progress progress(frames);
-  for (int i = 0; i < frames; ++i) {
+  const Progress progress(options.frames());
+  for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       Frame frame;
@@ -97,16 +108,32 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
   writer.WriteTruthSizes(truth.Sizes());
 }
 
-void Simulate(const SimulateOptions& options) {
-  if (!(options.studio.seconds > 0))
-    throw SetupError("--seconds is " + Text(options.studio.seconds) + "; wanted is more than 0");
+void SimulatePerson(const SimulateOptions& options) {
   const SimulatedStudio studio(options.studio);
-  TakeWriter writer(options.out, Describe(options, studio));
+  TakeWriter writer(options.out, Describe(options, studio.cameras()));
   const std::vector<std::string> names(kSimulatedJointNames.begin(), kSimulatedJointNames.end());
   writer.SetTruthPoints(names);
   WriteBackgrounds(studio, writer);
   WriteFrames(options, studio, writer);
   writer.Finish();
+}
+
+void SimulateBoard(const SimulateOptions& options) {
+  SimulatedBoard board(options.studio, kBoardPlaces.at(options.board));
+  TakeWriter writer(options.out, Describe(options, board.cameras()));
+  const Progress progress(options.frames());
+  for (int i = 0; i < options.frames(); ++i) {
+    progress.Show("frame", i + 1);
+    for (int c = 0; c < options.studio.cameras; ++c)
+      writer.WriteFrame(c, board.Paint(c, i), board.CaptureTime(c, i));
+  }
+  writer.Finish();
+}
+
+void Simulate(const SimulateOptions& options) {
+  if (!(options.studio.seconds > 0))
+    throw SetupError("--seconds is " + Text(options.studio.seconds) + "; wanted is more than 0");
+  options.board.empty() ? SimulatePerson(options) : SimulateBoard(options);
 }
 
 }  // namespace
@@ -133,6 +160,10 @@ void AddSimulateCommand(CLI::App& app) {
                     "Cameras on heads that follow the person");
   command->add_option("--seed", options->studio.seed, "Person, clothes, room, lenses and path")
       ->capture_default_str();
+  command
+      ->add_option("--board", options->board,
+                   "Instead of a person a chessboard of 8x5 inner corners, 100 mm")
+      ->check(CLI::IsMember(kBoardPlaces));
   command->callback([options] { Simulate(*options); });
 }
 

@@ -104,13 +104,6 @@ inline BoardSightings WalkBoard(const std::vector<CameraCalibration>& cameras,
   return sightings;
 }
 
-/// The board face up on the floor, its first corner at the origin, rows along x.
-inline RigidTransform BoardOnFloor() {
-  Matrix3 R;
-  R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  return {R, Vector3::Zero()};
-}
-
 inline BoardSightings SeeStillBoard(const std::vector<CameraCalibration>& cameras,
                                     const Board& board, const RigidTransform& X_WB,
                                     double noise_px) {

@@ -2,16 +2,18 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "drivers/simulation/printed_board.h"
 #include "tests/tools/calibration/simulated_board.h"
 #include "tools/calibration/extrinsics.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/lens_fit.h"
+#include "tools/calibration/placement.h"
 #include "tools/calibration/studio_check.h"
 
 namespace mocap {
 namespace {
 
-using testing::BoardOnFloor;
+using simulation::BoardOnFloor;
 using testing::BoardWalk;
 using ::testing::HasSubstr;
 using testing::SeeStillBoard;
@@ -53,35 +55,6 @@ StudioFit Calibrate(const std::vector<CameraCalibration>& truth, const BoardWalk
   return fit;
 }
 
-/// Points in the room as the calibration places them from where they truly are seen.
-struct PlaceErrors {
-  double mean_mm = 0, worst_mm = 0;
-};
-
-PlaceErrors ErrorsInRoom(const std::vector<CameraCalibration>& truth,
-                         const std::vector<CameraCalibration>& found) {
-  PlaceErrors errors;
-  int count = 0;
-  for (int i = 0; i < 5 * 5 * 4; ++i) {
-    const Vector3 p_W(-1500 + 750 * (i % 5), -1500 + 750 * (i / 5 % 5), 100 + 550 * (i / 25));
-    std::vector<std::pair<const CameraCalibration*, Vector2>> seen;
-    for (std::size_t c = 0; c < truth.size(); ++c) {
-      const Vector3 p_C = truth[c].X_CW * p_W;
-      const auto pixel = PixelFromNormalized(truth[c].lens, p_C.head<2>() / p_C.z());
-      if (p_C.z() > 0 && pixel && pixel->minCoeff() >= 0 && pixel->x() < truth[c].width_px &&
-          pixel->y() < truth[c].height_px)
-        seen.emplace_back(&found[c], *pixel);
-    }
-    if (seen.size() < 2) continue;
-    const double error_mm = (Triangulate(seen) - p_W).norm();
-    errors.mean_mm += error_mm;
-    errors.worst_mm = std::max(errors.worst_mm, error_mm);
-    ++count;
-  }
-  errors.mean_mm /= count;
-  return errors;
-}
-
 std::string ReasonOf(const std::function<void()>& step) {
   try {
     step();
@@ -98,7 +71,7 @@ TEST_P(StudioFitTest, PlacesPointsInTheRoomWithinTwoMillimetres) {
   BoardWalk walk;
   walk.seed = GetParam();
   const StudioFit fit = Calibrate(truth, walk, LensModel::kTsai);
-  const PlaceErrors errors = ErrorsInRoom(truth, fit.bundle.cameras);
+  const PlacementDifference errors = ComparePlacement(fit.bundle.cameras, truth);
   EXPECT_LE(errors.mean_mm, 2);
   EXPECT_LE(errors.worst_mm, 5);
   RecordProperty("mean_mm", std::to_string(errors.mean_mm));
@@ -117,7 +90,7 @@ TEST(StudioFitTest, FitsOpenCvAndFisheyeLensesToo) {
   for (const LensModel model : {LensModel::kOpenCv, LensModel::kFisheye}) {
     const StudioFit fit = Calibrate(truth, walk, model);
     EXPECT_LT(fit.rms_px, 0.25);
-    EXPECT_LT(ErrorsInRoom(truth, fit.bundle.cameras).worst_mm, 12);
+    EXPECT_LT(ComparePlacement(fit.bundle.cameras, truth).worst_mm, 12);
   }
 }
 

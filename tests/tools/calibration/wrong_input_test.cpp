@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "drivers/calibration_file.h"
+#include "drivers/simulation/printed_board.h"
 #include "drivers/video_writer.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/calibration/board_picture.h"
@@ -303,7 +304,7 @@ const WrongInput kWrongSightings[] = {
      [](Bench&) {
        const BoardWalk walk;
        BoardSightings still =
-           testing::SeeStillBoard(Rig(), walk.board, testing::BoardOnFloor(), walk.noise_px);
+           testing::SeeStillBoard(Rig(), walk.board, simulation::BoardOnFloor(), walk.noise_px);
        still.sightings[1].camera = 1;
        for (Vector2& pixel : still.sightings[1].corners.pixels) pixel.x() += 25;
        return ReasonOf([&] { FindStillBoard(still, Rig()); });

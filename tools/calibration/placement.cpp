@@ -1,0 +1,66 @@
+#include "tools/calibration/placement.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "tools/calibration/floor.h"
+#include "tools/calibration/studio_check.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kAcross = 5, kLayers = 4;
+constexpr double kSpacing_mm = 750, kLowest_mm = 100, kLayer_mm = 550;
+
+// The camera of that name for each camera of the reference.
+std::vector<const CameraCalibration*> Matching(const std::vector<CameraCalibration>& cameras,
+                                               const std::vector<CameraCalibration>& reference) {
+  std::vector<const CameraCalibration*> matching;
+  for (const CameraCalibration& wanted : reference) {
+    const auto found = std::ranges::find(cameras, wanted.name, &CameraCalibration::name);
+    if (found == cameras.end())
+      throw SetupError("calibration: has no camera " + Quoted(wanted.name) +
+                       " as the one that it is compared with; wanted are the same cameras");
+    matching.push_back(&*found);
+  }
+  return matching;
+}
+
+std::optional<Vector2> PixelOf(const CameraCalibration& camera, const Vector3& p_W) {
+  const Vector3 p_C = camera.X_CW * p_W;
+  if (p_C.z() <= 0) return {};
+  const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+  if (!pixel || pixel->minCoeff() < 0 || pixel->x() >= camera.width_px ||
+      pixel->y() >= camera.height_px)
+    return {};
+  return pixel;
+}
+
+}  // namespace
+
+PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& cameras,
+                                     const std::vector<CameraCalibration>& reference) {
+  const std::vector<const CameraCalibration*> matching = Matching(cameras, reference);
+  const Vector3 middle_W = MiddleOfRoom(reference);
+  PlacementDifference difference;
+  for (int i = 0; i < kAcross * kAcross * kLayers; ++i) {
+    const int column = i % kAcross - kAcross / 2, row = i / kAcross % kAcross - kAcross / 2;
+    const Vector3 p_W(middle_W.x() + kSpacing_mm * column, middle_W.y() + kSpacing_mm * row,
+                      kLowest_mm + kLayer_mm * (i / (kAcross * kAcross)));
+    std::vector<std::pair<const CameraCalibration*, Vector2>> seen;
+    for (std::size_t c = 0; c < reference.size(); ++c) {
+      if (const auto pixel = PixelOf(reference[c], p_W)) seen.emplace_back(matching[c], *pixel);
+    }
+    if (seen.size() < 2) continue;
+    const double apart_mm = (Triangulate(seen) - p_W).norm();
+    difference.mean_mm += (apart_mm - difference.mean_mm) / ++difference.points;
+    if (apart_mm <= difference.worst_mm) continue;
+    difference.worst_mm = apart_mm;
+    difference.worst_at_W = p_W;
+  }
+  return difference;
+}
+
+}  // namespace mocap

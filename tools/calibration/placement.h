@@ -1,0 +1,25 @@
+// How far apart two calibrations of the same cameras place the same things.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/reconstruction/camera_model.h"
+
+namespace mocap {
+
+/// Distances between the places that two calibrations give to points in the room.
+struct PlacementDifference {
+  int points = 0;  ///< That at least two cameras see.
+  double mean_mm = 0, worst_mm = 0;
+  Vector3 worst_at_W = Vector3::Zero();  ///< In the frame of the reference.
+};
+
+/// Projects points up to 1750 mm above the floor, in 3 x 3 m about the middle of the room, with the
+/// reference and triangulates them with the cameras. Both have the same world frame, or the
+/// distances tell of that too; heads stand at zero.
+/// @throws SetupError  when a camera of the reference is missing.
+PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& cameras,
+                                     const std::vector<CameraCalibration>& reference);
+
+}  // namespace mocap
