@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "core/reconstruction/background_model.h"
-#include "core/reconstruction/camera_model.h"
-#include "drivers/take_table.h"
-#include "drivers/video_reader.h"
+#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "drivers/take/take_table.h"
+#include "drivers/take/video_reader.h"
 
 namespace mocap {
 

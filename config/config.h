@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "config/service_config.h"
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/segmenter.h"
-#include "drivers/aravis_settings.h"
-#include "drivers/v4l2_settings.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/segmenter.h"
+#include "drivers/aravis/aravis_settings.h"
+#include "drivers/v4l2/v4l2_settings.h"
 
 namespace mocap {
 

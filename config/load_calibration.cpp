@@ -5,7 +5,7 @@
 #include "config/load_config.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
-#include "drivers/take_layout.h"
+#include "drivers/take/take_layout.h"
 #include "drivers/utc_time.h"
 
 namespace mocap {

@@ -7,8 +7,8 @@
 
 #include "config/config.h"
 #include "core/body/body_model.h"
-#include "core/reconstruction/camera_model.h"
-#include "drivers/calibration_file.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "drivers/take/calibration_file.h"
 
 namespace mocap {
 

@@ -8,10 +8,10 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "drivers/aravis_driver.h"
+#include "drivers/aravis/aravis_driver.h"
 #include "drivers/pan_tilt_camera.h"
-#include "drivers/v4l2_driver.h"
-#include "drivers/v4l2_pan_tilt.h"
+#include "drivers/v4l2/v4l2_driver.h"
+#include "drivers/v4l2/v4l2_pan_tilt.h"
 
 namespace mocap {
 namespace {

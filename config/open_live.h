@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "drivers/camera_driver.h"
 #include "drivers/camera_request.h"
 #include "drivers/pan_tilt.h"

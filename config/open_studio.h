@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "drivers/simulated_studio.h"
+#include "drivers/simulation/simulated_studio.h"
 #include "drivers/studio.h"
 
 namespace mocap {
@@ -22,7 +22,7 @@ Studio OpenStudio(const Config& config);
 struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
-  bool in_memory = false;  ///< Decodes the whole take at once.
+  bool in_memory = false;            ///< Decodes the whole take at once.
   std::vector<std::string> cameras;  ///< Empty: all.
   /// In real time, tells when its first frame is captured; null: when the first camera starts.
   std::function<std::int64_t()> begin_ns = nullptr;

@@ -8,8 +8,8 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
-#include "drivers/take_driver.h"
-#include "drivers/take_layout.h"
+#include "drivers/take/take_driver.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/take_layout.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {

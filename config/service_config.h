@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "drivers/video_writer.h"
+#include "drivers/take/video_writer.h"
 
 namespace mocap {
 
@@ -28,8 +28,8 @@ struct MetricsConfig {
 
 /// [realtime]: what lets frames go before everything else on a busy machine.
 struct RealtimeConfig {
-  int priority = 0;          ///< Of the frame path, SCHED_FIFO; 0: as everybody.
-  bool lock_memory = false;  ///< Nothing is paged out.
+  int priority = 0;             ///< Of the frame path, SCHED_FIFO; 0: as everybody.
+  bool lock_memory = false;     ///< Nothing is paged out.
   std::vector<int> processors;  ///< That the frame path keeps to; empty: all.
 };
 

@@ -6,7 +6,7 @@
 
 #include "config/body_size_fields.h"
 #include "config/toml_section.h"
-#include "drivers/toml_text.h"
+#include "drivers/take/toml_text.h"
 
 namespace mocap {
 namespace {

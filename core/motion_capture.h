@@ -10,8 +10,8 @@
 #include "core/body/body_model.h"
 #include "core/body/body_part.h"
 #include "core/body/pose_state.h"
-#include "core/reconstruction/outline.h"
-#include "core/reconstruction/voxel_grid.h"
+#include "core/reconstruction/carving/voxel_grid.h"
+#include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
 

@@ -6,7 +6,7 @@
 
 #include "config/load_config.h"
 #include "daemon/run_program.h"
-#include "daemon/service.h"
+#include "daemon/service/service.h"
 
 int main(int argc, char** argv) {
   mocap::HoldSignals();

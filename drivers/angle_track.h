@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/segmenter.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/segmenter.h"
 #include "drivers/camera_driver.h"
 
 namespace mocap {

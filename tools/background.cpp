@@ -14,7 +14,7 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "core/reconstruction/change_meter.h"
+#include "core/reconstruction/background/change_meter.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"
 

@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "core/reconstruction/change_meter.h"
+#include "core/reconstruction/background/change_meter.h"
 #include "daemon/clock.h"
-#include "drivers/video_writer.h"
+#include "drivers/take/video_writer.h"
 
 namespace mocap {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "tools/accuracy_benchmark.h"
-#include "tools/accuracy_report.h"
+#include "tools/accuracy/accuracy_benchmark.h"
+#include "tools/accuracy/accuracy_report.h"
 
 namespace mocap {
 namespace {

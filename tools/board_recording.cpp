@@ -17,7 +17,7 @@
 #include "core/errors.h"
 #include "daemon/clock.h"
 #include "drivers/quoted.h"
-#include "drivers/video_writer.h"
+#include "drivers/take/video_writer.h"
 
 namespace mocap {
 namespace {

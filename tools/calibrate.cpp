@@ -11,13 +11,13 @@
 #include "core/calibration/tsai.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "drivers/calibration_file.h"
+#include "drivers/take/calibration_file.h"
 #include "tools/calibrate_check.h"
 #include "tools/calibrate_live.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibrate_takes.h"
 #include "tools/calibration/exchange.h"
-#include "tools/calibration_report.h"
+#include "tools/report/calibration_report.h"
 
 namespace mocap {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "config/load_config.h"
 #include "daemon/clock.h"
-#include "drivers/calibration_file.h"
+#include "drivers/take/calibration_file.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibration/placement.h"
 #include "tools/calibration/studio_check.h"

@@ -9,7 +9,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/json_object.h"
+#include "daemon/control/json_object.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"

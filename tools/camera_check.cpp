@@ -9,7 +9,7 @@
 
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "daemon/synchronizer.h"
+#include "daemon/pipeline/synchronizer.h"
 
 namespace mocap {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/sensor_plane_table.h"
-#include "core/reconstruction/silhouette_shift.h"
-#include "drivers/take_layout.h"
-#include "drivers/take_table.h"
-#include "tools/hull_overlap.h"
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/silhouette/silhouette_shift.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/take_table.h"
+#include "tools/report/hull_overlap.h"
 
 namespace mocap {
 namespace {

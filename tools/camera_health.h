@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "tools/take_samples.h"
 
 namespace mocap {

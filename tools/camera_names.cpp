@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/sensor_plane_table.h"
-#include "tools/hull_overlap.h"
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/carving/carver.h"
+#include "tools/report/hull_overlap.h"
 
 namespace mocap {
 namespace {

@@ -14,10 +14,10 @@
 
 #include "config/load_config.h"
 #include "config/open_live.h"
-#include "drivers/aravis_directory.h"
+#include "drivers/aravis/aravis_directory.h"
 #include "drivers/camera_listing.h"
-#include "drivers/v4l2_devices.h"
-#include "drivers/video_kernel.h"
+#include "drivers/v4l2/v4l2_devices.h"
+#include "drivers/v4l2/video_kernel.h"
 #include "tools/camera_check.h"
 
 namespace mocap {

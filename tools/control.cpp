@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "daemon/control_request.h"
-#include "daemon/control_socket.h"
+#include "daemon/control/control_request.h"
+#include "daemon/control/control_socket.h"
 
 namespace mocap {
 namespace {

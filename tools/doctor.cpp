@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config/load_config.h"
-#include "daemon/recorder.h"
+#include "daemon/recording/recorder.h"
 #include "tools/doctor_checks.h"
 
 namespace mocap {

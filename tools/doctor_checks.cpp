@@ -16,8 +16,8 @@
 
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "daemon/control_socket.h"
-#include "daemon/pose_publisher.h"
+#include "daemon/control/control_socket.h"
+#include "daemon/messages/pose_publisher.h"
 
 namespace mocap {
 namespace {

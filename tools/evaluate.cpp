@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "tools/evaluation.h"
-#include "tools/evaluation_text.h"
-#include "tools/hull_overlap.h"
-#include "tools/report.h"
+#include "tools/report/evaluation.h"
+#include "tools/report/evaluation_text.h"
+#include "tools/report/hull_overlap.h"
+#include "tools/report/report.h"
 #include "tools/take_samples.h"
 
 namespace mocap {

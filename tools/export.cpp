@@ -10,11 +10,11 @@
 #include <string>
 
 #include "core/errors.h"
-#include "tools/bvh_motion.h"
-#include "tools/bvh_writer.h"
-#include "tools/csv_writer.h"
-#include "tools/result.h"
-#include "tools/trc_writer.h"
+#include "tools/results/bvh_motion.h"
+#include "tools/results/bvh_writer.h"
+#include "tools/results/csv_writer.h"
+#include "tools/results/result.h"
+#include "tools/results/trc_writer.h"
 
 namespace mocap {
 namespace {

@@ -23,13 +23,13 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
-#include "drivers/simulated_studio.h"
-#include "drivers/take_layout.h"
-#include "drivers/toml_text.h"
-#include "drivers/video_reader.h"
-#include "tools/gige_camera.h"
-#include "tools/loopback.h"
-#include "tools/studio_source.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/toml_text.h"
+#include "drivers/take/video_reader.h"
+#include "tools/gige/gige_camera.h"
+#include "tools/gige/loopback.h"
+#include "tools/gige/studio_source.h"
 
 namespace mocap {
 namespace {

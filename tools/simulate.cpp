@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "drivers/simulated_board.h"
-#include "drivers/simulated_studio.h"
 #include "drivers/simulation/motion.h"
-#include "drivers/take_writer.h"
+#include "drivers/simulation/simulated_board.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "drivers/take/take_writer.h"
 
 namespace mocap {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "config/config.h"
 #include "config/open_studio.h"
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/segmenter.h"
-#include "core/reconstruction/sensor_plane_table.h"
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/silhouette/segmenter.h"
 
 namespace mocap {
 namespace {

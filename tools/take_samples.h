@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/silhouette.h"
-#include "core/reconstruction/voxel_grid.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/carving/voxel_grid.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
 

@@ -14,10 +14,10 @@
 #include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "daemon/json_object.h"
-#include "daemon/pipeline.h"
-#include "drivers/take_layout.h"
-#include "tools/result_sink.h"
+#include "daemon/control/json_object.h"
+#include "daemon/pipeline/pipeline.h"
+#include "drivers/take/take_layout.h"
+#include "tools/results/result_sink.h"
 
 namespace mocap {
 namespace {

@@ -21,8 +21,8 @@
 #include "config/config.h"
 #include "core/motion_capture.h"
 #include "daemon/clock.h"
-#include "daemon/decode_message.h"
-#include "daemon/pose_publisher.h"
+#include "daemon/messages/decode_message.h"
+#include "daemon/messages/pose_publisher.h"
 
 namespace mocap {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/geometry.h"
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
 

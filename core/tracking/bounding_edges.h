@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/reconstruction/outline.h"
+#include "core/reconstruction/silhouette/outline.h"
 #include "core/tracking/voxel_cloud.h"
 
 namespace mocap {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/geometry.h"
-#include "core/reconstruction/voxel_grid.h"
+#include "core/reconstruction/carving/voxel_grid.h"
 
 namespace mocap {
 

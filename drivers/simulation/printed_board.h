@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap::simulation {
 

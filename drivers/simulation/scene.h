@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/segmenter.h"
-#include "drivers/simulated_studio.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/segmenter.h"
 #include "drivers/simulation/anthropometry.h"
 #include "drivers/simulation/empty_view.h"
 #include "drivers/simulation/motion.h"
@@ -17,6 +16,7 @@
 #include "drivers/simulation/person_renderer.h"
 #include "drivers/simulation/room.h"
 #include "drivers/simulation/sensor.h"
+#include "drivers/simulation/simulated_studio.h"
 
 namespace mocap::simulation {
 

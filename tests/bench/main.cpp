@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/svg_plot.h"
+#include "tools/report/svg_plot.h"
 
 namespace mocap::bench {
 namespace {

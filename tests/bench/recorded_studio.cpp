@@ -6,7 +6,7 @@
 #include <memory>
 #include <tuple>
 
-#include "drivers/simulated_studio.h"
+#include "drivers/simulation/simulated_studio.h"
 
 namespace mocap::bench {
 namespace {

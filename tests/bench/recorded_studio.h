@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/reconstruction/carving_view.h"
-#include "core/reconstruction/segmenter.h"
+#include "core/reconstruction/carving/carving_view.h"
+#include "core/reconstruction/silhouette/segmenter.h"
 #include "drivers/studio.h"
 
 namespace mocap::bench {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <opencv2/video/background_segm.hpp>
 
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/outline.h"
+#include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/silhouette/outline.h"
 #include "tests/bench/recorded_studio.h"
 
 namespace mocap::bench {

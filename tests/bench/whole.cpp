@@ -3,7 +3,7 @@
 
 #include "config/load_config.h"
 #include "daemon/clock.h"
-#include "daemon/pipeline.h"
+#include "daemon/pipeline/pipeline.h"
 #include "tests/bench/recorded_studio.h"
 
 namespace mocap::bench {

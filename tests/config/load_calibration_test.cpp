@@ -3,7 +3,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "drivers/calibration_file.h"
+#include "drivers/take/calibration_file.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 

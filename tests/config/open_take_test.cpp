@@ -5,7 +5,7 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
-#include "drivers/take_layout.h"
+#include "drivers/take/take_layout.h"
 #include "tests/support/images.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"

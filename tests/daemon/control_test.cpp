@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "daemon/control_request.h"
-#include "daemon/control_socket.h"
+#include "daemon/control/control_request.h"
+#include "daemon/control/control_socket.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/camera_worker.h"
-#include "daemon/carve_stage.h"
-#include "drivers/simulated_studio.h"
+#include "daemon/pipeline/camera_worker.h"
+#include "daemon/pipeline/carve_stage.h"
+#include "drivers/simulation/simulated_studio.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kCountsAllocations = false;

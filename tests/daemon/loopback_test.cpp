@@ -18,9 +18,9 @@
 
 #include "config/load_config.h"
 #include "config/open_studio.h"
-#include "daemon/pipeline.h"
-#include "drivers/v4l2_devices.h"
-#include "drivers/video_kernel.h"
+#include "daemon/pipeline/pipeline.h"
+#include "drivers/v4l2/v4l2_devices.h"
+#include "drivers/v4l2/video_kernel.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {

@@ -20,8 +20,8 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
-#include "daemon/control_socket.h"
-#include "daemon/pose_publisher.h"
+#include "daemon/control/control_socket.h"
+#include "daemon/messages/pose_publisher.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/complaints.h"
-#include "daemon/service_report.h"
+#include "daemon/service/complaints.h"
+#include "daemon/service/service_report.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {

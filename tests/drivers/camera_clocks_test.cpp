@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "daemon/synchronizer.h"
-#include "drivers/aravis_driver.h"
+#include "daemon/pipeline/synchronizer.h"
+#include "drivers/aravis/aravis_driver.h"
 #include "tests/support/pattern_camera.h"
 #include "tests/support/private_network.h"
-#include "tools/gige_camera.h"
-#include "tools/loopback.h"
+#include "tools/gige/gige_camera.h"
+#include "tools/gige/loopback.h"
 
 namespace mocap {
 namespace {

@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "drivers/v4l2_time.h"
+#include "drivers/v4l2/v4l2_time.h"
 
 namespace mocap::testing {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/errors.h"
 #include "drivers/angle_track.h"
 #include "drivers/pan_tilt_camera.h"
-#include "drivers/v4l2_pan_tilt.h"
-#include "drivers/v4l2_time.h"
+#include "drivers/v4l2/v4l2_pan_tilt.h"
+#include "drivers/v4l2/v4l2_time.h"
 #include "tests/support/fake_machine.h"
 
 namespace mocap::testing {

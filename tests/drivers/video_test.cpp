@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "drivers/video_reader.h"
-#include "drivers/video_writer.h"
+#include "drivers/take/video_reader.h"
+#include "drivers/take/video_writer.h"
 #include "tests/support/damage_video.h"
 #include "tests/support/images.h"
 #include "tests/support/small_take.h"

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "daemon/control_request.h"
+#include "daemon/control/control_request.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -1,4 +1,4 @@
-#include "daemon/decode_message.h"
+#include "daemon/messages/decode_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> bytes(data, size);

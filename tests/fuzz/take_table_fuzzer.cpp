@@ -1,5 +1,5 @@
 #include "core/errors.h"
-#include "drivers/take_table.h"
+#include "drivers/take/take_table.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "drivers/libav.h"
-#include "drivers/video_writer.h"
+#include "drivers/take/libav.h"
+#include "drivers/take/video_writer.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "drivers/v4l2_devices.h"
-#include "drivers/v4l2_driver.h"
+#include "drivers/v4l2/v4l2_devices.h"
+#include "drivers/v4l2/v4l2_driver.h"
 #include "tests/support/fake_video_kernel.h"
 #include "tests/support/temporary_folder.h"
 

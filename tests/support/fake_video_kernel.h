@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/video_kernel.h"
+#include "drivers/v4l2/video_kernel.h"
 
 namespace mocap::testing {
 

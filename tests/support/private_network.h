@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "tools/loopback.h"
+#include "tools/gige/loopback.h"
 
 namespace mocap::testing {
 

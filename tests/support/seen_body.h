@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/outline.h"
+#include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/silhouette/outline.h"
 #include "core/tracking/evidence.h"
 
 namespace mocap {

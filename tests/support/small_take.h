@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/image.h"
-#include "core/reconstruction/camera_model.h"
-#include "drivers/take_writer.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "drivers/take/take_writer.h"
 
 namespace mocap::testing {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/reconstruction/voxel_grid.h"
+#include "core/reconstruction/carving/voxel_grid.h"
 
 namespace mocap {
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <vector>
 
-#include "core/reconstruction/silhouette.h"
-#include "drivers/simulated_studio.h"
+#include "core/reconstruction/silhouette/silhouette.h"
+#include "drivers/simulation/simulated_studio.h"
 
 namespace mocap::testing {
 

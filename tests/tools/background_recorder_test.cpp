@@ -11,7 +11,7 @@
 
 #include "config/camera_files.h"
 #include "core/errors.h"
-#include "core/reconstruction/change_meter.h"
+#include "core/reconstruction/background/change_meter.h"
 #include "drivers/pan_tilt_camera.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "core/reconstruction/carver.h"
-#include "core/reconstruction/sensor_plane_table.h"
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/carving/carver.h"
 #include "tests/support/walking_silhouettes.h"
 #include "tools/camera_names.h"
 

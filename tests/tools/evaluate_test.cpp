@@ -6,11 +6,11 @@
 #include <random>
 
 #include "core/errors.h"
-#include "drivers/take_writer.h"
+#include "drivers/take/take_writer.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/evaluation.h"
-#include "tools/evaluation_text.h"
-#include "tools/report.h"
+#include "tools/report/evaluation.h"
+#include "tools/report/evaluation_text.h"
+#include "tools/report/report.h"
 #include "tools/take_samples.h"
 
 namespace mocap {

@@ -16,7 +16,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "drivers/aravis_driver.h"
+#include "drivers/aravis/aravis_driver.h"
 #include "tests/support/images.h"
 #include "tests/support/private_network.h"
 #include "tests/support/small_take.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/csv_writer.h"
-#include "tools/trc_writer.h"
+#include "tools/results/csv_writer.h"
+#include "tools/results/trc_writer.h"
 
 namespace mocap {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "tools/calibration/sightings.h"
 
 namespace mocap {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "drivers/take_layout.h"
-#include "drivers/toml_text.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/toml_text.h"
 #include "tools/calibration/exchange.h"
 
 namespace mocap {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "drivers/toml_text.h"
+#include "drivers/take/toml_text.h"
 #include "tools/calibration/exchange.h"
 
 namespace mocap {

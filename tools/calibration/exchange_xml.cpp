@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "drivers/take_layout.h"
+#include "drivers/take/take_layout.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration/xml_tags.h"
 

@@ -12,9 +12,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/errors.h"
-#include "drivers/take_layout.h"
-#include "drivers/take_table.h"
-#include "drivers/video_reader.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/take_table.h"
+#include "drivers/take/video_reader.h"
 
 namespace mocap {
 namespace {

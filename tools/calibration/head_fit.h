@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "tools/calibration/sightings.h"
 
 namespace mocap {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "tools/calibration/board.h"
 #include "tools/calibration/board_detector.h"
 #include "tools/calibration/footage.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
 

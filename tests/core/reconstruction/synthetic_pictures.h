@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/reconstruction/background_model.h"
-#include "core/reconstruction/silhouette.h"
+#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
 

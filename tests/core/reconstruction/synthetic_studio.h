@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
-#include "core/reconstruction/carving_view.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/carving/carving_view.h"
 #include "tests/core/reconstruction/lenses.h"
 
 namespace mocap {

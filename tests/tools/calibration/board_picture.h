@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/image.h"
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "tools/calibration/board.h"
 
 namespace mocap::testing {

@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "config/load_config.h"
-#include "drivers/calibration_file.h"
+#include "drivers/take/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/calibration/extrinsics.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/lens_fit.h"
 #include "tools/calibration/still_board.h"
 #include "tools/camera_health.h"
-#include "tools/report.h"
+#include "tools/report/report.h"
 #include "tools/take_samples.h"
 
 namespace mocap {

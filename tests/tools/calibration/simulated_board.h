@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/reconstruction/camera_model.h"
+#include "core/reconstruction/camera/camera_model.h"
 #include "drivers/simulation/camera_rig.h"
 #include "tools/calibration/sightings.h"
 

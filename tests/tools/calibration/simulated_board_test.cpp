@@ -1,4 +1,4 @@
-#include "drivers/simulated_board.h"
+#include "drivers/simulation/simulated_board.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <opencv2/core.hpp>
 
 #include "core/errors.h"
-#include "drivers/calibration_file.h"
 #include "drivers/simulation/printed_board.h"
-#include "drivers/video_writer.h"
+#include "drivers/take/calibration_file.h"
+#include "drivers/take/video_writer.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/calibration/board_picture.h"
 #include "tests/tools/calibration/simulated_board.h"

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/background/background_sums.h"
+#include "core/reconstruction/silhouette/coarse_scan.h"
+
+namespace mocap {
+namespace {
+
+// So many frames fill the histograms well enough.
+constexpr std::size_t kMostHistogramFrames = 16;
+
+class FixedBackground final : public BackgroundModel {
+ public:
+  FixedBackground(std::span<const BackgroundFrame> frames, double detection_rate)
+      : frames_(frames),
+        conditions_(frames.size()),
+        sums_(frames[0].image.pixels().size()),
+        half_(frames[0].image.width(), frames[0].image.height()),
+        expected_(frames[0].image.width(), frames[0].image.height()) {
+    MOCAP_CHECK(frames.size() >= 2);
+    // Once to see how the light flickered, and once without the flicker.
+    for (int i = 0; i < 2; ++i) {
+      SumColors();
+      Expect();
+      LearnHalf();
+      LearnConditions();
+    }
+    SumDistortions();
+    LearnThresholds(detection_rate);
+    Expect();
+    frames_ = {};
+    sums_ = BackgroundSums(0), conditions_ = {};
+  }
+
+  const ExpectedHalf& Glance(const PanTiltAngles&, const Displacement& displacement) override {
+    if (displacement == Displacement{}) return half_;
+    if (displaced_half_.variance.empty())
+      displaced_half_ = ExpectedHalf(expected_.width, expected_.height);
+    displaced_half_.Displace(half_, displacement);
+    displaced_half_.Finish();
+    return displaced_half_;
+  }
+
+  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
+    const bool is_displaced = !(conditions.displacement == Displacement{});
+    const bool is_plain = !is_displaced && conditions.shift_px == 0;
+    if (is_plain && is_weighed_plainly_) return expected_;
+    if (is_displaced && displaced_.mean[0].empty())
+      displaced_ = ExpectedPicture(expected_.width, expected_.height);
+    ExpectedPicture& picture = is_displaced ? displaced_ : expected_;
+    for (int y = 0; y < expected_.height; ++y) {
+      for (const PixelRun& run : closeup.Measured(y)) {
+        if (is_displaced)
+          picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
+        picture.Weigh(conditions.shift_px, y, run.begin, run.end);
+      }
+    }
+    is_weighed_plainly_ = is_weighed_plainly_ && is_displaced;
+    return picture;
+  }
+
+ private:
+  float count() const { return static_cast<float>(frames_.size()); }
+
+  const Bgr* RowOf(std::size_t frame, int y) const { return frames_[frame].image.row(y); }
+  std::size_t BeginOf(int y) const { return static_cast<std::size_t>(y) * expected_.width; }
+
+  void Expect() {
+    const int pixels = expected_.width * expected_.height;
+    sums_.Expect(0, pixels, count(), half_.usual_shift_px, 0, expected_);
+    for (int y = 0; y < expected_.height; ++y) expected_.Weigh(0, y, 0, expected_.width);
+  }
+
+  void SumColors() {
+    const int width = expected_.width;
+    for (int y = 0; y < expected_.height; ++y) {
+      sums_.Clear(BeginOf(y), static_cast<std::size_t>(width));
+      for (std::size_t f = 0; f < frames_.size(); ++f)
+        sums_.AddColors(RowOf(f, y), width, conditions_[f].gain, 1, BeginOf(y));
+    }
+  }
+
+  // What the pixels of the half and of the slopes are, from those of the whole.
+  void LearnHalf() {
+    const int width = expected_.width;
+    Image<Bgr> rounded(width, expected_.height);
+    std::vector<float> brightness(rounded.pixels().size());
+    for (std::size_t i = 0; i < brightness.size(); ++i) {
+      std::array<std::uint8_t, 3> color;
+      for (int c = 0; c < 3; ++c) {
+        color[c] = static_cast<std::uint8_t>(std::min(std::lround(expected_.mean[c][i]), 255L));
+        brightness[i] += expected_.mean[c][i] / 3;
+      }
+      rounded.pixels()[i] = {color[0], color[1], color[2]};
+    }
+    std::ranges::copy(SlopeOf(brightness, width, expected_.height), expected_.slope.begin());
+    half_.LearnFrom(rounded.view());
+    for (int y = 0; y < expected_.height / 2; ++y) {
+      for (int x = 0; x < width / 2; ++x) {
+        const std::size_t i = static_cast<std::size_t>(2 * y) * width + 2 * x;
+        float sum = 0;
+        for (const auto& variance : expected_.variance)
+          sum += variance[i] + variance[i + 1] + variance[i + width] + variance[i + width + 1];
+        half_.variance[static_cast<std::size_t>(y) * half_.mean.width + x] = sum / 12;
+      }
+    }
+    half_.Finish();
+  }
+
+  void LearnConditions() {
+    CoarseScan scan;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      scan.Compare(half_, frames_[f].image.view());
+      conditions_[f].gain = scan.conditions().gain;
+      half_.usual_distance = std::max(half_.usual_distance, scan.distance());
+      half_.usual_shift_px = std::max(half_.usual_shift_px, scan.shift_px());
+    }
+  }
+
+  void SumDistortions() {
+    for (int y = 0; y < expected_.height; ++y)
+      for (std::size_t f = 0; f < frames_.size(); ++f)
+        sums_.AddDistortions(RowOf(f, y), expected_.width, conditions_[f].gain, 1, expected_,
+                             BeginOf(y), BeginOf(y));
+  }
+
+  // Each frame is held against what the others alone would have taught.
+  void LearnThresholds(double detection_rate) {
+    DistortionHistograms histograms;
+    const int width = expected_.width;
+    ExpectedPicture by_others = expected_;
+    BackgroundSums others(static_cast<std::size_t>(width));
+    const std::size_t used = std::min(frames_.size(), kMostHistogramFrames);
+    for (std::size_t k = 0; k < used; ++k) {
+      const std::size_t f = k * frames_.size() / used;
+      for (int y = 0; y < expected_.height; ++y) {
+        others.Copy(sums_, BeginOf(y), static_cast<std::size_t>(width));
+        others.AddColors(RowOf(f, y), width, conditions_[f].gain, -1, 0);
+        others.AddDistortions(RowOf(f, y), width, conditions_[f].gain, -1, expected_, BeginOf(y),
+                              0);
+        others.Expect(0, width, count() - 1, half_.usual_shift_px, BeginOf(y), by_others);
+        by_others.Weigh(0, y, 0, width);
+      }
+      histograms.Add(by_others, frames_[f].image.view(), conditions_[f].gain);
+    }
+    thresholds_ = histograms.At(detection_rate);
+  }
+
+  std::span<const BackgroundFrame> frames_;  // While learning.
+  std::vector<Conditions> conditions_;
+  BackgroundSums sums_;
+  ExpectedHalf half_;
+  ExpectedPicture expected_;
+  bool is_weighed_plainly_ = true;
+  // Made when they are needed.
+  ExpectedHalf displaced_half_;
+  ExpectedPicture displaced_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackgroundModel> LearnFixedBackground(std::span<const BackgroundFrame> frames,
+                                                      double detection_rate) {
+  return std::make_unique<FixedBackground>(frames, detection_rate);
+}
+
+}  // namespace mocap

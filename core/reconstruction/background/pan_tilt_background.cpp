@@ -1,0 +1,365 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/background/view_warp.h"
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/silhouette/coarse_scan.h"
+#include "core/vectorized.h"
+
+namespace mocap {
+namespace {
+
+// Directions are looked up at the corners of such cells and interpolated within. Runs begin at
+// them.
+constexpr int kCell_px = 8;
+static_assert(HalfPicture::kTile_px % kCell_px == 0);
+// Beyond this, and unless the floor is nearer, everything is taken to be so far away. Half as much
+// or twice as much moves a pixel by a third of a pixel at most, from one learned view to the next.
+constexpr double kRoomDepth_mm = 6000;
+constexpr int kMostViews = 4;
+constexpr double kSameDirection_rad = 1e-4;
+constexpr float kLeastSigma = 1.5f;
+// Slopes [grey levels per pixel] that show noise alone, and those that show how contours shift.
+constexpr int kFlat = 4;
+constexpr int kSteep = 20;
+// From the median to the standard deviation of a normal distribution.
+constexpr float kDeviationPerMedian = 1.4826f;
+
+float Median(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+MOCAP_VECTORIZED
+void Mix(const float* top, const float* bottom, int count, float b, float* to) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) to[i] = top[i] + b * (bottom[i] - top[i]);
+}
+
+template <int width>
+MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, float* to) {
+  for (int i = 0; i < count; ++i) {
+    const float step = corners[i + 1] - corners[i];
+#pragma GCC ivdep
+    for (int k = 0; k < width; ++k)
+      to[i * width + k] = corners[i] + (into + static_cast<float>(k) / width) * step;
+  }
+}
+
+// Gives what was drawn its variance, which is the same in all channels, and the rest none.
+MOCAP_VECTORIZED
+void FinishDrawn(const std::uint8_t* is_known, int count, float variance, float* mean,
+                 float* variances) {
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    mean[x] = is_known[x] ? std::max(mean[x], ExpectedPicture::kDarkestMean) : 255;
+    variances[x] = is_known[x] ? variance : kUnknownVariance;
+  }
+}
+
+class PanTiltBackground final : public BackgroundModel {
+ public:
+  PanTiltBackground(const CameraCalibration& camera, std::span<const BackgroundFrame> frames,
+                    double detection_rate)
+      : camera_(camera),
+        table_(camera),
+        half_(camera.width_px, camera.height_px),
+        expected_(camera.width_px, camera.height_px),
+        is_known_(static_cast<std::size_t>(camera.width_px)) {
+    MOCAP_CHECK(camera.head && frames.size() >= 2);
+    CollectViews(frames);
+    LookUpDirections();
+    for (auto* values : {&cells_x_, &cells_y_, &places_x_, &places_y_})
+      values->resize(static_cast<std::size_t>(node_columns_) * kCell_px);
+    LearnVariation();
+    LearnThresholds(detection_rate);
+  }
+
+  const ExpectedHalf& Glance(const PanTiltAngles& angles,
+                             const Displacement& displacement) override {
+    TurnTo(angles, displacement, std::nullopt);
+    return half_;
+  }
+
+  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
+    for (int y = 0; y < camera_.height_px; ++y)
+      for (const PixelRun& run : closeup.Measured(y)) DrawRun(y, run, conditions);
+    return expected_;
+  }
+
+ private:
+  // A view that shows a part of the present picture, and where in it the corners of the cells lie.
+  struct Source {
+    std::size_t view = 0;
+    bool is_projected = false;
+    // Not a number where the view does not reach.
+    std::vector<float> nodes_x, nodes_y;
+  };
+
+  // Frames of one direction become one view, their mean.
+  void CollectViews(std::span<const BackgroundFrame> frames) {
+    std::vector<bool> taken(frames.size());
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      if (taken[f]) continue;
+      std::vector<std::array<float, 3>> sums(frames[f].image.pixels().size());
+      int count = 0;
+      for (std::size_t g = f; g < frames.size(); ++g) {
+        if (Distance(frames[f].angles, frames[g].angles) > kSameDirection_rad) continue;
+        taken[g] = true;
+        ++count;
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+          const Bgr& p = frames[g].image.pixels()[i];
+          sums[i][0] += p.b, sums[i][1] += p.g, sums[i][2] += p.r;
+        }
+      }
+      const auto rounded = [&](float sum) {
+        return static_cast<std::uint8_t>(std::lround(sum / static_cast<float>(count)));
+      };
+      Image<Bgr> mean(camera_.width_px, camera_.height_px);
+      for (std::size_t i = 0; i < sums.size(); ++i)
+        mean.pixels()[i] = {rounded(sums[i][0]), rounded(sums[i][1]), rounded(sums[i][2])};
+      views_.emplace_back(frames[f].angles, camera_.PoseAt(frames[f].angles), mean);
+      images_.push_back(std::move(mean));
+    }
+  }
+
+  static double Distance(const PanTiltAngles& a, const PanTiltAngles& b) {
+    return std::hypot(a.pan_rad - b.pan_rad, a.tilt_rad - b.tilt_rad);
+  }
+
+  void LookUpDirections() {
+    node_columns_ = (camera_.width_px - 1) / kCell_px + 2;
+    node_rows_ = (camera_.height_px - 1) / kCell_px + 2;
+    for (int row = 0; row < node_rows_; ++row)
+      for (int column = 0; column < node_columns_; ++column)
+        directions_.push_back(
+            NormalizedFromPixel(camera_.lens, Vector2(column * kCell_px, row * kCell_px)));
+  }
+
+  // Draws what is known of a view from the others, and compares it.
+  void LookFrom(std::size_t v, CoarseScan& scan) {
+    TurnTo(views_[v].angles, {}, v);
+    scan.Compare(half_, images_[v].view());
+    Closeup everything;
+    everything.SetAll(camera_.width_px, camera_.height_px);
+    Expect(everything, {});
+  }
+
+  // How far two views of the same place differ: by noise everywhere, and by what is left of the
+  // parallax where the picture is steep.
+  void LearnVariation() {
+    CoarseScan scan;
+    std::vector<float> flat, steep;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      LookFrom(v, scan);
+      const float gain = scan.conditions().gain[1];
+      const std::vector<Bgr>& pixels = images_[v].pixels();
+      for (std::size_t i = v % 7; i < pixels.size(); i += 7) {
+        if (expected_.variance[1][i] >= kUnknownVariance) continue;
+        const float difference = std::abs(pixels[i].g * gain - expected_.mean[1][i]);
+        const auto slope = static_cast<int>(views_[v].pixels[i] >> 24);
+        if (slope < kFlat) flat.push_back(difference);
+        if (slope > kSteep) steep.push_back(difference / static_cast<float>(slope));
+      }
+    }
+    const float sigma = std::max(kDeviationPerMedian * Median(flat), kLeastSigma);
+    variance_ = sigma * sigma;
+    shift_px_ = kDeviationPerMedian * Median(steep);
+  }
+
+  void LearnThresholds(double detection_rate) {
+    DistortionHistograms histograms;
+    CoarseScan scan;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      LookFrom(v, scan);
+      histograms.Add(expected_, images_[v].view(), scan.conditions().gain);
+      half_.usual_distance = std::max(half_.usual_distance, scan.distance());
+      half_.usual_shift_px = std::max(half_.usual_shift_px, scan.shift_px());
+    }
+    thresholds_ = histograms.At(detection_rate);
+    images_ = {};
+  }
+
+  void TurnTo(const PanTiltAngles& angles, const Displacement& displacement,
+              std::optional<std::size_t> left_out) {
+    order_.clear();
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      if (v != left_out) order_.push_back(v);
+    used_ = std::min<std::size_t>(order_.size(), kMostViews);
+    std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(used_),
+                      order_.end(), [&](std::size_t a, std::size_t b) {
+                        return Distance(views_[a].angles, angles) <
+                               Distance(views_[b].angles, angles);
+                      });
+    X_CW_ = camera_.PoseAt(angles);
+    displacement_ = displacement;
+    for (std::size_t k = 0; k < used_; ++k) {
+      sources_[k].view = order_[k];
+      sources_[k].is_projected = false;
+    }
+    for (int y = 0; y < camera_.height_px / 2; ++y) DrawHalfRow(y);
+    half_.Finish();
+  }
+
+  // Where in a source's view the corners of the cells of a picture from X_CW_ lie. Views are as
+  // large and nearly as upright as the picture, so that it is displaced as they are.
+  void ProjectNodes(Source& source) {
+    source.is_projected = true;
+    source.nodes_x.assign(directions_.size(), std::numeric_limits<float>::quiet_NaN());
+    source.nodes_y.assign(directions_.size(), 0);
+    const RigidTransform X_WC = X_CW_.Inverse();
+    const RigidTransform X_VC = views_[source.view].X_CW * X_WC;
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      if (!directions_[i]) continue;
+      const Vector3 ray_C = directions_[i]->homogeneous();
+      double depth = kRoomDepth_mm;
+      const double descent = -X_WC.R.row(2).dot(ray_C);
+      if (descent > 0 && X_WC.p.z() > 0) depth = std::min(depth, X_WC.p.z() / descent);
+      const Vector3 p_V = X_VC * Vector3(depth * ray_C);
+      SensorPlaneTable::Place place;
+      if (p_V.z() <= 0 || !table_.Locate(static_cast<float>(p_V.x() / p_V.z()),
+                                         static_cast<float>(p_V.y() / p_V.z()), place))
+        continue;
+      source.nodes_x[i] = place.x_px - displacement_.x_px;
+      source.nodes_y[i] = place.y_px - displacement_.y_px;
+    }
+  }
+
+  // Finds the places in a source's view of the cells [first, end) of a row; a cell is so many
+  // pixels wide, the first of which is so far into it. Returns whether all lie in the view.
+  template <int width>
+  bool FindPlaces(Source& source, float y, float into, int first, int end, float last_x,
+                  float last_y) {
+    if (!source.is_projected) ProjectNodes(source);
+    const int row = static_cast<int>(y) / kCell_px;
+    const float b = y / kCell_px - static_cast<float>(row);
+    const std::size_t top = static_cast<std::size_t>(row) * node_columns_ + first;
+    const int count = end - first + 1;
+    Mix(&source.nodes_x[top], &source.nodes_x[top + node_columns_], count, b, cells_x_.data());
+    Mix(&source.nodes_y[top], &source.nodes_y[top + node_columns_], count, b, cells_y_.data());
+    SpreadCells<width>(cells_x_.data(), end - first, into, places_x_.data());
+    SpreadCells<width>(cells_y_.data(), end - first, into, places_y_.data());
+    // Also false for what is not a number.
+    const auto lies_within = [](const std::vector<float>& cells, int n, float last) {
+      return std::all_of(cells.begin(), cells.begin() + n,
+                         [last](float place) { return place >= 0 && place < last; });
+    };
+    return lies_within(cells_x_, count, last_x) && lies_within(cells_y_, count, last_y);
+  }
+
+  // Calls draw(begin, count) for the runs of pixels that are not known yet and whose places lie in
+  // the view, up to (last_x, last_y); they are known then. Returns whether all are.
+  // @param has_all  whether none is known and the view has all.
+  template <typename Function>
+  bool DrawUnknown(bool has_all, const ViewPlaces& places, float last_x, float last_y, int count,
+                   Function draw) {
+    if (has_all) {
+      std::fill_n(is_known_.begin(), count, std::uint8_t{1});
+      draw(0, count);
+      return true;
+    }
+    int known = 0;
+    for (int i = 0; i < count;) {
+      const int begin = i;
+      // Also false for what is not a number.
+      while (i < count && !is_known_[i] && places.x[i] >= 0 && places.y[i] >= 0 &&
+             places.x[i] < last_x && places.y[i] < last_y)
+        is_known_[i++] = 1;
+      if (i > begin) draw(begin, i - begin);
+      known += i - begin;
+      for (; i < count && is_known_[i]; ++i) ++known;
+      if (i == begin) ++i;
+    }
+    return known == count;
+  }
+
+  void DrawHalfRow(int y) {
+    const int columns = camera_.width_px / 2;
+    const std::size_t row = static_cast<std::size_t>(y) * half_.mean.width;
+    std::fill_n(is_known_.begin(), columns, std::uint8_t{0});
+    for (std::size_t k = 0; k < used_; ++k) {
+      const BackgroundView& view = views_[sources_[k].view];
+      const auto last_x = static_cast<float>(2 * view.half_width - 1);
+      const auto last_y = static_cast<float>(2 * view.half_height - 1);
+      const bool has_all =
+          FindPlaces<kCell_px / 2>(sources_[k], static_cast<float>(2 * y) + 0.5f, 0.5f / kCell_px,
+                                   0, node_columns_ - 1, last_x, last_y);
+      const ViewPlaces places{places_x_.data(), places_y_.data()};
+      const auto draw = [&](int begin, int count) {
+        auto& color = half_.mean.color;
+        const std::size_t to = row + begin;
+        DrawNearest(view, {places.x + begin, places.y + begin}, count,
+                    {&color[0][to], &color[1][to], &color[2][to]}, &half_.slope[to]);
+      };
+      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, columns, draw)) break;
+    }
+    for (int x = 0; x < columns; ++x)
+      half_.variance[row + x] = is_known_[x] ? variance_ : kUnknownVariance;
+  }
+
+  void DrawRun(int y, const PixelRun& run, const Conditions& conditions) {
+    const int length = run.end - run.begin;
+    const std::size_t row = static_cast<std::size_t>(y) * camera_.width_px + run.begin;
+    std::fill_n(is_known_.begin(), length, std::uint8_t{0});
+    for (std::size_t k = 0; k < used_; ++k) {
+      const BackgroundView& view = views_[sources_[k].view];
+      const auto last_x = static_cast<float>(view.width - 1);
+      const auto last_y = static_cast<float>(view.height - 1);
+      const bool has_all =
+          FindPlaces<kCell_px>(sources_[k], static_cast<float>(y), 0, run.begin / kCell_px,
+                               (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
+      const int skipped = run.begin % kCell_px;
+      const ViewPlaces places{&places_x_[skipped], &places_y_[skipped]};
+      const auto draw = [&](int begin, int count) {
+        auto& mean = expected_.mean;
+        const std::size_t to = row + begin;
+        DrawBetween(view, {places.x + begin, places.y + begin}, count,
+                    {&mean[0][to], &mean[1][to], &mean[2][to]}, &expected_.slope[to]);
+      };
+      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, length, draw)) break;
+    }
+    for (int c = 0; c < 3; ++c)
+      FinishDrawn(is_known_.data(), length, variance_, &expected_.mean[c][row],
+                  &expected_.variance[c][row]);
+    expected_.Weigh(std::hypot(shift_px_, conditions.shift_px), y, run.begin, run.end);
+  }
+
+  CameraCalibration camera_;
+  SensorPlaneTable table_;
+  std::vector<BackgroundView> views_;
+  std::vector<Image<Bgr>> images_;  // Of the views, while learning.
+  float variance_ = kLeastSigma * kLeastSigma;
+  float shift_px_ = 0;
+
+  int node_columns_ = 0, node_rows_ = 0;
+  std::vector<std::optional<Vector2>> directions_;
+
+  RigidTransform X_CW_;
+  Displacement displacement_;
+  std::vector<std::size_t> order_;
+  std::array<Source, kMostViews> sources_;
+  std::size_t used_ = 0;
+  ExpectedHalf half_;
+  ExpectedPicture expected_;
+  std::vector<float> cells_x_, cells_y_, places_x_, places_y_;
+  std::vector<std::uint8_t> is_known_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackgroundModel> LearnPanTiltBackground(const CameraCalibration& camera,
+                                                        std::span<const BackgroundFrame> frames,
+                                                        double detection_rate) {
+  return std::make_unique<PanTiltBackground>(camera, frames, detection_rate);
+}
+
+}  // namespace mocap

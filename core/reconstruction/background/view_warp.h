@@ -1,0 +1,45 @@
+// §4: a background seen in one direction, drawn as it looks from another.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/camera/camera_model.h"
+
+namespace mocap {
+
+/// Blue, green, red and the slope of one pixel, from the lowest byte up.
+using PackedPixel = std::uint32_t;
+
+/// The empty studio as it was seen in one direction, at full and at half the resolution.
+struct BackgroundView {
+  /// @param image  of a whole camera picture.
+  BackgroundView(const PanTiltAngles& view_angles, const RigidTransform& X_CW_of_view,
+                 const Image<Bgr>& image);
+
+  PanTiltAngles angles;
+  RigidTransform X_CW;
+  int width = 0, height = 0;
+  int half_width = 0, half_height = 0;  ///< Without the padding.
+  std::vector<PackedPixel> pixels, half;
+};
+
+/// Places in a view [pixels of the full picture], of consecutive pixels of a row.
+struct ViewPlaces {
+  const float* x = nullptr;
+  const float* y = nullptr;
+};
+
+/// Draws pixels between those of a view.
+/// @pre  the places lie in the view, not on its last column or row.
+void DrawBetween(const BackgroundView& view, const ViewPlaces& places, int count,
+                 const std::array<float*, 3>& color, std::uint8_t* slope);
+
+/// Draws pixels of a half: the view's nearest, for slopes make up for what that shifts.
+/// @pre  the places lie in the view.
+void DrawNearest(const BackgroundView& view, const ViewPlaces& places, int count,
+                 const std::array<std::uint8_t*, 3>& color, std::uint8_t* slope);
+
+}  // namespace mocap

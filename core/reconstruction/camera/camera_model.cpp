@@ -1,0 +1,230 @@
+#include "core/reconstruction/camera/camera_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace mocap {
+namespace {
+
+constexpr int kMaxNewtonSteps = 50;
+
+// c0 + c1 s + c2 s² + …
+double Evaluate(std::span<const double> coefficients, double s) {
+  double value = 0;
+  for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) value = value * s + *c;
+  return value;
+}
+
+// Where a polynomial changes sign within (0, limit), in ascending order: between two neighbouring
+// extrema there is at most one such place.
+std::vector<double> SignChanges(std::span<const double> coefficients, double limit) {
+  if (coefficients.size() < 2) return {};
+  std::vector<double> derivative;
+  for (std::size_t i = 1; i < coefficients.size(); ++i) derivative.push_back(i * coefficients[i]);
+  std::vector<double> ends = SignChanges(derivative, limit);
+  ends.push_back(limit);
+  std::vector<double> roots;
+  double low = 0;
+  for (double high : ends) {
+    const double end = high;
+    const bool rises = Evaluate(coefficients, high) > 0;
+    if ((Evaluate(coefficients, low) > 0) != rises) {
+      for (int i = 0; i < 64; ++i) {
+        const double middle = (low + high) / 2;
+        ((Evaluate(coefficients, middle) > 0) == rises ? high : low) = middle;
+      }
+      roots.push_back(low);
+    }
+    low = end;
+  }
+  return roots;
+}
+
+// A radial polynomial f(r) = r (1 + k1 r² + k2 r⁴ + …) as far out as it rises: where it turns back,
+// a lens shows nothing.
+class RadialPolynomial {
+ public:
+  explicit RadialPolynomial(std::span<const double> k) {
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      value_.push_back(k[i]);
+      slope_.push_back((2 * i + 3) * k[i]);
+    }
+  }
+
+  double At(double r) const { return r * Evaluate(value_, r * r); }
+  double SlopeAt(double r) const { return Evaluate(slope_, r * r); }
+
+  // The first radius within `limit` beyond which it no longer rises; `limit` if there is none.
+  double TurningRadius(double limit) const {
+    const std::vector<double> roots = SignChanges(slope_, limit * limit);
+    return roots.empty() ? limit : std::sqrt(roots.front());
+  }
+
+  bool RisesUpTo(double r) const {
+    // Most directions are settled by the falling terms alone.
+    double falling = 0;
+    for (auto c = slope_.rbegin(); c != slope_.rend(); ++c)
+      falling = falling * r * r + (c + 1 == slope_.rend() ? *c : std::min(*c, 0.0));
+    return falling > 0 || TurningRadius(r) >= r;
+  }
+
+  // The radius that is mapped to `value`, on the branch that rises from zero.
+  std::optional<double> Invert(double value, double limit) const {
+    double low = 0;
+    double high = TurningRadius(limit);
+    if (At(high) < value) return std::nullopt;
+    double r = std::min(value, high);
+    for (int i = 0; i < kMaxNewtonSteps; ++i) {
+      const double error = At(r) - value;
+      (error > 0 ? high : low) = r;
+      const double newton = r - error / SlopeAt(r);
+      const double next = newton > low && newton < high ? newton : (low + high) / 2;
+      if (std::abs(next - r) < 1e-15 * (1 + r)) return next;
+      r = next;
+    }
+    return r;
+  }
+
+ private:
+  std::vector<double> value_{1};  // f(r) / r as a polynomial in r².
+  std::vector<double> slope_{1};  // f'(r), likewise.
+};
+
+constexpr double kFarthestAngle_rad = 85 * std::numbers::pi / 180;
+const double kFarthestNormalized = std::tan(kFarthestAngle_rad);
+
+Vector2 ToPixel(const Matrix3& K, const Vector2& p) { return (K * p.homogeneous()).head<2>(); }
+
+Vector2 FromPixel(const Matrix3& K, const Vector2& pixel) {
+  const double y = (pixel.y() - K(1, 2)) / K(1, 1);
+  return {(pixel.x() - K(0, 2) - K(0, 1) * y) / K(0, 0), y};
+}
+
+// Xd from Xu: the real root of κ1 Xd³ + Xd − Xu that goes to Xu as κ1 goes to 0, in the closed form
+// that does not cancel.
+std::optional<double> TsaiDistortedRadius(double kappa1, double undistorted) {
+  if (kappa1 == 0) return undistorted;
+  const double scale = std::sqrt(3 * std::abs(kappa1));
+  const double argument = 1.5 * undistorted * scale;
+  if (kappa1 > 0) return 2 / scale * std::sinh(std::asinh(argument) / 3);
+  if (argument > 1) return std::nullopt;
+  return 2 / scale * std::sin(std::asin(argument) / 3);
+}
+
+std::optional<Vector2> Project(const TsaiLens& lens, const Vector2& normalized) {
+  const Vector2 undistorted_mm = lens.focal_mm * normalized;
+  const double radius = undistorted_mm.norm();
+  const std::optional<double> distorted = TsaiDistortedRadius(lens.kappa1, radius);
+  if (!distorted) return std::nullopt;
+  const Vector2 Xd = undistorted_mm * (radius > 0 ? *distorted / radius : 1);
+  return Vector2(lens.sx * Xd.x(), Xd.y()).cwiseQuotient(lens.pitch_mm) + lens.center_px;
+}
+
+std::optional<Vector2> Unproject(const TsaiLens& lens, const Vector2& pixel) {
+  Vector2 Xd = (pixel - lens.center_px).cwiseProduct(lens.pitch_mm);
+  Xd.x() /= lens.sx;
+  if (1 + 3 * lens.kappa1 * Xd.squaredNorm() < 0) return std::nullopt;
+  return Vector2(Xd * ((1 + lens.kappa1 * Xd.squaredNorm()) / lens.focal_mm));
+}
+
+std::array<double, 3> RadialTerms(const OpenCvLens& lens) {
+  return {lens.distortion[0], lens.distortion[1], lens.distortion[4]};
+}
+
+Vector2 Distort(const OpenCvLens& lens, const Vector2& n) {
+  const double p1 = lens.distortion[2], p2 = lens.distortion[3];
+  const double r2 = n.squaredNorm();
+  const double xy = n.x() * n.y();
+  return n * (1 + r2 * Evaluate(RadialTerms(lens), r2)) +
+         Vector2(2 * p1 * xy + p2 * (r2 + 2 * n.x() * n.x()),
+                 p1 * (r2 + 2 * n.y() * n.y()) + 2 * p2 * xy);
+}
+
+std::optional<Vector2> Project(const OpenCvLens& lens, const Vector2& normalized) {
+  const std::array<double, 3> k = RadialTerms(lens);
+  const double r = normalized.norm();
+  if (!(r <= kFarthestNormalized) || !RadialPolynomial(k).RisesUpTo(r)) return std::nullopt;
+  return ToPixel(lens.K, Distort(lens, normalized));
+}
+
+std::optional<Vector2> Unproject(const OpenCvLens& lens, const Vector2& pixel) {
+  const Vector2 distorted = FromPixel(lens.K, pixel);
+  const std::array<double, 3> k = RadialTerms(lens);
+  const double radius = distorted.norm();
+  const double turning = RadialPolynomial(k).TurningRadius(kFarthestNormalized);
+  const std::optional<double> r = RadialPolynomial(k).Invert(radius, kFarthestNormalized);
+  // Near the rim the tangential terms may still pull a pixel into the picture.
+  Vector2 n = radius > 0 ? Vector2(distorted * (r.value_or(turning) / radius)) : distorted;
+  for (int i = 0; i < kMaxNewtonSteps; ++i) {
+    const double h = 1e-6;
+    Eigen::Matrix2d J;
+    J.col(0) = (Distort(lens, n + Vector2(h, 0)) - Distort(lens, n - Vector2(h, 0))) / (2 * h);
+    J.col(1) = (Distort(lens, n + Vector2(0, h)) - Distort(lens, n - Vector2(0, h))) / (2 * h);
+    const Vector2 step = J.inverse() * (distorted - Distort(lens, n));
+    if (!step.allFinite()) return std::nullopt;
+    n += step;
+    if (step.norm() < 1e-14 * (1 + n.norm())) break;
+  }
+  const bool solved = (Distort(lens, n) - distorted).norm() < 1e-9;
+  if (!solved || n.norm() > turning) return std::nullopt;
+  return n;
+}
+
+std::optional<Vector2> Project(const FisheyeLens& lens, const Vector2& normalized) {
+  const double r = normalized.norm();
+  if (!(r <= kFarthestNormalized)) return std::nullopt;
+  const RadialPolynomial polynomial(lens.distortion);
+  const double theta = std::atan(r);
+  if (!polynomial.RisesUpTo(theta)) return std::nullopt;
+  return ToPixel(lens.K, normalized * (r > 0 ? polynomial.At(theta) / r : 1));
+}
+
+std::optional<Vector2> Unproject(const FisheyeLens& lens, const Vector2& pixel) {
+  const Vector2 distorted = FromPixel(lens.K, pixel);
+  const double radius = distorted.norm();
+  const std::optional<double> theta =
+      RadialPolynomial(lens.distortion).Invert(radius, kFarthestAngle_rad);
+  if (!theta) return std::nullopt;
+  return Vector2(distorted * (radius > 0 ? std::tan(*theta) / radius : 1));
+}
+
+double Radius(const TsaiLens& lens) {
+  if (lens.kappa1 >= 0) return kFarthestNormalized;
+  return std::min(kFarthestNormalized, 2 / (3 * lens.focal_mm * std::sqrt(-3 * lens.kappa1)));
+}
+
+double Radius(const OpenCvLens& lens) {
+  return RadialPolynomial(RadialTerms(lens)).TurningRadius(kFarthestNormalized);
+}
+
+double Radius(const FisheyeLens& lens) {
+  return std::tan(RadialPolynomial(lens.distortion).TurningRadius(kFarthestAngle_rad));
+}
+
+}  // namespace
+
+double FieldRadius(const Lens& lens) {
+  return std::visit([](const auto& l) { return Radius(l); }, lens);
+}
+
+std::optional<Vector2> PixelFromNormalized(const Lens& lens, const Vector2& normalized) {
+  return std::visit([&](const auto& l) { return Project(l, normalized); }, lens);
+}
+
+std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixel) {
+  return std::visit([&](const auto& l) { return Unproject(l, pixel); }, lens);
+}
+
+RigidTransform CameraCalibration::PoseAt(const PanTiltAngles& readings) const {
+  if (!head) return X_CW;
+  const double pan_rad = head->pan_scale * (readings.pan_rad - head->zero.pan_rad);
+  const double tilt_rad = head->tilt_scale * (readings.tilt_rad - head->zero.tilt_rad);
+  const RigidTransform M = RotationAbout(head->pan_axis_W, head->pan_point_W, pan_rad) *
+                           RotationAbout(head->tilt_axis_W, head->tilt_point_W, tilt_rad);
+  return X_CW * M.Inverse();
+}
+
+}  // namespace mocap

@@ -1,0 +1,347 @@
+#include "core/reconstruction/carving/carver.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/reconstruction/carving/octant_view.h"
+#include "core/reconstruction/carving/volume_of_interest.h"
+#include "core/reconstruction/carving/window_map.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kMostViews = 32;
+constexpr int kLargestBlock_voxels = 16;
+constexpr int kLevels = 5;  // From the largest block to a voxel.
+static_assert(1 << (kLevels - 1) == kLargestBlock_voxels);
+constexpr int kSamplesPerSide = 2;
+constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
+constexpr int kMajority = kSamples / 2 + 1;
+
+// Of so many cameras one may be wrong about a gap.
+constexpr int kCamerasPerDoubt = 5;
+
+// How many bits are set in each byte; not every processor has an instruction for it.
+std::uint64_t CountBits(std::uint64_t bytes) {
+  bytes -= bytes >> 1 & 0x5555555555555555;
+  bytes = (bytes & 0x3333333333333333) + (bytes >> 2 & 0x3333333333333333);
+  return (bytes + (bytes >> 4)) & 0x0f0f0f0f0f0f0f0f;
+}
+
+// A bit for each byte that has a majority of its bits set.
+std::uint8_t Majorities(std::uint64_t bytes) {
+  const std::uint64_t have = (CountBits(bytes) + 0x0101010101010101 * (8 - kMajority)) >> 3;
+  return static_cast<std::uint8_t>((have & 0x0101010101010101) * 0x0102040810204080 >> 56);
+}
+
+int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
+
+}  // namespace
+
+// One descent through the grid. Blocks that all cameras agree on are decided whole; the outcome is
+// that of asking every camera about every sample of every voxel.
+class Carver::Walk {
+ public:
+  explicit Walk(double voxel_mm) : voxel_mm_(voxel_mm) {}
+
+  void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
+
+ private:
+  // A cube of voxels and what is known of it.
+  struct Block {
+    Eigen::Vector3i first;  // Within the grid.
+    int side = 0;           // [voxels]
+    int level = 0;
+    int seeing = 0;     // Cameras that have all of it in their silhouette.
+    int undecided = 0;  // Cameras that are yet to be asked: the first in `views`.
+    std::array<std::uint8_t, kMostViews> views;
+    // Where the view's frame is that holds the block: kLanes · level + octant, or kNoFrame.
+    std::array<std::uint8_t, kMostViews> frames;
+  };
+  static constexpr std::uint8_t kNoFrame = 255;
+
+  bool Prepare(std::span<const CarvingView> views);
+  void Visit(const Block& block);
+  bool VisitSamples(const Block& block);
+  void VisitVoxel(const Block& voxel);
+  void Decide(const Block& block, std::span<const SampleVerdicts> verdicts, std::uint8_t asked,
+              std::uint64_t alive);
+  OctantVerdicts Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
+  std::uint8_t OctantsInGrid(const Block& block) const;
+  void Fill(const Block& block);
+  bool AskSamples(const Block& block, const Eigen::Vector3i& voxel, std::uint64_t agrees,
+                  std::uint64_t unknown) const;
+  bool SampleAgrees(const Block& block, const Eigen::Vector3i& voxel, int sample) const;
+
+  float VoxelMm() const { return static_cast<float>(voxel_mm_); }
+  Eigen::Vector3f MiddleOf(const Block& block) const {
+    return (block.first.cast<float>().array() + static_cast<float>(block.side) / 2) * VoxelMm();
+  }
+  // Of a block's middle from that of its frame.
+  Eigen::Vector3f OffsetOf(const Block& block, int i) const {
+    const Frames& frames = FramesOf(block, i);
+    const int octant = block.frames[i] % OctantFrames::kLanes;
+    const Eigen::Vector3f sign(static_cast<float>(2 * (octant & 1) - 1),
+                               static_cast<float>(2 * (octant >> 1 & 1) - 1),
+                               static_cast<float>(2 * (octant >> 2) - 1));
+    return MiddleOf(block) - frames.middle - frames.spread * sign;
+  }
+
+  // Of each view, by the level of the block whose octants they are.
+  struct Frames {
+    OctantFrames octants;
+    Eigen::Vector3f middle;
+    float spread = 0;
+  };
+  const Frames& FramesOf(const Block& block, int i) const {
+    return frames_[block.views[i]][block.frames[i] / OctantFrames::kLanes];
+  }
+
+  double voxel_mm_;
+  int fewest_ = 0;
+  int most_gaps_ = 0;
+  VoxelGrid* grid_ = nullptr;
+  VolumeOfInterest volume_;
+  std::vector<CarvingView> views_;
+  std::vector<WindowMap> windows_;
+  std::vector<OctantView> octant_views_;
+  std::vector<std::array<Frames, kLevels>> frames_;
+};
+
+void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
+  MOCAP_CHECK(views.size() <= kMostViews);
+  grid.Reset(Eigen::Vector3i::Zero(), Eigen::Vector3i::Zero(), voxel_mm_);
+  const std::optional<Eigen::AlignedBox3d> volume = volume_.Find(views);
+  if (!volume || !Prepare(views)) return;
+  const Vector3 first = (volume->min() / voxel_mm_).array().floor();
+  const Vector3 end = (volume->max() / voxel_mm_).array().ceil();
+  grid.Reset(first.cast<int>(), (end - first).cast<int>(), voxel_mm_);
+  grid_ = &grid;
+  for (std::size_t i = 0; i < views_.size(); ++i)
+    octant_views_[i].Set(views_[i], grid.origin_W(), windows_[i]);
+
+  Block block;
+  block.side = kLargestBlock_voxels;
+  block.undecided = static_cast<int>(views_.size());
+  for (int i = 0; i < block.undecided; ++i) {
+    block.views[i] = static_cast<std::uint8_t>(i);
+    block.frames[i] = kNoFrame;
+  }
+  for (int k = 0; k < grid.size().z(); k += block.side)
+    for (int j = 0; j < grid.size().y(); j += block.side)
+      for (int i = 0; i < grid.size().x(); i += block.side) {
+        block.first = {i, j, k};
+        Visit(block);
+      }
+}
+
+// Returns whether there are enough cameras that see something.
+bool Carver::Walk::Prepare(std::span<const CarvingView> views) {
+  fewest_ = Fewest(views.size());
+  most_gaps_ = static_cast<int>(views.size()) / kCamerasPerDoubt;
+  views_.clear();
+  if (windows_.size() < views.size()) {
+    windows_.resize(views.size());
+    octant_views_.resize(views.size());
+    frames_.resize(views.size());
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::optional<PixelBox>& box = volume_.boxes()[i];
+    if (!box) continue;
+    windows_[views_.size()].Measure(*views[i].silhouette, *box, most_gaps_ > 0);
+    views_.push_back(views[i]);
+  }
+  return static_cast<int>(views_.size()) >= fewest_;
+}
+
+// Asks the view at place `i` of a block's about the octants.
+OctantVerdicts Carver::Walk::Judge(const Block& block, int i, float spread, float half,
+                                   std::uint8_t& framed) {
+  const std::uint8_t view = block.views[i];
+  const OctantView& eye = octant_views_[view];
+  framed = 0;
+  if (block.frames[i] != kNoFrame)
+    return eye.Glance(FramesOf(block, i).octants, block.frames[i] % OctantFrames::kLanes,
+                      OffsetOf(block, i), spread, half);
+  Frames& frames = frames_[view][block.level];
+  frames.middle = MiddleOf(block);
+  frames.spread = spread;
+  return eye.Project(frames.middle, spread, half, frames.octants, framed);
+}
+
+std::uint8_t Carver::Walk::OctantsInGrid(const Block& block) const {
+  const Eigen::Vector3i middle = block.first.array() + block.side / 2;
+  std::uint8_t octants = 0xff;
+  if (middle.x() >= grid_->size().x()) octants &= 0x55;
+  if (middle.y() >= grid_->size().y()) octants &= 0x33;
+  if (middle.z() >= grid_->size().z()) octants &= 0x0f;
+  return octants;
+}
+
+void Carver::Walk::Visit(const Block& block) {
+  if (block.side == 1) return VisitVoxel(block);
+  if (block.side == 2 && VisitSamples(block)) return;
+  const int side = block.side / 2;
+  const float spread = static_cast<float>(side) / 2 * VoxelMm();
+  // The samples lie closer to the middle than the voxels' corners do.
+  const float half = (static_cast<float>(side) - 1.0f / kSamplesPerSide) / 2 * VoxelMm();
+  std::uint8_t alive = OctantsInGrid(block);
+  std::array<std::uint8_t, kMostViews> inside, decided, framed;
+  for (int i = 0; i < block.undecided; ++i) {
+    const OctantVerdicts verdicts = Judge(block, i, spread, half, framed[i]);
+    alive &= static_cast<std::uint8_t>(~verdicts.outside);
+    if (alive == 0) return;
+    inside[i] = verdicts.inside;
+    decided[i] = verdicts.inside | verdicts.unseen;
+  }
+  Block octant;
+  octant.side = side;
+  octant.level = block.level + 1;
+  for (; alive != 0; alive &= static_cast<std::uint8_t>(alive - 1)) {
+    const int bit = std::countr_zero(alive);
+    octant.seeing = block.seeing;
+    octant.undecided = 0;
+    for (int i = 0; i < block.undecided; ++i) {
+      octant.seeing += inside[i] >> bit & 1;
+      if (decided[i] >> bit & 1) continue;
+      octant.views[octant.undecided] = block.views[i];
+      octant.frames[octant.undecided++] =
+          block.frames[i] == kNoFrame && (framed[i] >> bit & 1)
+              ? static_cast<std::uint8_t>(block.level * OctantFrames::kLanes + bit)
+              : block.frames[i];
+    }
+    if (octant.seeing + octant.undecided < fewest_) continue;
+    octant.first = block.first + side * Eigen::Vector3i(bit & 1, bit >> 1 & 1, bit >> 2);
+    if (octant.undecided == 0)
+      Fill(octant);
+    else
+      Visit(octant);
+  }
+}
+
+void Carver::Walk::Fill(const Block& block) {
+  const Eigen::Vector3i end = (block.first.array() + block.side).matrix().cwiseMin(grid_->size());
+  for (int k = block.first.z(); k < end.z(); ++k)
+    for (int j = block.first.y(); j < end.y(); ++j)
+      for (int i = block.first.x(); i < end.x(); ++i) grid_->Set(i, j, k);
+}
+
+// Decides eight voxels at a time, where all cameras have frames.
+bool Carver::Walk::VisitSamples(const Block& block) {
+  for (int i = 0; i < block.undecided; ++i)
+    if (block.frames[i] == kNoFrame) return false;
+  std::uint8_t asked = OctantsInGrid(block);
+  std::uint64_t alive = ~std::uint64_t{0};
+  std::array<SampleVerdicts, kMostViews> verdicts;
+  for (int i = 0; i < block.undecided; ++i) {
+    verdicts[i] = octant_views_[block.views[i]].GlanceSamples(
+        FramesOf(block, i).octants, block.frames[i] % OctantFrames::kLanes, OffsetOf(block, i),
+        VoxelMm() / 2, VoxelMm() / kSamplesPerSide / 2, asked);
+    alive &= ~verdicts[i].outside;
+    asked &= Majorities(alive);
+    if (asked == 0) return true;
+  }
+  Decide(block, {verdicts.data(), static_cast<std::size_t>(block.undecided)}, asked, alive);
+  return true;
+}
+
+// Its octants are the samples.
+void Carver::Walk::VisitVoxel(const Block& voxel) {
+  std::uint64_t alive = 0xff;
+  std::array<SampleVerdicts, kMostViews> verdicts;
+  for (int i = 0; i < voxel.undecided; ++i) {
+    std::uint8_t framed;
+    verdicts[i] = {};
+    verdicts[i].Set(0, Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed));
+    alive &= ~verdicts[i].outside;
+    if (alive == 0) return;
+  }
+  Decide(voxel, {verdicts.data(), static_cast<std::size_t>(voxel.undecided)}, 1, alive);
+}
+
+// Decides the voxels that are asked for, one or up to eight, by what each of the undecided views
+// knows of the samples.
+void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> verdicts,
+                          std::uint8_t asked, std::uint64_t alive) {
+  // Samples that at least so many more cameras see, and those that so many miss.
+  std::array<std::uint64_t, kMostViews + 1> seen, missed;
+  const int needed = std::max(fewest_ - block.seeing, 0);
+  const int too_many = most_gaps_ + 1;
+  seen[0] = missed[0] = ~std::uint64_t{0};
+  std::fill_n(seen.begin() + 1, needed, 0);
+  std::fill_n(missed.begin() + 1, too_many, 0);
+  std::uint64_t unknown = 0;
+  for (const SampleVerdicts& v : verdicts) {
+    for (int n = needed; n > 0; --n) seen[n] |= seen[n - 1] & v.inside;
+    for (int n = too_many; n > 0; --n) missed[n] |= missed[n - 1] & v.gap;
+    unknown |= ~(v.inside | v.outside | v.unseen | v.gap);
+  }
+  alive &= ~missed[too_many];
+  unknown &= alive;
+  const std::uint64_t agrees = alive & seen[needed] & ~unknown;
+  asked &= Majorities(agrees | unknown);
+  const std::uint8_t agreed = Majorities(agrees);
+  for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
+    const int voxel = std::countr_zero(asked);
+    const Eigen::Vector3i at = block.first + Eigen::Vector3i(voxel & 1, voxel >> 1 & 1, voxel >> 2);
+    if (agreed >> voxel & 1 ||
+        AskSamples(block, at, agrees >> 8 * voxel & 0xff, unknown >> 8 * voxel & 0xff))
+      grid_->Set(at.x(), at.y(), at.z());
+  }
+}
+
+// Asks the cameras exactly about unknown samples, as long as it depends on them.
+bool Carver::Walk::AskSamples(const Block& block, const Eigen::Vector3i& voxel,
+                              std::uint64_t agrees, std::uint64_t unknown) const {
+  for (; unknown != 0; unknown &= unknown - 1) {
+    const int sample = std::countr_zero(unknown);
+    if (SampleAgrees(block, voxel, sample)) agrees |= std::uint64_t{1} << sample;
+    if (Majorities(agrees)) return true;
+    if (!Majorities(agrees | (unknown & (unknown - 1)))) return false;
+  }
+  return false;
+}
+
+bool Carver::Walk::SampleAgrees(const Block& block, const Eigen::Vector3i& voxel,
+                                int sample) const {
+  const Vector3 corner_W = (grid_->first_voxel() + voxel).cast<double>() * voxel_mm_;
+  const Vector3 p_W =
+      corner_W + Vector3((sample & 1) + 0.5, (sample >> 1 & 1) + 0.5, (sample >> 2) + 0.5) *
+                     (voxel_mm_ / kSamplesPerSide);
+  int seeing = block.seeing;
+  int gaps = 0;
+  for (int i = 0; i < block.undecided; ++i) {
+    const CarvingView& view = views_[block.views[i]];
+    const Vector3 p_C = view.X_CW * p_W;
+    if (p_C.z() <= 0) continue;
+    const SensorPlaneTable::Pixel pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
+    if (pixel.x < 0) continue;
+    switch (windows_[block.views[i]].At(pixel.x, pixel.y)) {
+      case WindowMap::Kind::kInside:
+        ++seeing;
+        break;
+      case WindowMap::Kind::kGap:
+        if (++gaps > most_gaps_) return false;
+        break;
+      case WindowMap::Kind::kOutside:
+        return false;
+    }
+  }
+  return seeing >= fewest_;
+}
+
+Carver::Carver(const CarvingOptions& options) : walk_(std::make_unique<Walk>(options.voxel_mm)) {}
+Carver::Carver(Carver&&) noexcept = default;
+Carver& Carver::operator=(Carver&&) noexcept = default;
+Carver::~Carver() = default;
+
+void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
+  walk_->Carve(views, grid);
+}
+
+}  // namespace mocap

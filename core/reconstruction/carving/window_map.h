@@ -1,0 +1,78 @@
+// §4: what square windows hold of a silhouette, which lets the carver decide whole blocks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/reconstruction/silhouette/silhouette.h"
+
+namespace mocap {
+
+/// Tells of the square windows in a picture whether all of one lies in the silhouette, or all of it
+/// outside the silhouette with its gaps closed.
+///
+/// A map is made of planes, one for each size of window, with two bits for each place of the
+/// window's top left pixel: sixteen places make a word, `inside` in its lower half and `outside` in
+/// its upper one. Thread-bound; reuses its memory.
+class WindowMap {
+ public:
+  enum class Kind { kInside, kGap, kOutside };
+
+  /// Sides of the windows [px].
+  static constexpr std::array<int, 10> kSides_px = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32};
+  static constexpr int kLargest_px = kSides_px.back();
+  /// Half the width of the gaps that are closed [px].
+  static constexpr int kGap_px = 6;
+
+  /// Planes as loops over many windows want them.
+  struct Planes {
+    const std::uint32_t* words = nullptr;
+    /// Where the plane begins for a window that has to hold so many pixels in a row.
+    const std::int32_t* begins = nullptr;
+    int words_per_row = 0;
+    /// The region beside which all is outside, its last column and row included.
+    int left = 0, top = 0, right = -1, bottom = -1;
+    int width_px = 0, height_px = 0;  ///< Of the picture.
+  };
+
+  /// Measures a silhouette.
+  /// @param box  the silhouette's.
+  void Measure(const Silhouette& silhouette, const PixelBox& box, bool closes_gaps);
+
+  /// Tells what a pixel of the picture is.
+  Kind At(int x, int y) const {
+    if (x < left_ || x > right_ || y < top_ || y > bottom_) return Kind::kOutside;
+    const int column = x - left_;
+    const std::uint32_t word =
+        planes_[static_cast<std::size_t>(y - top_) * 2 * stride_ + (column >> 4)] >> (column & 15);
+    if (word & 1) return Kind::kInside;
+    return word >> 16 & 1 ? Kind::kOutside : Kind::kGap;
+  }
+
+  Planes planes() const {
+    return {planes_.data(), begins_.data(), 2 * stride_, left_,     top_,
+            right_,         bottom_,        width_px_,   height_px_};
+  }
+
+ private:
+  // Rows of pixels, one bit each, with margins all around.
+  using Bits = std::vector<std::uint32_t>;
+
+  void Extract(const Silhouette& silhouette);
+  void CloseGaps();
+  void SetMargins(bool set_beyond_picture, Bits& bits) const;
+  void WritePlanes();
+  std::uint32_t* FirstRow(Bits& bits) const { return bits.data() + 1 + kGap_px * stride_; }
+
+  int width_px_ = 0, height_px_ = 0;
+  int left_ = 0, top_ = 0, right_ = -1, bottom_ = -1;
+  int rows_ = 0;
+  int stride_ = 0;  ///< Words a row, the last of them margin.
+  Bits inside_, outside_, scratch_;
+  std::vector<std::uint32_t> planes_;
+  std::array<std::int32_t, kLargest_px + 1> begins_{};
+};
+
+}  // namespace mocap

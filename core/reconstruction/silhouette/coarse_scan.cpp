@@ -1,0 +1,352 @@
+#include "core/reconstruction/silhouette/coarse_scan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/reconstruction/background/expected_picture.h"
+#include "core/vectorized.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kTile = HalfPicture::kTile;
+constexpr float kArea = kTile * kTile;
+// A pixel of the half is so many of the picture's wide.
+constexpr float kPixel_px = 2;
+// Every so many tiles are enough for a median; few pictures are a multiple of that wide.
+constexpr std::size_t kTileStep = 7;
+// A colour has a ratio to another only away from black [grey levels].
+constexpr float kDarkest = 8;
+constexpr float kLargestGain = 4;
+// What differs more from the middle than by this share is no background.
+constexpr float kFlatness = 0.06f;
+// Fewer contours do not tell how far they moved.
+constexpr std::size_t kFewestSteep = 50;
+constexpr float kLargestShift_px = 1;
+// Persons, shadows and what is bright from them may cover more than half: standard deviations are
+// read off these shares. Of a normal distribution, they are within such a length in three
+// dimensions, and such a size in one.
+constexpr double kUndisturbedTiles = 0.4;
+constexpr float kUndisturbedLength = 1.367f;
+constexpr double kUndisturbedContours = 0.25;
+constexpr float kUndisturbedSize = 0.3186f;
+// Less than that much more than usual is usual, and less than that nothing [grey levels, pixels].
+constexpr float kNotable = 1.5f;
+constexpr float kNegligibleDrift = 0.3f;
+constexpr float kNegligibleShift_px = 0.1f;
+// Drift has no normal distribution: some walls change, others don't.
+constexpr float kDriftMargin = 4;
+constexpr float kLargestDrift = 8;
+// A tile is looked at closely when it is brighter, or its colour is another, by more than so many
+// variances; when its pixels differ so many times more than those of most tiles; or when it is
+// nearly too dark for a shadow. So much distance and shift are part of the variance.
+constexpr float kHarmlessGlare = 1.5f;
+constexpr float kHarmlessTint = 1.5f;
+constexpr float kHarmlessMisfit = 6;
+constexpr float kLeastMisfit = 0.05f;
+constexpr float kDarkMargin = 0.02f;
+constexpr float kDistanceMargin = 2;
+constexpr float kContourMargin = 2;
+// Fewer tiles than this by themselves are noise.
+constexpr int kFewestTiles = 4;
+// Whole rows move on by so many from one picture to the next: what grows from one side is met soon.
+constexpr int kBandStep = 3;
+// So many tiles around what was suspicious are looked at.
+constexpr int kRegionMargin = 4;
+
+float Square(float x) { return x * x; }
+
+// Of values that are not negative: among the others of its size, as their bits order numbers.
+float Quantile(std::vector<float>& values, double share) {
+  MOCAP_CHECK(!values.empty());
+  constexpr int kShift = 21;
+  std::array<std::uint32_t, std::size_t{1} << (31 - kShift)> counts{};
+  const auto bin_of = [](float value) { return std::bit_cast<std::uint32_t>(value) >> kShift; };
+  for (const float value : values) ++counts[bin_of(value)];
+  auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  std::uint32_t bin = 0;
+  while (counts[bin] <= rank) rank -= counts[bin++];
+  const auto end = std::partition(values.begin(), values.end(),
+                                  [&](float value) { return bin_of(value) == bin; });
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), place, end);
+  return *place;
+}
+
+float Median(std::vector<float>& values) { return Quantile(values, 0.5); }
+
+// What a standard deviation has grown by, where it has grown notably.
+float Beyond(float value, float usual, float negligible) {
+  const float beyond = std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
+  return beyond < negligible ? 0 : beyond;
+}
+
+// Whether all of a tile is known. The padding is not.
+bool IsKnown(const ExpectedHalf& expected, std::size_t tile) {
+  return expected.tile_variance[tile] < kUnknownVariance / kArea / 2;
+}
+
+struct PixelRow {
+  std::array<const std::uint8_t*, 3> live, expected;
+  const float* variance;
+  const std::uint8_t* slope;
+  const float* alpha;
+};
+
+MOCAP_VECTORIZED
+void AddMisfits(const PixelRow& row, int width, const std::array<float, 3>& gain, float drift_sq,
+                float shift_sq, float* sums) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  const float *const variance = row.variance, *const alpha = row.alpha;
+  const std::uint8_t* const slopes = row.slope;
+  const std::uint8_t *const l0 = row.live[0], *const l1 = row.live[1], *const l2 = row.live[2];
+  const std::uint8_t *const e0 = row.expected[0], *const e1 = row.expected[1],
+                            *const e2 = row.expected[2];
+#pragma GCC ivdep
+  for (int x = 0; x < width; ++x) {
+    const float d0 = gain0 * l0[x] - alpha[x] * e0[x];
+    const float d1 = gain1 * l1[x] - alpha[x] * e1[x];
+    const float d2 = gain2 * l2[x] - alpha[x] * e2[x];
+    const float slope = slopes[x];
+    sums[x] += (d0 * d0 + d1 * d1 + d2 * d2) / (variance[x] + drift_sq + shift_sq * slope * slope);
+  }
+}
+
+struct TileMeans {
+  std::array<const float*, 3> live, expected;
+  const float *variance, *slope_sq;
+};
+
+MOCAP_VECTORIZED
+void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>& gain,
+                  float drift_sq, float shift_sq, float* alphas, float* tints, float* glares) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+  const auto [l0, l1, l2] = tiles.live;
+  const auto [e0, e1, e2] = tiles.expected;
+  const float *const variances = tiles.variance, *const slope_sq = tiles.slope_sq;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float c0 = gain0 * l0[i], c1 = gain1 * l1[i], c2 = gain2 * l2[i];
+    const float square = std::max(e0[i] * e0[i] + e1[i] * e1[i] + e2[i] * e2[i], 1.0f);
+    const float alpha = (c0 * e0[i] + c1 * e1[i] + c2 * e2[i]) / square;
+    const float d0 = c0 - alpha * e0[i], d1 = c1 - alpha * e1[i], d2 = c2 - alpha * e2[i];
+    const float weight = 1 / (variances[i] + drift_sq + shift_sq * slope_sq[i]);
+    const float bright = std::max(alpha - 1, 0.0f);
+    alphas[i] = alpha;
+    tints[i] = (d0 * d0 + d1 * d1 + d2 * d2) * weight;
+    glares[i] = bright * bright * square * weight;
+  }
+}
+
+}  // namespace
+
+CoarseScan::CoarseScan(float darkest_shadow) : darkest_shadow_(darkest_shadow) {}
+
+void CoarseScan::Compare(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  Resize(expected, image);
+  LookAtAll();
+  CompareTiles(expected, image);
+  Conclude();
+}
+
+void CoarseScan::Watch(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  Resize(expected, image);
+  if (!knows_region_) return Compare(expected, image);
+  LookAtRegion();
+  CompareTiles(expected, image);
+  if (conditions_.shift_px > 0 || ShowsBesideRegion()) return Compare(expected, image);
+  Conclude();
+}
+
+void CoarseScan::LookAtAll() {
+  looks_.clear();
+  whole_rows_.clear();
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    looks_.push_back(live_.RowOfTiles(row));
+    whole_rows_.push_back(row);
+  }
+  samples_.clear();
+  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep) samples_.push_back(i);
+}
+
+void CoarseScan::LookAtRegion() {
+  looks_.clear();
+  whole_rows_.clear();
+  samples_.clear();
+  first_band_ = (first_band_ + kBandStep) % kBandRows;
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    if (row % kBandRows == first_band_) {
+      looks_.push_back(live_.RowOfTiles(row));
+      whole_rows_.push_back(row);
+      const std::size_t first = static_cast<std::size_t>(row) * live_.tile_columns();
+      for (int i = 0; i < live_.tile_columns(); ++i) samples_.push_back(first + i);
+    } else if (region_ && row >= region_->top && row <= region_->bottom) {
+      looks_.push_back({row, region_->left, region_->right + 1});
+    }
+  }
+}
+
+void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  for (const TileRun& look : looks_) {
+    Halve(image, look, live_, row_sums_);
+    for (int c = 0; c < 3; ++c) AverageTiles(live_, c, look, tiles_.mean[c], row_sums_);
+  }
+  for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(expected, c);
+  distance_ = MeasureDistance(expected);
+  conditions_.drift = std::min(
+      kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
+  drift_ = std::max(conditions_.drift, kDistanceMargin * distance_);
+  shift_px_ = MeasureShift(expected);
+  conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
+  for (const TileRun& look : looks_) {
+    MeasureTints(expected, look);
+    MeasureMisfit(expected, look);
+  }
+  Judge(expected);
+}
+
+// By itself a tile is noise. What reaches the region's edge goes on behind it.
+bool CoarseScan::ShowsBesideRegion() const {
+  const int columns = suspicious_.width(), rows = suspicious_.height();
+  for (const TileRun& look : looks_) {
+    for (int i = look.begin; i + 1 < look.end; ++i) {
+      if (!suspicious_.Test(i, look.row) || !suspicious_.Test(i + 1, look.row)) continue;
+      const bool is_within = region_ && (look.row > region_->top || region_->top == 0) &&
+                             (look.row < region_->bottom || region_->bottom == rows - 1) &&
+                             (i > region_->left || region_->left == 0) &&
+                             (i + 1 < region_->right || region_->right == columns - 1);
+      if (!is_within) return true;
+    }
+  }
+  return false;
+}
+
+void CoarseScan::Conclude() {
+  cleaner_.DropBlobs(kFewestTiles, suspicious_);
+  region_ = suspicious_.BoundingBox();
+  knows_region_ = true;
+  if (!region_) return;
+  region_->left = std::max(region_->left - kRegionMargin, 0);
+  region_->top = std::max(region_->top - kRegionMargin, 0);
+  region_->right = std::min(region_->right + kRegionMargin, suspicious_.width() - 1);
+  region_->bottom = std::min(region_->bottom + kRegionMargin, suspicious_.height() - 1);
+}
+
+void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image) {
+  if (image.width() != full_width_ || image.height() != full_height_) {
+    full_width_ = image.width();
+    full_height_ = image.height();
+    knows_region_ = false;
+    live_ = HalfPicture(full_width_, full_height_);
+    alphas_.resize(static_cast<std::size_t>(live_.width));
+    columns_.resize(static_cast<std::size_t>(live_.width));
+    for (auto* values : {&tiles_.mean[0], &tiles_.mean[1], &tiles_.mean[2], &tiles_.alpha,
+                         &tiles_.tint, &tiles_.glare, &tiles_.misfit})
+      values->resize(live_.tiles());
+  }
+  MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
+}
+
+float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
+  const std::vector<float>& live = tiles_.mean[channel];
+  const std::vector<float>& expected = expected_half.tile_mean[channel];
+  values_.clear();
+  for (const std::size_t i : samples_)
+    if (IsKnown(expected_half, i) && expected[i] >= kDarkest)
+      values_.push_back(live[i] / expected[i]);
+  if (values_.empty()) return 1;
+  // Persons and shadows lie mostly to one side of the middle; without them it is found again.
+  const float rough = Median(values_);
+  std::erase_if(values_, [rough](float v) { return std::abs(v - rough) > kFlatness * rough; });
+  const float fine = values_.empty() ? rough : Median(values_);
+  return std::clamp(1 / std::max(fine, 1e-3f), 1 / kLargestGain, kLargestGain);
+}
+
+float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
+  values_.clear();
+  for (const std::size_t i : samples_) {
+    if (!IsKnown(expected, i)) continue;
+    float length_sq = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float d = conditions_.gain[c] * tiles_.mean[c][i] - expected.tile_mean[c][i];
+      length_sq += d * d;
+    }
+    values_.push_back(length_sq);
+  }
+  return values_.empty() ? 0 : std::sqrt(Quantile(values_, kUndisturbedTiles)) / kUndisturbedLength;
+}
+
+float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
+  values_.clear();
+  const float gain = conditions_.gain[1];
+  const int pixels_per_row = kTile * live_.width;
+  for (const int row : whole_rows_) {
+    const auto end = std::ranges::lower_bound(expected.steep, (row + 1) * pixels_per_row);
+    for (auto i = std::ranges::lower_bound(expected.steep, row * pixels_per_row); i != end; ++i) {
+      const float difference = gain * live_.color[1][*i] - expected.mean.color[1][*i];
+      values_.push_back(std::abs(difference) / static_cast<float>(expected.slope[*i]));
+    }
+  }
+  // In a low picture there may be no whole row at all.
+  const bool is_telling =
+      values_.size() * live_.tile_rows() >= kFewestSteep * whole_rows_.size() && !values_.empty();
+  if (!is_telling) return 0;
+  return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
+                  kLargestShift_px);
+}
+
+void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
+  const float drift_sq = Square(drift_);
+  const float shift_sq = Square(kContourMargin * shift_px_ / kPixel_px);
+  const int count = run.end - run.begin;
+  const std::size_t first = FirstOf(run);
+  for (int i = 0; i < count * kTile; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
+  std::fill_n(columns_.begin(), count * kTile, 0.0f);
+  for (int y = run.row * kTile; y < (run.row + 1) * kTile; ++y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * live_.width + run.begin * kTile;
+    PixelRow pixels{{}, {}, &expected.variance[begin], &expected.slope[begin], alphas_.data()};
+    for (int c = 0; c < 3; ++c) {
+      pixels.live[c] = &live_.color[c][begin];
+      pixels.expected[c] = &expected.mean.color[c][begin];
+    }
+    AddMisfits(pixels, count * kTile, conditions_.gain, drift_sq, shift_sq, columns_.data());
+  }
+  for (int i = 0; i < count; ++i) {
+    const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
+    tiles_.misfit[first + i] = (sums[0] + sums[1] + sums[2] + sums[3]) / kArea;
+  }
+}
+
+void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {
+  const std::size_t first = FirstOf(run);
+  TileMeans tiles{{}, {}, &expected.tile_variance[first], &expected.tile_slope_sq[first]};
+  for (int c = 0; c < 3; ++c) {
+    tiles.live[c] = &tiles_.mean[c][first];
+    tiles.expected[c] = &expected.tile_mean[c][first];
+  }
+  MeasureTiles(tiles, run.end - run.begin, conditions_.gain, Square(drift_),
+               Square(kContourMargin * shift_px_ / kPixel_px), &tiles_.alpha[first],
+               &tiles_.tint[first], &tiles_.glare[first]);
+}
+
+void CoarseScan::Judge(const ExpectedHalf& expected) {
+  values_.clear();
+  for (const std::size_t i : samples_)
+    if (IsKnown(expected, i)) values_.push_back(tiles_.misfit[i]);
+  const float harmless =
+      kHarmlessMisfit * std::max(values_.empty() ? 0 : Median(values_), kLeastMisfit);
+  suspicious_.Reset(live_.tile_columns(), live_.tile_rows());
+  for (const TileRun& look : looks_) {
+    for (int column = look.begin; column < look.end; ++column) {
+      const std::size_t i = FirstOf(look) + (column - look.begin);
+      if (IsKnown(expected, i) &&
+          (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
+           tiles_.alpha[i] < darkest_shadow_ + kDarkMargin || tiles_.glare[i] > kHarmlessGlare))
+        suspicious_.Set(column, look.row);
+    }
+  }
+}
+
+}  // namespace mocap

@@ -1,0 +1,89 @@
+// §4: how a picture as a whole differs from the empty studio, and where a closer look is due.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/background/conditions.h"
+#include "core/reconstruction/background/half_picture.h"
+#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/silhouette_cleaner.h"
+
+namespace mocap {
+
+/// Compares pictures with what is expected, tile by tile at half the resolution.
+///
+/// Conditions are medians over the picture: whatever covers less than half of what is known of it
+/// does not disturb them. Thread-bound; reuses its memory.
+class CoarseScan {
+ public:
+  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  explicit CoarseScan(float darkest_shadow = 0);
+
+  /// Compares a picture; the results hold until the next one.
+  void Compare(const ExpectedHalf& expected, ImageView<const Bgr> image);
+
+  /// Compares what was suspicious in the picture before, what lies around that, and every
+  /// kBandRows-th row of tiles: other rows in each picture. The rest is taken for background; when
+  /// something shows beside the region, or contours shift, the whole picture is compared.
+  void Watch(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  static constexpr int kBandRows = 8;
+
+  /// Conditions but for the displacement.
+  const Conditions& conditions() const { return conditions_; }
+  /// How far tiles lie from what is expected, in the median [grey levels].
+  float distance() const { return distance_; }
+  /// How far contours lie from where they are expected [pixels].
+  float shift_px() const { return shift_px_; }
+  /// The tiles, of HalfPicture::kTile_px pixels, where something else than background may be: one
+  /// pixel a tile.
+  const Silhouette& suspicious() const { return suspicious_; }
+  /// The picture at half the resolution.
+  const HalfPicture& live() const { return live_; }
+
+ private:
+  struct Tiles {
+    std::array<std::vector<float>, 3> mean;
+    // Brightness distortion, and what else differs: all in variances.
+    std::vector<float> alpha, tint, glare, misfit;
+  };
+  void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  void LookAtAll();
+  void LookAtRegion();
+  void CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  bool ShowsBesideRegion() const;
+  void Conclude();
+  float MeasureGain(const ExpectedHalf& expected, int channel);
+  float MeasureDistance(const ExpectedHalf& expected);
+  float MeasureShift(const ExpectedHalf& expected);
+  std::size_t FirstOf(const TileRun& run) const {
+    return static_cast<std::size_t>(run.row) * live_.tile_columns() + run.begin;
+  }
+  void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
+  void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
+  void Judge(const ExpectedHalf& expected);
+
+  float darkest_shadow_;
+  // What is looked at in this picture, and the rows among it that are whole.
+  std::vector<TileRun> looks_;
+  std::vector<int> whole_rows_;
+  // Tiles that everything suspicious in the last picture lies well within.
+  std::optional<PixelBox> region_;
+  bool knows_region_ = false;
+  int first_band_ = 0;
+  int full_width_ = 0, full_height_ = 0;
+  HalfPicture live_;
+  std::vector<std::uint16_t> row_sums_;
+  Tiles tiles_;
+  std::vector<std::size_t> samples_;  // Of the tiles that are looked at.
+  std::vector<float> columns_, alphas_, values_;
+  Conditions conditions_;
+  float distance_ = 0, drift_ = 0, shift_px_ = 0;
+  SilhouetteCleaner cleaner_;
+  Silhouette suspicious_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,66 @@
+// §4: where the background ends, learned from pictures of the empty studio.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/background/expected_picture.h"
+#include "core/reconstruction/silhouette/distortion_scan.h"
+
+namespace mocap {
+
+/// What background exceeds as seldom as was asked for. All are normalised by their own variation.
+struct DistortionThresholds {
+  struct Window {
+    float cd = 0;         ///< Length of the mean colour distance.
+    float alpha = 0;      ///< Mean brightness distortion, either way.
+    float roughness = 0;  ///< Deviation of the brightness distortions from a plane.
+  };
+  float cd = 0;          ///< Chromaticity distortion of a pixel.
+  float alpha_low = 0;   ///< Brightness distortion of a pixel, negative.
+  float alpha_high = 0;  ///< Brightness distortion of a pixel, positive.
+  std::array<Window, DistortionScan::kWindows> windows;
+};
+
+/// Collects the distortions of training frames in histograms and reads thresholds off them.
+///
+/// Horprasert, Harwood, Davis 1999, §3.2. A pixel is held against the least of the windows that
+/// contain it, as it will be when the camera runs.
+class DistortionHistograms {
+ public:
+  /// Adds one picture of the empty studio.
+  /// @param expected  learned without that picture, or else its own noise would be part of it.
+  void Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
+           const std::array<float, 3>& gain);
+
+  /// Gives the thresholds that a share `detection_rate` of the pixels stays within.
+  /// @pre  0 < detection_rate < 1, and at least one picture was added.
+  DistortionThresholds At(double detection_rate) const;
+
+ private:
+  class Histogram {
+   public:
+    void Add(const float* values, int count);
+    float Quantile(double rate) const;
+
+   private:
+    static constexpr float kBinsPerUnit = 100;
+    static constexpr int kBins = 5000;
+    std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(kBins);
+  };
+
+  struct WindowHistograms {
+    Histogram cd, alpha, roughness;
+    // Of the picture that is being added.
+    Image<float> cd_image, alpha_image, roughness_image;
+  };
+
+  Histogram cd_, alpha_low_, alpha_high_;
+  std::array<WindowHistograms, DistortionScan::kWindows> windows_;
+  Closeup everything_;
+  DistortionScan scan_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,29 @@
+// §4, beyond the paper: the silhouette's border as rays. A hull is fatter than the person and holds
+// flesh that nobody has; a ray through the border grazes the person itself.
+#pragma once
+
+#include <vector>
+
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/silhouette.h"
+
+namespace mocap {
+
+/// A line of sight that touches the person's surface at some depth and enters it nowhere.
+struct GrazingRay {
+  Vector3 eye_W;
+  Vector3 direction_W;  ///< Unit length, away from the camera.
+  Vector3 outward_W;    ///< The surface's normal where the ray touches it; unit length.
+};
+
+/// What one camera saw of the person's border.
+using Outline = std::vector<GrazingRay>;
+
+/// Traces a silhouette's border, holes included, by rays spread evenly over it. Where the picture
+/// ends, the border is the picture's and not the person's: it gives no rays.
+/// @param most  rays at the most.
+/// @param outline  overwritten; its memory is reused.
+void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
+                  const Silhouette& silhouette, int most, Outline& outline);
+
+}  // namespace mocap

@@ -1,0 +1,70 @@
+// §4: background, shadow, highlight, foreground.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/background/expected_picture.h"
+#include "core/reconstruction/silhouette/closeup.h"
+#include "core/reconstruction/silhouette/distortion_scan.h"
+#include "core/reconstruction/silhouette/distortion_thresholds.h"
+#include "core/reconstruction/silhouette/silhouette.h"
+
+namespace mocap {
+
+/// The four classes of Horprasert, Harwood, Davis 1999.
+enum class PixelClass : std::uint8_t { kBackground, kShadow, kHighlight, kForeground };
+
+/// Decides what each pixel of a picture shows.
+///
+/// A pixel is background, shadow or highlight when it could be so by itself and lies in some
+/// window, of one size or the other, that could be so as a whole; otherwise it is foreground. What
+/// is not looked at closely is background.
+/// Thread-bound; reuses its memory.
+class PixelClassifier {
+ public:
+  /// Factors by which thresholds must be exceeded. They stand for what an empty studio does not
+  /// show: tints of shadows, and the noise that a codec lets through only where something moves.
+  /// Measured on takes with true masks; a tenth more or less serves as well.
+  static constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.35f};
+  /// One pixel alone must differ more, for there are many of them.
+  static constexpr float kPixelMargin = 1.6f;
+
+  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow);
+
+  /// Classifies a picture; the results hold until the next one, as long as `expected` does.
+  /// @param expected  weighed under these conditions for the pixels that are measured.
+  void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
+                const Conditions& conditions, const Closeup& closeup);
+
+  /// Gives the class of a pixel that was measured.
+  PixelClass ClassOf(int x, int y) const;
+  /// Where the class is foreground.
+  const Silhouette& foreground() const { return foreground_; }
+  /// Where background would be as rare as the training frames allow, but not clearly beyond that.
+  const Silhouette& doubtful() const { return doubtful_; }
+  /// α − 1 of every pixel that is measured.
+  const Image<float>& alpha_shift() const { return alpha_shift_; }
+
+ private:
+  void ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row);
+  void ClassifyWindows(int y, const PixelRun& run, std::size_t k, const DistortionScan::Row& row);
+
+  DistortionThresholds thresholds_;
+  float darkest_shadow_;
+  const ExpectedPicture* expected_ = nullptr;
+  float drift_ = 0;
+  DistortionScan scan_;
+  Image<float> alpha_shift_;
+  // One byte a pixel of a run, before they are packed.
+  std::vector<std::uint8_t> clear_row_, doubtful_row_;
+  Silhouette clear_pixels_;
+  std::array<Silhouette, DistortionScan::kWindows> clear_windows_, doubtful_windows_, eroded_;
+  Silhouette foreground_, doubtful_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,131 @@
+#include "core/reconstruction/silhouette/segmenter.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/errors.h"
+#include "core/reconstruction/background/displacement.h"
+#include "core/reconstruction/silhouette/closeup.h"
+#include "core/reconstruction/silhouette/coarse_scan.h"
+#include "core/reconstruction/silhouette/outline_refiner.h"
+#include "core/reconstruction/silhouette/pixel_classifier.h"
+#include "core/reconstruction/silhouette/silhouette_cleaner.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kFewestFrames = 8;
+// Holes of fewer pixels are noise, whatever they look like: first in the evidence, then in the
+// refined outline.
+constexpr int kSmallestGap_px = 12;
+constexpr int kSmallestHole_px = 20;
+// What covers more of the picture may be somebody.
+constexpr double kLargestThingShare = 0.02;
+// A camera that moved by less is not worth following, nor one whose contours still do not fit.
+constexpr float kNudge_px = 0.25f;
+constexpr float kMuchLess = 0.8f;
+
+void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> background) {
+  const std::string where = "background of camera " + camera.name + ": found ";
+  if (background.size() < kFewestFrames)
+    throw SetupError(where + std::to_string(background.size()) + " frames, wanted at least " +
+                     std::to_string(kFewestFrames));
+  for (const BackgroundFrame& frame : background) {
+    if (frame.image.width() == camera.width_px && frame.image.height() == camera.height_px)
+      continue;
+    throw SetupError(where + "a frame of " + std::to_string(frame.image.width()) + " x " +
+                     std::to_string(frame.image.height()) + " px, wanted " +
+                     std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
+                     " px as in the calibration");
+  }
+}
+
+std::unique_ptr<BackgroundModel> Learn(const CameraCalibration& camera,
+                                       std::span<const BackgroundFrame> background,
+                                       double detection_rate) {
+  Check(camera, background);
+  return camera.head ? LearnPanTiltBackground(camera, background, detection_rate)
+                     : LearnFixedBackground(background, detection_rate);
+}
+
+}  // namespace
+
+class Segmenter::Impl {
+ public:
+  Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
+       const SegmentationOptions& options)
+      : has_head_(camera.head.has_value()),
+        background_(Learn(camera, background, options.detection_rate)),
+        coarse_(static_cast<float>(options.darkest_shadow)),
+        classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
+        smallest_blob_px_(
+            static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)),
+        largest_thing_px_(
+            static_cast<int>(kLargestThingShare * camera.width_px * camera.height_px)) {}
+
+  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
+    conditions_ = Glance(image, angles);
+    closeup_.Set(coarse_.suspicious(), image.width(), image.height());
+    const ExpectedPicture& expected = background_->Expect(closeup_, conditions_);
+    classifier_.Classify(expected, image, conditions_, closeup_);
+    silhouette = classifier_.foreground();
+    cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
+    cleaner_.DropBlobs(smallest_blob_px_, silhouette);
+    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
+    cleaner_.FillHoles(kSmallestHole_px, silhouette);
+    cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, silhouette);
+  }
+
+  const Conditions& conditions() const { return conditions_; }
+
+ private:
+  // Compares the picture as a whole, and follows a camera that was nudged.
+  Conditions Glance(ImageView<const Bgr> image, const PanTiltAngles& angles) {
+    const ExpectedHalf& expected = background_->Glance(angles, {});
+    // Where a head turns, the person's place in the last picture says little.
+    if (has_head_)
+      coarse_.Compare(expected, image);
+    else
+      coarse_.Watch(expected, image);
+    const Conditions conditions = coarse_.conditions();
+    if (conditions.shift_px == 0) return conditions;
+    const auto displacement = MeasureDisplacement(coarse_.live(), conditions.gain[1], expected);
+    if (!displacement || std::hypot(displacement->x_px, displacement->y_px) < kNudge_px)
+      return conditions;
+    const float shift_before_px = coarse_.shift_px();
+    coarse_.Compare(background_->Glance(angles, *displacement), image);
+    if (coarse_.shift_px() < kMuchLess * shift_before_px) {
+      Conditions displaced = coarse_.conditions();
+      displaced.displacement = *displacement;
+      return displaced;
+    }
+    coarse_.Compare(background_->Glance(angles, {}), image);
+    return conditions;
+  }
+
+  bool has_head_;
+  std::unique_ptr<BackgroundModel> background_;
+  CoarseScan coarse_;
+  Conditions conditions_;
+  Closeup closeup_;
+  PixelClassifier classifier_;
+  SilhouetteCleaner cleaner_;
+  OutlineRefiner refiner_;
+  int smallest_blob_px_, largest_thing_px_;
+};
+
+Segmenter::Segmenter(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
+                     const SegmentationOptions& options)
+    : impl_(std::make_unique<Impl>(camera, background, options)) {}
+Segmenter::Segmenter(Segmenter&&) noexcept = default;
+Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
+Segmenter::~Segmenter() = default;
+
+void Segmenter::Segment(ImageView<const Bgr> image, const PanTiltAngles& angles,
+                        Silhouette& silhouette) {
+  impl_->Segment(image, angles, silhouette);
+}
+
+const Conditions& Segmenter::conditions() const { return impl_->conditions(); }
+
+}  // namespace mocap

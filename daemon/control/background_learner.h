@@ -1,0 +1,68 @@
+// Learns what the empty studio looks like while the cameras run.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/reconstruction/background/background_model.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/pipeline/tap.h"
+
+namespace mocap {
+
+/// What each camera knows of the empty studio, for whoever asks. Thread-safe.
+class KnownBackgrounds {
+ public:
+  using Read = std::function<std::vector<BackgroundFrame>()>;
+
+  explicit KnownBackgrounds(std::vector<Read> reads) : reads_(std::move(reads)) {}
+  std::vector<BackgroundFrame> Of(std::size_t camera) const;
+  void Set(std::size_t camera, Read read);
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Read> reads_;
+};
+
+/// Where it is learned, and for whom.
+struct LearningPlace {
+  std::vector<CameraCalibration> cameras;
+  std::filesystem::path folder;  ///< Keeps the pictures for the next start.
+  std::string refusal;           ///< Why nothing can be learned here; empty: it can.
+};
+
+/// Looks at the studio for some seconds and has the pipeline go on with what was seen; no frame is
+/// lost meanwhile. Learn: one thread at a time.
+class BackgroundLearner {
+ public:
+  /// @param taps  one a camera, offered every frame; borrowed, as is the pipeline.
+  BackgroundLearner(Pipeline& pipeline, std::deque<FrameTap>& taps, KnownBackgrounds& known,
+                    LearningPlace place);
+
+  /// Learns, keeps and uses what the cameras see. @return  one line a camera.
+  /// @param anyway  also while somebody is tracked: what is taken for a person may be furniture.
+  /// @throws std::runtime_error  when somebody moves in the room or is tracked, or a camera
+  /// delivers nothing; SetupError when the studio has nothing to learn. What was known holds then.
+  std::string Learn(bool anyway, double seconds = 4);
+
+ private:
+  struct Look;
+
+  std::deque<Look> LookAround(double seconds);
+  void RequireEmptyRoom(const std::deque<Look>& looks) const;
+  void RequireNobody() const;
+  void Keep(const std::deque<Look>& looks) const;
+  void Use(const std::deque<Look>& looks);
+
+  Pipeline& pipeline_;
+  std::deque<FrameTap>& taps_;
+  KnownBackgrounds& known_;
+  const LearningPlace place_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,180 @@
+#include "daemon/control/control_socket.h"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+constexpr const char* kSystemSocket = "/run/mocapd/control";
+constexpr int kWaitingClients = 8;
+/// A client that connects and says nothing holds up the others no longer.
+constexpr timeval kClientPatience{1, 0};
+/// The background of six cameras is stored before a recording is said to have begun.
+constexpr timeval kReplyPatience{60, 0};
+constexpr mode_t kOwnerAndGroup = 0660;
+
+std::string Why() { return std::strerror(errno); }
+
+FileDescriptor NewSocket() {
+  FileDescriptor fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (!fd.valid()) throw std::runtime_error("no local socket: " + Why());
+  return fd;
+}
+
+sockaddr_un AddressOf(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.native().size() >= sizeof address.sun_path) {
+    throw SetupError(path.string() + ": is too long for a socket's name");
+  }
+  std::strcpy(address.sun_path, path.c_str());
+  return address;
+}
+
+template <typename Call>
+int WithAddress(Call call, int fd, const sockaddr_un& address) {
+  return call(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+FileDescriptor Listen(const std::filesystem::path& path) {
+  const sockaddr_un address = AddressOf(path);
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (WithAddress(connect, NewSocket().get(), address) == 0) {
+    throw SetupError(path.string() + ": another mocapd answers there");
+  }
+  // What an earlier run left behind, which a kill gives no time to take away.
+  if (std::filesystem::is_socket(path, error)) std::filesystem::remove(path, error);
+  FileDescriptor listener = NewSocket();
+  if (WithAddress(bind, listener.get(), address) != 0 || chmod(path.c_str(), kOwnerAndGroup) != 0 ||
+      listen(listener.get(), kWaitingClients) != 0) {
+    throw SetupError(path.string() + ": cannot be made a control socket: " + Why());
+  }
+  return listener;
+}
+
+std::optional<std::string> Receive(int fd, std::size_t longest) {
+  std::string message(longest + 1, '\0');
+  const ssize_t received = recv(fd, message.data(), message.size(), 0);
+  if (received <= 0) return {};
+  message.resize(static_cast<std::size_t>(received));
+  return message;
+}
+
+std::filesystem::path UsersOwnSocket() {
+  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  return folder ? std::filesystem::path(folder) / "mocapd" / "control" : std::filesystem::path();
+}
+
+}  // namespace
+
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
+  if (this != &other) {
+    Reset();
+    fd_ = other.Release();
+  }
+  return *this;
+}
+
+void FileDescriptor::Reset() {
+  if (fd_ >= 0) close(fd_);
+  fd_ = -1;
+}
+
+int FileDescriptor::Release() { return std::exchange(fd_, -1); }
+
+std::filesystem::path ControlSocketOf(const std::filesystem::path& configured) {
+  if (!configured.empty()) return configured;
+  if (const char* folder = std::getenv("RUNTIME_DIRECTORY")) {
+    return std::filesystem::path(folder) / "control";
+  }
+  return UsersOwnSocket();
+}
+
+ControlServer::ControlServer(const std::filesystem::path& socket, Handler handler)
+    : path_(socket),
+      handler_(std::move(handler)),
+      listener_(Listen(socket)),
+      stop_(eventfd(0, EFD_CLOEXEC)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+ControlServer::~ControlServer() {
+  eventfd_write(stop_.get(), 1);
+  thread_.join();
+  std::error_code error;
+  std::filesystem::remove(path_, error);
+}
+
+void ControlServer::Run() {
+  pthread_setname_np(pthread_self(), "control");
+  std::array<pollfd, 2> waits = {{{stop_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}}};
+  for (;;) {
+    if (poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) return;
+    if (waits[0].revents != 0) return;
+    if (waits[1].revents == 0) continue;
+    const FileDescriptor client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (client.valid()) Answer(client.get());
+  }
+}
+
+void ControlServer::Answer(int client) const {
+  setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &kClientPatience, sizeof kClientPatience);
+  setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &kClientPatience, sizeof kClientPatience);
+  const std::optional<std::string> line = Receive(client, kLongestRequest);
+  if (!line) return;
+  ControlReply reply;
+  try {
+    const std::optional<ControlRequest> request = ParseControlRequest(*line);
+    reply = request ? handler_(*request)
+                    : ControlReply{ControlOutcome::kWrong, "the request is not understood"};
+  } catch (const SetupError& error) {
+    reply = {ControlOutcome::kWrong, error.what()};
+  } catch (const std::exception& error) {
+    reply = {ControlOutcome::kFailed, error.what()};
+  }
+  const std::string message = EncodeReply(reply);
+  send(client, message.data(), message.size(), MSG_NOSIGNAL);
+}
+
+ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& request) {
+  std::vector<std::filesystem::path> places = {socket};
+  if (socket.empty()) places = {kSystemSocket, UsersOwnSocket()};
+  for (const std::filesystem::path& place : places) {
+    if (place.empty()) continue;
+    const FileDescriptor fd = NewSocket();
+    if (WithAddress(connect, fd.get(), AddressOf(place)) != 0) {
+      if (errno != EACCES) continue;
+      throw SetupError(place.string() +
+                       ": may not be used; as root: adduser USER mocap, then log in again");
+    }
+    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &kReplyPatience, sizeof kReplyPatience);
+    std::optional<std::string> message;
+    if (send(fd.get(), request.data(), request.size(), MSG_NOSIGNAL) >= 0) {
+      message = Receive(fd.get(), kLongestReply);
+    }
+    const std::optional<ControlReply> reply = message ? DecodeReply(*message) : std::nullopt;
+    if (!reply) throw std::runtime_error(place.string() + ": mocapd gave no answer");
+    return *reply;
+  }
+  throw std::runtime_error("no mocapd runs here; start it: systemctl start mocapd");
+}
+
+}  // namespace mocap

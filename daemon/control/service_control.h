@@ -1,0 +1,62 @@
+// What becomes of a request to the running daemon.
+#pragma once
+
+#include <mutex>
+
+#include "daemon/control/background_learner.h"
+#include "daemon/control/control_request.h"
+#include "daemon/control/live_config.h"
+#include "daemon/control/subjects.h"
+#include "daemon/messages/pose_publisher.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/recording/recorder.h"
+#include "daemon/service/live_view.h"
+#include "daemon/service/service_report.h"
+
+namespace mocap {
+
+/// The parts of the running daemon that requests reach. Borrowed.
+struct ServiceParts {
+  LiveConfig& config;
+  Pipeline& pipeline;
+  PosePublisher& publisher;
+  LiveView& view;
+  Recorder& recorder;
+  BackgroundLearner& background;
+};
+
+/// Answers requests. Thread-safe.
+class ServiceControl {
+ public:
+  ServiceControl(const ServiceParts& parts, Subjects subjects)
+      : parts_(parts), subjects_(std::move(subjects)) {}
+
+  /// @throws SetupError for what was asked wrongly, std::runtime_error for what failed.
+  ControlReply Answer(const ControlRequest& request);
+  /// Takes the report that is given until the next one.
+  void SetReport(const ServiceReport& report);
+  /// Reads the configuration again. @throws SetupError
+  std::string Reload();
+  /// What holds at present.
+  Config config();
+
+ private:
+  std::string Do(const StatusRequest& request);
+  std::string Do(const ReloadRequest&);
+  std::string Do(const RecordStartRequest& request);
+  std::string Do(const RecordStopRequest&);
+  std::string Do(const SubjectNewRequest&);
+  std::string Do(const SubjectSaveRequest& request);
+  std::string Do(const SubjectLoadRequest& request);
+  std::string Do(const SubjectListRequest&);
+  std::string Do(const BackgroundLearnRequest& request);
+  std::string Do(const BackgroundStatusRequest&);
+
+  const ServiceParts parts_;
+  const Subjects subjects_;
+  std::mutex report_mutex_;
+  ServiceReport report_;
+  std::mutex reload_mutex_;
+};
+
+}  // namespace mocap

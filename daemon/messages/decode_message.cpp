@@ -1,0 +1,112 @@
+#include "daemon/messages/decode_message.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kHash = 8;
+constexpr std::size_t kNumber = 8;  ///< int64_t, double
+constexpr std::size_t kPoint = 3 * kNumber;
+constexpr std::size_t kPoints = 23;
+
+/// Walks over a message's fields without keeping them.
+class Skimmer {
+ public:
+  explicit Skimmer(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+
+  bool sound() const { return sound_; }
+
+  void Skip(std::size_t bytes) {
+    sound_ = sound_ && bytes <= rest_.size();
+    if (sound_) rest_ = rest_.subspan(bytes);
+  }
+  /// A count of what takes at least so many bytes each; 0 once something is wrong.
+  std::size_t Count(std::size_t least_bytes) {
+    if (rest_.size() < 4) sound_ = false;
+    if (!sound_) return 0;
+    std::int32_t count = 0;
+    for (int i = 0; i < 4; ++i) count = static_cast<std::int32_t>(count << 8 | rest_[i]);
+    rest_ = rest_.subspan(4);
+    sound_ = count >= 0 && static_cast<std::size_t>(count) <= rest_.size() / least_bytes;
+    return sound_ ? static_cast<std::size_t>(count) : 0;
+  }
+  /// A text with the zero at its end.
+  void Text() {
+    const std::size_t length = Count(1);
+    sound_ = sound_ && length > 0;
+    Skip(length);
+  }
+  void Texts(std::size_t count) {
+    for (std::size_t i = 0; sound_ && i < count; ++i) Text();
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+  bool sound_ = true;
+};
+
+}  // namespace
+
+bool HasSoundCounts(const pose_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Times and number, state, the paper's numbers.
+  skimmer.Skip(kHash + 4 * kNumber + 1 + 2 * kPoint + 17 * kNumber);
+  skimmer.Skip(kNumber * skimmer.Count(kNumber));
+  // Points with their deviation, residual, voxels.
+  skimmer.Skip(kPoints * (kPoint + kNumber) + kNumber + 4);
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const body_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Text();
+  skimmer.Skip(kNumber);
+  skimmer.Texts(kPoints);
+  skimmer.Skip(kPoints * kPoint);
+  const std::size_t joints = skimmer.Count(4);
+  skimmer.Texts(joints);
+  // Parent, axis, place, limits.
+  skimmer.Skip(joints * (4 + 2 * kPoint + 2 * kNumber));
+  skimmer.Skip(kPoints * 4);
+  const std::size_t sizes = skimmer.Count(4);
+  skimmer.Texts(sizes);
+  skimmer.Skip(sizes * kNumber);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const status_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Text();
+  skimmer.Skip(1 + 6 * kNumber);
+  const auto skip_named = [&skimmer](std::size_t count, std::size_t bytes_each) {
+    for (std::size_t i = 0; skimmer.sound() && i < count; ++i) {
+      skimmer.Text();
+      skimmer.Skip(bytes_each);
+    }
+  };
+  skip_named(skimmer.Count(4), 1 + 5 * kNumber);
+  skip_named(skimmer.Count(4), 4 * kNumber);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const service_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Texts(2);
+  skimmer.Skip(2 * kNumber);
+  skimmer.Texts(skimmer.Count(4));
+  for (int made = 0; made < 2; ++made) {
+    skimmer.Text();
+    skimmer.Skip(kNumber);
+  }
+  skimmer.Skip(kNumber);
+  skimmer.Skip(3 * kNumber * skimmer.Count(3 * kNumber));
+  skimmer.Skip(1);
+  skimmer.Text();
+  skimmer.Skip(3 * kNumber);
+  return skimmer.sound();
+}
+
+}  // namespace mocap

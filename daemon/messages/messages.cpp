@@ -1,0 +1,209 @@
+#include "daemon/messages/messages.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "config/body_size_fields.h"
+#include "core/tracking/voxel_labels.h"
+#include "daemon/service/complaints.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kNsPerUs = 1000;
+
+template <typename From>
+void CopyVector(const From& from, double (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+}
+
+/// Writes lengths of runs that alternate between empty and occupied, empty first.
+class RunWriter {
+ public:
+  explicit RunWriter(std::vector<std::int32_t>& runs) : runs_(runs) { runs_.assign(1, 0); }
+
+  void Add(bool occupied, int count) {
+    if (occupied != occupied_) {
+      runs_.push_back(0);
+      occupied_ = occupied;
+    }
+    runs_.back() += count;
+  }
+
+ private:
+  std::vector<std::int32_t>& runs_;
+  bool occupied_ = false;
+};
+
+void WriteRuns(const VoxelGrid& grid, std::vector<std::int32_t>& runs) {
+  RunWriter writer(runs);
+  for (int k = 0; k < grid.size().z(); ++k) {
+    for (int j = 0; j < grid.size().y(); ++j) {
+      const std::uint64_t* row = grid.row(j, k);
+      for (int begin = 0; begin < grid.size().x(); begin += 64) {
+        const int bits = std::min(64, grid.size().x() - begin);
+        const std::uint64_t word = row[begin / 64];
+        if (word == 0) {
+          writer.Add(false, bits);
+        } else {
+          for (int bit = 0; bit < bits; ++bit) writer.Add(word >> bit & 1, 1);
+        }
+      }
+    }
+  }
+}
+
+stage_timing_t TimingOf(Stage stage, const LatencyHistogram& histogram) {
+  stage_timing_t timing;
+  timing.name = kStageNames[static_cast<std::size_t>(stage)];
+  timing.count = histogram.count();
+  timing.p50_ms = histogram.PercentileMs(0.5);
+  timing.p99_ms = histogram.PercentileMs(0.99);
+  timing.max_ms = histogram.MaxMs();
+  return timing;
+}
+
+}  // namespace
+
+void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
+  const CaptureResult& result = set.result;
+  const bool has_pose = result.state != CaptureState::kSearching;
+  const PaperState paper = has_pose ? set.body.PaperStateOf(result.pose) : PaperState();
+  message.utime = set.capture_ns / kNsPerUs;
+  message.complete_utime = set.complete_ns / kNsPerUs;
+  message.frame = set.frame;
+  message.state = static_cast<std::int8_t>(result.state);
+  CopyVector(paper.torso_mm, message.torso_mm);
+  CopyVector(paper.torso_axis, message.torso_axis);
+  message.torso_angle_rad = paper.torso_angle_rad;
+  std::ranges::copy(paper.theta_rad, message.theta_rad);
+  message.num_joints = set.body.joint_count();
+  message.joint_rad.assign(message.num_joints, 0);
+  if (has_pose) std::ranges::copy(result.pose.theta, message.joint_rad.begin());
+  for (int i = 0; i < kPointCount; ++i) {
+    const Vector3 p_WQ = has_pose ? Vector3(result.points_W.col(i)) : Vector3::Zero();
+    CopyVector(p_WQ, message.point_mm[i]);
+    message.point_std_mm[i] = has_pose ? result.point_std_mm[i] : 0;
+  }
+  message.residual_mm = has_pose ? result.residual_mm : 0;
+  message.voxels = result.voxels;
+  message.num_cameras = cameras;
+  message.camera_used.resize(cameras);
+  for (int i = 0; i < cameras; ++i) message.camera_used[i] = set.cameras >> i & 1;
+}
+
+void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {
+  message.utime = utime;
+  message.model = body.table().name;
+  message.stature_mm = body.sizes().Stature();
+  for (int i = 0; i < kPointCount; ++i) {
+    message.point_name[i] = kPointNames[i];
+    message.point_carrier[i] = body.CarrierOf(static_cast<Point>(i));
+    CopyVector(body.reference_points_T().col(i), message.point_reference_mm[i]);
+  }
+  const std::vector<JointAxis>& joints = body.table().joints;
+  message.num_joints = body.joint_count();
+  message.joint_name.resize(joints.size());
+  message.joint_parent.resize(joints.size());
+  message.joint_axis.assign(joints.size(), std::vector<double>(3));
+  message.joint_place_mm.assign(joints.size(), std::vector<double>(3));
+  message.joint_min_rad.resize(joints.size());
+  message.joint_max_rad.resize(joints.size());
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    message.joint_name[i] = joints[i].name;
+    message.joint_parent[i] = joints[i].parent;
+    std::ranges::copy(joints[i].axis_T, message.joint_axis[i].begin());
+    std::ranges::copy(body.reference_points_T().col(static_cast<int>(joints[i].at)),
+                      message.joint_place_mm[i].begin());
+    message.joint_min_rad[i] = joints[i].min_rad;
+    message.joint_max_rad[i] = joints[i].max_rad;
+  }
+  message.num_sizes = static_cast<std::int32_t>(kBodySizeFields.size());
+  message.size_name.clear();
+  message.size_mm.clear();
+  for (const BodySizeField& field : kBodySizeFields) {
+    message.size_name.emplace_back(field.name);
+    message.size_mm.push_back(body.sizes().*field.value);
+  }
+}
+
+void FillVoxels(const TrackedSet& set, voxels_t& message) {
+  message.utime = set.capture_ns / kNsPerUs;
+  message.frame = set.frame;
+  CopyVector(set.grid.origin_W(), message.origin_mm);
+  message.voxel_mm = set.grid.voxel_mm();
+  for (int axis = 0; axis < 3; ++axis) message.size[axis] = set.grid.size()[axis];
+  WriteRuns(set.grid, message.run);
+  message.num_runs = static_cast<std::int32_t>(message.run.size());
+  message.label.clear();
+  if (set.result.state != CaptureState::kSearching) {
+    LabelVoxels(set.grid, set.body, set.result.pose, message.label);
+  }
+  message.num_labels = static_cast<std::int32_t>(message.label.size());
+}
+
+void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message) {
+  const PipelineStatus& status = report.status;
+  message.utime = utime;
+  message.version = MOCAP_VERSION;
+  message.state = static_cast<std::int8_t>(status.state);
+  message.sets_complete = status.sets_complete;
+  message.sets_partial = status.sets_partial;
+  message.sets_dropped = status.sets_dropped;
+  message.sets_per_second = report.sets_per_second;
+  message.spread_p50_ms = report.recent[Stage::kSpread].PercentileMs(0.5);
+  message.spread_p99_ms = report.recent[Stage::kSpread].PercentileMs(0.99);
+  message.num_cameras = static_cast<std::int32_t>(status.cameras.size());
+  message.cameras.clear();
+  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
+    const CameraStatus& from = status.cameras[i];
+    camera_status_t& camera = message.cameras.emplace_back();
+    camera.name = from.name;
+    camera.state = static_cast<std::int8_t>(from.state);
+    camera.frames_per_second = report.frames_per_second[i];
+    camera.frames = from.frames;
+    camera.dropped = from.dropped;
+    camera.late = from.late;
+    camera.torn = from.torn;
+  }
+  message.stages.clear();
+  for (const Stage stage : {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter,
+                            Stage::kTotal, Stage::kLatency}) {
+    message.stages.push_back(TimingOf(stage, report.recent[stage]));
+  }
+  message.num_stages = static_cast<std::int32_t>(message.stages.size());
+}
+
+void FillService(const ServiceReport& report, std::int64_t utime, service_t& message) {
+  message.utime = utime;
+  message.version = MOCAP_VERSION;
+  message.studio = report.studio;
+  message.up_seconds = report.up_ns / 1'000'000'000;
+  message.fps_nominal = report.fps_nominal;
+  message.complaint = Complaints(report);
+  message.num_complaints = static_cast<std::int32_t>(message.complaint.size());
+  message.calibration = report.calibration.where;
+  message.calibration_made_s = report.calibration.made_s;
+  message.background = report.background.where;
+  message.background_made_s = report.background.made_s;
+  message.bytes_free = report.bytes_free;
+  message.camera_trust.clear();
+  message.camera_off_px.clear();
+  message.camera_light.clear();
+  for (const CameraStatus& camera : report.now.status.cameras) {
+    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
+    message.camera_trust.push_back(is_known ? camera.health.overlap : -1);
+    message.camera_off_px.push_back(is_known ? camera.health.shift_px.norm() : 0);
+    message.camera_light.push_back(camera.light);
+  }
+  message.num_cameras = static_cast<std::int32_t>(message.camera_trust.size());
+  const RecordingStatus& recording = report.recording;
+  message.recording_state = static_cast<std::int8_t>(recording.state);
+  message.recording_folder = recording.folder.string();
+  message.recording_seconds = static_cast<double>(recording.duration_ns) / 1e9;
+  message.recording_frames = recording.frames;
+  message.recording_dropped = recording.dropped;
+}
+
+}  // namespace mocap

@@ -1,0 +1,29 @@
+// From the pipeline's values to LCM messages.
+#pragma once
+
+#include <cstdint>
+#include <mocap/body_t.hpp>
+#include <mocap/pose_t.hpp>
+#include <mocap/service_t.hpp>
+#include <mocap/status_t.hpp>
+#include <mocap/voxels_t.hpp>
+
+#include "daemon/pipeline/pose_sink.h"
+#include "daemon/service/service_report.h"
+#include "daemon/service/status_window.h"
+
+namespace mocap {
+
+/// Fills everything but publish_utime. While searching there is no pose, and its numbers are 0.
+/// @param cameras  of the studio. The message's memory is reused.
+void FillPose(const TrackedSet& set, int cameras, pose_t& message);
+
+void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
+
+void FillVoxels(const TrackedSet& set, voxels_t& message);
+
+void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);
+
+void FillService(const ServiceReport& report, std::int64_t utime, service_t& message);
+
+}  // namespace mocap

@@ -1,0 +1,66 @@
+// Poses, body, voxels and status on LCM.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "daemon/messages/messages.h"
+#include "daemon/pipeline/pacer.h"
+#include "daemon/pipeline/pose_sink.h"
+#include "daemon/pipeline/tap.h"
+#include "daemon/service/service_report.h"
+
+namespace mocap {
+
+/// Opens a way to publish.
+/// @throws SetupError  when there is none; without a multicast route it names the command that adds
+///                     one.
+std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
+
+/// Whether the kernel knows where to send LCM's multicast.
+bool HasMulticastRoute();
+
+/// Publishes what the contract's table of channels says. OnSet: one thread; PublishStatus: one
+/// thread, the same or another.
+class PosePublisher : public PoseSink {
+ public:
+  /// @param lcm      borrowed for the publisher's life.
+  /// @param cameras  of the studio.
+  PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras);
+
+  void OnSet(const TrackedSet& set) override;
+  /// From now on, what OnSet publishes is offered to the tap as well; borrowed for the publisher's
+  /// life. Before the first OnSet.
+  void Tap(MessageTap& tap) { tap_ = &tap; }
+  void PublishStatus(const ServiceReport& report);
+  /// How often voxels are published from now on. Any thread.
+  void SetVoxelsHz(double hz) { voxels_hz_.store(hz, std::memory_order_relaxed); }
+
+ private:
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message);
+
+  lcm::LCM& lcm_;
+  MessageTap* tap_ = nullptr;
+  std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
+  const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
+      service_channel_;
+  const int cameras_;
+  Pacer body_pacer_;
+  Pacer voxels_pacer_;
+  double paced_voxels_hz_;
+  std::atomic<double> voxels_hz_;
+  // Kept so that their memory is reused.
+  pose_t pose_;
+  body_t body_;
+  voxels_t voxels_;
+  status_t status_;
+  service_t service_;
+};
+
+}  // namespace mocap

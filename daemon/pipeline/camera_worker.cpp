@@ -1,0 +1,163 @@
+#include "daemon/pipeline/camera_worker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "daemon/clock.h"
+
+namespace mocap {
+namespace {
+
+/// Bounds how long a stop can take.
+constexpr std::chrono::milliseconds kGrabTimeout{100};
+/// Between attempts to get a lost camera back.
+constexpr std::chrono::milliseconds kLostPause{20};
+/// More say little that is new.
+constexpr int kRaysPerCamera = 100;
+/// A worker comes round ten times a second; one that does not hangs.
+constexpr std::chrono::milliseconds kReplacePause{5};
+constexpr int kReplacePauses = 400;
+constexpr float kLeastGain = 0.01f;
+/// Nobody covers more of a camera that can see the whole of a person.
+constexpr double kBlindShare = 0.35;
+/// Beyond this, pixels are at the end of their range.
+constexpr float kMostLightFactor = 2;
+
+}  // namespace
+
+CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+                           std::vector<FrameTap*> taps)
+    : camera_(std::move(camera)),
+      segmenter_(std::move(segmenter)),
+      recorders_(recorders),
+      taps_(std::move(taps)),
+      newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
+
+void CameraWorker::Stop() {
+  camera_.driver->Stop();
+  state_.store(CameraState::kEnded, std::memory_order_relaxed);
+}
+
+CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted_from_ns,
+                                         SegmentedFrame& out) {
+  if (expectation() == Expectation::kCertain) {
+    expectation_.store(Expectation::kPossible, std::memory_order_release);
+  }
+  TakeReplacement();
+  Frame frame;
+  switch (camera_.driver->Grab(frame, kGrabTimeout)) {
+    case GrabStatus::kFrame:
+      break;
+    case GrabStatus::kTimeout:
+      return Outcome::kNothing;
+    case GrabStatus::kTorn:
+      torn_.fetch_add(1, std::memory_order_relaxed);
+      return Outcome::kNothing;
+    case GrabStatus::kLost:
+      Enter(CameraState::kLost);
+      expectation_.store(Expectation::kNone, std::memory_order_release);
+      std::this_thread::sleep_for(kLostPause);
+      return Outcome::kNothing;
+    case GrabStatus::kEnd:
+      return Outcome::kEnd;
+  }
+  CountFrame(frame.sequence);
+  for (FrameTap* tap : taps_) {
+    tap->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
+  }
+  if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    expectation_.store(Expectation::kPossible, std::memory_order_release);
+    return Outcome::kNothing;
+  }
+  expectation_.store(Expectation::kCertain, std::memory_order_release);
+  out.arrival_ns = EpochNs();
+  out.capture_ns = frame.capture_ns;
+  out.sequence = frame.sequence;
+  out.X_CW = camera_.calibration.PoseAt(frame.angles);
+  const std::int64_t begin_ns = SteadyNs();
+  segmenter_.Segment(frame.image, frame.angles, out.silhouette);
+  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
+  out.segment_ns = SteadyNs() - begin_ns;
+  out.is_blind = NoteConditions(out.silhouette);
+  recorders_[Stage::kSegment].Record(out.segment_ns);
+  newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
+  return Outcome::kFrame;
+}
+
+bool CameraWorker::Replace(Segmenter segmenter) {
+  {
+    const std::scoped_lock lock(replacement_mutex_);
+    replacement_ = std::move(segmenter);
+    replacement_waits_.store(true);
+  }
+  for (int i = 0; replacement_waits_.load() && i < kReplacePauses; ++i) {
+    std::this_thread::sleep_for(kReplacePause);
+  }
+  std::optional<Segmenter> left_over;
+  const std::scoped_lock lock(replacement_mutex_);
+  std::swap(left_over, replacement_);
+  return !replacement_waits_.exchange(false);
+}
+
+void CameraWorker::TakeReplacement() {
+  if (!replacement_waits_.load(std::memory_order_relaxed)) return;
+  const std::unique_lock lock(replacement_mutex_, std::try_to_lock);
+  if (!lock || !replacement_waits_.load()) return;
+  std::swap(segmenter_, *replacement_);
+  light_.store(1, std::memory_order_relaxed);
+  replacements_.fetch_add(1, std::memory_order_relaxed);
+  replacement_waits_.store(false);
+}
+
+bool CameraWorker::NoteConditions(const Silhouette& silhouette) {
+  const Conditions& conditions = segmenter_.conditions();
+  constexpr int kGreen = 1;
+  const float light = 1 / std::max(conditions.gain[kGreen], kLeastGain);
+  const bool is_blind = silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
+                        light < 1 / kMostLightFactor;
+  is_blind_.store(is_blind, std::memory_order_relaxed);
+  light_.store(light, std::memory_order_relaxed);
+  nudged_px_.store(std::hypot(conditions.displacement.x_px, conditions.displacement.y_px),
+                   std::memory_order_relaxed);
+  return is_blind;
+}
+
+void CameraWorker::Enter(CameraState state) {
+  if (state_.exchange(state, std::memory_order_relaxed) == state) return;
+  std::vector<std::string> remarks = camera_.driver->Facts().remarks;
+  const std::lock_guard lock(remarks_mutex_);
+  remarks_ = std::move(remarks);
+}
+
+void CameraWorker::CountFrame(std::uint64_t sequence) {
+  Enter(CameraState::kStreaming);
+  // The first frame's number means nothing, and a camera that came back counts from anew.
+  const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
+  if (!is_first && sequence > next_sequence_) {
+    const auto gap = static_cast<std::int64_t>(sequence - next_sequence_);
+    dropped_.fetch_add(gap, std::memory_order_relaxed);
+  }
+  next_sequence_ = sequence + 1;
+}
+
+CameraStatus CameraWorker::Status() const {
+  CameraStatus status;
+  status.name = camera_.calibration.name;
+  status.state = state_.load(std::memory_order_relaxed);
+  status.frames = frames_.load(std::memory_order_relaxed);
+  status.dropped = dropped_.load(std::memory_order_relaxed);
+  status.torn = torn_.load(std::memory_order_relaxed);
+  status.replacements = replacements_.load(std::memory_order_relaxed);
+  status.light = light_.load(std::memory_order_relaxed);
+  status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
+  status.is_blind = is_blind_.load(std::memory_order_relaxed);
+  const std::lock_guard lock(remarks_mutex_);
+  status.remarks = remarks_;
+  return status;
+}
+
+}  // namespace mocap

@@ -1,0 +1,107 @@
+#include "daemon/pipeline/carve_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.h"
+#include "daemon/clock.h"
+
+namespace mocap {
+
+CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
+                       const CarvingOptions& options, StageRecorders& recorders)
+    : synchronizer_(std::move(synchronizer)), carver_(options), recorders_(recorders) {
+  MOCAP_CHECK(cameras.size() <= kMaxCameras);
+  for (const CameraCalibration& camera : cameras) cameras_.emplace_back(camera);
+  views_.reserve(cameras.size());
+}
+
+void CarveStage::Offer(int camera, SegmentedFrame& frame) {
+  Camera& offering = cameras_[camera];
+  if (frame.capture_ns < wanted_from_ns_.load(std::memory_order_relaxed)) {
+    offering.left_out.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  if (synchronizer_.Offer(camera, frame.capture_ns, frame.sequence)) {
+    std::swap(offering.front, frame);
+  }
+  offering.late.store(synchronizer_.late(camera), std::memory_order_relaxed);
+}
+
+Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
+  const Synchronizer::Verdict verdict = synchronizer_.Decide();
+  if (verdict == Synchronizer::Verdict::kLetGo) {
+    const int camera = synchronizer_.camera();
+    cameras_[camera].late.store(synchronizer_.late(camera), std::memory_order_relaxed);
+  }
+  if (verdict != Synchronizer::Verdict::kSet) return verdict;
+  const std::int64_t begin_ns = SteadyNs();
+  Gather(set);
+  if (load_control_) {
+    load_control_->AddSet(set.capture_ns, set.complete_ns, EpochNs(), synchronizer_.PeriodNs());
+    PublishLoad();
+  }
+  carver_.Carve(views_, set.grid);
+  const std::int64_t carve_ns = SteadyNs() - begin_ns;
+  set.work_ns += carve_ns;
+  recorders_[Stage::kCarve].Record(carve_ns);
+  recorders_[Stage::kSpread].Record(synchronizer_.spread_ns());
+  if (seen_ && seen_pacer_.IsDue(SteadyNs())) OfferToWatch();
+  const bool complete = views_.size() == cameras_.size();
+  (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
+  return verdict;
+}
+
+void CarveStage::OfferToWatch() {
+  seen_->Offer([this](SeenSet& copy) {
+    copy.cameras.clear();
+    copy.X_CW.clear();
+    copy.silhouettes.resize(views_.size());
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      if (!synchronizer_.members()[i]) continue;
+      copy.silhouettes[copy.cameras.size()] = cameras_[i].front.silhouette;
+      copy.X_CW.push_back(cameras_[i].front.X_CW);
+      copy.cameras.push_back(static_cast<int>(i));
+    }
+    return true;
+  });
+}
+
+void CarveStage::SetTracked(std::int64_t sets) {
+  if (!load_control_) return;
+  load_control_->SetUnderWay(next_frame_ - sets, EpochNs());
+  PublishLoad();
+}
+
+void CarveStage::PublishLoad() {
+  const std::int64_t wanted_from_ns = load_control_->wanted_from_ns();
+  wanted_from_ns_.store(wanted_from_ns, std::memory_order_relaxed);
+  skipped_sets_.store(load_control_->skipped(), std::memory_order_relaxed);
+  for (int i = 0; i < camera_count(); ++i) {
+    if (!synchronizer_.LetGoBefore(i, wanted_from_ns)) continue;
+    cameras_[i].left_out.fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+void CarveStage::Gather(CarvedSet& set) {
+  set.frame = next_frame_++;
+  set.capture_ns = synchronizer_.set_ns();
+  set.complete_ns = set.work_ns = 0;
+  set.cameras = 0;
+  views_.clear();
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!synchronizer_.members()[i]) continue;
+    const Camera& camera = cameras_[i];
+    set.complete_ns = std::max(set.complete_ns, camera.front.arrival_ns);
+    set.work_ns = std::max(set.work_ns, camera.front.segment_ns);
+    if (camera.front.is_blind) continue;
+    views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
+    set.cameras |= std::uint64_t{1} << i;
+  }
+  set.outlines.resize(views_.size());
+  for (std::size_t i = 0, view = 0; i < cameras_.size(); ++i) {
+    if (set.cameras >> i & 1) set.outlines[view++] = cameras_[i].front.outline;
+  }
+}
+
+}  // namespace mocap

@@ -1,0 +1,101 @@
+// From the cameras' silhouettes to one voxel grid a set.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/carving/carver.h"
+#include "daemon/pipeline/camera_worker.h"
+#include "daemon/pipeline/load_control.h"
+#include "daemon/pipeline/pacer.h"
+#include "daemon/pipeline/stage.h"
+#include "daemon/pipeline/synchronizer.h"
+#include "daemon/service/health_watch.h"
+
+namespace mocap {
+
+/// More cameras than any studio has; a set of them is one word.
+inline constexpr int kMaxCameras = 64;
+
+/// One frame set, carved.
+struct CarvedSet {
+  VoxelGrid grid;
+  std::vector<Outline> outlines;  ///< Of the members' silhouettes.
+  std::int64_t frame = 0;         ///< Counts sets from 0.
+  std::int64_t capture_ns = 0;    ///< The middle one of the members' times.
+  std::int64_t complete_ns = 0;   ///< When the last member had arrived, since the Unix epoch.
+  std::int64_t work_ns = 0;       ///< The slowest member's segmentation, and carving.
+  std::uint64_t cameras = 0;      ///< Bit i: camera i is in.
+};
+
+/// Matches silhouettes by time and carves each set. One thread; counters and wanted_from_ns: any.
+class CarveStage {
+ public:
+  CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
+             const CarvingOptions& options, StageRecorders& recorders);
+  /// Leaves out sets when there is too much to do. Without it, every set is carved.
+  void ControlLoad() { load_control_.emplace(); }
+  /// Offers copies of a set's silhouettes now and then; borrowed for the stage's life.
+  void Show(SetTap& tap) { seen_ = &tap; }
+
+  int camera_count() const { return static_cast<int>(cameras_.size()); }
+  bool NeedsFrame(int camera) const { return !synchronizer_.has_front(camera); }
+  /// Takes a camera's next frame; the silhouettes change places, so that memory goes round. What is
+  /// not wanted any more is dropped.
+  void Offer(int camera, SegmentedFrame& frame);
+  Synchronizer& synchronizer() { return synchronizer_; }
+  /// Frames captured before this are not worth segmenting. Any thread.
+  const std::atomic<std::int64_t>& wanted_from_ns() const { return wanted_from_ns_; }
+
+  /// Tells how many sets have been handed on; without load control that means nothing.
+  void SetTracked(std::int64_t sets);
+  /// Takes the synchronizer's next decision; a set is carved into `set`.
+  Synchronizer::Verdict Next(CarvedSet& set);
+
+  std::int64_t complete_sets() const { return complete_sets_.load(std::memory_order_relaxed); }
+  std::int64_t partial_sets() const { return partial_sets_.load(std::memory_order_relaxed); }
+  /// Sets that were left out because there was too much to do.
+  std::int64_t skipped_sets() const { return skipped_sets_.load(std::memory_order_relaxed); }
+  /// Segmented frames that were not wanted any more.
+  std::int64_t left_out(int camera) const {
+    return cameras_[camera].left_out.load(std::memory_order_relaxed);
+  }
+  std::int64_t late(int camera) const {
+    return cameras_[camera].late.load(std::memory_order_relaxed);
+  }
+
+ private:
+  struct Camera {
+    explicit Camera(const CameraCalibration& calibration) : table(calibration) {}
+
+    SensorPlaneTable table;
+    SegmentedFrame front;
+    std::atomic<std::int64_t> late{0};
+    std::atomic<std::int64_t> left_out{0};
+  };
+
+  void Gather(CarvedSet& set);
+  void OfferToWatch();
+  void PublishLoad();
+
+  std::deque<Camera> cameras_;  // Cameras with counters do not move.
+  Synchronizer synchronizer_;
+  std::optional<LoadControl> load_control_;
+  Carver carver_;
+  StageRecorders& recorders_;
+  std::vector<CarvingView> views_;
+  SetTap* seen_ = nullptr;
+  Pacer seen_pacer_{HealthWatch::kHz};
+  std::int64_t next_frame_ = 0;
+  std::atomic<std::int64_t> wanted_from_ns_{std::numeric_limits<std::int64_t>::min()};
+  std::atomic<std::int64_t> skipped_sets_{0};
+  std::atomic<std::int64_t> complete_sets_{0};
+  std::atomic<std::int64_t> partial_sets_{0};
+};
+
+}  // namespace mocap

@@ -1,0 +1,274 @@
+#include "daemon/pipeline/pipeline.h"
+
+#include <pthread.h>
+
+#include <cmath>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/errors.h"
+#include "daemon/pipeline/realtime.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kFramesQueued = 4;
+constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
+/// Live: how many periods the other cameras may be ahead before a set goes on without one.
+constexpr double kPatiencePeriods = 1.75;
+// By the time that a set went on without a camera, up to a period later, it must not be too old.
+static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
+constexpr std::size_t kLongestThreadName = 15;
+
+/// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
+std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
+                                        const SegmentationOptions& options) {
+  std::vector<std::future<Segmenter>> learning;
+  for (const StudioCamera& camera : cameras) {
+    learning.push_back(std::async(std::launch::async, [&camera, &options] {
+      return Segmenter(camera.calibration, camera.background(), options);
+    }));
+  }
+  std::vector<Segmenter> segmenters;
+  for (auto& learned : learning) segmenters.push_back(learned.get());
+  return segmenters;
+}
+
+Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
+  const bool is_live = overflow == Overflow::kDropOldest;
+  return Synchronizer(static_cast<int>(studio.cameras.size()),
+                      std::llround(1e9 / studio.fps_nominal),
+                      is_live ? kPatiencePeriods : Synchronizer::kWaitForever);
+}
+
+}  // namespace
+
+/// One camera's thread and the queue it fills.
+struct Pipeline::CameraLine {
+  CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
+             std::vector<FrameTap*> taps, Overflow overflow, Doorbell& carve_bell)
+      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps)),
+        queue(kFramesQueued, overflow, carve_bell) {}
+
+  CameraWorker worker;
+  SpscQueue<SegmentedFrame> queue;
+  bool ended = false;  ///< Nothing more will come; the carving thread's view.
+  std::atomic<std::int64_t> turns{0};
+  std::atomic<bool> has_ended{false};  ///< The camera's thread is done.
+};
+
+Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,
+                   PoseSink& sink)
+    : options_(options),
+      sets_(kSetsQueued, Overflow::kWait, track_bell_),
+      track_(body, options.latency_origin, sink, recorders_) {
+  if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
+    throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
+                     " cameras, wanted 1 to " + std::to_string(kMaxCameras));
+  }
+  std::vector<CameraCalibration> calibrations;
+  for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
+  carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
+                                        CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
+  if (options.overflow == Overflow::kDropOldest) {
+    carve_->ControlLoad();
+    health_ = std::make_unique<HealthWatch>(calibrations);
+    carve_->Show(health_->tap());
+  }
+  std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
+  for (std::size_t i = 0; i < segmenters.size(); ++i) {
+    std::vector<FrameTap*> taps;
+    for (std::deque<FrameTap>* of_all : options.taps) taps.push_back(&of_all->at(i));
+    lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
+                                                  std::move(segmenters[i]), recorders_,
+                                                  std::move(taps), options.overflow, carve_bell_));
+  }
+}
+
+Pipeline::~Pipeline() {
+  RequestStop();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+template <typename Body>
+void Pipeline::Guard(Body body) {
+  try {
+    body();
+  } catch (...) {
+    if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+    RequestStop();
+  }
+}
+
+template <typename Body>
+void Pipeline::Launch(const std::string& name, Body body) {
+  threads_.emplace_back([this, name, body] {
+    pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+    // Whether they may is known by now; without it, frames are only more often late.
+    if (options_.priority > 0) TakePriority(options_.priority);
+    KeepToProcessors(options_.processors);
+    body();
+  });
+}
+
+void Pipeline::Start() {
+  for (const auto& line : lines_) {
+    Launch(line->worker.calibration().name, [this, &line = *line] {
+      Guard([&] { RunCamera(line); });
+      line.has_ended.store(true, std::memory_order_relaxed);
+      line.queue.Close();
+    });
+  }
+  Launch("carve", [this] {
+    Guard([&] { RunCarving(); });
+    carving_has_ended_.store(true, std::memory_order_relaxed);
+    for (const auto& line : lines_) line->queue.Close();
+    sets_.Close();
+  });
+  Launch("track", [this] {
+    Guard([&] { RunTracking(); });
+    sets_.Close();
+    finished_.store(true, std::memory_order_release);
+  });
+}
+
+void Pipeline::Join() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Pipeline::RunCamera(CameraLine& line) {
+  line.worker.Start();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    line.turns.fetch_add(1, std::memory_order_relaxed);
+    const CameraWorker::Outcome outcome =
+        line.worker.Next(carve_->wanted_from_ns(), line.queue.back());
+    if (outcome == CameraWorker::Outcome::kEnd) break;
+    if (outcome == CameraWorker::Outcome::kFrame) {
+      line.queue.Push();
+    } else {
+      // The carver may have to go on without this camera.
+      carve_bell_.Ring();
+    }
+  }
+  line.worker.Stop();
+}
+
+bool Pipeline::FeedFromQueues() {
+  bool all_ended = true;
+  for (int i = 0; i < carve_->camera_count(); ++i) {
+    CameraLine& line = *lines_[i];
+    // First what is on the way, then what has come: whatever comes in between rings the bell.
+    const bool is_closed = line.queue.closed();
+    const Expectation expectation = line.worker.expectation();
+    while (carve_->NeedsFrame(i) && line.queue.TryPop()) carve_->Offer(i, line.queue.front());
+    line.ended = is_closed && carve_->NeedsFrame(i);
+    carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : expectation);
+    carve_->synchronizer().NoteNewest(line.worker.newest_ns());
+    all_ended &= line.ended;
+  }
+  return all_ended;
+}
+
+void Pipeline::RunCarving() {
+  for (;;) {
+    const int seen = carve_bell_.count();
+    carving_turns_.fetch_add(1, std::memory_order_relaxed);
+    carve_->SetTracked(track_.sets());
+    const bool all_ended = FeedFromQueues();
+    const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
+    if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
+    if (verdict != Synchronizer::Verdict::kWait) continue;
+    if (all_ended) return;
+    carve_bell_.WaitPast(seen);
+  }
+}
+
+void Pipeline::RunTracking() {
+  for (;;) {
+    const int seen = track_bell_.count();
+    const bool is_closed = sets_.closed();
+    if (sets_.TryPop()) {
+      track_.Process(sets_.front());
+      carve_bell_.Ring();
+    } else if (is_closed) {
+      return;
+    } else {
+      track_bell_.WaitPast(seen);
+    }
+  }
+}
+
+bool Pipeline::FeedSerially() {
+  bool all_ended = true;
+  for (int i = 0; i < carve_->camera_count(); ++i) {
+    CameraLine& line = *lines_[i];
+    while (carve_->NeedsFrame(i) && !line.ended) {
+      const CameraWorker::Outcome outcome =
+          line.worker.Next(carve_->wanted_from_ns(), line.queue.back());
+      if (outcome == CameraWorker::Outcome::kFrame) carve_->Offer(i, line.queue.back());
+      line.ended = outcome == CameraWorker::Outcome::kEnd || stop_.load(std::memory_order_relaxed);
+    }
+    carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : Expectation::kCertain);
+    all_ended &= line.ended && carve_->NeedsFrame(i);
+  }
+  return all_ended;
+}
+
+void Pipeline::RunSerially() {
+  for (const auto& line : lines_) line->worker.Start();
+  for (bool all_ended = false; !all_ended;) {
+    all_ended = FeedSerially();
+    while (carve_->Next(sets_.back()) == Synchronizer::Verdict::kSet) track_.Process(sets_.back());
+  }
+  for (const auto& line : lines_) line->worker.Stop();
+  finished_.store(true, std::memory_order_release);
+}
+
+void Pipeline::ReplaceBackground(int camera, std::span<const BackgroundFrame> background) {
+  CameraWorker& worker = lines_.at(static_cast<std::size_t>(camera))->worker;
+  if (!worker.Replace(Segmenter(worker.calibration(), background, options_.segmentation))) {
+    throw std::runtime_error(worker.calibration().name + " did not take over what was learned");
+  }
+}
+
+PipelineStatus Pipeline::Status() const {
+  PipelineStatus status;
+  status.state = track_.state();
+  status.sets_complete = carve_->complete_sets();
+  status.sets_partial = carve_->partial_sets();
+  status.sets_dropped = carve_->skipped_sets();
+  status.sets_tracked = track_.sets();
+  for (int i = 0; i < carve_->camera_count(); ++i) {
+    CameraStatus& camera = status.cameras.emplace_back(lines_[i]->worker.Status());
+    camera.late = carve_->late(i);
+    camera.dropped += lines_[i]->queue.dropped() + carve_->left_out(i) + camera.late;
+  }
+  if (health_) {
+    const std::vector<CameraHealth> health = health_->Health();
+    for (std::size_t i = 0; i < health.size(); ++i) status.cameras[i].health = health[i];
+  }
+  status.stages = StageHistograms(recorders_);
+  return status;
+}
+
+FrameProgress Pipeline::Progress() const {
+  FrameProgress progress;
+  for (const auto& line : lines_) {
+    progress.cameras.push_back({line->turns.load(std::memory_order_relaxed),
+                                line->has_ended.load(std::memory_order_relaxed)});
+  }
+  progress.carving = {carving_turns_.load(std::memory_order_relaxed),
+                      carving_has_ended_.load(std::memory_order_relaxed)};
+  // Tracked first: what is matched in between then still waits.
+  progress.sets_tracked = track_.sets();
+  progress.sets_matched = carve_->complete_sets() + carve_->partial_sets();
+  return progress;
+}
+
+}  // namespace mocap

@@ -1,0 +1,52 @@
+#include "daemon/pipeline/track_stage.h"
+
+#include <memory>
+
+#include "daemon/clock.h"
+
+namespace mocap {
+
+TrackStage::TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
+                       StageRecorders& recorders)
+    : capture_(body), origin_(origin), sink_(sink), recorders_(recorders) {}
+
+TrackStage::~TrackStage() { delete next_subject_.load(); }
+
+void TrackStage::ChangeSubject(const std::optional<BodySizes>& sizes) {
+  delete next_subject_.exchange(new Subject(sizes));
+}
+
+void TrackStage::Process(const CarvedSet& set) {
+  if (next_subject_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
+    *subject ? capture_.Expect(**subject) : capture_.Forget();
+  }
+  stage_ns_ = {};
+  const std::int64_t begin_ns = mark_ns_ = SteadyNs();
+  const CaptureResult& result = capture_.Update(set.grid, set.outlines, set.capture_ns, this);
+  const std::int64_t update_ns = SteadyNs() - begin_ns;
+  recorders_[Stage::kLabel].Record(stage_ns_[0]);
+  recorders_[Stage::kFilter].Record(stage_ns_[1]);
+  recorders_[Stage::kTotal].Record(set.work_ns + update_ns);
+  state_.store(result.state, std::memory_order_relaxed);
+  sink_.OnSet({.frame = set.frame,
+               .capture_ns = set.capture_ns,
+               .complete_ns = set.complete_ns,
+               .cameras = set.cameras,
+               .acquisition_frames = capture_.acquisition_frames(),
+               .result = result,
+               .body = capture_.body(),
+               .grid = set.grid});
+  const std::int64_t from_ns =
+      origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
+  recorders_[Stage::kLatency].Record(EpochNs() - from_ns);
+  sets_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void TrackStage::OnStageEnd(UpdateStage stage) {
+  const std::int64_t now_ns = SteadyNs();
+  stage_ns_[static_cast<std::size_t>(stage)] += now_ns - mark_ns_;
+  mark_ns_ = now_ns;
+}
+
+}  // namespace mocap

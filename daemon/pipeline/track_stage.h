@@ -1,0 +1,53 @@
+// From voxel grids to poses that are handed on.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "core/motion_capture.h"
+#include "daemon/pipeline/carve_stage.h"
+#include "daemon/pipeline/pose_sink.h"
+#include "daemon/pipeline/stage.h"
+
+namespace mocap {
+
+/// What latency counts from.
+enum class LatencyOrigin {
+  kCapture,  ///< The frames' own time: cameras, and recordings in real time.
+  kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
+};
+
+/// Tracks set after set and hands each on. One thread; counters: any.
+class TrackStage : private UpdateObserver {
+ public:
+  TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
+             StageRecorders& recorders);
+
+  ~TrackStage();
+
+  void Process(const CarvedSet& set);
+  /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
+  /// there. Any thread.
+  void ChangeSubject(const std::optional<BodySizes>& sizes);
+  std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
+  CaptureState state() const { return state_.load(std::memory_order_relaxed); }
+
+ private:
+  using Subject = std::optional<BodySizes>;
+
+  void OnStageEnd(UpdateStage stage) override;
+
+  MotionCapture capture_;
+  LatencyOrigin origin_;
+  PoseSink& sink_;
+  StageRecorders& recorders_;
+  std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
+  std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
+  std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.
+  std::atomic<std::int64_t> sets_{0};
+  std::atomic<CaptureState> state_{CaptureState::kSearching};
+};
+
+}  // namespace mocap

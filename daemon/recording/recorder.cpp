@@ -1,0 +1,55 @@
+#include "daemon/recording/recorder.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "daemon/service/service_folders.h"
+
+namespace mocap {
+
+Recorder::Recorder(RecordedStudio studio) : studio_(std::move(studio)) {
+  taps_.frames.resize(studio_.cameras.size());
+}
+
+std::filesystem::path Recorder::Start(const std::string& name, const RecordingConfig& config,
+                                      const std::optional<BodySizes>& subject) {
+  const std::scoped_lock change(change_mutex_);
+  if (Status().state == RecordingStatus::State::kRunning) {
+    throw std::runtime_error(Status().folder.string() + " is being recorded; mocap record stop");
+  }
+  const std::filesystem::path folder = TakesFolder(config) / name;
+  {
+    // The last one gives the taps back before the next takes them.
+    const std::scoped_lock lock(mutex_);
+    recording_.reset();
+  }
+  auto recording = std::make_shared<Recording>(folder, config, studio_, subject, taps_);
+  const std::scoped_lock lock(mutex_);
+  recording_ = std::move(recording);
+  return folder;
+}
+
+RecordingStatus Recorder::Stop() {
+  const std::scoped_lock change(change_mutex_);
+  if (Status().state != RecordingStatus::State::kRunning) {
+    throw std::runtime_error("nothing is being recorded");
+  }
+  std::shared_ptr<Recording> recording;
+  {
+    const std::scoped_lock lock(mutex_);
+    recording = recording_;
+  }
+  recording->Stop();
+  return recording->Status();
+}
+
+RecordingStatus Recorder::Status() const {
+  const std::scoped_lock lock(mutex_);
+  return recording_ ? recording_->Status() : RecordingStatus{};
+}
+
+std::filesystem::path TakesFolder(const RecordingConfig& config) {
+  return config.folder.empty() ? StateFolder() / "takes" : config.folder;
+}
+
+}  // namespace mocap

@@ -1,0 +1,302 @@
+#include "daemon/recording/recording.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "config/subject_file.h"
+#include "core/errors.h"
+#include "daemon/clock.h"
+#include "daemon/control/control_socket.h"
+#include "daemon/messages/message_log.h"
+#include "daemon/pipeline/realtime.h"
+#include "daemon/recording/disk_space.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/utc_time.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::chrono::milliseconds kKeeperTick{100};
+/// What waits is lost when the program is killed, and what was not made safe when the power fails:
+/// together less than a second.
+constexpr double kMostWaitingS = 0.5;
+constexpr std::int64_t kSafeEveryNs = 300'000'000;
+constexpr std::size_t kMessagesQueued = 1024;
+constexpr std::size_t kFewestFrames = 2;
+
+constexpr const char* NameOf(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::kHuffYuv:
+      return "huffyuv";
+    case VideoCodec::kFfv1:
+      return "ffv1";
+    case VideoCodec::kRaw:
+      return "raw";
+  }
+  return "";
+}
+
+TakeDescription DescriptionOf(const std::filesystem::path& folder, const RecordingConfig& config,
+                              const RecordedStudio& studio) {
+  TakeDescription description{.name = folder.filename(),
+                              .fps_nominal = studio.fps_nominal,
+                              .cameras = {},
+                              .notes = {{"created", UtcText(EpochS())},
+                                        {"recorded_by", std::string("mocapd ") + MOCAP_VERSION},
+                                        {"studio", studio.name}},
+                              .codec = config.codec};
+  for (const RecordedCamera& camera : studio.cameras) {
+    description.cameras.push_back(camera.calibration);
+  }
+  return description;
+}
+
+/// Looks before anything is made.
+const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
+                                      const RecordingConfig& config) {
+  std::error_code error;
+  std::filesystem::create_directories(folder.parent_path(), error);
+  if (error) {
+    throw SetupError(folder.parent_path().string() + ": cannot be made: " + error.message());
+  }
+  const auto free_mb = static_cast<double>(BytesFree(folder.parent_path())) / 1e6;
+  if (free_mb < config.keep_free_mb) {
+    throw SetupError(fmt::format("{}: has {:.0f} MB left, and recording.keep_free_mb is {:.0f}",
+                                 folder.parent_path().string(), free_mb, config.keep_free_mb));
+  }
+  return folder;
+}
+
+void WriteText(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+FileDescriptor OpenToSync(const std::filesystem::path& file) {
+  return FileDescriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
+}  // namespace
+
+/// One camera's part.
+struct Recording::Line {
+  std::thread thread;
+  Doorbell bell;
+  FileDescriptor video, table;  ///< To keep them safe from a loss of power.
+  std::atomic<std::int64_t> frames{0};
+  std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
+  std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
+  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue.
+  // The camera's thread only:
+  std::optional<std::uint64_t> next_sequence;
+  std::int64_t last_ns = -1;
+};
+
+Recording::Recording(const std::filesystem::path& folder, const RecordingConfig& config,
+                     const RecordedStudio& studio, const std::optional<BodySizes>& subject,
+                     RecordingTaps& taps)
+    : config_(config),
+      studio_(studio),
+      taps_(taps),
+      writer_(WithRoom(folder, config), DescriptionOf(folder, config, studio)),
+      folder_(folder),
+      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())) {
+  const TakeLayout layout{writer_.partial_folder()};
+  if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
+  if (subject) SaveSubject(layout.Subject(), *subject);
+  for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
+    const std::string& name = studio.cameras[i].calibration.name;
+    Line& line = *lines_.emplace_back(std::make_unique<Line>());
+    line.video = OpenToSync(layout.Video(name));
+    line.table = OpenToSync(layout.Table(name));
+  }
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
+  }
+  backgrounds_.wait();
+  Begin();
+  if (has_failed_.load()) {
+    Stop();
+    throw std::runtime_error(Status().problem);
+  }
+}
+
+void Recording::Begin() {
+  begin_ns_ = SteadyNs();
+  const double buffer_mb = config_.buffer_mb / static_cast<double>(lines_.size());
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const CameraCalibration& camera = studio_.cameras[i].calibration;
+    TappedFrame item;
+    item.image = Image<Bgr>(camera.width_px, camera.height_px);
+    const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
+    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio_.fps_nominal);
+    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
+                         lines_[i]->bell);
+  }
+  taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
+  begun_.count_down();
+  keeper_ = std::thread([this] { RunKeeper(); });
+}
+
+Recording::~Recording() { Stop(); }
+
+void Recording::Stop() {
+  stop_.store(true);
+  if (keeper_.joinable()) keeper_.join();
+}
+
+void Recording::Fail(const std::string& problem) {
+  stop_.store(true);
+  has_failed_.store(true);
+  const std::scoped_lock lock(mutex_);
+  if (problem_.empty()) {
+    problem_ = problem;
+    spdlog::error("recording {}: {}", folder_.filename().c_str(), problem);
+  }
+}
+
+template <typename Body>
+void Recording::Guard(Body body) {
+  try {
+    body();
+  } catch (const std::exception& error) {
+    Fail(error.what());
+  }
+}
+
+void Recording::RunCamera(std::size_t camera) {
+  const RecordedCamera& recorded = studio_.cameras[camera];
+  StepBehind("rec " + recorded.calibration.name);
+  Guard([&] {
+    std::int64_t time_ns = 0;
+    for (const BackgroundFrame& frame : recorded.background()) {
+      writer_.WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
+                              frame.angles);
+    }
+  });
+  backgrounds_.count_down();
+  begun_.wait();
+  Guard([&] { WriteFrames(camera); });
+}
+
+void Recording::WriteFrames(std::size_t camera) {
+  Line& line = *lines_[camera];
+  FrameTap::Queue& queue = taps_.frames[camera].queue();
+  const int number = static_cast<int>(camera);
+  while (!has_failed_.load(std::memory_order_relaxed)) {
+    const int seen = line.bell.count();
+    const bool is_closed = queue.closed();
+    if (!queue.TryPop()) {
+      if (is_closed) return;
+      line.bell.WaitPast(seen);
+      continue;
+    }
+    const TappedFrame& frame = queue.front();
+    if (frame.capture_ns <= line.last_ns) {
+      line.refused.fetch_add(1, std::memory_order_relaxed);
+      continue;
+    }
+    if (line.next_sequence && frame.sequence > *line.next_sequence) {
+      const std::uint64_t gap = frame.sequence - *line.next_sequence;
+      writer_.SkipFrames(number, gap);
+      line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
+    }
+    line.next_sequence = frame.sequence + 1;
+    line.last_ns = frame.capture_ns;
+    writer_.WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
+    line.frames.fetch_add(1, std::memory_order_relaxed);
+    line.dropped.store(queue.dropped(), std::memory_order_relaxed);
+  }
+}
+
+void Recording::RunKeeper() {
+  StepBehind("rec keeper");
+  std::int64_t safe_ns = SteadyNs();
+  Guard([&] {
+    MessageLog log(TakeLayout{writer_.partial_folder()}.Poses());
+    const auto drain = [&] {
+      while (taps_.messages.queue().TryPop()) log.Write(taps_.messages.queue().front());
+      log.Flush();
+    };
+    while (!stop_.load()) {
+      std::this_thread::sleep_for(kKeeperTick);
+      drain();
+      if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
+      safe_ns = SteadyNs();
+      KeepSafe();
+    }
+    taps_.messages.Close();
+    drain();
+  });
+  stop_.store(true);
+  end_ns_.store(SteadyNs());
+  taps_.messages.Close();
+  for (FrameTap& tap : taps_.frames) tap.Close();
+  for (const auto& line : lines_) line->thread.join();
+  Complete();
+  for (FrameTap& tap : taps_.frames) tap.Free();
+  taps_.messages.Free();
+}
+
+void Recording::KeepSafe() {
+  for (const auto& line : lines_) {
+    fdatasync(line->video.get());
+    fdatasync(line->table.get());
+    // Nobody reads it soon; the memory is worth more to others.
+    posix_fadvise(line->video.get(), 0, 0, POSIX_FADV_DONTNEED);
+  }
+  const auto free_mb = static_cast<double>(BytesFree(writer_.partial_folder())) / 1e6;
+  if (free_mb >= config_.keep_free_mb) return;
+  stop_.store(true);
+  const std::scoped_lock lock(mutex_);
+  problem_ = fmt::format("ended because the disk has {:.0f} MB left", free_mb);
+  spdlog::warn("recording {} {}", folder_.filename().c_str(), problem_);
+}
+
+void Recording::Complete() {
+  Guard([&] {
+    std::vector<std::pair<std::string, std::string>> notes = {{"codec", NameOf(config_.codec)}};
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const Line& line = *lines_[i];
+      const std::string& name = studio_.cameras[i].calibration.name;
+      notes.emplace_back("frames_" + name, std::to_string(line.frames));
+      notes.emplace_back("missing_frames_" + name, std::to_string(line.missing + line.refused));
+      notes.emplace_back("dropped_while_recording_" + name, std::to_string(line.dropped));
+    }
+    if (!has_failed_.load()) {
+      writer_.AddNotes(notes);
+      writer_.Finish();
+    }
+  });
+  const std::scoped_lock lock(mutex_);
+  state_ = has_failed_.load() ? RecordingStatus::State::kFailed : RecordingStatus::State::kComplete;
+}
+
+RecordingStatus Recording::Status() const {
+  RecordingStatus status;
+  const std::int64_t end_ns = end_ns_.load();
+  status.duration_ns = (end_ns > 0 ? end_ns : SteadyNs()) - begin_ns_;
+  for (const auto& line : lines_) {
+    status.frames += line->frames.load(std::memory_order_relaxed);
+    status.dropped += line->dropped.load(std::memory_order_relaxed);
+  }
+  const std::scoped_lock lock(mutex_);
+  status.state = state_;
+  status.problem = problem_;
+  const bool is_complete = state_ == RecordingStatus::State::kComplete;
+  status.folder = is_complete ? folder_ : writer_.partial_folder();
+  return status;
+}
+
+}  // namespace mocap

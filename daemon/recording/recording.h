@@ -1,0 +1,115 @@
+// One take being recorded while tracking goes on.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <latch>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "config/service_config.h"
+#include "core/body/body_sizes.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/segmenter.h"
+#include "daemon/pipeline/doorbell.h"
+#include "daemon/pipeline/tap.h"
+#include "drivers/take/take_writer.h"
+
+namespace mocap {
+
+/// What a recording needs to know of a camera.
+struct RecordedCamera {
+  CameraCalibration calibration;
+  std::function<std::vector<BackgroundFrame>()> background;
+};
+
+/// The studio as a recording sees it.
+struct RecordedStudio {
+  std::string name;
+  double fps_nominal = 30;
+  std::vector<RecordedCamera> cameras;
+  std::string config_text;  ///< Kept in the take; empty: there is none.
+};
+
+/// Where the pipeline's threads leave what they have, in the order of the cameras.
+struct RecordingTaps {
+  std::deque<FrameTap> frames;
+  MessageTap messages;
+};
+
+/// How a recording does, or did.
+struct RecordingStatus {
+  enum class State { kNone, kRunning, kComplete, kFailed };
+  State state = State::kNone;
+  std::filesystem::path folder;
+  std::int64_t duration_ns = 0;
+  std::int64_t frames = 0;   ///< Written, of all cameras.
+  std::int64_t dropped = 0;  ///< Came from the cameras and had no room, of all cameras.
+  std::string problem;       ///< Why it ended by itself.
+};
+
+/// Records until Stop, until the disk is nearly full or until something cannot be written.
+///
+/// One thread a camera codes and writes, one writes messages, keeps what is written safe from a
+/// loss of power and completes the take; all behind the pipeline's threads in priority.
+class Recording {
+ public:
+  /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
+  /// return on.
+  /// @param folder   of the take to be. @param subject  whose sizes are known, if they are.
+  /// @param taps     borrowed for the recording's life.
+  /// @throws SetupError          when the folder cannot be made, or there is too little room.
+  /// @throws std::runtime_error  when something cannot be written.
+  Recording(const std::filesystem::path& folder, const RecordingConfig& config,
+            const RecordedStudio& studio, const std::optional<BodySizes>& subject,
+            RecordingTaps& taps);
+  /// Stops.
+  ~Recording();
+
+  /// Writes what waits and completes the take, which takes its time.
+  void Stop();
+  /// Any thread.
+  RecordingStatus Status() const;
+
+ private:
+  struct Line;
+
+  void Begin();
+  void RunCamera(std::size_t camera);
+  void WriteFrames(std::size_t camera);
+  void RunKeeper();
+  void KeepSafe();
+  void WriteMessages();
+  void Complete();
+  void Fail(const std::string& problem);
+  template <typename Body>
+  void Guard(Body body);
+
+  const RecordingConfig config_;
+  const RecordedStudio& studio_;
+  RecordingTaps& taps_;
+  TakeWriter writer_;
+  const std::filesystem::path folder_;
+  std::vector<std::unique_ptr<Line>> lines_;
+  Doorbell keeper_bell_;
+  std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
+  std::latch begun_{1};     ///< Frames are kept from here on.
+  std::int64_t begin_ns_ = 0;
+  std::atomic<std::int64_t> end_ns_{0};
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> has_failed_{false};
+  mutable std::mutex mutex_;  ///< Of what follows.
+  RecordingStatus::State state_ = RecordingStatus::State::kRunning;
+  std::string problem_;
+  std::thread keeper_;
+};
+
+}  // namespace mocap

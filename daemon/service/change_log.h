@@ -1,0 +1,30 @@
+// What the log tells: changes, not the course of things.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "daemon/pipeline/pipeline.h"
+
+namespace mocap {
+
+/// Logs how a status differs from the one before: the state, cameras that go and come back, what
+/// their drivers remark, sets that begin to be dropped.
+class ChangeLog {
+ public:
+  void Add(const PipelineStatus& status);
+
+ private:
+  void TellRemarks(const CameraStatus& camera);
+  void CompareCameras(const PipelineStatus& before, const PipelineStatus& now);
+
+  /// Calls without a drop after which being behind is over.
+  static constexpr int kCallsToRecover = 50;
+
+  std::optional<PipelineStatus> last_;
+  int calls_since_drop_ = kCallsToRecover;  ///< Or more.
+  std::set<std::string> told_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,157 @@
+#include "daemon/service/complaints.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace mocap {
+namespace {
+
+/// A camera that gives less than this share of its frames is named.
+constexpr double kGoodRate = 0.9;
+/// Cameras further apart than this share of a period blur whoever moves.
+constexpr double kWideSpread = 0.25;
+/// Silhouettes that lie farther off were not made by the stance of a person.
+constexpr double kMoved_px = 2;
+/// A tripod that was touched.
+constexpr double kNudged_px = 0.75;
+/// Beyond this, colours are no longer those that were learned.
+constexpr double kDarkest = 0.6, kBrightest = 1.5;
+
+using List = std::vector<std::string>;
+
+void ComplainOfRecording(const ServiceReport& report, List& list) {
+  const RecordingStatus& recording = report.recording;
+  if (recording.state == RecordingStatus::State::kFailed) {
+    list.push_back("the recording failed: " + recording.problem);
+  }
+  if (recording.state == RecordingStatus::State::kComplete && !recording.problem.empty()) {
+    list.push_back("the recording " + recording.problem);
+  }
+  if (recording.state == RecordingStatus::State::kRunning && recording.dropped > 0) {
+    list.push_back(fmt::format(
+        "{} frames had no room in the recording: a faster disk or another codec is wanted",
+        recording.dropped));
+  }
+  for (const CutOffTake& take : report.cut_off) {
+    list.push_back(
+        fmt::format("the recording {} was cut off at {:%H:%M:%S} UTC after {:.1f} s: it "
+                    "opens as it is; rename {} to keep it",
+                    take.folder.stem().string(),
+                    fmt::gmtime(static_cast<std::time_t>(take.last_ns / 1'000'000'000)),
+                    static_cast<double>(take.duration_ns) / 1e9, take.folder.string()));
+  }
+  if (static_cast<double>(report.bytes_free) < 1e6 * report.keep_free_mb) {
+    list.push_back(
+        fmt::format("the disk for takes has {:.0f} MB left: nothing can be recorded; "
+                    "make room in {}",
+                    static_cast<double>(report.bytes_free) / 1e6, report.takes.string()));
+  }
+}
+
+void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
+  const CameraStatus& camera = report.now.status.cameras[i];
+  if (camera.state == CameraState::kLost) {
+    list.push_back(camera.name + " is lost: look at its cable and power");
+  } else if (camera.state == CameraState::kStarting) {
+    list.push_back(camera.name + " has not delivered a frame yet");
+  }
+  const double rate = report.now.frames_per_second[i];
+  const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * report.fps_nominal;
+  if (camera.state == CameraState::kStreaming && is_slow) {
+    list.push_back(
+        fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
+                    "bus or network, and the processor's load",
+                    camera.name, rate, report.fps_nominal));
+  }
+}
+
+void ComplainOfPicture(const CameraStatus& camera, List& list) {
+  if (camera.state != CameraState::kStreaming) return;
+  if (camera.is_blind) {
+    list.push_back(camera.name +
+                   " sees hardly anything as it was learned, and is gone on without: does a light "
+                   "shine into it, is something before it, was its exposure changed? Else mocap "
+                   "background learn");
+    return;
+  }
+  if (camera.light < kDarkest || camera.light > kBrightest) {
+    list.push_back(
+        fmt::format("{} sees {:.0f} % of the light in which the empty studio was "
+                    "learned: mocap background learn",
+                    camera.name, 100 * camera.light));
+  }
+  if (camera.nudged_px > kNudged_px) {
+    list.push_back(
+        fmt::format("{} looks {:.1f} px past where the empty studio was learned: was it "
+                    "touched?",
+                    camera.name, camera.nudged_px));
+  }
+}
+
+/// Names the camera that disagrees most: one that was bumped makes the others disagree a little.
+void ComplainOfPlace(const PipelineStatus& status, List& list) {
+  const auto off_px = [](const CameraStatus& camera) {
+    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
+    return is_known ? camera.health.shift_px.norm() : 0.0;
+  };
+  const auto worst = std::ranges::max_element(status.cameras, {}, off_px);
+  if (worst == status.cameras.end() || off_px(*worst) < kMoved_px) return;
+  list.push_back(fmt::format(
+      "{} sees the person {:.1f} px beside where the other cameras do: it was bumped since it was "
+      "calibrated; record a take of somebody who walks, and mocap calibrate refine it",
+      worst->name, off_px(*worst)));
+}
+
+void ComplainOfLight(const ServiceReport& report, List& list) {
+  if (!report.light_change) return;
+  const LightChange& change = *report.light_change;
+  list.push_back(
+      fmt::format("the light changed all of a sudden, by {:+.0f} % in {}: it is followed, "
+                  "but look whether the poses are still good",
+                  100 * (change.factor - 1), fmt::join(change.cameras, ", ")));
+}
+
+void ComplainOfTime(const ServiceReport& report, List& list) {
+  if (report.now.sets_dropped_lately > 0) {
+    list.push_back(
+        fmt::format("{} frame sets were left out lately: the processor is too slow for this rate "
+                    "and voxel size, or has other work",
+                    report.now.sets_dropped_lately));
+  }
+  const double spread_ms = report.now.recent[Stage::kSpread].PercentileMs(0.99);
+  if (report.fps_nominal > 0 && spread_ms > kWideSpread * 1000 / report.fps_nominal) {
+    list.push_back(
+        fmt::format("the cameras' exposures are {:.1f} ms apart: look at the trigger or the clocks",
+                    spread_ms));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> Complaints(const ServiceReport& report) {
+  List list;
+  ComplainOfRecording(report, list);
+  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
+    ComplainOfFlow(report, i, list);
+    ComplainOfPicture(report.now.status.cameras[i], list);
+  }
+  ComplainOfPlace(report.now.status, list);
+  ComplainOfLight(report, list);
+  ComplainOfTime(report, list);
+  return list;
+}
+
+std::string Duration(std::int64_t ns) {
+  const std::int64_t seconds = ns / 1'000'000'000;
+  if (seconds < 120) return fmt::format("{} s", seconds);
+  if (seconds < 7200) return fmt::format("{} min", seconds / 60);
+  if (seconds < 172'800) return fmt::format("{} h", seconds / 3600);
+  return fmt::format("{} days", seconds / 86'400);
+}
+
+}  // namespace mocap

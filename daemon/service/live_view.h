@@ -1,0 +1,45 @@
+// What a person at the terminal sees of the running system.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "daemon/messages/truth_error.h"
+#include "daemon/pipeline/pose_sink.h"
+#include "daemon/service/service_report.h"
+#include "daemon/service/status_window.h"
+
+namespace mocap {
+
+/// Keeps the latest figures of the last thread for whoever asks. OnSet: the pipeline's thread; the
+/// rest: any.
+class LiveView : public PoseSink {
+ public:
+  /// @param error  may be empty.
+  explicit LiveView(TruthError error) : error_(std::move(error)) {}
+
+  void OnSet(const TrackedSet& set) override;
+  Fit fit() const;
+  /// The sizes of the person who is tracked; empty before they are known.
+  std::optional<BodySizes> sizes() const;
+  /// One line without its end: state, rate, latency, residual, voxels, error.
+  std::string Line(const StatusReport& report) const;
+
+ private:
+  static constexpr double kUnknown = -1;
+
+  const TruthError error_;
+  std::atomic<CaptureState> state_{CaptureState::kSearching};
+  std::atomic<double> residual_mm_{0};
+  std::atomic<double> error_mm_{kUnknown};
+  std::atomic<int> voxels_{0};
+  bool was_tracking_ = false;
+  bool sizes_are_new_ = true;
+  mutable std::mutex mutex_;  ///< Tried, never waited for, by the pipeline.
+  std::optional<BodySizes> sizes_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,17 @@
+// Figures for Prometheus, by way of a text file that its node exporter collects.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "daemon/service/service_report.h"
+
+namespace mocap {
+
+/// The report in Prometheus' text format.
+std::string MetricsText(const ServiceReport& report);
+
+/// Puts them into a file in one step. @return whether that worked.
+bool WriteMetrics(const std::filesystem::path& file, const ServiceReport& report);
+
+}  // namespace mocap

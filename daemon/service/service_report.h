@@ -1,0 +1,57 @@
+// How the whole service does, and whether that is good.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/recording/cut_off_takes.h"
+#include "daemon/recording/recording.h"
+#include "daemon/service/light_watch.h"
+#include "daemon/service/status_window.h"
+
+namespace mocap {
+
+/// How well the body fits at the moment.
+struct Fit {
+  double residual_mm = 0;  ///< Meaningful while tracking.
+  int voxels = 0;
+};
+
+/// Something that was made once and gets old: the calibration, the pictures of the empty studio.
+struct Made {
+  std::string where;        ///< A file or folder, or what else it comes from.
+  std::int64_t made_s = 0;  ///< Since the Unix epoch; 0: unknown.
+};
+
+/// Everything that is told of the service when somebody asks.
+struct ServiceReport {
+  StatusReport now;
+  Fit fit;
+  std::string studio;
+  double fps_nominal = 0;
+  std::string lcm_url;
+  std::int64_t epoch_s = 0;  ///< When this was.
+  std::int64_t up_ns = 0;    ///< Since the start.
+  Made calibration;
+  Made background;
+  std::optional<LightChange> light_change;
+  RecordingStatus recording;
+  std::filesystem::path takes;  ///< Where recordings go.
+  std::int64_t bytes_free = 0;  ///< There.
+  double keep_free_mb = 0;
+  std::vector<CutOffTake> cut_off;
+};
+
+/// One line for people: the state, rate, latency, cameras, and the first complaint.
+std::string ReportLine(const ServiceReport& report);
+/// A page for people.
+std::string ReportText(const ServiceReport& report);
+/// What the cameras see of the empty studio, when that was learned, and in what light.
+std::string BackgroundText(const ServiceReport& report);
+/// One JSON object.
+std::string ReportJson(const ServiceReport& report);
+
+}  // namespace mocap

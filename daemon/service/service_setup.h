@@ -1,0 +1,39 @@
+// From a configuration and an opened studio to what the daemon's parts are made of.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "daemon/control/background_learner.h"
+#include "daemon/messages/truth_error.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/recording/recording.h"
+#include "daemon/service/service_report.h"
+#include "drivers/studio.h"
+
+namespace mocap {
+
+PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps);
+
+KnownBackgrounds KnownBackgroundsOf(const Studio& studio);
+
+/// What a recording needs to know before the cameras are handed to the pipeline.
+/// @param known  borrowed for the recordings' lives.
+RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& known,
+                                const std::string& config_text);
+
+/// Where the empty studio is learned on command, and whether it can be.
+LearningPlace LearningPlaceFor(const Config& config, const Studio& studio);
+
+/// What a report says from the beginning to the end.
+ServiceReport ReportAbout(const Config& config, const Studio& studio);
+
+/// When the pictures of the empty studio were made, as far as that is known.
+Made BackgroundOf(const Config& config);
+
+/// The truth is known where the person is simulated.
+TruthError TruthFor(const SourceConfig& source);
+
+}  // namespace mocap

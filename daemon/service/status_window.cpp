@@ -1,0 +1,30 @@
+#include "daemon/service/status_window.h"
+
+#include <utility>
+
+namespace mocap {
+
+StatusReport StatusWindow::Add(PipelineStatus status, std::int64_t now_ns) {
+  StatusReport report;
+  report.frames_per_second.resize(status.cameras.size());
+  report.recent = status.stages;
+  if (!past_.empty()) {
+    const auto& [then_ns, then] = past_.front();
+    const double seconds = static_cast<double>(now_ns - then_ns) / 1e9;
+    const auto rate = [&](std::int64_t now, std::int64_t before) {
+      return seconds > 0 ? static_cast<double>(now - before) / seconds : 0;
+    };
+    report.recent = status.stages.Since(then.stages);
+    report.sets_per_second = rate(status.sets_tracked, then.sets_tracked);
+    report.sets_dropped_lately = status.sets_dropped - then.sets_dropped;
+    for (std::size_t i = 0; i < status.cameras.size(); ++i) {
+      report.frames_per_second[i] = rate(status.cameras[i].frames, then.cameras[i].frames);
+    }
+  }
+  past_.push_back({now_ns, status});
+  if (past_.size() > kStatuses) past_.pop_front();
+  report.status = std::move(status);
+  return report;
+}
+
+}  // namespace mocap

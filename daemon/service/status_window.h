@@ -1,0 +1,38 @@
+// Rates and percentiles of the last seconds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "daemon/pipeline/pipeline.h"
+
+namespace mocap {
+
+/// Counters since the start, with rates and timings of the last seconds.
+struct StatusReport {
+  PipelineStatus status;   ///< Counters; its timings are since the start.
+  StageHistograms recent;  ///< Timings within the window.
+  double sets_per_second = 0;
+  std::int64_t sets_dropped_lately = 0;
+  std::vector<double> frames_per_second;  ///< By camera.
+};
+
+/// Remembers a pipeline's status for some seconds, to tell what is new.
+class StatusWindow {
+ public:
+  static constexpr std::size_t kStatuses = 5;
+
+  /// Adds the status of this moment; wanted every second.
+  StatusReport Add(PipelineStatus status, std::int64_t now_ns);
+
+ private:
+  struct Past {
+    std::int64_t time_ns = 0;
+    PipelineStatus status;
+  };
+  std::deque<Past> past_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,34 @@
+// Asks a camera for what the configuration wants, and reads back what it agreed to.
+#pragma once
+
+#include <arv.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/aravis/aravis_formats.h"
+#include "drivers/aravis/aravis_settings.h"
+#include "drivers/camera_request.h"
+
+namespace mocap {
+
+struct AravisAgreement {
+  std::string model, serial;
+  AravisFormat format = kAravisFormats.back();
+  int width_px = 0, height_px = 0;
+  std::size_t payload_bytes = 0;  ///< Of a whole frame.
+  double fps = 0;
+  std::int64_t exposure_ns = 0;
+  bool has_stamps = false;
+  std::string ptp_status;            ///< The feature that tells it; empty: no PTP.
+  std::vector<std::string> remarks;  ///< What is not as it was asked for.
+};
+
+/// Sets a camera up.
+/// @throws SetupError  for what cannot be done without: size, format, trigger.
+AravisAgreement Agree(ArvCamera* camera, const CameraRequest& request,
+                      const AravisSettings& settings);
+
+}  // namespace mocap

@@ -1,0 +1,243 @@
+#include "drivers/aravis/aravis_keeper.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "core/errors.h"
+#include "drivers/aravis/gige_probe.h"
+
+namespace mocap {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kWatchPeriod{20};
+constexpr milliseconds kProbePatience{100};
+/// A camera is lost once it has missed as many frames, and not earlier than a busy machine excuses.
+constexpr double kMissedFrames = 4;
+constexpr milliseconds kLeastSilence{100};
+/// The first frame may take its time.
+constexpr milliseconds kGraceAfterOpening{1000};
+/// A camera whose link was cut goes on by itself; one that answers but sends nothing does not.
+constexpr milliseconds kStalled{1500};
+constexpr milliseconds kBetweenAttempts{200};
+/// Looking at a camera too often keeps alive whoever held it.
+constexpr milliseconds kBetweenLooksWhenHeld{4000};
+constexpr std::chrono::seconds kBetweenSearches{5};
+constexpr std::chrono::seconds kPtpPeriod{1};
+
+milliseconds SilenceLimit(const AravisAgreement& agreed) {
+  const auto missed_ms =
+      static_cast<std::int64_t>(kMissedFrames * 1000 / std::max(agreed.fps, 0.1));
+  return std::max(kLeastSilence, milliseconds(missed_ms));
+}
+
+/// Waits until nobody else uses the session, then speaks the last words to the camera.
+void Close(AravisKeeper::Session session) {
+  while (session.use_count() > 1) std::this_thread::sleep_for(milliseconds(1));
+  session.reset();
+}
+
+/// The next instant at which hosts that agree on the time trigger together.
+std::chrono::system_clock::time_point NextTrigger(double fps) {
+  using std::chrono::system_clock;
+  const auto period =
+      std::chrono::duration_cast<system_clock::duration>(std::chrono::duration<double>(1 / fps));
+  const auto since_epoch = system_clock::now().time_since_epoch();
+  return system_clock::time_point((since_epoch / period + 1) * period);
+}
+
+}  // namespace
+
+AravisKeeper::AravisKeeper(const CameraRequest& request, const AravisSettings& settings,
+                           Session session)
+    : request_(request), settings_(settings), target_(session->target()) {
+  session_ = std::move(session);
+}
+
+void AravisKeeper::Start() {
+  Install(std::exchange(session_, nullptr));
+  std::thread([self = shared_from_this()] { self->Run(); }).detach();
+}
+
+AravisKeeper::Session AravisKeeper::session() const {
+  const std::lock_guard lock(mutex_);
+  return session_;
+}
+
+std::vector<std::string> AravisKeeper::Remarks() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> remarks;
+  if (!trouble_.empty()) remarks.push_back(trouble_);
+  if (!ptp_status_.empty() && !ptp_locked()) {
+    remarks.push_back("PTP is " + ptp_status_ +
+                      ": without a master on its network its own clock is fitted");
+  }
+  return remarks;
+}
+
+void AravisKeeper::RequestStop() {
+  stopping_.store(true, std::memory_order_relaxed);
+  changed_.notify_all();
+}
+
+bool AravisKeeper::WaitClosed(milliseconds timeout) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [this] { return closed_; });
+}
+
+void AravisKeeper::Pause(milliseconds pause) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, pause, [this] { return stopping(); });
+}
+
+void AravisKeeper::Run() {
+  while (!stopping()) {
+    Pause(kWatchPeriod);
+    if (stopping()) break;
+    if (!IsSilent()) {
+      answered_.reset();
+      lost_.store(false, std::memory_order_relaxed);
+    } else if (target_.ip.empty()) {
+      SeekUsb();
+    } else {
+      SeekGige();
+    }
+  }
+  Retire();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return closing_ == 0; });
+  closed_ = true;
+  changed_.notify_all();
+}
+
+bool AravisKeeper::IsSilent() {
+  const Session session = this->session();
+  if (!session) return true;
+  const std::uint64_t signs = session->SignsOfLife();
+  if (std::exchange(signs_, signs) != signs) last_sign_ = Clock::now();
+  return session->control_lost() || Clock::now() - last_sign_ > SilenceLimit(session->agreed());
+}
+
+void AravisKeeper::SeekGige() {
+  const Session session = this->session();
+  // Some other program has it, or one that died.
+  if (!session && Clock::now() < next_look_) return;
+  const GigePresence presence = ProbeGigeCamera(target_.ip, kProbePatience);
+  const bool waits_for_trigger = !settings_.trigger.empty() && session && !session->control_lost();
+  if (waits_for_trigger && presence == GigePresence::kHeld) return;
+  lost_.store(true, std::memory_order_relaxed);
+  if (presence == GigePresence::kAbsent) {
+    answered_.reset();
+    FindAgain();
+    return;
+  }
+  if (presence == GigePresence::kFree) {
+    Reopen();
+    return;
+  }
+  const Clock::time_point now = Clock::now();
+  if (!answered_) answered_ = now;
+  if (session && (session->control_lost() || now - *answered_ > kStalled)) Retire();
+  const std::lock_guard lock(mutex_);
+  if (!session_ && closing_ == 0) {
+    trouble_ = "is controlled by another program";
+    next_look_ = now + kBetweenLooksWhenHeld;
+  }
+}
+
+void AravisKeeper::SeekUsb() {
+  const Session session = this->session();
+  if (session && !session->control_lost() && !settings_.trigger.empty()) return;
+  lost_.store(true, std::memory_order_relaxed);
+  // USB lets no program have a device twice.
+  Retire();
+  {
+    const std::lock_guard lock(mutex_);
+    if (closing_ > 0) return;
+  }
+  Reopen();
+}
+
+void AravisKeeper::FindAgain() {
+  if (IsIpv4(target_.device) || Clock::now() < next_search_) return;
+  next_search_ = Clock::now() + kBetweenSearches;
+  try {
+    // It may have got another address.
+    const AravisTarget found = FindAravisCamera(target_.device);
+    target_.ip = found.ip;
+  } catch (const SetupError&) {
+    // Still away.
+  }
+}
+
+void AravisKeeper::Reopen() {
+  Retire();
+  try {
+    Install(std::make_shared<AravisSession>(target_, request_, settings_));
+  } catch (const SetupError& error) {
+    {
+      const std::lock_guard lock(mutex_);
+      trouble_ = error.what();
+    }
+    Pause(kBetweenAttempts);
+  }
+}
+
+void AravisKeeper::Install(Session session) {
+  signs_ = session->SignsOfLife();
+  last_sign_ = Clock::now() + kGraceAfterOpening;
+  answered_.reset();
+  unsigned generation = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    session_ = session;
+    trouble_.clear();
+    generation = generation_.fetch_add(1, std::memory_order_release) + 1;
+  }
+  changed_.notify_all();
+  if (settings_.trigger != "software" && session->agreed().ptp_status.empty()) return;
+  std::thread([self = shared_from_this(), session = std::move(session), generation] {
+    self->Speak(session, generation);
+  }).detach();
+}
+
+void AravisKeeper::Retire() {
+  const std::lock_guard lock(mutex_);
+  if (!session_) return;
+  generation_.fetch_add(1, std::memory_order_release);
+  ++closing_;
+  std::thread([self = shared_from_this(), session = std::exchange(session_, nullptr)]() mutable {
+    Close(std::move(session));
+    const std::lock_guard lock_closing(self->mutex_);
+    --self->closing_;
+    self->changed_.notify_all();
+  }).detach();
+}
+
+void AravisKeeper::Speak(const Session& session, unsigned generation) {
+  const bool triggers = settings_.trigger == "software";
+  Clock::time_point next_ptp = Clock::now();
+  while (!stopping() && generation_.load(std::memory_order_acquire) == generation) {
+    if (!session->agreed().ptp_status.empty() && Clock::now() >= next_ptp) {
+      NotePtp(session->PtpStatus());
+      next_ptp += kPtpPeriod;
+    }
+    if (!triggers) {
+      Pause(kWatchPeriod);
+      continue;
+    }
+    std::this_thread::sleep_until(NextTrigger(request_.fps));
+    session->Trigger();
+  }
+}
+
+void AravisKeeper::NotePtp(const std::string& status) {
+  const bool locked = status == "Slave";
+  ptp_locked_.store(locked, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  ptp_status_ = status;
+}
+
+}  // namespace mocap

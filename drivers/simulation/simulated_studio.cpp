@@ -1,0 +1,168 @@
+#include "drivers/simulation/simulated_studio.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "core/errors.h"
+#include "drivers/simulation/random.h"
+#include "drivers/simulation/scene.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kBackgroundFrames = 40;
+/// A camera that fails does so at the beginning of such a slot, for so long.
+constexpr std::int64_t kLossSlotNs = 5'000'000'000;
+constexpr std::int64_t kLossNs = 2'000'000'000;
+constexpr double kSlotsPerMinute = 12;
+
+std::int64_t Now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+void SleepUntil(std::int64_t time_ns) {
+  std::this_thread::sleep_until(
+      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(time_ns)));
+}
+
+}  // namespace
+
+SimulatedStudioOptions RecordedSimulation() {
+  SimulatedStudioOptions options;
+  options.start_ns = 1'000'000'000'000;
+  return options;
+}
+
+SimulatedTruth::SimulatedTruth(const SimulatedStudioOptions& options)
+    : person_(std::make_unique<const simulation::Person>(options)) {}
+SimulatedTruth::~SimulatedTruth() = default;
+SimulatedTruth::SimulatedTruth(SimulatedTruth&&) noexcept = default;
+
+JointPositions SimulatedTruth::At(std::int64_t capture_ns) const {
+  return simulation::PointsOf(person_->body(), person_->BonesAt(capture_ns));
+}
+
+TruthSizes SimulatedTruth::Sizes() const {
+  const simulation::Anthropometry& body = person_->body();
+  const JointPositions upright =
+      simulation::PointsOf(body, simulation::PlaceBones(body, simulation::BodyPose{}));
+  const auto neck = static_cast<int>(simulation::TruthPoint::kNeck);
+  return {body.stature_mm,
+          body.ankle_to_sole_mm,
+          {{"torso_mm", upright[neck].norm()},
+           {"thigh_mm", body.thigh_mm},
+           {"calf_mm", body.calf_mm()},
+           {"upper_arm_mm", body.upper_arm_mm},
+           {"lower_arm_mm", body.lower_arm_mm()}}};
+}
+
+SimulatedCamera::SimulatedCamera(std::shared_ptr<const simulation::SceneView> view)
+    : view_(std::move(view)), painter_(std::make_unique<simulation::ScenePainter>(view_)) {}
+SimulatedCamera::~SimulatedCamera() = default;
+
+void SimulatedCamera::Start() {
+  const SimulatedStudioOptions& options = view_->scene().options();
+  // What takes long is done before the first frame is due.
+  if (!view_->calibration().head) view_->fixed_view();
+  first_ = 0;
+  if (options.realtime)
+    first_ = static_cast<std::int64_t>(
+        std::ceil(static_cast<double>(Now_ns() - options.start_ns) * 1e-9 * options.fps));
+  next_ = first_;
+  started_ = true;
+  painted_ = false;
+}
+
+bool SimulatedCamera::PaintNext() {
+  const simulation::Scene& scene = view_->scene();
+  const SimulatedStudioOptions& options = scene.options();
+  if (options.realtime) {
+    // Whoever comes too late finds the frames between gone, as with any camera.
+    const auto now = static_cast<std::int64_t>(
+        std::floor(static_cast<double>(Now_ns() - options.start_ns) * 1e-9 * options.fps));
+    next_ = std::max(next_, now);
+  } else if (options.seconds > 0 && next_ >= std::llround(options.seconds * options.fps)) {
+    return false;
+  }
+  due_ns_ = scene.CaptureTime(view_->camera(), next_);
+  painter_->Paint(due_ns_);
+  painted_ = true;
+  return true;
+}
+
+bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
+  const SimulatedStudioOptions& options = view_->scene().options();
+  if (options.losses_per_minute <= 0 || time_ns % kLossSlotNs >= kLossNs) return false;
+  const auto slot = static_cast<std::uint64_t>(time_ns / kLossSlotNs);
+  const auto camera = static_cast<std::uint64_t>(view_->camera());
+  simulation::Random random(simulation::Mix(options.seed, simulation::Tag("loss"), camera, slot));
+  return random.Uniform(0, kSlotsPerMinute) < options.losses_per_minute;
+}
+
+GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
+  MOCAP_CHECK(started_);
+  if (view_->scene().options().realtime && IsLost(Now_ns())) {
+    painted_ = false;
+    return GrabStatus::kLost;
+  }
+  const std::int64_t patience_ns = std::chrono::nanoseconds(timeout).count();
+  const std::int64_t until_ns = view_->scene().options().realtime ? Now_ns() + patience_ns : 0;
+  if (!painted_ && !PaintNext()) return GrabStatus::kEnd;
+  if (view_->scene().options().realtime) {
+    SleepUntil(std::min(due_ns_, until_ns));
+    if (due_ns_ > until_ns) return GrabStatus::kTimeout;
+  }
+  painted_ = false;
+  frame.image = painter_->picture().view();
+  frame.capture_ns = due_ns_;
+  frame.sequence = static_cast<std::uint64_t>(next_ - first_);
+  frame.angles = painter_->angles();
+  ++next_;
+  return GrabStatus::kFrame;
+}
+
+void SimulatedCamera::Stop() { started_ = false; }
+
+ImageView<const std::uint8_t> SimulatedCamera::TrueMask() {
+  const Image<std::uint8_t>& materials = painter_->materials();
+  mask_ = materials;
+  for (std::uint8_t& value : mask_.pixels()) value = value != 0 ? 255 : 0;
+  return static_cast<const Image<std::uint8_t>&>(mask_).view();
+}
+
+SimulatedStudio::SimulatedStudio(const SimulatedStudioOptions& options)
+    : scene_(std::make_shared<const simulation::Scene>(options)) {
+  for (int i = 0; i < options.cameras; ++i)
+    views_.push_back(std::make_shared<const simulation::SceneView>(scene_, i));
+}
+
+const std::vector<CameraCalibration>& SimulatedStudio::cameras() const { return scene_->cameras(); }
+
+std::unique_ptr<SimulatedCamera> SimulatedStudio::OpenCamera(int camera) const {
+  return std::make_unique<SimulatedCamera>(views_[camera]);
+}
+
+std::vector<BackgroundFrame> SimulatedStudio::Background(int camera) const {
+  return views_[camera]->Background(kBackgroundFrames);
+}
+
+std::int64_t SimulatedStudio::NominalTime(std::int64_t frame) const {
+  return scene_->NominalTime(frame);
+}
+
+Studio OpenSimulatedStudio(const SimulatedStudioOptions& options) {
+  const auto simulated = std::make_shared<const SimulatedStudio>(options);
+  Studio studio;
+  studio.name = "simulated " + options.motion;
+  studio.fps_nominal = options.fps;
+  for (int i = 0; i < options.cameras; ++i)
+    studio.cameras.push_back({simulated->cameras()[i], simulated->OpenCamera(i),
+                              [simulated, i] { return simulated->Background(i); }});
+  return studio;
+}
+
+}  // namespace mocap

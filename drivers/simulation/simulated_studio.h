@@ -1,0 +1,114 @@
+// A studio that exists in the computer only: cameras render a moving person, with truth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry.h"
+#include "drivers/camera_driver.h"
+#include "drivers/simulation/skeleton.h"
+#include "drivers/studio.h"
+#include "drivers/take/take_writer.h"
+
+namespace mocap {
+
+/// What happens in the simulated studio. The same options give the same pictures and truth.
+struct SimulatedStudioOptions {
+  std::string motion = "walk";  ///< One of simulation::kMotionNames.
+  double stature_mm = 1750;     ///< 1000 to 2100.
+  double fps = 30;
+  int cameras = 6;
+  int width_px = 640, height_px = 480;
+  bool pan_tilt = false;   ///< Heads follow the person; slower to render.
+  std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
+  bool realtime = false;   ///< Frames come when the system clock says that they are due.
+  double seconds = 0;      ///< Length unless realtime; 0: without end.
+  /// How often each camera is lost for some seconds, in real time only.
+  double losses_per_minute = 0;
+  /// Capture time at which the motion begins. In real time it may stay 0: then the motion follows
+  /// the clock, and any process with these options knows the truth of a capture time.
+  std::int64_t start_ns = 0;
+};
+
+/// Gives options for frames as fast as they are rendered, from a fixed time on: 1000 s after the
+/// Unix epoch.
+SimulatedStudioOptions RecordedSimulation();
+
+/// p_WQ of the points that kSimulatedJointNames tells [mm].
+using JointPositions = simulation::TruePoints;
+inline constexpr auto& kSimulatedJointNames = simulation::kTruthPointNames;
+
+namespace simulation {
+class Person;
+class Scene;
+class SceneView;
+class ScenePainter;
+}  // namespace simulation
+
+/// Where the simulated person's joints truly are. Reentrant.
+class SimulatedTruth {
+ public:
+  /// @throws SetupError  when the options cannot be.
+  explicit SimulatedTruth(const SimulatedStudioOptions& options);
+  ~SimulatedTruth();
+  SimulatedTruth(SimulatedTruth&&) noexcept;
+
+  JointPositions At(std::int64_t capture_ns) const;
+  TruthSizes Sizes() const;
+
+ private:
+  std::unique_ptr<const simulation::Person> person_;
+};
+
+/// One virtual camera.
+class SimulatedCamera : public CameraDriver {
+ public:
+  explicit SimulatedCamera(std::shared_ptr<const simulation::SceneView> view);
+  ~SimulatedCamera() override;
+
+  void Start() override;
+  GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
+  void Stop() override;
+  /// Where the person is visible in the last frame: 255, else 0. Valid until the next call.
+  ImageView<const std::uint8_t> TrueMask();
+
+ private:
+  bool PaintNext();
+  bool IsLost(std::int64_t time_ns) const;
+
+  std::shared_ptr<const simulation::SceneView> view_;
+  std::unique_ptr<simulation::ScenePainter> painter_;
+  std::int64_t first_ = 0, next_ = 0;
+  bool started_ = false, painted_ = false;
+  std::int64_t due_ns_ = 0;
+  Image<std::uint8_t> mask_;
+};
+
+/// The studio before its cameras are handed out.
+class SimulatedStudio {
+ public:
+  /// @throws SetupError  when the options cannot be.
+  explicit SimulatedStudio(const SimulatedStudioOptions& options);
+
+  const std::vector<CameraCalibration>& cameras() const;
+  std::unique_ptr<SimulatedCamera> OpenCamera(int camera) const;
+  /// Pictures of the empty studio; for a camera on a head a sweep of its directions.
+  std::vector<BackgroundFrame> Background(int camera) const;
+  /// Time of a frame without any camera's jitter.
+  std::int64_t NominalTime(std::int64_t frame) const;
+
+ private:
+  std::shared_ptr<const simulation::Scene> scene_;
+  std::vector<std::shared_ptr<const simulation::SceneView>> views_;
+};
+
+/// Opens the simulated studio as a source of frames. Cameras share one immutable scene; each
+/// renders in the thread that calls its Grab.
+/// @throws SetupError  when the options cannot be.
+Studio OpenSimulatedStudio(const SimulatedStudioOptions& options);
+
+}  // namespace mocap

@@ -1,0 +1,265 @@
+#include "drivers/take/take_writer.h"
+
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/toml_text.h"
+#include "drivers/take/video_writer.h"
+
+namespace mocap {
+namespace {
+
+/// A text file that complains when it cannot be written.
+class TextFile {
+ public:
+  explicit TextFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {}
+
+  // Flushed so that a row is on its way to the disk once its frame is.
+  void Write(const std::string& text) {
+    out_ << text << std::flush;
+    if (!out_) throw std::runtime_error(name_ + ": cannot be written");
+  }
+
+ private:
+  std::string name_;
+  std::ofstream out_;
+};
+
+/// A video, with the table beside it if one is wanted.
+class RecordedVideo {
+ public:
+  RecordedVideo(const std::filesystem::path& video, const CameraCalibration& camera, double fps,
+                VideoCodec codec)
+      : video_(video, camera.width_px, camera.height_px, fps, VideoPixels::kBgr, codec),
+        has_head_(camera.head) {}
+
+  void AddTable(const std::filesystem::path& file) {
+    table_.emplace(file);
+    table_->Write(has_head_ ? "frame,timestamp_ns,pan_rad,tilt_rad\n" : "frame,timestamp_ns\n");
+  }
+
+  void Write(ImageView<const Bgr> image, std::int64_t capture_ns, const PanTiltAngles& angles) {
+    MOCAP_CHECK(capture_ns > last_ns_);
+    last_ns_ = capture_ns;
+    video_.Write(image);
+    std::string row = std::to_string(frame_++) + ',' + std::to_string(capture_ns);
+    if (has_head_) row += ',' + TomlNumber(angles.pan_rad) + ',' + TomlNumber(angles.tilt_rad);
+    if (table_) table_->Write(row + '\n');
+  }
+
+  void Skip(std::uint64_t count) { frame_ += count; }
+  void Finish() { video_.Finish(); }
+
+ private:
+  VideoWriter video_;
+  std::optional<TextFile> table_;
+  bool has_head_;
+  std::int64_t last_ns_ = -1;
+  std::uint64_t frame_ = 0;
+};
+
+std::string NotesText(const std::vector<std::pair<std::string, std::string>>& notes) {
+  std::string text;
+  for (const auto& [key, value] : notes) text += key + " = " + TomlText(value) + '\n';
+  return text;
+}
+
+std::string DescriptionText(const TakeDescription& description) {
+  std::string text = "name = " + TomlText(description.name) +
+                     "\nfps_nominal = " + TomlNumber(description.fps_nominal) + "\ncameras = [";
+  for (const CameraCalibration& camera : description.cameras) {
+    text += (text.back() == '[' ? "" : ", ") + TomlText(camera.name);
+  }
+  text += "]\n";
+  return text + NotesText(description.notes);
+}
+
+std::string Fixed(double value, int decimals) {
+  std::string text(32, '\0');
+  text.resize(std::snprintf(text.data(), text.size(), "%.*f", decimals, value));
+  return text;
+}
+
+void CheckNames(const TakeDescription& description) {
+  std::set<std::string> seen;
+  for (const CameraCalibration& camera : description.cameras) {
+    if (!IsCameraName(camera.name)) {
+      throw SetupError("camera " + Quoted(camera.name) + ": letters, digits, _ and - make a name");
+    }
+    if (!seen.insert(camera.name).second) {
+      throw SetupError("camera " + Quoted(camera.name) + ": is there twice");
+    }
+  }
+}
+
+}  // namespace
+
+class TakeWriter::Impl {
+ public:
+  Impl(const std::filesystem::path& folder, const TakeDescription& description)
+      : folder_(folder.has_filename() ? folder : folder.parent_path()),
+        layout_{folder_.string() + ".partial"},
+        fps_(description.fps_nominal),
+        codec_(description.codec),
+        calibrations_(description.cameras),
+        description_(DescriptionText(description)) {
+    CheckNames(description);
+    MakeFolder();
+    TextFile(layout_.Description()).Write(description_);
+    WriteCalibration(layout_.Calibration(), calibrations_);
+    for (const CameraCalibration& camera : calibrations_) {
+      frames_.emplace_back(layout_.Video(camera.name), camera, fps_, codec_);
+      frames_.back().AddTable(layout_.Table(camera.name));
+    }
+    backgrounds_.resize(calibrations_.size());
+    masks_.resize(calibrations_.size());
+  }
+
+  RecordedVideo& frames(int camera) { return frames_[Checked(camera)]; }
+
+  RecordedVideo& background(int camera) {
+    std::optional<RecordedVideo>& video = backgrounds_[Checked(camera)];
+    if (!video) {
+      const CameraCalibration& calibration = calibrations_[camera];
+      std::filesystem::create_directory(layout_.BackgroundVideo("x").parent_path());
+      video.emplace(layout_.BackgroundVideo(calibration.name), calibration, fps_, codec_);
+      if (calibration.head) video->AddTable(layout_.BackgroundTable(calibration.name));
+    }
+    return *video;
+  }
+
+  VideoWriter& mask(int camera) {
+    std::optional<VideoWriter>& video = masks_[Checked(camera)];
+    if (!video) {
+      const CameraCalibration& calibration = calibrations_[camera];
+      std::filesystem::create_directory(layout_.Mask("x").parent_path());
+      video.emplace(layout_.Mask(calibration.name), calibration.width_px, calibration.height_px,
+                    fps_, VideoPixels::kGray);
+    }
+    return *video;
+  }
+
+  void SetTruthPoints(std::span<const std::string> names) {
+    MOCAP_CHECK(!truth_);
+    std::string header = "frame,timestamp_ns";
+    for (const std::string& name : names) {
+      for (const char* axis : {"_x_mm", "_y_mm", "_z_mm"}) header += ',' + name + axis;
+    }
+    truth_points_ = names.size();
+    truth_.emplace(layout_.TruthTable());
+    truth_->Write(header + '\n');
+  }
+
+  void WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W) {
+    MOCAP_CHECK(truth_ && points_W.size() == truth_points_);
+    std::string row = std::to_string(truth_rows_++) + ',' + std::to_string(capture_ns);
+    for (const Vector3& point : points_W) {
+      for (const double value : point) row += ',' + Fixed(value, 3);
+    }
+    truth_->Write(row + '\n');
+  }
+
+  void WriteTruthSizes(const TruthSizes& sizes) {
+    std::string text = "stature_mm = " + TomlNumber(sizes.stature_mm) +
+                       "\nankle_to_sole_mm = " + TomlNumber(sizes.ankle_to_sole_mm) +
+                       "\n\n[lengths]\n";
+    for (const auto& [key, value] : sizes.lengths_mm)
+      text += key + " = " + TomlNumber(value) + '\n';
+    TextFile(layout_.TruthSizes()).Write(text);
+  }
+
+  const std::filesystem::path& partial_folder() const { return layout_.folder; }
+
+  void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
+    description_ += NotesText(notes);
+    // In one step: a take without its description would not open.
+    const std::filesystem::path unfinished = layout_.Description().string() + ".part";
+    TextFile(unfinished).Write(description_);
+    std::filesystem::rename(unfinished, layout_.Description());
+  }
+
+  void Finish() {
+    for (RecordedVideo& video : frames_) video.Finish();
+    for (auto& video : backgrounds_) {
+      if (video) video->Finish();
+    }
+    for (auto& video : masks_) {
+      if (video) video->Finish();
+    }
+    std::error_code error;
+    std::filesystem::rename(layout_.folder, folder_, error);
+    if (error) {
+      throw std::runtime_error(layout_.folder.string() + ": cannot be renamed to " +
+                               folder_.string() + ": " + error.message());
+    }
+  }
+
+ private:
+  std::size_t Checked(int camera) const {
+    const auto index = static_cast<std::size_t>(camera);
+    MOCAP_CHECK(index < calibrations_.size());
+    return index;
+  }
+
+  void MakeFolder() const {
+    for (const std::filesystem::path& path : {folder_, layout_.folder}) {
+      if (std::filesystem::exists(path)) {
+        throw SetupError(path.string() + ": exists; the name of a new folder is wanted");
+      }
+    }
+    std::error_code error;
+    std::filesystem::create_directories(layout_.folder, error);
+    if (error) throw SetupError(layout_.folder.string() + ": cannot be made: " + error.message());
+  }
+
+  std::filesystem::path folder_;
+  TakeLayout layout_;
+  double fps_;
+  VideoCodec codec_;
+  std::vector<CameraCalibration> calibrations_;
+  std::string description_;  ///< What take.toml says.
+  std::vector<RecordedVideo> frames_;
+  std::vector<std::optional<RecordedVideo>> backgrounds_;
+  std::vector<std::optional<VideoWriter>> masks_;
+  std::optional<TextFile> truth_;
+  std::size_t truth_points_ = 0;
+  std::uint64_t truth_rows_ = 0;
+};
+
+TakeWriter::TakeWriter(const std::filesystem::path& folder, const TakeDescription& description)
+    : impl_(std::make_unique<Impl>(folder, description)) {}
+TakeWriter::~TakeWriter() = default;
+
+void TakeWriter::WriteFrame(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
+                            const PanTiltAngles& angles) {
+  impl_->frames(camera).Write(image, capture_ns, angles);
+}
+void TakeWriter::SkipFrames(int camera, std::uint64_t count) { impl_->frames(camera).Skip(count); }
+void TakeWriter::WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
+                                 const PanTiltAngles& angles) {
+  impl_->background(camera).Write(image, capture_ns, angles);
+}
+void TakeWriter::WriteMask(int camera, ImageView<const std::uint8_t> mask) {
+  impl_->mask(camera).Write(mask);
+}
+void TakeWriter::SetTruthPoints(std::span<const std::string> names) {
+  impl_->SetTruthPoints(names);
+}
+void TakeWriter::WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W) {
+  impl_->WriteTruth(capture_ns, points_W);
+}
+void TakeWriter::WriteTruthSizes(const TruthSizes& sizes) { impl_->WriteTruthSizes(sizes); }
+const std::filesystem::path& TakeWriter::partial_folder() const { return impl_->partial_folder(); }
+void TakeWriter::AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
+  impl_->AddNotes(notes);
+}
+void TakeWriter::Finish() { impl_->Finish(); }
+
+}  // namespace mocap

@@ -1,0 +1,81 @@
+// Recording: all cameras' frames, their times, calibration, background and truth in a folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "drivers/take/video_writer.h"
+
+namespace mocap {
+
+/// What a take says of itself.
+struct TakeDescription {
+  std::string name;
+  double fps_nominal = 30;
+  std::vector<CameraCalibration> cameras;
+  /// Further keys of take.toml, each a string: how the take came about.
+  std::vector<std::pair<std::string, std::string>> notes;
+  VideoCodec codec = VideoCodec::kHuffYuv;
+};
+
+/// True sizes of the person in a take: truth.toml.
+struct TruthSizes {
+  double stature_mm = 0;
+  double ankle_to_sole_mm = 0;
+  /// [lengths], e.g. {"torso_mm", 588.2}.
+  std::vector<std::pair<std::string, double>> lengths_mm;
+};
+
+/// Writes a take: into FOLDER.partial, which becomes FOLDER once all is there.
+///
+/// What was written before an interruption stays in FOLDER.partial and opens as a take. The same
+/// calls give the same bytes. WriteFrame, SkipFrames and WriteBackground may be called by one
+/// thread for each camera; all else is thread-bound.
+class TakeWriter {
+ public:
+  /// @throws SetupError  when the folder or its .partial exists or cannot be created, or when the
+  /// description names a camera twice.
+  TakeWriter(const std::filesystem::path& folder, const TakeDescription& description);
+  ~TakeWriter();
+
+  /// Appends a frame of camera number `camera` (in the order of the description).
+  /// @param capture_ns  must increase from frame to frame.
+  /// @param angles      written for a camera on a head.
+  void WriteFrame(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
+                  const PanTiltAngles& angles = {});
+  /// Tells that camera number `camera` missed frames: its numbering skips them.
+  void SkipFrames(int camera, std::uint64_t count);
+  /// Appends a frame of the empty studio.
+  void WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
+                       const PanTiltAngles& angles = {});
+  /// Appends a true mask: 0 background, 255 person; one for each frame written.
+  void WriteMask(int camera, ImageView<const std::uint8_t> mask);
+
+  /// Names the points of truth.csv; before the first WriteTruth.
+  void SetTruthPoints(std::span<const std::string> names);
+  /// Appends a row of truth: p_WQ of each named point [mm].
+  void WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W);
+  void WriteTruthSizes(const TruthSizes& sizes);
+
+  /// The folder while it is being written.
+  const std::filesystem::path& partial_folder() const;
+  /// Adds keys to take.toml.
+  void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes);
+
+  /// Completes all files and gives the folder its name.
+  /// @throws std::runtime_error  here and above, when something cannot be written.
+  void Finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,231 @@
+#include "drivers/take/video_reader.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "drivers/take/libav.h"
+
+namespace mocap {
+namespace {
+
+// swscale's vector code may write past the end of a row.
+constexpr int kRowAlignment_px = 64;
+constexpr int kLargestSide_px = 16384;
+
+struct InputCloser {
+  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
+};
+using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
+
+[[noreturn]] void Fail(const std::filesystem::path& file, const std::string& what) {
+  throw SetupError(file.string() + ": " + what);
+}
+
+InputPtr OpenInput(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) Fail(file, "is missing; a video file is wanted");
+  if (!std::filesystem::is_regular_file(file)) Fail(file, "is not a file; a video file is wanted");
+  AVFormatContext* raw = nullptr;
+  AVDictionary* options = nullptr;
+  // Without a whitelist a playlist in disguise could reach for the network.
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  const int result =
+      avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (result < 0) Fail(file, "is not a video that FFmpeg knows; a Matroska file is wanted");
+  InputPtr input(raw);
+  input->flags |= AVFMT_FLAG_DISCARD_CORRUPT;
+  return input;
+}
+
+CodecPtr OpenDecoder(const std::filesystem::path& file, const AVStream& stream,
+                     const AVCodec* codec) {
+  CodecPtr decoder(avcodec_alloc_context3(codec));
+  MOCAP_CHECK(decoder);
+  decoder->thread_count = 1;
+  decoder->pkt_timebase = stream.time_base;
+  if (avcodec_parameters_to_context(decoder.get(), stream.codecpar) < 0 ||
+      avcodec_open2(decoder.get(), codec, nullptr) < 0) {
+    Fail(file, "has a video stream that cannot be decoded");
+  }
+  return decoder;
+}
+
+}  // namespace
+
+class VideoReader::Impl {
+ public:
+  explicit Impl(std::filesystem::path file)
+      : file_(std::move(file)), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
+    MOCAP_CHECK(frame_ && packet_);
+    av_log_set_level(AV_LOG_QUIET);
+    Open();
+  }
+
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
+
+  void Open() {
+    input_ = OpenInput(file_);
+    if (avformat_find_stream_info(input_.get(), nullptr) < 0) Fail(file_, "is damaged");
+    const AVCodec* codec = nullptr;
+    stream_ = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    if (stream_ < 0 || codec == nullptr) Fail(file_, "has no video that FFmpeg decodes");
+    decoder_ = OpenDecoder(file_, *input_->streams[stream_], codec);
+    input_ended_ = false;
+    width_px_ = height_px_ = 0;
+    first_waits_ = DecodeFirst();
+    if (!first_waits_) Fail(file_, "holds no whole frame");
+    width_px_ = frame_->width;
+    height_px_ = frame_->height;
+    if (width_px_ > kLargestSide_px || height_px_ > kLargestSide_px) Fail(file_, "is too large");
+    row_px_ = (width_px_ + kRowAlignment_px - 1) / kRowAlignment_px * kRowAlignment_px;
+    pixels_.resize(static_cast<std::size_t>(row_px_) * (height_px_ + 1));
+  }
+
+  VideoStatus Next() {
+    if (first_waits_) {
+      first_waits_ = false;
+      return VideoStatus::kFrame;
+    }
+    const VideoStatus status = Decode();
+    if (status != VideoStatus::kFrame) return status;
+    const bool whole = frame_->width == width_px_ && frame_->height == height_px_ &&
+                       (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 &&
+                       frame_->decode_error_flags == 0;
+    return whole ? VideoStatus::kFrame : VideoStatus::kBroken;
+  }
+
+  void KeepInMemory() {
+    Open();
+    KeptFrame frame;
+    for (ImageView<const Bgr> image; (frame.status = Decoded(image)) != VideoStatus::kEnd;) {
+      frame.image = Image<Bgr>(width_px_, height_px_);
+      if (frame.status == VideoStatus::kFrame) {
+        for (int y = 0; y < height_px_; ++y)
+          std::copy_n(image.row(y), width_px_, frame.image.row(y));
+      }
+      kept_.push_back(std::move(frame));
+    }
+    decoder_.reset();
+    input_.reset();
+  }
+
+  VideoStatus Read(ImageView<const Bgr>& image) {
+    if (kept_.empty()) return Decoded(image);
+    if (next_kept_ == kept_.size()) return VideoStatus::kEnd;
+    const KeptFrame& frame = kept_[next_kept_++];
+    image = frame.image.view();
+    return frame.status;
+  }
+
+  VideoStatus Skip() {
+    if (kept_.empty()) return Next();
+    return next_kept_ == kept_.size() ? VideoStatus::kEnd : kept_[next_kept_++].status;
+  }
+
+  void Rewind() {
+    next_kept_ = 0;
+    if (kept_.empty()) Open();
+  }
+
+ private:
+  struct KeptFrame {
+    VideoStatus status = VideoStatus::kEnd;
+    Image<Bgr> image;
+  };
+
+  VideoStatus Decoded(ImageView<const Bgr>& image) {
+    const VideoStatus status = Next();
+    if (status != VideoStatus::kFrame) return status;
+    if (!Convert()) return VideoStatus::kBroken;
+    image = {pixels_.data(), width_px_, height_px_, row_px_};
+    return status;
+  }
+
+  // A recording may begin with frames whose key frame was not recorded: they are none of the
+  // take's.
+  bool DecodeFirst() {
+    VideoStatus status = VideoStatus::kBroken;
+    while (status == VideoStatus::kBroken) status = Decode();
+    return status == VideoStatus::kFrame;
+  }
+
+  VideoStatus Decode() {
+    while (true) {
+      const int received = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (received == 0) return VideoStatus::kFrame;
+      if (received == AVERROR_EOF || input_ended_) return VideoStatus::kEnd;
+      if (received != AVERROR(EAGAIN)) return VideoStatus::kBroken;
+      if (!Feed()) return VideoStatus::kBroken;
+    }
+  }
+
+  // Hands one packet to the decoder, or tells it that there are no more; false: the packet is bad.
+  bool Feed() {
+    while (av_read_frame(input_.get(), packet_.get()) >= 0) {
+      const bool ours = packet_->stream_index == stream_;
+      const int sent = ours ? avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
+      av_packet_unref(packet_.get());
+      if (ours) return sent >= 0;
+    }
+    input_ended_ = true;
+    avcodec_send_packet(decoder_.get(), nullptr);
+    return true;
+  }
+
+  bool Convert() {
+    if (!scaler_ || scaled_format_ != frame_->format) PrepareScaler();
+    if (!scaler_) return false;
+    auto* first = reinterpret_cast<std::uint8_t*>(pixels_.data());
+    std::uint8_t* const planes[] = {first, nullptr, nullptr, nullptr};
+    const int strides[] = {row_px_ * static_cast<int>(sizeof(Bgr)), 0, 0, 0};
+    return sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_px_, planes,
+                     strides) == height_px_;
+  }
+
+  void PrepareScaler() {
+    scaled_format_ = frame_->format;
+    const auto format = static_cast<AVPixelFormat>(frame_->format);
+    scaler_.reset(sws_getContext(width_px_, height_px_, format, width_px_, height_px_,
+                                 AV_PIX_FMT_BGR24, SWS_BILINEAR, nullptr, nullptr, nullptr));
+    if (!scaler_) return;
+    const bool unspecified_gray =
+        format == AV_PIX_FMT_GRAY8 && frame_->color_range == AVCOL_RANGE_UNSPECIFIED;
+    const bool full_range = frame_->color_range == AVCOL_RANGE_JPEG || unspecified_gray;
+    const int* matrix = sws_getCoefficients(frame_->colorspace);
+    sws_setColorspaceDetails(scaler_.get(), matrix, full_range, matrix, 1, 0, 1 << 16, 1 << 16);
+  }
+
+  std::filesystem::path file_;
+  InputPtr input_;
+  CodecPtr decoder_;
+  FramePtr frame_;
+  PacketPtr packet_;
+  ScalerPtr scaler_;
+  int scaled_format_ = AV_PIX_FMT_NONE;
+  int stream_ = -1;
+  int width_px_ = 0, height_px_ = 0;
+  int row_px_ = 0;
+  bool input_ended_ = false;
+  bool first_waits_ = false;
+  std::vector<Bgr> pixels_;
+  std::vector<KeptFrame> kept_;  // Empty: frames are decoded when they are read.
+  std::size_t next_kept_ = 0;
+};
+
+VideoReader::VideoReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>(file)) {}
+VideoReader::VideoReader(VideoReader&&) noexcept = default;
+VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
+VideoReader::~VideoReader() = default;
+
+int VideoReader::width_px() const { return impl_->width_px(); }
+int VideoReader::height_px() const { return impl_->height_px(); }
+VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(image); }
+VideoStatus VideoReader::Skip() { return impl_->Skip(); }
+void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }
+void VideoReader::Rewind() { impl_->Rewind(); }
+
+}  // namespace mocap

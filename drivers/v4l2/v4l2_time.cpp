@@ -1,0 +1,53 @@
+#include "drivers/v4l2/v4l2_time.h"
+
+#include <linux/videodev2.h>
+
+#include <chrono>
+
+namespace mocap {
+namespace {
+
+/// A frame may have waited for its buffer to be fetched, or been stamped a little ahead.
+constexpr std::int64_t kOldest_ns = 10'000'000'000;
+constexpr std::int64_t kAhead_ns = 1'000'000'000;
+
+template <typename Clock>
+std::int64_t Now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
+      .count();
+}
+
+bool IsRecent(std::int64_t stamp_ns, std::int64_t now_ns) {
+  return stamp_ns > now_ns - kOldest_ns && stamp_ns < now_ns + kAhead_ns;
+}
+
+}  // namespace
+
+ClockPair ReadClocks() {
+  // On Linux the steady clock is CLOCK_MONOTONIC, by which the kernel stamps.
+  const std::int64_t before_ns = Now_ns<std::chrono::steady_clock>();
+  const std::int64_t epoch_ns = Now_ns<std::chrono::system_clock>();
+  return {(before_ns + Now_ns<std::chrono::steady_clock>()) / 2, epoch_ns};
+}
+
+CaptureTime CaptureTimeOf(std::int64_t stamp_ns, std::uint32_t flags, std::int64_t exposure_ns,
+                          const ClockPair& now) {
+  CaptureTime time;
+  const bool is_named = (flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  if (IsRecent(stamp_ns, now.monotonic_ns)) {
+    time.capture_ns = stamp_ns - now.monotonic_ns + now.epoch_ns;
+    time.clock = is_named ? V4l2Clock::kMonotonic : V4l2Clock::kGuessed;
+  } else if (IsRecent(stamp_ns, now.epoch_ns)) {
+    time.capture_ns = stamp_ns;
+    time.clock = V4l2Clock::kGuessed;
+  } else {
+    time.capture_ns = now.epoch_ns;
+  }
+  time.is_start_of_exposure =
+      time.clock != V4l2Clock::kArrival &&
+      (flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  time.capture_ns += time.is_start_of_exposure ? exposure_ns / 2 : -exposure_ns / 2;
+  return time;
+}
+
+}  // namespace mocap

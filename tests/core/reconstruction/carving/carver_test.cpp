@@ -1,0 +1,268 @@
+#include "core/reconstruction/carving/carver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "core/reconstruction/carving/volume_of_interest.h"
+#include "tests/core/reconstruction/synthetic_studio.h"
+
+namespace mocap {
+namespace {
+
+using Voxels = std::set<std::tuple<int, int, int>>;
+
+// Counted from the world's origin.
+Voxels VoxelsOf(const VoxelGrid& grid) {
+  Voxels voxels;
+  for (int k = 0; k < grid.size().z(); ++k)
+    for (int j = 0; j < grid.size().y(); ++j)
+      for (int i = 0; i < grid.size().x(); ++i)
+        if (grid.Test(i, j, k))
+          voxels.emplace(grid.first_voxel().x() + i, grid.first_voxel().y() + j,
+                         grid.first_voxel().z() + k);
+  return voxels;
+}
+
+// Whether any (or every) pixel of the picture within 6 px is set.
+Silhouette Within6(const Silhouette& from, bool every) {
+  constexpr int kRadius_px = 6;
+  Silhouette to(from.width(), from.height());
+  for (int y = 0; y < from.height(); ++y) {
+    for (int x = 0; x < from.width(); ++x) {
+      bool any = false;
+      bool all = true;
+      for (int v = std::max(0, y - kRadius_px); v <= std::min(from.height() - 1, y + kRadius_px);
+           ++v)
+        for (int u = std::max(0, x - kRadius_px); u <= std::min(from.width() - 1, x + kRadius_px);
+             ++u) {
+          any = any || from.Test(u, v);
+          all = all && from.Test(u, v);
+        }
+      if (every ? all : any) to.Set(x, y);
+    }
+  }
+  return to;
+}
+
+struct PlainView {
+  CarvingView view;
+  Silhouette closed;
+};
+
+// What the header says, word by word; `views` are those with something in their silhouettes.
+bool AgreesPlainly(const std::vector<PlainView>& views, std::size_t all, const Vector3& p_W) {
+  std::size_t seeing = 0;
+  std::size_t gaps = 0;
+  for (const auto& [view, closed] : views) {
+    const Vector3 p_C = view.X_CW * p_W;
+    if (p_C.z() <= 0) continue;
+    const SensorPlaneTable::Pixel pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
+    if (pixel.x < 0) continue;
+    if (view.silhouette->Test(pixel.x, pixel.y)) {
+      ++seeing;
+    } else if (!closed.Test(pixel.x, pixel.y) || ++gaps > all / 5) {
+      return false;
+    }
+  }
+  return seeing >= 2 && 2 * seeing >= all;
+}
+
+Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
+  Voxels voxels;
+  const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(views);
+  if (!volume) return voxels;
+  std::vector<PlainView> seeing;
+  for (const CarvingView& view : views)
+    if (view.silhouette->BoundingBox())
+      seeing.push_back({view, Within6(Within6(*view.silhouette, false), true)});
+  const Eigen::Vector3i first = (volume->min() / voxel_mm).array().floor().cast<int>();
+  const Eigen::Vector3i end = (volume->max() / voxel_mm).array().ceil().cast<int>();
+  for (int k = first.z(); k < end.z(); ++k) {
+    for (int j = first.y(); j < end.y(); ++j) {
+      for (int i = first.x(); i < end.x(); ++i) {
+        int agreeing = 0;
+        for (const double z : {0.25, 0.75})
+          for (const double y : {0.25, 0.75})
+            for (const double x : {0.25, 0.75})
+              agreeing +=
+                  AgreesPlainly(seeing, views.size(), Vector3(i + x, j + y, k + z) * voxel_mm);
+        if (agreeing > 4) voxels.emplace(i, j, k);
+      }
+    }
+  }
+  return voxels;
+}
+
+Voxels Carve(std::span<const CarvingView> views, double voxel_mm) {
+  VoxelGrid grid;
+  Carver(CarvingOptions{voxel_mm}).Carve(views, grid);
+  return VoxelsOf(grid);
+}
+
+Vector3 CenterOf(const std::tuple<int, int, int>& voxel, double voxel_mm) {
+  const auto [i, j, k] = voxel;
+  return Vector3(i + 0.5, j + 0.5, k + 0.5) * voxel_mm;
+}
+
+TEST(Carver, CarvesASphereWhereItIs) {
+  SyntheticStudio studio;
+  const Vector3 middle_W(310, -220, 1010);
+  const double radius_mm = 200;
+  studio.Show({{middle_W, middle_W, radius_mm}});
+  const Voxels voxels = Carve(studio.Views(), 25);
+  Vector3 sum = Vector3::Zero();
+  for (const auto& voxel : voxels) {
+    const Vector3 center = CenterOf(voxel, 25);
+    sum += center;
+    // Six cones meet in a body that sticks out of the sphere, but not by far.
+    EXPECT_LT((center - middle_W).norm(), 1.4 * radius_mm);
+  }
+  EXPECT_LT((sum / static_cast<double>(voxels.size()) - middle_W).norm(), 15);
+  // Nothing of the sphere is missing but what half a pixel of 13 mm takes.
+  const int reach = static_cast<int>(radius_mm / 25) + 1;
+  for (int k = -reach; k <= reach; ++k)
+    for (int j = -reach; j <= reach; ++j)
+      for (int i = -reach; i <= reach; ++i) {
+        const auto voxel = std::make_tuple(12 + i, -9 + j, 40 + k);
+        if ((CenterOf(voxel, 25) - middle_W).norm() < radius_mm - 25) {
+          EXPECT_TRUE(voxels.count(voxel)) << i << " " << j << " " << k;
+        }
+      }
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionAtAnyVoxelSize) {
+  SyntheticStudio studio;
+  studio.Show(StandingPerson(420, -310));
+  for (const double voxel_mm : {100.0, 50.0, 33.3, 25.0, 17.0}) {
+    SCOPED_TRACE(voxel_mm);
+    const Voxels plain = CarvePlainly(studio.Views(), voxel_mm);
+    EXPECT_GT(plain.size(), 20u);
+    EXPECT_TRUE(Carve(studio.Views(), voxel_mm) == plain);
+  }
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWithNoisySilhouettes) {
+  SyntheticStudio studio;
+  studio.Show(StandingPerson(-200, 150));
+  std::mt19937 random(3);
+  for (Silhouette& silhouette : studio.silhouettes) {
+    for (int i = 0; i < 300; ++i)
+      silhouette.Set(static_cast<int>(random() % 320), static_cast<int>(random() % 240));
+    for (int i = 0; i < 3000; ++i) {
+      const int x = static_cast<int>(random() % 320), y = static_cast<int>(random() % 240);
+      silhouette.row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63));
+    }
+  }
+  EXPECT_TRUE(Carve(studio.Views(), 50) == CarvePlainly(studio.Views(), 50));
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWhereThePersonLeavesPictures) {
+  SyntheticStudio studio;
+  studio.cameras[1].X_CW = LookAt({100, -2900, 2000}, {1500, 0, 1500});
+  studio.cameras[4].X_CW = LookAt({-150, 700, 1600}, {0, 0, 1300});
+  studio.Show(StandingPerson(0, 0));
+  const Voxels plain = CarvePlainly(studio.Views(), 40);
+  EXPECT_GT(plain.size(), 500u);
+  EXPECT_TRUE(Carve(studio.Views(), 40) == plain);
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWithFourCamerasAndWithOneCloseBy) {
+  SyntheticStudio studio;
+  studio.cameras[1].X_CW = LookAt({-250, -500, 1900}, {0, 0, 800});
+  studio.Show(StandingPerson(0, 0));
+  std::vector<CarvingView> views = studio.Views();
+  const Voxels six = CarvePlainly(views, 40);
+  EXPECT_GT(six.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == six);
+  views.resize(4);
+  const Voxels four = CarvePlainly(views, 40);
+  EXPECT_GT(four.size(), 500u);
+  EXPECT_TRUE(Carve(views, 40) == four);
+}
+
+TEST(Carver, AFootOutsideOnePictureDoesNotVanish) {
+  SyntheticStudio studio;
+  // Sees the person down to the knees.
+  studio.cameras[1].X_CW = LookAt({100, -2900, 2000}, {0, 0, 2100});
+  studio.Show(StandingPerson(0, 0));
+  ASSERT_EQ(studio.silhouettes[1].BoundingBox()->bottom, 239);
+  const Voxels voxels = Carve(studio.Views(), 25);
+  int at_foot = 0;
+  for (const auto& voxel : voxels)
+    at_foot += (CenterOf(voxel, 25) - Vector3(110, 30, 70)).norm() < 65;
+  // Of a ball of 65 mm radius, 73 voxels.
+  EXPECT_GT(at_foot, 55);
+}
+
+TEST(Carver, WhatOnlyOneCameraSeesIsNotMadeUp) {
+  SyntheticStudio studio;
+  // All but the first look away from the person, at one another.
+  studio.Show(StandingPerson(0, 0));
+  std::vector<CarvingView> views = studio.Views();
+  for (std::size_t c = 1; c < views.size(); ++c)
+    views[c].X_CW =
+        LookAt(studio.cameras[c].X_CW.Inverse().p, 3 * studio.cameras[c].X_CW.Inverse().p);
+  EXPECT_TRUE(Carve(views, 50).empty());
+}
+
+TEST(Carver, ACameraThatSeesNothingCarvesNothing) {
+  SyntheticStudio studio;
+  studio.Show(StandingPerson(0, 0));
+  const Voxels all = Carve(studio.Views(), 50);
+  studio.silhouettes[2].Reset(320, 240);
+  const Voxels five = Carve(studio.Views(), 50);
+  EXPECT_TRUE(std::includes(five.begin(), five.end(), all.begin(), all.end()));
+  EXPECT_LT(five.size(), 2 * all.size());
+}
+
+TEST(Carver, AnEmptyRoomGivesNoVoxels) {
+  SyntheticStudio studio;
+  studio.Show({});
+  EXPECT_TRUE(Carve(studio.Views(), 25).empty());
+  EXPECT_TRUE(Carve({}, 25).empty());
+  // Half of the cameras must see something: two of six blobs may meet by chance.
+  studio.Show(StandingPerson(0, 0));
+  for (const int c : {0, 1, 3, 5}) studio.silhouettes[c].Reset(320, 240);
+  EXPECT_TRUE(Carve(studio.Views(), 25).empty());
+}
+
+TEST(Carver, TheOrderOfTheCamerasDoesNotMatter) {
+  SyntheticStudio studio;
+  studio.Show(StandingPerson(100, 500));
+  std::vector<CarvingView> views = studio.Views();
+  const Voxels voxels = Carve(views, 25);
+  std::reverse(views.begin(), views.end());
+  EXPECT_TRUE(Carve(views, 25) == voxels);
+}
+
+TEST(Carver, AUsedCarverAndAUsedGridGiveTheSameAsNewOnes) {
+  SyntheticStudio studio;
+  Carver carver(CarvingOptions{25});
+  VoxelGrid grid;
+  studio.Show(StandingPerson(300, -400));
+  carver.Carve(studio.Views(), grid);
+  studio.Show(StandingPerson(-500, 200));
+  carver.Carve(studio.Views(), grid);
+  EXPECT_TRUE(VoxelsOf(grid) == Carve(studio.Views(), 25));
+}
+
+TEST(Carver, FollowsAPersonAnywhereInTheRoom) {
+  SyntheticStudio studio;
+  for (const Vector2& at : {Vector2(1300, 0), Vector2(-900, 1100), Vector2(0, -1200)}) {
+    studio.Show(StandingPerson(at.x(), at.y()));
+    Vector3 sum = Vector3::Zero();
+    const Voxels voxels = Carve(studio.Views(), 50);
+    ASSERT_GT(voxels.size(), 300u);
+    for (const auto& voxel : voxels) sum += CenterOf(voxel, 50);
+    const Vector3 middle = sum / static_cast<double>(voxels.size());
+    EXPECT_LT((middle.head<2>() - at).norm(), 60);
+  }
+}
+
+}  // namespace
+}  // namespace mocap

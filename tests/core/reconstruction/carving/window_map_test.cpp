@@ -1,0 +1,114 @@
+#include "core/reconstruction/carving/window_map.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/reconstruction/silhouette/bit_filters.h"
+
+namespace mocap {
+namespace {
+
+// A block with holes and notches of all sizes.
+Silhouette Block(int width, int height, const PixelBox& block, unsigned seed) {
+  std::mt19937 random(seed);
+  Silhouette s(width, height);
+  for (int y = block.top; y <= block.bottom; ++y)
+    for (int x = block.left; x <= block.right; ++x) s.Set(x, y);
+  for (int i = 0; i < 12; ++i) {
+    const int side = static_cast<int>(random() % 14);
+    const int left = static_cast<int>(random() % static_cast<unsigned>(width));
+    const int top = static_cast<int>(random() % static_cast<unsigned>(height));
+    for (int y = top; y < std::min(top + side, height); ++y)
+      for (int x = left; x < std::min(left + side, width); ++x)
+        s.row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63));
+  }
+  return s;
+}
+
+Silhouette Closed(const Silhouette& silhouette) {
+  Silhouette closed = silhouette, scratch;
+  for (int width = 0; width < WindowMap::kGap_px; width += 2) {
+    Dilate(closed, 2, scratch);
+    std::swap(closed, scratch);
+  }
+  for (int width = 0; width < WindowMap::kGap_px; width += 2) {
+    Erode(closed, 2, scratch);
+    std::swap(closed, scratch);
+  }
+  return closed;
+}
+
+struct Case {
+  int width, height;
+  PixelBox block;
+};
+// In the middle, and at each edge and corner of a picture.
+const Case kCases[] = {{150, 110, {20, 15, 120, 90}},  {128, 100, {0, 0, 80, 60}},
+                       {150, 110, {60, 50, 149, 109}}, {131, 90, {3, 4, 127, 86}},
+                       {64, 60, {0, 0, 63, 59}},       {150, 110, {70, 2, 76, 9}},
+                       {100, 80, {31, 40, 94, 41}},    {97, 80, {90, 70, 96, 79}}};
+
+TEST(WindowMap, KnowsInsideGapAndOutsideOfEveryPixel) {
+  WindowMap map;
+  for (const Case& c : kCases) {
+    const Silhouette s = Block(c.width, c.height, c.block, 5);
+    for (const bool closes_gaps : {true, false}) {
+      const Silhouette closed = closes_gaps ? Closed(s) : s;
+      map.Measure(s, *s.BoundingBox(), closes_gaps);
+      for (int y = 0; y < c.height; ++y) {
+        for (int x = 0; x < c.width; ++x) {
+          const WindowMap::Kind wanted = s.Test(x, y)        ? WindowMap::Kind::kInside
+                                         : closed.Test(x, y) ? WindowMap::Kind::kGap
+                                                             : WindowMap::Kind::kOutside;
+          ASSERT_EQ(map.At(x, y), wanted) << x << " " << y << " of " << c.width;
+        }
+      }
+    }
+  }
+}
+
+TEST(WindowMap, KnowsOfWindowsWhetherAllOfThemIsInsideOrOutside) {
+  WindowMap map;
+  for (const Case& c : kCases) {
+    const Silhouette s = Block(c.width, c.height, c.block, 8);
+    const Silhouette closed = Closed(s);
+    map.Measure(s, *s.BoundingBox(), true);
+    const WindowMap::Planes planes = map.planes();
+    for (const int side : WindowMap::kSides_px) {
+      for (int y = planes.top; y <= planes.bottom; ++y) {
+        for (int x = planes.left; x <= planes.right; ++x) {
+          bool is_inside = true, is_outside = true;
+          for (int v = y; v < y + side; ++v) {
+            for (int u = x; u < x + side; ++u) {
+              const bool is_beside = u >= c.width || v >= c.height;
+              is_inside = is_inside && !is_beside && s.Test(u, v);
+              is_outside = is_outside && (is_beside || !closed.Test(u, v));
+            }
+          }
+          const int column = x - planes.left;
+          const std::uint32_t word =
+              planes.words[planes.begins[side] + (y - planes.top) * planes.words_per_row +
+                           column / 16] >>
+              column % 16;
+          ASSERT_EQ((word & 1) != 0, is_inside) << side << " at " << x << " " << y;
+          ASSERT_EQ((word >> 16 & 1) != 0, is_outside) << side << " at " << x << " " << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(WindowMap, AWindowBetweenTwoSizesIsJudgedByTheLarger) {
+  const Silhouette s = Block(150, 110, {20, 15, 120, 90}, 3);
+  WindowMap map;
+  map.Measure(s, *s.BoundingBox(), true);
+  const std::int32_t* const begins = map.planes().begins;
+  EXPECT_EQ(begins[5], begins[6]);
+  EXPECT_EQ(begins[9], begins[12]);
+  EXPECT_EQ(begins[17], begins[24]);
+  EXPECT_NE(begins[4], begins[5]);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,101 @@
+#include "core/reconstruction/silhouette/silhouette.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "core/reconstruction/silhouette/bit_filters.h"
+
+namespace mocap {
+namespace {
+
+Silhouette RandomSilhouette(int width, int height, int one_in, unsigned seed) {
+  std::mt19937 random(seed);
+  Silhouette s(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (random() % static_cast<unsigned>(one_in) == 0) s.Set(x, y);
+  return s;
+}
+
+bool IsSet(const Silhouette& s, int x, int y, bool beyond) {
+  return x < 0 || y < 0 || x >= s.width() || y >= s.height() ? beyond : s.Test(x, y);
+}
+
+TEST(Silhouette, CountsTheShareThatItCovers) {
+  Silhouette s(200, 50);
+  EXPECT_EQ(s.CoveredShare(), 0);
+  for (int x = 0; x < 200; ++x) s.Set(x, 49);
+  EXPECT_DOUBLE_EQ(s.CoveredShare(), 0.02);
+}
+
+TEST(Silhouette, ABoundingBoxIsTightAcrossWords) {
+  Silhouette s(200, 50);
+  EXPECT_FALSE(s.BoundingBox().has_value());
+  s.Set(63, 7);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{63, 7, 63, 7}));
+  s.Set(64, 9);
+  s.Set(199, 49);
+  s.Set(5, 20);
+  EXPECT_EQ(*s.BoundingBox(), (PixelBox{5, 7, 199, 49}));
+}
+
+TEST(Silhouette, BytesArePackedInOrderAndNothingBeyondTheLast) {
+  for (const int width : {1, 63, 64, 65, 130}) {
+    std::mt19937 random(4);
+    std::vector<std::uint8_t> bytes;
+    for (int x = 0; x < width; ++x) bytes.push_back(random() % 2);
+    Silhouette s(width, 1);
+    PackRow(bytes, 0, s.row(0));
+    for (int x = 0; x < width; ++x) EXPECT_EQ(s.Test(x, 0), bytes[x] == 1);
+    if (width % 64 != 0) {
+      EXPECT_EQ(s.words().back() >> (width % 64), 0u);
+    }
+  }
+}
+
+TEST(Silhouette, PackingARunLeavesTheRestOfTheRow) {
+  Silhouette s(200, 1);
+  s.Set(39, 0);
+  s.Set(141, 0);
+  PackRow(std::vector<std::uint8_t>(101, 1), 40, s.row(0));
+  for (int x = 0; x < 200; ++x) EXPECT_EQ(s.Test(x, 0), x >= 39 && x <= 141) << x;
+}
+
+TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {
+  for (const int width : {64, 67, 130}) {
+    for (const int radius : {1, 2, 3}) {
+      const Silhouette sparse = RandomSilhouette(width, 40, 60, 5);
+      const Silhouette dense = [&] {
+        Silhouette s(width, 40);
+        for (int y = 0; y < 40; ++y)
+          for (int x = 0; x < width; ++x)
+            if (!sparse.Test(x, y)) s.Set(x, y);
+        return s;
+      }();
+      Silhouette eroded, dilated;
+      Erode(dense, radius, eroded);
+      Dilate(sparse, radius, dilated);
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < width; ++x) {
+          bool all = true, any = false;
+          for (int v = y - radius; v <= y + radius; ++v) {
+            for (int u = x - radius; u <= x + radius; ++u) {
+              all &= IsSet(dense, u, v, true);
+              any |= IsSet(sparse, u, v, false);
+            }
+          }
+          EXPECT_EQ(eroded.Test(x, y), all) << x << " " << y;
+          EXPECT_EQ(dilated.Test(x, y), any) << x << " " << y;
+        }
+      }
+      if (width % 64 != 0) {
+        EXPECT_EQ(eroded.row(3)[width / 64] >> (width % 64), 0u);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,97 @@
+#include "daemon/messages/decode_message.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace mocap {
+namespace {
+
+template <typename Message>
+std::vector<std::uint8_t> Encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+pose_t SomePose() {
+  pose_t pose{};
+  pose.frame = 7;
+  pose.num_joints = 2;
+  pose.joint_rad = {0.1, 0.2};
+  pose.num_cameras = 3;
+  pose.camera_used = {1, 0, 1};
+  return pose;
+}
+
+body_t SomeBody() {
+  body_t body{};
+  body.model = "full";
+  for (std::string& name : body.point_name) name.assign("point");
+  body.num_joints = 1;
+  body.joint_name = {"neck"};
+  body.joint_parent = {-1};
+  body.joint_axis = body.joint_place_mm = {{0, 0, 1}};
+  body.joint_min_rad = body.joint_max_rad = {0};
+  body.num_sizes = 1;
+  body.size_name = {"thigh"};
+  body.size_mm = {440};
+  return body;
+}
+
+status_t SomeStatus() {
+  status_t status{};
+  status.version = "0.1.0";
+  status.num_cameras = 1;
+  status.cameras.resize(1);
+  status.cameras[0].name = "cam1";
+  status.num_stages = 1;
+  status.stages.resize(1);
+  status.stages[0].name = "carve";
+  return status;
+}
+
+service_t SomeService() {
+  service_t service{};
+  service.studio = "small";
+  service.num_complaints = 1;
+  service.complaint = {"cam1 is lost"};
+  service.calibration = "calibration.toml";
+  service.num_cameras = 2;
+  service.camera_trust = {0.9, -1};
+  service.camera_off_px = {0.4, 0};
+  service.camera_light = {1, 0.8};
+  return service;
+}
+
+/// Whole messages come back; none of their beginnings is taken for one.
+template <typename Message>
+void ExpectWholeOrNothing(const Message& message) {
+  const std::vector<std::uint8_t> bytes = Encoded(message);
+  const std::span<const std::uint8_t> all(bytes);
+  ASSERT_TRUE(DecodeMessage<Message>(all));
+  EXPECT_EQ(Encoded(*DecodeMessage<Message>(all)), bytes);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(DecodeMessage<Message>(all.first(size))) << size;
+  }
+}
+
+TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
+  ExpectWholeOrNothing(SomePose());
+  ExpectWholeOrNothing(SomeBody());
+  ExpectWholeOrNothing(SomeStatus());
+  ExpectWholeOrNothing(SomeService());
+}
+
+TEST(DecodeMessage, AForgedCountTakesNoMemory) {
+  std::vector<std::uint8_t> bytes = Encoded(SomePose());
+  const std::size_t num_joints = 8 + 4 * 8 + 1 + 6 * 8 + 17 * 8;
+  ASSERT_EQ(bytes[num_joints + 3], 2);
+  for (const std::uint8_t first : {0x7f, 0xff}) {
+    bytes[num_joints] = first;
+    EXPECT_FALSE(DecodeMessage<pose_t>(bytes));
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,89 @@
+#include "daemon/pipeline/load_control.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kPeriod = 30'000'000;
+constexpr std::int64_t kDelay = 1000;
+constexpr auto kMost = LoadControl::kMostUnderWay;
+
+/// Adds a set that had arrived a moment after its capture and is complete `age_ns` later.
+void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
+  const std::int64_t arrival_ns = capture_ns + kDelay;
+  control.AddSet(capture_ns, arrival_ns, arrival_ns + age_ns, kPeriod);
+}
+
+TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
+  LoadControl control;
+  for (int i = 0; i < 10; ++i) {
+    Add(control, i * kPeriod, LoadControl::kTolerancePeriods * kPeriod);
+    control.SetUnderWay(std::min<std::int64_t>(i + 1, kMost - 1), i * kPeriod + 2 * kDelay);
+  }
+  EXPECT_LT(control.wanted_from_ns(), 0);
+  EXPECT_EQ(control.skipped(), 0);
+}
+
+TEST(LoadControl, AnOldSetIsFollowedByTheNextFrameToBeCaptured) {
+  LoadControl control;
+  constexpr std::int64_t kAge = LoadControl::kTolerancePeriods * kPeriod;
+  Add(control, 0, kAge + 5);
+  EXPECT_EQ(control.wanted_from_ns(), kAge + kPeriod / 2);
+}
+
+TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
+  LoadControl control;
+  Add(control, 0, 0);
+  control.SetUnderWay(kMost, kPeriod);
+  EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
+  control.SetUnderWay(1, 5 * kPeriod + 2 * kDelay);
+  EXPECT_EQ(control.wanted_from_ns(), 5 * kPeriod + kPeriod / 2);
+}
+
+TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
+  LoadControl control;
+  Add(control, 0, 0);
+  Add(control, kPeriod, 0);
+  const std::int64_t old_ns = LoadControl::kTolerancePeriods * kPeriod + 2 * kDelay;
+  control.SetUnderWay(1, old_ns);
+  EXPECT_LT(control.wanted_from_ns(), 0) << "one alone holds up nothing";
+  control.SetUnderWay(2, old_ns);
+  EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
+}
+
+TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {
+  LoadControl control;
+  Add(control, 0, 0);
+  control.SetUnderWay(kMost, 100);
+  control.SetUnderWay(kMost - 1, kPeriod / 2);
+  Add(control, kPeriod, 0);
+  EXPECT_EQ(control.wanted_from_ns(), kPeriod / 2);
+  EXPECT_EQ(control.skipped(), 0);
+}
+
+TEST(LoadControl, CountsTheSetsThatWereLeftOut) {
+  LoadControl control;
+  constexpr std::int64_t kTooOld = LoadControl::kTolerancePeriods + 1;
+  Add(control, 0, kTooOld * kPeriod);
+  EXPECT_EQ(control.skipped(), 0) << "the set after the gap has not come yet";
+  Add(control, (kTooOld + 1) * kPeriod + 100, kPeriod);
+  EXPECT_EQ(control.skipped(), kTooOld);
+  Add(control, (kTooOld + 3) * kPeriod, kPeriod);
+  EXPECT_EQ(control.skipped(), kTooOld) << "a frame that no camera took was not left out here";
+}
+
+TEST(LoadControl, AConstantDelayBeforeArrivalIsNoAge) {
+  LoadControl control;
+  for (int i = 0; i < 10; ++i) {
+    const std::int64_t arrival_ns = (i + 9) * kPeriod;
+    control.AddSet(i * kPeriod, arrival_ns, arrival_ns + kPeriod, kPeriod);
+  }
+  EXPECT_LT(control.wanted_from_ns(), 0);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,228 @@
+#include "daemon/pipeline/pipeline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "daemon/clock.h"
+#include "daemon/pipeline/load_control.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "tests/daemon/fake_studio.h"
+
+namespace mocap {
+namespace {
+
+using testing::FakeGrab;
+using testing::FakeScript;
+using testing::FakeStudio;
+using testing::kFakePeriodNs;
+using testing::SteadyFrames;
+
+/// All that a sink sees of a set, to compare runs.
+struct Seen {
+  std::int64_t frame, capture_ns;
+  std::uint64_t cameras;
+  CaptureState state;
+  std::vector<std::uint64_t> voxels;
+  BodyPoints points_W;
+
+  friend bool operator==(const Seen& a, const Seen& b) {
+    return a.frame == b.frame && a.capture_ns == b.capture_ns && a.cameras == b.cameras &&
+           a.state == b.state && a.voxels == b.voxels &&
+           (a.state == CaptureState::kSearching || a.points_W == b.points_W);
+  }
+};
+
+class RecordingSink : public PoseSink {
+ public:
+  void OnSet(const TrackedSet& set) override {
+    seen.push_back({set.frame, set.capture_ns, set.cameras, set.result.state, set.grid.words(),
+                    set.result.points_W});
+    if (on_set) on_set(seen.back());
+  }
+
+  std::vector<Seen> seen;
+  std::function<void(const Seen&)> on_set;
+};
+
+PipelineOptions Waiting() {
+  return {.voxel_mm = 50, .overflow = Overflow::kWait, .latency_origin = LatencyOrigin::kArrival};
+}
+
+PipelineOptions Live() { return {.voxel_mm = 50, .overflow = Overflow::kDropOldest}; }
+
+void RunToEnd(Pipeline& pipeline) {
+  pipeline.Start();
+  pipeline.Join();
+}
+
+/// A person who walks, in pictures so small that it is a matter of seconds.
+Studio SmallSimulation() {
+  SimulatedStudioOptions options = RecordedSimulation();
+  options.cameras = 4;
+  options.width_px = 160;
+  options.height_px = 120;
+  options.seconds = 0.4;
+  return OpenSimulatedStudio(options);
+}
+
+TEST(Pipeline, ThreadedEqualsSerialBitForBit) {
+  RecordingSink serial;
+  Pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), serial).RunSerially();
+  ASSERT_EQ(serial.seen.size(), 12u);
+  EXPECT_NE(serial.seen.back().state, CaptureState::kSearching) << "the comparison must see poses";
+  RecordingSink threaded;
+  Pipeline pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), threaded);
+  RunToEnd(pipeline);
+  EXPECT_TRUE(threaded.seen == serial.seen);
+}
+
+TEST(Pipeline, TracksEverySetInOrderWhenItMayWait) {
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({SteadyFrames(40), SteadyFrames(40), SteadyFrames(25)}), Waiting(),
+                    LoadBodyTable("full"), sink);
+  RunToEnd(pipeline);
+  ASSERT_EQ(sink.seen.size(), 40u);
+  for (int n = 0; n < 40; ++n) {
+    EXPECT_EQ(sink.seen[n].frame, n);
+    EXPECT_EQ(sink.seen[n].capture_ns, n * kFakePeriodNs);
+    EXPECT_EQ(sink.seen[n].cameras, n < 25 ? 0b111u : 0b011u);
+  }
+  const PipelineStatus status = pipeline.Status();
+  EXPECT_EQ(status.sets_complete, 25);
+  EXPECT_EQ(status.sets_partial, 15);
+  EXPECT_EQ(status.sets_dropped, 0);
+  EXPECT_EQ(status.sets_tracked, 40);
+  EXPECT_EQ(status.cameras[2].frames, 25);
+  EXPECT_EQ(status.cameras[2].state, CameraState::kEnded);
+  EXPECT_EQ(status.stages[Stage::kSegment].count(), 105);
+  EXPECT_EQ(status.stages[Stage::kTotal].count(), 40);
+}
+
+TEST(Pipeline, GoesOnWithoutALostCameraAndTakesItBack) {
+  std::atomic<int> sets{0};
+  std::atomic<bool> is_back{false};
+  // Lost from frame 10 on, back with frame 20 once the sets before it are through.
+  const FakeScript lost_for_a_while = [&, next = 0](int) mutable {
+    if (next == 10 && sets < 20) return FakeGrab{GrabStatus::kLost, 0};
+    if (next == 10) next = 20;
+    if (next == 21) is_back = true;
+    return next < 30 ? FakeGrab{GrabStatus::kFrame, next++ * kFakePeriodNs} : FakeGrab{};
+  };
+  const FakeScript waits_for_it = [&](int call) {
+    while (call == 20 && !is_back) std::this_thread::yield();
+    return SteadyFrames(30)(call);
+  };
+  RecordingSink sink;
+  sink.on_set = [&](const Seen&) { ++sets; };
+  Pipeline pipeline(FakeStudio({waits_for_it, waits_for_it, lost_for_a_while}), Waiting(),
+                    LoadBodyTable("full"), sink);
+  RunToEnd(pipeline);
+  ASSERT_EQ(sink.seen.size(), 30u);
+  for (int n = 0; n < 30; ++n) {
+    EXPECT_EQ(sink.seen[n].cameras, n < 10 || n >= 20 ? 0b111u : 0b011u) << "set " << n;
+  }
+}
+
+TEST(Pipeline, CountsTornFramesAndGoesOn) {
+  const FakeScript torn = [](int call) {
+    if (call == 12) return FakeGrab{};
+    return call % 3 == 1 ? FakeGrab{GrabStatus::kTorn, 0}
+                         : FakeGrab{GrabStatus::kFrame, call * kFakePeriodNs};
+  };
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({SteadyFrames(12), torn, SteadyFrames(12)}), Waiting(),
+                    LoadBodyTable("full"), sink);
+  RunToEnd(pipeline);
+  ASSERT_EQ(sink.seen.size(), 12u);
+  for (int n = 0; n < 12; ++n) EXPECT_EQ(sink.seen[n].cameras, n % 3 == 1 ? 0b101u : 0b111u);
+  EXPECT_EQ(pipeline.Status().cameras[1].torn, 4);
+}
+
+TEST(Pipeline, PassesOnWhatDriversRemark) {
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({SteadyFrames(2), SteadyFrames(2)}), Waiting(),
+                    LoadBodyTable("full"), sink);
+  pipeline.RunSerially();
+  EXPECT_EQ(pipeline.Status().cameras[1].remarks, std::vector<std::string>{"is fake"});
+}
+
+TEST(Pipeline, LiveLeavesSetsOutWhenTheSinkIsSlow) {
+  // The first set is held until the cameras have delivered far more than may be under way.
+  std::atomic<int> grabbed{0};
+  const FakeScript present = [&](int call) {
+    grabbed = std::max(grabbed.load(), call);
+    const std::int64_t capture_ns = EpochNs();
+    return call < 200 ? FakeGrab{GrabStatus::kFrame, capture_ns} : FakeGrab{};
+  };
+  RecordingSink sink;
+  sink.on_set = [&](const Seen& set) {
+    while (set.frame == 0 && grabbed < 200) std::this_thread::yield();
+  };
+  Pipeline pipeline(FakeStudio({present}), Live(), LoadBodyTable("full"), sink);
+  RunToEnd(pipeline);
+  ASSERT_GE(sink.seen.size(), 1u);
+  EXPECT_LE(sink.seen.size(), static_cast<std::size_t>(LoadControl::kMostUnderWay) + 2);
+  for (std::size_t i = 1; i < sink.seen.size(); ++i) {
+    EXPECT_EQ(sink.seen[i].frame, sink.seen[i - 1].frame + 1);
+    EXPECT_GT(sink.seen[i].capture_ns, sink.seen[i - 1].capture_ns);
+  }
+  const CameraStatus camera = pipeline.Status().cameras[0];
+  EXPECT_EQ(camera.frames, 200);
+  EXPECT_EQ(camera.dropped + pipeline.Status().sets_tracked, 200);
+}
+
+TEST(Pipeline, StopsASourceWithoutEnd) {
+  const FakeScript endless = [](int call) {
+    return FakeGrab{GrabStatus::kFrame, call * kFakePeriodNs};
+  };
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({endless, endless}), Waiting(), LoadBodyTable("full"), sink);
+  sink.on_set = [&](const Seen& set) {
+    if (set.frame == 5) pipeline.RequestStop();
+  };
+  RunToEnd(pipeline);
+  EXPECT_TRUE(pipeline.finished());
+  EXPECT_GE(sink.seen.size(), 6u);
+}
+
+TEST(Pipeline, ACameraThatDoesNotStartIsASetupError) {
+  const FakeScript endless = [](int call) {
+    return FakeGrab{GrabStatus::kFrame, call * kFakePeriodNs};
+  };
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({endless, nullptr, endless}), Waiting(), LoadBodyTable("full"),
+                    sink);
+  pipeline.Start();
+  EXPECT_THROW(pipeline.Join(), SetupError);
+}
+
+TEST(Pipeline, AFailingSinkEndsTheRunWithItsError) {
+  const FakeScript endless = [](int call) {
+    return FakeGrab{GrabStatus::kFrame, call * kFakePeriodNs};
+  };
+  RecordingSink sink;
+  sink.on_set = [](const Seen& set) {
+    if (set.frame == 3) throw std::runtime_error("the disk is full");
+  };
+  Pipeline pipeline(FakeStudio({endless, endless}), Waiting(), LoadBodyTable("full"), sink);
+  pipeline.Start();
+  EXPECT_THROW(pipeline.Join(), std::runtime_error);
+  EXPECT_EQ(sink.seen.size(), 4u);
+}
+
+TEST(Pipeline, AStudioWithoutCamerasIsASetupError) {
+  RecordingSink sink;
+  EXPECT_THROW(Pipeline(FakeStudio({}), Waiting(), LoadBodyTable("full"), sink), SetupError);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,152 @@
+// Takes that are recorded while frames go on, and what is left of them when something goes wrong.
+#include "daemon/recording/recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "config/open_studio.h"
+#include "config/subject_file.h"
+#include "core/errors.h"
+#include "daemon/recording/cut_off_takes.h"
+#include "daemon/recording/recorder.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/take_table.h"
+#include "tests/daemon/fake_studio.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using testing::FakeRoom;
+using ::testing::HasSubstr;
+
+class RecordingTest : public ::testing::Test {
+ protected:
+  RecordingTest() {
+    Studio fake = testing::FakeStudio({testing::SteadyFrames(1), testing::SteadyFrames(1)});
+    RecordedStudio studio{.name = "fake", .fps_nominal = 25, .cameras = {}, .config_text = "# x\n"};
+    for (const StudioCamera& camera : fake.cameras) {
+      studio.cameras.push_back({camera.calibration, camera.background});
+    }
+    recorder_.emplace(std::move(studio));
+    config_.folder = folder_.path() / "takes";
+    config_.keep_free_mb = 0;
+  }
+
+  /// What a camera's thread does with a frame.
+  void Offer(int camera, std::uint64_t sequence) {
+    const Image<Bgr> picture = FakeRoom(static_cast<int>(sequence));
+    Frame frame;
+    frame.image = picture.view();
+    frame.capture_ns = static_cast<std::int64_t>(1 + sequence) * testing::kFakePeriodNs;
+    frame.sequence = sequence;
+    recorder_->taps().frames[static_cast<std::size_t>(camera)].Offer(
+        [&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
+  }
+
+  testing::TemporaryFolder folder_;
+  RecordingConfig config_;
+  std::optional<Recorder> recorder_;
+};
+
+TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {
+  const std::filesystem::path take = recorder_->Start("one", config_, AverageSizes(1700));
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    Offer(0, i);
+    if (i != 2) Offer(1, i);
+  }
+  const RecordingStatus status = recorder_->Stop();
+  EXPECT_EQ(status.state, RecordingStatus::State::kComplete);
+  EXPECT_EQ(status.frames, 9);
+  EXPECT_EQ(status.dropped, 0);
+  const TakeLayout layout{take};
+  EXPECT_EQ(ReadTakeTable(layout.Table("cam1")).rows.size(), 5u);
+  const auto rows = ReadTakeTable(layout.Table("cam2")).rows;
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2].frame, 3u) << "the gap shows in the numbers";
+  EXPECT_THAT(testing::ReadText(layout.Description()), HasSubstr("missing_frames_cam2 = \"1\""));
+  EXPECT_EQ(testing::ReadText(take / "mocapd.toml"), "# x\n");
+  EXPECT_DOUBLE_EQ(LoadSubject(take / "subject.toml").thigh, AverageSizes(1700).thigh);
+  Studio studio = OpenTake(take, {});
+  ASSERT_EQ(studio.cameras.size(), 2u);
+  EXPECT_FALSE(studio.cameras[0].background().empty());
+}
+
+TEST_F(RecordingTest, WhileItRunsTheTakeOpensAsPartial) {
+  recorder_->Start("one", config_, {});
+  const RecordingStatus status = recorder_->Status();
+  EXPECT_EQ(status.state, RecordingStatus::State::kRunning);
+  EXPECT_TRUE(status.folder.string().ends_with("one.partial"));
+  EXPECT_TRUE(std::filesystem::exists(status.folder / "background" / "cam2.mkv"));
+}
+
+TEST_F(RecordingTest, WhatARunThatWasKilledLeftIsFound) {
+  recorder_->Start("one", config_, {});
+  for (std::uint64_t i = 0; i < 5; ++i) Offer(0, i);
+  while (recorder_->Status().frames < 5) std::this_thread::yield();
+  const std::vector<CutOffTake> found = FindCutOffTakes(config_.folder);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].folder, recorder_->Status().folder);
+  EXPECT_EQ(found[0].duration_ns, 4 * testing::kFakePeriodNs);
+  EXPECT_EQ(found[0].last_ns, 5 * testing::kFakePeriodNs);
+  Offer(1, 0);
+  recorder_->Stop();
+  EXPECT_TRUE(FindCutOffTakes(config_.folder).empty());
+  EXPECT_TRUE(FindCutOffTakes(folder_.path() / "nowhere").empty());
+}
+
+TEST_F(RecordingTest, OnlyOneAtATimeAndNoneTwice) {
+  recorder_->Start("one", config_, {});
+  EXPECT_THROW(recorder_->Start("two", config_, {}), std::runtime_error);
+  Offer(0, 0);
+  Offer(1, 0);
+  recorder_->Stop();
+  EXPECT_THROW(recorder_->Stop(), std::runtime_error);
+  EXPECT_THROW(recorder_->Start("one", config_, {}), SetupError) << "there is a take of that name";
+  recorder_->Start("two", config_, {});
+}
+
+TEST_F(RecordingTest, WithoutRoomItDoesNotBegin) {
+  config_.keep_free_mb = 1e12;
+  EXPECT_THROW(recorder_->Start("one", config_, {}), SetupError);
+  EXPECT_EQ(recorder_->Status().state, RecordingStatus::State::kNone);
+}
+
+TEST_F(RecordingTest, AFullQueueLosesTheOldestAndSaysSo) {
+  FrameTap tap;
+  Doorbell bell;
+  TappedFrame item;
+  item.image = Image<Bgr>(testing::kFakeWidth, testing::kFakeHeight);
+  tap.Open(4, item, bell);
+  const Image<Bgr> picture = FakeRoom(1);
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    tap.Offer([&](TappedFrame& copy) {
+      copy.sequence = i;
+      return true;
+    });
+  }
+  tap.Close();
+  EXPECT_EQ(tap.queue().dropped(), 6);
+  ASSERT_TRUE(tap.queue().TryPop());
+  EXPECT_EQ(tap.queue().front().sequence, 6u);
+  tap.Offer([](TappedFrame&) {
+    ADD_FAILURE() << "closed";
+    return true;
+  });
+}
+
+TEST_F(RecordingTest, TimesThatGoBackAreLeftOut) {
+  const std::filesystem::path take = recorder_->Start("one", config_, {});
+  for (const std::uint64_t sequence : {5, 3, 6}) {
+    Offer(0, sequence);
+    Offer(1, sequence);
+  }
+  recorder_->Stop();
+  EXPECT_EQ(ReadTakeTable(TakeLayout{take}.Table("cam1")).rows.size(), 2u);
+  OpenTake(take, {});
+}
+
+}  // namespace
+}  // namespace mocap

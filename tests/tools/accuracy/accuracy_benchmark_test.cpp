@@ -1,0 +1,65 @@
+#include "tools/accuracy/accuracy_benchmark.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/accuracy/accuracy_report.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+AccuracyRow Row(double mpjpe_mm, double tracked_share, int acquisition_frames, int wrong) {
+  return {.motion = "walk",
+          .stature_mm = 1750,
+          .seed = 1,
+          .mpjpe_mm = mpjpe_mm,
+          .tracked_share = tracked_share,
+          .acquisition_frames = acquisition_frames,
+          .longest_wrong_stretch = wrong};
+}
+
+TEST(AccuracySummary, CountsWhatTheMeanHides) {
+  const AccuracySummary summary = Summarize(
+      {Row(10, 1, 2, 0), Row(20, 0.9, 3, kLongestGlitch), Row(60, 1, 9, kLongestGlitch + 1)});
+  EXPECT_DOUBLE_EQ(summary.mpjpe_mm, 30);
+  EXPECT_DOUBLE_EQ(summary.worst_mpjpe_mm, 60);
+  EXPECT_EQ(summary.takes_with_loss, 1);
+  EXPECT_EQ(summary.takes_with_wrong_stretch, 1);
+  EXPECT_EQ(summary.median_acquisition_frames, 3);
+  EXPECT_EQ(summary.most_acquisition_frames, 9);
+}
+
+TEST(AccuracyReport, ShowsAPlotOnlyOfSweepsThatWereMade) {
+  AccuracyBenchmark benchmark{.seconds = 10, .grid = {Row(10, 1, 2, 0)}, .sweeps = {}};
+  EXPECT_THAT(AccuracyMarkdown(benchmark), Not(HasSubstr("accuracy.svg")));
+  benchmark.sweeps = {{"cameras", {{"4", Summarize(benchmark.grid)}}}};
+  EXPECT_THAT(AccuracyMarkdown(benchmark), HasSubstr("accuracy.svg"));
+  EXPECT_THAT(AccuracySweepsSvg(benchmark.sweeps), HasSubstr("cameras"));
+}
+
+TEST(AccuracyTrial, CamerasThatFailAndWrongCalibrationCostALittle) {
+  AccuracyTrial trial;
+  trial.studio.width_px = 320;
+  trial.studio.height_px = 240;
+  trial.studio.seconds = 0.8;
+  const AccuracyRow well = Measure(trial);
+  EXPECT_EQ(well.tracked_share, 1);
+  EXPECT_EQ(well.longest_wrong_stretch, 0);
+  EXPECT_EQ(Measure(trial).mpjpe_mm, well.mpjpe_mm);
+  trial.calibration_error_px = 1;
+  trial.mishap = Mishap::kLost;
+  const AccuracyRow worse = Measure(trial);
+  EXPECT_GT(worse.mpjpe_mm, well.mpjpe_mm);
+  EXPECT_LT(worse.mpjpe_mm, 4 * well.mpjpe_mm);
+  trial.calibration_error_px = 0;
+  trial.mishap = Mishap::kBlinded;
+  const AccuracyRow blinded = Measure(trial);
+  EXPECT_EQ(blinded.tracked_share, 1);
+  EXPECT_LT(blinded.mpjpe_mm, 1.5 * well.mpjpe_mm);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,52 @@
+#include "tools/accuracy/accuracy_benchmark.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap {
+
+AccuracyRow Measure(const AccuracyTrial& trial) {
+  const TrialOutcome outcome = RunTrial(trial);
+  const Accuracy& accuracy = *outcome.evaluation.accuracy;
+  AccuracyRow row{.motion = trial.studio.motion,
+                  .stature_mm = trial.studio.stature_mm,
+                  .seed = trial.studio.seed};
+  row.mpjpe_mm = accuracy.distance_mm.mean;
+  row.p95_mm = accuracy.distance_mm.p95;
+  row.angle_deg = accuracy.mean_angle_rad * kDegreesPerRadian;
+  row.tracked_share = accuracy.tracked_share;
+  row.head_found_share = accuracy.head_found_share;
+  row.acquisition_frames = outcome.acquisition_frames;
+  row.longest_wrong_stretch = outcome.longest_wrong_stretch;
+  for (const LengthPair& pair : outcome.evaluation.lengths) {
+    row.length_error_mm += std::abs(pair.acquired_mm - pair.true_mm) /
+                           static_cast<double>(outcome.evaluation.lengths.size());
+  }
+  return row;
+}
+
+AccuracySummary Summarize(const std::vector<AccuracyRow>& rows) {
+  AccuracySummary summary;
+  summary.takes = static_cast<int>(rows.size());
+  std::vector<int> acquisition;
+  for (const AccuracyRow& row : rows) {
+    const double weight = 1.0 / summary.takes;
+    summary.mpjpe_mm += weight * row.mpjpe_mm;
+    summary.p95_mm += weight * row.p95_mm;
+    summary.angle_deg += weight * row.angle_deg;
+    summary.length_error_mm += weight * row.length_error_mm;
+    summary.tracked_share += weight * row.tracked_share;
+    summary.head_found_share += weight * row.head_found_share;
+    summary.worst_mpjpe_mm = std::max(summary.worst_mpjpe_mm, row.mpjpe_mm);
+    summary.takes_with_loss += row.tracked_share < 1;
+    summary.takes_with_wrong_stretch += row.longest_wrong_stretch > kLongestGlitch;
+    acquisition.push_back(row.acquisition_frames);
+  }
+  const auto middle = acquisition.begin() + static_cast<std::ptrdiff_t>(acquisition.size() / 2);
+  std::ranges::nth_element(acquisition, middle);
+  summary.median_acquisition_frames = *middle;
+  summary.most_acquisition_frames = std::ranges::max(acquisition);
+  return summary;
+}
+
+}  // namespace mocap

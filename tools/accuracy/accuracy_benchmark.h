@@ -1,0 +1,59 @@
+// A benchmark of accuracy: a grid of simulated takes, and what cameras, voxels, noise and wrong
+// calibration cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/accuracy/accuracy_trial.h"
+
+namespace mocap {
+
+/// How good tracking was in one take.
+struct AccuracyRow {
+  std::string motion;
+  double stature_mm = 0;
+  std::uint64_t seed = 0;
+  double mpjpe_mm = 0, p95_mm = 0, angle_deg = 0;
+  double length_error_mm = 0;  ///< Mean over the parts.
+  double tracked_share = 0;    ///< From the first tracked set on.
+  double head_found_share = 0;
+  int acquisition_frames = 0;
+  int longest_wrong_stretch = 0;  ///< In sets, as TrialOutcome's.
+};
+
+/// Runs a trial and sums it up.
+AccuracyRow Measure(const AccuracyTrial& trial);
+
+/// Means and extremes over takes.
+struct AccuracySummary {
+  int takes = 0, takes_with_loss = 0, takes_with_wrong_stretch = 0;
+  double mpjpe_mm = 0, worst_mpjpe_mm = 0, p95_mm = 0, angle_deg = 0, length_error_mm = 0;
+  double tracked_share = 0, head_found_share = 0;
+  double median_acquisition_frames = 0;
+  int most_acquisition_frames = 0;
+};
+
+/// A stretch of wrong poses longer than this is more than a glitch.
+inline constexpr int kLongestGlitch = 5;
+
+/// @param rows  at least one.
+AccuracySummary Summarize(const std::vector<AccuracyRow>& rows);
+
+/// One thing made worse step by step, all else being as it is by default.
+struct AccuracySweep {
+  struct Step {
+    std::string label;
+    AccuracySummary summary;
+  };
+  std::string what;  ///< With its unit.
+  std::vector<Step> steps;
+};
+
+struct AccuracyBenchmark {
+  double seconds = 0;  ///< Of each take.
+  std::vector<AccuracyRow> grid;
+  std::vector<AccuracySweep> sweeps;
+};
+
+}  // namespace mocap

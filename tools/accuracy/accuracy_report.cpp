@@ -1,0 +1,107 @@
+#include "tools/accuracy/accuracy_report.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "tools/report/svg_plot.h"
+
+namespace mocap {
+namespace {
+
+std::string SweepTable(const AccuracySweep& sweep) {
+  std::string text = fmt::format(
+      "\n| {} | mean mm | worst take mm | 95 % below mm | degrees | lengths mm | tracked % |\n"
+      "|---|---|---|---|---|---|---|\n",
+      sweep.what);
+  for (const auto& [label, summary] : sweep.steps) {
+    text += fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.0f} | {:.1f} |\n", label,
+                        summary.mpjpe_mm, summary.worst_mpjpe_mm, summary.p95_mm, summary.angle_deg,
+                        summary.length_error_mm, 100 * summary.tracked_share);
+  }
+  return text;
+}
+
+std::string GridTable(const std::vector<AccuracyRow>& rows) {
+  std::string text =
+      "\n## Take by take\n\n| motion | stature mm | seed | mean mm | 95 % below mm | degrees | "
+      "lengths mm | tracked % | head % | acquired in | wrong |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const AccuracyRow& row : rows) {
+    text += fmt::format(
+        "| {} | {:.0f} | {} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} | {} | {} |\n",
+        row.motion, row.stature_mm, row.seed, row.mpjpe_mm, row.p95_mm, row.angle_deg,
+        row.length_error_mm, 100 * row.tracked_share, 100 * row.head_found_share,
+        row.acquisition_frames, row.longest_wrong_stretch);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string AccuracyHeader() {
+  return fmt::format("{:<8}{:>9}{:>6}{:>9}{:>9}{:>9}{:>9}{:>10}{:>8}{:>10}{:>8}\n", "motion",
+                     "stature", "seed", "mean mm", "95 % mm", "degrees", "lengths", "tracked %",
+                     "head %", "acquired", "wrong");
+}
+
+std::string AccuracyLine(const AccuracyRow& row) {
+  return fmt::format(
+      "{:<8}{:>9.0f}{:>6}{:>9.1f}{:>9.1f}{:>9.2f}{:>9.1f}{:>10.1f}{:>8.1f}{:>10}{:>8}\n",
+      row.motion, row.stature_mm, row.seed, row.mpjpe_mm, row.p95_mm, row.angle_deg,
+      row.length_error_mm, 100 * row.tracked_share, 100 * row.head_found_share,
+      row.acquisition_frames, row.longest_wrong_stretch);
+}
+
+std::string AccuracySummaryText(const AccuracySummary& summary) {
+  return fmt::format(
+      "{} takes: {:.1f} mm in the mean ({:.1f} mm the worst), 95 % below {:.1f} mm, {:.2f} "
+      "degrees, "
+      "part lengths {:.1f} mm off;\ntracked {:.2f} % (lost in {} takes), head found {:.2f} %, "
+      "sizes "
+      "settled after {:.0f} sets (at most {}); confident and wrong for more than {} sets in {} "
+      "takes\n",
+      summary.takes, summary.mpjpe_mm, summary.worst_mpjpe_mm, summary.p95_mm, summary.angle_deg,
+      summary.length_error_mm, 100 * summary.tracked_share, summary.takes_with_loss,
+      100 * summary.head_found_share, summary.median_acquisition_frames,
+      summary.most_acquisition_frames, kLongestGlitch, summary.takes_with_wrong_stretch);
+}
+
+std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
+  std::string text = fmt::format(
+      "# Accuracy on simulated people\n\n"
+      "Written by `mocap benchmark --out docs`: takes of {:.0f} s, six VGA cameras and voxels of "
+      "25 "
+      "mm where nothing else is said. Errors are over 14 points\nand 8 angles, as `mocap evaluate` "
+      "has them; *wrong* is the longest stretch of sets that were called tracked with a mean error "
+      "above {:.0f} mm.\n\n",
+      benchmark.seconds, kWrongMm);
+  if (!benchmark.grid.empty()) text += AccuracySummaryText(Summarize(benchmark.grid));
+  if (!benchmark.sweeps.empty()) {
+    text +=
+        "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "
+        "down.\n\n![Mean error along each sweep](accuracy.svg)\n";
+    for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
+  }
+  if (!benchmark.grid.empty()) text += GridTable(benchmark.grid);
+  return text;
+}
+
+std::string AccuracySweepsSvg(std::span<const AccuracySweep> sweeps) {
+  std::vector<std::string> plots;
+  for (const AccuracySweep& sweep : sweeps) {
+    PlotAxes axes{.x_label = sweep.what, .y_label = "mm", .width = 480, .height = 180};
+    PlotSeries mean{.label = "mean", .points = {}, .color = 0};
+    PlotSeries p95{.label = "95 % below", .points = {}, .color = 1};
+    for (const auto& [label, summary] : sweep.steps) {
+      const auto x = static_cast<double>(axes.x_names.size());
+      axes.x_names.push_back(label);
+      mean.points.emplace_back(x, summary.mpjpe_mm);
+      p95.points.emplace_back(x, summary.p95_mm);
+    }
+    plots.push_back(PlotSvg(axes, std::vector{mean, p95}));
+  }
+  return StackedSvg(plots, 480, 180);
+}
+
+}  // namespace mocap

@@ -1,0 +1,96 @@
+#include "tools/accuracy/accuracy_trial.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "config/load_config.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "daemon/pipeline/pipeline.h"
+#include "drivers/simulation/random.h"
+#include "tools/results/result_sink.h"
+
+namespace mocap {
+namespace {
+
+/// Turns a camera about an axis across its line of sight, as a knock would.
+void Misalign(double error_px, simulation::Random& random, CameraCalibration& camera) {
+  const Vector2 middle_px((camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0);
+  const std::optional<Vector2> middle = NormalizedFromPixel(camera.lens, middle_px);
+  const std::optional<Vector2> beside =
+      NormalizedFromPixel(camera.lens, middle_px + Vector2(error_px, 0));
+  if (!middle || !beside) return;
+  const double direction = random.Uniform(0, 2 * std::numbers::pi);
+  const Vector3 axis_C(std::cos(direction), std::sin(direction), 0);
+  const RigidTransform knock{ExpRotation((*beside - *middle).norm() * axis_C), Vector3::Zero()};
+  camera.X_CW = knock * camera.X_CW;
+}
+
+void Disturb(const AccuracyTrial& trial, Studio& studio) {
+  simulation::Random random(simulation::Mix(trial.studio.seed, simulation::Tag("disturbance")));
+  for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
+    StudioCamera& camera = studio.cameras[i];
+    if (trial.calibration_error_px > 0) {
+      Misalign(trial.calibration_error_px, random, camera.calibration);
+    }
+    PictureDisturbance disturbance{.covered_share = trial.covered_share, .seed = random.Bits()};
+    if (i == 0) {
+      disturbance.mishap = trial.mishap;
+      disturbance.mishap_ns =
+          trial.studio.start_ns + static_cast<std::int64_t>(trial.studio.seconds / 2 * 1e9);
+    }
+    camera.driver = std::make_unique<DisturbedCamera>(
+        std::move(camera.driver), camera.background().front().image, disturbance);
+  }
+}
+
+TakeTruth TruthOf(const SimulatedStudioOptions& options, const std::vector<PoseRow>& poses) {
+  const SimulatedTruth simulated(options);
+  const TruthSizes sizes = simulated.Sizes();
+  TakeTruth truth;
+  truth.stature_mm = sizes.stature_mm;
+  for (const auto& [key, length_mm] : sizes.lengths_mm) {
+    truth.lengths_mm[key.substr(0, key.size() - 3)] = length_mm;
+  }
+  for (const PoseRow& row : poses) {
+    const JointPositions joints = simulated.At(row.timestamp_ns);
+    ScoredFrame& frame = truth.frames.emplace_back();
+    frame.timestamp_ns = row.timestamp_ns;
+    for (int i = 0; i < kScoredPointCount; ++i) {
+      const auto joint = std::ranges::find(kSimulatedJointNames, RigJoint(kScoredPoints[i]));
+      frame.points_W.col(i) = joints[joint - kSimulatedJointNames.begin()];
+    }
+    ProlongShanks(sizes.ankle_to_sole_mm, frame.points_W);
+  }
+  return truth;
+}
+
+int LongestWrongStretch(const Accuracy& accuracy) {
+  int longest = 0, length = 0, last_pose = -1;
+  for (const FrameError& frame : accuracy.frames) {
+    if (frame.pose != last_pose + 1) length = 0;
+    last_pose = frame.pose;
+    length = frame.point_mm.mean() > kWrongMm ? length + 1 : 0;
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+}  // namespace
+
+TrialOutcome RunTrial(const AccuracyTrial& trial) {
+  Studio studio = OpenSimulatedStudio(trial.studio);
+  Disturb(trial, studio);
+  ResultSink sink(false);
+  Pipeline pipeline(std::move(studio), {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait},
+                    LoadBodyTable(trial.body), sink);
+  pipeline.Start();
+  pipeline.Join();
+  TrialOutcome outcome;
+  outcome.evaluation = Evaluate(sink.result(), TruthOf(trial.studio, sink.result().poses));
+  outcome.acquisition_frames = sink.acquisition_frames();
+  outcome.longest_wrong_stretch = LongestWrongStretch(*outcome.evaluation.accuracy);
+  return outcome;
+}
+
+}  // namespace mocap

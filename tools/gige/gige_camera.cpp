@@ -1,0 +1,270 @@
+#include "tools/gige/gige_camera.h"
+
+#include <arv.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "core/errors.h"
+#include "tools/gige/gige_description.h"
+#include "tools/gige/gige_pixels.h"
+
+namespace mocap {
+namespace {
+
+using std::chrono::milliseconds;
+
+// What Aravis's server reads: it looks for a trigger as often as it can.
+constexpr std::uint32_t kOn = 1, kSoftware = 1;
+constexpr double kLooks_hz = 10'000;
+constexpr std::uint32_t kMac = 0x0008, kUserName = 0x00e8;
+constexpr std::size_t kUserNameBytes = 16;
+constexpr std::uint32_t kPeriod_us = 33'333;
+constexpr std::uint64_t kFrameNumbers = 65535;
+constexpr std::int64_t kTai_ns = 37'000'000'000;
+constexpr milliseconds kSourceTimeout{50};
+/// Longer than the server takes to see that a client has started it.
+constexpr milliseconds kPatience{150};
+
+std::int64_t Now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+void SleepUntil(std::int64_t time_ns) {
+  std::this_thread::sleep_until(
+      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(time_ns)));
+}
+
+/// Aravis wants the description as a file.
+class DescriptionFile {
+ public:
+  explicit DescriptionFile(const std::string& xml) : fd_(memfd_create("genicam", MFD_CLOEXEC)) {
+    MOCAP_CHECK(fd_ >= 0 && write(fd_, xml.data(), xml.size()) == static_cast<ssize_t>(xml.size()));
+  }
+  ~DescriptionFile() { close(fd_); }
+  DescriptionFile(const DescriptionFile&) = delete;
+  DescriptionFile& operator=(const DescriptionFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+/// Lets a frame out at once, and the server's thread sleep in between.
+struct GigeCamera::WakeUp {
+  WakeUp() : fd(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) { MOCAP_CHECK(fd >= 0); }
+  ~WakeUp() { close(fd); }
+  WakeUp(const WakeUp&) = delete;
+  WakeUp& operator=(const WakeUp&) = delete;
+
+  void Wake() {
+    hurry_until_ns.store(Now_ns() + 2'000'000);
+    const std::uint64_t one = 1;
+    static_cast<void>(!write(fd, &one, sizeof(one)));
+  }
+
+  const int fd;
+  /// The server looks at the clock before it looks for a trigger.
+  std::atomic<std::int64_t> hurry_until_ns{0};
+};
+
+namespace {
+/// That of the camera whose server runs in this thread.
+thread_local GigeCamera::WakeUp* server_wake_up = nullptr;
+}  // namespace
+
+GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDriver> source,
+                       const GigeFaults& faults)
+    : identity_(identity),
+      faults_(faults),
+      switched_on_ns_(Now_ns()),
+      source_(std::move(source)),
+      wake_up_(std::make_unique<WakeUp>()),
+      random_(static_cast<std::minstd_rand::result_type>(faults.seed)) {
+  const DescriptionFile description(DescribeGigeCamera(identity.has_ptp));
+  server_.reset(arv_gv_fake_camera_new_full(identity.ip.c_str(), identity.serial.c_str(),
+                                            description.path().c_str()));
+  if (!arv_gv_fake_camera_is_running(server_.get())) {
+    throw SetupError(identity.ip + ": cannot be served; an address of this host is wanted at " +
+                     "which no other camera is: as root, ip addr add " + identity.ip + "/8 dev lo");
+  }
+  g_object_set(server_.get(), "gvsp-lost-ratio", faults.lost_packets, nullptr);
+  registers_ = arv_gv_fake_camera_get_fake_camera(server_.get());
+  arv_fake_camera_set_trigger_frequency(registers_, kLooks_hz);
+  Write(ARV_FAKE_CAMERA_REGISTER_TRIGGER_MODE, kOn);
+  Write(ARV_FAKE_CAMERA_REGISTER_TRIGGER_SOURCE, kSoftware);
+  Write(gige_register::kFramePeriod_us, kPeriod_us);
+  Write(gige_register::kPtpStatus, static_cast<std::uint32_t>(GigePtp::kDisabled));
+  std::array<char, kUserNameBytes> name{};
+  identity.name.copy(name.data(), name.size() - 1);
+  arv_fake_camera_write_memory(registers_, kUserName, name.size(), name.data());
+  const auto hash = std::hash<std::string>()(identity.serial);
+  const std::array<std::uint8_t, 8> mac{0,
+                                        0,
+                                        2,
+                                        0,
+                                        static_cast<std::uint8_t>(hash >> 24),
+                                        static_cast<std::uint8_t>(hash >> 16),
+                                        static_cast<std::uint8_t>(hash >> 8),
+                                        static_cast<std::uint8_t>(hash)};
+  arv_fake_camera_write_memory(registers_, kMac, mac.size(), mac.data());
+  arv_fake_camera_set_fill_pattern(registers_, Fill, this);
+  thread_ = std::thread([this] { RunSource(); });
+}
+
+GigeCamera::~GigeCamera() {
+  stopping_.store(true);
+  thread_.join();
+  server_.reset();
+}
+
+std::uint32_t GigeCamera::Read(std::uint32_t address) const {
+  std::uint32_t value = 0;
+  arv_fake_camera_read_register(registers_, address, &value);
+  return value;
+}
+
+void GigeCamera::Write(std::uint32_t address, std::uint32_t value) {
+  arv_fake_camera_write_register(registers_, address, value);
+}
+
+bool GigeCamera::is_streaming() const {
+  return arv_fake_camera_get_acquisition_status(registers_) != 0;
+}
+
+void GigeCamera::RunSource() {
+  source_->Start();
+  std::uniform_real_distribution<double> jitter_ms(0, faults_.jitter_ms);
+  while (!stopping_.load()) {
+    FollowPtp();
+    Frame frame;
+    const GrabStatus status = source_->Grab(frame, kSourceTimeout);
+    if (status == GrabStatus::kEnd) std::this_thread::sleep_for(kSourceTimeout);
+    if (status != GrabStatus::kFrame || !IsWanted(frame.capture_ns)) continue;
+    const std::int64_t exposure_ns = Read(ARV_FAKE_CAMERA_REGISTER_EXPOSURE_TIME_US) * 1000LL;
+    const auto late_ns = static_cast<std::int64_t>(jitter_ms(random_) * 1e6);
+    SleepUntil(frame.capture_ns + exposure_ns / 2 + late_ns);
+    if (!is_streaming()) {
+      const std::lock_guard lock(mutex_);
+      is_flowing_ = is_waiting_ = false;
+    } else if (!stalled_.load(std::memory_order_relaxed)) {
+      Send(frame);
+    }
+  }
+  source_->Stop();
+}
+
+bool GigeCamera::IsWanted(std::int64_t capture_ns) {
+  const bool is_triggered = Read(gige_register::kTriggerMode) == kOn;
+  if (is_triggered && Read(gige_register::kTriggerSource) == kSoftware) {
+    const bool fired = Read(gige_register::kTriggerSoftware) != 0;
+    Write(gige_register::kTriggerSoftware, 0);
+    return fired;
+  }
+  const std::int64_t period_ns = is_triggered ? 0 : Read(gige_register::kFramePeriod_us) * 1000LL;
+  // Frames jitter about their times, and rates are not quite what they are called.
+  if (capture_ns < next_wanted_ns_ - period_ns / 4) return false;
+  next_wanted_ns_ = std::max(next_wanted_ns_ + period_ns, capture_ns + period_ns * 9 / 10);
+  return true;
+}
+
+void GigeCamera::Send(const Frame& frame) {
+  {
+    std::unique_lock lock(mutex_);
+    // Frames that a source delivers in a burst wait for each other; the first is as new as can be.
+    taken_.wait_for(lock, kPatience, [this] { return !is_waiting_ || !is_flowing_; });
+    is_waiting_ = true;
+    if (picture_.width() != frame.image.width() || picture_.height() != frame.image.height()) {
+      picture_ = Image<Bgr>(frame.image.width(), frame.image.height());
+    }
+    for (int y = 0; y < frame.image.height(); ++y) {
+      std::copy_n(frame.image.row(y), frame.image.width(), picture_.row(y));
+    }
+    capture_ns_ = frame.capture_ns;
+    ++sequence_;
+  }
+  Write(ARV_FAKE_CAMERA_REGISTER_TRIGGER_SOFTWARE, 1);
+  wake_up_->Wake();
+}
+
+void GigeCamera::FollowPtp() {
+  if (!identity_.has_ptp) return;
+  const bool enabled = Read(gige_register::kPtpEnable) != 0;
+  Write(gige_register::kPtpStatus,
+        static_cast<std::uint32_t>(enabled ? GigePtp::kSlave : GigePtp::kDisabled));
+}
+
+std::int64_t GigeCamera::DeviceTime(std::int64_t host_ns) const {
+  if (Read(gige_register::kPtpStatus) == static_cast<std::uint32_t>(GigePtp::kSlave)) {
+    return host_ns + kTai_ns;
+  }
+  const auto running_ns = static_cast<double>(host_ns - switched_on_ns_);
+  return host_ns + faults_.clock_offset_ns +
+         std::llround(running_ns * faults_.clock_drift_ppm * 1e-6);
+}
+
+void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned,
+                      unsigned pixel_format) {
+  auto* self = static_cast<GigeCamera*>(camera);
+  server_wake_up = self->wake_up_.get();
+  self->FillBuffer(buffer, exposure_us * 1000LL, pixel_format);
+}
+
+void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigned pixel_format) {
+  std::size_t size = 0;
+  auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
+  const int width = arv_buffer_get_image_width(buffer),
+            height = arv_buffer_get_image_height(buffer);
+  // Aravis tells no size here; it allocated what the format needs.
+  size =
+      static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
+  const std::lock_guard lock(mutex_);
+  if (picture_.width() != width || picture_.height() != height) {
+    Image<Bgr> cut(width, height);
+    for (int y = 0; y < std::min(height, picture_.height()); ++y) {
+      std::copy_n(picture_.row(y), std::min(width, picture_.width()), cut.row(y));
+    }
+    picture_ = std::move(cut);
+  }
+  EncodePicture(picture_.view(), pixel_format, std::span(data, size));
+  arv_buffer_set_timestamp(buffer, DeviceTime(capture_ns_ - exposure_ns / 2));
+  arv_buffer_set_frame_id(buffer, 1 + (sequence_ - 1) % kFrameNumbers);
+  is_waiting_ = false;
+  is_flowing_ = true;
+  taken_.notify_one();
+}
+
+}  // namespace mocap
+
+/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers
+/// without a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is
+/// early. Threads that serve no camera of ours get what they ask for.
+extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
+  static_assert(sizeof(GPollFD) == sizeof(pollfd));
+  auto* wanted = reinterpret_cast<pollfd*>(fds);
+  mocap::GigeCamera::WakeUp* wake_up = mocap::server_wake_up;
+  std::array<pollfd, 8> all{};
+  if (!wake_up || count + 1 > all.size()) return poll(wanted, count, timeout_ms);
+  std::copy_n(wanted, count, all.begin());
+  all[count] = {wake_up->fd, POLLIN, 0};
+  const bool hurries = mocap::Now_ns() < wake_up->hurry_until_ns.load();
+  const timespec brief{0, hurries ? 50'000 : 20'000'000};
+  const int ready = ppoll(all.data(), count + 1, &brief, nullptr);
+  std::copy_n(all.begin(), count, wanted);
+  if (ready <= 0 || all[count].revents == 0) return ready;
+  std::uint64_t wakes = 0;
+  static_cast<void>(!read(wake_up->fd, &wakes, sizeof(wakes)));
+  return ready - 1;
+}

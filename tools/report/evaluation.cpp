@@ -1,0 +1,80 @@
+#include "tools/report/evaluation.h"
+
+#include <utility>
+
+#include "core/errors.h"
+#include "tools/results/export_axes.h"
+
+namespace mocap {
+namespace {
+
+/// Runs of tracked frames without a gap.
+std::vector<std::vector<PoseSample>> TrackedRuns(const std::vector<PoseRow>& poses) {
+  std::vector<std::vector<PoseSample>> runs;
+  bool in_run = false;
+  for (const PoseRow& row : poses) {
+    if (IsTracked(row)) {
+      if (!in_run) runs.emplace_back();
+      runs.back().push_back({row.paper, row.points_W});
+    }
+    in_run = IsTracked(row);
+  }
+  return runs;
+}
+
+void CountStates(Evaluation& evaluation) {
+  const std::vector<PoseRow>& poses = evaluation.result.poses;
+  int tracked = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    ++evaluation.frames_in_state[static_cast<std::size_t>(poses[i].state)];
+    if (!IsTracked(poses[i])) continue;
+    if (tracked == 0) evaluation.first_tracked_pose = static_cast<int>(i);
+    ++tracked;
+    evaluation.mean_residual_mm += poses[i].residual_mm;
+  }
+  if (tracked == 0) return;
+  evaluation.mean_residual_mm /= tracked;
+  evaluation.tracked_share =
+      tracked / static_cast<double>(poses.size() - evaluation.first_tracked_pose);
+}
+
+std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& truth) {
+  const std::pair<const char*, double> acquired[] = {
+      {"torso", sizes.torso},         {"head", sizes.head},   {"upper_arm", sizes.upper_arm},
+      {"lower_arm", sizes.lower_arm}, {"thigh", sizes.thigh}, {"calf", sizes.calf}};
+  std::vector<LengthPair> pairs;
+  for (const auto& [name, length_mm] : acquired) {
+    const auto found = truth.lengths_mm.find(name);
+    if (found != truth.lengths_mm.end()) pairs.push_back({name, length_mm, found->second});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
+  Evaluation evaluation;
+  evaluation.result = std::move(result);
+  evaluation.truth = std::move(truth);
+  CountStates(evaluation);
+  evaluation.precision = MeasurePrecision(TrackedRuns(evaluation.result.poses), {});
+  if (!evaluation.truth) return evaluation;
+  std::vector<ScoredFrame> output;
+  for (const PoseRow& row : evaluation.result.poses) {
+    output.push_back({row.timestamp_ns, IsTracked(row), ScoredPointsOf(row.points_W)});
+  }
+  evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
+  evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
+  return evaluation;
+}
+
+Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result) {
+  if (!std::filesystem::is_directory(take)) {
+    throw SetupError(take.string() + ": is no folder; a take is wanted");
+  }
+  Evaluation evaluation = Evaluate(ReadResult(result), ReadTakeTruth(take));
+  evaluation.take = std::filesystem::weakly_canonical(take).filename().string();
+  return evaluation;
+}
+
+}  // namespace mocap

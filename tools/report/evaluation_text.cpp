@@ -1,0 +1,149 @@
+#include "tools/report/evaluation_text.h"
+
+#include <fmt/format.h>
+
+#include "daemon/control/json_object.h"
+
+namespace mocap {
+namespace {
+
+std::string PointName(int scored) {
+  return std::string(kPointNames[static_cast<int>(kScoredPoints[scored])]);
+}
+
+std::string AccuracyText(const Accuracy& accuracy) {
+  if (accuracy.frames.empty()) return "accuracy    no tracked frame has truth\n";
+  const DistanceSummary& d = accuracy.distance_mm;
+  std::string text = fmt::format(
+      "accuracy    {:.1f} mm mean over 14 points (median {:.1f}, 95 % below {:.1f}, worst {:.1f}), "
+      "{:.1f} mm without each point's own offset\n"
+      "            {:.2f}° mean over 8 angles; tracked {:.1f} % from frame {} of {}; head found in "
+      "{:.1f} %\n\n",
+      d.mean, d.median, d.p95, d.worst, accuracy.spread_mm,
+      accuracy.mean_angle_rad * kDegreesPerRadian, 100 * accuracy.tracked_share,
+      accuracy.first_tracked_frame, accuracy.truth_frames, 100 * accuracy.head_found_share);
+  text += fmt::format("  {:<14}{:>9}      {:<14}{:>9}\n", "point", "mm", "angle", "degrees");
+  for (int i = 0; i < kScoredPointCount; ++i) {
+    text += fmt::format("  {:<14}{:>9.1f}", PointName(i), accuracy.point_mm[i]);
+    if (i < kScoredAngleCount) {
+      text += fmt::format("      {:<14}{:>9.1f}", kScoredAngleNames[i],
+                          accuracy.angle_rad[i] * kDegreesPerRadian);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string LengthsText(const Evaluation& evaluation) {
+  if (evaluation.lengths.empty()) return {};
+  std::string text = fmt::format("\n  {:<14}{:>9}{:>9}{:>9}\n", "length", "mm", "true", "error");
+  const auto add = [&](const std::string& name, double acquired_mm, double true_mm) {
+    text += fmt::format("  {:<14}{:>9.1f}{:>9.1f}{:>+9.1f}\n", name, acquired_mm, true_mm,
+                        acquired_mm - true_mm);
+  };
+  for (const LengthPair& pair : evaluation.lengths) {
+    add(pair.name, pair.acquired_mm, pair.true_mm);
+  }
+  add("stature", evaluation.result.body.stature_mm, evaluation.truth->stature_mm);
+  return text;
+}
+
+JsonObject PrecisionJson(const Precision& precision) {
+  JsonObject angles, points, json;
+  for (int i = 0; i < kPaperAngleCount; ++i) {
+    angles.Add(fmt::format("theta_{}", i + 1), precision.angle_rad[i] * kDegreesPerRadian, 3);
+  }
+  for (int i = 0; i < kPointCount; ++i) points.Add(kPointNames[i], precision.point_mm[i], 2);
+  json.Add("frames", precision.frames);
+  json.Add("angle_mean_deg", precision.mean_angle_rad * kDegreesPerRadian, 3);
+  json.Add("angle_mean_without_twist_deg",
+           precision.mean_angle_without_twist_rad * kDegreesPerRadian, 3);
+  json.Add("point_mean_mm", precision.mean_point_mm, 2);
+  json.Add("angles_deg", angles);
+  json.Add("points_mm", points);
+  return json;
+}
+
+void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
+  const Accuracy& accuracy = *evaluation.accuracy;
+  if (accuracy.frames.empty()) return;
+  JsonObject angles, points, lengths;
+  for (int i = 0; i < kScoredAngleCount; ++i) {
+    angles.Add(kScoredAngleNames[i], accuracy.angle_rad[i] * kDegreesPerRadian, 2);
+  }
+  for (int i = 0; i < kScoredPointCount; ++i) points.Add(PointName(i), accuracy.point_mm[i], 1);
+  for (const LengthPair& pair : evaluation.lengths) {
+    lengths.Add(pair.name + "_mm", pair.acquired_mm - pair.true_mm, 1);
+  }
+  const DistanceSummary& d = accuracy.distance_mm;
+  json.Add("first_tracked_frame", accuracy.first_tracked_frame);
+  json.Add("mpjpe_mm", d.mean, 1);
+  json.Add("median_mm", d.median, 1);
+  json.Add("p95_mm", d.p95, 1);
+  json.Add("worst_mm", d.worst, 1);
+  json.Add("spread_mm", accuracy.spread_mm, 1);
+  json.Add("head_found_share", accuracy.head_found_share, 4);
+  json.Add("angle_mae_deg", accuracy.mean_angle_rad * kDegreesPerRadian, 2);
+  json.Add("angles_deg", angles);
+  json.Add("points_mm", points);
+  json.Add("length_error_mm", lengths);
+}
+
+}  // namespace
+
+std::string EvaluationText(const Evaluation& evaluation) {
+  const BodyRecord& body = evaluation.result.body;
+  std::string text =
+      fmt::format("{}: {} frames, body {}, stature {:.0f} mm\n\nstates     ", evaluation.take,
+                  evaluation.result.poses.size(), body.model, body.stature_mm);
+  for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
+    text += fmt::format(" {} {}{}", kCaptureStateNames[i], evaluation.frames_in_state[i],
+                        i + 1 < kCaptureStateNames.size() ? "," : "\n");
+  }
+  if (evaluation.first_tracked_pose >= 0) {
+    text += fmt::format("tracked     {:.1f} % from frame {} on; residual {:.1f} mm\n",
+                        100 * evaluation.tracked_share,
+                        evaluation.result.poses[evaluation.first_tracked_pose].frame,
+                        evaluation.mean_residual_mm);
+  }
+  if (const auto& precision = evaluation.precision) {
+    text += fmt::format(
+        "precision   {:.2f}° mean over 16 angles, {:.2f}° without the upper arms' twist; {:.1f} mm "
+        "mean over 23 points\n",
+        precision->mean_angle_rad * kDegreesPerRadian,
+        precision->mean_angle_without_twist_rad * kDegreesPerRadian, precision->mean_point_mm);
+  } else {
+    text += "precision   no run of 15 tracked frames\n";
+  }
+  if (evaluation.accuracy)
+    return text + AccuracyText(*evaluation.accuracy) + LengthsText(evaluation);
+  return text + "accuracy    the take has no truth\n";
+}
+
+std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
+  const auto& accuracy = evaluation.accuracy;
+  JsonObject json, states;
+  for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
+    states.Add(kCaptureStateNames[i], evaluation.frames_in_state[i]);
+  }
+  json.Add("take", evaluation.take);
+  json.Add("body", evaluation.result.body.model);
+  json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
+  json.Add("frames",
+           accuracy ? accuracy->truth_frames : static_cast<int>(evaluation.result.poses.size()));
+  json.Add("states", states);
+  json.Add("tracked_share", accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
+  json.Add("residual_mm", evaluation.mean_residual_mm, 2);
+  if (accuracy) AddAccuracy(evaluation, json);
+  if (evaluation.precision) json.Add("precision", PrecisionJson(*evaluation.precision));
+  if (!overlaps.empty()) {
+    JsonObject iou;
+    for (const CameraOverlap& overlap : overlaps) {
+      if (overlap.frames() > 0) iou.Add(overlap.camera, overlap.mean(), 4);
+    }
+    json.Add("hull_iou", iou);
+  }
+  return json.Text() + '\n';
+}
+
+}  // namespace mocap

@@ -1,0 +1,18 @@
+// An evaluation for a terminal and for programs.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "tools/report/evaluation.h"
+#include "tools/report/hull_overlap.h"
+
+namespace mocap {
+
+/// Tables for a person at a terminal.
+std::string EvaluationText(const Evaluation& evaluation);
+
+/// One JSON object; angles in degrees. `overlaps` may be empty.
+std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps);
+
+}  // namespace mocap

@@ -1,0 +1,27 @@
+// The report of `mocap evaluate`: one HTML file that needs nothing beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/report/evaluation.h"
+#include "tools/report/hull_overlap.h"
+#include "tools/take_samples.h"
+
+namespace mocap {
+
+/// Voxels are carved anew for the report at the daemon's default size.
+inline constexpr double kReportVoxelMm = 25;
+
+/// Chooses moments spread evenly over the tracked frames (over all, when none is tracked): twenty
+/// to carve, four of them to show.
+std::vector<SampleRequest> ChooseReportMoments(const Evaluation& evaluation);
+
+/// Measures how far the voxels of each moment cover each camera's silhouette.
+std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples);
+
+/// Writes the page.
+std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
+                       const std::vector<CameraOverlap>& overlaps);
+
+}  // namespace mocap

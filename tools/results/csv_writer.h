@@ -1,0 +1,14 @@
+// A result as one table for spreadsheets and scripts.
+#pragma once
+
+#include <iosfwd>
+
+#include "tools/results/result.h"
+
+namespace mocap {
+
+/// Writes one row a frame: time_s since the first frame, utime_us since the epoch, state, the
+/// paper's 23 numbers and the 23 points in the world frame. Cells of what was not known are empty.
+void WriteCsv(const Result& result, std::ostream& out);
+
+}  // namespace mocap
