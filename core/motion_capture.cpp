@@ -1,6 +1,7 @@
 #include "core/motion_capture.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -21,6 +22,8 @@ constexpr double kLostCostMm = 55;
 constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
+// After a look that found nothing better twice as many frames pass before the next, up to this.
+constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
@@ -76,6 +79,7 @@ class MotionCapture::Impl {
     tracker_.reset();
     known_ = given_;
     refiner_.reset();
+    acquirer_.StartOver();
   }
 
   void SomebodyThere(double dt_s) {
@@ -130,9 +134,14 @@ class MotionCapture::Impl {
   // the way that the person faces.
   void LookAgainInDoubt() {
     const double cost_mm = tracker_->quality().Cost();
-    doubtful_frames_ = cost_mm > kDoubtCostMm ? doubtful_frames_ + 1 : 0;
-    if (doubtful_frames_ < kFramesToLose) return;
+    if (cost_mm <= kDoubtCostMm) {
+      doubtful_frames_ = 0;
+      patience_ = kFramesToLose;
+      return;
+    }
+    if (++doubtful_frames_ < patience_) return;
     doubtful_frames_ = 0;
+    patience_ = std::min(2 * patience_, kLongestDoubt);
     const bool sizes_are_known = given_ || refiner_->frames() >= kFramesToRefine;
     if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt)) return;
     const Tracker& found = acquirer_.best();
@@ -141,6 +150,7 @@ class MotionCapture::Impl {
     if (sizes_are_known && !same_way) return;
     if (found.quality().Cost() > kClearlyBetter * cost_mm) return;
     tracker_ = found;
+    patience_ = kFramesToLose;
     if (sizes_are_known) return;
     known_ = found.body().sizes();
     refiner_.emplace(*known_);
@@ -165,10 +175,9 @@ class MotionCapture::Impl {
       body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), result_.points_W.col(i),
                          J);
       const Matrix3 covariance = J * filter.covariance() * J.transpose();
-      result_.point_std_mm[i] =
-          std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3>(covariance, Eigen::EigenvaluesOnly)
-                        .eigenvalues()
-                        .maxCoeff());
+      Eigen::SelfAdjointEigenSolver<Matrix3> axes;
+      axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
+      result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
     }
   }
 
@@ -186,6 +195,7 @@ class MotionCapture::Impl {
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;
   int doubtful_frames_ = 0;
+  int patience_ = kFramesToLose;  ///< Doubtful frames before the next look.
 };
 
 BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {

@@ -22,6 +22,9 @@ class ModelAcquirer {
   /// @return whether one was found that explains the voxels.
   bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known);
 
+  /// Takes whoever is seen next for somebody else.
+  void StartOver() { next_stature_ = 0; }
+
   /// Follows the located body through the next frame and refines its sizes.
   void Refine(const Evidence& evidence, double dt_s);
 

@@ -34,18 +34,24 @@ void BodyModel::Resize(const BodySizes& sizes) {
 
 int BodyModel::CarrierOf(Point point) const { return point_carrier_[static_cast<int>(point)]; }
 
+void BodyModel::PlaceAxis(const PoseState& pose, int row, Posture& posture) const {
+  const JointAxis& joint = table_.joints[row];
+  const RigidTransform& X_WP = joint.parent < 0 ? pose.X_WT : posture.X_W[joint.parent];
+  const Vector3 q_T = reference_points_T_.col(static_cast<int>(joint.at));
+  posture.axis_W[row] = X_WP.R * joint.axis_T;
+  posture.point_W[row] = X_WP * q_T;
+  posture.X_W[row] = X_WP * RotationAbout(joint.axis_T, q_T, pose.theta[row]);
+}
+
 Posture BodyModel::PostureAt(const PoseState& pose) const {
   Posture posture;
   posture.X_WT = pose.X_WT;
-  for (int i = 0; i < joint_count(); ++i) {
-    const JointAxis& joint = table_.joints[i];
-    const RigidTransform& X_WP = joint.parent < 0 ? pose.X_WT : posture.X_W[joint.parent];
-    const Vector3 q_T = reference_points_T_.col(static_cast<int>(joint.at));
-    posture.axis_W[i] = X_WP.R * joint.axis_T;
-    posture.point_W[i] = X_WP * q_T;
-    posture.X_W[i] = X_WP * RotationAbout(joint.axis_T, q_T, pose.theta[i]);
-  }
+  for (int i = 0; i < joint_count(); ++i) PlaceAxis(pose, i, posture);
   return posture;
+}
+
+void BodyModel::MoveAxes(const PoseState& pose, std::span<const int> rows, Posture& posture) const {
+  for (const int row : rows) PlaceAxis(pose, row, posture);
 }
 
 void BodyModel::PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class BodyModel {
 
   /// Puts every axis in its place for a pose. Eqs. (10)–(12).
   Posture PostureAt(const PoseState& pose) const;
+  /// Puts some axes of a posture in their places anew, where the others stayed.
+  /// @param rows  of the axes that moved and all that they move; parents before their children.
+  void MoveAxes(const PoseState& pose, std::span<const int> rows, Posture& posture) const;
   /// Puts the flesh in its place, in the order of shape(); keeps the memory of `posed`.
   void PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const;
   /// Predicts where the 23 points lie; 3 × 23, column i is p_WQ of point i [mm]. Eq. (13).
@@ -68,6 +72,8 @@ class BodyModel {
   PaperState PaperStateOf(const PoseState& pose) const;
 
  private:
+  void PlaceAxis(const PoseState& pose, int row, Posture& posture) const;
+
   BodyTable table_;
   BodySizes sizes_;
   BodyPlaces reference_points_T_;

@@ -5,6 +5,9 @@
 namespace mocap {
 namespace {
 
+// Flesh gives way a little, and the capsules are rounder than the parts.
+constexpr double kHolds = 0.7;
+
 bool IsLowerArm(BodyPart part) {
   return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;
 }
@@ -38,9 +41,12 @@ std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Conta
   return nearest;
 }
 
+bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other) {
+  const double reach_mm = other.reach_mm + kHolds * limb.radius_a_mm;
+  return (p_W - other.middle_W).squaredNorm() < reach_mm * reach_mm;
+}
+
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other) {
-  // Flesh gives way a little, and the capsules are rounder than the parts.
-  constexpr double kHolds = 0.7;
   return kHolds * limb.radius_a_mm - to_other.outside_mm;
 }
 

@@ -29,6 +29,9 @@ std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Conta
 /// A bone that lies farther from flesh than this is no worse: the flesh may have been carved away.
 inline constexpr double kMostHollowMm = 100;
 
+/// False where a place on the core of `limb` is too far from `other` to stick in it.
+bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other);
+
 /// How deep a place on the core of `limb` sticks in `other`, beyond what flesh gives way [mm].
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other);
 

@@ -174,11 +174,12 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, 
 }
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
-                                               SurfaceFit& fit, const PoseState& pose) {
+                                               SurfaceFit& fit, const PoseState& pose,
+                                               const SurfaceFitQuality& quality) {
+  if (quality.unexplained_share < kUnexplainedShare) return std::nullopt;
   std::vector<Contact> contacts;
   ChooseContacts(evidence, kVoxels, kEdges, contacts);
   matcher_.SetContacts(contacts);
-  if (IsExplained(body, pose)) return std::nullopt;
   PoseState now = pose;
   bool changed = false;
   for (const Segment limb_end : kLimbEnds) {

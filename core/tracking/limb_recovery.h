@@ -22,9 +22,10 @@ class LimbRecovery {
 
   /// Looks for a pose that explains clearly more of the evidence than `pose` does, changing the
   /// limbs alone.
-  /// @param fit  holds the evidence.
+  /// @param fit      holds the evidence.
+  /// @param quality  of the fit at that pose.
   std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                                   const PoseState& pose);
+                                   const PoseState& pose, const SurfaceFitQuality& quality);
 
  private:
   const std::vector<Stance>& StancesOf(Segment limb_end) const;

@@ -33,6 +33,7 @@ std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end) {
        i = table.joints[i].parent) {
     rows.push_back(i);
   }
+  std::ranges::reverse(rows);
   return rows;
 }
 
@@ -46,15 +47,23 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactM
   const auto holds = [](const std::vector<int>& rows, int row) {
     return std::find(rows.begin(), rows.end(), row) != rows.end();
   };
+  posture_ = body.PostureAt(pose);
   std::vector<PosedCapsule> all;
-  body.PoseShape(body.PostureAt(pose), all);
+  body.PoseShape(posture_, all);
+  std::vector<BodyPart> other_parts;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int carrier = body.shape()[i].carrier;
     if (holds(rows_, carrier)) {
       capsules_.push_back(static_cast<int>(i));
     } else if (!holds(absent_rows, carrier)) {
       others_.push_back(all[i]);
-      other_parts_.push_back(body.shape()[i].part);
+      other_parts.push_back(body.shape()[i].part);
+    }
+  }
+  for (int i = 0; i < std::ssize(capsules_); ++i) {
+    for (int j = 0; j < std::ssize(others_); ++j) {
+      if (MayOverlap(body.shape()[capsules_[i]].part, other_parts[j]))
+        overlapping_.push_back({i, j});
     }
   }
   const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
@@ -73,7 +82,7 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactM
 }
 
 void LimbSearch::PoseLimb(const PoseState& pose) {
-  posture_ = body_.PostureAt(pose);
+  body_.MoveAxes(pose, rows_, posture_);
   posed_.clear();
   for (const int i : capsules_) {
     const Capsule& capsule = body_.shape()[i];
@@ -84,13 +93,13 @@ void LimbSearch::PoseLimb(const PoseState& pose) {
 
 double LimbSearch::OverlapCost() const {
   double depth_mm = 0;
-  for (std::size_t i = 0; i < posed_.size(); ++i) {
-    for (std::size_t j = 0; j < others_.size(); ++j) {
-      if (!MayOverlap(body_.shape()[capsules_[i]].part, other_parts_[j])) continue;
-      for (const double share : kCoreShares) {
-        const Vector3 p_W = CorePlace(posed_[i], share);
-        depth_mm += std::max(0.0, OverlapDepth(posed_[i], others_[j].DistanceTo(p_W)));
-      }
+  for (const Pair& pair : overlapping_) {
+    const PosedCapsule& limb = posed_[pair.capsule];
+    const PosedCapsule& other = others_[pair.other];
+    for (const double share : kCoreShares) {
+      const Vector3 p_W = CorePlace(limb, share);
+      if (CanStickIn(limb, p_W, other))
+        depth_mm += std::max(0.0, OverlapDepth(limb, other.DistanceTo(p_W)));
     }
   }
   return depth_mm;

@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// Rows of the joints that move a limb and nothing of the trunk, the limb's end first.
+/// Rows of the joints that move a limb and nothing of the trunk, the limb's end last.
 /// @param limb_end  the segment at the limb's end: a hand or a foot.
 std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end);
 
@@ -47,6 +47,9 @@ class LimbSearch {
     double other_mm;  ///< How far the rest of the body is from it.
     double weight;
   };
+  struct Pair {
+    int capsule, other;
+  };
   void PoseLimb(const PoseState& pose);
   double OverlapCost() const;
 
@@ -56,7 +59,7 @@ class LimbSearch {
   std::vector<int> rows_;
   std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
-  std::vector<BodyPart> other_parts_;
+  std::vector<Pair> overlapping_;   ///< Of posed_ and others_, where they may run into each other.
   ContactMatcher open_;             ///< The contacts that the rest of the body does not explain.
   std::vector<OpenContact> terms_;  ///< Of each of them.
   Posture posture_;

@@ -25,6 +25,10 @@ class UpdateEquations {
   void AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
                 const Vector3& residual_mm, double variance_mm2);
 
+  /// Adds to one product JᵢᵀR⁻¹Jⱼ with i <= j, and to one entry of JᵀR⁻¹(z - h(x)).
+  void AddProduct(int i, int j, double sum) { columns_[j][i] += sum; }
+  void AddGradient(int i, double sum) { gradient_[i] += sum; }
+
   /// The sums of all that was added; valid until more is.
   const PoseCovariance& information();
   const PoseStep& gradient() const { return gradient_; }

@@ -8,8 +8,6 @@
 namespace mocap {
 namespace {
 
-using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
-
 constexpr double kUnexplainedMm = 60;
 
 // Geman's and McClure's weight as a factor of the variance.
@@ -40,7 +38,7 @@ void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Visit>
-void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
+void SurfaceFit::ForEachResidual(const Visit& visit) {
   SurfaceResidual residual;
   const double variance = options_.noise_mm * options_.noise_mm / options_.independent;
   const std::vector<ContactMatch>& matches = matcher_.Match(posed_, options_.reach_mm);
@@ -53,13 +51,10 @@ void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
     residual.capsule = match.capsule;
     residual.is_edge = matcher_.contacts()[i].is_edge;
     residual.share = match.distance.share;
+    residual.p_W = match.distance.segment_W;
     residual.normal_W = offset / length - LeanOf(posed_[match.capsule], residual.share);
     residual.outside_mm = match.distance.outside_mm;
     residual.variance = variance * Inflation(residual.outside_mm, options_.outlier_mm);
-    // The same as if the contact moved and the body stood still.
-    body.DirectionalJacobian(posture_, body.shape()[match.capsule].carrier,
-                             match.distance.segment_W, residual.normal_W,
-                             residual.J_outside_by_step);
     visit(residual);
   }
 }
@@ -81,6 +76,7 @@ void SurfaceFit::ForEachOverlap(const BodyModel& body, const Visit& visit) const
       if (!MayOverlap(body.shape()[i].part, body.shape()[j].part)) continue;
       for (const double share : kCoreShares) {
         const Vector3 p_W = CorePlace(posed_[i], share);
+        if (!CanStickIn(posed_[i], p_W, posed_[j])) continue;
         const PosedCapsule::Distance distance = posed_[j].DistanceTo(p_W);
         const double depth_mm = OverlapDepth(posed_[i], distance);
         if (depth_mm > 0) visit(i, p_W, j, distance.core_W, depth_mm);
@@ -92,23 +88,30 @@ void SurfaceFit::ForEachOverlap(const BodyModel& body, const Visit& visit) const
 std::vector<SurfaceResidual> SurfaceFit::ResidualsAt(const BodyModel& body, const PoseState& pose) {
   PoseCapsules(body, pose);
   std::vector<SurfaceResidual> residuals;
-  ForEachResidual(body, [&](const SurfaceResidual& residual) { residuals.push_back(residual); });
+  ForEachResidual([&](const SurfaceResidual& residual) { residuals.push_back(residual); });
+  for (SurfaceResidual& residual : residuals) {
+    // The same as if the contact moved and the body stood still.
+    body.DirectionalJacobian(posture_, body.shape()[residual.capsule].carrier, residual.p_W,
+                             residual.normal_W, residual.J_outside_by_step);
+  }
   return residuals;
 }
 
 void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
                            UpdateEquations& equations) {
   PoseCapsules(body, pose);
-  ForEachResidual(body, [&](const SurfaceResidual& residual) {
-    equations.Add(residual.J_outside_by_step, residual.outside_mm, residual.variance);
+  chain_.Reset(body.table(), posture_);
+  ForEachResidual([&](const SurfaceResidual& residual) {
+    chain_.Add(body.shape()[residual.capsule].carrier, residual.p_W, residual.normal_W,
+               residual.outside_mm, residual.variance);
   });
-  JacobianBlock J(3, body.dof());
   const double void_variance = options_.void_noise_mm * options_.void_noise_mm;
   ForEachHollow([&](std::size_t i, const Vector3& p_W, const Vector3& way_W) {
     if (way_W.norm() > 2 * options_.reach_mm) return;
-    body.PointJacobian(posture_, body.shape()[i].carrier, p_W, J);
-    equations.AddPoint(J, way_W, void_variance * Inflation(way_W.norm(), options_.void_outlier_mm));
+    chain_.AddPoint(body.shape()[i].carrier, p_W, way_W,
+                    void_variance * Inflation(way_W.norm(), options_.void_outlier_mm));
   });
+  chain_.AddTo(equations);
   PoseStep J_limb(body.dof());
   PoseStep J_other(body.dof());
   ForEachOverlap(body, [&](std::size_t i, const Vector3& p_W, std::size_t j, const Vector3& core_W,

@@ -8,6 +8,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/body_shape.h"
+#include "core/tracking/chain_equations.h"
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/pose_filter.h"
@@ -42,8 +43,9 @@ struct SurfaceResidual {
   int capsule;   ///< Of ShapeOf(body).
   bool is_edge;  ///< A bounding edge and not a voxel.
   double share;  ///< Along its core.
+  Vector3 p_W;   ///< Where the capsule is drawn to.
   Vector3
-      normal_W;  ///< Out of the surface; leans where the capsule tapers, and is then longer than 1.
+      normal_W;  ///< Out of the surface; where the capsule tapers it leans and is longer than 1.
   double outside_mm;
   double variance;             ///< [mm²], larger for outliers.
   PoseStep J_outside_by_step;  ///< How far the core follows along the normal.
@@ -65,7 +67,7 @@ class SurfaceFit {
  private:
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
   template <typename Visit>
-  void ForEachResidual(const BodyModel& body, const Visit& visit);
+  void ForEachResidual(const Visit& visit);
   template <typename Visit>
   void ForEachHollow(const Visit& visit) const;
   template <typename Visit>
@@ -76,6 +78,7 @@ class SurfaceFit {
   ContactMatcher matcher_;
   Posture posture_;
   std::vector<PosedCapsule> posed_;
+  ChainEquations chain_;
 };
 
 }  // namespace mocap

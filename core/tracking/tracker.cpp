@@ -26,10 +26,10 @@ void Tracker::Update(const Evidence& evidence, double dt_s) {
   FollowLeap(evidence.cloud, filter_.pose().X_WT.p - before_W);
   if (body_.table().measurement == Measurement::kPoints) {
     FollowPoints(evidence.cloud);
+    quality_ = surface_fit_.QualityAt(body_, filter_.pose());
   } else {
     FollowSurface(evidence);
   }
-  quality_ = surface_fit_.QualityAt(body_, filter_.pose());
 }
 
 void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
@@ -67,7 +67,7 @@ void Tracker::FollowPoints(const VoxelCloud& cloud) {
 void Tracker::FollowSurface(const Evidence& evidence) {
   FitSurface();
   if (const auto recovered =
-          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose())) {
+          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose(), quality_)) {
     filter_.Jump(*recovered);
     FitSurface();
   }
@@ -80,6 +80,7 @@ void Tracker::FitSurface() {
         surface_fit_.Linearize(body_, pose, equations);
       },
       kIterations);
+  quality_ = surface_fit_.QualityAt(body_, filter_.pose());
 }
 
 }  // namespace mocap

@@ -34,7 +34,7 @@ class Tracker {
   void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
   void FollowPoints(const VoxelCloud& cloud);
   void FollowSurface(const Evidence& evidence);
-  void FitSurface();
+  void FitSurface();  // And its quality.
 
   BodyModel body_;
   PoseFilter filter_;

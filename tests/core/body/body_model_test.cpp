@@ -4,6 +4,7 @@
 
 #include <random>
 #include <string>
+#include <vector>
 
 #include "config/load_config.h"
 
@@ -34,6 +35,24 @@ class EveryBody : public testing::TestWithParam<std::string> {
   BodyModel body_{LoadBodyTable(GetParam()), AverageSizes(1750)};
   std::mt19937 random_{7};
 };
+
+TEST_P(EveryBody, MovesSomeAxesAsItMovesAll) {
+  const PoseState pose = RandomPose(body_.table(), random_);
+  PoseState bent = pose;
+  std::vector<int> rows;
+  for (int row = body_.joint_count() / 2; row < body_.joint_count(); ++row) {
+    bent.theta[row] += 0.1;
+    rows.push_back(row);
+  }
+  Posture moved = body_.PostureAt(pose);
+  body_.MoveAxes(bent, rows, moved);
+  const Posture anew = body_.PostureAt(bent);
+  for (int row = 0; row < body_.joint_count(); ++row) {
+    EXPECT_EQ(moved.axis_W[row], anew.axis_W[row]);
+    EXPECT_EQ(moved.point_W[row], anew.point_W[row]);
+    EXPECT_EQ(moved.X_W[row].R, anew.X_W[row].R);
+  }
+}
 
 TEST_P(EveryBody, PointJacobiansAgreeWithCentralDifferences) {
   constexpr double kStep = 1e-5;

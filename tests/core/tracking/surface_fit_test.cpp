@@ -92,7 +92,8 @@ TEST_F(Fit, ALostArmIsFoundAgain) {
   const Evidence evidence = studio_.Show(body_, truth);
   fit_.SetEvidence(evidence);
   const PoseState lost = Standing(body_, {});
-  const std::optional<PoseState> found = LimbRecovery().Recover(body_, evidence, fit_, lost);
+  const std::optional<PoseState> found =
+      LimbRecovery().Recover(body_, evidence, fit_, lost, fit_.QualityAt(body_, lost));
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
@@ -106,7 +107,8 @@ TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
   const PoseState exchanged =
       FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
   ASSERT_GT(Error(exchanged, truth), 40);
-  const std::optional<PoseState> found = LimbRecovery().Recover(body_, evidence, fit_, exchanged);
+  const std::optional<PoseState> found =
+      LimbRecovery().Recover(body_, evidence, fit_, exchanged, fit_.QualityAt(body_, exchanged));
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
@@ -124,7 +126,7 @@ TEST_F(Fit, NothingIsRecoveredWhereNothingIsLost) {
   const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
   const Evidence evidence = studio_.Show(body_, truth);
   fit_.SetEvidence(evidence);
-  EXPECT_FALSE(LimbRecovery().Recover(body_, evidence, fit_, truth));
+  EXPECT_FALSE(LimbRecovery().Recover(body_, evidence, fit_, truth, fit_.QualityAt(body_, truth)));
 }
 
 TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
