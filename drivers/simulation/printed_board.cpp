@@ -14,6 +14,8 @@ namespace {
 constexpr double kReach_mm = 1500;
 constexpr double kBehind = 0.36, kDark = 0.16, kWhite = 0.92;
 constexpr int kSamples = 3;  // Each way in a pixel.
+// A board that lies on something is not hidden by it.
+constexpr double kAsNear = 1.01;
 
 double Smoothstep(double x) {
   const double u = std::clamp(x, 0.0, 1.0);
@@ -146,7 +148,7 @@ void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_WB,
         if (!direction) continue;
         const Vector3 ray_B = X_BC.R * direction->homogeneous();
         const double depth_mm = -X_BC.p.z() / ray_B.z();
-        if (!(depth_mm > 0 && depth_mm * nearness(x, y) < 1)) continue;
+        if (!(depth_mm > 0 && depth_mm * nearness(x, y) < kAsNear)) continue;
         const auto here = InkAt((X_BC.p + depth_mm * ray_B).head<2>());
         if (!here) continue;
         ++covered;

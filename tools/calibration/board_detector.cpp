@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <opencv2/aruco/charuco.hpp>
@@ -18,6 +19,9 @@ namespace mocap {
 namespace {
 
 constexpr int kFewestCharucoCorners = 6;
+constexpr int kWidestCorner_px = 6;
+constexpr double kFarthestCorner_px = 1.5;
+const cv::TermCriteria kCornerPrecision(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-3);
 constexpr double kWideEdge_px = 4, kWideEdgeShare = 0.45;
 
 const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
@@ -186,6 +190,7 @@ class BoardDetector::Impl {
     }
     // Corners of blurred squares are still found, but not where they were.
     if (IsBlurred(gray, corners)) return std::nullopt;
+    RefineCorners(gray, corners);
     BoardCorners found;
     for (int id = 0; id < board_.corners(); ++id) {
       found.ids.push_back(id);
@@ -194,6 +199,22 @@ class BoardDetector::Impl {
     MakeUnmirrored(found);
     if (!board_.LooksSameTurned()) BeginAtDarkSquare(gray, found);
     return found;
+  }
+
+  // The detector is some hundredths of a pixel off to one side, which a board on the floor turns
+  // into millimetres; where the edges beside a corner meet, it is not.
+  static void RefineCorners(const cv::Mat& gray, std::vector<cv::Point2f>& corners) {
+    const std::vector<cv::Point2f> found = corners;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      double nearest_px = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 0; j < found.size(); ++j)
+        if (j != i) nearest_px = std::min(nearest_px, cv::norm(found[j] - found[i]));
+      // Other corners stay out of the window.
+      const int half_px = std::clamp(static_cast<int>(nearest_px / 2), 2, kWidestCorner_px);
+      std::vector<cv::Point2f> refined{found[i]};
+      cv::cornerSubPix(gray, refined, {half_px, half_px}, {-1, -1}, kCornerPrecision);
+      if (cv::norm(refined[0] - found[i]) < kFarthestCorner_px) corners[i] = refined[0];
+    }
   }
 
   // With an odd and an even side, one end has dark squares in its corners, the other light ones; as

@@ -43,7 +43,7 @@ TEST(BoardDetectorTest, FindsCornersToAFractionOfAPixelAndNamesThemRightWhatever
     const RigidTransform X_CB = Held(0.4, -0.3, turn, 1700);
     const auto found = detector.Detect(PaintBoard(camera, X_CB, kBoard).view(), Effort::kQuick);
     ASSERT_TRUE(found) << turn;
-    EXPECT_LT(MeanErrorPx(camera, X_CB, *found), 0.15) << turn;
+    EXPECT_LT(MeanErrorPx(camera, X_CB, *found), 0.1) << turn;
   }
 }
 
@@ -53,7 +53,7 @@ TEST(BoardDetectorTest, FindsABoardThatLiesFlatAndFarAwayWithEffort) {
   const auto found =
       BoardDetector(kBoard).Detect(PaintBoard(camera, X_CB, kBoard).view(), Effort::kThorough);
   ASSERT_TRUE(found);
-  EXPECT_LT(MeanErrorPx(camera, X_CB, *found), 0.5);
+  EXPECT_LT(MeanErrorPx(camera, X_CB, *found), 0.25);
 }
 
 TEST(BoardDetectorTest, SeesNothingWhereThereIsNoBoardOrAnotherOne) {
