@@ -1,9 +1,7 @@
 #include "daemon/recording/recording.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,8 +13,6 @@
 #include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "daemon/control/control_socket.h"
-#include "daemon/messages/message_log.h"
 #include "daemon/pipeline/realtime.h"
 #include "daemon/recording/disk_space.h"
 #include "drivers/take/take_layout.h"
@@ -83,17 +79,13 @@ void WriteText(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-FileDescriptor OpenToSync(const std::filesystem::path& file) {
-  return FileDescriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC));
-}
-
 }  // namespace
 
 /// One camera's part.
 struct Recording::Line {
   std::thread thread;
   Doorbell bell;
-  FileDescriptor video, table;  ///< To keep them safe from a loss of power.
+  std::optional<SafeFile> video, table;
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
   std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
@@ -109,26 +101,35 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     : config_(config),
       studio_(studio),
       taps_(taps),
-      writer_(WithRoom(folder, config), DescriptionOf(folder, config, studio)),
+      writer_(std::in_place, WithRoom(folder, config), DescriptionOf(folder, config, studio)),
       folder_(folder),
-      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())) {
-  const TakeLayout layout{writer_.partial_folder()};
-  if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
-  if (subject) SaveSubject(layout.Subject(), *subject);
-  for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-    const std::string& name = studio.cameras[i].calibration.name;
-    Line& line = *lines_.emplace_back(std::make_unique<Line>());
-    line.video = OpenToSync(layout.Video(name));
-    line.table = OpenToSync(layout.Table(name));
-  }
+      partial_(writer_->partial_folder()),
+      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
+      place_(partial_) {
+  Prepare(subject);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
   }
   backgrounds_.wait();
+  // A take opens only with its description, its calibration and the empty studio.
+  Guard([&] { SyncFileSystem(partial_); });
   Begin();
   if (has_failed_.load()) {
     Stop();
     throw std::runtime_error(Status().problem);
+  }
+}
+
+void Recording::Prepare(const std::optional<BodySizes>& subject) {
+  const TakeLayout layout{partial_};
+  if (!studio_.config_text.empty()) WriteText(layout.Config(), studio_.config_text);
+  if (subject) SaveSubject(layout.Subject(), *subject);
+  log_.emplace(layout.Poses());
+  safe_log_.emplace(layout.Poses());
+  for (const RecordedCamera& camera : studio_.cameras) {
+    Line& line = *lines_.emplace_back(std::make_unique<Line>());
+    line.video.emplace(layout.Video(camera.calibration.name));
+    line.table.emplace(layout.Table(camera.calibration.name));
   }
 }
 
@@ -181,8 +182,8 @@ void Recording::RunCamera(std::size_t camera) {
   Guard([&] {
     std::int64_t time_ns = 0;
     for (const BackgroundFrame& frame : recorded.background()) {
-      writer_.WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
-                              frame.angles);
+      writer_->WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
+                               frame.angles);
     }
   });
   backgrounds_.count_down();
@@ -209,12 +210,12 @@ void Recording::WriteFrames(std::size_t camera) {
     }
     if (line.next_sequence && frame.sequence > *line.next_sequence) {
       const std::uint64_t gap = frame.sequence - *line.next_sequence;
-      writer_.SkipFrames(number, gap);
+      writer_->SkipFrames(number, gap);
       line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
     }
     line.next_sequence = frame.sequence + 1;
     line.last_ns = frame.capture_ns;
-    writer_.WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
+    writer_->WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
     line.frames.fetch_add(1, std::memory_order_relaxed);
     line.dropped.store(queue.dropped(), std::memory_order_relaxed);
   }
@@ -222,41 +223,43 @@ void Recording::WriteFrames(std::size_t camera) {
 
 void Recording::RunKeeper() {
   StepBehind("rec keeper");
-  std::int64_t safe_ns = SteadyNs();
-  Guard([&] {
-    MessageLog log(TakeLayout{writer_.partial_folder()}.Poses());
-    const auto drain = [&] {
-      while (taps_.messages.queue().TryPop()) log.Write(taps_.messages.queue().front());
-      log.Flush();
-    };
-    while (!stop_.load()) {
-      std::this_thread::sleep_for(kKeeperTick);
-      drain();
-      if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
-      safe_ns = SteadyNs();
-      KeepSafe();
-    }
-    taps_.messages.Close();
-    drain();
-  });
+  Guard([&] { KeepUntilStopped(); });
   stop_.store(true);
   end_ns_.store(SteadyNs());
   taps_.messages.Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
+  Guard([&] { WriteMessages(); });
   for (const auto& line : lines_) line->thread.join();
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
   taps_.messages.Free();
 }
 
+void Recording::KeepUntilStopped() {
+  std::int64_t safe_ns = SteadyNs();
+  while (!stop_.load()) {
+    std::this_thread::sleep_for(kKeeperTick);
+    WriteMessages();
+    if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
+    safe_ns = SteadyNs();
+    KeepSafe();
+  }
+}
+
+void Recording::WriteMessages() {
+  while (taps_.messages.queue().TryPop()) log_->Write(taps_.messages.queue().front());
+  log_->Flush();
+}
+
 void Recording::KeepSafe() {
   for (const auto& line : lines_) {
-    fdatasync(line->video.get());
-    fdatasync(line->table.get());
+    line->video->Sync();
+    line->table->Sync();
     // Nobody reads it soon; the memory is worth more to others.
-    posix_fadvise(line->video.get(), 0, 0, POSIX_FADV_DONTNEED);
+    line->video->Forget();
   }
-  const auto free_mb = static_cast<double>(BytesFree(writer_.partial_folder())) / 1e6;
+  safe_log_->Sync();
+  const auto free_mb = static_cast<double>(BytesFree(partial_)) / 1e6;
   if (free_mb >= config_.keep_free_mb) return;
   stop_.store(true);
   const std::scoped_lock lock(mutex_);
@@ -266,6 +269,7 @@ void Recording::KeepSafe() {
 
 void Recording::Complete() {
   Guard([&] {
+    if (has_failed_.load()) return;
     std::vector<std::pair<std::string, std::string>> notes = {{"codec", NameOf(config_.codec)}};
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Line& line = *lines_[i];
@@ -274,13 +278,26 @@ void Recording::Complete() {
       notes.emplace_back("missing_frames_" + name, std::to_string(line.missing + line.refused));
       notes.emplace_back("dropped_while_recording_" + name, std::to_string(line.dropped));
     }
-    if (!has_failed_.load()) {
-      writer_.AddNotes(notes);
-      writer_.Finish();
-    }
+    writer_->AddNotes(notes);
+    writer_->Finish();
+    const std::scoped_lock lock(mutex_);
+    place_ = folder_;
   });
+  CloseFiles();
+  Guard([&] { SyncFileSystem(place_); });
   const std::scoped_lock lock(mutex_);
   state_ = has_failed_.load() ? RecordingStatus::State::kFailed : RecordingStatus::State::kComplete;
+}
+
+// A take that is removed while its files are open would go on filling the disk.
+void Recording::CloseFiles() {
+  writer_.reset();
+  log_.reset();
+  safe_log_.reset();
+  for (const auto& line : lines_) {
+    line->video.reset();
+    line->table.reset();
+  }
 }
 
 RecordingStatus Recording::Status() const {
@@ -294,8 +311,7 @@ RecordingStatus Recording::Status() const {
   const std::scoped_lock lock(mutex_);
   status.state = state_;
   status.problem = problem_;
-  const bool is_complete = state_ == RecordingStatus::State::kComplete;
-  status.folder = is_complete ? folder_ : writer_.partial_folder();
+  status.folder = place_;
   return status;
 }
 

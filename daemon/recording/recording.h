@@ -19,8 +19,10 @@
 #include "core/body/body_sizes.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/segmenter.h"
+#include "daemon/messages/message_log.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/tap.h"
+#include "daemon/recording/safe_file.h"
 #include "drivers/take/take_writer.h"
 
 namespace mocap {
@@ -82,13 +84,16 @@ class Recording {
  private:
   struct Line;
 
+  void Prepare(const std::optional<BodySizes>& subject);
   void Begin();
   void RunCamera(std::size_t camera);
   void WriteFrames(std::size_t camera);
   void RunKeeper();
+  void KeepUntilStopped();
   void KeepSafe();
   void WriteMessages();
   void Complete();
+  void CloseFiles();
   void Fail(const std::string& problem);
   template <typename Body>
   void Guard(Body body);
@@ -96,8 +101,11 @@ class Recording {
   const RecordingConfig config_;
   const RecordedStudio& studio_;
   RecordingTaps& taps_;
-  TakeWriter writer_;
+  std::optional<TakeWriter> writer_;
   const std::filesystem::path folder_;
+  const std::filesystem::path partial_;
+  std::optional<MessageLog> log_;
+  std::optional<SafeFile> safe_log_;
   std::vector<std::unique_ptr<Line>> lines_;
   Doorbell keeper_bell_;
   std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
@@ -108,6 +116,7 @@ class Recording {
   std::atomic<bool> has_failed_{false};
   mutable std::mutex mutex_;  ///< Of what follows.
   RecordingStatus::State state_ = RecordingStatus::State::kRunning;
+  std::filesystem::path place_;  ///< Where the take is by now.
   std::string problem_;
   std::thread keeper_;
 };

@@ -55,7 +55,10 @@ class RecordedVideo {
   }
 
   void Skip(std::uint64_t count) { frame_ += count; }
-  void Finish() { video_.Finish(); }
+  void Finish() {
+    video_.Finish();
+    table_.reset();
+  }
 
  private:
   VideoWriter video_;

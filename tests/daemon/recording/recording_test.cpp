@@ -46,6 +46,17 @@ class RecordingTest : public ::testing::Test {
         [&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
   }
 
+  /// Files of takes that this process has open.
+  int OpenFiles() const {
+    int open = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      const std::string file = std::filesystem::read_symlink(entry.path(), gone);
+      open += file.starts_with(config_.folder.string());
+    }
+    return open;
+  }
+
   testing::TemporaryFolder folder_;
   RecordingConfig config_;
   std::optional<Recorder> recorder_;
@@ -106,6 +117,14 @@ TEST_F(RecordingTest, OnlyOneAtATimeAndNoneTwice) {
   EXPECT_THROW(recorder_->Stop(), std::runtime_error);
   EXPECT_THROW(recorder_->Start("one", config_, {}), SetupError) << "there is a take of that name";
   recorder_->Start("two", config_, {});
+}
+
+TEST_F(RecordingTest, WhatHasEndedKeepsNoFileOpen) {
+  recorder_->Start("one", config_, {});
+  EXPECT_GT(OpenFiles(), 0);
+  Offer(0, 0);
+  recorder_->Stop();
+  EXPECT_EQ(OpenFiles(), 0) << "removing the take would free nothing";
 }
 
 TEST_F(RecordingTest, WithoutRoomItDoesNotBegin) {
