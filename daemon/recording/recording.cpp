@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "daemon/pipeline/realtime.h"
 #include "daemon/recording/disk_space.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "drivers/utc_time.h"
 
 namespace mocap {
@@ -23,9 +23,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kKeeperTick{100};
 /// What waits is lost when the program is killed, and what was not made safe when the power fails:
-/// together less than a second.
+/// together less than a second. The count bounds memory; the age holds at any rate of frames.
 constexpr double kMostWaitingS = 0.5;
+constexpr std::int64_t kOldestNs = 350'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
+/// Coders come before everything else that is behind the pipeline: what they leave waiting is lost.
+constexpr int kCoderStep = 5;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
 
@@ -72,13 +75,6 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
   return folder;
 }
 
-void WriteText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
 }  // namespace
 
 /// One camera's part.
@@ -89,10 +85,11 @@ struct Recording::Line {
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
   std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
-  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue.
+  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue, or waited too long in it.
   // The camera's thread only:
   std::optional<std::uint64_t> next_sequence;
   std::int64_t last_ns = -1;
+  std::int64_t stale = 0;
 };
 
 Recording::Recording(const std::filesystem::path& folder, const RecordingConfig& config,
@@ -106,7 +103,12 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       partial_(writer_->partial_folder()),
       backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
       place_(partial_) {
-  Prepare(subject);
+  try {
+    Prepare(subject);
+  } catch (...) {
+    Discard();
+    throw;
+  }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
   }
@@ -116,8 +118,16 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
   Begin();
   if (has_failed_.load()) {
     Stop();
+    if (Status().frames == 0) Discard();
     throw std::runtime_error(Status().problem);
   }
+}
+
+// The name is free for another attempt.
+void Recording::Discard() {
+  CloseFiles();
+  std::error_code error;
+  std::filesystem::remove_all(partial_, error);
 }
 
 void Recording::Prepare(const std::optional<BodySizes>& subject) {
@@ -157,8 +167,14 @@ void Recording::Stop() {
   if (keeper_.joinable()) keeper_.join();
 }
 
-void Recording::Fail(const std::string& problem) {
+void Recording::End() {
+  std::int64_t running = 0;
+  end_ns_.compare_exchange_strong(running, SteadyNs());
   stop_.store(true);
+}
+
+void Recording::Fail(const std::string& problem) {
+  End();
   has_failed_.store(true);
   const std::scoped_lock lock(mutex_);
   if (problem_.empty()) {
@@ -178,7 +194,7 @@ void Recording::Guard(Body body) {
 
 void Recording::RunCamera(std::size_t camera) {
   const RecordedCamera& recorded = studio_.cameras[camera];
-  StepBehind("rec " + recorded.calibration.name);
+  StepBehind("rec " + recorded.calibration.name, kCoderStep);
   Guard([&] {
     std::int64_t time_ns = 0;
     for (const BackgroundFrame& frame : recorded.background()) {
@@ -194,8 +210,7 @@ void Recording::RunCamera(std::size_t camera) {
 void Recording::WriteFrames(std::size_t camera) {
   Line& line = *lines_[camera];
   FrameTap::Queue& queue = taps_.frames[camera].queue();
-  const int number = static_cast<int>(camera);
-  while (!has_failed_.load(std::memory_order_relaxed)) {
+  while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
     if (!queue.TryPop()) {
@@ -203,29 +218,38 @@ void Recording::WriteFrames(std::size_t camera) {
       line.bell.WaitPast(seen);
       continue;
     }
-    const TappedFrame& frame = queue.front();
-    if (frame.capture_ns <= line.last_ns) {
-      line.refused.fetch_add(1, std::memory_order_relaxed);
-      continue;
+    // Once the end is known, what waits is waited for.
+    if (!is_closed && SteadyNs() - queue.front().offered_ns > kOldestNs) {
+      ++line.stale;
+    } else {
+      WriteFrame(camera, queue.front());
     }
-    if (line.next_sequence && frame.sequence > *line.next_sequence) {
-      const std::uint64_t gap = frame.sequence - *line.next_sequence;
-      writer_->SkipFrames(number, gap);
-      line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
-    }
-    line.next_sequence = frame.sequence + 1;
-    line.last_ns = frame.capture_ns;
-    writer_->WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
-    line.frames.fetch_add(1, std::memory_order_relaxed);
-    line.dropped.store(queue.dropped(), std::memory_order_relaxed);
+    line.dropped.store(queue.dropped() + line.stale, std::memory_order_relaxed);
   }
 }
 
+void Recording::WriteFrame(std::size_t camera, const TappedFrame& frame) {
+  Line& line = *lines_[camera];
+  const int number = static_cast<int>(camera);
+  if (frame.capture_ns <= line.last_ns) {
+    line.refused.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  if (line.next_sequence && frame.sequence > *line.next_sequence) {
+    const std::uint64_t gap = frame.sequence - *line.next_sequence;
+    writer_->SkipFrames(number, gap);
+    line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
+  }
+  line.next_sequence = frame.sequence + 1;
+  line.last_ns = frame.capture_ns;
+  writer_->WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
+  line.frames.fetch_add(1, std::memory_order_relaxed);
+}
+
 void Recording::RunKeeper() {
-  StepBehind("rec keeper");
+  StepBehind("rec keeper", kFarBehind);
   Guard([&] { KeepUntilStopped(); });
-  stop_.store(true);
-  end_ns_.store(SteadyNs());
+  End();
   taps_.messages.Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
   Guard([&] { WriteMessages(); });
@@ -261,8 +285,9 @@ void Recording::KeepSafe() {
   safe_log_->Sync();
   const auto free_mb = static_cast<double>(BytesFree(partial_)) / 1e6;
   if (free_mb >= config_.keep_free_mb) return;
-  stop_.store(true);
+  End();
   const std::scoped_lock lock(mutex_);
+  if (!problem_.empty()) return;
   problem_ = fmt::format("ended because the disk has {:.0f} MB left", free_mb);
   spdlog::warn("recording {} {}", folder_.filename().c_str(), problem_);
 }

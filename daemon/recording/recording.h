@@ -54,14 +54,15 @@ struct RecordingStatus {
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
   std::int64_t frames = 0;   ///< Written, of all cameras.
-  std::int64_t dropped = 0;  ///< Came from the cameras and had no room, of all cameras.
+  std::int64_t dropped = 0;  ///< Came from the cameras and had to wait too long, of all cameras.
   std::string problem;       ///< Why it ended by itself.
 };
 
 /// Records until Stop, until the disk is nearly full or until something cannot be written.
 ///
 /// One thread a camera codes and writes, one writes messages, keeps what is written safe from a
-/// loss of power and completes the take; all behind the pipeline's threads in priority.
+/// loss of power and completes the take; all behind the pipeline's threads in priority. A camera
+/// that cannot be written ends the recording; what the others have by then is written still.
 class Recording {
  public:
   /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
@@ -69,7 +70,8 @@ class Recording {
   /// @param folder   of the take to be. @param subject  whose sizes are known, if they are.
   /// @param taps     borrowed for the recording's life.
   /// @throws SetupError          when the folder cannot be made, or there is too little room.
-  /// @throws std::runtime_error  when something cannot be written.
+  /// @throws std::runtime_error  when something cannot be written; nothing is left then, unless it
+  /// is frames.
   Recording(const std::filesystem::path& folder, const RecordingConfig& config,
             const RecordedStudio& studio, const std::optional<BodySizes>& subject,
             RecordingTaps& taps);
@@ -85,15 +87,18 @@ class Recording {
   struct Line;
 
   void Prepare(const std::optional<BodySizes>& subject);
+  void Discard();
   void Begin();
   void RunCamera(std::size_t camera);
   void WriteFrames(std::size_t camera);
+  void WriteFrame(std::size_t camera, const TappedFrame& frame);
   void RunKeeper();
   void KeepUntilStopped();
   void KeepSafe();
   void WriteMessages();
   void Complete();
   void CloseFiles();
+  void End();
   void Fail(const std::string& problem);
   template <typename Body>
   void Guard(Body body);
