@@ -45,18 +45,14 @@ struct BackgroundLearner::Look {
   }
 };
 
-std::vector<BackgroundFrame> KnownBackgrounds::Of(std::size_t camera) const {
-  Read read;
-  {
-    const std::scoped_lock lock(mutex_);
-    read = reads_.at(camera);
-  }
-  return read();
+BackgroundSource KnownBackgrounds::Of(std::size_t camera) const {
+  const std::scoped_lock lock(mutex_);
+  return sources_.at(camera);
 }
 
-void KnownBackgrounds::Set(std::size_t camera, Read read) {
+void KnownBackgrounds::Set(std::size_t camera, BackgroundSource source) {
   const std::scoped_lock lock(mutex_);
-  reads_.at(camera) = std::move(read);
+  sources_.at(camera) = std::move(source);
 }
 
 BackgroundLearner::BackgroundLearner(Pipeline& pipeline, std::deque<FrameTap>& taps,

@@ -4,29 +4,26 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/background/background_model.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/pipeline/tap.h"
+#include "drivers/background_source.h"
 
 namespace mocap {
 
 /// What each camera knows of the empty studio, for whoever asks. Thread-safe.
 class KnownBackgrounds {
  public:
-  using Read = std::function<std::vector<BackgroundFrame>()>;
-
-  explicit KnownBackgrounds(std::vector<Read> reads) : reads_(std::move(reads)) {}
-  std::vector<BackgroundFrame> Of(std::size_t camera) const;
-  void Set(std::size_t camera, Read read);
+  explicit KnownBackgrounds(std::vector<BackgroundSource> sources) : sources_(std::move(sources)) {}
+  BackgroundSource Of(std::size_t camera) const;
+  void Set(std::size_t camera, BackgroundSource source);
 
  private:
   mutable std::mutex mutex_;
-  std::vector<Read> reads_;
+  std::vector<BackgroundSource> sources_;
 };
 
 /// Where it is learned, and for whom.

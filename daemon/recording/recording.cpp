@@ -197,10 +197,10 @@ void Recording::RunCamera(std::size_t camera) {
   StepBehind("rec " + recorded.calibration.name, kCoderStep);
   Guard([&] {
     std::int64_t time_ns = 0;
-    for (const BackgroundFrame& frame : recorded.background()) {
+    recorded.background.ForEach([&](const BackgroundFrame& frame) {
       writer_->WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
                                frame.angles);
-    }
+    });
   });
   backgrounds_.count_down();
   begun_.wait();

@@ -6,7 +6,6 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <latch>
 #include <memory>
 #include <mutex>
@@ -18,11 +17,11 @@
 #include "config/service_config.h"
 #include "core/body/body_sizes.h"
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/messages/message_log.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/tap.h"
 #include "daemon/recording/safe_file.h"
+#include "drivers/background_source.h"
 #include "drivers/take/take_writer.h"
 
 namespace mocap {
@@ -30,7 +29,7 @@ namespace mocap {
 /// What a recording needs to know of a camera.
 struct RecordedCamera {
   CameraCalibration calibration;
-  std::function<std::vector<BackgroundFrame>()> background;
+  BackgroundSource background;
 };
 
 /// The studio as a recording sees it.

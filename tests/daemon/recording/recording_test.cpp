@@ -220,6 +220,24 @@ TEST_F(RecordingTest, ACameraThatCannotBeWrittenLeavesTheOthersTheirLastFrames) 
   EXPECT_EQ(ReadTakeTable(TakeLayout{status.folder}.Table("cam2")).rows.size(), taken);
 }
 
+TEST_F(RecordingTest, EachPictureOfTheEmptyStudioIsWrittenBeforeTheNextIsRead) {
+  RecordedStudio studio = TwoCameras();
+  std::vector<std::uintmax_t> sizes;
+  const std::filesystem::path partial = config_.folder / "one.partial";
+  studio.cameras[1].background =
+      BackgroundSource::OneByOne([&](const BackgroundSource::Visit& visit) {
+        for (int i = 0; i < 3; ++i) {
+          visit({FakeRoom(i), {}});
+          sizes.push_back(std::filesystem::file_size(TakeLayout{partial}.BackgroundVideo("cam2")));
+        }
+      });
+  recorder_.emplace(std::move(studio));
+  recorder_->Start("one", config_, {});
+  EXPECT_THAT(sizes, ::testing::SizeIs(3));
+  EXPECT_LT(sizes[0], sizes[1]);
+  EXPECT_LT(sizes[1], sizes[2]);
+}
+
 TEST_F(RecordingTest, AStartThatFailsLeavesNothing) {
   RecordedStudio studio = TwoCameras();
   studio.cameras[1].background = []() -> std::vector<BackgroundFrame> {
