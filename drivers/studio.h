@@ -16,6 +16,7 @@ struct StudioCamera {
   CameraCalibration calibration;
   std::unique_ptr<CameraDriver> driver;
   BackgroundSource background;  ///< Read before the driver starts.
+  double fps = 0;               ///< Of its own; 0: the studio's.
 };
 
 /// All cameras, in the order in which the pipeline numbers them.

@@ -103,6 +103,7 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   ServiceReport report;
   report.studio = studio.name;
   report.fps_nominal = studio.fps_nominal;
+  for (const StudioCamera& camera : studio.cameras) report.camera_fps.push_back(camera.fps);
   report.lcm_url = config.lcm.url;
   report.calibration = CalibrationOf(config);
   return report;
