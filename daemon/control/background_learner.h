@@ -1,6 +1,7 @@
 // Learns what the empty studio looks like while the cameras run.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -46,6 +47,8 @@ class BackgroundLearner {
   /// @throws std::runtime_error  when somebody moves in the room or is tracked, or a camera
   /// delivers nothing; SetupError when the studio has nothing to learn. What was known holds then.
   std::string Learn(bool anyway, double seconds = 4);
+  /// Has Learn give up, now and from now on: the daemon ends. Any thread.
+  void RequestStop() { stop_.store(true); }
 
  private:
   struct Look;
@@ -60,6 +63,7 @@ class BackgroundLearner {
   std::deque<FrameTap>& taps_;
   KnownBackgrounds& known_;
   const LearningPlace place_;
+  std::atomic<bool> stop_{false};
 };
 
 }  // namespace mocap

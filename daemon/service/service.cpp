@@ -270,6 +270,7 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   pipeline.Start();
   RunUntilStopped(pipeline, watch, seconds);
   manager.Stopping();
+  learner.RequestStop();
   server.reset();
   if (recorder.Status().state == RecordingStatus::State::kRunning) recorder.Stop();
   pipeline.RequestStop();

@@ -93,6 +93,14 @@ class BackgroundLearnerTest : public ::testing::Test {
   std::optional<Pipeline> pipeline_;
 };
 
+TEST_F(BackgroundLearnerTest, GivesUpWhenTheDaemonEnds) {
+  BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
+  learner.RequestStop();
+  EXPECT_THAT([&] { learner.Learn(true, 1e6); },
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("mocapd ends")));
+  EXPECT_FALSE(std::filesystem::exists(place_.folder));
+}
+
 TEST_F(BackgroundLearnerTest, WhatWasLearnedIsUsedAndKept) {
   ASSERT_TRUE(ComesToLight(kBrighter));
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
