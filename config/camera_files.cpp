@@ -19,25 +19,22 @@ namespace {
 // needs all it has.
 constexpr std::size_t kMostStillFrames = 200;
 
-std::vector<BackgroundFrame> ReadBackground(const std::filesystem::path& file,
-                                            const CameraCalibration& camera,
-                                            const std::vector<TakeRow>& rows) {
+void ReadBackground(const std::filesystem::path& file, const CameraCalibration& camera,
+                    const std::vector<TakeRow>& rows, const BackgroundSource::Visit& visit) {
   VideoReader video = OpenCameraVideo(file, camera);
-  std::vector<BackgroundFrame> frames;
+  BackgroundFrame frame{Image<Bgr>(camera.width_px, camera.height_px), {}};
   ImageView<const Bgr> view;
   const std::size_t most = camera.head ? rows.size() : kMostStillFrames;
   for (std::size_t i = 0; i < most; ++i) {
     const VideoStatus status = video.Read(view);
     if (status == VideoStatus::kEnd) break;
     if (status == VideoStatus::kBroken) continue;
-    BackgroundFrame frame{Image<Bgr>(view.width(), view.height()), {}};
     for (int y = 0; y < view.height(); ++y) {
       std::copy_n(view.row(y), view.width(), frame.image.row(y));
     }
     if (camera.head) frame.angles = rows[i].angles;
-    frames.push_back(std::move(frame));
+    visit(frame);
   }
-  return frames;
 }
 
 }  // namespace
@@ -71,13 +68,16 @@ TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibra
   return table;
 }
 
-std::function<std::vector<BackgroundFrame>()> OpenCameraBackground(
-    const std::filesystem::path& video, const std::filesystem::path& table,
-    const CameraCalibration& camera) {
+BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
+                                      const std::filesystem::path& table,
+                                      const CameraCalibration& camera) {
   OpenCameraVideo(video, camera);
   std::vector<TakeRow> rows;
   if (camera.head) rows = ReadCameraTable(table, camera).rows;
-  return [video, camera, rows = std::move(rows)] { return ReadBackground(video, camera, rows); };
+  return BackgroundSource::OneByOne(
+      [video, camera, rows = std::move(rows)](const BackgroundSource::Visit& visit) {
+        ReadBackground(video, camera, rows, visit);
+      });
 }
 
 void ReplaceFolder(const std::filesystem::path& folder, const std::filesystem::path& with) {

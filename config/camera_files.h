@@ -2,11 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <vector>
 
-#include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/camera/camera_model.h"
+#include "drivers/background_source.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
 
@@ -18,12 +16,13 @@ VideoReader OpenCameraVideo(const std::filesystem::path& file, const CameraCalib
 /// Reads a table. @throws SetupError  also when a head has no angles, or the other way round.
 TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibration& camera);
 
-/// Makes sure that a camera's pictures of the empty studio are there; reads them when called.
+/// Makes sure that a camera's pictures of the empty studio are there; reads them when asked, one by
+/// one, in any thread.
 /// @param table  of its angles; looked at for a camera on a head only.
 /// @throws SetupError  naming the file.
-std::function<std::vector<BackgroundFrame>()> OpenCameraBackground(
-    const std::filesystem::path& video, const std::filesystem::path& table,
-    const CameraCalibration& camera);
+BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
+                                      const std::filesystem::path& table,
+                                      const CameraCalibration& camera);
 
 /// Puts a folder in another's place in one step, and takes the other away.
 /// @throws std::runtime_error, std::filesystem::filesystem_error  when that cannot be.

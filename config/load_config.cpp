@@ -27,7 +27,7 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.loop = section.Flag("loop", source.loop);
   source.in_memory = section.Flag("in_memory", source.in_memory);
   source.motion = section.Text("motion", source.motion);
-  source.stature_mm = section.NumberWithin("stature_mm", 500, 2500, source.stature_mm);
+  source.stature_mm = section.NumberWithin("stature_mm", 1000, 2100, source.stature_mm);
   source.cameras = static_cast<int>(section.IntegerWithin("cameras", 1, 64, source.cameras));
   source.fps = section.NumberWithin("fps", 1, 1000, source.fps);
   source.seed = static_cast<std::uint64_t>(section.IntegerWithin(

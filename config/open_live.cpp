@@ -132,8 +132,8 @@ Studio OpenLiveStudio(const Config& config) {
     studio.fps_nominal = std::max(studio.fps_nominal, live.request.fps);
     auto background =
         OpenCameraBackground(base.string() + ".mkv", base.string() + ".csv", *live.calibration);
-    studio.cameras.push_back(
-        {std::move(*live.calibration), std::move(live.driver), std::move(background)});
+    studio.cameras.push_back({std::move(*live.calibration), std::move(live.driver),
+                              std::move(background), live.request.fps});
   }
   return studio;
 }

@@ -28,9 +28,10 @@ struct TakeOptions {
   std::function<std::int64_t()> begin_ns = nullptr;
 };
 
-/// Opens a take: its take.toml, calibration, videos, tables and background.
+/// Opens a take: its take.toml, calibration, videos, tables and background. A camera that delivered
+/// nothing while the take was recorded is left out, unless it is named.
 /// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its
-/// last whole frame.
+/// last whole frame, and one frame at least is wanted.
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
 
 }  // namespace mocap

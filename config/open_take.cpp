@@ -43,19 +43,30 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The cameras to open, in the take's order whatever the order of the wish.
+/// A camera that had delivered nothing by the end of the recording.
+bool IsSilent(const TakeLayout& layout, const std::string& name) {
+  return HoldsNoRows(layout.Table(name)) || HoldsNoFrame(layout.Video(name));
+}
+
+// The cameras to open, in the take's order whatever the order of the wish. Whoever names a silent
+// one hears of it when it is opened.
 std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std::string>& wanted,
-                                const std::filesystem::path& take) {
+                                const TakeLayout& layout) {
   std::string all;
   for (const std::string& name : header.cameras) all += (all.empty() ? "" : ", ") + name;
   for (const std::string& name : wanted) {
     if (!Contains(header.cameras, name)) {
-      throw SetupError(take.string() + ": has no camera " + Quoted(name) + "; it has " + all);
+      throw SetupError(layout.folder.string() + ": has no camera " + Quoted(name) + "; it has " +
+                       all);
     }
   }
   std::vector<std::string> chosen;
   for (const std::string& name : header.cameras) {
-    if (wanted.empty() || Contains(wanted, name)) chosen.push_back(name);
+    if (wanted.empty() ? !IsSilent(layout, name) : Contains(wanted, name)) chosen.push_back(name);
+  }
+  if (chosen.empty()) {
+    throw SetupError(layout.folder.string() + ": holds no frame of any camera (" + all +
+                     "); a take with frames is wanted");
   }
   return chosen;
 }
@@ -95,7 +106,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   const TakeLayout layout{take};
   const TakeHeader header = ReadHeader(layout.Description());
   const std::vector<CameraCalibration> calibrations = LoadCalibration(layout.Calibration());
-  const std::vector<std::string> names = Choose(header, options.cameras, take);
+  const std::vector<std::string> names = Choose(header, options.cameras, layout);
 
   Studio studio{header.name, header.fps_nominal, {}};
   std::vector<TakeTable> tables;

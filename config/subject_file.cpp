@@ -1,11 +1,10 @@
 #include "config/subject_file.h"
 
-#include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "config/body_size_fields.h"
 #include "config/toml_section.h"
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 
 namespace mocap {
@@ -31,16 +30,11 @@ BodySizes LoadSubject(const std::filesystem::path& file) {
 }
 
 void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes) {
-  const std::filesystem::path unfinished = file.string() + ".part";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << "stature_mm = " << TomlNumber(sizes.Stature()) << "\n\n[sizes]\n";
+  std::string text = "stature_mm = " + TomlNumber(sizes.Stature()) + "\n\n[sizes]\n";
   for (const BodySizeField& field : kBodySizeFields) {
-    out << field.name << "_mm = " << TomlNumber(sizes.*field.value) << '\n';
+    text += std::string(field.name) + "_mm = " + TomlNumber(sizes.*field.value) + '\n';
   }
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(unfinished, file, error);
-  if (!out || error) throw std::runtime_error(file.string() + ": cannot be written");
+  ReplaceText(file, text);
 }
 
 }  // namespace mocap

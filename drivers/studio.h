@@ -1,13 +1,12 @@
 // The cameras of a studio as one source, with what tracking needs to know about each.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/segmenter.h"
+#include "drivers/background_source.h"
 #include "drivers/camera_driver.h"
 
 namespace mocap {
@@ -16,8 +15,8 @@ namespace mocap {
 struct StudioCamera {
   CameraCalibration calibration;
   std::unique_ptr<CameraDriver> driver;
-  /// Gives the frames of the empty studio; read once, before the driver starts.
-  std::function<std::vector<BackgroundFrame>()> background;
+  BackgroundSource background;  ///< Read before the driver starts.
+  double fps = 0;               ///< Of its own; 0: the studio's.
 };
 
 /// All cameras, in the order in which the pipeline numbers them.

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
+#include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
 
@@ -127,16 +126,9 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
   return sweeps;
 }
 
-void Write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw SetupError(file.string() + ": cannot be written");
-}
-
 void RunBenchmark(const BenchmarkOptions& options) {
   // Before the work, to find out at once whether its result can be kept.
-  if (!options.out.empty()) Write(options.out / "accuracy.md", "");
+  if (!options.out.empty()) RequireWritable(options.out / "accuracy.md");
   AccuracyBenchmark benchmark{.seconds = options.seconds, .grid = {}, .sweeps = {}};
   Print(AccuracyHeader());
   if (Wants(options, "grid")) {
@@ -145,9 +137,9 @@ void RunBenchmark(const BenchmarkOptions& options) {
   }
   benchmark.sweeps = RunSweeps(options);
   if (options.out.empty()) return;
-  Write(options.out / "accuracy.md", AccuracyMarkdown(benchmark));
+  ReplaceText(options.out / "accuracy.md", AccuracyMarkdown(benchmark));
   if (!benchmark.sweeps.empty()) {
-    Write(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
+    ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
   }
 }
 

@@ -120,7 +120,15 @@ std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take
                                                double to_s, int count) {
   const TakeLayout layout{take};
   const std::vector<CameraCalibration> cameras = LoadCalibration(layout.Calibration());
-  const TakeTable table = ReadTakeTable(layout.Table(cameras.front().name));
+  const auto sees = [&layout](const CameraCalibration& camera) {
+    return !HoldsNoRows(layout.Table(camera.name));
+  };
+  const auto first = std::ranges::find_if(cameras, sees);
+  if (first == cameras.end()) {
+    throw SetupError(take.string() +
+                     ": holds no frame of any camera; a take with frames is wanted");
+  }
+  const TakeTable table = ReadTakeTable(layout.Table(first->name));
   const std::int64_t first_ns = table.rows.front().timestamp_ns;
   std::vector<std::int64_t> times_ns;
   for (const TakeRow& row : table.rows) {

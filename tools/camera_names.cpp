@@ -56,6 +56,12 @@ class NamingJudge {
   Carver carver_;
 };
 
+bool SeesAnything(const TakeSamples& samples, std::size_t camera) {
+  return std::ranges::any_of(samples.moments, [camera](const SampledMoment& moment) {
+    return moment.views[camera].has_value();
+  });
+}
+
 bool SameSize(const CameraCalibration& a, const CameraCalibration& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px;
 }
@@ -73,6 +79,8 @@ std::optional<CameraPair> FindSwappedCameras(const TakeSamples& samples) {
   for (std::size_t a = 0; a < naming.size(); ++a) {
     for (std::size_t b = a + 1; b < naming.size(); ++b) {
       if (!SameSize(samples.cameras[a], samples.cameras[b])) continue;
+      // An exchange with one that saw nothing would only take a camera out of the hull.
+      if (!SeesAnything(samples, a) || !SeesAnything(samples, b)) continue;
       std::swap(naming[a], naming[b]);
       const double overlap = judge.Overlap(naming);
       std::swap(naming[a], naming[b]);

@@ -36,7 +36,10 @@ class RequestCommands {
     command->add_option("NAME", *file_name, "letters, digits, `.`, `_` and `-`")
         ->required()
         ->check([](const std::string& text) {
-          return IsFileName(text) ? "" : "\"" + text + "\" is no name; letters, digits, . _ -";
+          return IsFileName(text) ? ""
+                                  : "\"" + text +
+                                        "\" is no name; letters, digits, . _ - are wanted, and no "
+                                        ".partial at its end";
         });
     command->callback([socket = socket_, request, file_name] {
       AskAndPrint(*socket, request + ' ' + *file_name);

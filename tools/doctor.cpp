@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-constexpr const char* kSystemConfig = "/etc/mocapd/mocapd.toml";
+constexpr const char* kSystemConfig = MOCAP_CONFIG_FILE;
 constexpr const char* kSystemTakes = "/var/lib/mocapd/takes";
 /// Six cameras of 640 x 480 pixels at 30 Hz, coded without loss.
 constexpr double kUsualRecording = 90e6;

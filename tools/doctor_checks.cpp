@@ -18,6 +18,7 @@
 #include "daemon/clock.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/recording/disk_space.h"
 
 namespace mocap {
 namespace {
@@ -153,8 +154,7 @@ Finding CheckProcessor() {
 }
 
 Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second) {
-  std::filesystem::path place = folder;
-  while (!std::filesystem::exists(place) && place.has_relative_path()) place = place.parent_path();
+  const std::filesystem::path place = NearestFolder(folder);
   struct statvfs space {};
   if (statvfs(place.c_str(), &space) != 0) {
     return {Verdict::kBad, place.string() + ": " + std::strerror(errno), "choose another folder"};

@@ -2,13 +2,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
+#include "drivers/take/text_file.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/evaluation_text.h"
 #include "tools/report/hull_overlap.h"
@@ -27,15 +25,11 @@ struct EvaluateArguments {
 
 std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
                                        const Evaluation& evaluation) {
-  // Opened before the work, to find out at once whether its result can be kept.
-  std::ofstream out(arguments.report, std::ios::binary);
-  if (!out) throw SetupError("--report: " + arguments.report.string() + " cannot be written");
+  RequireWritable(arguments.report);
   const TakeSamples samples =
       SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
   std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
-  out << ReportHtml(evaluation, samples, overlaps);
-  out.close();
-  if (!out) throw std::runtime_error(arguments.report.string() + ": not written to its end");
+  ReplaceText(arguments.report, ReportHtml(evaluation, samples, overlaps));
   return overlaps;
 }
 

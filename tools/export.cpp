@@ -4,12 +4,12 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
+#include <sstream>
 #include <string>
 
 #include "core/errors.h"
+#include "drivers/take/text_file.h"
 #include "tools/results/bvh_motion.h"
 #include "tools/results/bvh_writer.h"
 #include "tools/results/csv_writer.h"
@@ -55,9 +55,9 @@ void WriteBvhOf(const Result& result, const std::filesystem::path& source, std::
 }
 
 void Export(const ExportArguments& arguments) {
+  RequireWritable(arguments.out);
   const Result result = ReadResult(arguments.result);
-  std::ofstream out(arguments.out, std::ios::binary);
-  if (!out) throw SetupError("--out: " + arguments.out.string() + " cannot be written");
+  std::ostringstream out;
   if (arguments.format == "bvh") {
     WriteBvhOf(result, arguments.result, out);
   } else if (arguments.format == "trc") {
@@ -65,8 +65,7 @@ void Export(const ExportArguments& arguments) {
   } else {
     WriteCsv(result, out);
   }
-  out.close();
-  if (!out) throw std::runtime_error(arguments.out.string() + ": not written to its end");
+  ReplaceText(arguments.out, out.str());
 }
 
 }  // namespace

@@ -6,10 +6,12 @@
 #include <limits>
 
 #include "config/config.h"
+#include "config/load_config.h"
 #include "config/open_studio.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/silhouette/segmenter.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {
@@ -65,6 +67,17 @@ void Carve(TakeSamples& samples, double voxel_mm) {
   }
 }
 
+/// A list of cameras that is written as a calibration must not lose those that saw nothing.
+void AddSilentCameras(const std::filesystem::path& take, TakeSamples& samples) {
+  for (const CameraCalibration& camera : LoadCalibration(TakeLayout{take}.Calibration())) {
+    if (std::ranges::find(samples.cameras, camera.name, &CameraCalibration::name) !=
+        samples.cameras.end())
+      continue;
+    samples.cameras.push_back(camera);
+    for (SampledMoment& moment : samples.moments) moment.views.emplace_back();
+  }
+}
+
 }  // namespace
 
 TakeSamples SampleTake(const std::filesystem::path& take,
@@ -90,6 +103,7 @@ TakeSamples SampleTake(const std::filesystem::path& take,
       if (requests[i].keep_images) view.image = std::move(nearest[i].image);
     }
   }
+  AddSilentCameras(take, samples);
   Carve(samples, voxel_mm);
   return samples;
 }

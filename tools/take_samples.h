@@ -28,7 +28,7 @@ struct SampledMoment {
 };
 
 struct TakeSamples {
-  std::vector<CameraCalibration> cameras;
+  std::vector<CameraCalibration> cameras;  ///< All that are calibrated, those with frames first.
   std::vector<SampledMoment> moments;
 };
 

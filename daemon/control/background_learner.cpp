@@ -45,18 +45,14 @@ struct BackgroundLearner::Look {
   }
 };
 
-std::vector<BackgroundFrame> KnownBackgrounds::Of(std::size_t camera) const {
-  Read read;
-  {
-    const std::scoped_lock lock(mutex_);
-    read = reads_.at(camera);
-  }
-  return read();
+BackgroundSource KnownBackgrounds::Of(std::size_t camera) const {
+  const std::scoped_lock lock(mutex_);
+  return sources_.at(camera);
 }
 
-void KnownBackgrounds::Set(std::size_t camera, Read read) {
+void KnownBackgrounds::Set(std::size_t camera, BackgroundSource source) {
   const std::scoped_lock lock(mutex_);
-  reads_.at(camera) = std::move(read);
+  sources_.at(camera) = std::move(source);
 }
 
 BackgroundLearner::BackgroundLearner(Pipeline& pipeline, std::deque<FrameTap>& taps,
@@ -100,7 +96,8 @@ std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds
     const bool is_over = SteadyNs() - begin_ns > length_ns;
     return look.frames.size() >= (is_over ? kFewestFrames : kFrames);
   };
-  while (!std::ranges::all_of(looks, is_done) && SteadyNs() - begin_ns < length_ns + kPatienceNs) {
+  while (!stop_.load() && !std::ranges::all_of(looks, is_done) &&
+         SteadyNs() - begin_ns < length_ns + kPatienceNs) {
     for (std::size_t i = 0; i < cameras; ++i) {
       while (taps_[i].queue().TryPop()) looks[i].Take(taps_[i].queue().front(), length_ns);
     }
@@ -110,6 +107,7 @@ std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds
     tap.Close();
     tap.Free();
   }
+  if (stop_.load()) throw std::runtime_error("mocapd ends; what was learned before is kept");
   return looks;
 }
 

@@ -1,32 +1,30 @@
 // Learns what the empty studio looks like while the cameras run.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "core/reconstruction/background/background_model.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/pipeline/tap.h"
+#include "drivers/background_source.h"
 
 namespace mocap {
 
 /// What each camera knows of the empty studio, for whoever asks. Thread-safe.
 class KnownBackgrounds {
  public:
-  using Read = std::function<std::vector<BackgroundFrame>()>;
-
-  explicit KnownBackgrounds(std::vector<Read> reads) : reads_(std::move(reads)) {}
-  std::vector<BackgroundFrame> Of(std::size_t camera) const;
-  void Set(std::size_t camera, Read read);
+  explicit KnownBackgrounds(std::vector<BackgroundSource> sources) : sources_(std::move(sources)) {}
+  BackgroundSource Of(std::size_t camera) const;
+  void Set(std::size_t camera, BackgroundSource source);
 
  private:
   mutable std::mutex mutex_;
-  std::vector<Read> reads_;
+  std::vector<BackgroundSource> sources_;
 };
 
 /// Where it is learned, and for whom.
@@ -49,6 +47,8 @@ class BackgroundLearner {
   /// @throws std::runtime_error  when somebody moves in the room or is tracked, or a camera
   /// delivers nothing; SetupError when the studio has nothing to learn. What was known holds then.
   std::string Learn(bool anyway, double seconds = 4);
+  /// Has Learn give up, now and from now on: the daemon ends. Any thread.
+  void RequestStop() { stop_.store(true); }
 
  private:
   struct Look;
@@ -63,6 +63,7 @@ class BackgroundLearner {
   std::deque<FrameTap>& taps_;
   KnownBackgrounds& known_;
   const LearningPlace place_;
+  std::atomic<bool> stop_{false};
 };
 
 }  // namespace mocap

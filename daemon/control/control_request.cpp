@@ -46,7 +46,7 @@ bool IsFileName(std::string_view name) {
            c == '_' || c == '-';
   };
   return !name.empty() && name.size() <= kLongestName && name[0] != '.' && name[0] != '-' &&
-         std::ranges::all_of(name, is_allowed);
+         !name.ends_with(".partial") && std::ranges::all_of(name, is_allowed);
 }
 
 std::optional<ControlRequest> ParseControlRequest(std::string_view line) {

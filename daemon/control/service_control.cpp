@@ -54,9 +54,10 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
     throw std::runtime_error("the recording failed: " + status.problem + "; what there is, is in " +
                              status.folder.string());
   }
-  const std::string text =
-      fmt::format("{}: {:.1f} s, {} frames, {} dropped while recording", status.folder.string(),
-                  static_cast<double>(status.duration_ns) / 1e9, status.frames, status.dropped);
+  const std::string why = status.problem.empty() ? "" : "; it " + status.problem;
+  const std::string text = fmt::format(
+      "{}: {:.1f} s, {} frames, {} dropped while recording{}", status.folder.string(),
+      static_cast<double>(status.duration_ns) / 1e9, status.frames, status.dropped, why);
   spdlog::info("recorded {}", text);
   return text + '\n';
 }

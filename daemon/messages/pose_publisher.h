@@ -25,8 +25,8 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
 /// Whether the kernel knows where to send LCM's multicast.
 bool HasMulticastRoute();
 
-/// Publishes what the contract's table of channels says. OnSet: one thread; PublishStatus: one
-/// thread, the same or another.
+/// Publishes poses, bodies, voxels and how the service does, each on its channel. OnSet: one
+/// thread; PublishStatus: one thread, the same or another.
 class PosePublisher : public PoseSink {
  public:
   /// @param lcm      borrowed for the publisher's life.

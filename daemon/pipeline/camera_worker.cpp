@@ -11,6 +11,7 @@
 namespace mocap {
 namespace {
 
+constexpr std::int64_t kNoneYet = std::numeric_limits<std::int64_t>::min();
 /// Bounds how long a stop can take.
 constexpr std::chrono::milliseconds kGrabTimeout{100};
 /// Between attempts to get a lost camera back.
@@ -34,7 +35,7 @@ CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecord
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
       taps_(std::move(taps)),
-      newest_ns_(std::numeric_limits<std::int64_t>::min()) {}
+      newest_ns_(kNoneYet) {}
 
 void CameraWorker::Stop() {
   camera_.driver->Stop();
@@ -68,7 +69,9 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   for (FrameTap* tap : taps_) {
     tap->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
   }
-  if (frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
+  const bool starts_anew =
+      newest_ns() > kNoneYet && frame.capture_ns < newest_ns() - Synchronizer::kClockStepNs;
+  if (!starts_anew && frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     expectation_.store(Expectation::kPossible, std::memory_order_release);
     return Outcome::kNothing;

@@ -65,7 +65,7 @@ class CameraWorker {
 
   enum class Outcome { kFrame, kNothing, kEnd };
   /// Waits a moment for the next frame and segments it into `frame`; one captured before
-  /// `wanted_from_ns`, as it is by then, is dropped instead.
+  /// `wanted_from_ns`, as it is by then, is dropped instead, unless the clock was put back.
   Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame);
 
   /// Segments with another knowledge of the empty studio from the next frame on. Any thread but the

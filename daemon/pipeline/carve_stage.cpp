@@ -18,6 +18,10 @@ CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchroniz
 
 void CarveStage::Offer(int camera, SegmentedFrame& frame) {
   Camera& offering = cameras_[camera];
+  if (load_control_ && synchronizer_.StartsAnew(camera, frame.capture_ns)) {
+    load_control_->StartAnew();
+    PublishLoad();
+  }
   if (frame.capture_ns < wanted_from_ns_.load(std::memory_order_relaxed)) {
     offering.left_out.fetch_add(1, std::memory_order_relaxed);
     return;

@@ -6,14 +6,22 @@ namespace mocap {
 
 void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::int64_t now_ns,
                          std::int64_t period_ns) {
-  const bool follows_a_gap = last_ns_ < wanted_from_ns_ && wanted_from_ns_ <= capture_ns;
+  const bool follows_a_gap =
+      has_last_ && last_ns_ < wanted_from_ns_ && wanted_from_ns_ <= capture_ns;
   if (follows_a_gap) skipped_ += (capture_ns - last_ns_ - period_ns / 2) / period_ns;
+  has_last_ = true;
   last_ns_ = capture_ns;
   captures_ns_[sets_++ % kMostUnderWay] = capture_ns;
   period_ns_ = period_ns;
   least_delay_ns_ = std::min(least_delay_ns_, arrival_ns - capture_ns);
   const std::int64_t age_ns = now_ns - capture_ns - least_delay_ns_;
   if (age_ns > kTolerancePeriods * period_ns) WantNext(now_ns);
+}
+
+void LoadControl::StartAnew() {
+  wanted_from_ns_ = kAll;
+  has_last_ = false;
+  least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
 }
 
 void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {
@@ -27,11 +35,16 @@ void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {
 bool LoadControl::IsFull(std::int64_t sets, std::int64_t now_ns) const {
   if (sets < 2) return false;
   if (sets >= kMostUnderWay) return true;
+  if (!has_last_) return false;
   const std::int64_t oldest_ns = captures_ns_[(sets_ - std::min(sets, sets_)) % kMostUnderWay];
   return now_ns - least_delay_ns_ - oldest_ns > kTolerancePeriods * period_ns_;
 }
 
 void LoadControl::WantNext(std::int64_t now_ns) {
+  if (!has_last_) {
+    wanted_from_ns_ = kAll;
+    return;
+  }
   const std::int64_t since_last_ns = std::max<std::int64_t>(0, now_ns - least_delay_ns_ - last_ns_);
   wanted_from_ns_ = last_ns_ + since_last_ns / period_ns_ * period_ns_ + period_ns_ / 2;
 }

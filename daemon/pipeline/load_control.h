@@ -29,6 +29,9 @@ class LoadControl {
   /// Takes note of how many sets have been matched and not yet tracked.
   void SetUnderWay(std::int64_t sets, std::int64_t now_ns);
 
+  /// Forgets times: the clock was put back. Counters go on.
+  void StartAnew();
+
   /// Frames captured before this are not wanted.
   std::int64_t wanted_from_ns() const { return wanted_from_ns_; }
   /// Sets left out so far.
@@ -40,8 +43,11 @@ class LoadControl {
   void WantNext(std::int64_t now_ns);
   bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
 
-  std::int64_t wanted_from_ns_ = std::numeric_limits<std::int64_t>::min();
-  std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
+  static constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::min();
+
+  std::int64_t wanted_from_ns_ = kAll;
+  bool has_last_ = false;
+  std::int64_t last_ns_ = 0;
   std::int64_t period_ns_ = 1;
   std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
   std::int64_t sets_ = 0;

@@ -169,7 +169,10 @@ bool Pipeline::FeedFromQueues() {
     while (carve_->NeedsFrame(i) && line.queue.TryPop()) carve_->Offer(i, line.queue.front());
     line.ended = is_closed && carve_->NeedsFrame(i);
     carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : expectation);
-    carve_->synchronizer().NoteNewest(line.worker.newest_ns());
+    // What a camera was at when it was lost says nothing about those that go on.
+    if (expectation != Expectation::kNone) {
+      carve_->synchronizer().NoteNewest(i, line.worker.newest_ns());
+    }
     all_ended &= line.ended;
   }
   return all_ended;

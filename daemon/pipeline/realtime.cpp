@@ -13,16 +13,15 @@
 namespace mocap {
 namespace {
 
-constexpr int kNicer = 10;
 constexpr int kNicest = 19;
 constexpr std::size_t kLongestThreadName = 15;
 
 }  // namespace
 
-void StepBehind(const std::string& name) {
+void StepBehind(const std::string& name, int step) {
   pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
   // Zero is the calling thread: on Linux each has its own.
-  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + kNicer, kNicest));
+  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + step, kNicest));
 }
 
 bool KeepToProcessors(const std::vector<int>& processors) {

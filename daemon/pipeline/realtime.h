@@ -12,8 +12,11 @@ namespace mocap {
 /// @throws SetupError  naming the limit that stands against it.
 void PrepareRealtime(const RealtimeConfig& config);
 
-/// Names the calling thread and puts it behind the pipeline's.
-void StepBehind(const std::string& name);
+/// Far enough behind for what can wait.
+inline constexpr int kFarBehind = 10;
+
+/// Names the calling thread and puts it behind the pipeline's. @param step  added to its niceness.
+void StepBehind(const std::string& name, int step);
 
 /// Keeps the calling thread to these processors; to none in particular when there are none.
 /// @return  false where that is not possible.

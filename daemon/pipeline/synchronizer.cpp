@@ -17,16 +17,25 @@ Synchronizer::Synchronizer(int cameras, std::int64_t nominal_period_ns, double p
 bool Synchronizer::Offer(int camera, std::int64_t capture_ns, std::uint64_t sequence) {
   Camera& offering = cameras_[camera];
   MOCAP_CHECK(!offering.has_front);
-  if (capture_ns <= offering.last_ns) {
+  if (StartsAnew(camera, capture_ns)) StartAnew(offering, capture_ns);
+  if (offering.has_last && capture_ns <= offering.last_ns) {
     ++offering.late;
     return false;
   }
   offering.period.Add(capture_ns, sequence);
-  offering.has_front = true;
+  offering.has_front = offering.has_last = true;
   offering.given_up = false;
   offering.front_ns = offering.last_ns = capture_ns;
   NoteNewest(capture_ns);
   return true;
+}
+
+void Synchronizer::StartAnew(Camera& camera, std::int64_t capture_ns) {
+  camera.has_last = false;
+  camera.period = {};
+  // One stamp that was wrong leaves alone what the other cameras say.
+  if (capture_ns < set_ns_ - kClockStepNs) set_ns_ = kLongAgoNs;
+  if (capture_ns < newest_ns_ - kClockStepNs) newest_ns_ = capture_ns;
 }
 
 bool Synchronizer::LetGoBefore(int camera, std::int64_t capture_ns) {
@@ -38,6 +47,14 @@ bool Synchronizer::LetGoBefore(int camera, std::int64_t capture_ns) {
 
 void Synchronizer::NoteNewest(std::int64_t capture_ns) {
   newest_ns_ = std::max(newest_ns_, capture_ns);
+}
+
+void Synchronizer::NoteNewest(int camera, std::int64_t capture_ns) {
+  NoteNewest(capture_ns);
+  Camera& holder = cameras_[camera];
+  if (!holder.has_front || capture_ns >= holder.front_ns - kClockStepNs) return;
+  holder.has_front = false;
+  ++holder.late;
 }
 
 Synchronizer::Verdict Synchronizer::Decide() {

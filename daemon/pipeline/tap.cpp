@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "daemon/clock.h"
+
 namespace mocap {
 
 bool CopyFrame(const Frame& from, TappedFrame& to) {
@@ -12,6 +14,7 @@ bool CopyFrame(const Frame& from, TappedFrame& to) {
     std::copy_n(from.image.row(y), from.image.width(), to.image.row(y));
   }
   to.capture_ns = from.capture_ns;
+  to.offered_ns = SteadyNs();
   to.sequence = from.sequence;
   to.angles = from.angles;
   return true;

@@ -65,6 +65,7 @@ class Tap {
 struct TappedFrame {
   Image<Bgr> image;
   std::int64_t capture_ns = 0;
+  std::int64_t offered_ns = 0;  ///< When it was copied, by the steady clock.
   std::uint64_t sequence = 0;
   PanTiltAngles angles;
 };

@@ -23,7 +23,8 @@ void TrackStage::Process(const CarvedSet& set) {
   }
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
-  const CaptureResult& result = capture_.Update(set.grid, set.outlines, set.capture_ns, this);
+  const CaptureResult& result =
+      capture_.Update(set.grid, set.outlines, Onward(set.capture_ns), this);
   const std::int64_t update_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kLabel].Record(stage_ns_[0]);
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
@@ -41,6 +42,13 @@ void TrackStage::Process(const CarvedSet& set) {
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
   recorders_[Stage::kLatency].Record(EpochNs() - from_ns);
   sets_.fetch_add(1, std::memory_order_relaxed);
+}
+
+// A clock that is put back does not take the person back.
+std::int64_t TrackStage::Onward(std::int64_t capture_ns) {
+  if (last_ns_ && capture_ns + shift_ns_ < *last_ns_) shift_ns_ = *last_ns_ - capture_ns;
+  last_ns_ = capture_ns + shift_ns_;
+  return *last_ns_;
 }
 
 void TrackStage::OnStageEnd(UpdateStage stage) {

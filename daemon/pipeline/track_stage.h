@@ -37,6 +37,7 @@ class TrackStage : private UpdateObserver {
  private:
   using Subject = std::optional<BodySizes>;
 
+  std::int64_t Onward(std::int64_t capture_ns);
   void OnStageEnd(UpdateStage stage) override;
 
   MotionCapture capture_;
@@ -46,6 +47,8 @@ class TrackStage : private UpdateObserver {
   std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
   std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.
+  std::int64_t shift_ns_ = 0;                          ///< From capture to the tracker's time.
+  std::optional<std::int64_t> last_ns_;                ///< Of the tracker's time.
   std::atomic<std::int64_t> sets_{0};
   std::atomic<CaptureState> state_{CaptureState::kSearching};
 };

@@ -3,24 +3,35 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
-#include "core/errors.h"
 #include "drivers/take/take_table.h"
 
 namespace mocap {
 namespace {
 
+/// What can be seen there; what others put there or take away meanwhile stops nothing.
+std::vector<std::filesystem::path> FilesIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    files.push_back(entry->path());
+  }
+  return files;
+}
+
 std::optional<CutOffTake> Describe(const std::filesystem::path& folder) {
   CutOffTake take{.folder = folder};
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".csv") continue;
+  for (const std::filesystem::path& file : FilesIn(folder)) {
+    if (file.extension() != ".csv") continue;
     try {
-      const TakeTable table = ReadTakeTable(entry.path());
+      const TakeTable table = ReadTakeTable(file);
       first_ns = std::min(first_ns, table.rows.front().timestamp_ns);
       take.last_ns = std::max(take.last_ns, table.rows.back().timestamp_ns);
-    } catch (const SetupError&) {
-      // A camera that had not delivered a frame by then.
+    } catch (const std::runtime_error&) {
+      // A camera that had not delivered a frame by then, or what may not be read.
     }
   }
   if (take.last_ns == 0) return {};
@@ -33,9 +44,9 @@ std::optional<CutOffTake> Describe(const std::filesystem::path& folder) {
 std::vector<CutOffTake> FindCutOffTakes(const std::filesystem::path& takes) {
   std::vector<CutOffTake> found;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(takes, error)) {
-    if (entry.path().extension() != ".partial" || !entry.is_directory(error)) continue;
-    if (const auto take = Describe(entry.path())) found.push_back(*take);
+  for (const std::filesystem::path& folder : FilesIn(takes)) {
+    if (folder.extension() != ".partial" || !std::filesystem::is_directory(folder, error)) continue;
+    if (const auto take = Describe(folder)) found.push_back(*take);
   }
   std::ranges::sort(found, {}, &CutOffTake::folder);
   return found;

@@ -18,11 +18,14 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
     throw std::runtime_error(Status().folder.string() + " is being recorded; mocap record stop");
   }
   const std::filesystem::path folder = TakesFolder(config) / name;
+  std::shared_ptr<Recording> last;
   {
-    // The last one gives the taps back before the next takes them.
     const std::scoped_lock lock(mutex_);
-    recording_.reset();
+    last = std::move(recording_);
   }
+  // It gives the taps back before the next takes them; nobody waits for that to know how things
+  // are.
+  last.reset();
   auto recording = std::make_shared<Recording>(folder, config, studio_, subject, taps_);
   const std::scoped_lock lock(mutex_);
   recording_ = std::move(recording);
@@ -31,7 +34,9 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
 
 RecordingStatus Recorder::Stop() {
   const std::scoped_lock change(change_mutex_);
-  if (Status().state != RecordingStatus::State::kRunning) {
+  const RecordingStatus status = Status();
+  if (status.state != RecordingStatus::State::kRunning) {
+    if (!status.problem.empty()) return status;
     throw std::runtime_error("nothing is being recorded");
   }
   std::shared_ptr<Recording> recording;

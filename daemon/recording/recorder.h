@@ -22,7 +22,8 @@ class Recorder {
   /// @throws SetupError, std::runtime_error  as Recording, and when one is on already.
   std::filesystem::path Start(const std::string& name, const RecordingConfig& config,
                               const std::optional<BodySizes>& subject);
-  /// Ends it. @return how it went. @throws std::runtime_error  when none is on.
+  /// Ends it. @return how it went, also when it has ended by itself.
+  /// @throws std::runtime_error  when there is none.
   RecordingStatus Stop();
   RecordingStatus Status() const;
 

@@ -1,25 +1,21 @@
 #include "daemon/recording/recording.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/clock.h"
-#include "daemon/control/control_socket.h"
-#include "daemon/messages/message_log.h"
 #include "daemon/pipeline/realtime.h"
 #include "daemon/recording/disk_space.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "drivers/utc_time.h"
 
 namespace mocap {
@@ -27,9 +23,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kKeeperTick{100};
 /// What waits is lost when the program is killed, and what was not made safe when the power fails:
-/// together less than a second.
+/// together less than a second. The count bounds memory; the age holds at any rate of frames.
 constexpr double kMostWaitingS = 0.5;
+constexpr std::int64_t kOldestNs = 350'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
+/// Coders come before everything else that is behind the pipeline: what they leave waiting is lost.
+constexpr int kCoderStep = 5;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
 
@@ -76,31 +75,21 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
   return folder;
 }
 
-void WriteText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-FileDescriptor OpenToSync(const std::filesystem::path& file) {
-  return FileDescriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC));
-}
-
 }  // namespace
 
 /// One camera's part.
 struct Recording::Line {
   std::thread thread;
   Doorbell bell;
-  FileDescriptor video, table;  ///< To keep them safe from a loss of power.
+  std::optional<SafeFile> video, table;
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
   std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
-  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue.
+  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue, or waited too long in it.
   // The camera's thread only:
   std::optional<std::uint64_t> next_sequence;
   std::int64_t last_ns = -1;
+  std::int64_t stale = 0;
 };
 
 Recording::Recording(const std::filesystem::path& folder, const RecordingConfig& config,
@@ -109,26 +98,48 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     : config_(config),
       studio_(studio),
       taps_(taps),
-      writer_(WithRoom(folder, config), DescriptionOf(folder, config, studio)),
+      writer_(std::in_place, WithRoom(folder, config), DescriptionOf(folder, config, studio)),
       folder_(folder),
-      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())) {
-  const TakeLayout layout{writer_.partial_folder()};
-  if (!studio.config_text.empty()) WriteText(layout.Config(), studio.config_text);
-  if (subject) SaveSubject(layout.Subject(), *subject);
-  for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-    const std::string& name = studio.cameras[i].calibration.name;
-    Line& line = *lines_.emplace_back(std::make_unique<Line>());
-    line.video = OpenToSync(layout.Video(name));
-    line.table = OpenToSync(layout.Table(name));
+      partial_(writer_->partial_folder()),
+      backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
+      place_(partial_) {
+  try {
+    Prepare(subject);
+  } catch (...) {
+    Discard();
+    throw;
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
   }
   backgrounds_.wait();
+  // A take opens only with its description, its calibration and the empty studio.
+  Guard([&] { SyncFileSystem(partial_); });
   Begin();
   if (has_failed_.load()) {
     Stop();
+    if (Status().frames == 0) Discard();
     throw std::runtime_error(Status().problem);
+  }
+}
+
+// The name is free for another attempt.
+void Recording::Discard() {
+  CloseFiles();
+  std::error_code error;
+  std::filesystem::remove_all(partial_, error);
+}
+
+void Recording::Prepare(const std::optional<BodySizes>& subject) {
+  const TakeLayout layout{partial_};
+  if (!studio_.config_text.empty()) WriteText(layout.Config(), studio_.config_text);
+  if (subject) SaveSubject(layout.Subject(), *subject);
+  log_.emplace(layout.Poses());
+  safe_log_.emplace(layout.Poses());
+  for (const RecordedCamera& camera : studio_.cameras) {
+    Line& line = *lines_.emplace_back(std::make_unique<Line>());
+    line.video.emplace(layout.Video(camera.calibration.name));
+    line.table.emplace(layout.Table(camera.calibration.name));
   }
 }
 
@@ -156,8 +167,14 @@ void Recording::Stop() {
   if (keeper_.joinable()) keeper_.join();
 }
 
-void Recording::Fail(const std::string& problem) {
+void Recording::End() {
+  std::int64_t running = 0;
+  end_ns_.compare_exchange_strong(running, SteadyNs());
   stop_.store(true);
+}
+
+void Recording::Fail(const std::string& problem) {
+  End();
   has_failed_.store(true);
   const std::scoped_lock lock(mutex_);
   if (problem_.empty()) {
@@ -177,13 +194,13 @@ void Recording::Guard(Body body) {
 
 void Recording::RunCamera(std::size_t camera) {
   const RecordedCamera& recorded = studio_.cameras[camera];
-  StepBehind("rec " + recorded.calibration.name);
+  StepBehind("rec " + recorded.calibration.name, kCoderStep);
   Guard([&] {
     std::int64_t time_ns = 0;
-    for (const BackgroundFrame& frame : recorded.background()) {
-      writer_.WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
-                              frame.angles);
-    }
+    recorded.background.ForEach([&](const BackgroundFrame& frame) {
+      writer_->WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
+                               frame.angles);
+    });
   });
   backgrounds_.count_down();
   begun_.wait();
@@ -193,8 +210,7 @@ void Recording::RunCamera(std::size_t camera) {
 void Recording::WriteFrames(std::size_t camera) {
   Line& line = *lines_[camera];
   FrameTap::Queue& queue = taps_.frames[camera].queue();
-  const int number = static_cast<int>(camera);
-  while (!has_failed_.load(std::memory_order_relaxed)) {
+  while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
     if (!queue.TryPop()) {
@@ -202,70 +218,83 @@ void Recording::WriteFrames(std::size_t camera) {
       line.bell.WaitPast(seen);
       continue;
     }
-    const TappedFrame& frame = queue.front();
-    if (frame.capture_ns <= line.last_ns) {
-      line.refused.fetch_add(1, std::memory_order_relaxed);
-      continue;
+    // Once the end is known, what waits is waited for.
+    if (!is_closed && SteadyNs() - queue.front().offered_ns > kOldestNs) {
+      ++line.stale;
+    } else {
+      WriteFrame(camera, queue.front());
     }
-    if (line.next_sequence && frame.sequence > *line.next_sequence) {
-      const std::uint64_t gap = frame.sequence - *line.next_sequence;
-      writer_.SkipFrames(number, gap);
-      line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
-    }
-    line.next_sequence = frame.sequence + 1;
-    line.last_ns = frame.capture_ns;
-    writer_.WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
-    line.frames.fetch_add(1, std::memory_order_relaxed);
-    line.dropped.store(queue.dropped(), std::memory_order_relaxed);
+    line.dropped.store(queue.dropped() + line.stale, std::memory_order_relaxed);
   }
 }
 
+void Recording::WriteFrame(std::size_t camera, const TappedFrame& frame) {
+  Line& line = *lines_[camera];
+  const int number = static_cast<int>(camera);
+  if (frame.capture_ns <= line.last_ns) {
+    line.refused.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  if (line.next_sequence && frame.sequence > *line.next_sequence) {
+    const std::uint64_t gap = frame.sequence - *line.next_sequence;
+    writer_->SkipFrames(number, gap);
+    line.missing.fetch_add(static_cast<std::int64_t>(gap), std::memory_order_relaxed);
+  }
+  line.next_sequence = frame.sequence + 1;
+  line.last_ns = frame.capture_ns;
+  writer_->WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
+  line.frames.fetch_add(1, std::memory_order_relaxed);
+}
+
 void Recording::RunKeeper() {
-  StepBehind("rec keeper");
-  std::int64_t safe_ns = SteadyNs();
-  Guard([&] {
-    MessageLog log(TakeLayout{writer_.partial_folder()}.Poses());
-    const auto drain = [&] {
-      while (taps_.messages.queue().TryPop()) log.Write(taps_.messages.queue().front());
-      log.Flush();
-    };
-    while (!stop_.load()) {
-      std::this_thread::sleep_for(kKeeperTick);
-      drain();
-      if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
-      safe_ns = SteadyNs();
-      KeepSafe();
-    }
-    taps_.messages.Close();
-    drain();
-  });
-  stop_.store(true);
-  end_ns_.store(SteadyNs());
+  StepBehind("rec keeper", kFarBehind);
+  Guard([&] { KeepUntilStopped(); });
+  End();
   taps_.messages.Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
+  Guard([&] { WriteMessages(); });
   for (const auto& line : lines_) line->thread.join();
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
   taps_.messages.Free();
 }
 
+void Recording::KeepUntilStopped() {
+  std::int64_t safe_ns = SteadyNs();
+  while (!stop_.load()) {
+    std::this_thread::sleep_for(kKeeperTick);
+    WriteMessages();
+    if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
+    safe_ns = SteadyNs();
+    KeepSafe();
+  }
+}
+
+void Recording::WriteMessages() {
+  while (taps_.messages.queue().TryPop()) log_->Write(taps_.messages.queue().front());
+  log_->Flush();
+}
+
 void Recording::KeepSafe() {
   for (const auto& line : lines_) {
-    fdatasync(line->video.get());
-    fdatasync(line->table.get());
+    line->video->Sync();
+    line->table->Sync();
     // Nobody reads it soon; the memory is worth more to others.
-    posix_fadvise(line->video.get(), 0, 0, POSIX_FADV_DONTNEED);
+    line->video->Forget();
   }
-  const auto free_mb = static_cast<double>(BytesFree(writer_.partial_folder())) / 1e6;
+  safe_log_->Sync();
+  const auto free_mb = static_cast<double>(BytesFree(partial_)) / 1e6;
   if (free_mb >= config_.keep_free_mb) return;
-  stop_.store(true);
+  End();
   const std::scoped_lock lock(mutex_);
+  if (!problem_.empty()) return;
   problem_ = fmt::format("ended because the disk has {:.0f} MB left", free_mb);
   spdlog::warn("recording {} {}", folder_.filename().c_str(), problem_);
 }
 
 void Recording::Complete() {
   Guard([&] {
+    if (has_failed_.load()) return;
     std::vector<std::pair<std::string, std::string>> notes = {{"codec", NameOf(config_.codec)}};
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Line& line = *lines_[i];
@@ -274,13 +303,26 @@ void Recording::Complete() {
       notes.emplace_back("missing_frames_" + name, std::to_string(line.missing + line.refused));
       notes.emplace_back("dropped_while_recording_" + name, std::to_string(line.dropped));
     }
-    if (!has_failed_.load()) {
-      writer_.AddNotes(notes);
-      writer_.Finish();
-    }
+    writer_->AddNotes(notes);
+    writer_->Finish();
+    const std::scoped_lock lock(mutex_);
+    place_ = folder_;
   });
+  CloseFiles();
+  Guard([&] { SyncFileSystem(place_); });
   const std::scoped_lock lock(mutex_);
   state_ = has_failed_.load() ? RecordingStatus::State::kFailed : RecordingStatus::State::kComplete;
+}
+
+// A take that is removed while its files are open would go on filling the disk.
+void Recording::CloseFiles() {
+  writer_.reset();
+  log_.reset();
+  safe_log_.reset();
+  for (const auto& line : lines_) {
+    line->video.reset();
+    line->table.reset();
+  }
 }
 
 RecordingStatus Recording::Status() const {
@@ -294,8 +336,7 @@ RecordingStatus Recording::Status() const {
   const std::scoped_lock lock(mutex_);
   status.state = state_;
   status.problem = problem_;
-  const bool is_complete = state_ == RecordingStatus::State::kComplete;
-  status.folder = is_complete ? folder_ : writer_.partial_folder();
+  status.folder = place_;
   return status;
 }
 

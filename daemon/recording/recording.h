@@ -6,7 +6,6 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <latch>
 #include <memory>
 #include <mutex>
@@ -18,9 +17,11 @@
 #include "config/service_config.h"
 #include "core/body/body_sizes.h"
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/segmenter.h"
+#include "daemon/messages/message_log.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/tap.h"
+#include "daemon/recording/safe_file.h"
+#include "drivers/background_source.h"
 #include "drivers/take/take_writer.h"
 
 namespace mocap {
@@ -28,7 +29,7 @@ namespace mocap {
 /// What a recording needs to know of a camera.
 struct RecordedCamera {
   CameraCalibration calibration;
-  std::function<std::vector<BackgroundFrame>()> background;
+  BackgroundSource background;
 };
 
 /// The studio as a recording sees it.
@@ -52,14 +53,15 @@ struct RecordingStatus {
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
   std::int64_t frames = 0;   ///< Written, of all cameras.
-  std::int64_t dropped = 0;  ///< Came from the cameras and had no room, of all cameras.
+  std::int64_t dropped = 0;  ///< Came from the cameras and had to wait too long, of all cameras.
   std::string problem;       ///< Why it ended by itself.
 };
 
 /// Records until Stop, until the disk is nearly full or until something cannot be written.
 ///
 /// One thread a camera codes and writes, one writes messages, keeps what is written safe from a
-/// loss of power and completes the take; all behind the pipeline's threads in priority.
+/// loss of power and completes the take; all behind the pipeline's threads in priority. A camera
+/// that cannot be written ends the recording; what the others have by then is written still.
 class Recording {
  public:
   /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
@@ -67,7 +69,8 @@ class Recording {
   /// @param folder   of the take to be. @param subject  whose sizes are known, if they are.
   /// @param taps     borrowed for the recording's life.
   /// @throws SetupError          when the folder cannot be made, or there is too little room.
-  /// @throws std::runtime_error  when something cannot be written.
+  /// @throws std::runtime_error  when something cannot be written; nothing is left then, unless it
+  /// is frames.
   Recording(const std::filesystem::path& folder, const RecordingConfig& config,
             const RecordedStudio& studio, const std::optional<BodySizes>& subject,
             RecordingTaps& taps);
@@ -82,13 +85,19 @@ class Recording {
  private:
   struct Line;
 
+  void Prepare(const std::optional<BodySizes>& subject);
+  void Discard();
   void Begin();
   void RunCamera(std::size_t camera);
   void WriteFrames(std::size_t camera);
+  void WriteFrame(std::size_t camera, const TappedFrame& frame);
   void RunKeeper();
+  void KeepUntilStopped();
   void KeepSafe();
   void WriteMessages();
   void Complete();
+  void CloseFiles();
+  void End();
   void Fail(const std::string& problem);
   template <typename Body>
   void Guard(Body body);
@@ -96,8 +105,11 @@ class Recording {
   const RecordingConfig config_;
   const RecordedStudio& studio_;
   RecordingTaps& taps_;
-  TakeWriter writer_;
+  std::optional<TakeWriter> writer_;
   const std::filesystem::path folder_;
+  const std::filesystem::path partial_;
+  std::optional<MessageLog> log_;
+  std::optional<SafeFile> safe_log_;
   std::vector<std::unique_ptr<Line>> lines_;
   Doorbell keeper_bell_;
   std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
@@ -108,6 +120,7 @@ class Recording {
   std::atomic<bool> has_failed_{false};
   mutable std::mutex mutex_;  ///< Of what follows.
   RecordingStatus::State state_ = RecordingStatus::State::kRunning;
+  std::filesystem::path place_;  ///< Where the take is by now.
   std::string problem_;
   std::thread keeper_;
 };

@@ -3,6 +3,15 @@
 #include <spdlog/spdlog.h>
 
 namespace mocap {
+namespace {
+
+/// A remark that counts something is the same remark when it has counted on.
+std::string WithoutDigits(std::string text) {
+  std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+  return text;
+}
+
+}  // namespace
 
 void ChangeLog::Add(const PipelineStatus& status) {
   const PipelineStatus before = last_.value_or(PipelineStatus{});
@@ -21,8 +30,8 @@ void ChangeLog::Add(const PipelineStatus& status) {
 
 void ChangeLog::TellRemarks(const CameraStatus& camera) {
   for (const std::string& remark : camera.remarks) {
-    const std::string line = camera.name + ": " + remark;
-    if (told_.insert(line).second) spdlog::warn("{}", line);
+    if (!told_.insert(camera.name + ": " + WithoutDigits(remark)).second) continue;
+    spdlog::warn("{}: {}", camera.name, remark);
   }
 }
 

@@ -53,6 +53,23 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
   }
 }
 
+/// What a camera shall give a second.
+double FpsOf(const ServiceReport& report, std::size_t camera) {
+  const bool has_its_own = camera < report.camera_fps.size() && report.camera_fps[camera] > 0;
+  return has_its_own ? report.camera_fps[camera] : report.fps_nominal;
+}
+
+void ComplainOfSets(const ServiceReport& report, List& list) {
+  if (report.now.sets_per_second > 0) return;
+  const auto& rates = report.now.frames_per_second;
+  const auto delivering = std::ranges::count_if(rates, [](double rate) { return rate > 0; });
+  if (delivering == 0) return;
+  list.push_back(
+      fmt::format("no frame sets come about, though {} of {} cameras deliver frames: look at their "
+                  "trigger and their clocks; nothing is tracked meanwhile",
+                  delivering, rates.size()));
+}
+
 void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   const CameraStatus& camera = report.now.status.cameras[i];
   if (camera.state == CameraState::kLost) {
@@ -61,12 +78,13 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
     list.push_back(camera.name + " has not delivered a frame yet");
   }
   const double rate = report.now.frames_per_second[i];
-  const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * report.fps_nominal;
+  const double wanted = FpsOf(report, i);
+  const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * wanted;
   if (camera.state == CameraState::kStreaming && is_slow) {
     list.push_back(
         fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
                     "bus or network, and the processor's load",
-                    camera.name, rate, report.fps_nominal));
+                    camera.name, rate, wanted));
   }
 }
 
@@ -136,6 +154,7 @@ void ComplainOfTime(const ServiceReport& report, List& list) {
 std::vector<std::string> Complaints(const ServiceReport& report) {
   List list;
   ComplainOfRecording(report, list);
+  ComplainOfSets(report, list);
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     ComplainOfFlow(report, i, list);
     ComplainOfPicture(report.now.status.cameras[i], list);

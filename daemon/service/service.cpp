@@ -1,5 +1,6 @@
 #include "daemon/service/service.h"
 
+#include <malloc.h>
 #include <signal.h>
 #include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -58,6 +59,15 @@ int WaitForSignal() {
   const sigset_t signals = HeldSignals();
   const timespec tick{0, kTickNs};
   return sigtimedwait(&signals, nullptr, &tick);
+}
+
+/// Large blocks go back to the system when they are freed. By default glibc takes the first of them
+/// for a sign to keep such blocks in the heap, where a small one behind them holds their memory for
+/// ever: pictures of the empty studio and the frames of recordings come and go for days.
+void ReturnLargeBlocks() {
+  constexpr int kLarge = 768 << 10;
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, kLarge);
 }
 
 /// To standard error, which is the journal under systemd, and to a file where there is a place.
@@ -226,6 +236,7 @@ void CheckConfig(const Config& config) {
 }
 
 void RunService(const std::optional<std::filesystem::path>& file, std::optional<double> seconds) {
+  ReturnLargeBlocks();
   LiveConfig live(file);
   const Config config = live.config();
   OpenLog();
@@ -259,6 +270,7 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   pipeline.Start();
   RunUntilStopped(pipeline, watch, seconds);
   manager.Stopping();
+  learner.RequestStop();
   server.reset();
   if (recorder.Status().state == RecordingStatus::State::kRunning) recorder.Stop();
   pipeline.RequestStop();

@@ -28,13 +28,16 @@ void ServiceManager::Say(const std::string& line) {
 void ServiceManager::FeedWatchdog() { Notify("WATCHDOG=1"); }
 
 void ServiceManager::BeginReload() {
+  if (!is_ready_) return;
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const std::int64_t now_us = now.tv_sec * 1'000'000 + now.tv_nsec / 1000;
   Notify("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(now_us));
 }
 
-void ServiceManager::EndReload() { Notify("READY=1"); }
+void ServiceManager::EndReload() {
+  if (is_ready_) Notify("READY=1");
+}
 
 void ServiceManager::Stopping() { Notify("STOPPING=1"); }
 

@@ -15,6 +15,7 @@ class ServiceManager {
   void Say(const std::string& line);
   /// Frames move; without this for the unit's WatchdogSec the service is restarted.
   void FeedWatchdog();
+  /// Around a reload; before the service is ready, systemd hears of readiness alone.
   void BeginReload();
   void EndReload();
   void Stopping();

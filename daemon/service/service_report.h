@@ -32,6 +32,7 @@ struct ServiceReport {
   Fit fit;
   std::string studio;
   double fps_nominal = 0;
+  std::vector<double> camera_fps;  ///< Of those that have their own; 0 or none: fps_nominal.
   std::string lcm_url;
   std::int64_t epoch_s = 0;  ///< When this was.
   std::int64_t up_ns = 0;    ///< Since the start.

@@ -51,9 +51,9 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
 }
 
 KnownBackgrounds KnownBackgroundsOf(const Studio& studio) {
-  std::vector<KnownBackgrounds::Read> reads;
-  for (const StudioCamera& camera : studio.cameras) reads.push_back(camera.background);
-  return KnownBackgrounds(std::move(reads));
+  std::vector<BackgroundSource> sources;
+  for (const StudioCamera& camera : studio.cameras) sources.push_back(camera.background);
+  return KnownBackgrounds(std::move(sources));
 }
 
 RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& known,
@@ -63,8 +63,11 @@ RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& kn
                           .cameras = {},
                           .config_text = config_text};
   for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-    recorded.cameras.push_back(
-        {studio.cameras[i].calibration, [&known, i] { return known.Of(i); }});
+    // What is known by the time of the recording, not now.
+    const auto read = [&known, i](const BackgroundSource::Visit& visit) {
+      known.Of(i).ForEach(visit);
+    };
+    recorded.cameras.push_back({studio.cameras[i].calibration, BackgroundSource::OneByOne(read)});
   }
   return recorded;
 }
@@ -100,6 +103,7 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   ServiceReport report;
   report.studio = studio.name;
   report.fps_nominal = studio.fps_nominal;
+  for (const StudioCamera& camera : studio.cameras) report.camera_fps.push_back(camera.fps);
   report.lcm_url = config.lcm.url;
   report.calibration = CalibrationOf(config);
   return report;

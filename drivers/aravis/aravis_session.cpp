@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -32,11 +31,19 @@ constexpr std::chrono::milliseconds kHeartbeat{3500};
 constexpr std::chrono::milliseconds kProbePatience{300};
 constexpr int kProbes = 3;
 
-/// Most that a socket may get for waiting packets; 0: unknown.
+/// Most that a socket may get for waiting packets; 0: unknown. A service may not see /proc/sys, and
+/// asks a socket.
 std::size_t LargestSocketBuffer() {
-  std::size_t bytes = 0;
-  std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
-  return bytes;
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return 0;
+  constexpr int kMore = 1 << 30;
+  int bytes = 0;
+  socklen_t size = sizeof bytes;
+  const bool is_known = setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &kMore, sizeof kMore) == 0 &&
+                        getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, &size) == 0;
+  close(fd);
+  // The kernel takes twice of what is asked for, for its own books.
+  return is_known && bytes > 0 ? static_cast<std::size_t>(bytes) / 2 : 0;
 }
 
 bool MayOpenPacketSocket() {
@@ -120,7 +127,7 @@ void AravisSession::ChoosePacketPath() {
   const std::size_t wanted = std::max(
       kLeastSocketBytes, static_cast<std::size_t>(kFramesInSocket * agreed_.payload_bytes));
   const std::size_t allowed = LargestSocketBuffer();
-  const bool is_small = allowed < wanted;
+  const bool is_small = allowed > 0 && allowed < wanted;
   const bool may = MayOpenPacketSocket();
   const bool use = may && settings_.packet_socket.value_or(is_small);
   if (settings_.packet_socket.value_or(false) && !may) {

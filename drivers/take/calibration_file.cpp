@@ -1,11 +1,11 @@
 #include "drivers/take/calibration_file.h"
 
-#include <fstream>
 #include <initializer_list>
-#include <stdexcept>
+#include <sstream>
 #include <string>
 #include <type_traits>
 
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "drivers/utc_time.h"
 
@@ -92,14 +92,13 @@ void Write(std::ostream& out, const CalibrationRecord& record) {
 
 void WriteCalibration(const std::filesystem::path& file, std::span<const CameraCalibration> cameras,
                       const CalibrationRecord& record) {
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   for (const CameraCalibration& camera : cameras) {
     if (&camera != cameras.data()) out << '\n';
     Write(out, camera);
   }
   Write(out, record);
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  ReplaceText(file, out.str());
 }
 
 }  // namespace mocap

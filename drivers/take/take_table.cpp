@@ -97,6 +97,8 @@ bool NextLine(std::istream& in, std::string& line) {
   return true;
 }
 
+bool IsHeader(const std::string& line) { return line == kPlainHeader || line == kHeadHeader; }
+
 }  // namespace
 
 TakeTable ReadTakeTable(const std::filesystem::path& file) {
@@ -107,7 +109,7 @@ TakeTable ReadTakeTable(const std::filesystem::path& file) {
   Place place{file};
   std::string line;
   const bool any = NextLine(in, line);
-  if (!any || (line != kPlainHeader && line != kHeadHeader)) {
+  if (!any || !IsHeader(line)) {
     place.Fail("the header \"" + std::string(kPlainHeader) + "[,pan_rad,tilt_rad]\" is wanted");
   }
   TakeTable table;
@@ -120,6 +122,12 @@ TakeTable ReadTakeTable(const std::filesystem::path& file) {
   }
   if (table.rows.empty()) place.Fail("no rows follow; one for each recorded frame is wanted");
   return table;
+}
+
+bool HoldsNoRows(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  return NextLine(in, line) && IsHeader(line) && !NextLine(in, line);
 }
 
 }  // namespace mocap

@@ -32,4 +32,8 @@ struct TakeTable {
 /// times that do not increase.
 TakeTable ReadTakeTable(const std::filesystem::path& file);
 
+/// Tells whether a table is whole but for its rows: the camera delivered nothing while the others
+/// were recorded. False for what is no table.
+bool HoldsNoRows(const std::filesystem::path& file);
+
 }  // namespace mocap

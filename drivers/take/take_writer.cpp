@@ -10,6 +10,7 @@
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "drivers/take/video_writer.h"
 
@@ -55,7 +56,10 @@ class RecordedVideo {
   }
 
   void Skip(std::uint64_t count) { frame_ += count; }
-  void Finish() { video_.Finish(); }
+  void Finish() {
+    video_.Finish();
+    table_.reset();
+  }
 
  private:
   VideoWriter video_;
@@ -112,11 +116,12 @@ class TakeWriter::Impl {
         description_(DescriptionText(description)) {
     CheckNames(description);
     MakeFolder();
-    TextFile(layout_.Description()).Write(description_);
-    WriteCalibration(layout_.Calibration(), calibrations_);
-    for (const CameraCalibration& camera : calibrations_) {
-      frames_.emplace_back(layout_.Video(camera.name), camera, fps_, codec_);
-      frames_.back().AddTable(layout_.Table(camera.name));
+    try {
+      Begin();
+    } catch (...) {
+      std::error_code error;
+      std::filesystem::remove_all(layout_.folder, error);
+      throw;
     }
     backgrounds_.resize(calibrations_.size());
     masks_.resize(calibrations_.size());
@@ -172,7 +177,7 @@ class TakeWriter::Impl {
                        "\n\n[lengths]\n";
     for (const auto& [key, value] : sizes.lengths_mm)
       text += key + " = " + TomlNumber(value) + '\n';
-    TextFile(layout_.TruthSizes()).Write(text);
+    WriteText(layout_.TruthSizes(), text);
   }
 
   const std::filesystem::path& partial_folder() const { return layout_.folder; }
@@ -180,9 +185,7 @@ class TakeWriter::Impl {
   void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
     description_ += NotesText(notes);
     // In one step: a take without its description would not open.
-    const std::filesystem::path unfinished = layout_.Description().string() + ".part";
-    TextFile(unfinished).Write(description_);
-    std::filesystem::rename(unfinished, layout_.Description());
+    ReplaceText(layout_.Description(), description_);
   }
 
   void Finish() {
@@ -206,6 +209,15 @@ class TakeWriter::Impl {
     const auto index = static_cast<std::size_t>(camera);
     MOCAP_CHECK(index < calibrations_.size());
     return index;
+  }
+
+  void Begin() {
+    WriteText(layout_.Description(), description_);
+    WriteCalibration(layout_.Calibration(), calibrations_);
+    for (const CameraCalibration& camera : calibrations_) {
+      frames_.emplace_back(layout_.Video(camera.name), camera, fps_, codec_);
+      frames_.back().AddTable(layout_.Table(camera.name));
+    }
   }
 
   void MakeFolder() const {

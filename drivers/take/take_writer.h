@@ -42,6 +42,7 @@ class TakeWriter {
  public:
   /// @throws SetupError  when the folder or its .partial exists or cannot be created, or when the
   /// description names a camera twice.
+  /// @throws std::runtime_error  when something cannot be written; nothing is left then.
   TakeWriter(const std::filesystem::path& folder, const TakeDescription& description);
   ~TakeWriter();
 

@@ -20,6 +20,13 @@ struct InputCloser {
 };
 using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
 
+/// Of a video that is one otherwise.
+class NoFrame : public SetupError {
+ public:
+  explicit NoFrame(const std::filesystem::path& file)
+      : SetupError(file.string() + ": holds no whole frame; one at least is wanted") {}
+};
+
 [[noreturn]] void Fail(const std::filesystem::path& file, const std::string& what) {
   throw SetupError(file.string() + ": " + what);
 }
@@ -77,7 +84,7 @@ class VideoReader::Impl {
     input_ended_ = false;
     width_px_ = height_px_ = 0;
     first_waits_ = DecodeFirst();
-    if (!first_waits_) Fail(file_, "holds no whole frame");
+    if (!first_waits_) throw NoFrame(file_);
     width_px_ = frame_->width;
     height_px_ = frame_->height;
     if (width_px_ > kLargestSide_px || height_px_ > kLargestSide_px) Fail(file_, "is too large");
@@ -227,5 +234,14 @@ VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(
 VideoStatus VideoReader::Skip() { return impl_->Skip(); }
 void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }
 void VideoReader::Rewind() { impl_->Rewind(); }
+
+bool HoldsNoFrame(const std::filesystem::path& file) {
+  try {
+    const VideoReader reader(file);
+  } catch (const NoFrame&) {
+    return true;
+  }
+  return false;
+}
 
 }  // namespace mocap

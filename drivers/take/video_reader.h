@@ -45,4 +45,8 @@ class VideoReader {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Tells whether a video begins well and ends before its first whole frame.
+/// @throws SetupError  naming the file, when it is missing or is no video.
+bool HoldsNoFrame(const std::filesystem::path& file);
+
 }  // namespace mocap

@@ -20,8 +20,8 @@ enum class VideoCodec {
 };
 
 /// Writes every frame on its own: reading gives back the same pixels, and a file that was cut off
-/// loses no more than its last frames. Each frame goes to the system with the next one, so that a
-/// program that is killed loses no more than that.
+/// loses no more than its last frames. Each frame goes to the system at once, so that a program
+/// that is killed loses no more than the one that it was writing.
 ///
 /// The same frames give the same bytes. Thread-bound; no threads of its own.
 class VideoWriter {

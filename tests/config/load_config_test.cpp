@@ -124,6 +124,7 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"[source]\ncameras = 2.5\n", 2, "source.cameras is 2.5"},
       {"[source]\nfps = 0\n", 2, "source.fps is 0"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
+      {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},
       {"[voxels]\nsize_mm = 9.9\n", 2, "voxels.size_mm is 9.9"},
       {"[voxels]\nsize_mm = 101\n", 2, "voxels.size_mm is 101"},
       {"[voxels]\nsize_mm = inf\n", 2, "voxels.size_mm"},

@@ -125,6 +125,29 @@ TEST_F(OpenedTake, InterruptedRecordingOpens) {
   EXPECT_EQ(CountFrames(*studio.cameras[0].driver), 3);
 }
 
+TEST_F(OpenedTake, ACameraThatDeliveredNothingIsLeftOutUnlessItIsNamed) {
+  {
+    TakeWriter writer(layout_.folder, testing::SmallDescription({.cameras = 3}));
+    for (int camera = 0; camera < 3; ++camera) {
+      writer.WriteBackground(camera, SmallPicture(take_, camera, 50).view(), 1);
+    }
+    for (const int camera : {0, 2}) {
+      for (int i = 0; i < 3; ++i) {
+        writer.WriteFrame(camera, SmallPicture(take_, camera, i).view(), 10 + i);
+      }
+    }
+    writer.Finish();
+  }
+  EXPECT_THAT(NamesOf(OpenTake(layout_.folder, {})), ElementsAre("cam1", "cam3"));
+  EXPECT_THAT(ErrorOnOpening({.cameras = {"cam2"}}), HasSubstr("cam2.csv:1"));
+  // The power failed before the first frame of one was whole.
+  WriteText(layout_.Table("cam2"), "frame,timestamp_ns\n0,10\n");
+  EXPECT_THAT(NamesOf(OpenTake(layout_.folder, {})), ElementsAre("cam1", "cam3"));
+  WriteText(layout_.Table("cam1"), "frame,timestamp_ns\n");
+  WriteText(layout_.Table("cam3"), "frame,timestamp_ns\n");
+  EXPECT_THAT(ErrorOnOpening(), HasSubstr("holds no frame of any camera (cam1, cam2, cam3)"));
+}
+
 struct Damage {
   const char* name;
   std::function<void(const TakeLayout&)> change;

@@ -52,6 +52,12 @@ TEST(ControlRequest, NamesCannotLeaveTheirFolder) {
   EXPECT_FALSE(IsFileName(std::string("a\0b", 3)));
 }
 
+TEST(ControlRequest, NoTakeGoesByTheNameOfAnUnfinishedOne) {
+  EXPECT_FALSE(ParseControlRequest("record start walk.partial"));
+  EXPECT_TRUE(ParseControlRequest("record start partial"));
+  EXPECT_FALSE(IsFileName("walk.partial"));
+}
+
 TEST(ControlReply, ComesBackAsItWasSent) {
   for (const ControlOutcome outcome :
        {ControlOutcome::kDone, ControlOutcome::kFailed, ControlOutcome::kWrong}) {

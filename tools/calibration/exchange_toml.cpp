@@ -1,12 +1,11 @@
 // Pose2Sim, aniposelib, Caliscope.
 #include <toml++/toml.h>
 
-#include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "core/errors.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "tools/calibration/exchange.h"
 
@@ -108,7 +107,7 @@ Cameras ReadPose2Sim(const std::filesystem::path& file, double millimetres_per_u
 
 void WritePose2Sim(const std::filesystem::path& file, const Cameras& cameras,
                    double millimetres_per_unit) {
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   for (const CameraCalibration& camera : cameras) {
     const auto* fisheye = std::get_if<FisheyeLens>(&camera.lens);
     const OpenCvLens lens = fisheye != nullptr ? OpenCvLens{} : AsOpenCvLens(camera);
@@ -126,8 +125,7 @@ void WritePose2Sim(const std::filesystem::path& file, const Cameras& cameras,
         << "\nfisheye = " << (fisheye != nullptr ? "true" : "false") << "\n\n";
   }
   out << "[metadata]\nadjusted = true\nerror = 0.0\n";
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  ReplaceText(file, out.str());
 }
 
 }  // namespace mocap

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 #include "core/errors.h"
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "tools/calibration/exchange.h"
 
@@ -88,7 +89,7 @@ void WriteWillson(const fs::path& folder, const Cameras& cameras) {
     const TsaiLens lens = AsTsaiLens(camera);
     const Vector3 euler = ToEuler(camera.X_CW.R);
     const fs::path file = folder / (camera.name + ".cal");
-    std::ofstream out(file, std::ios::binary);
+    std::ostringstream out;
     const double width = camera.width_px;
     for (const double number :
          {width, width, lens.pitch_mm.x(), lens.pitch_mm.y(), lens.pitch_mm.x(), lens.pitch_mm.y(),
@@ -96,8 +97,7 @@ void WriteWillson(const fs::path& folder, const Cameras& cameras) {
           camera.X_CW.p.x(), camera.X_CW.p.y(), camera.X_CW.p.z(), euler.x(), euler.y(), euler.z(),
           0.0, 0.0})
       out << TomlNumber(number) << '\n';
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+    ReplaceText(file, out.str());
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <Eigen/QR>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 #include "core/errors.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration/xml_tags.h"
 
@@ -50,11 +50,6 @@ RigidTransform QualisysPose(const XmlTag& tag, const std::filesystem::path& file
   X_CW.R = kTurnedOver * M;
   X_CW.p = -(X_CW.R * p_WC);
   return X_CW;
-}
-
-void Close(std::ofstream& out, const std::filesystem::path& file) {
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 // r_u = r_d (1 + k1 r_d² + k2 r_d⁴ + k3 r_d⁶), pixels from the principal point.
@@ -157,7 +152,7 @@ Cameras ReadQualisys(const std::filesystem::path& file) {
 }
 
 void WriteQualisys(const std::filesystem::path& file, const Cameras& cameras) {
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   out << "<calibration>\n <cameras>\n";
   for (const CameraCalibration& camera : cameras) {
     const OpenCvLens lens = AsOpenCvLens(camera);
@@ -183,7 +178,7 @@ void WriteQualisys(const std::filesystem::path& file, const Cameras& cameras) {
         d[0], d[1], d[4], d[2], d[3]);
   }
   out << " </cameras>\n</calibration>\n";
-  Close(out, file);
+  ReplaceText(file, out.str());
 }
 
 Cameras ReadVicon(const std::filesystem::path& file) {
@@ -205,7 +200,7 @@ Cameras ReadVicon(const std::filesystem::path& file) {
 }
 
 void WriteVicon(const std::filesystem::path& file, const Cameras& cameras) {
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   out << "<Cameras VERSION=\"1.0\">\n";
   for (const CameraCalibration& camera : cameras) {
     const OpenCvLens lens = AsOpenCvLens(camera);
@@ -222,7 +217,7 @@ void WriteVicon(const std::filesystem::path& file, const Cameras& cameras) {
         lens.K(0, 2), lens.K(1, 2), k[0], k[1], k[2]);
   }
   out << "</Cameras>\n";
-  Close(out, file);
+  ReplaceText(file, out.str());
 }
 
 }  // namespace mocap

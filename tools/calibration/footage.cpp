@@ -55,6 +55,11 @@ void CountFrames(VideoReader video, FootageCamera& camera) {
     camera.frames.push_back({i * kUntimedInterval_ns, {}, "frame " + std::to_string(i)});
 }
 
+fs::path TableOf(const fs::path& video) { return fs::path(video).replace_extension(".csv"); }
+
+/// A camera that had delivered nothing by the end of the recording.
+bool IsSilent(const fs::path& video) { return HoldsNoRows(TableOf(video)) || HoldsNoFrame(video); }
+
 FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file) {
   FootageCamera camera;
   camera.name = name;
@@ -62,7 +67,7 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file) {
   camera.width_px = video.width_px();
   camera.height_px = video.height_px();
   CountFrames(std::move(video), camera);
-  const fs::path table_file = fs::path(file).replace_extension(".csv");
+  const fs::path table_file = TableOf(file);
   if (fs::exists(table_file)) {
     const TakeTable table = ReadTakeTable(table_file);
     camera.timed = true;
@@ -152,8 +157,13 @@ Footage OpenFootage(const std::filesystem::path& folder) {
                      ": is no folder; a take or a folder of recordings is wanted");
   Footage footage;
   footage.folder = folder;
-  for (const fs::path& file : Sorted(folder, IsVideo))
-    footage.cameras.push_back(OpenVideoCamera(file.stem().string(), file));
+  const std::vector<fs::path> recorded = Sorted(folder, IsVideo);
+  for (const fs::path& file : recorded) {
+    if (!IsSilent(file)) footage.cameras.push_back(OpenVideoCamera(file.stem().string(), file));
+  }
+  if (footage.cameras.empty() && !recorded.empty())
+    throw SetupError(folder.string() +
+                     ": holds no frame of any camera; recordings with frames are wanted");
   if (!footage.cameras.empty() && fs::exists(folder / "timestamps.csv"))
     ReadSharedTimes(folder / "timestamps.csv", footage);
   if (footage.cameras.empty()) {

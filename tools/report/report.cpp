@@ -249,6 +249,8 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
                : std::numeric_limits<double>::quiet_NaN());
     }
   }
+  // Cameras that saw nothing in the whole take come last.
+  while (!overlaps.empty() && overlaps.back().frames() == 0) overlaps.pop_back();
   return overlaps;
 }
 

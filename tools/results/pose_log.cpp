@@ -1,32 +1,28 @@
 #include "tools/results/pose_log.h"
 
 #include <algorithm>
-#include <exception>
 #include <lcm/lcm-cpp.hpp>
-#include <mocap/body_t.hpp>
-#include <mocap/pose_t.hpp>
+#include <optional>
 #include <string_view>
 
 #include "config/body_size_fields.h"
 #include "core/errors.h"
+#include "daemon/messages/decode_message.h"
 
 namespace mocap {
 namespace {
 
 template <typename Message>
 Message Decode(const std::filesystem::path& log, const lcm::LogEvent& event) {
-  Message message;
-  int read = -1;
-  try {
-    read = message.decode(event.data, 0, event.datalen);
-  } catch (const std::exception&) {
-    // A damaged count asks for more memory than there is.
-  }
-  if (read < 0) {
+  std::optional<Message> message = DecodeMessage<Message>(
+      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
+  if (!message) {
     throw SetupError(log.string() + ": event " + std::to_string(event.eventnum) + ": " +
-                     event.channel + " is not a message of this version");
+                     event.channel +
+                     " is not a message of this version; a log that lcm-logger "
+                     "recorded of this mocapd is wanted");
   }
-  return message;
+  return *std::move(message);
 }
 
 PoseRow RowOf(const pose_t& message) {

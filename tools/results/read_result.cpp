@@ -101,8 +101,8 @@ std::vector<PoseRow> ReadPoses(const std::filesystem::path& file) {
   std::string line;
   if (!std::getline(stream, line) || line != header) {
     throw SetupError(file.string() +
-                     ":1: other columns than mocap track writes, wanted frame,"
-                     "timestamp_ns,state,… as the contract has them");
+                     ":1: has other columns; frame,timestamp_ns,state,… are wanted, as mocap "
+                     "track writes them");
   }
   std::vector<PoseRow> rows;
   for (int number = 2; std::getline(stream, line); ++number) {

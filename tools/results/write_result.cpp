@@ -1,9 +1,8 @@
 #include <cinttypes>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
 
 #include "config/body_size_fields.h"
+#include "drivers/take/text_file.h"
 #include "tools/results/result.h"
 #include "tools/results/result_columns.h"
 
@@ -73,16 +72,6 @@ std::string BodyToml(const BodyRecord& body) {
   return text + '\n';
 }
 
-/// Puts a file in its place in one step: a reader sees the old one or the new one.
-void ReplaceFile(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path unfinished = file.string() + ".part";
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-  stream.close();
-  std::filesystem::rename(unfinished, file);
-}
-
 }  // namespace
 
 BodyRecord RecordOf(const BodyModel& body) {
@@ -91,8 +80,8 @@ BodyRecord RecordOf(const BodyModel& body) {
 
 void WriteResult(const std::filesystem::path& folder, const Result& result) {
   std::filesystem::create_directories(folder);
-  ReplaceFile(folder / "poses.csv", PosesCsv(result));
-  ReplaceFile(folder / "body.toml", BodyToml(result.body));
+  ReplaceText(folder / "poses.csv", PosesCsv(result));
+  ReplaceText(folder / "body.toml", BodyToml(result.body));
 }
 
 }  // namespace mocap

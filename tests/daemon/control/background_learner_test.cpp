@@ -56,13 +56,13 @@ class BackgroundLearnerTest : public ::testing::Test {
  protected:
   BackgroundLearnerTest() {
     Studio studio = testing::FakeStudio({testing::SteadyFrames(1), testing::SteadyFrames(1)});
-    std::vector<KnownBackgrounds::Read> reads;
+    std::vector<BackgroundSource> sources;
     for (StudioCamera& camera : studio.cameras) {
       camera.driver = std::make_unique<BrightCamera>(somebody_moves_);
       place_.cameras.push_back(camera.calibration);
-      reads.push_back(camera.background);
+      sources.push_back(camera.background);
     }
-    known_.emplace(std::move(reads));
+    known_.emplace(std::move(sources));
     taps_.resize(studio.cameras.size());
     place_.folder = folder_.path() / "background";
     pipeline_.emplace(std::move(studio), PipelineOptions{.taps = {&taps_}}, LoadBodyTable("full"),
@@ -93,12 +93,20 @@ class BackgroundLearnerTest : public ::testing::Test {
   std::optional<Pipeline> pipeline_;
 };
 
+TEST_F(BackgroundLearnerTest, GivesUpWhenTheDaemonEnds) {
+  BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
+  learner.RequestStop();
+  EXPECT_THAT([&] { learner.Learn(true, 1e6); },
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("mocapd ends")));
+  EXPECT_FALSE(std::filesystem::exists(place_.folder));
+}
+
 TEST_F(BackgroundLearnerTest, WhatWasLearnedIsUsedAndKept) {
   ASSERT_TRUE(ComesToLight(kBrighter));
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
   EXPECT_THAT(learner.Learn(false), HasSubstr("cam1: "));
   EXPECT_TRUE(ComesToLight(1)) << "frames are compared with the new pictures";
-  const auto kept = known_->Of(1);
+  const auto kept = known_->Of(1)();
   ASSERT_GE(kept.size(), 10u);
   EXPECT_GT(kept[7].image(3, 3).g, 130);
   const std::string base = (place_.folder / "cam2").string();
@@ -112,7 +120,7 @@ TEST_F(BackgroundLearnerTest, LearnsAgainInPlaceOfWhatWasThere) {
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
   learner.Learn(false);
   learner.Learn(false);
-  EXPECT_GE(known_->Of(0).size(), 10u);
+  EXPECT_GE(known_->Of(0)().size(), 10u);
 }
 
 TEST_F(BackgroundLearnerTest, SomebodyWhoMovesIsNoticedAndNothingChanges) {
@@ -121,7 +129,7 @@ TEST_F(BackgroundLearnerTest, SomebodyWhoMovesIsNoticedAndNothingChanges) {
   EXPECT_THAT([&] { learner.Learn(false); },
               ThrowsMessage<std::runtime_error>(HasSubstr("is somebody in the room")));
   EXPECT_FALSE(std::filesystem::exists(place_.folder));
-  EXPECT_LT(known_->Of(0)[0].image(3, 3).g, 130);
+  EXPECT_LT(known_->Of(0)()[0].image(3, 3).g, 130);
 }
 
 TEST_F(BackgroundLearnerTest, WhereNothingCanBeLearnedItSaysWhy) {

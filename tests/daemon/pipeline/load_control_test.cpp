@@ -55,6 +55,19 @@ TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
   EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
 }
 
+TEST(LoadControl, WantsAllAfterTheClockWasPutBack) {
+  LoadControl control;
+  Add(control, 1'000'000 * kPeriod, 0);
+  control.SetUnderWay(kMost, 1'000'001 * kPeriod);
+  control.StartAnew();
+  EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::min());
+  control.SetUnderWay(kMost, 0);
+  control.SetUnderWay(1, kPeriod);
+  EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::min());
+  Add(control, 2 * kPeriod, 0);
+  EXPECT_EQ(control.skipped(), 0);
+}
+
 TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {
   LoadControl control;
   Add(control, 0, 0);

@@ -107,6 +107,21 @@ TEST(Pipeline, TracksEverySetInOrderWhenItMayWait) {
   EXPECT_EQ(status.stages[Stage::kTotal].count(), 40);
 }
 
+TEST(Pipeline, TracksOnWhenTheClockIsPutBack) {
+  const FakeScript script = [](int call) {
+    constexpr std::int64_t kHourNs = 3'600'000'000'000;
+    if (call >= 20) return FakeGrab{};
+    return FakeGrab{GrabStatus::kFrame,
+                    call < 10 ? kHourNs + call * kFakePeriodNs : (call - 10) * kFakePeriodNs};
+  };
+  RecordingSink sink;
+  Pipeline pipeline(FakeStudio({script, script, script}), Waiting(), LoadBodyTable("full"), sink);
+  pipeline.RunSerially();
+  ASSERT_EQ(sink.seen.size(), 20u);
+  EXPECT_EQ(sink.seen.back().capture_ns, 9 * kFakePeriodNs);
+  EXPECT_EQ(sink.seen.back().cameras, 0b111u);
+}
+
 TEST(Pipeline, GoesOnWithoutALostCameraAndTakesItBack) {
   std::atomic<int> sets{0};
   std::atomic<bool> is_back{false};

@@ -215,6 +215,35 @@ TEST(Synchronizer, RefusesTimesThatGoBack) {
   EXPECT_EQ(synchronizer.late(0), 1);
 }
 
+TEST(Synchronizer, AClockThatIsPutBackBeginsAnew) {
+  constexpr std::int64_t kHour = 3'600'000 * kMs;
+  std::vector<std::deque<std::int64_t>> streams(3, Stream(10, kPeriod, kHour));
+  streams[1].pop_back();
+  for (auto& stream : streams) {
+    for (const std::int64_t time : Stream(10, kPeriod)) stream.push_back(time);
+  }
+  const std::vector<Set> sets = Match(streams);
+  ASSERT_GE(sets.size(), 19u);
+  EXPECT_THAT(sets.back(), Each(std::optional(9 * kPeriod)));
+  EXPECT_EQ(std::ranges::count_if(sets, [](const Set& set) { return CountOf(set) == 3; }), 19);
+}
+
+TEST(Synchronizer, OneStampFarInTheFutureCostsOneFrame) {
+  Synchronizer synchronizer(2, kPeriod, 2.0);
+  ASSERT_TRUE(synchronizer.Offer(0, 1000 * kPeriod, 0));
+  for (int i : {0, 1}) {
+    if (i == 1) ASSERT_TRUE(synchronizer.Offer(1, 0, 0));
+    synchronizer.NoteNewest(i, kPeriod);
+  }
+  EXPECT_FALSE(synchronizer.has_front(0)) << "its camera is elsewhere by now";
+  ASSERT_TRUE(synchronizer.Offer(0, kPeriod, 1));
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kLetGo);
+  ASSERT_TRUE(synchronizer.Offer(1, kPeriod, 1));
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  EXPECT_EQ(synchronizer.set_ns(), kPeriod);
+  EXPECT_EQ(synchronizer.late(0), 1);
+}
+
 TEST(Synchronizer, SetTimesNeverGoBackWhateverTheStreamsDo) {
   for (int seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);

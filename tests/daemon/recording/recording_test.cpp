@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <limits>
 #include <thread>
 
 #include "config/open_studio.h"
@@ -22,28 +25,70 @@ namespace {
 using testing::FakeRoom;
 using ::testing::HasSubstr;
 
+/// Lets no file of this process grow beyond, as a full disk does.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
 class RecordingTest : public ::testing::Test {
  protected:
-  RecordingTest() {
+  static RecordedStudio TwoCameras() {
     Studio fake = testing::FakeStudio({testing::SteadyFrames(1), testing::SteadyFrames(1)});
     RecordedStudio studio{.name = "fake", .fps_nominal = 25, .cameras = {}, .config_text = "# x\n"};
     for (const StudioCamera& camera : fake.cameras) {
       studio.cameras.push_back({camera.calibration, camera.background});
     }
-    recorder_.emplace(std::move(studio));
+    return studio;
+  }
+
+  RecordingTest() {
+    recorder_.emplace(TwoCameras());
     config_.folder = folder_.path() / "takes";
     config_.keep_free_mb = 0;
   }
 
-  /// What a camera's thread does with a frame.
-  void Offer(int camera, std::uint64_t sequence) {
+  /// What a camera's thread does with a frame. @param offered_ns  mostly such that none is too old,
+  /// however slow this computer is. @return whether it was taken.
+  bool Offer(int camera, std::uint64_t sequence,
+             std::int64_t offered_ns = std::numeric_limits<std::int64_t>::max()) {
+    bool is_taken = false;
     const Image<Bgr> picture = FakeRoom(static_cast<int>(sequence));
     Frame frame;
     frame.image = picture.view();
     frame.capture_ns = static_cast<std::int64_t>(1 + sequence) * testing::kFakePeriodNs;
     frame.sequence = sequence;
-    recorder_->taps().frames[static_cast<std::size_t>(camera)].Offer(
-        [&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
+    recorder_->taps().frames[static_cast<std::size_t>(camera)].Offer([&](TappedFrame& copy) {
+      is_taken = CopyFrame(frame, copy);
+      copy.offered_ns = offered_ns;
+      return is_taken;
+    });
+    return is_taken;
+  }
+
+  /// Files of takes that this process has open.
+  int OpenFiles() const {
+    int open = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      const std::string file = std::filesystem::read_symlink(entry.path(), gone);
+      open += file.starts_with(config_.folder.string());
+    }
+    return open;
   }
 
   testing::TemporaryFolder folder_;
@@ -108,6 +153,14 @@ TEST_F(RecordingTest, OnlyOneAtATimeAndNoneTwice) {
   recorder_->Start("two", config_, {});
 }
 
+TEST_F(RecordingTest, WhatHasEndedKeepsNoFileOpen) {
+  recorder_->Start("one", config_, {});
+  EXPECT_GT(OpenFiles(), 0);
+  Offer(0, 0);
+  recorder_->Stop();
+  EXPECT_EQ(OpenFiles(), 0) << "removing the take would free nothing";
+}
+
 TEST_F(RecordingTest, WithoutRoomItDoesNotBegin) {
   config_.keep_free_mb = 1e12;
   EXPECT_THROW(recorder_->Start("one", config_, {}), SetupError);
@@ -135,6 +188,64 @@ TEST_F(RecordingTest, AFullQueueLosesTheOldestAndSaysSo) {
     ADD_FAILURE() << "closed";
     return true;
   });
+}
+
+TEST_F(RecordingTest, WhatWaitedTooLongIsLeftOutAndCounted) {
+  const std::filesystem::path take = recorder_->Start("one", config_, {});
+  Offer(0, 0);
+  Offer(1, 0);
+  Offer(0, 1, 0);
+  while (recorder_->Status().dropped < 1) std::this_thread::yield();
+  Offer(0, 2);
+  const RecordingStatus status = recorder_->Stop();
+  EXPECT_EQ(status.frames, 3);
+  EXPECT_EQ(status.dropped, 1);
+  EXPECT_EQ(ReadTakeTable(TakeLayout{take}.Table("cam1")).rows.back().frame, 2u);
+}
+
+TEST_F(RecordingTest, ACameraThatCannotBeWrittenLeavesTheOthersTheirLastFrames) {
+  recorder_->Start("one", config_, {});
+  std::size_t taken = 0;
+  {
+    const FileSizeLimit limit(65'536);
+    for (std::uint64_t i = 0; recorder_->Status().problem.empty(); ++i) Offer(0, i);
+    for (std::uint64_t i = 0; i < 5; ++i) taken += Offer(1, i) ? 1 : 0;
+    recorder_->Stop();
+  }
+  const RecordingStatus status = recorder_->Stop();
+  EXPECT_EQ(status.state, RecordingStatus::State::kFailed);
+  EXPECT_THAT(status.problem, HasSubstr("cam1.mkv: cannot be written"));
+  EXPECT_EQ(OpenFiles(), 0);
+  if (taken == 0) return;
+  EXPECT_EQ(ReadTakeTable(TakeLayout{status.folder}.Table("cam2")).rows.size(), taken);
+}
+
+TEST_F(RecordingTest, EachPictureOfTheEmptyStudioIsWrittenBeforeTheNextIsRead) {
+  RecordedStudio studio = TwoCameras();
+  std::vector<std::uintmax_t> sizes;
+  const std::filesystem::path partial = config_.folder / "one.partial";
+  studio.cameras[1].background =
+      BackgroundSource::OneByOne([&](const BackgroundSource::Visit& visit) {
+        for (int i = 0; i < 3; ++i) {
+          visit({FakeRoom(i), {}});
+          sizes.push_back(std::filesystem::file_size(TakeLayout{partial}.BackgroundVideo("cam2")));
+        }
+      });
+  recorder_.emplace(std::move(studio));
+  recorder_->Start("one", config_, {});
+  EXPECT_THAT(sizes, ::testing::SizeIs(3));
+  EXPECT_LT(sizes[0], sizes[1]);
+  EXPECT_LT(sizes[1], sizes[2]);
+}
+
+TEST_F(RecordingTest, AStartThatFailsLeavesNothing) {
+  RecordedStudio studio = TwoCameras();
+  studio.cameras[1].background = []() -> std::vector<BackgroundFrame> {
+    throw std::runtime_error("cam2.mkv: cannot be read");
+  };
+  recorder_.emplace(std::move(studio));
+  EXPECT_THROW(recorder_->Start("one", config_, {}), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_empty(config_.folder));
 }
 
 TEST_F(RecordingTest, TimesThatGoBackAreLeftOut) {

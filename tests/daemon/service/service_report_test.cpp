@@ -49,6 +49,24 @@ TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
   EXPECT_THAT(ReportLine(report), HasSubstr("1 of 2 cameras; cam1 is lost"));
 }
 
+TEST(ServiceReport, ACameraIsHeldAgainstItsOwnRate) {
+  ServiceReport report = Good();
+  report.camera_fps = {0, 10};
+  report.now.frames_per_second[1] = 10;
+  EXPECT_THAT(Complaints(report), IsEmpty());
+  report.now.frames_per_second[1] = 5;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("cam2 gives 5.0 of 10.0")));
+}
+
+TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("no frame sets come about, though 2 of 2")));
+  report.now.frames_per_second = {0, 0};
+  EXPECT_THAT(Complaints(report), IsEmpty()) << "nothing was counted yet";
+}
+
 TEST(ServiceReport, NamesSetsLeftOutAndCamerasOutOfStep) {
   ServiceReport report = Good();
   report.now.sets_dropped_lately = 3;

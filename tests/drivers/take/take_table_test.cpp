@@ -93,6 +93,18 @@ TEST_F(TakeTableFile, DamageIsNamedWithFileAndLine) {
   }
 }
 
+TEST_F(TakeTableFile, OfACameraThatDeliveredNothingHoldsNoRows) {
+  const auto holds_none = [this](const std::string& text) {
+    testing::WriteText(file_, text);
+    return HoldsNoRows(file_);
+  };
+  EXPECT_TRUE(holds_none("frame,timestamp_ns\n"));
+  EXPECT_TRUE(holds_none("frame,timestamp_ns,pan_rad,tilt_rad\n0,1"));
+  EXPECT_FALSE(holds_none("frame,timestamp_ns\n0,1\n"));
+  EXPECT_FALSE(holds_none("")) << "is no table";
+  EXPECT_FALSE(HoldsNoRows(folder_.path() / "absent.csv"));
+}
+
 TEST_F(TakeTableFile, MissingFileIsNamed) {
   EXPECT_THROW(ReadTakeTable(folder_.path() / "absent.csv"), SetupError);
   EXPECT_THROW(ReadTakeTable(folder_.path()), SetupError);
