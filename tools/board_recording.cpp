@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 #include "drivers/quoted.h"
 #include "drivers/take/video_writer.h"
 

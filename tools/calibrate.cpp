@@ -10,7 +10,7 @@
 #include "config/load_config.h"
 #include "core/calibration/tsai.h"
 #include "core/errors.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibrate_check.h"
 #include "tools/calibrate_live.h"

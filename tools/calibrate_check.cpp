@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "config/load_config.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibration/placement.h"

@@ -10,8 +10,8 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/control/json_object.h"
+#include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
 #include "tools/calibration/footage.h"

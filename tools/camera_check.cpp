@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/pipeline/synchronizer.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {

@@ -15,10 +15,10 @@
 #include <optional>
 
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/recording/disk_space.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {

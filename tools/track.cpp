@@ -13,9 +13,9 @@
 #include "config/open_studio.h"
 #include "config/subject_file.h"
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/control/json_object.h"
 #include "daemon/pipeline/pipeline.h"
+#include "drivers/clock.h"
 #include "drivers/take/take_layout.h"
 #include "tools/results/result_sink.h"
 

@@ -20,9 +20,9 @@
 
 #include "config/config.h"
 #include "core/motion_capture.h"
-#include "daemon/clock.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/pose_publisher.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {

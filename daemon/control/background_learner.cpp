@@ -12,7 +12,7 @@
 #include "config/camera_files.h"
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "core/errors.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {

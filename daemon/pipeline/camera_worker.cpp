@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {

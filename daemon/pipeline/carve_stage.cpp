@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 

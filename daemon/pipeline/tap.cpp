@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 

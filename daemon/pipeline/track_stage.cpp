@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "daemon/clock.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 

@@ -18,7 +18,6 @@
 #include "config/load_config.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/control/live_config.h"
 #include "daemon/control/service_control.h"
@@ -37,6 +36,7 @@
 #include "daemon/service/service_manager.h"
 #include "daemon/service/service_setup.h"
 #include "daemon/service/status_window.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
@@ -157,7 +157,7 @@ class Watch {
     report_.fit = parts_.view.fit();
     report_.recording = parts_.recorder.Status();
     report_.up_ns = SteadyNs() - start_ns_;
-    report_.epoch_s = EpochNs() / 1'000'000'000;
+    report_.epoch_s = EpochS();
     LookAtStudio(status);
     LookAtDisk();
     parts_.publisher.PublishStatus(report_);

@@ -1,11 +1,10 @@
 #include "drivers/simulation/simulated_studio.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "core/errors.h"
+#include "drivers/clock.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/scene.h"
 
@@ -17,17 +16,6 @@ constexpr int kBackgroundFrames = 40;
 constexpr std::int64_t kLossSlotNs = 5'000'000'000;
 constexpr std::int64_t kLossNs = 2'000'000'000;
 constexpr double kSlotsPerMinute = 12;
-
-std::int64_t Now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-void SleepUntil(std::int64_t time_ns) {
-  std::this_thread::sleep_until(
-      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(time_ns)));
-}
 
 }  // namespace
 
@@ -71,7 +59,7 @@ void SimulatedCamera::Start() {
   first_ = 0;
   if (options.realtime)
     first_ = static_cast<std::int64_t>(
-        std::ceil(static_cast<double>(Now_ns() - options.start_ns) * 1e-9 * options.fps));
+        std::ceil(static_cast<double>(EpochNs() - options.start_ns) * 1e-9 * options.fps));
   next_ = first_;
   started_ = true;
   painted_ = false;
@@ -83,7 +71,7 @@ bool SimulatedCamera::PaintNext() {
   if (options.realtime) {
     // Whoever comes too late finds the frames between gone, as with any camera.
     const auto now = static_cast<std::int64_t>(
-        std::floor(static_cast<double>(Now_ns() - options.start_ns) * 1e-9 * options.fps));
+        std::floor(static_cast<double>(EpochNs() - options.start_ns) * 1e-9 * options.fps));
     next_ = std::max(next_, now);
   } else if (options.seconds > 0 && next_ >= std::llround(options.seconds * options.fps)) {
     return false;
@@ -105,15 +93,15 @@ bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
 
 GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
-  if (view_->scene().options().realtime && IsLost(Now_ns())) {
+  if (view_->scene().options().realtime && IsLost(EpochNs())) {
     painted_ = false;
     return GrabStatus::kLost;
   }
   const std::int64_t patience_ns = std::chrono::nanoseconds(timeout).count();
-  const std::int64_t until_ns = view_->scene().options().realtime ? Now_ns() + patience_ns : 0;
+  const std::int64_t until_ns = view_->scene().options().realtime ? EpochNs() + patience_ns : 0;
   if (!painted_ && !PaintNext()) return GrabStatus::kEnd;
   if (view_->scene().options().realtime) {
-    SleepUntil(std::min(due_ns_, until_ns));
+    SleepUntilEpoch(std::min(due_ns_, until_ns));
     if (due_ns_ > until_ns) return GrabStatus::kTimeout;
   }
   painted_ = false;

@@ -2,7 +2,7 @@
 
 #include <linux/videodev2.h>
 
-#include <chrono>
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
@@ -10,12 +10,6 @@ namespace {
 /// A frame may have waited for its buffer to be fetched, or been stamped a little ahead.
 constexpr std::int64_t kOldest_ns = 10'000'000'000;
 constexpr std::int64_t kAhead_ns = 1'000'000'000;
-
-template <typename Clock>
-std::int64_t Now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
-      .count();
-}
 
 bool IsRecent(std::int64_t stamp_ns, std::int64_t now_ns) {
   return stamp_ns > now_ns - kOldest_ns && stamp_ns < now_ns + kAhead_ns;
@@ -25,9 +19,9 @@ bool IsRecent(std::int64_t stamp_ns, std::int64_t now_ns) {
 
 ClockPair ReadClocks() {
   // On Linux the steady clock is CLOCK_MONOTONIC, by which the kernel stamps.
-  const std::int64_t before_ns = Now_ns<std::chrono::steady_clock>();
-  const std::int64_t epoch_ns = Now_ns<std::chrono::system_clock>();
-  return {(before_ns + Now_ns<std::chrono::steady_clock>()) / 2, epoch_ns};
+  const std::int64_t before_ns = SteadyNs();
+  const std::int64_t epoch_ns = EpochNs();
+  return {(before_ns + SteadyNs()) / 2, epoch_ns};
 }
 
 CaptureTime CaptureTimeOf(std::int64_t stamp_ns, std::uint32_t flags, std::int64_t exposure_ns,

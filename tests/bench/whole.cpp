@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "config/load_config.h"
-#include "daemon/clock.h"
 #include "daemon/pipeline/pipeline.h"
+#include "drivers/clock.h"
 #include "tests/bench/recorded_studio.h"
 
 namespace mocap::bench {

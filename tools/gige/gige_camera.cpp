@@ -14,6 +14,7 @@
 #include <span>
 
 #include "core/errors.h"
+#include "drivers/clock.h"
 #include "tools/gige/gige_description.h"
 #include "tools/gige/gige_pixels.h"
 
@@ -33,17 +34,6 @@ constexpr std::int64_t kTai_ns = 37'000'000'000;
 constexpr milliseconds kSourceTimeout{50};
 /// Longer than the server takes to see that a client has started it.
 constexpr milliseconds kPatience{150};
-
-std::int64_t Now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-void SleepUntil(std::int64_t time_ns) {
-  std::this_thread::sleep_until(
-      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(time_ns)));
-}
 
 /// Aravis wants the description as a file.
 class DescriptionFile {
@@ -70,7 +60,7 @@ struct GigeCamera::WakeUp {
   WakeUp& operator=(const WakeUp&) = delete;
 
   void Wake() {
-    hurry_until_ns.store(Now_ns() + 2'000'000);
+    hurry_until_ns.store(EpochNs() + 2'000'000);
     const std::uint64_t one = 1;
     static_cast<void>(!write(fd, &one, sizeof(one)));
   }
@@ -89,7 +79,7 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
                        const GigeFaults& faults)
     : identity_(identity),
       faults_(faults),
-      switched_on_ns_(Now_ns()),
+      switched_on_ns_(EpochNs()),
       source_(std::move(source)),
       wake_up_(std::make_unique<WakeUp>()),
       random_(static_cast<std::minstd_rand::result_type>(faults.seed)) {
@@ -155,7 +145,7 @@ void GigeCamera::RunSource() {
     if (status != GrabStatus::kFrame || !IsWanted(frame.capture_ns)) continue;
     const std::int64_t exposure_ns = Read(ARV_FAKE_CAMERA_REGISTER_EXPOSURE_TIME_US) * 1000LL;
     const auto late_ns = static_cast<std::int64_t>(jitter_ms(random_) * 1e6);
-    SleepUntil(frame.capture_ns + exposure_ns / 2 + late_ns);
+    SleepUntilEpoch(frame.capture_ns + exposure_ns / 2 + late_ns);
     if (!is_streaming()) {
       const std::lock_guard lock(mutex_);
       is_flowing_ = is_waiting_ = false;
@@ -259,7 +249,7 @@ extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
   if (!wake_up || count + 1 > all.size()) return poll(wanted, count, timeout_ms);
   std::copy_n(wanted, count, all.begin());
   all[count] = {wake_up->fd, POLLIN, 0};
-  const bool hurries = mocap::Now_ns() < wake_up->hurry_until_ns.load();
+  const bool hurries = mocap::EpochNs() < wake_up->hurry_until_ns.load();
   const timespec brief{0, hurries ? 50'000 : 20'000'000};
   const int ready = ppoll(all.data(), count + 1, &brief, nullptr);
   std::copy_n(all.begin(), count, wanted);

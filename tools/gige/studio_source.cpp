@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
+
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
 
 using std::chrono::nanoseconds;
-using std::chrono::system_clock;
 
 constexpr std::chrono::milliseconds kHeadStart{300};
-
-std::int64_t Now_ns() {
-  return std::chrono::duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -39,17 +35,17 @@ bool StudioSource::HasBegun() {
     }
     std::int64_t not_yet = 0;
     // All cameras shall have seen it by then.
-    const std::int64_t soon_ns = Now_ns() + nanoseconds(kHeadStart).count();
+    const std::int64_t soon_ns = EpochNs() + nanoseconds(kHeadStart).count();
     stage_.begin_ns.compare_exchange_strong(not_yet, soon_ns);
   }
   if (!std::exchange(started_, true)) recording_->Start();
-  return Now_ns() >= stage_.begin_ns.load() - 2 * period_ns_;
+  return EpochNs() >= stage_.begin_ns.load() - 2 * period_ns_;
 }
 
 GrabStatus StudioSource::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   if (HasBegun()) return recording_->Grab(frame, timeout);
-  const std::int64_t due_ns = (Now_ns() / period_ns_ + 1) * period_ns_;
-  std::this_thread::sleep_until(std::chrono::sys_time<nanoseconds>(nanoseconds(due_ns)));
+  const std::int64_t due_ns = (EpochNs() / period_ns_ + 1) * period_ns_;
+  SleepUntilEpoch(due_ns);
   frame = {.image = empty_.view(), .capture_ns = due_ns, .sequence = shown_++, .angles = {}};
   return GrabStatus::kFrame;
 }

@@ -12,8 +12,8 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/clock.h"
 #include "daemon/pipeline/load_control.h"
+#include "drivers/clock.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "tests/daemon/fake_studio.h"
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <thread>
 
 namespace mocap {
 
@@ -22,5 +23,11 @@ inline std::int64_t EpochNs() {
 
 /// Since the Unix epoch [s].
 inline std::int64_t EpochS() { return EpochNs() / 1'000'000'000; }
+
+/// Sleeps until a time since the Unix epoch [ns].
+inline void SleepUntilEpoch(std::int64_t time_ns) {
+  std::this_thread::sleep_until(
+      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(time_ns)));
+}
 
 }  // namespace mocap
