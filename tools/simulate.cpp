@@ -21,12 +21,14 @@ namespace mocap {
 namespace {
 
 const std::map<std::string, BoardPlace> kBoardPlaces = {{"carried", BoardPlace::kCarried},
-                                                        {"floor", BoardPlace::kOnFloor}};
+                                                        {"floor", BoardPlace::kOnFloor},
+                                                        {"desk", BoardPlace::kOnDesk}};
 
 struct SimulateOptions {
   std::filesystem::path out;
   SimulatedStudioOptions studio = RecordedSimulation();
   std::string board;  ///< One of kBoardPlaces, or nothing: a person.
+  int desk = 1;
 
   int frames() const { return static_cast<int>(std::lround(studio.seconds * studio.fps)); }
 };
@@ -119,13 +121,14 @@ void SimulatePerson(const SimulateOptions& options) {
 }
 
 void SimulateBoard(const SimulateOptions& options) {
-  SimulatedBoard board(options.studio, kBoardPlaces.at(options.board));
+  SimulatedBoard board(options.studio, kBoardPlaces.at(options.board), options.desk);
   TakeWriter writer(options.out, Describe(options, board.cameras()));
   const Progress progress(options.frames());
   for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
     for (int c = 0; c < options.studio.cameras; ++c)
-      writer.WriteFrame(c, board.Paint(c, i), board.CaptureTime(c, i));
+      writer.WriteFrame(c, board.Paint(c, i), board.CaptureTime(c, i),
+                        board.AnglesAt(c, board.CaptureTime(c, i)));
   }
   writer.Finish();
 }
@@ -164,6 +167,10 @@ void AddSimulateCommand(CLI::App& app) {
       ->add_option("--board", options->board,
                    "Instead of a person a chessboard of 8x5 inner corners, 100 mm")
       ->check(CLI::IsMember(kBoardPlaces));
+  command
+      ->add_option("--desk", options->desk,
+                   "Where the desk stands: each number is another place; heads look about it")
+      ->capture_default_str();
   command->callback([options] { Simulate(*options); });
 }
 

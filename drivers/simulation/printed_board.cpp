@@ -129,9 +129,18 @@ RigidTransform BoardOnFloor() {
   return {R_WB, Vector3::Zero()};
 }
 
-void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_WB,
-                const Image<float>& nearness, Image<Bgr>& canvas) {
-  const RigidTransform X_CB = camera.X_CW * X_WB;
+RigidTransform BoardOnDesk(std::uint64_t seed, int place) {
+  Random random(Mix(seed, Tag("desk"), static_cast<std::uint64_t>(place)));
+  const Vector3 middle_W(random.Uniform(-800, 800), random.Uniform(-800, 800),
+                         random.Uniform(500, 1100));
+  const Matrix3 turned = ExpRotation({0, 0, random.Uniform(-std::numbers::pi, std::numbers::pi)});
+  const Matrix3 tilted = ExpRotation({random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 0});
+  return Centred(turned * tilted * BoardOnFloor().R, middle_W);
+}
+
+void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_CW,
+                const RigidTransform& X_WB, const Image<float>& nearness, Image<Bgr>& canvas) {
+  const RigidTransform X_CB = X_CW * X_WB;
   const RigidTransform X_BC = X_CB.Inverse();
   const bool is_front = X_BC.p.z() < 0;
   // Lamps hang above; what faces down is lit by the floor.

@@ -43,9 +43,13 @@ class BoardPath {
 /// x.
 RigidTransform BoardOnFloor();
 
+/// Gives X_WB of the board on a tilted desk in the room, where all cameras see it.
+/// @param place  each number is another.
+RigidTransform BoardOnDesk(std::uint64_t seed, int place);
+
 /// Paints the board over a picture of the empty studio, behind what stands before it.
 /// @param nearness  of the empty studio: 1 / z_C [1/mm].
-void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_WB,
-                const Image<float>& nearness, Image<Bgr>& canvas);
+void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_CW,
+                const RigidTransform& X_WB, const Image<float>& nearness, Image<Bgr>& canvas);
 
 }  // namespace mocap::simulation

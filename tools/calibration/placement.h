@@ -17,7 +17,7 @@ struct PlacementDifference {
 
 /// Projects points up to 1750 mm above the floor, in 3 x 3 m about the middle of the room, with the
 /// reference and triangulates them with the cameras. Both have the same world frame, or the
-/// distances tell of that too; heads stand at zero.
+/// distances tell of that too. Where there are heads, they look ahead, up, down and to the sides.
 /// @throws SetupError  when a camera of the reference is missing.
 PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& cameras,
                                      const std::vector<CameraCalibration>& reference);
