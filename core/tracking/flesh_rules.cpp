@@ -6,7 +6,7 @@ namespace mocap {
 namespace {
 
 // Flesh gives way a little, and the capsules are rounder than the parts.
-constexpr double kHolds = 0.7;
+constexpr double kHolds = 0.5;
 
 bool IsLowerArm(BodyPart part) {
   return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;

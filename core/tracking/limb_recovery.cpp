@@ -21,6 +21,7 @@ constexpr std::size_t kRefined = 8;
 constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
+constexpr std::size_t kExchangesTried = 4;
 constexpr int kRestFrames = 1;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
@@ -97,26 +98,51 @@ std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candid
   return kept;
 }
 
-// The best of the stances that put the limb's end in different places, refined, the best first.
-std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
+// The limb in each of the stances, the cheapest first.
+template <typename Cost>
+std::vector<Candidate> Ranked(const LimbSearch& search, const BodyTable& table,
                               const std::vector<Stance>& stances, const PoseState& pose,
-                              std::size_t count) {
+                              const Cost& cost_mm) {
   std::vector<Candidate> candidates;
   for (const Stance& stance : stances) {
     const JointAngles angles = AnglesOf(stance, table);
     Candidate candidate{pose, 0};
     for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
-    candidate.cost_mm = search.CostAt(candidate.pose);
+    candidate.cost_mm = cost_mm(candidate.pose);
     candidates.push_back(candidate);
   }
   std::ranges::sort(candidates, {}, &Candidate::cost_mm);
-  candidates = KeepDistinct(search, candidates, count);
+  return candidates;
+}
+
+void Refine(LimbSearch& search, std::vector<Candidate>& candidates) {
   for (Candidate& candidate : candidates) {
     search.Refine(candidate.pose, kIterations);
     candidate.cost_mm = search.CostAt(candidate.pose);
   }
   std::ranges::sort(candidates, {}, &Candidate::cost_mm);
-  return candidates;
+}
+
+// The best of the stances that put the limb's end in different places, refined, the best first.
+std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
+                              const std::vector<Stance>& stances, const PoseState& pose,
+                              std::size_t count) {
+  const auto cost_mm = [&](const PoseState& at) { return search.CostAt(at); };
+  std::vector<Candidate> best =
+      KeepDistinct(search, Ranked(search, table, stances, pose, cost_mm), count);
+  Refine(search, best);
+  return best;
+}
+
+// The stances that put the limb's end nearest to a place, refined, the best first.
+std::vector<Candidate> Towards(LimbSearch& search, const BodyTable& table,
+                               const std::vector<Stance>& stances, const PoseState& pose,
+                               const Vector3& p_WQ) {
+  const auto cost_mm = [&](const PoseState& at) { return (search.TipAt(at) - p_WQ).norm(); };
+  std::vector<Candidate> nearest = Ranked(search, table, stances, pose, cost_mm);
+  nearest.resize(std::min(nearest.size(), kExchangesTried));
+  Refine(search, nearest);
+  return nearest;
 }
 
 }  // namespace
@@ -142,20 +168,28 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   return true;
 }
 
+bool LimbRecovery::HandsMeet(const BodyModel& body, const PoseState& pose) {
+  const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
+  const Vector3 apart_W = points_W.col(static_cast<int>(Point::kFingertipsL)) -
+                          points_W.col(static_cast<int>(Point::kFingertipsR));
+  return apart_W.norm() < body.sizes().lower_arm;
+}
+
+template <typename Stances>
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
-                               Segment right, SurfaceFit& fit, PoseState& pose) {
+                               Segment right, SurfaceFit& fit, const Stances& stances,
+                               PoseState& pose) {
   LimbSearch left_search(body, evidence, matcher_, left, right, pose);
   LimbSearch right_search(body, evidence, matcher_, right, left, pose);
-  const auto options = [&](LimbSearch& search, Segment limb_end) {
+  const auto options = [&](LimbSearch& search, LimbSearch& other) {
     std::vector<Option> found;
-    for (const Candidate& candidate :
-         BestOf(search, body.table(), StancesOf(limb_end), pose, kPairRefined)) {
+    for (const Candidate& candidate : stances(search, other)) {
       found.push_back({candidate.pose, search.ClaimAt(candidate.pose)});
     }
     return found;
   };
-  const std::vector<Option> lefts = options(left_search, left);
-  const std::vector<Option> rights = options(right_search, right);
+  const std::vector<Option> lefts = options(left_search, right_search);
+  const std::vector<Option> rights = options(right_search, left_search);
   std::vector<Candidate> pairs;
   for (const Option& l : lefts) {
     for (const Option& r : rights) {
@@ -173,28 +207,48 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, 
   return true;
 }
 
+bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                               PoseState& pose) {
+  bool changed = false;
+  for (const Segment limb_end : kLimbEnds) {
+    changed |= RecoverOne(body, evidence, limb_end, pose);
+  }
+  if (resting_ > 0) {
+    --resting_;
+    return changed;
+  }
+  if (IsExplained(body, pose)) return changed;
+  bool helped = false;
+  for (const auto& [left, right] : kPairs) {
+    const auto best = [&](LimbSearch& search, LimbSearch&) {
+      return BestOf(search, body.table(), StancesOf(left), pose, kPairRefined);
+    };
+    helped |= RecoverPair(body, evidence, left, right, fit, best, pose);
+  }
+  if (!helped) resting_ = kRestFrames;
+  return changed || helped;
+}
+
+bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                                PoseState& pose) {
+  const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
+    return Towards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
+  };
+  return RecoverPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
+}
+
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose,
                                                const SurfaceFitQuality& quality) {
-  if (quality.unexplained_share < kUnexplainedShare) return std::nullopt;
+  const bool is_explained = quality.unexplained_share < kUnexplainedShare;
+  const bool hands_meet = HandsMeet(body, pose);
+  if (is_explained && !hands_meet) return std::nullopt;
   std::vector<Contact> contacts;
   ChooseContacts(evidence, kVoxels, kEdges, contacts);
   matcher_.SetContacts(contacts);
   PoseState now = pose;
-  bool changed = false;
-  for (const Segment limb_end : kLimbEnds) {
-    changed |= RecoverOne(body, evidence, limb_end, now);
-  }
-  if (resting_ > 0) {
-    --resting_;
-  } else if (!IsExplained(body, now)) {
-    bool helped = false;
-    for (const auto& [left, right] : kPairs) {
-      helped |= RecoverPair(body, evidence, left, right, fit, now);
-    }
-    changed |= helped;
-    if (!helped) resting_ = kRestFrames;
-  }
+  bool changed = !is_explained && RecoverLost(body, evidence, fit, now);
+  if (hands_meet) changed |= ExchangeArms(body, evidence, fit, now);
   if (!changed) return std::nullopt;
   return now;
 }

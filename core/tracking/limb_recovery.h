@@ -14,8 +14,9 @@
 namespace mocap {
 
 /// Tries each arm and leg in many stances when outlines are left that no part explains, and both
-/// arms or both legs together when that does not help: each may have taken the other's place. Only
-/// what the rest of the body does not explain is matched, so that a stance costs microseconds.
+/// arms or both legs together when that does not help: each may have taken the other's place. Arms
+/// whose hands are near each other are tried exchanged even when all is explained. Only what the
+/// rest of the body does not explain is matched, so that a stance costs microseconds.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -32,8 +33,16 @@ class LimbRecovery {
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                   PoseState& pose);
+  // `stances` gives what to try of the first limb, searched with the second absent.
+  template <typename Stances>
   bool RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
-                   SurfaceFit& fit, PoseState& pose);
+                   SurfaceFit& fit, const Stances& stances, PoseState& pose);
+  bool RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                   PoseState& pose);
+  // Hands that cross look as if they had touched and gone back.
+  bool ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
+                    PoseState& pose);
+  static bool HandsMeet(const BodyModel& body, const PoseState& pose);
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;

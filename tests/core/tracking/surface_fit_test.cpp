@@ -113,6 +113,23 @@ TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
 
+TEST_F(Fit, ForearmsThatCrossedAreNotTakenForHandsThatTouched) {
+  constexpr ArmStance kCrossed{.raise = -30, .forward = 100, .twist = 60, .elbow = 40};
+  constexpr ArmStance kApart{.raise = -30, .forward = 70, .twist = 0, .elbow = 15};
+  const PoseState truth = Standing(body_, {.arm_l = kCrossed, .arm_r = kCrossed});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  const PoseState exchanged =
+      FitFrom(Standing(body_, {.arm_l = kApart, .arm_r = kApart}), body_, fit_);
+  ASSERT_GT(Error(exchanged, truth), 40);
+  const SurfaceFitQuality quality = fit_.QualityAt(body_, exchanged);
+  ASSERT_LT(quality.unexplained_share, 0.01);
+  const std::optional<PoseState> found =
+      LimbRecovery().Recover(body_, evidence, fit_, exchanged, quality);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
 TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
   PoseState truth = Standing(body_, {.arm_l = kArmOut});
   Tracker tracker(body_, truth);
