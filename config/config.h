@@ -49,11 +49,12 @@ struct LcmConfig {
 };
 
 /// What turns a live camera.
-enum class HeadKind { kNone, kFixed, kV4l2 };
+enum class HeadKind { kNone, kFixed, kV4l2, kUvc };
 
 /// A camera's head.
 struct HeadConfig {
   HeadKind kind = HeadKind::kNone;
+  std::string device;    ///< Of one on USB: serial number, port or bus.
   PanTiltAngles angles;  ///< Of one that is fixed.
   double delay_ms = 0;   ///< By which readings lag behind.
   /// How far the studio lets it turn: least and most [rad]. Empty: as far as it can.

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "drivers/aravis/aravis_driver.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/usb/uvc_pan_tilt.h"
 #include "drivers/v4l2/v4l2_driver.h"
 #include "drivers/v4l2/v4l2_pan_tilt.h"
 
@@ -26,9 +27,12 @@ std::unique_ptr<PanTilt> MakeHead(const CameraConfig& camera) {
   if (camera.head.kind == HeadKind::kFixed) {
     return std::make_unique<FixedPanTilt>(camera.head.angles);
   }
-  const auto delay = std::chrono::duration<double, std::milli>(camera.head.delay_ms);
-  return std::make_unique<V4l2PanTilt>(camera.device,
-                                       std::chrono::duration_cast<std::chrono::nanoseconds>(delay));
+  const auto delay = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(camera.head.delay_ms));
+  if (camera.head.kind == HeadKind::kUvc) {
+    return std::make_unique<UvcPanTilt>(camera.head.device, delay);
+  }
+  return std::make_unique<V4l2PanTilt>(camera.device, delay);
 }
 
 /// Puts the camera on its head.
@@ -50,7 +54,7 @@ void RequireHeadOrNone(const LiveCamera& live, const std::filesystem::path& cali
   const std::string table = "cameras." + live.name + ".pan_tilt";
   throw SetupError(calibration.string() + ": " + table +
                    (is_calibrated ? " is there, but [[cameras]] gives " + live.name +
-                                        " no head; head = \"v4l2\" or \"fixed\" is wanted"
+                                        " no head; head = \"v4l2\", \"uvc\" or \"fixed\" is wanted"
                                   : " is missing, but [[cameras]] gives " + live.name + " a head"));
 }
 
