@@ -81,6 +81,7 @@ HeadConfig ReadHead(TomlSection& section) {
   }
   if (head.kind == HeadKind::kUvc) head.device = section.Text("head_device");
   head.delay_ms = section.NumberWithin("head_delay_ms", 0, 1000, 0);
+  head.follow = section.Flag("follow", false);
   head.pan_range_rad = ReadRange(section, "pan_range_rad");
   head.tilt_range_rad = ReadRange(section, "tilt_range_rad");
   return head;

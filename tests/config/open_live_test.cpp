@@ -115,6 +115,10 @@ TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {
   const std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   EXPECT_EQ(cameras.at(0).head->At(0), (PanTiltAngles{0.02, -0.1}));
   EXPECT_EQ(cameras.at(1).range.most.pan_rad, 1);
+  EXPECT_EQ(OpenStudio(config).person, nullptr);
+  testing::ReplaceInFile(folder_.path() / "mocapd.toml", "pan_range_rad",
+                         "follow = true\npan_range_rad");
+  EXPECT_NE(OpenStudio(LoadConfig(folder_.path() / "mocapd.toml")).person, nullptr);
 }
 
 TEST_F(LiveStudio, HeadsOnUsbAreNamedByThemselves) {
