@@ -32,6 +32,7 @@ struct SourceConfig {
   int cameras = 6;
   std::uint64_t seed = 1;
   double losses_per_minute = 0;  ///< How often each camera fails for two seconds.
+  bool follow = false;           ///< Cameras are on heads, which keep the person in view.
   // For "simulated" and live cameras:
   double fps = 30;
 };
@@ -49,13 +50,15 @@ struct LcmConfig {
 };
 
 /// What turns a live camera.
-enum class HeadKind { kNone, kFixed, kV4l2 };
+enum class HeadKind { kNone, kFixed, kV4l2, kUvc };
 
 /// A camera's head.
 struct HeadConfig {
   HeadKind kind = HeadKind::kNone;
+  std::string device;    ///< Of one on USB: serial number, port or bus.
   PanTiltAngles angles;  ///< Of one that is fixed.
   double delay_ms = 0;   ///< By which readings lag behind.
+  bool follow = false;   ///< It keeps the person in view.
   /// How far the studio lets it turn: least and most [rad]. Empty: as far as it can.
   std::optional<std::array<double, 2>> pan_range_rad;
   std::optional<std::array<double, 2>> tilt_range_rad;

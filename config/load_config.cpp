@@ -34,6 +34,7 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
       "seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(source.seed)));
   source.losses_per_minute =
       section.NumberWithin("losses_per_minute", 0, 12, source.losses_per_minute);
+  source.follow = section.Flag("follow", source.follow);
   section.RejectUnknownKeys();
   return source;
 }

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "drivers/aravis/aravis_driver.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/usb/uvc_pan_tilt.h"
 #include "drivers/v4l2/v4l2_driver.h"
 #include "drivers/v4l2/v4l2_pan_tilt.h"
 
@@ -26,21 +27,30 @@ std::unique_ptr<PanTilt> MakeHead(const CameraConfig& camera) {
   if (camera.head.kind == HeadKind::kFixed) {
     return std::make_unique<FixedPanTilt>(camera.head.angles);
   }
-  const auto delay = std::chrono::duration<double, std::milli>(camera.head.delay_ms);
-  return std::make_unique<V4l2PanTilt>(camera.device,
-                                       std::chrono::duration_cast<std::chrono::nanoseconds>(delay));
+  const auto delay = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(camera.head.delay_ms));
+  if (camera.head.kind == HeadKind::kUvc) {
+    return std::make_unique<UvcPanTilt>(camera.head.device, delay);
+  }
+  return std::make_unique<V4l2PanTilt>(camera.device, delay);
 }
 
 /// Puts the camera on its head.
-void Mount(const CameraConfig& camera, LiveCamera& live) {
+void Mount(const CameraConfig& camera, const std::shared_ptr<Whereabouts>& person,
+           LiveCamera& live) {
   if (camera.head.kind == HeadKind::kNone) return;
-  auto mounted = std::make_unique<PanTiltCamera>(std::move(live.driver), MakeHead(camera));
-  live.head = &mounted->head();
-  live.driver = std::move(mounted);
   constexpr std::array<double, 2> kAnywhere{-1e3, 1e3};
   const auto pan = camera.head.pan_range_rad.value_or(kAnywhere);
   const auto tilt = camera.head.tilt_range_rad.value_or(kAnywhere);
   live.range = {{pan[0], tilt[0]}, {pan[1], tilt[1]}};
+  std::optional<HeadFollower> follower;
+  if (camera.head.follow && person && live.calibration && live.calibration->head) {
+    follower.emplace(*live.calibration, live.range, person);
+  }
+  auto mounted = std::make_unique<PanTiltCamera>(std::move(live.driver), MakeHead(camera),
+                                                 std::move(follower));
+  live.head = &mounted->head();
+  live.driver = std::move(mounted);
 }
 
 /// Angles and a head belong together: one without the other would be wrong in silence.
@@ -50,7 +60,7 @@ void RequireHeadOrNone(const LiveCamera& live, const std::filesystem::path& cali
   const std::string table = "cameras." + live.name + ".pan_tilt";
   throw SetupError(calibration.string() + ": " + table +
                    (is_calibrated ? " is there, but [[cameras]] gives " + live.name +
-                                        " no head; head = \"v4l2\" or \"fixed\" is wanted"
+                                        " no head; head = \"v4l2\", \"uvc\" or \"fixed\" is wanted"
                                   : " is missing, but [[cameras]] gives " + live.name + " a head"));
 }
 
@@ -95,7 +105,8 @@ CameraRequest RequestFor(const Config& config, const CameraConfig& camera,
 
 }  // namespace
 
-std::vector<LiveCamera> OpenLiveCameras(const Config& config) {
+std::vector<LiveCamera> OpenLiveCameras(const Config& config,
+                                        const std::shared_ptr<Whereabouts>& person) {
   if (!IsLive(config.source)) {
     throw SetupError("source.driver is \"" + config.source.driver +
                      "\", which has no live cameras; \"v4l2\" or \"aravis\" is wanted");
@@ -111,7 +122,7 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config) {
     if (!calibrations.empty()) live.calibration = Find(calibrations, camera, config.calibration);
     live.request = RequestFor(config, camera, live.calibration);
     live.driver = MakeDriver(config.source.driver, camera, live.request);
-    Mount(camera, live);
+    Mount(camera, person, live);
     if (live.calibration) RequireHeadOrNone(live, config.calibration);
   }
   return cameras;
@@ -127,7 +138,10 @@ Studio OpenLiveStudio(const Config& config) {
                      ": is missing; `mocap background learn` makes it while the studio is empty");
   }
   Studio studio{"live studio", 0, {}};
-  for (LiveCamera& live : OpenLiveCameras(config)) {
+  if (std::ranges::any_of(config.cameras, [](const auto& c) { return c.head.follow; })) {
+    studio.person = std::make_shared<Whereabouts>();
+  }
+  for (LiveCamera& live : OpenLiveCameras(config, studio.person)) {
     const std::filesystem::path base = config.background / live.name;
     studio.fps_nominal = std::max(studio.fps_nominal, live.request.fps);
     auto background =

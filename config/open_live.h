@@ -12,6 +12,7 @@
 #include "drivers/camera_request.h"
 #include "drivers/pan_tilt.h"
 #include "drivers/studio.h"
+#include "drivers/whereabouts.h"
 
 namespace mocap {
 
@@ -27,9 +28,11 @@ struct LiveCamera {
 
 /// Makes the drivers of all live cameras. A studio may be looked at before it is calibrated:
 /// without the calibration's file, cameras come without one.
+/// @param person       where he will be told to be, for the heads that follow; null: none does.
 /// @throws SetupError  when source.driver is no live one, the calibration has no camera of a name,
 /// or its pictures another size.
-std::vector<LiveCamera> OpenLiveCameras(const Config& config);
+std::vector<LiveCamera> OpenLiveCameras(const Config& config,
+                                        const std::shared_ptr<Whereabouts>& person = nullptr);
 
 /// Opens all live cameras with their calibration and their pictures of the empty studio.
 /// @throws SetupError  also when one of these is missing.

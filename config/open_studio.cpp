@@ -12,6 +12,7 @@ SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
   options.cameras = source.cameras;
   options.seed = source.seed;
   options.losses_per_minute = source.losses_per_minute;
+  options.pan_tilt = options.follow = source.follow;
   options.realtime = true;
   return options;
 }

@@ -72,14 +72,16 @@ std::optional<std::array<double, 2>> ReadRange(TomlSection& section, const std::
 HeadConfig ReadHead(TomlSection& section) {
   HeadConfig head;
   if (!section.Has("head")) return head;
-  if (section.Choice("head", {"fixed", "v4l2"}) == 0) {
-    head.kind = HeadKind::kFixed;
+  constexpr std::array kKinds = {HeadKind::kFixed, HeadKind::kV4l2, HeadKind::kUvc};
+  head.kind = kKinds[section.Choice("head", {"fixed", "v4l2", "uvc"})];
+  if (head.kind == HeadKind::kFixed) {
     head.angles.pan_rad = section.NumberWithin("pan_rad", -kFullTurn_rad, kFullTurn_rad, 0);
     head.angles.tilt_rad = section.NumberWithin("tilt_rad", -kFullTurn_rad, kFullTurn_rad, 0);
     return head;
   }
-  head.kind = HeadKind::kV4l2;
+  if (head.kind == HeadKind::kUvc) head.device = section.Text("head_device");
   head.delay_ms = section.NumberWithin("head_delay_ms", 0, 1000, 0);
+  head.follow = section.Flag("follow", false);
   head.pan_range_rad = ReadRange(section, "pan_range_rad");
   head.tilt_range_rad = ReadRange(section, "tilt_range_rad");
   return head;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "core/reconstruction/camera/camera_model.h"
 
@@ -17,6 +18,9 @@ struct PanTiltLimits {
            angles.tilt_rad >= least.tilt_rad && angles.tilt_rad <= most.tilt_rad;
   }
 };
+
+/// Says in a line why a head does not look there, and where it can.
+std::string OutOfReach(const PanTiltAngles& angles, const PanTiltLimits& limits);
 
 /// A head, whatever turns it. Angles count from the head's own zero, in its own sense; the
 /// calibration's axes say what they mean. Thread-bound, to its camera's thread.

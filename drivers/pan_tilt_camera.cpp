@@ -4,8 +4,9 @@
 
 namespace mocap {
 
-PanTiltCamera::PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::unique_ptr<PanTilt> head)
-    : camera_(std::move(camera)), head_(std::move(head)) {}
+PanTiltCamera::PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::shared_ptr<PanTilt> head,
+                             std::optional<HeadFollower> follower)
+    : camera_(std::move(camera)), head_(std::move(head)), follower_(std::move(follower)) {}
 
 void PanTiltCamera::Start() {
   camera_->Start();
@@ -16,7 +17,9 @@ GrabStatus PanTiltCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) 
   const GrabStatus status = camera_->Grab(frame, timeout);
   // A frame was exposed some time ago: this reading and the one before lie around it.
   head_->Update();
-  if (status == GrabStatus::kFrame) frame.angles = head_->At(frame.capture_ns);
+  if (status != GrabStatus::kFrame) return status;
+  frame.angles = head_->At(frame.capture_ns);
+  if (follower_) follower_->Follow(*head_, frame.angles, frame.capture_ns);
   return status;
 }
 

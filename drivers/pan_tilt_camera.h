@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "drivers/camera_driver.h"
+#include "drivers/head_follower.h"
 #include "drivers/pan_tilt.h"
 
 namespace mocap {
@@ -11,7 +13,9 @@ namespace mocap {
 /// Gives each frame of a camera the angles of its head at the moment of exposure.
 class PanTiltCamera : public CameraDriver {
  public:
-  PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::unique_ptr<PanTilt> head);
+  /// @param follower  keeps the person in view; nothing: the head stays where it is.
+  PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::shared_ptr<PanTilt> head,
+                std::optional<HeadFollower> follower = std::nullopt);
 
   void Start() override;
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
@@ -22,7 +26,8 @@ class PanTiltCamera : public CameraDriver {
 
  private:
   const std::unique_ptr<CameraDriver> camera_;
-  const std::unique_ptr<PanTilt> head_;
+  const std::shared_ptr<PanTilt> head_;
+  std::optional<HeadFollower> follower_;
 };
 
 }  // namespace mocap

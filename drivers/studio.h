@@ -8,6 +8,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/background_source.h"
 #include "drivers/camera_driver.h"
+#include "drivers/whereabouts.h"
 
 namespace mocap {
 
@@ -24,6 +25,8 @@ struct Studio {
   std::string name;
   double fps_nominal = 30;
   std::vector<StudioCamera> cameras;
+  /// To be told where the person is; null: no head follows.
+  std::shared_ptr<Whereabouts> person = nullptr;
 };
 
 }  // namespace mocap

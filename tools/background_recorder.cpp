@@ -54,6 +54,10 @@ std::vector<double> Steps(double least, double most, double field_rad) {
 
 /// Waits until the head stands still. @return  the frame by then.
 void LookThere(LiveCamera& camera, const PanTiltAngles& direction, Frame& frame) {
+  const PanTiltLimits limits = camera.head->limits();
+  if (!limits.Contain(direction)) {
+    throw SetupError(camera.name + ": " + OutOfReach(direction, limits));
+  }
   if (!camera.head->TurnTo(direction)) {
     throw std::runtime_error(camera.name + ": its head does not turn");
   }

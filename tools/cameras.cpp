@@ -14,8 +14,11 @@
 
 #include "config/load_config.h"
 #include "config/open_live.h"
+#include "core/errors.h"
 #include "drivers/aravis/aravis_directory.h"
 #include "drivers/camera_listing.h"
+#include "drivers/usb/usb_bus.h"
+#include "drivers/usb/uvc_heads.h"
 #include "drivers/v4l2/v4l2_devices.h"
 #include "drivers/v4l2/video_kernel.h"
 #include "tools/camera_check.h"
@@ -39,11 +42,24 @@ void PrintListed(const ListedCamera& camera) {
   for (const std::string& remark : camera.remarks) Print("  ! " + remark);
 }
 
+/// What turns cameras beside their pictures.
+void ListHeads() {
+  try {
+    for (const UvcHead& head : FindUvcHeads(UsbBus())) {
+      Print(fmt::format("{}  {}, port {}, serial {}, {:g} Mbit/s (head = \"uvc\")", head.usb.bus,
+                        head.usb.model, head.usb.port, head.usb.serial, head.usb.link_mbit_s));
+    }
+  } catch (const SetupError& error) {
+    Print(fmt::format("  ! {}", error.what()));
+  }
+}
+
 void List() {
   std::vector<ListedCamera> cameras = ListV4l2Cameras(*SystemVideoKernel());
   std::ranges::move(ListAravisCameras(), std::back_inserter(cameras));
   for (const ListedCamera& camera : cameras) PrintListed(camera);
   if (cameras.empty()) Print("no camera is connected");
+  ListHeads();
 }
 
 /// @return  how many troubles there are.

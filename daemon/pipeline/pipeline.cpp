@@ -63,7 +63,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
                    PoseSink& sink)
     : options_(options),
       sets_(kSetsQueued, Overflow::kWait, track_bell_),
-      track_(body, options.latency_origin, sink, recorders_) {
+      track_(body, options.latency_origin, sink, recorders_, studio.person) {
   if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
     throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
                      " cameras, wanted 1 to " + std::to_string(kMaxCameras));

@@ -1,14 +1,30 @@
 #include "daemon/pipeline/track_stage.h"
 
 #include <memory>
+#include <utility>
 
 #include "drivers/clock.h"
 
 namespace mocap {
+namespace {
+
+/// Of the box around the body: what a camera has to look at to see all of it.
+std::optional<Vector3> MiddleOf(const CaptureResult& result) {
+  const bool is_known =
+      result.state == CaptureState::kTracking || result.state == CaptureState::kAcquiring;
+  if (!is_known) return std::nullopt;
+  return (result.points_W.rowwise().minCoeff() + result.points_W.rowwise().maxCoeff()) / 2;
+}
+
+}  // namespace
 
 TrackStage::TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
-                       StageRecorders& recorders)
-    : capture_(body), origin_(origin), sink_(sink), recorders_(recorders) {}
+                       StageRecorders& recorders, std::shared_ptr<Whereabouts> person)
+    : capture_(body),
+      origin_(origin),
+      sink_(sink),
+      recorders_(recorders),
+      person_(std::move(person)) {}
 
 TrackStage::~TrackStage() { delete next_subject_.load(); }
 
@@ -30,6 +46,7 @@ void TrackStage::Process(const CarvedSet& set) {
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
   recorders_[Stage::kTotal].Record(set.work_ns + update_ns);
   state_.store(result.state, std::memory_order_relaxed);
+  if (person_) person_->Tell(MiddleOf(result));
   sink_.OnSet({.frame = set.frame,
                .capture_ns = set.capture_ns,
                .complete_ns = set.complete_ns,

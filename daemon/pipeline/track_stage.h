@@ -4,12 +4,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/motion_capture.h"
 #include "daemon/pipeline/carve_stage.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/stage.h"
+#include "drivers/whereabouts.h"
 
 namespace mocap {
 
@@ -22,8 +24,9 @@ enum class LatencyOrigin {
 /// Tracks set after set and hands each on. One thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:
-  TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
-             StageRecorders& recorders);
+  /// @param person  told where he is, for heads that follow; may be null.
+  TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink, StageRecorders& recorders,
+             std::shared_ptr<Whereabouts> person = nullptr);
 
   ~TrackStage();
 
@@ -44,6 +47,7 @@ class TrackStage : private UpdateObserver {
   LatencyOrigin origin_;
   PoseSink& sink_;
   StageRecorders& recorders_;
+  const std::shared_ptr<Whereabouts> person_;
   std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
   std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.

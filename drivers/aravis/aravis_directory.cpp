@@ -12,6 +12,7 @@
 #include "drivers/aravis/gige_probe.h"
 #include "drivers/aravis/gobject.h"
 #include "drivers/quoted.h"
+#include "drivers/usb/usb_bus.h"
 
 namespace mocap {
 namespace {
@@ -95,6 +96,9 @@ std::vector<ListedCamera> ListAravisCameras() {
       if (ProbeGigeCamera(camera.address, kPatience) == GigePresence::kHeld) {
         entry.remarks.push_back("is controlled by another program");
       }
+    } else if (const auto usb = FindUsbDevice(camera.serial)) {
+      entry.bus = camera.protocol + " on " + usb->bus;
+      entry.link_mbit_s = usb->link_mbit_s;
     }
     listed.push_back(std::move(entry));
   }

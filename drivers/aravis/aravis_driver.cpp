@@ -10,6 +10,7 @@
 #include "drivers/aravis/aravis_keeper.h"
 #include "drivers/aravis/aravis_session.h"
 #include "drivers/aravis/gige_probe.h"
+#include "drivers/usb/usb_bus.h"
 
 namespace mocap {
 namespace {
@@ -158,6 +159,9 @@ CameraFacts AravisDriver::Facts() const {
       facts.bus = route->interface;
       facts.link_mbit_s = route->link_mbit_s;
     }
+  } else if (const auto usb = FindUsbDevice(agreed.serial)) {
+    facts.bus = usb->controller();
+    facts.link_mbit_s = usb->link_mbit_s;
   }
   facts.format = agreed.format.name;
   facts.bytes_per_frame = static_cast<double>(agreed.payload_bytes);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/errors.h"
+#include "core/reconstruction/camera/head_aim.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/room_plan.h"
 
@@ -77,30 +77,12 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
   return rig;
 }
 
-PanTiltAngles AimAt(const CameraCalibration& camera, const Vector3& p_W) {
-  MOCAP_CHECK(camera.head.has_value());
-  // Newton's method on where the point lies on the sensor plane; the axes are nearly those of the
-  // picture, so that it settles in a few steps.
-  PanTiltAngles angles;
-  const auto off_center = [&](const PanTiltAngles& a) {
-    const Vector3 p_C = camera.PoseAt(a) * p_W;
-    return Vector2(p_C.x() / p_C.z(), p_C.y() / p_C.z());
+PanTiltAngles AimInSteps(const CameraCalibration& camera, const Vector3& p_W) {
+  const auto rounded = [](double angle_rad) {
+    return std::round(angle_rad / kEncoderStep_rad) * kEncoderStep_rad;
   };
-  for (int i = 0; i < 6; ++i) {
-    constexpr double kStep = 1e-5;
-    const Vector2 error = off_center(angles);
-    Eigen::Matrix2d J;
-    J.col(0) = (off_center({angles.pan_rad + kStep, angles.tilt_rad}) - error) / kStep;
-    J.col(1) = (off_center({angles.pan_rad, angles.tilt_rad + kStep}) - error) / kStep;
-    Vector2 step = J.inverse() * error;
-    // Far from the middle the tangent overshoots.
-    step = step.cwiseMax(-0.4).cwiseMin(0.4);
-    angles.pan_rad -= step.x();
-    angles.tilt_rad -= step.y();
-  }
-  angles.pan_rad = std::round(angles.pan_rad / kEncoderStep_rad) * kEncoderStep_rad;
-  angles.tilt_rad = std::round(angles.tilt_rad / kEncoderStep_rad) * kEncoderStep_rad;
-  return angles;
+  const PanTiltAngles angles = AimAt(camera, p_W);
+  return {rounded(angles.pan_rad), rounded(angles.tilt_rad)};
 }
 
 }  // namespace mocap::simulation

@@ -20,6 +20,6 @@ struct RigOptions {
 std::vector<CameraCalibration> HangCameras(const RigOptions& options);
 
 /// Turns a head so that a point comes to the middle of the lens, in whole steps of its encoder.
-PanTiltAngles AimAt(const CameraCalibration& camera, const Vector3& p_W);
+PanTiltAngles AimInSteps(const CameraCalibration& camera, const Vector3& p_W);
 
 }  // namespace mocap::simulation

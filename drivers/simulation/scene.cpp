@@ -80,27 +80,37 @@ PanTiltAngles Scene::AnglesAt(int camera, std::int64_t capture_ns) const {
   constexpr std::int64_t kSpacing_ns = 80'000'000;
   Vector3 sum = Vector3::Zero();
   for (int i = 0; i < kSamples; ++i) sum += TrunkAt(person_, capture_ns - i * kSpacing_ns);
-  return AimAt(cameras_[camera], sum / kSamples);
+  return AimInSteps(cameras_[camera], sum / kSamples);
+}
+
+PanTiltLimits Scene::ReachOf(int camera) const {
+  if (!cameras_[camera].head) return {};
+  // Heads that are told where to turn begin at zero and come a little after, or before, the person.
+  const double margin_rad = options_.follow ? 0.1 : 0.02;
+  const PanTiltAngles start =
+      options_.follow ? PanTiltAngles{} : AnglesAt(camera, options_.start_ns);
+  PanTiltLimits reach{start, start};
+  auto& [least, most] = reach;
+  for (int i = 0; i < 400; ++i) {
+    const PanTiltAngles a = AnglesAt(camera, options_.start_ns + i * 150'000'000LL);
+    least = {std::min(least.pan_rad, a.pan_rad), std::min(least.tilt_rad, a.tilt_rad)};
+    most = {std::max(most.pan_rad, a.pan_rad), std::max(most.tilt_rad, a.tilt_rad)};
+  }
+  return {{least.pan_rad - margin_rad, least.tilt_rad - margin_rad},
+          {most.pan_rad + margin_rad, most.tilt_rad + margin_rad}};
 }
 
 std::vector<PanTiltAngles> Scene::Sweep(int camera, int frames) const {
   std::vector<PanTiltAngles> sweep(frames);
   if (!cameras_[camera].head) return sweep;
-  constexpr double kMargin_rad = 0.02;
-  const PanTiltAngles start = AnglesAt(camera, options_.start_ns);
-  PanTiltAngles low = start, high = start;
-  for (int i = 0; i < 400; ++i) {
-    const PanTiltAngles a = AnglesAt(camera, options_.start_ns + i * 150'000'000LL);
-    low = {std::min(low.pan_rad, a.pan_rad), std::min(low.tilt_rad, a.tilt_rad)};
-    high = {std::max(high.pan_rad, a.pan_rad), std::max(high.tilt_rad, a.tilt_rad)};
-  }
+  const auto [least, most] = ReachOf(camera);
   const int rows = 4, columns = (frames + rows - 1) / rows;
   for (int i = 0; i < frames; ++i) {
     const int row = i / columns, along = i % columns;
     const double u = double(row % 2 == 0 ? along : columns - 1 - along) / std::max(1, columns - 1);
     const double v = double(row) / (rows - 1);
-    sweep[i] = {low.pan_rad - kMargin_rad + u * (high.pan_rad - low.pan_rad + 2 * kMargin_rad),
-                low.tilt_rad - kMargin_rad + v * (high.tilt_rad - low.tilt_rad + 2 * kMargin_rad)};
+    sweep[i] = {least.pan_rad + u * (most.pan_rad - least.pan_rad),
+                least.tilt_rad + v * (most.tilt_rad - least.tilt_rad)};
   }
   return sweep;
 }
@@ -146,10 +156,14 @@ ScenePainter::ScenePainter(std::shared_ptr<const SceneView> view)
     : view_(std::move(view)), person_(view_->calibration()) {}
 
 void ScenePainter::Paint(std::int64_t capture_ns) {
+  Paint(capture_ns, view_->scene().AnglesAt(view_->camera(), capture_ns));
+}
+
+void ScenePainter::Paint(std::int64_t capture_ns, const PanTiltAngles& angles) {
   const Scene& scene = view_->scene();
   const CameraCalibration& camera = view_->calibration();
   const PanTiltAngles before = angles_;
-  angles_ = scene.AnglesAt(view_->camera(), capture_ns);
+  angles_ = angles;
   const bool turned = camera.head && (fresh_ || angles_ != before);
   if (turned) view_->RenderView(angles_, turned_view_);
   const EmptyView& empty = camera.head ? turned_view_ : view_->fixed_view();

@@ -9,6 +9,7 @@
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/segmenter.h"
+#include "drivers/pan_tilt.h"
 #include "drivers/simulation/anthropometry.h"
 #include "drivers/simulation/empty_view.h"
 #include "drivers/simulation/motion.h"
@@ -55,7 +56,9 @@ class Scene {
   std::int64_t CaptureTime(int camera, std::int64_t frame) const;
   /// Where a camera's head points: after the person, a little late. Zero without a head.
   PanTiltAngles AnglesAt(int camera, std::int64_t capture_ns) const;
-  /// Directions that cover what a camera's head will see, as a serpentine; zeros without a head.
+  /// How far a camera's head turns, when it is told to or by itself. Zero without a head.
+  PanTiltLimits ReachOf(int camera) const;
+  /// Directions that cover its reach, as a serpentine; zeros without a head.
   std::vector<PanTiltAngles> Sweep(int camera, int frames) const;
 
  private:
@@ -98,8 +101,10 @@ class ScenePainter {
  public:
   explicit ScenePainter(std::shared_ptr<const SceneView> view);
 
-  /// Paints what the camera sees at a moment.
+  /// Paints what the camera sees at a moment; its head points after the person.
   void Paint(std::int64_t capture_ns);
+  /// Paints what it sees where its head points.
+  void Paint(std::int64_t capture_ns, const PanTiltAngles& angles);
   const Image<Bgr>& picture() const { return picture_; }
   const PanTiltAngles& angles() const { return angles_; }
   /// material + 1 where the person is seen, else 0.

@@ -40,7 +40,7 @@ class SimulatedBoard::Impl {
     if (place_ != BoardPlace::kOnDesk || !scene_->cameras()[camera].head) return {};
     const Vector3 middle_W = PoseAt(capture_ns) * simulation::PrintedBoard::Middle();
     const double t_s = SecondsAt(capture_ns);
-    PanTiltAngles angles = simulation::AimAt(scene_->cameras()[camera], middle_W);
+    PanTiltAngles angles = simulation::AimInSteps(scene_->cameras()[camera], middle_W);
     angles.pan_rad += kPanAbout_rad * std::sin(kPanRate_rad_s * t_s);
     angles.tilt_rad += kTiltAbout_rad * std::sin(kTiltRate_rad_s * t_s);
     return angles;

@@ -5,6 +5,8 @@
 
 #include "core/errors.h"
 #include "drivers/clock.h"
+#include "drivers/head_follower.h"
+#include "drivers/pan_tilt_camera.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/scene.h"
 
@@ -48,8 +50,11 @@ TruthSizes SimulatedTruth::Sizes() const {
            {"lower_arm_mm", body.lower_arm_mm()}}};
 }
 
-SimulatedCamera::SimulatedCamera(std::shared_ptr<const simulation::SceneView> view)
-    : view_(std::move(view)), painter_(std::make_unique<simulation::ScenePainter>(view_)) {}
+SimulatedCamera::SimulatedCamera(std::shared_ptr<const simulation::SceneView> view,
+                                 std::shared_ptr<SimulatedHead> head)
+    : view_(std::move(view)),
+      head_(std::move(head)),
+      painter_(std::make_unique<simulation::ScenePainter>(view_)) {}
 SimulatedCamera::~SimulatedCamera() = default;
 
 void SimulatedCamera::Start() {
@@ -77,7 +82,7 @@ bool SimulatedCamera::PaintNext() {
     return false;
   }
   due_ns_ = scene.CaptureTime(view_->camera(), next_);
-  painter_->Paint(due_ns_);
+  head_ ? painter_->Paint(due_ns_, head_->At(due_ns_)) : painter_->Paint(due_ns_);
   painted_ = true;
   return true;
 }
@@ -109,6 +114,7 @@ GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout
   frame.capture_ns = due_ns_;
   frame.sequence = static_cast<std::uint64_t>(next_ - first_);
   frame.angles = painter_->angles();
+  if (head_) head_->Advance(due_ns_);
   ++next_;
   return GrabStatus::kFrame;
 }
@@ -134,6 +140,15 @@ std::unique_ptr<SimulatedCamera> SimulatedStudio::OpenCamera(int camera) const {
   return std::make_unique<SimulatedCamera>(views_[camera]);
 }
 
+std::unique_ptr<CameraDriver> SimulatedStudio::OpenFollowing(
+    int camera, std::shared_ptr<const Whereabouts> person) const {
+  const PanTiltLimits reach = scene_->ReachOf(camera);
+  const auto head = std::make_shared<SimulatedHead>(reach);
+  return std::make_unique<PanTiltCamera>(
+      std::make_unique<SimulatedCamera>(views_[camera], head), head,
+      HeadFollower(scene_->cameras()[camera], reach, std::move(person)));
+}
+
 std::vector<BackgroundFrame> SimulatedStudio::Background(int camera) const {
   return views_[camera]->Background(kBackgroundFrames);
 }
@@ -147,9 +162,13 @@ Studio OpenSimulatedStudio(const SimulatedStudioOptions& options) {
   Studio studio;
   studio.name = "simulated " + options.motion;
   studio.fps_nominal = options.fps;
-  for (int i = 0; i < options.cameras; ++i)
-    studio.cameras.push_back({simulated->cameras()[i], simulated->OpenCamera(i),
+  if (options.follow) studio.person = std::make_shared<Whereabouts>();
+  for (int i = 0; i < options.cameras; ++i) {
+    std::unique_ptr<CameraDriver> driver = simulated->OpenCamera(i);
+    if (options.follow) driver = simulated->OpenFollowing(i, studio.person);
+    studio.cameras.push_back({simulated->cameras()[i], std::move(driver),
                               [simulated, i] { return simulated->Background(i); }});
+  }
   return studio;
 }
 

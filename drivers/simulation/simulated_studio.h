@@ -10,9 +10,11 @@
 
 #include "core/geometry.h"
 #include "drivers/camera_driver.h"
+#include "drivers/simulation/simulated_head.h"
 #include "drivers/simulation/skeleton.h"
 #include "drivers/studio.h"
 #include "drivers/take/take_writer.h"
+#include "drivers/whereabouts.h"
 
 namespace mocap {
 
@@ -23,7 +25,9 @@ struct SimulatedStudioOptions {
   double fps = 30;
   int cameras = 6;
   int width_px = 640, height_px = 480;
-  bool pan_tilt = false;   ///< Heads follow the person; slower to render.
+  bool pan_tilt = false;  ///< Heads go after the person by themselves; slower to render.
+  /// With pan_tilt: heads turn when they are told to, as tracking wants it.
+  bool follow = false;
   std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
   bool realtime = false;   ///< Frames come when the system clock says that they are due.
   double seconds = 0;      ///< Length unless realtime; 0: without end.
@@ -67,7 +71,9 @@ class SimulatedTruth {
 /// One virtual camera.
 class SimulatedCamera : public CameraDriver {
  public:
-  explicit SimulatedCamera(std::shared_ptr<const simulation::SceneView> view);
+  /// @param head  turns the camera; null: where it points follows from the time.
+  explicit SimulatedCamera(std::shared_ptr<const simulation::SceneView> view,
+                           std::shared_ptr<SimulatedHead> head = nullptr);
   ~SimulatedCamera() override;
 
   void Start() override;
@@ -81,6 +87,7 @@ class SimulatedCamera : public CameraDriver {
   bool IsLost(std::int64_t time_ns) const;
 
   std::shared_ptr<const simulation::SceneView> view_;
+  std::shared_ptr<SimulatedHead> head_;
   std::unique_ptr<simulation::ScenePainter> painter_;
   std::int64_t first_ = 0, next_ = 0;
   bool started_ = false, painted_ = false;
@@ -96,6 +103,9 @@ class SimulatedStudio {
 
   const std::vector<CameraCalibration>& cameras() const;
   std::unique_ptr<SimulatedCamera> OpenCamera(int camera) const;
+  /// Opens a camera whose head follows.
+  std::unique_ptr<CameraDriver> OpenFollowing(int camera,
+                                              std::shared_ptr<const Whereabouts> person) const;
   /// Pictures of the empty studio; for a camera on a head a sweep of its directions.
   std::vector<BackgroundFrame> Background(int camera) const;
   /// Time of a frame without any camera's jitter.

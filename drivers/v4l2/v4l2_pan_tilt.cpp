@@ -4,18 +4,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "core/errors.h"
-#include "drivers/v4l2/v4l2_time.h"
 
 namespace mocap {
 namespace {
 
 /// V4L2 counts in seconds of arc.
 constexpr double kUnit_rad = std::numbers::pi / (180 * 3600);
-constexpr std::chrono::milliseconds kRetryPause{500};
 
 std::optional<double> Get(VideoKernel& kernel, int handle, std::uint32_t id) {
   v4l2_control control{};
@@ -45,58 +42,34 @@ bool Range(VideoKernel& kernel, int handle, std::uint32_t id, double& least_rad,
 
 V4l2PanTilt::V4l2PanTilt(std::string device, std::chrono::nanoseconds delay,
                          std::shared_ptr<VideoKernel> kernel, DeviceTree tree)
-    : device_(std::move(device)),
-      delay_(delay),
-      kernel_(std::move(kernel)),
-      tree_(std::move(tree)) {}
+    : PolledPanTilt(std::move(device), delay), kernel_(std::move(kernel)), tree_(std::move(tree)) {}
 
 V4l2PanTilt::~V4l2PanTilt() { Stop(); }
 
-void V4l2PanTilt::Start() {
-  Connect();
-  if (!Read()) throw SetupError(device_ + ": does not tell where its head points");
-}
-
-void V4l2PanTilt::Stop() {
-  if (handle_ >= 0) kernel_->Close(handle_);
-  handle_ = -1;
-}
-
-void V4l2PanTilt::Connect() {
-  last_attempt_ = Steady::now();
-  const V4l2Node node = FindV4l2Node(*kernel_, device_, tree_);
+PanTiltLimits V4l2PanTilt::Connect() {
+  const V4l2Node node = FindV4l2Node(*kernel_, device(), tree_);
   handle_ = kernel_->Open(node.path);
   if (handle_ < 0) throw SetupError(node.path + ": cannot be opened for its head");
-  PanTiltAngles &least = limits_.least, &most = limits_.most;
+  PanTiltLimits limits;
+  PanTiltAngles &least = limits.least, &most = limits.most;
   if (!Range(*kernel_, handle_, V4L2_CID_PAN_ABSOLUTE, least.pan_rad, most.pan_rad) ||
       !Range(*kernel_, handle_, V4L2_CID_TILT_ABSOLUTE, least.tilt_rad, most.tilt_rad)) {
-    Stop();
+    Disconnect();
     throw SetupError(node.path + ": has no head; its controls lack pan_absolute or tilt_absolute");
   }
+  return limits;
 }
 
-bool V4l2PanTilt::Read() {
-  const std::int64_t before_ns = ReadClocks().epoch_ns;
+void V4l2PanTilt::Disconnect() { kernel_->Close(handle_); }
+
+std::optional<PanTiltAngles> V4l2PanTilt::Ask() {
   const auto pan_rad = Get(*kernel_, handle_, V4L2_CID_PAN_ABSOLUTE);
   const auto tilt_rad = Get(*kernel_, handle_, V4L2_CID_TILT_ABSOLUTE);
-  if (!pan_rad || !tilt_rad) return false;
-  const std::int64_t middle_ns = (before_ns + ReadClocks().epoch_ns) / 2;
-  track_.Add(middle_ns - delay_.count(), {*pan_rad, *tilt_rad});
-  return true;
+  if (!pan_rad || !tilt_rad) return std::nullopt;
+  return PanTiltAngles{*pan_rad, *tilt_rad};
 }
 
-void V4l2PanTilt::Update() {
-  if (handle_ >= 0 && !Read()) Stop();
-  if (handle_ >= 0 || Steady::now() - last_attempt_ < kRetryPause) return;
-  try {
-    Connect();
-  } catch (const SetupError&) {
-    // Its camera is lost as well, which is told there.
-  }
-}
-
-bool V4l2PanTilt::TurnTo(const PanTiltAngles& angles) {
-  if (handle_ < 0 || !limits_.Contain(angles)) return false;
+bool V4l2PanTilt::Send(const PanTiltAngles& angles) {
   return Set(*kernel_, handle_, V4L2_CID_PAN_ABSOLUTE, angles.pan_rad) &&
          Set(*kernel_, handle_, V4L2_CID_TILT_ABSOLUTE, angles.tilt_rad);
 }

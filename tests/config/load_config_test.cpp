@@ -204,6 +204,7 @@ device = "/dev/video2"
 TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
   const WrongConfig cases[] = {
       {"head = \"motor\"", 3, "cameras[0].head is \"motor\""},
+      {"head = \"uvc\"", 1, "cameras[0].head_device is missing"},
       {"exposure_us = 0", 3, "cameras[0].exposure_us is 0"},
       {"power_line_hz = 55", 3, "cameras[0].power_line_hz is 55"},
       {"size_px = [640.5, 480]", 3, "cameras[0].size_px"},

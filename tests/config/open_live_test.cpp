@@ -9,6 +9,7 @@
 #include "config/load_config.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "drivers/usb/uvc_pan_tilt.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 
@@ -101,7 +102,8 @@ TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {
     std::filesystem::remove_all(folder_.path() / part);
     std::filesystem::copy(folder_.path() / "take" / part, folder_.path() / part);
   }
-  EXPECT_THAT(Error(Load()), AllOf(HasSubstr("cam1"), HasSubstr("head = \"v4l2\"")));
+  EXPECT_THAT(Error(Load()),
+              AllOf(HasSubstr("cam1"), HasSubstr("head = \"v4l2\", \"uvc\" or \"fixed\"")));
   const std::string fixed = "head = \"fixed\"\npan_rad = 0.02\ntilt_rad = -0.1\n";
   testing::ReplaceInFile(folder_.path() / "mocapd.toml", "\"/dev/video0\"\n",
                          "\"/dev/video0\"\n" + fixed);
@@ -113,6 +115,18 @@ TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {
   const std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   EXPECT_EQ(cameras.at(0).head->At(0), (PanTiltAngles{0.02, -0.1}));
   EXPECT_EQ(cameras.at(1).range.most.pan_rad, 1);
+  EXPECT_EQ(OpenStudio(config).person, nullptr);
+  testing::ReplaceInFile(folder_.path() / "mocapd.toml", "pan_range_rad",
+                         "follow = true\npan_range_rad");
+  EXPECT_NE(OpenStudio(LoadConfig(folder_.path() / "mocapd.toml")).person, nullptr);
+}
+
+TEST_F(LiveStudio, HeadsOnUsbAreNamedByThemselves) {
+  std::filesystem::remove(folder_.path() / "calibration.toml");
+  const std::vector<LiveCamera> cameras =
+      OpenLiveCameras(Load("head = \"uvc\"\nhead_device = \"1-2\"\n"));
+  EXPECT_EQ(cameras.at(0).head, nullptr);
+  EXPECT_NE(dynamic_cast<const UvcPanTilt*>(cameras.at(1).head), nullptr);
 }
 
 TEST_F(LiveStudio, HasNoCamerasWhereTheSourceIsNotLive) {

@@ -1,12 +1,16 @@
 // A network of the test program's own, so that tests that run side by side do not meet.
 #pragma once
 
+#include <net/if.h>
 #include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <string>
 
+#include "core/errors.h"
 #include "tools/gige/loopback.h"
 
 namespace mocap::testing {
@@ -32,5 +36,25 @@ inline const std::string& EnterPrivateNetwork() {
   }();
   return reason;
 }
+
+/// Cuts the links of the private network for as long as it lives.
+class LinkCut {
+ public:
+  LinkCut() { Switch(false); }
+  ~LinkCut() { Switch(true); }
+  LinkCut(const LinkCut&) = delete;
+  LinkCut& operator=(const LinkCut&) = delete;
+
+ private:
+  static void Switch(bool is_up) {
+    ifreq request{"lo", {}};
+    const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    MOCAP_CHECK(ioctl(fd, SIOCGIFFLAGS, &request) == 0);
+    request.ifr_flags =
+        static_cast<short>(is_up ? request.ifr_flags | IFF_UP : request.ifr_flags & ~IFF_UP);
+    MOCAP_CHECK(ioctl(fd, SIOCSIFFLAGS, &request) == 0);
+    close(fd);
+  }
+};
 
 }  // namespace mocap::testing

@@ -306,6 +306,24 @@ TEST_F(AravisDriverTest, StalledCameraIsLostAndGoesOnByItself) {
   EXPECT_GT(frame.capture_ns, before_ns);
 }
 
+TEST_F(AravisDriverTest, LinkThatWasCutForASecondIsSurvived) {
+  const std::string ip = NextAddress();
+  const auto camera = Serve(ip);
+  AravisDriver driver(Request(ip), Settings());
+  driver.Start();
+  Frame frame;
+  ASSERT_TRUE(GrabFrame(driver, frame));
+  const std::int64_t before_ns = frame.capture_ns;
+  {
+    const testing::LinkCut cut;
+    EXPECT_EQ(GrabUntil(driver, GrabStatus::kLost), GrabStatus::kLost);
+    EXPECT_FALSE(GrabFrame(driver, frame, milliseconds(1000)));
+  }
+  ASSERT_TRUE(GrabFrame(driver, frame));
+  EXPECT_GT(frame.capture_ns, before_ns);
+  EXPECT_TRUE(PatternCamera::IsPattern(frame.image));
+}
+
 TEST_F(AravisDriverTest, CameraThatWasSwitchedOffIsLostAndReturns) {
   const std::string ip = NextAddress();
   auto camera = Serve(ip);

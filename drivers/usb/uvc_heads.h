@@ -1,0 +1,24 @@
+// Which heads there are on USB, and which one a name means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/usb/usb_bus.h"
+#include "drivers/usb/uvc_terminal.h"
+
+namespace mocap {
+
+/// A USB device that pans and tilts.
+struct UvcHead {
+  UsbDevice usb;
+  UvcTerminal terminal;
+};
+
+std::vector<UvcHead> FindUvcHeads(const UsbBus& bus);
+
+/// Finds the head that a serial number, a port ("1-2.3") or a bus ("usb-0000:00:14.0-2.3") means.
+/// @throws SetupError  when there is none, or more than one.
+UvcHead FindUvcHead(const UsbBus& bus, const std::string& name);
+
+}  // namespace mocap
