@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kSteps = 12;
 constexpr double kDifference_rad = 1e-5;
-/// Far from the middle the tangent overshoots.
+// Far from the middle the tangent overshoots.
 constexpr double kLongestStep_rad = 0.4;
-/// Against the square of a derivative near 1: keeps steps short where an axis has no effect.
+// Against the square of a derivative near 1: keeps steps short where an axis has no effect.
 constexpr double kDamping = 1e-6;
 
 /// How far to the right and down the camera sees a point [rad].

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "core/reconstruction/camera/head_aim.h"
 #include "tests/tools/calibration/simulated_board.h"
 #include "tools/calibration/floor.h"
 
@@ -83,7 +84,7 @@ TEST(HeadFitTest, PlacesPointsWithinFourMillimetresAtAnyAngle) {
       std::vector<CameraCalibration> posed = found;
       std::vector<std::pair<const CameraCalibration*, Vector2>> seen;
       for (std::size_t c = 0; c < truth.size(); ++c) {
-        const PanTiltAngles angles = simulation::AimAt(truth[c], p_W + Vector3(300, -200, 100));
+        const PanTiltAngles angles = AimAt(truth[c], p_W + Vector3(300, -200, 100));
         const Vector3 p_C = truth[c].PoseAt(angles) * p_W;
         posed[c].X_CW = found[c].PoseAt(angles);
         posed[c].head.reset();
