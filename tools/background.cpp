@@ -89,7 +89,9 @@ void AddBackgroundCommand(CLI::App& app) {
       ->check(CLI::Range(1.0, 600.0))
       ->capture_default_str()
       ->needs(config);
-  learn->add_flag("--anyway", options->anyway, "although somebody is tracked, who is nobody")
+  learn
+      ->add_flag("--anyway", options->anyway,
+                 "also while somebody is tracked, where a chair was taken for a person")
       ->excludes(config);
   CLI::App* status =
       background->add_subcommand("status", "How old it is, and in what light it holds");

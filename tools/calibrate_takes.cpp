@@ -80,7 +80,7 @@ void RunPanTilt(const PanTiltArguments& a) {
     camera.head.reset();
     const PanTiltAngles posed_at =
         a.posed_by.empty() ? PanTiltAngles{} : PosedAt(camera.name, posed_by);
-    const HeadFit fit = FitHead(camera, posed_at, board, views);
+    const PanTiltFit fit = FitHead(camera, posed_at, board, views);
     camera.head = fit.head;
     const std::string line = fmt::format(
         "{}: {} views, {:.3f} px; encoders' scale {:.4f} (pan) {:.4f} (tilt), zero {:.4f} {:.4f} "

@@ -36,34 +36,40 @@ const char* MarkOf(Verdict verdict) {
   return "";
 }
 
+/// Where nothing else is asked for, the daemon is the system's, if that is installed.
+bool IsOfSystem(const DoctorOptions& options) {
+  return options.config.empty() && std::filesystem::exists(kSystemConfig);
+}
+
 Config ConfigFor(const DoctorOptions& options) {
-  if (!options.config.empty()) return LoadConfig(options.config);
-  return std::filesystem::exists(kSystemConfig) ? LoadConfig(kSystemConfig) : Config();
+  if (IsOfSystem(options)) return LoadConfig(kSystemConfig);
+  return options.config.empty() ? Config() : LoadConfig(options.config);
 }
 
 /// The system's daemon has a folder of its own, whoever asks.
 std::filesystem::path TakesFor(const DoctorOptions& options, const RecordingConfig& recording) {
-  const bool is_system = options.config.empty() && std::filesystem::exists(kSystemConfig);
-  return is_system && recording.folder.empty() ? kSystemTakes : TakesFolder(recording);
+  return IsOfSystem(options) && recording.folder.empty() ? kSystemTakes : TakesFolder(recording);
 }
 
 void Doctor(const DoctorOptions& options) {
   const Config config = ConfigFor(options);
-  std::vector<Finding> findings = {
+  const Starter starter = IsOfSystem(options) ? Starter::kSystemd : Starter::kCaller;
+  std::vector<Diagnosis> diagnoses = {
       CheckMulticastRoute(),
       CheckMulticastEcho(config.lcm.url),
       CheckSocketBuffers(),
-      CheckLimits(config.service.realtime),
+      CheckLimits(config.service.realtime, starter),
       CheckClock(),
       CheckProcessor(),
       CheckDisk(TakesFor(options, config.service.recording), kUsualRecording)};
-  std::ranges::move(CheckDevices(config), std::back_inserter(findings));
-  findings.push_back(CheckControl(options.socket));
-  for (const Finding& finding : findings) {
-    std::printf("%s  %s\n", MarkOf(finding.verdict), finding.what.c_str());
-    if (!finding.fix.empty()) std::printf("        -> %s\n", finding.fix.c_str());
+  std::ranges::move(CheckDevices(config), std::back_inserter(diagnoses));
+  diagnoses.push_back(
+      CheckControl(options.socket.empty() ? config.service.control.socket : options.socket));
+  for (const Diagnosis& diagnosis : diagnoses) {
+    std::printf("%s  %s\n", MarkOf(diagnosis.verdict), diagnosis.what.c_str());
+    if (!diagnosis.fix.empty()) std::printf("        -> %s\n", diagnosis.fix.c_str());
   }
-  const auto bad = std::ranges::count(findings, Verdict::kBad, &Finding::verdict);
+  const auto bad = std::ranges::count(diagnoses, Verdict::kBad, &Diagnosis::verdict);
   if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be mended");
 }
 

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <sys/timex.h>
+#include <systemd/sd-bus.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,6 +19,7 @@
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/recording/disk_space.h"
+#include "daemon/service/complaints.h"
 #include "drivers/clock.h"
 
 namespace mocap {
@@ -25,7 +27,7 @@ namespace {
 
 constexpr std::int64_t kLeastSocketBuffer = 2 * 1024 * 1024;
 constexpr std::int64_t kLeastUsbMegabytes = 1000;
-constexpr double kLeastHours = 1;
+constexpr double kLeastRecording_s = 3600;
 constexpr std::size_t kTrialBytes = 64 << 20;
 constexpr const char* kEchoChannel = "MOCAP_DOCTOR";
 constexpr int kEchoTimeoutMs = 1000;
@@ -42,6 +44,26 @@ std::optional<std::int64_t> NumberIn(const std::filesystem::path& file) {
   std::int64_t value = 0;
   if (!(in >> value)) return {};
   return value;
+}
+
+/// A limit that the unit sets, in sd-bus' words; empty where systemd does not run.
+std::optional<std::uint64_t> UnitLimit(const char* name) {
+  sd_bus* opened = nullptr;
+  if (sd_bus_open_system(&opened) < 0) return {};
+  const std::unique_ptr<sd_bus, decltype(&sd_bus_unref)> bus(opened, &sd_bus_unref);
+  std::uint64_t limit = 0;
+  const bool is_told =
+      sd_bus_get_property_trivial(
+          bus.get(), "org.freedesktop.systemd1", "/org/freedesktop/systemd1/unit/mocapd_2eservice",
+          "org.freedesktop.systemd1.Service", name, nullptr, 't', &limit) >= 0;
+  return is_told ? std::optional(limit) : std::nullopt;
+}
+
+/// The limit of whoever asks.
+std::uint64_t OwnLimit(__rlimit_resource resource) {
+  rlimit limit{};
+  getrlimit(resource, &limit);
+  return geteuid() == 0 ? RLIM_INFINITY : limit.rlim_cur;
 }
 
 /// Writes and syncs; megabytes a second, empty where nothing may be written.
@@ -61,7 +83,7 @@ std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
   return kTrialBytes / 1e6 / (static_cast<double>(SteadyNs() - begin_ns) / 1e9);
 }
 
-Finding CheckDevice(const std::string& name, const std::filesystem::path& device) {
+Diagnosis CheckDevice(const std::string& name, const std::filesystem::path& device) {
   if (!std::filesystem::exists(device)) {
     return {Verdict::kBad, fmt::format("{}: {} is not there", name, device.string()),
             "plug the camera in; ls /dev/v4l/by-id tells what is there"};
@@ -75,13 +97,13 @@ Finding CheckDevice(const std::string& name, const std::filesystem::path& device
 
 }  // namespace
 
-Finding CheckMulticastRoute() {
+Diagnosis CheckMulticastRoute() {
   if (HasMulticastRoute()) return {Verdict::kGood, "there is a multicast route for poses", ""};
   return {Verdict::kBad, "there is no multicast route, so poses go nowhere",
           "as root: ip link set lo up && ip route add 224.0.0.0/4 dev lo"};
 }
 
-Finding CheckMulticastEcho(const std::string& url) {
+Diagnosis CheckMulticastEcho(const std::string& url) {
   try {
     const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
     const std::unique_ptr<lcm::LCM> receiver = OpenLcm(url);
@@ -98,10 +120,10 @@ Finding CheckMulticastEcho(const std::string& url) {
     return {Verdict::kBad, error.what(), "see the line above"};
   }
   return {Verdict::kBad, "messages on " + url + " do not arrive",
-          "look at the firewall: UDP to 239.255.76.67 port 7667 has to pass"};
+          "look at the firewall: UDP to that address has to pass"};
 }
 
-Finding CheckSocketBuffers() {
+Diagnosis CheckSocketBuffers() {
   const std::int64_t most = NumberIn("/proc/sys/net/core/rmem_max").value_or(0);
   const std::string what = fmt::format("sockets may buffer {} kB", most / 1024);
   if (most >= kLeastSocketBuffer) return {Verdict::kGood, what, ""};
@@ -111,24 +133,26 @@ Finding CheckSocketBuffers() {
                       kLeastSocketBuffer)};
 }
 
-Finding CheckLimits(const RealtimeConfig& config) {
-  rlimit priority{}, locked{};
-  getrlimit(RLIMIT_RTPRIO, &priority);
-  getrlimit(RLIMIT_MEMLOCK, &locked);
-  const bool may_go_first =
-      geteuid() == 0 || priority.rlim_cur >= static_cast<rlim_t>(config.priority);
-  const bool may_lock = geteuid() == 0 || !config.lock_memory || locked.rlim_cur == RLIM_INFINITY;
+Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter) {
+  const bool by_systemd = starter == Starter::kSystemd;
+  const auto unit_or = [by_systemd](const char* name, std::uint64_t own) {
+    return by_systemd ? UnitLimit(name).value_or(own) : own;
+  };
+  const std::uint64_t priority = unit_or("LimitRTPRIO", OwnLimit(RLIMIT_RTPRIO));
+  const std::uint64_t locked = unit_or("LimitMEMLOCK", OwnLimit(RLIMIT_MEMLOCK));
+  const bool may_go_first = priority >= static_cast<std::uint64_t>(config.priority);
+  const bool may_lock = !config.lock_memory || locked == RLIM_INFINITY;
   if (may_go_first && may_lock) {
     return {Verdict::kGood, "limits allow the priority and locked memory that are configured", ""};
   }
-  return {
-      Verdict::kBad, "limits do not allow what [realtime] asks for",
-      fmt::format("in the unit LimitRTPRIO={} and LimitMEMLOCK=infinity, or rtprio and memlock in "
-                  "/etc/security/limits.conf",
-                  config.priority)};
+  const std::string fix =
+      by_systemd
+          ? "systemctl edit mocapd: [Service] LimitRTPRIO=49 LimitMEMLOCK=infinity"
+          : "rtprio 49 and memlock unlimited in /etc/security/limits.conf, then log in again";
+  return {Verdict::kBad, "limits do not allow what [realtime] asks for", fix};
 }
 
-Finding CheckClock() {
+Diagnosis CheckClock() {
   timex state{};
   if (adjtimex(&state) != TIME_ERROR && (state.status & STA_UNSYNC) == 0) {
     return {Verdict::kGood,
@@ -141,7 +165,7 @@ Finding CheckClock() {
           "as root: apt install chrony, or timedatectl set-ntp true"};
 }
 
-Finding CheckProcessor() {
+Diagnosis CheckProcessor() {
   const std::optional<std::string> governor =
       FirstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   if (!governor || *governor == "performance") {
@@ -153,7 +177,7 @@ Finding CheckProcessor() {
           "as root: cpupower frequency-set -g performance"};
 }
 
-Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second) {
+Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second) {
   const std::filesystem::path place = NearestFolder(folder);
   struct statvfs space {};
   if (statvfs(place.c_str(), &space) != 0) {
@@ -161,9 +185,10 @@ Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second) 
   }
   const double free_bytes =
       static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
-  const double hours = free_bytes / bytes_per_second / 3600;
-  std::string what = fmt::format("{}: {:.1f} GB free, {:.1f} h of recording", folder.string(),
-                                 free_bytes / 1e9, hours);
+  const double recording_s = free_bytes / bytes_per_second;
+  std::string what =
+      fmt::format("{}: {:.1f} GB free, {} of six cameras' recording", folder.string(),
+                  free_bytes / 1e9, Duration(static_cast<std::int64_t>(recording_s * 1e9)));
   const std::optional<double> speed = DiskSpeed(place);
   if (speed) what += fmt::format(", {:.0f} MB/s", *speed);
   if (speed && *speed * 1e6 < 1.5 * bytes_per_second) {
@@ -172,30 +197,31 @@ Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second) 
                         "that writes less",
                         1.5 * bytes_per_second / 1e6)};
   }
-  if (hours < kLeastHours) return {Verdict::kAdvice, what, "make room, or choose another folder"};
+  if (recording_s < kLeastRecording_s)
+    return {Verdict::kAdvice, what, "make room, or choose another folder"};
   return {Verdict::kGood, what, ""};
 }
 
-std::vector<Finding> CheckDevices(const Config& config) {
-  std::vector<Finding> findings;
+std::vector<Diagnosis> CheckDevices(const Config& config) {
+  std::vector<Diagnosis> diagnoses;
   if (config.source.driver == "v4l2") {
     for (const CameraConfig& camera : config.cameras) {
       // A bus or a serial number is looked up by `mocap cameras --check`.
       if (!camera.device.starts_with('/')) continue;
-      findings.push_back(CheckDevice(camera.name, camera.device));
+      diagnoses.push_back(CheckDevice(camera.name, camera.device));
     }
   }
   const auto usb_mb = NumberIn("/sys/module/usbcore/parameters/usbfs_memory_mb");
   if (config.source.driver == "aravis" && usb_mb && *usb_mb > 0 && *usb_mb < kLeastUsbMegabytes) {
-    findings.push_back({Verdict::kAdvice, fmt::format("USB cameras may buffer {} MB", *usb_mb),
-                        fmt::format("as root: echo {} > "
-                                    "/sys/module/usbcore/parameters/usbfs_memory_mb",
-                                    kLeastUsbMegabytes)});
+    diagnoses.push_back({Verdict::kAdvice, fmt::format("USB cameras may buffer {} MB", *usb_mb),
+                         fmt::format("as root: echo {} > "
+                                     "/sys/module/usbcore/parameters/usbfs_memory_mb",
+                                     kLeastUsbMegabytes)});
   }
-  return findings;
+  return diagnoses;
 }
 
-Finding CheckControl(const std::filesystem::path& socket) {
+Diagnosis CheckControl(const std::filesystem::path& socket) {
   try {
     AskDaemon(socket, "status");
     return {Verdict::kGood, "mocapd runs and answers", ""};

@@ -16,24 +16,27 @@ enum class Verdict {
 };
 
 /// One thing that was looked at.
-struct Finding {
+struct Diagnosis {
   Verdict verdict = Verdict::kGood;
   std::string what;  ///< What was found.
   std::string fix;   ///< What to type or change; empty when it is good.
 };
 
-Finding CheckMulticastRoute();
+/// Whose limits hold for the daemon.
+enum class Starter { kSystemd, kCaller };
+
+Diagnosis CheckMulticastRoute();
 /// Sends a message to itself by the configured address.
-Finding CheckMulticastEcho(const std::string& url);
-Finding CheckSocketBuffers();
-Finding CheckLimits(const RealtimeConfig& config);
-Finding CheckClock();
-Finding CheckProcessor();
+Diagnosis CheckMulticastEcho(const std::string& url);
+Diagnosis CheckSocketBuffers();
+Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter);
+Diagnosis CheckClock();
+Diagnosis CheckProcessor();
 /// Looks at space, and how fast the disk takes 64 MB where that is allowed.
 /// @param bytes_per_second  what a recording needs.
-Finding CheckDisk(const std::filesystem::path& folder, double bytes_per_second);
-/// One finding for each device of a live studio, and what its bus needs.
-std::vector<Finding> CheckDevices(const Config& config);
-Finding CheckControl(const std::filesystem::path& socket);
+Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second);
+/// One diagnosis for each device of a live studio, and what its bus needs.
+std::vector<Diagnosis> CheckDevices(const Config& config);
+Diagnosis CheckControl(const std::filesystem::path& socket);
 
 }  // namespace mocap

@@ -253,7 +253,7 @@ void ServeStudio(const StudioOptions& options) {
 void AddGigeStudioCommand(CLI::App& app) {
   const auto options = std::make_shared<StudioOptions>();
   CLI::App* command = app.add_subcommand(
-      "gige-studio", "Serve a take or the simulated studio as GigE Vision cameras of this host");
+      "gige-studio", "Serves a take or the simulated studio as GigE Vision cameras of this host");
   command->add_option("take", options->take,
                       "Take to serve, over and over; without, the simulated studio");
   command->add_option("--motion", options->simulation.motion, "What the simulated person does")
@@ -265,7 +265,8 @@ void AddGigeStudioCommand(CLI::App& app) {
   command
       ->add_option("--address", options->first_ip, "Address of the first camera; the others follow")
       ->capture_default_str();
-  command->add_option("--config", options->config, "Write a configuration for mocapd to this file");
+  command->add_option("--config", options->config,
+                      "Writes a configuration for mocapd to this file");
   command->add_flag("--ptp", options->has_ptp, "Cameras whose clocks follow PTP, in TAI");
   command
       ->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")

@@ -145,7 +145,7 @@ void AddSimulateCommand(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   options->studio.seconds = 4;
   CLI::App* command =
-      app.add_subcommand("simulate", "Write a take of a simulated studio, with truth");
+      app.add_subcommand("simulate", "Writes a take of a simulated studio, with truth");
   std::string motions;
   for (const std::string_view name : simulation::kMotionNames)
     motions += (motions.empty() ? "" : ", ") + std::string(name);

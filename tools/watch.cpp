@@ -170,6 +170,7 @@ void AppendCameras(const Hearing& hearing, std::string& page) {
 }
 
 void AppendService(const service_t& service, std::string& page) {
+  if (service.complaint.empty()) page += "all is good\n";
   for (const std::string& complaint : service.complaint) page += "! " + complaint + '\n';
   if (service.recording_state != service_t::RUNNING) return;
   page += fmt::format("recording {}, {:.0f} s, {} frames, {} dropped, {:.1f} GB free\n",

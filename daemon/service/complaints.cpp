@@ -60,7 +60,8 @@ double FpsOf(const ServiceReport& report, std::size_t camera) {
 }
 
 void ComplainOfSets(const ServiceReport& report, List& list) {
-  if (report.now.sets_per_second > 0) return;
+  // Sets that are left out have come about; ComplainOfTime tells of them.
+  if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
   const auto& rates = report.now.frames_per_second;
   const auto delivering = std::ranges::count_if(rates, [](double rate) { return rate > 0; });
   if (delivering == 0) return;

@@ -27,19 +27,42 @@ struct Include {
   bool in_quotes;
 };
 
+std::vector<fs::path> SourcesUnder(const std::string& folder,
+                                   const std::set<std::string>& extensions) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(MOCAP_SOURCE_DIR) / folder)) {
+    if (extensions.contains(entry.path().extension())) files.push_back(entry.path());
+  }
+  return files;
+}
+
 std::vector<Include> IncludesUnder(const std::string& folder) {
   static const std::regex kInclude(R"(^\s*#include\s*([<"])([^>"]+)[>"])");
   std::vector<Include> includes;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(MOCAP_SOURCE_DIR) / folder)) {
-    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-    std::ifstream in(entry.path());
+  for (const fs::path& file : SourcesUnder(folder, {".h", ".cpp"})) {
+    std::ifstream in(file);
     std::smatch match;
     for (std::string line; std::getline(in, line);) {
       if (std::regex_search(line, match, kInclude))
-        includes.push_back({entry.path(), match[2], match[1] == "\""});
+        includes.push_back({file, match[2], match[1] == "\""});
     }
   }
   return includes;
+}
+
+/// With their namespaces.
+std::vector<std::string> TypesDefinedIn(const fs::path& header) {
+  static const std::regex kNamespace(R"(^namespace ([\w:]+) \{)");
+  static const std::regex kType(R"(^(?:struct|class|enum class) (\w+)(?: final)?(?: :.*)? \{)");
+  std::ifstream in(header);
+  std::vector<std::string> types;
+  std::string scope;
+  std::smatch match;
+  for (std::string line; std::getline(in, line);) {
+    if (std::regex_search(line, match, kNamespace)) scope = match[1];
+    if (std::regex_search(line, match, kType)) types.push_back(scope + "::" + match[1].str());
+  }
+  return types;
 }
 
 TEST(SourceLayout, FoldersIncludeOnlyThroughTheirDoors) {
@@ -64,6 +87,20 @@ TEST(SourceLayout, CoreKnowsEigenAndTheLanguageButNoThreadsClocksFilesOrLogs) {
     const bool is_of_the_language = include.header.find('/') == std::string::npos;
     EXPECT_TRUE(is_of_the_language || include.header.starts_with("Eigen/")) << include.file;
   }
+}
+
+// Where two do, the linker keeps the destructor of one for the objects of both, and says nothing.
+TEST(SourceLayout, NoTwoHeadersDefineATypeOfTheSameName) {
+  std::map<std::string, fs::path> defined;
+  for (const auto& [folder, doors] : kDoors) {
+    for (const fs::path& header : SourcesUnder(folder, {".h"})) {
+      for (const std::string& type : TypesDefinedIn(header)) {
+        const auto [first, is_new] = defined.emplace(type, header);
+        EXPECT_TRUE(is_new) << type << " is in " << first->second << " and in " << header;
+      }
+    }
+  }
+  EXPECT_TRUE(defined.contains("mocap::Frame"));
 }
 
 }  // namespace

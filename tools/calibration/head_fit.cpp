@@ -22,7 +22,7 @@ constexpr double kStanding_rad = 0.002;
 constexpr int kHeadParameters = 10;
 
 struct Model {
-  HeadFit fit;
+  PanTiltFit fit;
   std::vector<RigidTransform> X_WB;  ///< One a place.
 };
 
@@ -53,7 +53,8 @@ Model Moved(const Model& model, const Eigen::VectorXd& x) {
   return moved;
 }
 
-RigidTransform PoseAt(CameraCalibration camera, const HeadFit& fit, const PanTiltAngles& readings) {
+RigidTransform PoseAt(CameraCalibration camera, const PanTiltFit& fit,
+                      const PanTiltAngles& readings) {
   camera.head = fit.head;
   return camera.PoseAt(readings);
 }
@@ -114,7 +115,7 @@ std::vector<BoardSighting> NumberPlaces(std::span<const BoardSighting> sightings
 // Boards where the views that are turned least put them.
 std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const Board& board,
                                         const std::vector<BoardSighting>& views, int places,
-                                        const HeadFit& fit) {
+                                        const PanTiltFit& fit) {
   std::vector<RigidTransform> X_WB(static_cast<std::size_t>(places));
   std::vector<double> nearest(X_WB.size(), HUGE_VAL);
   for (const BoardSighting& view : views) {
@@ -166,8 +167,8 @@ PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltA
   return readings[0];
 }
 
-HeadFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
-                std::span<const BoardSighting> sightings) {
+PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at,
+                   const Board& board, std::span<const BoardSighting> sightings) {
   int places = 0;
   const std::vector<BoardSighting> views = NumberPlaces(sightings, places);
   RefuseTooLittleTurning(camera.name, views);

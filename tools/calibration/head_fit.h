@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-struct HeadFit {
+struct PanTiltFit {
   PanTiltHead head;
   double rms_px = 0;
   int views = 0;
@@ -22,8 +22,8 @@ struct HeadFit {
 /// is.
 /// @throws SetupError  naming the camera: too few views, too little turning, or views that no head
 /// explains.
-HeadFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
-                std::span<const BoardSighting> sightings);
+PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at,
+                   const Board& board, std::span<const BoardSighting> sightings);
 
 /// Gives what a camera's encoders read while it was posed.
 /// @throws SetupError  when the head turned meanwhile.

@@ -67,6 +67,13 @@ TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
   EXPECT_THAT(Complaints(report), IsEmpty()) << "nothing was counted yet";
 }
 
+TEST(ServiceReport, DoesNotBlameCamerasForSetsThatTheProcessorLeftOut) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.sets_dropped_lately = 3;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("3 frame sets were left out lately")));
+}
+
 TEST(ServiceReport, NamesSetsLeftOutAndCamerasOutOfStep) {
   ServiceReport report = Good();
   report.now.sets_dropped_lately = 3;

@@ -72,7 +72,8 @@ TEST(HeadFitTest, PlacesPointsWithinFourMillimetresAtAnyAngle) {
     const std::vector<CameraCalibration> truth = Rig(seed);
     std::vector<CameraCalibration> found;
     for (const CameraCalibration& camera : truth) {
-      const HeadFit fit = FitHead(WithoutHead(camera), {}, HeadWalk{}.board, LookAbout(camera, {}));
+      const PanTiltFit fit =
+          FitHead(WithoutHead(camera), {}, HeadWalk{}.board, LookAbout(camera, {}));
       EXPECT_NEAR(fit.rms_px, 0.15 * std::sqrt(2.0), 0.03);
       EXPECT_NEAR(fit.head.pan_scale, 1, 0.002);
       found.push_back(camera);
@@ -104,7 +105,7 @@ TEST(HeadFitTest, PosesAreRightWhateverTheEncodersCount) {
   walk.tilt_scale = 0.98;
   walk.zero = {0.4, -0.15};
   const CameraCalibration truth = Rig(4)[2];
-  const HeadFit fit = FitHead(WithoutHead(truth), walk.zero, walk.board, LookAbout(truth, walk));
+  const PanTiltFit fit = FitHead(WithoutHead(truth), walk.zero, walk.board, LookAbout(truth, walk));
   EXPECT_NEAR(fit.head.pan_scale, 1.03, 0.002);
   EXPECT_NEAR(fit.head.tilt_scale, 0.98, 0.003);
   CameraCalibration found = truth;
@@ -122,7 +123,7 @@ TEST(HeadFitTest, FindsHeadsThatTurnTheOtherWay) {
   HeadWalk walk;
   walk.pan_scale = walk.tilt_scale = -1;
   const CameraCalibration truth = Rig(5)[1];
-  const HeadFit fit = FitHead(WithoutHead(truth), {}, walk.board, LookAbout(truth, walk));
+  const PanTiltFit fit = FitHead(WithoutHead(truth), {}, walk.board, LookAbout(truth, walk));
   EXPECT_LT(fit.head.pan_axis_W.z(), -0.9);
   EXPECT_NEAR(fit.head.pan_scale, 1, 0.002);
 }

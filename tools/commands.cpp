@@ -1,0 +1,33 @@
+#include "tools/commands.h"
+
+#include "tools/background.h"
+#include "tools/benchmark.h"
+#include "tools/calibrate.h"
+#include "tools/cameras.h"
+#include "tools/control.h"
+#include "tools/doctor.h"
+#include "tools/evaluate.h"
+#include "tools/export.h"
+#include "tools/gige_studio.h"
+#include "tools/simulate.h"
+#include "tools/track.h"
+#include "tools/watch.h"
+
+namespace mocap {
+
+void AddCommands(CLI::App& app) {
+  AddSimulateCommand(app);
+  AddTrackCommand(app);
+  AddEvaluateCommand(app);
+  AddExportCommand(app);
+  AddBenchmarkCommand(app);
+  AddCalibrateCommand(app);
+  AddBackgroundCommand(app);
+  AddCamerasCommand(app);
+  AddGigeStudioCommand(app);
+  AddControlCommands(app);
+  AddWatchCommand(app);
+  AddDoctorCommand(app);
+}
+
+}  // namespace mocap
