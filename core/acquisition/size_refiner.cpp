@@ -12,17 +12,18 @@ struct RefinedSize {
   double std_share;  // How far it may be from what was acquired.
 };
 
-// Limbs differ among people of a stature by some five percent (ANSUR, Gordon et al. 1989), trunks
-// by less. Lengths move joints, which contours show only together with the pose; widths they show
-// as such.
+// Legs differ among people of a stature by some five percent (ANSUR, Gordon et al. 1989). Arms are
+// held closer, because shoulders lie within flesh and contours show little of where an arm begins;
+// so is the trunk. Lengths move joints, which contours show only together with the pose; widths
+// they show as such.
 constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::torso_width, 0.10},
                                                    {&BodySizes::torso_depth, 0.10},
                                                    {&BodySizes::head, 0.05},
                                                    {&BodySizes::head_width, 0.10},
                                                    {&BodySizes::neck, 0.02},
-                                                   {&BodySizes::upper_arm, 0.05},
-                                                   {&BodySizes::lower_arm, 0.05},
+                                                   {&BodySizes::upper_arm, 0.02},
+                                                   {&BodySizes::lower_arm, 0.03},
                                                    {&BodySizes::thigh, 0.05},
                                                    {&BodySizes::calf, 0.05},
                                                    {&BodySizes::upper_arm_width, 0.15},
