@@ -97,35 +97,39 @@ void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double 
 
 void PoseFilter::Jump(const PoseState& pose) { Reset(pose, 30, 0.3); }
 
-void PoseFilter::ForgetVelocity() {
-  const int n = pose_.dof();
-  velocity_.setZero(n);
-  P_vx_.setZero(n, n);
-  P_vv_.setZero(n, n);
-  if (!noise_.constant_velocity) return;
-  P_vv_.diagonal().head<3>().setConstant(1000.0 * 1000.0);
-  P_vv_.diagonal().tail(n - 3).setConstant(4.0 * 4.0);
-}
-
-void PoseFilter::Predict(double dt_s) {
+PoseStep PoseFilter::NoiseDensity() const {
   const int n = pose_.dof();
   PoseStep density(n);
   density.head<3>().setConstant(noise_.translation_mm * noise_.translation_mm);
   density.segment<3>(3).setConstant(noise_.rotation_rad * noise_.rotation_rad);
   density.tail(n - kTorsoDof).setConstant(noise_.joint_rad * noise_.joint_rad);
+  return density;
+}
 
-  if (noise_.constant_velocity) {
-    const double decay = std::exp(-dt_s / noise_.velocity_decay_s);
-    const double reach_s = noise_.velocity_decay_s * (1 - decay);
-    pose_.Add(velocity_ * reach_s);
-    velocity_ *= decay;
-    P_ += reach_s * (P_vx_ + P_vx_.transpose()) + reach_s * reach_s * P_vv_;
-    P_vx_ = decay * (P_vx_ + reach_s * P_vv_);
-    P_vv_ *= decay * decay;
-    P_vx_.diagonal() += density * (dt_s * dt_s / 2);
-    P_vv_.diagonal() += density * dt_s;
-  }
-  P_.diagonal() += density * (dt_s * dt_s * dt_s / 3);
+PoseStep PoseFilter::VelocityVariance() const {
+  return NoiseDensity() * (noise_.velocity_decay_s / 2);
+}
+
+void PoseFilter::ForgetVelocity() {
+  const int n = pose_.dof();
+  velocity_.setZero(n);
+  P_vx_.setZero(n, n);
+  P_vv_ = VelocityVariance().asDiagonal();
+}
+
+void PoseFilter::Predict(double dt_s) {
+  const double tau_s = noise_.velocity_decay_s;
+  const double decay = std::exp(-dt_s / tau_s);
+  const double reach_s = tau_s * (1 - decay);
+  pose_.Add(velocity_ * reach_s);
+  velocity_ *= decay;
+  P_ += reach_s * (P_vx_ + P_vx_.transpose()) + reach_s * reach_s * P_vv_;
+  P_vx_ = decay * (P_vx_ + reach_s * P_vv_);
+  P_vv_ *= decay * decay;
+  const PoseStep density = NoiseDensity();
+  P_.diagonal() += density * (tau_s * tau_s * (dt_s - reach_s) - tau_s * reach_s * reach_s / 2);
+  P_vx_.diagonal() += density * (reach_s * reach_s / 2);
+  P_vv_.diagonal() += density * (tau_s * (1 - decay * decay) / 2);
 }
 
 void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int iterations) {
@@ -146,14 +150,12 @@ void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int 
     }
   }
   const PoseCovariance posterior = InverseOfPositive(information);
-  if (noise_.constant_velocity) {
-    // The velocity was not measured; it follows the pose as far as the two were correlated.
-    const PoseCovariance gain = P_vx_ * prior_information;
-    velocity_ += gain * pose_.Minus(prior);
-    P_vv_ -= gain * (P_ - posterior) * gain.transpose();
-    P_vv_ = PoseCovariance(0.5 * (P_vv_ + P_vv_.transpose()));
-    P_vx_ = gain * posterior;
-  }
+  // The velocity was not measured; it follows the pose as far as the two were correlated.
+  const PoseCovariance gain = P_vx_ * prior_information;
+  velocity_ += gain * pose_.Minus(prior);
+  P_vv_ -= gain * (P_ - posterior) * gain.transpose();
+  P_vv_ = PoseCovariance(0.5 * (P_vv_ + P_vv_.transpose()));
+  P_vx_ = gain * posterior;
   P_ = posterior;
 }
 

@@ -45,9 +45,9 @@ class UpdateEquations {
   PoseStep gradient_;
 };
 
-/// How fast a body's pose may change between frames: white noise of acceleration.
+/// How fast a body's pose may change: white noise of acceleration drives velocities that die out
+/// (Ornstein and Uhlenbeck 1930), whatever the time between frames.
 struct MotionNoise {
-  bool constant_velocity = true;   ///< False: F is the identity, as in the paper.
   double velocity_decay_s = 0.25;  ///< Without news a motion dies out in this time.
   double translation_mm = 3000;    ///< [mm/s²/√Hz]
   double rotation_rad = 10;        ///< [rad/s²/√Hz]
@@ -84,6 +84,8 @@ class PoseFilter {
   void Jump(const PoseState& pose);
 
  private:
+  PoseStep NoiseDensity() const;
+  PoseStep VelocityVariance() const;  // Of who is seen for the first time.
   void ForgetVelocity();
 
   MotionNoise noise_;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
 
 #include "config/load_config.h"
 
@@ -24,7 +27,26 @@ class Filter : public testing::Test {
 
   // Measures all 23 points of a true pose.
   PoseFilter::Linearize PointsOf(const PoseState& truth, double std_mm) const {
-    const BodyPoints measured_W = body_.PointsAt(body_.PostureAt(truth));
+    return Measuring(body_.PointsAt(body_.PostureAt(truth)), std_mm);
+  }
+  // νᵀS⁻¹ν of points that are measured with this error.
+  double SquaredInnovation(const PoseFilter& filter, const BodyPoints& measured_W,
+                           double std_mm) const {
+    const Posture posture = body_.PostureAt(filter.pose());
+    const BodyPoints points_W = body_.PointsAt(posture);
+    Eigen::MatrixXd J(3 * kPointCount, body_.dof());
+    for (int i = 0; i < kPointCount; ++i) {
+      Eigen::Matrix<double, 3, Eigen::Dynamic> J_point(3, body_.dof());
+      body_.PointJacobian(posture, body_.CarrierOf(static_cast<Point>(i)), points_W.col(i),
+                          J_point);
+      J.middleRows<3>(3 * i) = J_point;
+    }
+    Eigen::MatrixXd S = J * filter.covariance() * J.transpose();
+    S.diagonal().array() += std_mm * std_mm;
+    const Eigen::VectorXd innovation = (measured_W - points_W).reshaped();
+    return innovation.dot(S.llt().solve(innovation));
+  }
+  PoseFilter::Linearize Measuring(const BodyPoints& measured_W, double std_mm) const {
     return [this, measured_W, std_mm](const PoseState& pose, UpdateEquations& equations) {
       const Posture posture = body_.PostureAt(pose);
       const BodyPoints points_W = body_.PointsAt(posture);
@@ -65,6 +87,60 @@ TEST_F(Filter, FollowsAConstantMotionWithoutLag) {
   const double predicted = filter.pose().X_WT.p.x() - truth.X_WT.p.x();
   EXPECT_GT(predicted, 0.8 * kSpeed * kFrameS);
   EXPECT_LT(predicted, 1.1 * kSpeed * kFrameS);
+}
+
+TEST_F(Filter, PredictsInTwoStepsWhatItPredictsInOne) {
+  PoseState truth = Upright();
+  PoseFilter once{MotionNoise{}};
+  once.Reset(truth, 50, 0.3);
+  for (int frame = 0; frame < 5; ++frame) {
+    truth.X_WT.p.x() += 30;
+    once.Predict(1.0 / 30);
+    once.Update(body_.table(), PointsOf(truth, 10), 3);
+  }
+  PoseFilter twice = once;
+  once.Predict(0.1);
+  twice.Predict(0.03);
+  twice.Predict(0.07);
+  EXPECT_LT((once.covariance() - twice.covariance()).norm(), 1e-9 * once.covariance().norm());
+  EXPECT_LT(once.pose().Minus(twice.pose()).norm(), 1e-6);
+}
+
+// Bar-Shalom, Li and Kirubarajan 2001, §5.4: the squares of a filter's innovations, normalized by
+// their covariance, add up to a chi-square variable.
+TEST_F(Filter, ForeseesHowFarMeasurementsWillBeOff) {
+  constexpr double kFrameS = 1.0 / 30;
+  constexpr double kStdMm = 15;
+  constexpr int kFrames = 60;
+  const MotionNoise noise{.translation_mm = 1500, .rotation_rad = 2, .joint_rad = 2};
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  PoseState truth = Upright();
+  PoseStep velocity = PoseStep::Zero(body_.dof());
+  PoseFilter filter(noise);
+  filter.Reset(truth, 20, 0.1);
+  const double decay = std::exp(-kFrameS / noise.velocity_decay_s);
+  double sum = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    constexpr int kSubsteps = 20;
+    for (int i = 0; i < kSubsteps; ++i) {
+      for (int row = 0; row < body_.dof(); ++row) {
+        const double density = row < 3           ? noise.translation_mm
+                               : row < kTorsoDof ? noise.rotation_rad
+                                                 : noise.joint_rad;
+        velocity[row] += density * std::sqrt(kFrameS / kSubsteps) * normal(random);
+      }
+      velocity *= std::pow(decay, 1.0 / kSubsteps);
+      truth.Add(velocity * (kFrameS / kSubsteps));
+    }
+    filter.Predict(kFrameS);
+    BodyPoints measured_W = body_.PointsAt(body_.PostureAt(truth));
+    for (double& coordinate : measured_W.reshaped()) coordinate += kStdMm * normal(random);
+    sum += SquaredInnovation(filter, measured_W, kStdMm);
+    filter.Update(body_.table(), Measuring(measured_W, kStdMm), 3);
+  }
+  constexpr double kFreedom = 3.0 * kPointCount * kFrames;
+  EXPECT_NEAR(sum, kFreedom, 3.3 * std::sqrt(2 * kFreedom));  // 99.9 %
 }
 
 TEST_F(Filter, KeepsItsCovarianceSymmetricAndPositiveOverHours) {
