@@ -128,7 +128,10 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
 
 void RunBenchmark(const BenchmarkOptions& options) {
   // Before the work, to find out at once whether its result can be kept.
-  if (!options.out.empty()) RequireWritable(options.out / "accuracy.md");
+  if (!options.out.empty()) {
+    MakeFolder(options.out);
+    RequireWritable(options.out / "accuracy.md");
+  }
   AccuracyBenchmark benchmark{.seconds = options.seconds, .grid = {}, .sweeps = {}};
   Print(AccuracyHeader());
   if (Wants(options, "grid")) {
@@ -165,8 +168,7 @@ void AddBenchmarkCommand(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::IsMember(options->parts))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder for accuracy.md and accuracy.svg")
-      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", options->out, "folder for accuracy.md and accuracy.svg");
   command->callback([options] { RunBenchmark(*options); });
 }
 

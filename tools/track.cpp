@@ -17,6 +17,7 @@
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/clock.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "tools/results/result_sink.h"
 
 namespace mocap {
@@ -46,15 +47,6 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
   }
   json.Add("frames_per_second", static_cast<double>(sink.frames()) / seconds, 2);
   return json.Text();
-}
-
-/// Finds out before the work whether its result can be kept.
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw SetupError("--out: " + folder.string() + " is no folder and cannot be made one");
-  }
 }
 
 void Track(const TrackOptions& options) {

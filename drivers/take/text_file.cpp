@@ -120,4 +120,12 @@ void RequireWritable(const std::filesystem::path& file) {
   if (!is_special) unlink(tried.c_str());
 }
 
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw SetupError(folder.string() + ": is no folder and cannot be made one; another is wanted");
+  }
+}
+
 }  // namespace mocap

@@ -18,4 +18,8 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text);
 /// @throws SetupError  naming the file and why it cannot be written.
 void RequireWritable(const std::filesystem::path& file);
 
+/// Makes a folder for results unless it is there, before the work.
+/// @throws SetupError  naming it.
+void MakeFolder(const std::filesystem::path& folder);
+
 }  // namespace mocap

@@ -65,6 +65,14 @@ TEST_F(TextFileTest, TryingLeavesAllAsItIs) {
   ReplaceText("/dev/null", "text");
 }
 
+TEST_F(TextFileTest, FoldersForResultsAreMadeUnlessSomethingElseIsThere) {
+  MakeFolder(folder_.path() / "new" / "results");
+  EXPECT_TRUE(std::filesystem::is_directory(folder_.path() / "new" / "results"));
+  MakeFolder(folder_.path());
+  WriteText(file_, "text");
+  EXPECT_THROW(MakeFolder(file_), SetupError);
+}
+
 TEST_F(TextFileTest, ErrorsSayWhyAndWhatIsWanted) {
   const std::filesystem::path nowhere = folder_.path() / "nowhere" / "a";
   const auto says = AllOf(StartsWith(nowhere.string() + ": cannot be written: No such file"),
