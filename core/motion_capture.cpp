@@ -16,7 +16,6 @@ namespace {
 // A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
-constexpr double kLostCostMm = 55;
 // A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
 // must be clearly better.
 constexpr double kDoubtCostMm = 28;
@@ -121,7 +120,7 @@ class MotionCapture::Impl {
   }
 
   void RefineSizes() {
-    if (tracker_->body().table().measurement != Measurement::kSurface) return;
+    if (!RefinesSizes()) return;
     if (given_ || refiner_->frames() >= kFramesToRefine) return;
     if (tracker_->quality().Cost() > kDoubtCostMm) return;
     refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
@@ -130,8 +129,15 @@ class MotionCapture::Impl {
     result_.body_changed = true;
   }
 
-  // Sizes that are still young may be what is wrong: then they are not taken for granted, nor is
-  // the way that the person faces.
+  bool RefinesSizes() const {
+    return tracker_->body().table().measurement == Measurement::kSurface;
+  }
+  // Sizes that are still young may be what is wrong.
+  bool SizesAreKnown() const {
+    return given_ || !RefinesSizes() || refiner_->frames() >= kFramesToRefine;
+  }
+
+  // Sizes that are not known yet are not taken for granted, nor is the way that the person faces.
   void LookAgainInDoubt() {
     const double cost_mm = tracker_->quality().Cost();
     if (cost_mm <= kDoubtCostMm) {
@@ -142,7 +148,7 @@ class MotionCapture::Impl {
     if (++doubtful_frames_ < patience_) return;
     doubtful_frames_ = 0;
     patience_ = std::min(2 * patience_, kLongestDoubt);
-    const bool sizes_are_known = given_ || refiner_->frames() >= kFramesToRefine;
+    const bool sizes_are_known = SizesAreKnown();
     if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
@@ -158,8 +164,11 @@ class MotionCapture::Impl {
   }
 
   void NoticeLoss() {
-    bad_frames_ = tracker_->quality().Cost() > kLostCostMm ? bad_frames_ + 1 : 0;
-    if (bad_frames_ >= kFramesToLose) result_.state = CaptureState::kLost;
+    const double worst_mm = WorstCostOf(tracker_->body().table().measurement);
+    bad_frames_ = tracker_->quality().Cost() > worst_mm ? bad_frames_ + 1 : 0;
+    if (bad_frames_ < kFramesToLose) return;
+    result_.state = CaptureState::kLost;
+    if (!SizesAreKnown()) ForgetPerson();
   }
 
   void Report() {

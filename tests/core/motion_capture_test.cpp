@@ -8,6 +8,7 @@
 
 #include "config/load_config.h"
 #include "core/body/stance.h"
+#include "tests/support/seen_body.h"
 #include "tests/support/voxelized_body.h"
 
 namespace mocap {
@@ -99,6 +100,18 @@ TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
     ASSERT_EQ(first.state, second.state);
     ASSERT_EQ(first.points_W, second.points_W);
     ASSERT_EQ(first.point_std_mm, second.point_std_mm);
+  }
+}
+
+TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
+  const BodyTable table = LoadBodyTable("full");
+  const BodyModel adult(table, AverageSizes(1900));
+  const RoundStudio studio;
+  MotionCapture capture(table);
+  capture.Expect(AverageSizes(1600));
+  for (int frame = 0; frame < 4; ++frame) {
+    const auto [hull, outlines] = studio.Carve(adult, Stroll(adult, frame));
+    EXPECT_NE(capture.Update(hull, outlines, frame * kFrameNs).state, CaptureState::kTracking);
   }
 }
 

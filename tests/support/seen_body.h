@@ -56,22 +56,31 @@ class RoundStudio {
     return silhouette;
   }
 
-  /// Outlines and hull of a person.
-  Evidence Show(const BodyModel& body, const PoseState& pose) const {
+  /// What tracking gets of a person.
+  struct CarvedBody {
+    VoxelGrid hull;
+    std::vector<Outline> outlines;
+  };
+
+  CarvedBody Carve(const BodyModel& body, const PoseState& pose) const {
     std::vector<Silhouette> silhouettes;
-    std::vector<Outline> outlines(cameras_.size());
+    CarvedBody carved{{}, std::vector<Outline>(cameras_.size())};
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       silhouettes.push_back(See(i, body, pose));
-      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], 100, outlines[i]);
+      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], 100, carved.outlines[i]);
     }
     std::vector<CarvingView> views;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       views.push_back({&tables_[i], &silhouettes[i], cameras_[i].X_CW});
     }
-    VoxelGrid grid;
-    Carver(CarvingOptions{}).Carve(views, grid);
+    Carver(CarvingOptions{}).Carve(views, carved.hull);
+    return carved;
+  }
+
+  Evidence Show(const BodyModel& body, const PoseState& pose) const {
+    const CarvedBody carved = Carve(body, pose);
     Evidence evidence;
-    evidence.Gather(grid, outlines);
+    evidence.Gather(carved.hull, carved.outlines);
     return evidence;
   }
 
