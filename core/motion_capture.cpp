@@ -16,6 +16,8 @@ namespace {
 // A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
+// More than a first fit may cost: who is followed already, and whose cameras err, is not given up.
+constexpr double kLostCostMm = 55;
 // A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
 // must be clearly better.
 constexpr double kDoubtCostMm = 28;
@@ -164,8 +166,7 @@ class MotionCapture::Impl {
   }
 
   void NoticeLoss() {
-    const double worst_mm = WorstCostOf(tracker_->body().table().measurement);
-    bad_frames_ = tracker_->quality().Cost() > worst_mm ? bad_frames_ + 1 : 0;
+    bad_frames_ = tracker_->quality().Cost() > kLostCostMm ? bad_frames_ + 1 : 0;
     if (bad_frames_ < kFramesToLose) return;
     result_.state = CaptureState::kLost;
     if (!SizesAreKnown()) ForgetPerson();

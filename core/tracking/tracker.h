@@ -12,12 +12,6 @@
 
 namespace mocap {
 
-/// A fit that costs more is of a wrong pose [mm]; see SurfaceFitQuality. Points hold a body to the
-/// voxels less closely than their surface does.
-constexpr double WorstCostOf(Measurement measurement) {
-  return measurement == Measurement::kSurface ? 40 : 55;
-}
-
 /// One body with its filter. Thread-bound.
 class Tracker {
  public:
