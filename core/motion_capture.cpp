@@ -26,6 +26,10 @@ constexpr int kFramesToLose = 3;
 // After a look that found nothing better twice as many frames pass before the next, up to this.
 constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
+// Who stands half inside of the room is looked for in vain: the longer, the longer the pauses.
+constexpr double kPauseShare = 0.25;
+constexpr double kShortestPauseS = 0.06;
+constexpr double kLongestPauseS = 0.2;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
 
@@ -38,7 +42,10 @@ class MotionCapture::Impl {
 
   const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer) {
-    const double dt_s = last_ns_ ? static_cast<double>(capture_ns - *last_ns_) * 1e-9 : 0;
+    // A clock may be put back.
+    const std::int64_t passed_ns =
+        last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
+    const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
     evidence_.Gather(grid, outlines);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
@@ -81,13 +88,14 @@ class MotionCapture::Impl {
     known_ = given_;
     refiner_.reset();
     acquirer_.StartOver();
+    LookAtOnce();
   }
 
   void SomebodyThere(double dt_s) {
     switch (result_.state) {
       case CaptureState::kSearching:
       case CaptureState::kLost:
-        Acquire();
+        Acquire(dt_s);
         break;
       case CaptureState::kAcquiring:
         ++frames_acquiring_;
@@ -103,11 +111,23 @@ class MotionCapture::Impl {
     }
   }
 
-  void Acquire() {
-    if (!acquirer_.Locate(evidence_, known_)) return;
+  void Acquire(double dt_s) {
+    looking_s_ += dt_s;
+    if (looking_s_ < next_look_s_) return;
+    if (!acquirer_.Locate(evidence_, known_)) {
+      next_look_s_ =
+          looking_s_ + std::clamp(kPauseShare * looking_s_, kShortestPauseS, kLongestPauseS);
+      return;
+    }
+    LookAtOnce();
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;
     TakeAcquired();
+  }
+
+  void LookAtOnce() {
+    looking_s_ = 0;
+    next_look_s_ = 0;
   }
 
   void TakeAcquired() {
@@ -201,6 +221,8 @@ class MotionCapture::Impl {
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;
+  double looking_s_ = 0;
+  double next_look_s_ = 0;
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;

@@ -22,7 +22,8 @@ constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
-constexpr int kRestFrames = 1;
+// After a search in vain about twice as many frames pass before the next, up to this.
+constexpr int kLongestRest = 7;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
@@ -209,24 +210,24 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, 
 
 bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                PoseState& pose) {
+  if (resting_ > 0) {
+    --resting_;
+    return false;
+  }
   bool changed = false;
   for (const Segment limb_end : kLimbEnds) {
     changed |= RecoverOne(body, evidence, limb_end, pose);
   }
-  if (resting_ > 0) {
-    --resting_;
-    return changed;
-  }
   if (IsExplained(body, pose)) return changed;
-  bool helped = false;
   for (const auto& [left, right] : kPairs) {
     const auto best = [&](LimbSearch& search, LimbSearch&) {
       return BestOf(search, body.table(), StancesOf(left), pose, kPairRefined);
     };
-    helped |= RecoverPair(body, evidence, left, right, fit, best, pose);
+    changed |= RecoverPair(body, evidence, left, right, fit, best, pose);
   }
-  if (!helped) resting_ = kRestFrames;
-  return changed || helped;
+  if (!changed) resting_ = patience_;
+  patience_ = changed ? 1 : std::min(2 * patience_ + 1, kLongestRest);
+  return changed;
 }
 
 bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
@@ -242,7 +243,11 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                const SurfaceFitQuality& quality) {
   const bool is_explained = quality.unexplained_share < kUnexplainedShare;
   const bool hands_meet = HandsMeet(body, pose);
-  if (is_explained && !hands_meet) return std::nullopt;
+  if (is_explained) {
+    resting_ = 0;
+    patience_ = 1;
+    if (!hands_meet) return std::nullopt;
+  }
   std::vector<Contact> contacts;
   ChooseContacts(evidence, kVoxels, kEdges, contacts);
   matcher_.SetContacts(contacts);

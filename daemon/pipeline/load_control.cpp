@@ -1,7 +1,5 @@
 #include "daemon/pipeline/load_control.h"
 
-#include <algorithm>
-
 namespace mocap {
 
 void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::int64_t now_ns,
@@ -15,7 +13,7 @@ void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::
   period_ns_ = period_ns;
   least_delay_ns_ = std::min(least_delay_ns_, arrival_ns - capture_ns);
   const std::int64_t age_ns = now_ns - capture_ns - least_delay_ns_;
-  if (age_ns > kTolerancePeriods * period_ns) WantNext(now_ns);
+  if (age_ns > ToleranceNs(period_ns)) WantNext(now_ns);
 }
 
 void LoadControl::StartAnew() {
@@ -37,7 +35,7 @@ bool LoadControl::IsFull(std::int64_t sets, std::int64_t now_ns) const {
   if (sets >= kMostUnderWay) return true;
   if (!has_last_) return false;
   const std::int64_t oldest_ns = captures_ns_[(sets_ - std::min(sets, sets_)) % kMostUnderWay];
-  return now_ns - least_delay_ns_ - oldest_ns > kTolerancePeriods * period_ns_;
+  return now_ns - least_delay_ns_ - oldest_ns > ToleranceNs(period_ns_);
 }
 
 void LoadControl::WantNext(std::int64_t now_ns) {

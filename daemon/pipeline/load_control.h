@@ -1,6 +1,7 @@
 // Which frames a pipeline that is behind leaves out.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -18,9 +19,14 @@ namespace mocap {
 class LoadControl {
  public:
   /// Sets from matching to tracking; at this many, no more are wanted.
-  static constexpr std::int64_t kMostUnderWay = 8;
-  /// How old a set may be when it is complete, or while others wait behind it.
+  static constexpr std::int64_t kMostUnderWay = 48;
+  /// Periods that a set may be old in any case.
   static constexpr std::int64_t kTolerancePeriods = 7;
+  /// How old a set may be when it is complete, or while others wait behind it: the search for
+  /// somebody who comes in takes longer than many periods of fast cameras.
+  static constexpr std::int64_t ToleranceNs(std::int64_t period_ns) {
+    return std::max<std::int64_t>(400'000'000, kTolerancePeriods * period_ns);
+  }
 
   /// Takes note of a set as it is matched.
   /// @param arrival_ns  when the last of its frames had arrived.

@@ -13,7 +13,7 @@ namespace mocap {
 void PrepareRealtime(const RealtimeConfig& config);
 
 /// Far enough behind for what can wait.
-inline constexpr int kFarBehind = 10;
+inline constexpr int kFarBehind = 19;
 
 /// Names the calling thread and puts it behind the pipeline's. @param step  added to its niceness.
 void StepBehind(const std::string& name, int step);

@@ -28,7 +28,7 @@ constexpr double kMostWaitingS = 0.5;
 constexpr std::int64_t kOldestNs = 350'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
 /// Coders come before everything else that is behind the pipeline: what they leave waiting is lost.
-constexpr int kCoderStep = 5;
+constexpr int kCoderStep = 15;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
 

@@ -110,9 +110,10 @@ class Daemon:
             return next(int(line.split()[1]) for line in rollup if line.startswith("Rss:"))
 
 
-def track(take, out):
+def track(take, out, niceness=0):
     """Opens a take as anybody would, and tracks it. Gives the times of its sets in ns."""
-    subprocess.run([os.path.join(BIN, "mocap"), "track", take, "--out", out], check=True, capture_output=True)
+    subprocess.run(["nice", "-n", str(niceness), os.path.join(BIN, "mocap"), "track", take, "--out", out], check=True,
+                   capture_output=True)
     with open(os.path.join(out, "poses.csv")) as poses:
         return [int(line.split(",")[1]) for line in poses.readlines()[1:]]
 

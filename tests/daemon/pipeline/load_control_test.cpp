@@ -8,9 +8,10 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kPeriod = 30'000'000;
+constexpr std::int64_t kPeriod = 60'000'000;
 constexpr std::int64_t kDelay = 1000;
 constexpr auto kMost = LoadControl::kMostUnderWay;
+constexpr std::int64_t kTolerance = LoadControl::ToleranceNs(kPeriod);
 
 /// Adds a set that had arrived a moment after its capture and is complete `age_ns` later.
 void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
@@ -21,8 +22,8 @@ void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
 TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
   LoadControl control;
   for (int i = 0; i < 10; ++i) {
-    Add(control, i * kPeriod, LoadControl::kTolerancePeriods * kPeriod);
-    control.SetUnderWay(std::min<std::int64_t>(i + 1, kMost - 1), i * kPeriod + 2 * kDelay);
+    Add(control, i * kPeriod, kTolerance);
+    control.SetUnderWay(std::min(i + 1, 7), i * kPeriod + 2 * kDelay);
   }
   EXPECT_LT(control.wanted_from_ns(), 0);
   EXPECT_EQ(control.skipped(), 0);
@@ -30,9 +31,17 @@ TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
 
 TEST(LoadControl, AnOldSetIsFollowedByTheNextFrameToBeCaptured) {
   LoadControl control;
-  constexpr std::int64_t kAge = LoadControl::kTolerancePeriods * kPeriod;
-  Add(control, 0, kAge + 5);
-  EXPECT_EQ(control.wanted_from_ns(), kAge + kPeriod / 2);
+  constexpr std::int64_t kPeriods = kTolerance / kPeriod + 1;
+  Add(control, 0, kPeriods * kPeriod + 5);
+  EXPECT_EQ(control.wanted_from_ns(), kPeriods * kPeriod + kPeriod / 2);
+}
+
+TEST(LoadControl, GivesFastCamerasNoLessTime) {
+  constexpr std::int64_t kFast = 1'000'000;
+  EXPECT_EQ(LoadControl::ToleranceNs(kFast), LoadControl::ToleranceNs(2 * kFast));
+  LoadControl control;
+  control.AddSet(0, 0, LoadControl::ToleranceNs(kFast), kFast);
+  EXPECT_LT(control.wanted_from_ns(), 0);
 }
 
 TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
@@ -48,7 +57,7 @@ TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
   LoadControl control;
   Add(control, 0, 0);
   Add(control, kPeriod, 0);
-  const std::int64_t old_ns = LoadControl::kTolerancePeriods * kPeriod + 2 * kDelay;
+  const std::int64_t old_ns = kTolerance + 2 * kDelay;
   control.SetUnderWay(1, old_ns);
   EXPECT_LT(control.wanted_from_ns(), 0) << "one alone holds up nothing";
   control.SetUnderWay(2, old_ns);
@@ -80,7 +89,7 @@ TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {
 
 TEST(LoadControl, CountsTheSetsThatWereLeftOut) {
   LoadControl control;
-  constexpr std::int64_t kTooOld = LoadControl::kTolerancePeriods + 1;
+  constexpr std::int64_t kTooOld = kTolerance / kPeriod + 1;
   Add(control, 0, kTooOld * kPeriod);
   EXPECT_EQ(control.skipped(), 0) << "the set after the gap has not come yet";
   Add(control, (kTooOld + 1) * kPeriod + 100, kPeriod);

@@ -70,14 +70,14 @@ Studio SmallSimulation() {
   options.cameras = 4;
   options.width_px = 160;
   options.height_px = 120;
-  options.seconds = 0.4;
+  options.seconds = 0.8;
   return OpenSimulatedStudio(options);
 }
 
 TEST(Pipeline, ThreadedEqualsSerialBitForBit) {
   RecordingSink serial;
   Pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), serial).RunSerially();
-  ASSERT_EQ(serial.seen.size(), 12u);
+  ASSERT_EQ(serial.seen.size(), 24u);
   EXPECT_NE(serial.seen.back().state, CaptureState::kSearching) << "the comparison must see poses";
   RecordingSink threaded;
   Pipeline pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), threaded);
