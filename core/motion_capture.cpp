@@ -28,7 +28,7 @@ constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
 // Who stands half inside of the room is looked for in vain: the longer, the longer the pauses.
 constexpr double kPauseShare = 0.25;
-constexpr double kShortestPauseS = 0.06;
+constexpr double kShortestPauseS = 0.08;
 constexpr double kLongestPauseS = 0.2;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
@@ -43,8 +43,7 @@ class MotionCapture::Impl {
   const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer) {
     // A clock may be put back.
-    const std::int64_t passed_ns =
-        last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
+    const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
     evidence_.Gather(grid, outlines);

@@ -11,6 +11,7 @@ namespace {
 
 using Block = ContactMatcher::Block;
 using SlimCapsule = ContactMatcher::SlimCapsule;
+using Best = ContactMatcher::Best;
 
 // A place on the inside of the left leg is no evidence for the right one: surfaces that face
 // square to each other count as this far apart.
@@ -25,11 +26,6 @@ constexpr float kRounding_mm = 0.1f;
 constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
 constexpr int kIndexBits = 16;
-
-struct Best {
-  alignas(32) std::array<float, Block::kContacts> mismatch;
-  alignas(32) std::array<std::int32_t, Block::kContacts> capsule;
-};
 
 inline float Clamped(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
@@ -65,7 +61,9 @@ inline __attribute__((always_inline)) void TryCapsule(const Block& block,
     const float value = apart + kSquare_mm * (1 - facing);
     const float least_yet = best.mismatch[i];
     const std::int32_t best_yet = best.capsule[i];
+    const float distance_yet = best.distance[i];
     best.capsule[i] = value < least_yet ? index : best_yet;
+    best.distance[i] = value < least_yet ? apart : distance_yet;
     best.mismatch[i] = value < least_yet ? value : least_yet;
   }
 }
@@ -79,6 +77,7 @@ MOCAP_VECTORIZED
 void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, float reach,
                 Best& best) {
   best.mismatch.fill(reach);
+  best.distance.fill(reach);
   best.capsule.fill(-1);
   float worst = reach;
   for (int k = 0; k < count; ++k) {
@@ -106,6 +105,11 @@ ContactMatcher::SlimCapsule::SlimCapsule(const PosedCapsule& capsule)
 void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   contacts_.assign(contacts.begin(), contacts.end());
   matches_.resize(contacts.size());
+  distances_.resize(contacts.size());
+  surface_W_.clear();
+  for (const Contact& contact : contacts) {
+    if (!contact.is_edge) surface_W_.push_back(contact.from_W);
+  }
   SortByPlace();
   blocks_.resize((contacts.size() + Block::kContacts - 1) / Block::kContacts);
   for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);
@@ -150,8 +154,9 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
   }
 }
 
-const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
-                                                       double reach_mm) {
+template <typename Visit>
+void ContactMatcher::ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm,
+                                 const Visit& visit) {
   slim_.clear();
   for (const PosedCapsule& capsule : capsules) slim_.emplace_back(capsule);
   Best best;
@@ -160,16 +165,28 @@ const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCaps
                static_cast<float>(reach_mm), best);
     const std::size_t first = block * Block::kContacts;
     const std::size_t count = std::min<std::size_t>(Block::kContacts, order_.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t contact = order_[first + i];
-      ContactMatch& match = matches_[contact];
-      match.capsule = best.capsule[i];
-      if (match.capsule < 0) continue;
-      match.distance =
-          capsules[match.capsule].DistanceTo(contacts_[contact].from_W, contacts_[contact].to_W);
-    }
+    for (std::size_t i = 0; i < count; ++i) visit(order_[first + i], best, i);
   }
+}
+
+const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
+                                                       double reach_mm) {
+  ForEachBest(capsules, reach_mm, [&](std::uint32_t contact, const Best& best, std::size_t i) {
+    ContactMatch& match = matches_[contact];
+    match.capsule = best.capsule[i];
+    if (match.capsule < 0) return;
+    match.distance =
+        capsules[match.capsule].DistanceTo(contacts_[contact].from_W, contacts_[contact].to_W);
+  });
   return matches_;
+}
+
+const std::vector<float>& ContactMatcher::Distances(std::span<const PosedCapsule> capsules,
+                                                    double reach_mm) {
+  ForEachBest(capsules, reach_mm, [&](std::uint32_t contact, const Best& best, std::size_t i) {
+    distances_[contact] = best.distance[i];
+  });
+  return distances_;
 }
 
 }  // namespace mocap

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,11 +14,6 @@ namespace mocap {
 struct ContactMatch {
   int capsule = -1;  ///< -1: none within reach.
   PosedCapsule::SegmentDistance distance{};
-
-  /// How far the contact is from the surface, inside or outside of it [mm].
-  double DistanceOr(double without_match_mm) const {
-    return capsule < 0 ? without_match_mm : std::abs(distance.outside_mm);
-  }
 };
 
 /// Matches the same contacts with one posed body after another. Which capsule is the best is found
@@ -29,12 +23,19 @@ class ContactMatcher {
  public:
   void SetContacts(std::span<const Contact> contacts);
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// Where those contacts are that are no edges.
+  const std::vector<Vector3>& surface_W() const { return surface_W_; }
 
   /// Finds for each contact the capsule of the least mismatch: its distance [mm] and, as
   /// millimetres too, how far the surfaces face apart.
   /// @param reach_mm  mismatch from which on a capsule does not explain a contact.
   /// @return  one match a contact, valid until the next call.
   const std::vector<ContactMatch>& Match(std::span<const PosedCapsule> capsules, double reach_mm);
+
+  /// How far each contact is from the surface of the capsule that Match would find [mm], in single
+  /// precision, for less than half of its time.
+  /// @return  `reach_mm` where there is none; valid until the next call.
+  const std::vector<float>& Distances(std::span<const PosedCapsule> capsules, double reach_mm);
 
   /// A capsule in single precision.
   struct SlimCapsule {
@@ -53,8 +54,15 @@ class ContactMatcher {
     Column along_sq, per_along_sq;
     Eigen::Vector3f low, high;  ///< The corners of a box around them.
   };
+  /// What a block's contacts match best.
+  struct Best {
+    alignas(32) std::array<float, Block::kContacts> mismatch, distance;
+    alignas(32) std::array<std::int32_t, Block::kContacts> capsule;
+  };
 
  private:
+  template <typename Visit>
+  void ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm, const Visit& visit);
   void SortByPlace();
   void FillBlock(std::size_t first, Block& block) const;
 
@@ -62,7 +70,9 @@ class ContactMatcher {
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
   std::vector<Block> blocks_;
   std::vector<SlimCapsule> slim_;
+  std::vector<Vector3> surface_W_;
   std::vector<ContactMatch> matches_;
+  std::vector<float> distances_;
 };
 
 }  // namespace mocap

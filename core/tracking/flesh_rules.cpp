@@ -26,17 +26,16 @@ bool MayOverlap(BodyPart limb, BodyPart other) {
   return IsCalf(limb) && (IsCalf(other) || (IsThigh(other) && other != own_thigh));
 }
 
-std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Vector3> surface_W,
                                   const Vector3& p_W) {
   if (cloud.Holds(p_W)) return std::nullopt;
   std::optional<Vector3> nearest;
   double nearest_sq = std::numeric_limits<double>::infinity();
-  for (const Contact& contact : contacts) {
-    if (contact.is_edge) break;
-    const double distance_sq = (contact.from_W - p_W).squaredNorm();
+  for (const Vector3& place_W : surface_W) {
+    const double distance_sq = (place_W - p_W).squaredNorm();
     if (distance_sq >= nearest_sq) continue;
     nearest_sq = distance_sq;
-    nearest = contact.from_W - p_W;
+    nearest = place_W - p_W;
   }
   return nearest;
 }

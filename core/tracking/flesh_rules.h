@@ -22,8 +22,9 @@ inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
   return capsule.a_W + share * (capsule.b_W - capsule.a_W);
 }
 
-/// The way from a place in the void to the nearest surface contact; empty for a place in flesh.
-std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Contact> contacts,
+/// The way from a place in the void to the nearest of some places on the flesh's surface; empty for
+/// a place in flesh.
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Vector3> surface_W,
                                   const Vector3& p_W);
 
 /// A bone that lies farther from flesh than this is no worse: the flesh may have been carved away.

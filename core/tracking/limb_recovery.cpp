@@ -60,13 +60,13 @@ std::vector<Stance> LegStances() {
 }
 
 double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>& posed) {
-  const std::vector<ContactMatch>& matches = matcher.Match(posed, kReachMm);
+  const std::vector<float>& distances_mm = matcher.Distances(posed, kReachMm);
   int edges = 0;
   int unexplained = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
+  for (std::size_t i = 0; i < distances_mm.size(); ++i) {
     if (!matcher.contacts()[i].is_edge) continue;
     ++edges;
-    unexplained += matches[i].DistanceOr(kReachMm) > kUnexplainedMm;
+    unexplained += distances_mm[i] > kUnexplainedMm;
   }
   return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
 }

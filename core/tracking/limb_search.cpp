@@ -41,7 +41,7 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactM
                        Segment limb_end, Segment absent, const PoseState& pose)
     : body_(body),
       cloud_(evidence.cloud),
-      contacts_(contacts.contacts()),
+      surface_W_(contacts.surface_W()),
       rows_(RowsOfLimb(body.table(), limb_end)) {
   const std::vector<int> absent_rows = RowsOfLimb(body.table(), absent);
   const auto holds = [](const std::vector<int>& rows, int row) {
@@ -66,17 +66,17 @@ LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactM
         overlapping_.push_back({i, j});
     }
   }
-  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
+  const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
-  const double voxel_weight = kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(
-                                                 1, std::ssize(contacts_) - edges));
-  const std::vector<ContactMatch>& matches = contacts.Match(others_, kReachMm);
+  const double voxel_weight =
+      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(surface_W_)));
+  const std::vector<float>& others_mm = contacts.Distances(others_, kReachMm);
   std::vector<Contact> open;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double other_mm = matches[i].DistanceOr(kReachMm);
-    if (other_mm < kTakenMm) continue;
-    open.push_back(contacts_[i]);
-    terms_.push_back({other_mm, contacts_[i].is_edge ? edge_weight : voxel_weight});
+  for (std::size_t i = 0; i < others_mm.size(); ++i) {
+    if (others_mm[i] < kTakenMm) continue;
+    const Contact& contact = contacts.contacts()[i];
+    open.push_back(contact);
+    terms_.push_back({others_mm[i], contact.is_edge ? edge_weight : voxel_weight});
   }
   open_.SetContacts(open);
 }
@@ -108,14 +108,15 @@ double LimbSearch::OverlapCost() const {
 LimbClaim LimbSearch::ClaimAt(const PoseState& pose) {
   PoseLimb(pose);
   LimbClaim claim;
-  const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    claim.distances_mm.push_back(std::min(terms_[i].other_mm, matches[i].DistanceOr(kReachMm)));
+  const std::vector<float>& distances_mm = open_.Distances(posed_, kReachMm);
+  claim.distances_mm.reserve(distances_mm.size());
+  for (std::size_t i = 0; i < distances_mm.size(); ++i) {
+    claim.distances_mm.push_back(std::min<double>(terms_[i].other_mm, distances_mm[i]));
   }
   double hollow_mm = 0;
   for (const PosedCapsule& capsule : posed_) {
     for (const double share : kCoreShares) {
-      const auto way_W = WayToFlesh(cloud_, contacts_, CorePlace(capsule, share));
+      const auto way_W = WayToFlesh(cloud_, surface_W_, CorePlace(capsule, share));
       if (way_W) hollow_mm += std::min(kMostHollowMm, way_W->norm());
     }
   }
@@ -157,7 +158,7 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
     const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const ContactMatch& match = matches[i];
-      if (match.capsule < 0 || match.DistanceOr(0) > terms_[i].other_mm) continue;
+      if (match.capsule < 0 || std::abs(match.distance.outside_mm) > terms_[i].other_mm) continue;
       const Vector3 offset = match.distance.segment_W - match.distance.core_W;
       if (offset.norm() < 1) continue;
       const Vector3 normal_W = offset.normalized();

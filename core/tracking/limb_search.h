@@ -55,7 +55,7 @@ class LimbSearch {
 
   const BodyModel& body_;
   const VoxelCloud& cloud_;
-  const std::vector<Contact>& contacts_;
+  const std::vector<Vector3>& surface_W_;
   std::vector<int> rows_;
   std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
   std::vector<PosedCapsule> others_;  ///< The rest of the body.

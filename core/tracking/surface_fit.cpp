@@ -64,7 +64,7 @@ void SurfaceFit::ForEachHollow(const Visit& visit) const {
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(posed_[i], share);
-      if (const auto way_W = WayToFlesh(*cloud_, matcher_.contacts(), p_W)) visit(i, p_W, *way_W);
+      if (const auto way_W = WayToFlesh(*cloud_, matcher_.surface_W(), p_W)) visit(i, p_W, *way_W);
     }
   }
 }
@@ -129,15 +129,15 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   PoseCapsules(body, pose);
   SurfaceFitQuality quality;
   int edges = 0;
-  const std::vector<ContactMatch>& matches = matcher_.Match(posed_, options_.reach_mm);
-  for (std::size_t i = 0; i < matches.size(); ++i) {
+  const std::vector<float>& distances_mm = matcher_.Distances(posed_, options_.reach_mm);
+  for (std::size_t i = 0; i < distances_mm.size(); ++i) {
     const bool is_edge = matcher_.contacts()[i].is_edge;
-    const double distance_mm = matches[i].DistanceOr(options_.reach_mm);
+    const double distance_mm = distances_mm[i];
     (is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
     edges += is_edge;
     quality.unexplained_share += is_edge && distance_mm > kUnexplainedMm;
   }
-  const int voxels = static_cast<int>(matches.size()) - edges;
+  const int voxels = static_cast<int>(distances_mm.size()) - edges;
   quality.edge_mm /= std::max(1, edges);
   quality.unexplained_share /= std::max(1, edges);
   quality.surface_mm /= std::max(1, voxels);

@@ -15,7 +15,7 @@
 namespace mocap {
 namespace {
 
-constexpr int kMostViews = 32;
+constexpr int kMostViews = Carver::kMostViews;
 constexpr int kLargestBlock_voxels = 16;
 constexpr int kLevels = 5;  // From the largest block to a voxel.
 static_assert(1 << (kLevels - 1) == kLargestBlock_voxels);

@@ -25,12 +25,16 @@ struct CarvingOptions {
 /// clothes of the background's colour leave such gaps. Thread-bound; reuses its memory.
 class Carver {
  public:
+  /// More cameras than any studio has.
+  static constexpr int kMostViews = 32;
+
   explicit Carver(const CarvingOptions& options);
   Carver(Carver&&) noexcept;
   Carver& operator=(Carver&&) noexcept;
   ~Carver();
 
   /// Carves one set. With nothing to see the grid has no voxels.
+  /// @pre  there are at most kMostViews.
   /// @post the result does not depend on how the work is divided.
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
 

@@ -1,6 +1,7 @@
 // §4: the person as voxels.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,7 +23,10 @@ class VoxelGrid {
     size_ = size;
     voxel_mm_ = voxel_mm;
     words_per_row_ = (size.x() + 63) / 64;
-    words_.assign(static_cast<std::size_t>(words_per_row_) * size.y() * size.z(), 0);
+    const std::size_t words = static_cast<std::size_t>(words_per_row_) * size.y() * size.z();
+    // Whoever moves soon needs a little more.
+    if (words > words_.capacity()) words_.reserve(std::bit_ceil(words));
+    words_.assign(words, 0);
   }
 
   double voxel_mm() const { return voxel_mm_; }

@@ -52,6 +52,26 @@ TEST_F(RandomCapsules, GetTheContactsThatTheyMatchBest) {
   EXPECT_GT(matched, 100);
 }
 
+TEST_F(RandomCapsules, AreAsFarFromTheirContactsAsTheMatchesSay) {
+  std::vector<PosedCapsule> capsules;
+  for (int i = 0; i < 12; ++i) capsules.push_back(Capsule());
+  std::vector<Contact> contacts;
+  for (int i = 0; i < 203; ++i) contacts.push_back({Place(), Place(), Place().normalized(), true});
+  ContactMatcher matcher;
+  matcher.SetContacts(contacts);
+  const std::vector<ContactMatch> matches = matcher.Match(capsules, kReachMm);
+  const std::vector<float>& distances_mm = matcher.Distances(capsules, kReachMm);
+  ASSERT_EQ(distances_mm.size(), contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (matches[i].capsule < 0) {
+      EXPECT_EQ(distances_mm[i], kReachMm);
+    } else {
+      constexpr double kByTaperMm = 3;
+      EXPECT_NEAR(distances_mm[i], std::abs(matches[i].distance.outside_mm), kByTaperMm);
+    }
+  }
+}
+
 TEST(ContactMatcher, ChoosesTheSideThatFacesTheContactsWay) {
   const std::vector<PosedCapsule> legs = {{{0, 80, 0}, {0, 80, 400}, 60, 60},
                                           {{0, -80, 0}, {0, -80, 400}, 60, 60}};
