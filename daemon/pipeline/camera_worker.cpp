@@ -17,7 +17,6 @@ constexpr std::chrono::milliseconds kGrabTimeout{100};
 /// Between attempts to get a lost camera back.
 constexpr std::chrono::milliseconds kLostPause{20};
 /// More say little that is new.
-constexpr int kRaysPerCamera = 100;
 /// A worker comes round ten times a second; one that does not hangs.
 constexpr std::chrono::milliseconds kReplacePause{5};
 constexpr int kReplacePauses = 400;

@@ -20,6 +20,9 @@
 
 namespace mocap {
 
+/// Of an outline, at most.
+inline constexpr int kRaysPerCamera = 100;
+
 /// What leaves a camera's thread: the outline, no pixels.
 struct SegmentedFrame {
   Silhouette silhouette;

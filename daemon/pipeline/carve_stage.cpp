@@ -8,6 +8,19 @@
 
 namespace mocap {
 
+CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
+  constexpr double kArmsOut_mm = 2000;
+  constexpr double kHandsUp_mm = 2400;
+  // Of finer voxels, which are no matter of real time, nothing is laid by.
+  constexpr double kFinest_mm = 20;
+  CarvedSet set;
+  const Vector3 voxels =
+      Vector3(kArmsOut_mm, kArmsOut_mm, kHandsUp_mm) / std::max(voxel_mm, kFinest_mm);
+  set.grid.Reset(Eigen::Vector3i::Zero(), voxels.cast<int>(), voxel_mm);
+  set.outlines.assign(cameras, Outline(kRaysPerCamera));
+  return set;
+}
+
 CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
                        const CarvingOptions& options, StageRecorders& recorders)
     : synchronizer_(std::move(synchronizer)), carver_(options), recorders_(recorders) {
@@ -73,7 +86,8 @@ void CarveStage::OfferToWatch() {
 
 void CarveStage::SetTracked(std::int64_t sets) {
   if (!load_control_) return;
-  load_control_->SetUnderWay(next_frame_ - sets, EpochNs());
+  under_way_ = next_frame_ - sets;
+  load_control_->SetUnderWay(under_way_, EpochNs());
   PublishLoad();
 }
 
@@ -102,9 +116,13 @@ void CarveStage::Gather(CarvedSet& set) {
     views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
     set.cameras |= std::uint64_t{1} << i;
   }
-  set.outlines.resize(views_.size());
-  for (std::size_t i = 0, view = 0; i < cameras_.size(); ++i) {
-    if (set.cameras >> i & 1) set.outlines[view++] = cameras_[i].front.outline;
+  set.outlines.resize(cameras_.size());
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (set.cameras >> i & 1) {
+      set.outlines[i] = cameras_[i].front.outline;
+    } else {
+      set.outlines[i].clear();
+    }
   }
 }
 

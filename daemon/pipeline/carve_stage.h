@@ -19,19 +19,22 @@
 
 namespace mocap {
 
-/// More cameras than any studio has; a set of them is one word.
-inline constexpr int kMaxCameras = 64;
+inline constexpr int kMaxCameras = Carver::kMostViews;
+static_assert(kMaxCameras <= 64, "a set of cameras is one word");
 
 /// One frame set, carved.
 struct CarvedSet {
   VoxelGrid grid;
-  std::vector<Outline> outlines;  ///< Of the members' silhouettes.
+  std::vector<Outline> outlines;  ///< One a camera; empty of those that are not in.
   std::int64_t frame = 0;         ///< Counts sets from 0.
   std::int64_t capture_ns = 0;    ///< The middle one of the members' times.
   std::int64_t complete_ns = 0;   ///< When the last member had arrived, since the Unix epoch.
   std::int64_t work_ns = 0;       ///< The slowest member's segmentation, and carving.
   std::uint64_t cameras = 0;      ///< Bit i: camera i is in.
 };
+
+/// A set with the memory that a person needs, so that later ones need none.
+CarvedSet RoomySet(std::size_t cameras, double voxel_mm);
 
 /// Matches silhouettes by time and carves each set. One thread; counters and wanted_from_ns: any.
 class CarveStage {
@@ -54,6 +57,9 @@ class CarveStage {
 
   /// Tells how many sets have been handed on; without load control that means nothing.
   void SetTracked(std::int64_t sets);
+  /// Sets that have been matched and not yet tracked, as of the last SetTracked; 0 without load
+  /// control.
+  std::int64_t under_way() const { return under_way_; }
   /// Takes the synchronizer's next decision; a set is carved into `set`.
   Synchronizer::Verdict Next(CarvedSet& set);
 
@@ -92,6 +98,7 @@ class CarveStage {
   SetTap* seen_ = nullptr;
   Pacer seen_pacer_{HealthWatch::kHz};
   std::int64_t next_frame_ = 0;
+  std::int64_t under_way_ = 0;
   std::atomic<std::int64_t> wanted_from_ns_{std::numeric_limits<std::int64_t>::min()};
   std::atomic<std::int64_t> skipped_sets_{0};
   std::atomic<std::int64_t> complete_sets_{0};

@@ -19,13 +19,13 @@ namespace mocap {
 class LoadControl {
  public:
   /// Sets from matching to tracking; at this many, no more are wanted.
-  static constexpr std::int64_t kMostUnderWay = 48;
+  static constexpr std::int64_t kMostUnderWay = 64;
   /// Periods that a set may be old in any case.
   static constexpr std::int64_t kTolerancePeriods = 7;
   /// How old a set may be when it is complete, or while others wait behind it: the search for
   /// somebody who comes in takes longer than many periods of fast cameras.
   static constexpr std::int64_t ToleranceNs(std::int64_t period_ns) {
-    return std::max<std::int64_t>(400'000'000, kTolerancePeriods * period_ns);
+    return std::max<std::int64_t>(600'000'000, kTolerancePeriods * period_ns);
   }
 
   /// Takes note of a set as it is matched.

@@ -20,6 +20,9 @@ constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
 constexpr double kPatiencePeriods = 1.75;
 // By the time that a set went on without a camera, up to a period later, it must not be too old.
 static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
+/// Sets under way when recordings have to wait, and when they may go on.
+constexpr std::int64_t kManyUnderWay = 6;
+constexpr std::int64_t kFewUnderWay = 2;
 constexpr std::size_t kLongestThreadName = 15;
 
 /// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
@@ -62,7 +65,8 @@ struct Pipeline::CameraLine {
 Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,
                    PoseSink& sink)
     : options_(options),
-      sets_(kSetsQueued, Overflow::kWait, track_bell_),
+      sets_(kSetsQueued, Overflow::kWait, track_bell_,
+            RoomySet(studio.cameras.size(), options.voxel_mm)),
       track_(body, options.latency_origin, sink, recorders_, studio.person) {
   if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
     throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
@@ -183,12 +187,23 @@ void Pipeline::RunCarving() {
     const int seen = carve_bell_.count();
     carving_turns_.fetch_add(1, std::memory_order_relaxed);
     carve_->SetTracked(track_.sets());
+    HoldTaps();
     const bool all_ended = FeedFromQueues();
     const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
     if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
     if (verdict != Synchronizer::Verdict::kWait) continue;
     if (all_ended) return;
     carve_bell_.WaitPast(seen);
+  }
+}
+
+// A pose comes before a recording.
+void Pipeline::HoldTaps() {
+  const bool is_held = carve_->under_way() >= (taps_are_held_ ? kFewUnderWay : kManyUnderWay);
+  if (is_held == taps_are_held_) return;
+  taps_are_held_ = is_held;
+  for (std::deque<FrameTap>* of_all : options_.taps) {
+    for (FrameTap& tap : *of_all) tap.Hold(is_held);
   }
 }
 

@@ -98,6 +98,7 @@ class Pipeline {
 
   void RunCamera(CameraLine& line);
   void RunCarving();
+  void HoldTaps();
   void RunTracking();
   bool FeedFromQueues();
   bool FeedSerially();
@@ -116,6 +117,7 @@ class Pipeline {
   SpscQueue<CarvedSet> sets_;
   TrackStage track_;
   std::vector<std::thread> threads_;
+  bool taps_are_held_ = false;
   std::atomic<std::int64_t> carving_turns_{0};
   std::atomic<bool> carving_has_ended_{false};
   std::atomic<bool> stop_{false};

@@ -3,7 +3,6 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <string>
@@ -13,15 +12,14 @@
 namespace mocap {
 namespace {
 
-constexpr int kNicest = 19;
 constexpr std::size_t kLongestThreadName = 15;
 
 }  // namespace
 
-void StepBehind(const std::string& name, int step) {
+void GoBehind(const std::string& name) {
   pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-  // Zero is the calling thread: on Linux each has its own.
-  setpriority(PRIO_PROCESS, 0, std::min(getpriority(PRIO_PROCESS, 0) + step, kNicest));
+  const sched_param parameter{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameter);
 }
 
 bool KeepToProcessors(const std::vector<int>& processors) {

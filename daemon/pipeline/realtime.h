@@ -12,11 +12,9 @@ namespace mocap {
 /// @throws SetupError  naming the limit that stands against it.
 void PrepareRealtime(const RealtimeConfig& config);
 
-/// Far enough behind for what can wait.
-inline constexpr int kFarBehind = 19;
-
-/// Names the calling thread and puts it behind the pipeline's. @param step  added to its niceness.
-void StepBehind(const std::string& name, int step);
+/// Names the calling thread and lets it have the processor when nobody else wants it (SCHED_IDLE):
+/// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
+void GoBehind(const std::string& name);
 
 /// Keeps the calling thread to these processors; to none in particular when there are none.
 /// @return  false where that is not possible.

@@ -22,13 +22,12 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kKeeperTick{100};
+constexpr std::chrono::milliseconds kHeldTick{5};
 /// What waits is lost when the program is killed, and what was not made safe when the power fails:
 /// together less than a second. The count bounds memory; the age holds at any rate of frames.
 constexpr double kMostWaitingS = 0.5;
 constexpr std::int64_t kOldestNs = 350'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
-/// Coders come before everything else that is behind the pipeline: what they leave waiting is lost.
-constexpr int kCoderStep = 15;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
 
@@ -85,7 +84,8 @@ struct Recording::Line {
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
   std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
-  std::atomic<std::int64_t> dropped{0};  ///< Had no room in the queue, or waited too long in it.
+  /// Had no room in the queue, waited too long in it, or came while the pipeline was behind.
+  std::atomic<std::int64_t> dropped{0};
   // The camera's thread only:
   std::optional<std::uint64_t> next_sequence;
   std::int64_t last_ns = -1;
@@ -194,7 +194,7 @@ void Recording::Guard(Body body) {
 
 void Recording::RunCamera(std::size_t camera) {
   const RecordedCamera& recorded = studio_.cameras[camera];
-  StepBehind("rec " + recorded.calibration.name, kCoderStep);
+  GoBehind("rec " + recorded.calibration.name);
   Guard([&] {
     std::int64_t time_ns = 0;
     recorded.background.ForEach([&](const BackgroundFrame& frame) {
@@ -209,10 +209,15 @@ void Recording::RunCamera(std::size_t camera) {
 
 void Recording::WriteFrames(std::size_t camera) {
   Line& line = *lines_[camera];
+  const FrameTap& tap = taps_.frames[camera];
   FrameTap::Queue& queue = taps_.frames[camera].queue();
   while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
+    if (tap.is_held() && !is_closed) {
+      std::this_thread::sleep_for(kHeldTick);
+      continue;
+    }
     if (!queue.TryPop()) {
       if (is_closed) return;
       line.bell.WaitPast(seen);
@@ -224,7 +229,7 @@ void Recording::WriteFrames(std::size_t camera) {
     } else {
       WriteFrame(camera, queue.front());
     }
-    line.dropped.store(queue.dropped() + line.stale, std::memory_order_relaxed);
+    line.dropped.store(queue.dropped() + line.stale + tap.held_back(), std::memory_order_relaxed);
   }
 }
 
@@ -247,7 +252,7 @@ void Recording::WriteFrame(std::size_t camera, const TappedFrame& frame) {
 }
 
 void Recording::RunKeeper() {
-  StepBehind("rec keeper", kFarBehind);
+  GoBehind("rec keeper");
   Guard([&] { KeepUntilStopped(); });
   End();
   taps_.messages.Close();

@@ -44,7 +44,7 @@ HealthWatch::~HealthWatch() {
 }
 
 void HealthWatch::Run() {
-  StepBehind("health", kFarBehind);
+  GoBehind("health");
   SetTap::Queue& queue = tap_.queue();
   for (;;) {
     const int seen = bell_.count();
