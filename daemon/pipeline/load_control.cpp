@@ -1,5 +1,7 @@
 #include "daemon/pipeline/load_control.h"
 
+#include <algorithm>
+
 namespace mocap {
 
 void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::int64_t now_ns,
@@ -13,29 +15,40 @@ void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::
   period_ns_ = period_ns;
   least_delay_ns_ = std::min(least_delay_ns_, arrival_ns - capture_ns);
   const std::int64_t age_ns = now_ns - capture_ns - least_delay_ns_;
-  if (age_ns > ToleranceNs(period_ns)) WantNext(now_ns);
+  if (age_ns <= ToleranceNs(now_ns)) return;
+  LeaveOut(now_ns);
+  WantNext(now_ns);
 }
 
 void LoadControl::StartAnew() {
   wanted_from_ns_ = kAll;
   has_last_ = false;
+  impatient_until_ns_ = kAll;
   least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
 }
 
 void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {
   if (IsFull(sets, now_ns)) {
+    LeaveOut(now_ns);
     wanted_from_ns_ = kNever;
   } else if (wanted_from_ns_ == kNever) {
     WantNext(now_ns);
   }
 }
 
+std::int64_t LoadControl::ToleranceNs(std::int64_t now_ns) const {
+  const std::int64_t usual_ns = kTolerancePeriods * period_ns_;
+  return now_ns < impatient_until_ns_ ? usual_ns : std::max(usual_ns, kPatienceNs);
+}
+
+void LoadControl::LeaveOut(std::int64_t now_ns) { impatient_until_ns_ = now_ns + kLatelyNs; }
+
 bool LoadControl::IsFull(std::int64_t sets, std::int64_t now_ns) const {
   if (sets < 2) return false;
   if (sets >= kMostUnderWay) return true;
   if (!has_last_) return false;
   const std::int64_t oldest_ns = captures_ns_[(sets_ - std::min(sets, sets_)) % kMostUnderWay];
-  return now_ns - least_delay_ns_ - oldest_ns > ToleranceNs(period_ns_);
+  return now_ns - least_delay_ns_ - oldest_ns > ToleranceNs(now_ns);
 }
 
 void LoadControl::WantNext(std::int64_t now_ns) {

@@ -1,7 +1,6 @@
 // Which frames a pipeline that is behind leaves out.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -16,17 +15,19 @@ namespace mocap {
 /// many sets are under way, or an old one has others waiting behind it; when there is room again,
 /// or a set is old by the time it is complete, the next frame to be captured is the next one
 /// wanted. The bound lies half-way between two frames.
+///
+/// Who comes in has to be found, which takes longer than many periods of fast cameras: sets may
+/// wait for that and be tracked after it. A computer that is too slow altogether is told by sets
+/// that are left out again and again; those that remain are then kept young.
 class LoadControl {
  public:
   /// Sets from matching to tracking; at this many, no more are wanted.
-  static constexpr std::int64_t kMostUnderWay = 64;
-  /// Periods that a set may be old in any case.
+  static constexpr std::int64_t kMostUnderWay = 128;
+  /// How old a set may be when it is complete, or while others wait behind it: so many periods,
   static constexpr std::int64_t kTolerancePeriods = 7;
-  /// How old a set may be when it is complete, or while others wait behind it: the search for
-  /// somebody who comes in takes longer than many periods of fast cameras.
-  static constexpr std::int64_t ToleranceNs(std::int64_t period_ns) {
-    return std::max<std::int64_t>(600'000'000, kTolerancePeriods * period_ns);
-  }
+  /// and this, if no set was left out lately.
+  static constexpr std::int64_t kPatienceNs = 1'000'000'000;
+  static constexpr std::int64_t kLatelyNs = 10'000'000'000;
 
   /// Takes note of a set as it is matched.
   /// @param arrival_ns  when the last of its frames had arrived.
@@ -46,6 +47,8 @@ class LoadControl {
  private:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
+  std::int64_t ToleranceNs(std::int64_t now_ns) const;
+  void LeaveOut(std::int64_t now_ns);
   void WantNext(std::int64_t now_ns);
   bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
 
@@ -55,6 +58,7 @@ class LoadControl {
   bool has_last_ = false;
   std::int64_t last_ns_ = 0;
   std::int64_t period_ns_ = 1;
+  std::int64_t impatient_until_ns_ = kAll;
   std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
   std::int64_t sets_ = 0;
   /// What lies between capture and arrival when nothing waits: exposure, transfer, another clock.

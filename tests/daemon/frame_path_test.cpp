@@ -8,6 +8,7 @@
 #include <deque>
 #include <memory>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -96,13 +97,13 @@ class FramePathTest : public testing::Test {
         CarvingOptions{.voxel_mm = 40}, recorders_);
   }
 
-  // Brings one set on its way; returns how many voxels there are.
-  std::int64_t Pass() {
+  // Brings one set on its way, perhaps without a camera; returns how many voxels there are.
+  std::int64_t Pass(std::optional<int> absent = {}) {
     for (int c = 0; c < kCameras; ++c) {
       EXPECT_EQ(workers_[c].Next(carve_->wanted_from_ns(), frames_[c]),
                 CameraWorker::Outcome::kFrame);
-      carve_->Offer(c, frames_[c]);
-      carve_->synchronizer().Expect(c, Expectation::kCertain);
+      if (c != absent) carve_->Offer(c, frames_[c]);
+      carve_->synchronizer().Expect(c, c == absent ? Expectation::kNone : Expectation::kCertain);
     }
     EXPECT_EQ(carve_->Next(set_), Synchronizer::Verdict::kSet);
     std::int64_t voxels = 0;
@@ -122,11 +123,28 @@ TEST_F(FramePathTest, SegmentingTracingMatchingAndCarvingAllocateNothingOnceThey
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   // Memory goes round between two places a camera.
   std::int64_t voxels = 0;
+  Pass(1);  // Two cameras leave a larger hull.
   for (int i = 0; i < 3 * kFrames; ++i) voxels = Pass();
   EXPECT_GT(voxels, 200);
   const std::int64_t before = allocations;
   EXPECT_GT(before, 0);
   for (int i = 0; i < 2 * kFrames; ++i) Pass();
+  EXPECT_EQ(allocations - before, 0);
+  Pass(1);
+  EXPECT_TRUE(set_.outlines[1].empty());
+  Pass();
+  EXPECT_FALSE(set_.outlines[1].empty());
+  EXPECT_EQ(allocations - before, 0) << "a camera that is back takes no memory anew";
+#endif
+}
+
+TEST_F(FramePathTest, ARoomySetHoldsAPersonWithoutAllocating) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  for (int i = 0; i < 3 * kFrames; ++i) Pass();
+  set_ = RoomySet(kCameras, 40);
+  const std::int64_t before = allocations;
+  EXPECT_GT(Pass(), 200);
   EXPECT_EQ(allocations - before, 0);
 #endif
 }

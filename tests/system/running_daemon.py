@@ -110,9 +110,9 @@ class Daemon:
             return next(int(line.split()[1]) for line in rollup if line.startswith("Rss:"))
 
 
-def track(take, out, before=()):
-    """Opens a take as anybody would, and tracks it, by `before` where that is given. Gives the times of its sets in ns."""
-    subprocess.run([*before, os.path.join(BIN, "mocap"), "track", take, "--out", out], check=True, capture_output=True)
+def track(take, out):
+    """Opens a take as anybody would, and tracks it. Gives the times of its sets in ns."""
+    subprocess.run([os.path.join(BIN, "mocap"), "track", take, "--out", out], check=True, capture_output=True)
     with open(os.path.join(out, "poses.csv")) as poses:
         return [int(line.split(",")[1]) for line in poses.readlines()[1:]]
 

@@ -11,7 +11,8 @@ namespace {
 constexpr std::int64_t kPeriod = 60'000'000;
 constexpr std::int64_t kDelay = 1000;
 constexpr auto kMost = LoadControl::kMostUnderWay;
-constexpr std::int64_t kTolerance = LoadControl::ToleranceNs(kPeriod);
+constexpr std::int64_t kTolerance =
+    std::max(LoadControl::kPatienceNs, LoadControl::kTolerancePeriods* kPeriod);
 
 /// Adds a set that had arrived a moment after its capture and is complete `age_ns` later.
 void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
@@ -36,12 +37,20 @@ TEST(LoadControl, AnOldSetIsFollowedByTheNextFrameToBeCaptured) {
   EXPECT_EQ(control.wanted_from_ns(), kPeriods * kPeriod + kPeriod / 2);
 }
 
-TEST(LoadControl, GivesFastCamerasNoLessTime) {
-  constexpr std::int64_t kFast = 1'000'000;
-  EXPECT_EQ(LoadControl::ToleranceNs(kFast), LoadControl::ToleranceNs(2 * kFast));
+TEST(LoadControl, IsPatientOnceAndThenKeepsSetsYoung) {
+  constexpr std::int64_t kFast = 10'000'000;
+  constexpr std::int64_t kUsual = LoadControl::kTolerancePeriods * kFast;
+  constexpr std::int64_t kLater = LoadControl::kLatelyNs + 2 * LoadControl::kPatienceNs;
   LoadControl control;
-  control.AddSet(0, 0, LoadControl::ToleranceNs(kFast), kFast);
-  EXPECT_LT(control.wanted_from_ns(), 0);
+  const auto add = [&](std::int64_t capture_ns, std::int64_t age_ns) {
+    control.AddSet(capture_ns, capture_ns, capture_ns + age_ns, kFast);
+    return control.wanted_from_ns() > capture_ns;
+  };
+  EXPECT_FALSE(add(0, LoadControl::kPatienceNs));
+  EXPECT_TRUE(add(kFast, LoadControl::kPatienceNs + 1));
+  EXPECT_TRUE(add(2 * LoadControl::kPatienceNs, kUsual + 1));
+  EXPECT_FALSE(add(3 * LoadControl::kPatienceNs, kUsual));
+  EXPECT_FALSE(add(3 * LoadControl::kPatienceNs + kLater, LoadControl::kPatienceNs));
 }
 
 TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
