@@ -62,6 +62,13 @@ double FpsOf(const ServiceReport& report, std::size_t camera) {
 void ComplainOfSets(const ServiceReport& report, List& list) {
   // Sets that are left out have come about; ComplainOfTime tells of them.
   if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
+  const PipelineStatus& status = report.now.status;
+  if (status.sets_complete + status.sets_partial > status.sets_tracked) {
+    list.push_back(
+        "a frame set has been worked on for seconds: the processor is too slow for this "
+        "voxel size, or has other work");
+    return;
+  }
   const auto& rates = report.now.frames_per_second;
   const auto delivering = std::ranges::count_if(rates, [](double rate) { return rate > 0; });
   if (delivering == 0) return;

@@ -67,6 +67,13 @@ TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
   EXPECT_THAT(Complaints(report), IsEmpty()) << "nothing was counted yet";
 }
 
+TEST(ServiceReport, DoesNotBlameCamerasForASetThatTakesLong) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  ++report.now.status.sets_complete;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("a frame set has been worked on")));
+}
+
 TEST(ServiceReport, DoesNotBlameCamerasForSetsThatTheProcessorLeftOut) {
   ServiceReport report = Good();
   report.now.sets_per_second = 0;
