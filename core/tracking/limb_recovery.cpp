@@ -22,8 +22,8 @@ constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
-// After a search in vain about twice as many frames pass before the next, up to this.
-constexpr int kLongestRest = 7;
+// After a search in vain.
+constexpr int kRestFrames = 1;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
@@ -225,8 +225,7 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
     };
     changed |= RecoverPair(body, evidence, left, right, fit, best, pose);
   }
-  if (!changed) resting_ = patience_;
-  patience_ = changed ? 1 : std::min(2 * patience_ + 1, kLongestRest);
+  if (!changed) resting_ = kRestFrames;
   return changed;
 }
 
@@ -245,7 +244,6 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   const bool hands_meet = HandsMeet(body, pose);
   if (is_explained) {
     resting_ = 0;
-    patience_ = 1;
     if (!hands_meet) return std::nullopt;
   }
   std::vector<Contact> contacts;

@@ -46,8 +46,7 @@ class LimbRecovery {
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
-  int resting_ = 0;   ///< Frames to go until lost limbs are searched again.
-  int patience_ = 1;  ///< Frames to rest after the next search in vain.
+  int resting_ = 0;  ///< Frames to go until lost limbs are searched again.
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };
