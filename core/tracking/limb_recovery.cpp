@@ -23,7 +23,7 @@ constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
 // After a search in vain.
-constexpr int kRestFrames = 1;
+constexpr double kRestS = 0.045;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
@@ -210,10 +210,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, 
 
 bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                PoseState& pose) {
-  if (resting_ > 0) {
-    --resting_;
-    return false;
-  }
+  if (rest_s_ > 0) return false;
   bool changed = false;
   for (const Segment limb_end : kLimbEnds) {
     changed |= RecoverOne(body, evidence, limb_end, pose);
@@ -225,7 +222,7 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
     };
     changed |= RecoverPair(body, evidence, left, right, fit, best, pose);
   }
-  if (!changed) resting_ = kRestFrames;
+  if (!changed) rest_s_ = kRestS;
   return changed;
 }
 
@@ -239,11 +236,12 @@ bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence,
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose,
-                                               const SurfaceFitQuality& quality) {
+                                               const SurfaceFitQuality& quality, double dt_s) {
+  rest_s_ -= dt_s;
   const bool is_explained = quality.unexplained_share < kUnexplainedShare;
   const bool hands_meet = HandsMeet(body, pose);
   if (is_explained) {
-    resting_ = 0;
+    rest_s_ = 0;
     if (!hands_meet) return std::nullopt;
   }
   std::vector<Contact> contacts;

@@ -25,8 +25,10 @@ class LimbRecovery {
   /// limbs alone.
   /// @param fit      holds the evidence.
   /// @param quality  of the fit at that pose.
+  /// @param dt_s     since the last call: after a search in vain there is a rest.
   std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                                   const PoseState& pose, const SurfaceFitQuality& quality);
+                                   const PoseState& pose, const SurfaceFitQuality& quality,
+                                   double dt_s);
 
  private:
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
@@ -46,7 +48,7 @@ class LimbRecovery {
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
-  int resting_ = 0;  ///< Frames to go until lost limbs are searched again.
+  double rest_s_ = 0;  ///< Until lost limbs are searched again.
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };

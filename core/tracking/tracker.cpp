@@ -28,7 +28,7 @@ void Tracker::Update(const Evidence& evidence, double dt_s) {
     FollowPoints(evidence.cloud);
     quality_ = surface_fit_.QualityAt(body_, filter_.pose());
   } else {
-    FollowSurface(evidence);
+    FollowSurface(evidence, dt_s);
   }
 }
 
@@ -64,10 +64,10 @@ void Tracker::FollowPoints(const VoxelCloud& cloud) {
       kIterations);
 }
 
-void Tracker::FollowSurface(const Evidence& evidence) {
+void Tracker::FollowSurface(const Evidence& evidence, double dt_s) {
   FitSurface();
   if (const auto recovered =
-          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose(), quality_)) {
+          limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose(), quality_, dt_s)) {
     filter_.Jump(*recovered);
     FitSurface();
   }

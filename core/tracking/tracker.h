@@ -33,7 +33,7 @@ class Tracker {
   // Goes with the voxels where they went farther than was foreseen, if that explains them better.
   void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
   void FollowPoints(const VoxelCloud& cloud);
-  void FollowSurface(const Evidence& evidence);
+  void FollowSurface(const Evidence& evidence, double dt_s);
   void FitSurface();  // And its quality.
 
   BodyModel body_;

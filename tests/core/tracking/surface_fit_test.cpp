@@ -32,6 +32,12 @@ class Fit : public testing::Test {
         12);
     return filter.pose();
   }
+  /// @param dt_s  since the last search.
+  std::optional<PoseState> Recover(const Evidence& evidence, const PoseState& pose,
+                                   double dt_s = 0) {
+    fit_.SetEvidence(evidence);
+    return recovery_.Recover(body_, evidence, fit_, pose, fit_.QualityAt(body_, pose), dt_s);
+  }
   double Error(const PoseState& pose, const PoseState& truth) const {
     return (body_.PointsAt(body_.PostureAt(pose)) - body_.PointsAt(body_.PostureAt(truth)))
         .colwise()
@@ -42,6 +48,7 @@ class Fit : public testing::Test {
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   SurfaceFit fit_{SurfaceFitOptions{}};
+  LimbRecovery recovery_;
 };
 
 constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
@@ -90,12 +97,21 @@ TEST_F(Fit, ResidualsFollowAStepAsTheirJacobiansSay) {
 TEST_F(Fit, ALostArmIsFoundAgain) {
   const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
   const Evidence evidence = studio_.Show(body_, truth);
-  fit_.SetEvidence(evidence);
   const PoseState lost = Standing(body_, {});
-  const std::optional<PoseState> found =
-      LimbRecovery().Recover(body_, evidence, fit_, lost, fit_.QualityAt(body_, lost));
+  const std::optional<PoseState> found = Recover(evidence, lost);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, AfterASearchInVainNothingIsSearchedForAWhile) {
+  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
+  const Evidence evidence = studio_.Show(body_, truth);
+  PoseState elsewhere = truth;
+  elsewhere.X_WT.p.x() += 1500;
+  EXPECT_FALSE(Recover(evidence, elsewhere));
+  const PoseState lost = Standing(body_, {});
+  EXPECT_FALSE(Recover(evidence, lost, 0.01));
+  EXPECT_TRUE(Recover(evidence, lost, 0.05));
 }
 
 TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
@@ -107,8 +123,7 @@ TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
   const PoseState exchanged =
       FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
   ASSERT_GT(Error(exchanged, truth), 40);
-  const std::optional<PoseState> found =
-      LimbRecovery().Recover(body_, evidence, fit_, exchanged, fit_.QualityAt(body_, exchanged));
+  const std::optional<PoseState> found = Recover(evidence, exchanged);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
@@ -122,10 +137,8 @@ TEST_F(Fit, ForearmsThatCrossedAreNotTakenForHandsThatTouched) {
   const PoseState exchanged =
       FitFrom(Standing(body_, {.arm_l = kApart, .arm_r = kApart}), body_, fit_);
   ASSERT_GT(Error(exchanged, truth), 40);
-  const SurfaceFitQuality quality = fit_.QualityAt(body_, exchanged);
-  ASSERT_LT(quality.unexplained_share, 0.01);
-  const std::optional<PoseState> found =
-      LimbRecovery().Recover(body_, evidence, fit_, exchanged, quality);
+  ASSERT_LT(fit_.QualityAt(body_, exchanged).unexplained_share, 0.01);
+  const std::optional<PoseState> found = Recover(evidence, exchanged);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
@@ -142,8 +155,7 @@ TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
 TEST_F(Fit, NothingIsRecoveredWhereNothingIsLost) {
   const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
   const Evidence evidence = studio_.Show(body_, truth);
-  fit_.SetEvidence(evidence);
-  EXPECT_FALSE(LimbRecovery().Recover(body_, evidence, fit_, truth, fit_.QualityAt(body_, truth)));
+  EXPECT_FALSE(Recover(evidence, truth));
 }
 
 TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
