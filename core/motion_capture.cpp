@@ -220,8 +220,8 @@ class MotionCapture::Impl {
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;
-  double looking_s_ = 0;
-  double next_look_s_ = 0;
+  double looking_s_ = 0;    ///< Since the first look in vain.
+  double next_look_s_ = 0;  ///< When the next is due, by the same count.
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;

@@ -32,8 +32,8 @@ class ContactMatcher {
   /// @return  one match a contact, valid until the next call.
   const std::vector<ContactMatch>& Match(std::span<const PosedCapsule> capsules, double reach_mm);
 
-  /// How far each contact is from the surface of the capsule that Match would find [mm], in single
-  /// precision, for less than half of its time.
+  /// How far each contact is from the surface of the capsule that Match would find [mm], as the
+  /// search for it has it: in single precision, and without what a taper adds.
   /// @return  `reach_mm` where there is none; valid until the next call.
   const std::vector<float>& Distances(std::span<const PosedCapsule> capsules, double reach_mm);
 

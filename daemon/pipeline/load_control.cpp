@@ -16,7 +16,7 @@ void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::
   least_delay_ns_ = std::min(least_delay_ns_, arrival_ns - capture_ns);
   const std::int64_t age_ns = now_ns - capture_ns - least_delay_ns_;
   if (age_ns <= ToleranceNs(now_ns)) return;
-  LeaveOut(now_ns);
+  LosePatience(now_ns);
   WantNext(now_ns);
 }
 
@@ -29,7 +29,7 @@ void LoadControl::StartAnew() {
 
 void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {
   if (IsFull(sets, now_ns)) {
-    LeaveOut(now_ns);
+    LosePatience(now_ns);
     wanted_from_ns_ = kNever;
   } else if (wanted_from_ns_ == kNever) {
     WantNext(now_ns);
@@ -41,7 +41,7 @@ std::int64_t LoadControl::ToleranceNs(std::int64_t now_ns) const {
   return now_ns < impatient_until_ns_ ? usual_ns : std::max(usual_ns, kPatienceNs);
 }
 
-void LoadControl::LeaveOut(std::int64_t now_ns) { impatient_until_ns_ = now_ns + kLatelyNs; }
+void LoadControl::LosePatience(std::int64_t now_ns) { impatient_until_ns_ = now_ns + kLatelyNs; }
 
 bool LoadControl::IsFull(std::int64_t sets, std::int64_t now_ns) const {
   if (sets < 2) return false;

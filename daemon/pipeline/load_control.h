@@ -48,7 +48,7 @@ class LoadControl {
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
   std::int64_t ToleranceNs(std::int64_t now_ns) const;
-  void LeaveOut(std::int64_t now_ns);
+  void LosePatience(std::int64_t now_ns);
   void WantNext(std::int64_t now_ns);
   bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
 

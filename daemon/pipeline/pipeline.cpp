@@ -20,10 +20,20 @@ constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
 constexpr double kPatiencePeriods = 1.75;
 // By the time that a set went on without a camera, up to a period later, it must not be too old.
 static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
-/// Sets under way when recordings have to wait, and when they may go on.
-constexpr std::int64_t kManyUnderWay = 6;
-constexpr std::int64_t kFewUnderWay = 2;
+/// How far tracking is behind when recordings have to wait, and when they may go on. Before the
+/// first, what they have not coded yet still fits into their queues.
+constexpr std::int64_t kFarBehindNs = 250'000'000;
+constexpr std::int64_t kKeepsUpNs = 50'000'000;
 constexpr std::size_t kLongestThreadName = 15;
+
+/// @throws SetupError
+std::size_t CountCameras(const Studio& studio) {
+  if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
+    throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
+                     " cameras, wanted 1 to " + std::to_string(kMaxCameras));
+  }
+  return studio.cameras.size();
+}
 
 /// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
 std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
@@ -66,12 +76,8 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
                    PoseSink& sink)
     : options_(options),
       sets_(kSetsQueued, Overflow::kWait, track_bell_,
-            RoomySet(studio.cameras.size(), options.voxel_mm)),
+            RoomySet(CountCameras(studio), options.voxel_mm)),
       track_(body, options.latency_origin, sink, recorders_, studio.person) {
-  if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
-    throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
-                     " cameras, wanted 1 to " + std::to_string(kMaxCameras));
-  }
   std::vector<CameraCalibration> calibrations;
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
@@ -199,7 +205,8 @@ void Pipeline::RunCarving() {
 
 // A pose comes before a recording.
 void Pipeline::HoldTaps() {
-  const bool is_held = carve_->under_way() >= (taps_are_held_ ? kFewUnderWay : kManyUnderWay);
+  const std::int64_t behind_ns = carve_->under_way() * carve_->synchronizer().PeriodNs();
+  const bool is_held = behind_ns > (taps_are_held_ ? kKeepsUpNs : kFarBehindNs);
   if (is_held == taps_are_held_) return;
   taps_are_held_ = is_held;
   for (std::deque<FrameTap>* of_all : options_.taps) {

@@ -4,7 +4,6 @@
 #include <sched.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <string>
 
 #include "core/errors.h"

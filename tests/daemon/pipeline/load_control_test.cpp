@@ -11,8 +11,8 @@ namespace {
 constexpr std::int64_t kPeriod = 60'000'000;
 constexpr std::int64_t kDelay = 1000;
 constexpr auto kMost = LoadControl::kMostUnderWay;
-constexpr std::int64_t kTolerance =
-    std::max(LoadControl::kPatienceNs, LoadControl::kTolerancePeriods* kPeriod);
+constexpr std::int64_t kTolerance = LoadControl::kPatienceNs;
+static_assert(LoadControl::kTolerancePeriods * kPeriod < kTolerance);
 
 /// Adds a set that had arrived a moment after its capture and is complete `age_ns` later.
 void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
