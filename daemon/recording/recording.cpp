@@ -209,8 +209,8 @@ void Recording::RunCamera(std::size_t camera) {
 
 void Recording::WriteFrames(std::size_t camera) {
   Line& line = *lines_[camera];
-  const FrameTap& tap = taps_.frames[camera];
-  FrameTap::Queue& queue = taps_.frames[camera].queue();
+  FrameTap& tap = taps_.frames[camera];
+  FrameTap::Queue& queue = tap.queue();
   while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
@@ -218,6 +218,7 @@ void Recording::WriteFrames(std::size_t camera) {
       std::this_thread::sleep_for(kHeldTick);
       continue;
     }
+    line.dropped.store(queue.dropped() + line.stale + tap.held_back(), std::memory_order_relaxed);
     if (!queue.TryPop()) {
       if (is_closed) return;
       line.bell.WaitPast(seen);
@@ -229,7 +230,6 @@ void Recording::WriteFrames(std::size_t camera) {
     } else {
       WriteFrame(camera, queue.front());
     }
-    line.dropped.store(queue.dropped() + line.stale + tap.held_back(), std::memory_order_relaxed);
   }
 }
 

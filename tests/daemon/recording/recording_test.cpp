@@ -119,6 +119,17 @@ TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {
   EXPECT_FALSE(studio.cameras[0].background().empty());
 }
 
+TEST_F(RecordingTest, FramesHeldBackAreCountedUpToTheEnd) {
+  const std::filesystem::path take = recorder_->Start("one", config_, {});
+  Offer(0, 0);
+  recorder_->taps().frames[0].Hold(true);
+  EXPECT_FALSE(Offer(0, 1));
+  EXPECT_FALSE(Offer(0, 2));
+  EXPECT_EQ(recorder_->Stop().dropped, 2);
+  EXPECT_THAT(testing::ReadText(TakeLayout{take}.Description()),
+              HasSubstr("dropped_while_recording_cam1 = \"2\""));
+}
+
 TEST_F(RecordingTest, WhileItRunsTheTakeOpensAsPartial) {
   recorder_->Start("one", config_, {});
   const RecordingStatus status = recorder_->Status();
