@@ -136,7 +136,7 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kTracking;
     if (!known_) acquisition_frames_ = frames_acquiring_;
     known_ = tracker_->body().sizes();
-    if (!refiner_) refiner_.emplace(*known_);
+    if (!refiner_) refiner_.emplace(tracker_->body());
     bad_frames_ = 0;
   }
 
@@ -180,7 +180,7 @@ class MotionCapture::Impl {
     patience_ = kFramesToLose;
     if (sizes_are_known) return;
     known_ = found.body().sizes();
-    refiner_.emplace(*known_);
+    refiner_.emplace(found.body());
     result_.body_changed = true;
   }
 

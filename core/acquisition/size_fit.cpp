@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/acquisition/size_jacobian.h"
+
 namespace mocap {
 namespace {
-
-using SizeMember = double BodySizes::*;
 
 constexpr std::array<SizeMember, 8> kFitted = {
     &BodySizes::torso,     &BodySizes::thigh,          &BodySizes::calf,      &BodySizes::upper_arm,
@@ -30,18 +30,9 @@ void Improve(const BodyModel& start, SurfaceFit& fit, const Unknowns& prior,
              const SizeSpread& spread, Unknowns& now) {
   BodyModel body = start;
   body.Resize(now.sizes);
-  const std::vector<SurfaceResidual> residuals = fit.ResidualsAt(body, now.pose);
-  std::array<std::vector<PosedCapsule>, kFittedCount> longer;
-  for (int i = 0; i < kFittedCount; ++i) {
-    BodySizes sizes = now.sizes;
-    sizes.*kFitted[i] += 1;
-    BodyModel other = start;
-    other.Resize(sizes);
-    other.PoseShape(other.PostureAt(now.pose), longer[i]);
-  }
-  std::vector<PosedCapsule> shape;
-  body.PoseShape(body.PostureAt(now.pose), shape);
-
+  const std::vector<SurfaceResidual>& residuals = fit.ResidualsAt(body, now.pose);
+  SizeJacobian by_size(body, kFitted);
+  by_size.Update(body, now.pose);
   const int pose_dof = body.dof();
   const int n = pose_dof + kFittedCount;
   Eigen::MatrixXd rows(n, residuals.size());
@@ -50,11 +41,7 @@ void Improve(const BodyModel& start, SurfaceFit& fit, const Unknowns& prior,
     const SurfaceResidual& residual = residuals[k];
     rows.col(k).head(pose_dof) = residual.J_outside_by_step;
     for (int i = 0; i < kFittedCount; ++i) {
-      const PosedCapsule& from = shape[residual.capsule];
-      const PosedCapsule& to = longer[i][residual.capsule];
-      const Vector3 moved =
-          (1 - residual.share) * (to.a_W - from.a_W) + residual.share * (to.b_W - from.b_W);
-      rows(pose_dof + i, k) = residual.normal_W.dot(moved);
+      rows(pose_dof + i, k) = by_size.OutwardBySize(residual, i);
     }
     const double weight = 1 / std::sqrt(residual.variance);
     rows.col(k) *= weight;

@@ -1,14 +1,14 @@
 #include "core/acquisition/size_refiner.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
-#include <vector>
 
 namespace mocap {
 namespace {
 
 struct RefinedSize {
-  double BodySizes::*size;
+  SizeMember size;
   double std_share;  // How far it may be from what was acquired.
 };
 
@@ -33,59 +33,53 @@ constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::shoulder_width, 0.05},
                                                    {&BodySizes::hip_width, 0.10}}};
 constexpr int kSizes = static_cast<int>(kRefined.size());
+constexpr int kMostUnknowns = kMaxDof + kSizes;
+using Information =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
+using InformationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
 // Frames err alike: the model is too simple in the same way in each.
 constexpr double kIndependent = 0.2;
 constexpr double kPoseStdMm = 40;
 constexpr double kPoseStdRad = 0.2;
 
+std::array<SizeMember, kSizes> RefinedMembers() {
+  std::array<SizeMember, kSizes> members{};
+  std::ranges::transform(kRefined, members.begin(), &RefinedSize::size);
+  return members;
+}
+
 }  // namespace
 
-SizeRefiner::SizeRefiner(const BodySizes& acquired)
-    : acquired_(acquired),
+SizeRefiner::SizeRefiner(const BodyModel& acquired)
+    : acquired_(acquired.sizes()),
+      by_size_(acquired, RefinedMembers()),
       information_(Eigen::MatrixXd::Zero(kSizes, kSizes)),
       vector_(Eigen::VectorXd::Zero(kSizes)) {}
 
 void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& pose) {
-  std::vector<PosedCapsule> shape;
-  body.PoseShape(body.PostureAt(pose), shape);
-  std::array<std::vector<PosedCapsule>, kSizes> larger;
-  for (int i = 0; i < kSizes; ++i) {
-    BodySizes sizes = body.sizes();
-    sizes.*kRefined[i].size += 1;
-    BodyModel other = body;
-    other.Resize(sizes);
-    other.PoseShape(other.PostureAt(pose), larger[i]);
-  }
+  by_size_.Update(body, pose);
   const int pose_dof = body.dof();
   const int n = pose_dof + kSizes;
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd row(n);
+  Information H = Information::Zero(n, n);
+  InformationVector g = InformationVector::Zero(n);
+  InformationVector row(n);
   for (const SurfaceResidual& residual : fit.ResidualsAt(body, pose)) {
     if (!residual.is_edge) continue;
     row.head(pose_dof) = residual.J_outside_by_step;
-    const PosedCapsule& from = shape[residual.capsule];
-    const double share = residual.share;
-    for (int i = 0; i < kSizes; ++i) {
-      const PosedCapsule& to = larger[i][residual.capsule];
-      const Vector3 moved = (1 - share) * (to.a_W - from.a_W) + share * (to.b_W - from.b_W);
-      const double thicker = (1 - share) * (to.radius_a_mm - from.radius_a_mm) +
-                             share * (to.radius_b_mm - from.radius_b_mm);
-      row[pose_dof + i] = residual.normal_W.dot(moved) + thicker;
-    }
+    for (int i = 0; i < kSizes; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
     H.selfadjointView<Eigen::Lower>().rankUpdate(row, 1 / residual.variance);
     g += row * (residual.outside_mm / residual.variance);
   }
-  H = Eigen::MatrixXd(H.selfadjointView<Eigen::Lower>());
+  H = Information(H.selfadjointView<Eigen::Lower>());
   for (int i = 0; i < pose_dof; ++i) {
     const double std = i < 3 ? kPoseStdMm : kPoseStdRad;
     H(i, i) += 1 / (std * std);
   }
-  const Eigen::LLT<Eigen::MatrixXd> pose_part(H.topLeftCorner(pose_dof, pose_dof));
-  const Eigen::MatrixXd by_pose = pose_part.solve(H.topRightCorner(pose_dof, kSizes));
-  const Eigen::MatrixXd information =
+  const Eigen::LLT<Information> pose_part(H.topLeftCorner(pose_dof, pose_dof));
+  const Information by_pose = pose_part.solve(H.topRightCorner(pose_dof, kSizes));
+  const Information information =
       H.bottomRightCorner(kSizes, kSizes) - H.bottomLeftCorner(kSizes, pose_dof) * by_pose;
-  Eigen::VectorXd away(kSizes);
+  InformationVector away(kSizes);
   for (int i = 0; i < kSizes; ++i) {
     away[i] = body.sizes().*kRefined[i].size - acquired_.*kRefined[i].size;
   }
@@ -96,12 +90,12 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
 }
 
 BodySizes SizeRefiner::Sizes() const {
-  Eigen::MatrixXd information = information_;
+  Information information = information_;
   for (int i = 0; i < kSizes; ++i) {
     const double std_mm = kRefined[i].std_share * acquired_.*kRefined[i].size;
     information(i, i) += 1 / (std_mm * std_mm);
   }
-  const Eigen::VectorXd away = information.llt().solve(vector_);
+  const InformationVector away = information.llt().solve(vector_);
   BodySizes sizes = acquired_;
   for (int i = 0; i < kSizes; ++i) sizes.*kRefined[i].size += away[i];
   return sizes;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/acquisition/size_jacobian.h"
 #include "core/body/body_model.h"
 #include "core/tracking/surface_fit.h"
 
@@ -13,8 +14,8 @@ namespace mocap {
 /// what remains adds up.
 class SizeRefiner {
  public:
-  /// @param acquired  the sizes to start from.
-  explicit SizeRefiner(const BodySizes& acquired);
+  /// @param acquired  the body to start from.
+  explicit SizeRefiner(const BodyModel& acquired);
 
   /// Adds a frame that was fitted well.
   /// @param fit  holds the frame's contacts.
@@ -25,6 +26,7 @@ class SizeRefiner {
 
  private:
   BodySizes acquired_;
+  SizeJacobian by_size_;
   Eigen::MatrixXd information_;  ///< Of the sizes, without the prior.
   Eigen::VectorXd vector_;
   int frames_ = 0;

@@ -29,7 +29,7 @@ BodyModel::BodyModel(BodyTable table, const BodySizes& sizes) : table_(std::move
 void BodyModel::Resize(const BodySizes& sizes) {
   sizes_ = sizes;
   reference_points_T_ = ReferencePoints(sizes);
-  shape_ = ShapeOf(table_, sizes_, reference_points_T_);
+  BuildShape(table_, sizes_, reference_points_T_, shape_);
 }
 
 int BodyModel::CarrierOf(Point point) const { return point_carrier_[static_cast<int>(point)]; }

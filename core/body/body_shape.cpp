@@ -7,8 +7,9 @@ namespace {
 
 class ShapeBuilder {
  public:
-  ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPlaces& points_T)
-      : table_(table), sizes_(sizes), points_T_(points_T) {}
+  ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPlaces& points_T,
+               std::vector<Capsule>& capsules)
+      : table_(table), sizes_(sizes), points_T_(points_T), capsules_(capsules) {}
 
   Vector3 At(Point point) const { return points_T_.col(static_cast<int>(point)); }
   void Add(BodyPart part, Segment segment, const Vector3& a, const Vector3& b, double radius_a,
@@ -16,7 +17,6 @@ class ShapeBuilder {
     capsules_.push_back(
         {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b});
   }
-  std::vector<Capsule> Take() { return std::move(capsules_); }
 
   // The chest is deeper than the waist, and the shoulder blades lie behind.
   void AddTrunk() {
@@ -108,14 +108,15 @@ class ShapeBuilder {
   const BodyTable& table_;
   const BodySizes& sizes_;
   const BodyPlaces& points_T_;
-  std::vector<Capsule> capsules_;
+  std::vector<Capsule>& capsules_;
 };
 
 }  // namespace
 
-std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
-                             const BodyPlaces& reference_points_T) {
-  ShapeBuilder builder(table, sizes, reference_points_T);
+void BuildShape(const BodyTable& table, const BodySizes& sizes,
+                const BodyPlaces& reference_points_T, std::vector<Capsule>& capsules) {
+  capsules.clear();
+  ShapeBuilder builder(table, sizes, reference_points_T, capsules);
   builder.AddTrunk();
   builder.AddHead();
   builder.AddArm(BodyPart::kUpperArmL, BodyPart::kLowerArmL, Segment::kUpperArmL,
@@ -128,7 +129,6 @@ std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
                  Segment::kFootL, Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kFootL);
   builder.AddLeg(BodyPart::kThighR, BodyPart::kCalfR, Segment::kThighR, Segment::kCalfR,
                  Segment::kFootR, Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kFootR);
-  return builder.Take();
 }
 
 PosedCapsule::Distance PosedCapsule::DistanceTo(const Vector3& p_WQ) const {

@@ -21,8 +21,9 @@ struct Capsule {
 };
 
 /// The capsules of a body at the reference configuration.
-std::vector<Capsule> ShapeOf(const BodyTable& table, const BodySizes& sizes,
-                             const BodyPlaces& reference_points_T);
+/// Builds the flesh around the chain; keeps the memory of `capsules`.
+void BuildShape(const BodyTable& table, const BodySizes& sizes,
+                const BodyPlaces& reference_points_T, std::vector<Capsule>& capsules);
 
 /// A capsule where a pose puts it.
 struct PosedCapsule {

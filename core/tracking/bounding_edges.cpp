@@ -72,9 +72,8 @@ void AddEdges(const VoxelCloud& cloud, const Outline& outline, std::vector<Bound
 }  // namespace
 
 void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
-                       std::vector<BoundingEdge>& edges) {
+                       std::vector<BoundingEdge>& edges, std::vector<BoundingEdge>& missing) {
   edges.clear();
-  std::vector<BoundingEdge> missing;
   for (const Outline& outline : outlines) AddEdges(cloud, outline, edges, missing);
 }
 

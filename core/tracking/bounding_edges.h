@@ -20,7 +20,8 @@ struct BoundingEdge {
 /// Cuts each ray to its stretch along the voxels. A ray that misses them keeps its whole way
 /// through their box, because a limb may have been carved away that another camera did not see; but
 /// not if a third of its camera's rays miss, for then it is the camera that errs.
+/// @param missing  memory to work with.
 void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
-                       std::vector<BoundingEdge>& edges);
+                       std::vector<BoundingEdge>& edges, std::vector<BoundingEdge>& missing);
 
 }  // namespace mocap

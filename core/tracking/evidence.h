@@ -13,10 +13,11 @@ namespace mocap {
 struct Evidence {
   VoxelCloud cloud;
   std::vector<BoundingEdge> edges;
+  std::vector<BoundingEdge> missing;  ///< Memory for FindBoundingEdges.
 
   void Gather(const VoxelGrid& grid, std::span<const Outline> outlines) {
     cloud.Build(grid);
-    FindBoundingEdges(cloud, outlines, edges);
+    FindBoundingEdges(cloud, outlines, edges, missing);
   }
 };
 

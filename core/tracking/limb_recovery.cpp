@@ -244,9 +244,8 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
     rest_s_ = 0;
     if (!hands_meet) return std::nullopt;
   }
-  std::vector<Contact> contacts;
-  ChooseContacts(evidence, kVoxels, kEdges, contacts);
-  matcher_.SetContacts(contacts);
+  ChooseContacts(evidence, kVoxels, kEdges, contacts_);
+  matcher_.SetContacts(contacts_);
   PoseState now = pose;
   bool changed = !is_explained && RecoverLost(body, evidence, fit, now);
   if (hands_meet) changed |= ExchangeArms(body, evidence, fit, now);

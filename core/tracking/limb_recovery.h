@@ -49,6 +49,7 @@ class LimbRecovery {
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
   double rest_s_ = 0;  ///< Until lost limbs are searched again.
+  std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
 };

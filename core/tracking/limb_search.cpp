@@ -105,13 +105,12 @@ double LimbSearch::OverlapCost() const {
   return depth_mm;
 }
 
-LimbClaim LimbSearch::ClaimAt(const PoseState& pose) {
+const LimbClaim& LimbSearch::ClaimAt(const PoseState& pose) {
   PoseLimb(pose);
-  LimbClaim claim;
   const std::vector<float>& distances_mm = open_.Distances(posed_, kReachMm);
-  claim.distances_mm.reserve(distances_mm.size());
+  claim_.distances_mm.clear();
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {
-    claim.distances_mm.push_back(std::min<double>(terms_[i].other_mm, distances_mm[i]));
+    claim_.distances_mm.push_back(std::min<double>(terms_[i].other_mm, distances_mm[i]));
   }
   double hollow_mm = 0;
   for (const PosedCapsule& capsule : posed_) {
@@ -121,12 +120,12 @@ LimbClaim LimbSearch::ClaimAt(const PoseState& pose) {
     }
   }
   const double places = static_cast<double>(body_.shape().size() * kCoreShares.size());
-  claim.own_cost_mm = (kHollowWeight * hollow_mm + OverlapCost()) / places;
-  return claim;
+  claim_.own_cost_mm = (kHollowWeight * hollow_mm + OverlapCost()) / places;
+  return claim_;
 }
 
 double LimbSearch::CostAt(const PoseState& pose) {
-  const LimbClaim claim = ClaimAt(pose);
+  const LimbClaim& claim = ClaimAt(pose);
   double cost_mm = claim.own_cost_mm;
   for (std::size_t i = 0; i < terms_.size(); ++i)
     cost_mm += terms_[i].weight * claim.distances_mm[i];

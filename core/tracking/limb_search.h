@@ -32,7 +32,8 @@ class LimbSearch {
   /// differ in this limb alone.
   double CostAt(const PoseState& pose);
   /// The same in parts: what it explains of each contact that is open, and what it costs by itself.
-  LimbClaim ClaimAt(const PoseState& pose);
+  /// @return  valid until the next call.
+  const LimbClaim& ClaimAt(const PoseState& pose);
   /// What two limbs cost together. @pre each was searched with the other absent.
   double JointCost(const LimbClaim& limb, const LimbClaim& other) const;
   /// Improves the limb's angles from those in `pose`.
@@ -57,13 +58,14 @@ class LimbSearch {
   const VoxelCloud& cloud_;
   const std::vector<Vector3>& surface_W_;
   std::vector<int> rows_;
-  std::vector<int> capsules_;         ///< Of the limb, in ShapeOf(body).
+  std::vector<int> capsules_;         ///< Of the limb, in the body's shape().
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
   std::vector<Pair> overlapping_;   ///< Of posed_ and others_, where they may run into each other.
   ContactMatcher open_;             ///< The contacts that the rest of the body does not explain.
   std::vector<OpenContact> terms_;  ///< Of each of them.
   Posture posture_;
   std::vector<PosedCapsule> posed_;  ///< The limb.
+  LimbClaim claim_;
 };
 
 }  // namespace mocap

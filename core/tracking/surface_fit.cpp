@@ -27,9 +27,8 @@ Vector3 LeanOf(const PosedCapsule& capsule, double share) {
 
 void SurfaceFit::SetEvidence(const Evidence& evidence) {
   cloud_ = &evidence.cloud;
-  std::vector<Contact> contacts;
-  ChooseContacts(evidence, options_.voxels, options_.edges, contacts);
-  matcher_.SetContacts(contacts);
+  ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
+  matcher_.SetContacts(contacts_);
 }
 
 void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
@@ -85,16 +84,17 @@ void SurfaceFit::ForEachOverlap(const BodyModel& body, const Visit& visit) const
   }
 }
 
-std::vector<SurfaceResidual> SurfaceFit::ResidualsAt(const BodyModel& body, const PoseState& pose) {
+const std::vector<SurfaceResidual>& SurfaceFit::ResidualsAt(const BodyModel& body,
+                                                            const PoseState& pose) {
   PoseCapsules(body, pose);
-  std::vector<SurfaceResidual> residuals;
-  ForEachResidual([&](const SurfaceResidual& residual) { residuals.push_back(residual); });
-  for (SurfaceResidual& residual : residuals) {
+  residuals_.clear();
+  ForEachResidual([&](const SurfaceResidual& residual) { residuals_.push_back(residual); });
+  for (SurfaceResidual& residual : residuals_) {
     // The same as if the contact moved and the body stood still.
     body.DirectionalJacobian(posture_, body.shape()[residual.capsule].carrier, residual.p_W,
                              residual.normal_W, residual.J_outside_by_step);
   }
-  return residuals;
+  return residuals_;
 }
 
 void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,

@@ -40,7 +40,7 @@ struct SurfaceFitQuality {
 
 /// One contact against the model.
 struct SurfaceResidual {
-  int capsule;   ///< Of ShapeOf(body).
+  int capsule;   ///< Of the body's shape().
   bool is_edge;  ///< A bounding edge and not a voxel.
   double share;  ///< Along its core.
   Vector3 p_W;   ///< Where the capsule is drawn to.
@@ -61,8 +61,9 @@ class SurfaceFit {
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
   void Linearize(const BodyModel& body, const PoseState& pose, UpdateEquations& equations);
   SurfaceFitQuality QualityAt(const BodyModel& body, const PoseState& pose);
-  /// The residuals of the frame's contacts, without those that no part comes near.
-  std::vector<SurfaceResidual> ResidualsAt(const BodyModel& body, const PoseState& pose);
+  /// The residuals of the frame's contacts, without those that no part comes near; valid until the
+  /// next call.
+  const std::vector<SurfaceResidual>& ResidualsAt(const BodyModel& body, const PoseState& pose);
 
  private:
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
@@ -75,10 +76,12 @@ class SurfaceFit {
 
   SurfaceFitOptions options_;
   const VoxelCloud* cloud_ = nullptr;
+  std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   Posture posture_;
   std::vector<PosedCapsule> posed_;
   ChainEquations chain_;
+  std::vector<SurfaceResidual> residuals_;
 };
 
 }  // namespace mocap

@@ -67,7 +67,7 @@ int WaitForSignal() {
 void ReturnLargeBlocks() {
   constexpr int kLarge = 768 << 10;
   mallopt(M_MMAP_THRESHOLD, kLarge);
-  mallopt(M_TRIM_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, 128 << 10);
 }
 
 /// To standard error, which is the journal under systemd, and to a file where there is a place.

@@ -8,6 +8,7 @@
 
 #include "config/load_config.h"
 #include "core/body/stance.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/seen_body.h"
 #include "tests/support/voxelized_body.h"
 
@@ -113,6 +114,31 @@ TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
     const auto [hull, outlines] = studio.Carve(adult, Stroll(adult, frame));
     EXPECT_NE(capture.Update(hull, outlines, frame * kFrameNs).state, CaptureState::kTracking);
   }
+}
+
+// While sizes are still measured too; only to look for somebody takes memory.
+TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+  const BodyTable table = LoadBodyTable("full");
+  const BodyModel person(table, AverageSizes(1750));
+  const RoundStudio studio;
+  std::vector<RoundStudio::CarvedBody> seen;
+  for (int frame = 0; frame < 4; ++frame) {
+    seen.push_back(studio.Carve(person, Stroll(person, frame)));
+  }
+  MotionCapture capture(table);
+  std::int64_t now_ns = 0;
+  const auto walk_to_and_fro = [&] {
+    for (const int frame : {0, 1, 2, 3, 2, 1}) {
+      capture.Update(seen[frame].hull, seen[frame].outlines, now_ns += kFrameNs);
+    }
+  };
+  for (int i = 0; i < 4; ++i) walk_to_and_fro();
+  EXPECT_GT(capture.acquisition_frames(), 0);
+  const std::int64_t before = Allocations();
+  EXPECT_GT(before, 0);
+  walk_to_and_fro();
+  EXPECT_EQ(Allocations() - before, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, Capture, testing::Values("mikic2003", "full"),

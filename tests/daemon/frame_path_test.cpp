@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdlib>
 #include <deque>
 #include <memory>
-#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,30 +12,7 @@
 #include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/carve_stage.h"
 #include "drivers/simulation/simulated_studio.h"
-
-thread_local std::int64_t allocations = 0;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kCountsAllocations = false;
-#else
-constexpr bool kCountsAllocations = true;
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto step = static_cast<std::size_t>(alignment);
-  if (void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-#endif
+#include "tests/support/allocation_counter.h"
 
 namespace mocap {
 namespace {
@@ -129,23 +103,23 @@ TEST_F(FramePathTest, SegmentingTracingMatchingAndCarvingAllocateNothingOnceThey
   Pass(1);  // Two cameras leave a larger hull.
   for (int i = 0; i < 3 * kFrames; ++i) voxels = Pass();
   EXPECT_GT(voxels, 200);
-  const std::int64_t before = allocations;
+  const std::int64_t before = Allocations();
   EXPECT_GT(before, 0);
   for (int i = 0; i < 2 * kFrames; ++i) Pass();
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(Allocations() - before, 0);
   Pass(1);
   EXPECT_TRUE(set_.outlines[1].empty());
   Pass();
   EXPECT_FALSE(set_.outlines[1].empty());
-  EXPECT_EQ(allocations - before, 0) << "a camera that is back takes no memory anew";
+  EXPECT_EQ(Allocations() - before, 0) << "a camera that is back takes no memory anew";
 }
 
 TEST_F(FramePathTest, ARoomySetHoldsAPersonWithoutAllocating) {
   for (int i = 0; i < 3 * kFrames; ++i) Pass();
   set_ = RoomySet(kCameras, 40);
-  const std::int64_t before = allocations;
+  const std::int64_t before = Allocations();
   EXPECT_GT(Pass(), 200);
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(Allocations() - before, 0);
 }
 
 }  // namespace

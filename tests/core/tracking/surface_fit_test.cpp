@@ -163,7 +163,7 @@ TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
   person.thigh_width *= 0.88;
   person.torso_depth *= 0.92;
   const BodyModel truth(body_.table(), person);
-  SizeRefiner refiner(body_.sizes());
+  SizeRefiner refiner(body_);
   BodyModel refined = body_;
   for (int frame = 0; frame < 9; ++frame) {
     const double swing = 25 * std::sin(0.8 * frame);

@@ -90,13 +90,19 @@ class Edges : public testing::Test {
     return outline;
   }
 
+  std::vector<BoundingEdge> Find(const Outline& outline) const {
+    std::vector<BoundingEdge> edges;
+    std::vector<BoundingEdge> missing;
+    FindBoundingEdges(cloud_, std::vector<Outline>{outline}, edges, missing);
+    return edges;
+  }
+
   VoxelCloud cloud_;
   Vector3 top_W_;
 };
 
 TEST_F(Edges, LieAlongTheVoxelsThatTheirRayGrazes) {
-  std::vector<BoundingEdge> edges;
-  FindBoundingEdges(cloud_, std::vector<Outline>{{RayAbove(0)}}, edges);
+  const std::vector<BoundingEdge> edges = Find({RayAbove(0)});
   ASSERT_EQ(edges.size(), 1u);
   EXPECT_NEAR(edges[0].from_W.z(), top_W_.z(), 1e-9);
   EXPECT_LE(edges[0].from_W.x(), top_W_.x());
@@ -105,11 +111,8 @@ TEST_F(Edges, LieAlongTheVoxelsThatTheirRayGrazes) {
 }
 
 TEST_F(Edges, RaysThatMissCountOnlyWhereTheCameraIsTrusted) {
-  std::vector<BoundingEdge> edges;
-  FindBoundingEdges(cloud_, std::vector<Outline>{CameraThatMisses(12, 3)}, edges);
-  EXPECT_EQ(edges.size(), 12u);
-  FindBoundingEdges(cloud_, std::vector<Outline>{CameraThatMisses(12, 6)}, edges);
-  EXPECT_EQ(edges.size(), 6u);
+  EXPECT_EQ(Find(CameraThatMisses(12, 3)).size(), 12u);
+  EXPECT_EQ(Find(CameraThatMisses(12, 6)).size(), 6u);
 }
 
 }  // namespace
