@@ -4,12 +4,14 @@
 #include <array>
 
 #include "core/acquisition/pose_hypotheses.h"
+#include "core/acquisition/size_fit.h"
 
 namespace mocap {
 namespace {
 
 // So many guesses are followed closely, limbs and all.
 constexpr std::size_t kFinalists = 3;
+constexpr int kIterations = 5;
 
 struct Candidate {
   PoseState pose;
@@ -63,6 +65,21 @@ std::vector<Candidate> Compete(const BodyModel& body, const Evidence& evidence,
   return candidates;
 }
 
+Tracker FollowClosely(const BodyModel& body, const Evidence& evidence, const PoseState& pose,
+                      TrunkSize trunk) {
+  BodyModel own = body;
+  Candidate near{pose, 0};
+  if (trunk == TrunkSize::kMeasured) {
+    SurfaceFit fit(SurfaceFitOptions{});
+    fit.SetEvidence(evidence);
+    Improve(body, fit, kIterations, near);
+    own.Resize(MeasureTrunk(body, fit, near.pose));
+  }
+  Tracker tracker(own, near.pose);
+  tracker.Update(evidence, 0);
+  return tracker;
+}
+
 bool FaceApart(const PoseState& a, const PoseState& b) {
   return a.X_WT.R.col(0).dot(b.X_WT.R.col(0)) < -0.3;
 }
@@ -70,11 +87,11 @@ bool FaceApart(const PoseState& a, const PoseState& b) {
 }  // namespace
 
 std::vector<Tracker> FitBody(const BodyModel& body, const Evidence& evidence,
-                             const LocalizedBody& located) {
+                             const LocalizedBody& located, TrunkSize trunk) {
   const std::vector<Candidate> candidates = Compete(body, evidence, PoseHypotheses(body, located));
   std::vector<Tracker> found;
   for (std::size_t i = 0; i < std::min(kFinalists, candidates.size()); ++i) {
-    found.emplace_back(body, candidates[i].pose).Update(evidence, 0);
+    found.push_back(FollowClosely(body, evidence, candidates[i].pose, trunk));
   }
   if (found.empty()) return found;
   const auto cost = [](const Tracker& tracker) { return tracker.quality().Cost(); };
@@ -84,7 +101,7 @@ std::vector<Tracker> FitBody(const BodyModel& body, const Evidence& evidence,
     return FaceApart(candidate.pose, found.front().filter().pose());
   });
   if (opposite == candidates.end()) return found;
-  found.emplace_back(body, opposite->pose).Update(evidence, 0);
+  found.push_back(FollowClosely(body, evidence, opposite->pose, trunk));
   std::ranges::stable_sort(found, {}, cost);
   return found;
 }

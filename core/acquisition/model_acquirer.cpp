@@ -68,7 +68,8 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   if (known) {
     const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud, CrustOf(*known));
     if (!located) return false;
-    const std::vector<Tracker> found = FitBody(BodyModel(table_, *known), evidence, *located);
+    const std::vector<Tracker> found =
+        FitBody(BodyModel(table_, *known), evidence, *located, TrunkSize::kGiven);
     if (CostOf(found) > WorstCostMm(table_.measurement)) return false;
     Begin(found, evidence);
     for (Hypothesis& hypothesis : hypotheses_) hypothesis.tracker.Resize(*known);
@@ -93,8 +94,8 @@ bool ModelAcquirer::TryStature(const Evidence& evidence) {
   height_mm_ = located->height_mm - kHairAndSolesMm;
   const double stature_mm = share * height_mm_;
   if (stature_mm < kSmallestMm || stature_mm > kLargestMm) return false;
-  const std::vector<Tracker> found =
-      FitBody(BodyModel(table_, AverageSizes(stature_mm)), evidence, *located);
+  const std::vector<Tracker> found = FitBody(BodyModel(table_, AverageSizes(stature_mm)), evidence,
+                                             *located, TrunkSize::kMeasured);
   const double cost_mm = CostOf(found);
   if (cost_mm < likely_cost_mm_) {
     likely_cost_mm_ = cost_mm;

@@ -19,6 +19,10 @@ constexpr int kFittedCount = static_cast<int>(kFitted.size());
 constexpr int kIterations = 3;
 constexpr double kPoseSpreadMm = 60;
 constexpr double kPoseSpreadRad = 0.3;
+// Fewer contacts tell nothing of a part's thickness; so much it may change at once.
+constexpr std::size_t kEnoughContacts = 8;
+constexpr double kThinner = 0.75;
+constexpr double kThicker = 1.35;
 
 struct Unknowns {
   PoseState pose;
@@ -86,10 +90,9 @@ void MeasureThickness(const BodyModel& start, SurfaceFit& fit, Unknowns& now) {
       const std::vector<double>& other = outside_mm[static_cast<int>(right)];
       both.insert(both.end(), other.begin(), other.end());
     }
-    constexpr std::size_t kEnough = 8;
-    if (both.size() < kEnough) return;
+    if (both.size() < kEnoughContacts) return;
     double& size = now.sizes.*width;
-    size = std::clamp(size + 2 * Median(both), 0.75 * size, 1.35 * size);
+    size = std::clamp(size + 2 * Median(both), kThinner * size, kThicker * size);
   };
   const double depth_before = now.sizes.torso_depth;
   thicken(&BodySizes::torso_depth, BodyPart::kTorso, BodyPart::kTorso);
@@ -110,6 +113,22 @@ BodySizes MeasureSizes(const BodyModel& body, SurfaceFit& fit, const PoseState& 
   for (int i = 0; i < kIterations; ++i) Improve(body, fit, prior, spread, now);
   MeasureThickness(body, fit, now);
   return now.sizes;
+}
+
+BodySizes MeasureTrunk(const BodyModel& body, SurfaceFit& fit, const PoseState& pose) {
+  std::vector<double> outside_mm;
+  for (const SurfaceResidual& residual : fit.ResidualsAt(body, pose)) {
+    if (body.shape()[residual.capsule].part == BodyPart::kTorso) {
+      outside_mm.push_back(residual.outside_mm);
+    }
+  }
+  BodySizes sizes = body.sizes();
+  if (outside_mm.size() < kEnoughContacts) return sizes;
+  const double thicker = sizes.torso_depth * std::clamp(Median(outside_mm) / sizes.torso_depth,
+                                                        kThinner - 1, kThicker - 1);
+  sizes.torso_depth += thicker;
+  sizes.torso_width += thicker;
+  return sizes;
 }
 
 }  // namespace mocap

@@ -21,4 +21,9 @@ struct SizeSpread {
 BodySizes MeasureSizes(const BodyModel& body, SurfaceFit& fit, const PoseState& pose,
                        const SizeSpread& spread);
 
+/// Measures how thick the trunk is, at a pose that is not final yet: it grows by half of what it
+/// lacks, because the pose gives way too.
+/// @param fit  as above.
+BodySizes MeasureTrunk(const BodyModel& body, SurfaceFit& fit, const PoseState& pose);
+
 }  // namespace mocap

@@ -18,17 +18,19 @@ class ShapeBuilder {
         {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b});
   }
 
-  // The chest is deeper than the waist, and the shoulder blades lie behind.
+  // The chest is deeper than the waist, and the shoulder blades lie behind. What a person has more
+  // than others of that stature lies in front: the back stays at the spine.
   void AddTrunk() {
     const BodySizes& s = sizes_;
     const double radius = s.torso_depth / 2;
+    const double forward = radius - AverageSizes(s.Stature()).torso_depth / 2;
     const double chest_y = std::max(0.0, s.torso_width / 2 - radius);
     const Vector3 shoulder = At(Point::kShoulderL);
     const Vector3 hip = At(Point::kHipL);
     for (const double side : {1.0, -1.0}) {
-      const Vector3 waist(0, side * 0.85 * chest_y, 0);
+      const Vector3 waist(forward, side * 0.85 * chest_y, 0);
       Add(BodyPart::kTorso, Segment::kTorso, waist,
-          {-0.05 * radius, side * chest_y, shoulder.z() - 0.5 * radius}, 0.85 * radius,
+          {forward - 0.05 * radius, side * chest_y, shoulder.z() - 0.5 * radius}, 0.85 * radius,
           1.02 * radius);
       Add(BodyPart::kTorso, side > 0 ? Segment::kShoulderL : Segment::kShoulderR,
           {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.1 * radius},
