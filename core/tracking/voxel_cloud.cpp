@@ -54,6 +54,15 @@ Vector3 VoxelCloud::Centroid() const {
   return empty() ? sum : Vector3(sum / size());
 }
 
+int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
+  if (!HoldsCell(cell)) return -1;
+  const Word* const row = RowOf(cell.y(), cell.z());
+  const int word = cell.x() >> 6;
+  int index = first_of_row_[static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()];
+  for (int i = 0; i < word; ++i) index += std::popcount(row[i]);
+  return index + std::popcount(row[word] & ((Word{1} << (cell.x() & 63)) - 1));
+}
+
 void VoxelCloud::Build(const VoxelGrid& grid) {
   size_ = grid.size();
   origin_W_ = grid.origin_W();
@@ -169,13 +178,12 @@ void VoxelCloud::DropIslands() {
 void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
   voxels_.clear();
   surface_.clear();
-  const Eigen::Matrix<std::size_t, 3, 1> padded = (size_.array() + 2 * kMargin).cast<std::size_t>();
-  index_of_slot_.assign(padded.prod(), -1);
+  first_of_row_.clear();
   const std::ptrdiff_t above = WordOf(0, 1) - WordOf(0, 0);
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
       const Word* const row = RowOf(j, k);
-      const std::ptrdiff_t slot = SlotOf({0, j, k});
+      first_of_row_.push_back(size());
       for (int i = 0; i + 1 < words_per_row_; ++i) {
         const Word* const here = row + i;
         const Word within = (here[0] << 1 | here[-1] >> 63) & (here[0] >> 1 | here[1] << 63) &
@@ -186,7 +194,6 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
           const int x = i * 64 + bit;
           const bool is_surface = (within >> bit & 1) == 0;
           if (is_surface) surface_.push_back(size());
-          index_of_slot_[slot + x] = size();
           voxels_.push_back({grid.CenterOf(x, j, k), {x, j, k}, is_surface});
         }
       }

@@ -38,25 +38,11 @@ class VoxelCloud {
     return {origin_W_, origin_W_ + voxel_mm_ * size_.cast<double>()};
   }
   /// Index of the voxel in a cell; -1 where the cell is empty or outside.
-  int IndexAt(const Eigen::Vector3i& cell) const {
-    // A negative number is a large one without its sign.
-    const auto is_inside = [&](int axis) {
-      return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
-    };
-    if (!is_inside(0) || !is_inside(1) || !is_inside(2)) return -1;
-    return index_of_slot_[SlotOf(cell)];
-  }
+  int IndexAt(const Eigen::Vector3i& cell) const;
   /// Index of the voxel at a place; -1 where it is empty.
   int IndexAt(const Vector3& p_W) const { return IndexAt(CellAt(p_W)); }
   /// Whether there is a voxel at a place.
-  bool Holds(const Vector3& p_W) const {
-    const Eigen::Vector3i cell = CellAt(p_W);
-    const auto is_inside = [&](int axis) {
-      return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
-    };
-    return is_inside(0) && is_inside(1) && is_inside(2) &&
-           (RowOf(cell.y(), cell.z())[cell.x() >> 6] >> (cell.x() & 63) & 1) != 0;
-  }
+  bool Holds(const Vector3& p_W) const { return HoldsCell(CellAt(p_W)); }
   /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
   Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
@@ -72,10 +58,13 @@ class VoxelCloud {
     int parent;
   };
 
-  std::ptrdiff_t SlotOf(const Eigen::Vector3i& cell) const {
-    const auto inner = (cell.array() + kMargin).cast<std::ptrdiff_t>();
-    return (inner.z() * (size_.y() + 2 * kMargin) + inner.y()) * (size_.x() + 2 * kMargin) +
-           inner.x();
+  bool HoldsCell(const Eigen::Vector3i& cell) const {
+    // A negative number is a large one without its sign.
+    const auto is_inside = [&](int axis) {
+      return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
+    };
+    return is_inside(0) && is_inside(1) && is_inside(2) &&
+           (RowOf(cell.y(), cell.z())[cell.x() >> 6] >> (cell.x() & 63) & 1) != 0;
   }
   Eigen::Vector3i CellAt(const Vector3& p_W) const {
     const Vector3 place = (p_W - origin_W_) / voxel_mm_;
@@ -103,7 +92,7 @@ class VoxelCloud {
   double voxel_mm_ = 25;
   std::ptrdiff_t words_per_row_ = 1;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::int32_t> index_of_slot_;
+  std::vector<int> first_of_row_;  // How many voxels the rows before have.
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
   // While islands are dropped.

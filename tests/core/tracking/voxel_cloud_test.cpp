@@ -45,6 +45,16 @@ TEST(Cloud, DropsIslandsButKeepsALargePieceNearby) {
   EXPECT_EQ(cloud.voxels()[index].cell, Eigen::Vector3i(29, 20, 20));
 }
 
+TEST(Cloud, EveryVoxelIsFoundInItsCell) {
+  VoxelGrid grid;
+  grid.Reset({0, 0, 0}, {150, 30, 30}, kVoxelMm);
+  for (const double x : {10.0, 62.0, 70.0, 140.0}) AddBall({x, 15, 15}, 8, grid);
+  for (int i = 10; i < 140; ++i) grid.Set(i, 15, 15);
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  for (int i = 0; i < cloud.size(); ++i) EXPECT_EQ(cloud.IndexAt(cloud.voxels()[i].cell), i);
+}
+
 TEST(Cloud, SurfaceNormalsPointOutOfABall) {
   VoxelGrid grid = Room();
   const Eigen::Vector3i center(20, 20, 20);
