@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/errors.h"
 #include "drivers/take/take_layout.h"
@@ -117,33 +116,37 @@ void ReadSharedTimes(const fs::path& file, Footage& footage) {
   }
 }
 
-cv::Mat ReadPicture(const fs::path& file) {
-  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (picture.empty())
+// To FFmpeg a picture is a video of one frame.
+VideoReader OpenPicture(const fs::path& file) {
+  try {
+    return VideoReader(file);
+  } catch (const SetupError&) {
     throw SetupError(file.string() +
                      ": is no picture that can be read; take it out or save it anew");
-  return picture;
+  }
 }
 
 FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::path>& files) {
   FootageCamera camera;
   camera.name = name;
-  const cv::Mat first = ReadPicture(files.front());
-  camera.width_px = first.cols;
-  camera.height_px = first.rows;
+  const VideoReader first = OpenPicture(files.front());
+  camera.width_px = first.width_px();
+  camera.height_px = first.height_px();
   for (std::size_t i = 0; i < files.size(); ++i)
     camera.frames.push_back(
         {static_cast<std::int64_t>(i) * kUntimedInterval_ns, {}, files[i].filename().string()});
-  camera.ForEach = [files, size = first.size()](const auto& use) {
+  camera.ForEach = [files, width_px = camera.width_px,
+                    height_px = camera.height_px](const auto& use) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-      const cv::Mat picture = ReadPicture(files[i]);
-      if (picture.size() != size)
-        throw SetupError(files[i].string() + ": is " + std::to_string(picture.cols) + " x " +
-                         std::to_string(picture.rows) + "; the pictures before it are " +
-                         std::to_string(size.width) + " x " + std::to_string(size.height) +
+      VideoReader picture = OpenPicture(files[i]);
+      if (picture.width_px() != width_px || picture.height_px() != height_px)
+        throw SetupError(files[i].string() + ": is " + std::to_string(picture.width_px()) + " x " +
+                         std::to_string(picture.height_px()) + "; the pictures before it are " +
+                         std::to_string(width_px) + " x " + std::to_string(height_px) +
                          "; all of one camera in one resolution are wanted");
-      use(static_cast<int>(i), ImageView<const Bgr>(picture.ptr<Bgr>(), picture.cols, picture.rows,
-                                                    static_cast<std::ptrdiff_t>(picture.step / 3)));
+      ImageView<const Bgr> pixels;
+      picture.Read(pixels);
+      use(static_cast<int>(i), pixels);
     }
   };
   return camera;

@@ -1,12 +1,14 @@
 #include "tools/report/report_views.h"
 
 #include <fmt/format.h>
+#include <turbojpeg.h>
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "core/errors.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 constexpr const char* kSideClasses[] = {"middle", "left", "right"};
 
-std::string Base64(const std::vector<unsigned char>& bytes) {
+std::string Base64(std::span<const unsigned char> bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -74,12 +76,18 @@ cv::Rect CropAround(const cv::Rect& box, const cv::Size& picture) {
 }
 
 std::string JpegOf(const Image<Bgr>& image, const cv::Rect& crop) {
-  // OpenCV has no view of constant pixels; nothing is written to this one.
-  auto* pixels = const_cast<Bgr*>(image.row(0));
-  const cv::Mat picture(image.height(), image.width(), CV_8UC3, pixels);
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", picture(crop), jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});
-  return Base64(jpeg);
+  constexpr int kQuality = 80;
+  const std::unique_ptr<void, decltype(&tjDestroy)> encoder(tjInitCompress(), tjDestroy);
+  MOCAP_CHECK(encoder);
+  const auto* pixels = reinterpret_cast<const unsigned char*>(image.row(crop.y) + crop.x);
+  const int row_bytes = image.width() * static_cast<int>(sizeof(Bgr));
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const int failed = tjCompress2(encoder.get(), pixels, crop.width, row_bytes, crop.height,
+                                 TJPF_BGR, &bytes, &size, TJSAMP_420, kQuality, 0);
+  const std::unique_ptr<unsigned char, decltype(&tjFree)> jpeg(bytes, tjFree);
+  MOCAP_CHECK(failed == 0);
+  return Base64({bytes, size});
 }
 
 std::string PathOf(const std::vector<Vector2>& pixels, bool closed) {
