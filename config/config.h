@@ -30,6 +30,7 @@ struct SourceConfig {
   std::string motion = "walk";
   double stature_mm = 1750;
   int cameras = 6;
+  int width_px = 640, height_px = 480;
   std::uint64_t seed = 1;
   double losses_per_minute = 0;  ///< How often each camera fails for two seconds.
   bool follow = false;           ///< Cameras are on heads, which keep the person in view.

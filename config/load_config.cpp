@@ -13,6 +13,8 @@ namespace {
 constexpr double kSmallestVoxel_mm = 10;
 constexpr double kLargestVoxel_mm = 100;
 constexpr std::size_t kLongestPrefix = 32;
+constexpr int kLeastPicture_px = 16;
+constexpr int kLargestPicture_px = 8192;
 
 SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) {
   SourceConfig source;
@@ -29,6 +31,10 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.motion = section.Text("motion", source.motion);
   source.stature_mm = section.NumberWithin("stature_mm", 1000, 2100, source.stature_mm);
   source.cameras = static_cast<int>(section.IntegerWithin("cameras", 1, 64, source.cameras));
+  source.width_px = static_cast<int>(
+      section.IntegerWithin("width", kLeastPicture_px, kLargestPicture_px, source.width_px));
+  source.height_px = static_cast<int>(
+      section.IntegerWithin("height", kLeastPicture_px, kLargestPicture_px, source.height_px));
   source.fps = section.NumberWithin("fps", 1, 1000, source.fps);
   source.seed = static_cast<std::uint64_t>(section.IntegerWithin(
       "seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(source.seed)));

@@ -10,6 +10,8 @@ SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
   options.stature_mm = source.stature_mm;
   options.fps = source.fps;
   options.cameras = source.cameras;
+  options.width_px = source.width_px;
+  options.height_px = source.height_px;
   options.seed = source.seed;
   options.losses_per_minute = source.losses_per_minute;
   options.pan_tilt = options.follow = source.follow;

@@ -159,6 +159,10 @@ void AddSimulateCommand(CLI::App& app) {
   command->add_option("--fps", options->studio.fps, "Frames a second")->capture_default_str();
   command->add_option("--cameras", options->studio.cameras, "Number of cameras")
       ->capture_default_str();
+  command->add_option("--width", options->studio.width_px, "Of the pictures [pixels]")
+      ->capture_default_str();
+  command->add_option("--height", options->studio.height_px, "Of the pictures [pixels]")
+      ->capture_default_str();
   command->add_flag("--pan-tilt", options->studio.pan_tilt,
                     "Cameras on heads that follow the person");
   command->add_option("--seed", options->studio.seed, "Person, clothes, room, lenses and path")

@@ -45,6 +45,8 @@ void ExpectSame(const Config& a, const Config& b) {
   EXPECT_EQ(a.source.motion, b.source.motion);
   EXPECT_EQ(a.source.stature_mm, b.source.stature_mm);
   EXPECT_EQ(a.source.cameras, b.source.cameras);
+  EXPECT_EQ(a.source.width_px, b.source.width_px);
+  EXPECT_EQ(a.source.height_px, b.source.height_px);
   EXPECT_EQ(a.source.fps, b.source.fps);
   EXPECT_EQ(a.source.seed, b.source.seed);
   EXPECT_EQ(a.voxel_mm, b.voxel_mm);
@@ -122,6 +124,8 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"[source]\ndriver = \"take\"\n", 1, "source.take is missing"},
       {"[source]\nseed = -1\n", 2, "source.seed is -1"},
       {"[source]\ncameras = 2.5\n", 2, "source.cameras is 2.5"},
+      {"[source]\nwidth = 8\n", 2, "source.width is 8"},
+      {"[source]\nheight = 9000\n", 2, "source.height is 9000"},
       {"[source]\nfps = 0\n", 2, "source.fps is 0"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
       {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},

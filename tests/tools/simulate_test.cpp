@@ -76,11 +76,19 @@ TEST_F(Simulate, TheSameOptionsGiveTheSameBytes) {
   EXPECT_EQ(files, 12);
 }
 
+TEST_F(Simulate, PicturesHaveTheSizeThatIsAskedFor) {
+  const fs::path take = Run("take", "--seconds 0.1 --cameras 1 --width 320 --height 200");
+  const CameraCalibration camera = OpenTake(take, {}).cameras[0].calibration;
+  EXPECT_EQ(camera.width_px, 320);
+  EXPECT_EQ(camera.height_px, 200);
+}
+
 TEST_F(Simulate, RefusesWhatCannotBe) {
   EXPECT_THROW(Run("take", "--motion fly"), SetupError);
   EXPECT_THROW(Run("take", "--stature 20"), SetupError);
   EXPECT_THROW(Run("take", "--seconds 0"), SetupError);
   EXPECT_THROW(Run("take", "--cameras 0"), SetupError);
+  EXPECT_THROW(Run("take", "--width 4"), SetupError);
   EXPECT_FALSE(fs::exists(folder_ / "take"));
 }
 

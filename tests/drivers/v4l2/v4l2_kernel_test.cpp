@@ -121,12 +121,10 @@ TEST_F(Vivid, EveryFormatGivesThePictureThatTheOthersGive) {
 }
 
 TEST_F(Vivid, RateThatItLacksIsTold) {
-  V4l2Driver driver({nodes_[0].bus, 640, 480, 30}, {.format = "YUYV"});
+  V4l2Driver driver({nodes_[0].bus, 640, 480, 1000}, {.format = "YUYV"});
   driver.Start();
-  const CameraFacts facts = driver.Facts();
-  if (facts.fps == 30) GTEST_SKIP() << "this kernel's vivid has 30 frames a second";
-  EXPECT_EQ(facts.fps, 25);
-  EXPECT_THAT(facts.remarks, ::testing::Contains(HasSubstr("set fps = 25")));
+  EXPECT_LT(driver.Facts().fps, 1000);
+  EXPECT_THAT(driver.Facts().remarks, ::testing::Contains(HasSubstr("set fps = ")));
 }
 
 TEST_F(Vivid, GainIsSetAndReadBack) {

@@ -1,0 +1,86 @@
+// The driver on a camera that is pulled out of the kernel's own USB. tools/check_vm runs this in a
+// machine that has it.
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/errors.h"
+#include "drivers/v4l2/v4l2_driver.h"
+
+namespace mocap::testing {
+namespace {
+
+constexpr std::chrono::milliseconds kTimeout{500};
+constexpr int kPatience = 120;
+
+/// A program that is a USB camera for as long as it runs.
+class PluggedCamera {
+ public:
+  PluggedCamera(std::string program, std::string serial) {
+    char* const arguments[] = {program.data(), serial.data(), nullptr};
+    if (posix_spawn(&process_, program.c_str(), nullptr, nullptr, arguments, environ) != 0) {
+      process_ = 0;
+    }
+  }
+  ~PluggedCamera() {
+    if (process_ == 0) return;
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  PluggedCamera(const PluggedCamera&) = delete;
+  PluggedCamera& operator=(const PluggedCamera&) = delete;
+
+ private:
+  pid_t process_ = 0;
+};
+
+class UsbGadget : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    program_ = std::getenv("MOCAP_VM_GADGET");
+    if (!program_) GTEST_SKIP() << "needs a USB camera made of software; tools/check --vm has it";
+  }
+
+  /// The kernel takes a moment to know a camera.
+  static bool Starts(V4l2Driver& driver) {
+    for (int i = 0; i < kPatience; ++i) {
+      try {
+        driver.Start();
+        return true;
+      } catch (const SetupError&) {
+        std::this_thread::sleep_for(kTimeout);
+      }
+    }
+    return false;
+  }
+  static bool GrabUntil(V4l2Driver& driver, GrabStatus wanted) {
+    Frame frame;
+    for (int i = 0; i < kPatience; ++i) {
+      if (driver.Grab(frame, kTimeout) == wanted) return true;
+    }
+    return false;
+  }
+
+  const char* program_ = nullptr;
+};
+
+TEST_F(UsbGadget, PulledOutWhileItStreamsItReturnsByItsSerialNumber) {
+  const std::string serial = "A-0042";
+  std::optional<PluggedCamera> camera(std::in_place, program_, serial);
+  V4l2Driver driver({serial, 640, 480, 30}, {.format = "YUYV"});
+  ASSERT_TRUE(Starts(driver));
+  ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+  camera.reset();
+  EXPECT_TRUE(GrabUntil(driver, GrabStatus::kLost));
+  camera.emplace(program_, serial);
+  EXPECT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+}
+
+}  // namespace
+}  // namespace mocap::testing
