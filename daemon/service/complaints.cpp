@@ -99,10 +99,11 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
 void ComplainOfPicture(const CameraStatus& camera, List& list) {
   if (camera.state != CameraState::kStreaming) return;
   if (camera.is_blind) {
-    list.push_back(camera.name +
-                   " sees hardly anything as it was learned, and is gone on without: does a light "
-                   "shine into it, is something before it, was its exposure changed? Else mocap "
-                   "background learn");
+    list.push_back(
+        camera.name +
+        " sees hardly anything as it was learned, and is gone on without: was it turned, "
+        "does a light shine into it, is something before it, was its exposure changed? "
+        "Else mocap background learn");
     return;
   }
   if (camera.light < kDarkest || camera.light > kBrightest) {
