@@ -32,7 +32,8 @@ struct SegmentedFrame {
   std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.
   std::int64_t segment_ns = 0;  ///< How long segmentation took.
-  /// Most of the picture is unlike the empty studio: whoever stands there is not to be seen.
+  /// Most of the picture is unlike the empty studio, or the camera looks elsewhere: whoever stands
+  /// there is not to be seen, or not where calibration has him.
   bool is_blind = false;
 };
 

@@ -63,11 +63,13 @@ int WaitForSignal() {
 
 /// Large blocks go back to the system when they are freed. By default glibc takes the first of them
 /// for a sign to keep such blocks in the heap, where a small one behind them holds their memory for
-/// ever: pictures of the empty studio and the frames of recordings come and go for days.
+/// ever: pictures of the empty studio and the frames of recordings come and go for days. So does
+/// what lies free at the end of a heap, of which each thread that codes a recording has its own.
 void ReturnLargeBlocks() {
   constexpr int kLarge = 768 << 10;
+  constexpr int kMostFreeAtTheEnd = 128 << 10;
   mallopt(M_MMAP_THRESHOLD, kLarge);
-  mallopt(M_TRIM_THRESHOLD, 128 << 10);
+  mallopt(M_TRIM_THRESHOLD, kMostFreeAtTheEnd);
 }
 
 /// To standard error, which is the journal under systemd, and to a file where there is a place.
