@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/vectorized.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
@@ -13,8 +14,9 @@ constexpr int kNoiseValues = 1 << 17;
 
 // 16-bit arithmetic with 6 fractional bits, which compilers turn into vector code. The lamps' gain
 // comes in 64ths and 16384ths.
-void ExposeRow(const std::uint8_t* light, const std::int8_t* noise, std::uint16_t gain,
-               std::uint16_t fine_gain, std::uint8_t* picture, int count) {
+MOCAP_VECTORIZED void ExposeRow(const std::uint8_t* light, const std::int8_t* noise,
+                                std::uint16_t gain, std::uint16_t fine_gain, std::uint8_t* picture,
+                                int count) {
   for (int i = 0; i < count; ++i) {
     const std::uint16_t level = light[i];
     const auto coarse = static_cast<std::int16_t>(level * gain);
