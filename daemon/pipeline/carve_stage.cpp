@@ -9,13 +9,14 @@
 namespace mocap {
 
 CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
-  constexpr double kArmsOut_mm = 2000;
+  // Without some camera the hull of somebody with arms out is longer than the person.
+  constexpr double kLongest_mm = 3200;
   constexpr double kHandsUp_mm = 2400;
   // Of finer voxels, which are no matter of real time, nothing is laid by.
   constexpr double kFinest_mm = 20;
   CarvedSet set;
   const Vector3 voxels =
-      Vector3(kArmsOut_mm, kArmsOut_mm, kHandsUp_mm) / std::max(voxel_mm, kFinest_mm);
+      Vector3(kLongest_mm, kLongest_mm, kHandsUp_mm) / std::max(voxel_mm, kFinest_mm);
   set.grid.Reset(Eigen::Vector3i::Zero(), voxels.cast<int>(), voxel_mm);
   set.outlines.assign(cameras, Outline(kRaysPerCamera));
   return set;
