@@ -230,7 +230,7 @@ class MotionCapture::Impl {
 };
 
 BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
-  if (table.name == "mikic2003") return {};
+  if (table.measurement == Measurement::kPoints) return {};
   // Winter 2009, Fig. 4.1, and de Leva 1996: as AverageSizes, with the spread among adults and
   // children.
   return {.torso_mean_mm = 560,
