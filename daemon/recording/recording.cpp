@@ -25,8 +25,8 @@ constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr std::chrono::milliseconds kHeldTick{5};
 /// What waits is lost when the program is killed, and what was not made safe when the power fails:
 /// together less than a second. The count bounds memory; the age holds at any rate of frames.
-constexpr double kMostWaitingS = 0.5;
-constexpr std::int64_t kOldestNs = 350'000'000;
+constexpr double kMostWaitingS = 0.6;
+constexpr std::int64_t kOldestNs = 500'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
