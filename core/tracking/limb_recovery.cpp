@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/body/stance.h"
-#include "core/tracking/limb_search.h"
 
 namespace mocap {
 namespace {
@@ -71,81 +70,6 @@ double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>
   return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
 }
 
-struct Candidate {
-  PoseState pose;
-  double cost_mm;
-};
-
-// A stance of a limb that is one of a pair.
-struct Option {
-  PoseState pose;
-  LimbClaim claim;
-};
-
-// Of those that put the limb's end in the same place only the first.
-std::vector<Candidate> KeepDistinct(LimbSearch& search, const std::vector<Candidate>& candidates,
-                                    std::size_t count) {
-  std::vector<Candidate> kept;
-  std::vector<Vector3> tips_W;
-  for (const Candidate& candidate : candidates) {
-    const Vector3 tip_W = search.TipAt(candidate.pose);
-    const bool is_known = std::ranges::any_of(
-        tips_W, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApartMm; });
-    if (is_known) continue;
-    tips_W.push_back(tip_W);
-    kept.push_back(candidate);
-    if (kept.size() == count) break;
-  }
-  return kept;
-}
-
-// The limb in each of the stances, the cheapest first.
-template <typename Cost>
-std::vector<Candidate> Ranked(const LimbSearch& search, const BodyTable& table,
-                              const std::vector<Stance>& stances, const PoseState& pose,
-                              const Cost& cost_mm) {
-  std::vector<Candidate> candidates;
-  for (const Stance& stance : stances) {
-    const JointAngles angles = AnglesOf(stance, table);
-    Candidate candidate{pose, 0};
-    for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
-    candidate.cost_mm = cost_mm(candidate.pose);
-    candidates.push_back(candidate);
-  }
-  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
-  return candidates;
-}
-
-void Refine(LimbSearch& search, std::vector<Candidate>& candidates) {
-  for (Candidate& candidate : candidates) {
-    search.Refine(candidate.pose, kIterations);
-    candidate.cost_mm = search.CostAt(candidate.pose);
-  }
-  std::ranges::sort(candidates, {}, &Candidate::cost_mm);
-}
-
-// The best of the stances that put the limb's end in different places, refined, the best first.
-std::vector<Candidate> BestOf(LimbSearch& search, const BodyTable& table,
-                              const std::vector<Stance>& stances, const PoseState& pose,
-                              std::size_t count) {
-  const auto cost_mm = [&](const PoseState& at) { return search.CostAt(at); };
-  std::vector<Candidate> best =
-      KeepDistinct(search, Ranked(search, table, stances, pose, cost_mm), count);
-  Refine(search, best);
-  return best;
-}
-
-// The stances that put the limb's end nearest to a place, refined, the best first.
-std::vector<Candidate> Towards(LimbSearch& search, const BodyTable& table,
-                               const std::vector<Stance>& stances, const PoseState& pose,
-                               const Vector3& p_WQ) {
-  const auto cost_mm = [&](const PoseState& at) { return (search.TipAt(at) - p_WQ).norm(); };
-  std::vector<Candidate> nearest = Ranked(search, table, stances, pose, cost_mm);
-  nearest.resize(std::min(nearest.size(), kExchangesTried));
-  Refine(search, nearest);
-  return nearest;
-}
-
 }  // namespace
 
 LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
@@ -160,11 +84,74 @@ bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
   return UnexplainedShare(matcher_, posed_) < kUnexplainedShare;
 }
 
+template <typename Cost>
+void LimbRecovery::Rank(const LimbSearch& search, const BodyTable& table,
+                        const std::vector<Stance>& stances, const PoseState& pose,
+                        const Cost& cost_mm) {
+  candidates_.clear();
+  for (const Stance& stance : stances) {
+    const JointAngles angles = AnglesOf(stance, table);
+    Candidate candidate{pose, 0};
+    for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
+    candidate.cost_mm = cost_mm(candidate.pose);
+    candidates_.push_back(candidate);
+  }
+  std::ranges::sort(candidates_, {}, &Candidate::cost_mm);
+}
+
+void LimbRecovery::KeepDistinct(LimbSearch& search, std::size_t count) {
+  tips_W_.clear();
+  std::erase_if(candidates_, [&](const Candidate& candidate) {
+    if (tips_W_.size() == count) return true;
+    const Vector3 tip_W = search.TipAt(candidate.pose);
+    const bool is_known = std::ranges::any_of(
+        tips_W_, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApartMm; });
+    if (!is_known) tips_W_.push_back(tip_W);
+    return is_known;
+  });
+}
+
+void LimbRecovery::Refine(LimbSearch& search) {
+  for (Candidate& candidate : candidates_) {
+    search.Refine(candidate.pose, kIterations);
+    candidate.cost_mm = search.CostAt(candidate.pose);
+  }
+  std::ranges::sort(candidates_, {}, &Candidate::cost_mm);
+}
+
+void LimbRecovery::FindBest(LimbSearch& search, const BodyTable& table,
+                            const std::vector<Stance>& stances, const PoseState& pose,
+                            std::size_t count) {
+  Rank(search, table, stances, pose, [&](const PoseState& at) { return search.CostAt(at); });
+  KeepDistinct(search, count);
+  Refine(search);
+}
+
+void LimbRecovery::FindTowards(LimbSearch& search, const BodyTable& table,
+                               const std::vector<Stance>& stances, const PoseState& pose,
+                               const Vector3& p_WQ) {
+  Rank(search, table, stances, pose,
+       [&](const PoseState& at) { return (search.TipAt(at) - p_WQ).norm(); });
+  candidates_.resize(std::min(candidates_.size(), kExchangesTried));
+  Refine(search);
+}
+
+std::span<const LimbRecovery::Option> LimbRecovery::Claims(LimbSearch& search,
+                                                           std::vector<Option>& memory) {
+  if (memory.size() < candidates_.size()) memory.resize(candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    memory[i].pose = candidates_[i].pose;
+    memory[i].claim = search.ClaimAt(candidates_[i].pose);
+  }
+  return {memory.data(), candidates_.size()};
+}
+
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                               PoseState& pose) {
-  LimbSearch search(body, evidence, matcher_, limb_end, limb_end, pose);
-  const Candidate best = BestOf(search, body.table(), StancesOf(limb_end), pose, kRefined).front();
-  if (best.cost_mm > search.CostAt(pose) - kBetterMm) return false;
+  search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose);
+  FindBest(search_, body.table(), StancesOf(limb_end), pose, kRefined);
+  const Candidate& best = candidates_.front();
+  if (best.cost_mm > search_.CostAt(pose) - kBetterMm) return false;
   pose = best.pose;
   return true;
 }
@@ -180,29 +167,24 @@ template <typename Stances>
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
                                Segment right, SurfaceFit& fit, const Stances& stances,
                                PoseState& pose) {
-  LimbSearch left_search(body, evidence, matcher_, left, right, pose);
-  LimbSearch right_search(body, evidence, matcher_, right, left, pose);
-  const auto options = [&](LimbSearch& search, LimbSearch& other) {
-    std::vector<Option> found;
-    for (const Candidate& candidate : stances(search, other)) {
-      found.push_back({candidate.pose, search.ClaimAt(candidate.pose)});
-    }
-    return found;
-  };
-  const std::vector<Option> lefts = options(left_search, right_search);
-  const std::vector<Option> rights = options(right_search, left_search);
-  std::vector<Candidate> pairs;
+  search_.Begin(body, evidence, matcher_, left, right, pose);
+  other_search_.Begin(body, evidence, matcher_, right, left, pose);
+  stances(search_, other_search_);
+  const std::span<const Option> lefts = Claims(search_, lefts_);
+  stances(other_search_, search_);
+  const std::span<const Option> rights = Claims(other_search_, rights_);
+  pairs_.clear();
   for (const Option& l : lefts) {
     for (const Option& r : rights) {
-      Candidate pair{l.pose, left_search.JointCost(l.claim, r.claim)};
-      for (const int row : right_search.rows()) pair.pose.theta[row] = r.pose.theta[row];
-      pairs.push_back(pair);
+      Candidate pair{l.pose, search_.JointCost(l.claim, r.claim)};
+      for (const int row : other_search_.rows()) pair.pose.theta[row] = r.pose.theta[row];
+      pairs_.push_back(pair);
     }
   }
-  std::ranges::sort(pairs, {}, &Candidate::cost_mm);
-  pairs.resize(std::min(pairs.size(), kPairsTried));
-  for (Candidate& pair : pairs) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
-  const Candidate& best = *std::ranges::min_element(pairs, {}, &Candidate::cost_mm);
+  std::ranges::sort(pairs_, {}, &Candidate::cost_mm);
+  pairs_.resize(std::min(pairs_.size(), kPairsTried));
+  for (Candidate& pair : pairs_) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
+  const Candidate& best = *std::ranges::min_element(pairs_, {}, &Candidate::cost_mm);
   if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
   pose = best.pose;
   return true;
@@ -218,7 +200,7 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
   if (IsExplained(body, pose)) return changed;
   for (const auto& [left, right] : kPairs) {
     const auto best = [&](LimbSearch& search, LimbSearch&) {
-      return BestOf(search, body.table(), StancesOf(left), pose, kPairRefined);
+      FindBest(search, body.table(), StancesOf(left), pose, kPairRefined);
     };
     changed |= RecoverPair(body, evidence, left, right, fit, best, pose);
   }
@@ -229,7 +211,7 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
 bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                 PoseState& pose) {
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
-    return Towards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
+    FindTowards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
   };
   return RecoverPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
 }

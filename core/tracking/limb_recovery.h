@@ -3,12 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/body/body_model.h"
 #include "core/body/stance.h"
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
+#include "core/tracking/limb_search.h"
 #include "core/tracking/surface_fit.h"
 
 namespace mocap {
@@ -16,7 +18,8 @@ namespace mocap {
 /// Tries each arm and leg in many stances when outlines are left that no part explains, and both
 /// arms or both legs together when that does not help: each may have taken the other's place. Arms
 /// whose hands are near each other are tried exchanged even when all is explained. Only what the
-/// rest of the body does not explain is matched, so that a stance costs microseconds.
+/// rest of the body does not explain is matched, so that a stance costs microseconds. Reuses its
+/// memory.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -31,11 +34,21 @@ class LimbRecovery {
                                    double dt_s);
 
  private:
+  struct Candidate {
+    PoseState pose;
+    double cost_mm;
+  };
+  // A stance of a limb that is one of a pair.
+  struct Option {
+    PoseState pose;
+    LimbClaim claim;
+  };
+
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                   PoseState& pose);
-  // `stances` gives what to try of the first limb, searched with the second absent.
+  // `stances` makes candidates_ of what to try of the first limb, searched with the second absent.
   template <typename Stances>
   bool RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
                    SurfaceFit& fit, const Stances& stances, PoseState& pose);
@@ -46,12 +59,36 @@ class LimbRecovery {
                     PoseState& pose);
   static bool HandsMeet(const BodyModel& body, const PoseState& pose);
 
+  // Make candidates_: the limb in each of the stances, the cheapest first;
+  template <typename Cost>
+  void Rank(const LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
+            const PoseState& pose, const Cost& cost_mm);
+  // of those that put the limb's end in the same place only the first;
+  void KeepDistinct(LimbSearch& search, std::size_t count);
+  // improved, the best first;
+  void Refine(LimbSearch& search);
+  // all of that;
+  void FindBest(LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
+                const PoseState& pose, std::size_t count);
+  // the stances that put the limb's end nearest to a place, improved, the best first.
+  void FindTowards(LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
+                   const PoseState& pose, const Vector3& p_WQ);
+  // candidates_ with what they claim. Takes of `memory` as much as it needs.
+  std::span<const Option> Claims(LimbSearch& search, std::vector<Option>& memory);
+
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
   double rest_s_ = 0;  ///< Until lost limbs are searched again.
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;
+  LimbSearch search_;
+  LimbSearch other_search_;
+  std::vector<Candidate> candidates_;
+  std::vector<Candidate> pairs_;
+  std::vector<Option> lefts_;
+  std::vector<Option> rights_;
+  std::vector<Vector3> tips_W_;
 };
 
 }  // namespace mocap

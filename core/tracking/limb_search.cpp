@@ -26,66 +26,77 @@ using LimbMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMos
 
 }  // namespace
 
-std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end) {
-  std::vector<int> rows;
+void LimbSearch::ListRows(Segment limb_end, std::vector<int>& rows) const {
+  const BodyTable& table = body_->table();
   const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];
+  rows.clear();
   for (int i = table.carrier[static_cast<int>(limb_end)]; i >= 0 && i != trunk;
        i = table.joints[i].parent) {
     rows.push_back(i);
   }
   std::ranges::reverse(rows);
-  return rows;
 }
 
-LimbSearch::LimbSearch(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
-                       Segment limb_end, Segment absent, const PoseState& pose)
-    : body_(body),
-      cloud_(evidence.cloud),
-      surface_W_(contacts.surface_W()),
-      rows_(RowsOfLimb(body.table(), limb_end)) {
-  const std::vector<int> absent_rows = RowsOfLimb(body.table(), absent);
+void LimbSearch::Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
+                       Segment limb_end, Segment absent, const PoseState& pose) {
+  body_ = &body;
+  cloud_ = &evidence.cloud;
+  surface_W_ = &contacts.surface_W();
+  ListRows(limb_end, rows_);
+  ListRows(absent, absent_rows_);
+  TakeBodyApart(pose);
+  OpenContacts(contacts);
+}
+
+void LimbSearch::TakeBodyApart(const PoseState& pose) {
   const auto holds = [](const std::vector<int>& rows, int row) {
-    return std::find(rows.begin(), rows.end(), row) != rows.end();
+    return std::ranges::find(rows, row) != rows.end();
   };
-  posture_ = body.PostureAt(pose);
-  std::vector<PosedCapsule> all;
-  body.PoseShape(posture_, all);
-  std::vector<BodyPart> other_parts;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const int carrier = body.shape()[i].carrier;
-    if (holds(rows_, carrier)) {
-      capsules_.push_back(static_cast<int>(i));
-    } else if (!holds(absent_rows, carrier)) {
-      others_.push_back(all[i]);
-      other_parts.push_back(body.shape()[i].part);
+  posture_ = body_->PostureAt(pose);
+  body_->PoseShape(posture_, all_);
+  const std::vector<Capsule>& shape = body_->shape();
+  capsules_.clear();
+  other_capsules_.clear();
+  others_.clear();
+  for (int i = 0; i < std::ssize(all_); ++i) {
+    if (holds(rows_, shape[i].carrier)) {
+      capsules_.push_back(i);
+    } else if (!holds(absent_rows_, shape[i].carrier)) {
+      other_capsules_.push_back(i);
+      others_.push_back(all_[i]);
     }
   }
+  overlapping_.clear();
   for (int i = 0; i < std::ssize(capsules_); ++i) {
     for (int j = 0; j < std::ssize(others_); ++j) {
-      if (MayOverlap(body.shape()[capsules_[i]].part, other_parts[j]))
+      if (MayOverlap(shape[capsules_[i]].part, shape[other_capsules_[j]].part))
         overlapping_.push_back({i, j});
     }
   }
+}
+
+void LimbSearch::OpenContacts(ContactMatcher& contacts) {
   const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
   const double voxel_weight =
-      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(surface_W_)));
+      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(*surface_W_)));
   const std::vector<float>& others_mm = contacts.Distances(others_, kReachMm);
-  std::vector<Contact> open;
+  contacts_.clear();
+  terms_.clear();
   for (std::size_t i = 0; i < others_mm.size(); ++i) {
     if (others_mm[i] < kTakenMm) continue;
     const Contact& contact = contacts.contacts()[i];
-    open.push_back(contact);
+    contacts_.push_back(contact);
     terms_.push_back({others_mm[i], contact.is_edge ? edge_weight : voxel_weight});
   }
-  open_.SetContacts(open);
+  open_.SetContacts(contacts_);
 }
 
 void LimbSearch::PoseLimb(const PoseState& pose) {
-  body_.MoveAxes(pose, rows_, posture_);
+  body_->MoveAxes(pose, rows_, posture_);
   posed_.clear();
   for (const int i : capsules_) {
-    const Capsule& capsule = body_.shape()[i];
+    const Capsule& capsule = body_->shape()[i];
     const RigidTransform& X = posture_.X_W[capsule.carrier];
     posed_.push_back({X * capsule.a_T, X * capsule.b_T, capsule.radius_a_mm, capsule.radius_b_mm});
   }
@@ -115,11 +126,11 @@ const LimbClaim& LimbSearch::ClaimAt(const PoseState& pose) {
   double hollow_mm = 0;
   for (const PosedCapsule& capsule : posed_) {
     for (const double share : kCoreShares) {
-      const auto way_W = WayToFlesh(cloud_, surface_W_, CorePlace(capsule, share));
+      const auto way_W = WayToFlesh(*cloud_, *surface_W_, CorePlace(capsule, share));
       if (way_W) hollow_mm += std::min(kMostHollowMm, way_W->norm());
     }
   }
-  const double places = static_cast<double>(body_.shape().size() * kCoreShares.size());
+  const double places = static_cast<double>(body_->shape().size() * kCoreShares.size());
   claim_.own_cost_mm = (kHollowWeight * hollow_mm + OverlapCost()) / places;
   return claim_;
 }
@@ -161,7 +172,7 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
       const Vector3 offset = match.distance.segment_W - match.distance.core_W;
       if (offset.norm() < 1) continue;
       const Vector3 normal_W = offset.normalized();
-      const int carrier = body_.shape()[capsules_[match.capsule]].carrier;
+      const int carrier = body_->shape()[capsules_[match.capsule]].carrier;
       J.setZero();
       for (int row = 0; row < n; ++row) {
         if (rows_[row] > carrier) continue;
@@ -181,7 +192,7 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
     }
     const LimbVector step = information.llt().solve(gradient);
     for (int i = 0; i < n; ++i) {
-      const JointAxis& joint = body_.table().joints[rows_[i]];
+      const JointAxis& joint = body_->table().joints[rows_[i]];
       double& angle = pose.theta[rows_[i]];
       angle = std::clamp(angle + std::clamp(step[i], -0.6, 0.6), joint.min_rad, joint.max_rad);
     }

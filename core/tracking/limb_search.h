@@ -9,23 +9,21 @@
 
 namespace mocap {
 
-/// Rows of the joints that move a limb and nothing of the trunk, the limb's end last.
-/// @param limb_end  the segment at the limb's end: a hand or a foot.
-std::vector<int> RowsOfLimb(const BodyTable& table, Segment limb_end);
-
 /// What a limb in a certain stance explains.
 struct LimbClaim {
   std::vector<double> distances_mm;  ///< Of each open contact to the limb or the rest of the body.
   double own_cost_mm = 0;            ///< For lying in the void, and running into other parts.
 };
 
-/// Fits the joints of one limb while the rest of the body keeps its pose.
+/// Fits the joints of one limb while the rest of the body keeps its pose. Reuses its memory.
 class LimbSearch {
  public:
+  /// Turns to a limb; before all else.
+  /// @param body, evidence, contacts  borrowed until the next Begin.
   /// @param limb_end  the segment at the limb's end: a hand or a foot.
   /// @param absent    the end of another limb that is to be ignored, or the same.
   /// @param pose      of the whole body; the limb's angles in it do not matter.
-  LimbSearch(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
+  void Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
              Segment limb_end, Segment absent, const PoseState& pose);
 
   /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
@@ -40,7 +38,7 @@ class LimbSearch {
   void Refine(PoseState& pose, int iterations);
   /// Where the limb ends with the angles that it has in `pose`: p_WQ.
   Vector3 TipAt(const PoseState& pose);
-  /// Of RowsOfLimb.
+  /// Rows of the joints that move the limb and nothing of the trunk, the limb's end last.
   const std::vector<int>& rows() const { return rows_; }
 
  private:
@@ -51,14 +49,19 @@ class LimbSearch {
   struct Pair {
     int capsule, other;
   };
+  void ListRows(Segment limb_end, std::vector<int>& rows) const;
+  void TakeBodyApart(const PoseState& pose);
+  void OpenContacts(ContactMatcher& contacts);
   void PoseLimb(const PoseState& pose);
   double OverlapCost() const;
 
-  const BodyModel& body_;
-  const VoxelCloud& cloud_;
-  const std::vector<Vector3>& surface_W_;
+  const BodyModel* body_ = nullptr;
+  const VoxelCloud* cloud_ = nullptr;
+  const std::vector<Vector3>* surface_W_ = nullptr;
   std::vector<int> rows_;
+  std::vector<int> absent_rows_;
   std::vector<int> capsules_;         ///< Of the limb, in the body's shape().
+  std::vector<int> other_capsules_;   ///< Of the rest, likewise.
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
   std::vector<Pair> overlapping_;   ///< Of posed_ and others_, where they may run into each other.
   ContactMatcher open_;             ///< The contacts that the rest of the body does not explain.
@@ -66,6 +69,9 @@ class LimbSearch {
   Posture posture_;
   std::vector<PosedCapsule> posed_;  ///< The limb.
   LimbClaim claim_;
+  // While a search begins.
+  std::vector<PosedCapsule> all_;
+  std::vector<Contact> contacts_;
 };
 
 }  // namespace mocap

@@ -7,6 +7,7 @@
 #include "core/body/stance.h"
 #include "core/tracking/limb_recovery.h"
 #include "core/tracking/tracker.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/seen_body.h"
 
 namespace mocap {
@@ -101,6 +102,25 @@ TEST_F(Fit, ALostArmIsFoundAgain) {
   const std::optional<PoseState> found = Recover(evidence, lost);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, LostArmsTakeNoMemoryTheSecondTime) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+  const ArmStance raised{.raise = 30, .forward = 30, .elbow = 60};
+  const ArmStance before_chest{.forward = 40, .elbow = 90};
+  const PoseState lost = Standing(body_, {});
+  const Evidence one = studio_.Show(body_, Standing(body_, {.arm_l = raised}));
+  const Evidence both =
+      studio_.Show(body_, Standing(body_, {.arm_l = before_chest, .arm_r = before_chest}));
+  const auto look = [&] {
+    EXPECT_TRUE(Recover(one, lost));
+    EXPECT_TRUE(Recover(both, lost));
+  };
+  look();
+  const std::int64_t before = Allocations();
+  EXPECT_GT(before, 0);
+  look();
+  EXPECT_EQ(Allocations() - before, 0);
 }
 
 TEST_F(Fit, AfterASearchInVainNothingIsSearchedForAWhile) {
