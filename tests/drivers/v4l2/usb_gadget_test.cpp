@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/errors.h"
 #include "drivers/v4l2/v4l2_driver.h"
@@ -17,26 +18,36 @@ namespace mocap::testing {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeout{500};
-constexpr int kPatience = 120;
+constexpr int kPatience = 60;
 
 /// A program that is a USB camera for as long as it runs.
 class PluggedCamera {
  public:
-  PluggedCamera(std::string program, std::string serial) {
-    char* const arguments[] = {program.data(), serial.data(), nullptr};
-    if (posix_spawn(&process_, program.c_str(), nullptr, nullptr, arguments, environ) != 0) {
-      process_ = 0;
-    }
+  PluggedCamera(std::string program, std::string serial)
+      : program_(std::move(program)), serial_(std::move(serial)) {
+    Plug();
   }
   ~PluggedCamera() {
     if (process_ == 0) return;
     kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
   }
+  /// It may end by itself while the kernel asks what it is.
+  void StayPlugged() {
+    if (process_ == 0 || waitpid(process_, nullptr, WNOHANG) == process_) Plug();
+  }
   PluggedCamera(const PluggedCamera&) = delete;
   PluggedCamera& operator=(const PluggedCamera&) = delete;
 
  private:
+  void Plug() {
+    char* const arguments[] = {program_.data(), serial_.data(), nullptr};
+    if (posix_spawn(&process_, program_.c_str(), nullptr, nullptr, arguments, environ) != 0) {
+      process_ = 0;
+    }
+  }
+
+  std::string program_, serial_;
   pid_t process_ = 0;
 };
 
@@ -48,21 +59,25 @@ class UsbGadget : public ::testing::Test {
   }
 
   /// The kernel takes a moment to know a camera.
-  static bool Starts(V4l2Driver& driver) {
+  static ::testing::AssertionResult Starts(V4l2Driver& driver, PluggedCamera& camera) {
+    std::string reason;
     for (int i = 0; i < kPatience; ++i) {
       try {
         driver.Start();
-        return true;
-      } catch (const SetupError&) {
+        return ::testing::AssertionSuccess();
+      } catch (const SetupError& error) {
+        reason = error.what();
         std::this_thread::sleep_for(kTimeout);
+        camera.StayPlugged();
       }
     }
-    return false;
+    return ::testing::AssertionFailure() << reason;
   }
-  static bool GrabUntil(V4l2Driver& driver, GrabStatus wanted) {
+  static bool GrabUntil(V4l2Driver& driver, GrabStatus wanted, PluggedCamera* camera = nullptr) {
     Frame frame;
     for (int i = 0; i < kPatience; ++i) {
       if (driver.Grab(frame, kTimeout) == wanted) return true;
+      if (camera) camera->StayPlugged();
     }
     return false;
   }
@@ -74,12 +89,12 @@ TEST_F(UsbGadget, PulledOutWhileItStreamsItReturnsByItsSerialNumber) {
   const std::string serial = "A-0042";
   std::optional<PluggedCamera> camera(std::in_place, program_, serial);
   V4l2Driver driver({serial, 640, 480, 30}, {.format = "YUYV"});
-  ASSERT_TRUE(Starts(driver));
+  ASSERT_TRUE(Starts(driver, *camera));
   ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
   camera.reset();
   EXPECT_TRUE(GrabUntil(driver, GrabStatus::kLost));
   camera.emplace(program_, serial);
-  EXPECT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+  EXPECT_TRUE(GrabUntil(driver, GrabStatus::kFrame, &*camera));
 }
 
 }  // namespace
