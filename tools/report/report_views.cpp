@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "core/errors.h"
 #include "tools/report/body_outline.h"
