@@ -51,22 +51,24 @@ class Listener(threading.Thread):
 
 
 class Daemon:
-    """Starts with a configuration; ends with the block. `folder` outlives it where it is given."""
+    """Starts with a configuration; ends with the block. `folder` outlives it where it is given; `wrapper` is a command that runs it."""
 
-    def __init__(self, config, folder=None, takes=None):
+    def __init__(self, config, folder=None, takes=None, wrapper=()):
+        self.wrapper = wrapper
         self.port = 20000 + os.getpid() % 40000
+        self.lcm_url = "udpm://%s:%d?ttl=0" % (GROUP, self.port)
         self.folder = folder or tempfile.mkdtemp(prefix="mocapd-")
         self.takes = takes or os.path.join(self.folder, "takes")
         self.socket = os.path.join(self.folder, "control")
         self.log_file = os.path.join(self.folder, "log")
         self.config = os.path.join(self.folder, "mocapd.toml")
         with open(self.config, "w") as out:
-            out.write(config.format(takes=self.takes) + '\n[lcm]\nurl = "udpm://%s:%d?ttl=0"\n[control]\nsocket = "%s"\n'
-                      % (GROUP, self.port, self.socket))
+            out.write(config.format(takes=self.takes) + '\n[lcm]\nurl = "%s"\n[control]\nsocket = "%s"\n'
+                      % (self.lcm_url, self.socket))
 
     def __enter__(self):
         self.log = open(self.log_file, "ab")
-        self.process = subprocess.Popen([os.path.join(BIN, "mocapd"), "--config", self.config],
+        self.process = subprocess.Popen([*self.wrapper, os.path.join(BIN, "mocapd"), "--config", self.config],
                                         stdout=subprocess.DEVNULL, stderr=self.log)
         self.wait_until(lambda: self.status()["sets_complete"] > 0, 120, "no frames flow")
         return self
