@@ -4,6 +4,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
@@ -17,8 +18,12 @@
 namespace mocap::testing {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kTimeout{500};
-constexpr int kPatience = 60;
+constexpr std::chrono::seconds kPatience{60};
+/// The kernel knows a camera by then, or will not.
+constexpr std::chrono::seconds kPlugging{8};
 
 /// A program that is a USB camera for as long as it runs.
 class PluggedCamera {
@@ -27,20 +32,27 @@ class PluggedCamera {
       : program_(std::move(program)), serial_(std::move(serial)) {
     Plug();
   }
-  ~PluggedCamera() {
-    if (process_ == 0) return;
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-  /// It may end by itself while the kernel asks what it is.
+  ~PluggedCamera() { PullOut(); }
+  /// Plugs it in again when it ended by itself, or hangs, as it may while the kernel asks what it
+  /// is and what it sends.
   void StayPlugged() {
-    if (process_ == 0 || waitpid(process_, nullptr, WNOHANG) == process_) Plug();
+    if (process_ != 0 && waitpid(process_, nullptr, WNOHANG) == process_) process_ = 0;
+    if (process_ != 0 && Clock::now() < plugged_ + kPlugging) return;
+    PullOut();
+    Plug();
   }
   PluggedCamera(const PluggedCamera&) = delete;
   PluggedCamera& operator=(const PluggedCamera&) = delete;
 
  private:
+  void PullOut() {
+    if (process_ == 0) return;
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
   void Plug() {
+    plugged_ = Clock::now();
     char* const arguments[] = {program_.data(), serial_.data(), nullptr};
     if (posix_spawn(&process_, program_.c_str(), nullptr, nullptr, arguments, environ) != 0) {
       process_ = 0;
@@ -49,6 +61,7 @@ class PluggedCamera {
 
   std::string program_, serial_;
   pid_t process_ = 0;
+  Clock::time_point plugged_;
 };
 
 class UsbGadget : public ::testing::Test {
@@ -61,7 +74,7 @@ class UsbGadget : public ::testing::Test {
   /// The kernel takes a moment to know a camera.
   static ::testing::AssertionResult Starts(V4l2Driver& driver, PluggedCamera& camera) {
     std::string reason;
-    for (int i = 0; i < kPatience; ++i) {
+    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
       try {
         driver.Start();
         return ::testing::AssertionSuccess();
@@ -75,7 +88,7 @@ class UsbGadget : public ::testing::Test {
   }
   static bool GrabUntil(V4l2Driver& driver, GrabStatus wanted, PluggedCamera* camera = nullptr) {
     Frame frame;
-    for (int i = 0; i < kPatience; ++i) {
+    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
       if (driver.Grab(frame, kTimeout) == wanted) return true;
       if (camera) camera->StayPlugged();
     }
@@ -90,7 +103,7 @@ TEST_F(UsbGadget, PulledOutWhileItStreamsItReturnsByItsSerialNumber) {
   std::optional<PluggedCamera> camera(std::in_place, program_, serial);
   V4l2Driver driver({serial, 640, 480, 30}, {.format = "YUYV"});
   ASSERT_TRUE(Starts(driver, *camera));
-  ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+  ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame, &*camera));
   camera.reset();
   EXPECT_TRUE(GrabUntil(driver, GrabStatus::kLost));
   camera.emplace(program_, serial);
