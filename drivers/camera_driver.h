@@ -40,6 +40,7 @@ struct CameraFacts {
   std::string time_source;  ///< Where capture times come from.
   /// What is not as it was asked for or ought to be, one line each, with what to do about it.
   std::vector<std::string> remarks;
+  std::string damage;  ///< How frames come to be damaged, with what to do; empty: not known.
 };
 
 /// Pulls frames from one camera. Thread-bound: one thread at a time calls it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -74,6 +75,19 @@ std::string WhyMissed(const BusLoad* load) {
   return "this machine or the way to it is too slow: end other programs, or set a lower fps";
 }
 
+// Whether sets are incomplete because of frames that some camera lost, which is told with it.
+bool IsExplained(const std::vector<CameraRun>& runs) {
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+  bool loses = false;
+  for (const CameraRun& run : runs) {
+    loses |= !run.error.empty() || run.torn > 0 || run.times_lost > 0 || run.MissedFrames() > 0;
+    if (run.times_ns.size() < 2) continue;
+    slowest = std::min(slowest, run.TakenFps());
+    fastest = std::max(fastest, run.TakenFps());
+  }
+  return loses && slowest > kFullRate * fastest;
+}
+
 }  // namespace
 
 std::int64_t CameraRun::MissedFrames() const {
@@ -86,6 +100,12 @@ double CameraRun::Fps() const {
   if (times_ns.size() < 2) return 0;
   const double seconds = static_cast<double>(times_ns.back() - times_ns.front()) / 1e9;
   return seconds > 0 ? static_cast<double>(times_ns.size() - 1) / seconds : 0;
+}
+
+double CameraRun::TakenFps() const {
+  if (times_ns.empty()) return 0;
+  const auto whole = static_cast<double>(times_ns.size());
+  return Fps() * (whole + torn + static_cast<double>(MissedFrames())) / whole;
 }
 
 std::vector<CameraRun> WatchCameras(std::vector<LiveCamera>& cameras, double seconds) {
@@ -154,15 +174,18 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
   std::vector<std::string> troubles = run.facts.remarks;
   if (run.times_lost > 0) {
     troubles.push_back(
-        fmt::format("went away {} times: look at its cable and power", run.times_lost));
+        fmt::format("went away {}: look at its cable and power",
+                    run.times_lost == 1 ? "once" : fmt::format("{} times", run.times_lost)));
   }
   if (run.times_ns.size() < 2) {
     troubles.push_back("delivers no frames: if it waits for a trigger, see that there is one");
     return troubles;
   }
   if (run.torn > 0) {
-    troubles.push_back(fmt::format(
-        "{} frames came damaged: try another cable, or a socket without a hub", run.torn));
+    troubles.push_back(fmt::format("{} frames came damaged: {}", run.torn,
+                                   run.facts.damage.empty()
+                                       ? "try another cable, or a socket without a hub"
+                                       : run.facts.damage));
   }
   const std::int64_t missed = run.MissedFrames();
   const double taken = static_cast<double>(run.times_ns.size()) + static_cast<double>(missed);
@@ -170,12 +193,11 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
     troubles.push_back(fmt::format("{} of {:.0f} frames were lost: {}", missed, taken,
                                    WhyMissed(FindLoad(loads, run))));
   }
-  const double taken_fps = run.Fps() * taken / static_cast<double>(run.times_ns.size());
-  if (taken_fps < kFullRate * AskedFps(run)) {
+  if (run.TakenFps() < kFullRate * AskedFps(run)) {
     troubles.push_back(fmt::format(
         "takes {:.1f} frames a second instead of {:g}, as cameras do in the dark: set exposure_us "
         "below {:.0f}",
-        taken_fps, AskedFps(run), 1e6 / AskedFps(run)));
+        run.TakenFps(), AskedFps(run), 1e6 / AskedFps(run)));
   }
   return troubles;
 }
@@ -196,7 +218,7 @@ std::vector<std::string> TroublesOf(const SetSummary& sets, const std::vector<Ca
         "the cameras are not in step, {:.1f} ms apart: fast limbs blur; trigger them by hardware",
         sets.median_spread_ms));
   }
-  if (sets.complete < (1 - kMostIncomplete) * sets.sets) {
+  if (sets.complete < (1 - kMostIncomplete) * sets.sets && !IsExplained(runs)) {
     troubles.push_back(fmt::format("{} of {} sets lack a camera: give all the same fps",
                                    sets.sets - sets.complete, sets.sets));
   }

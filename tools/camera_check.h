@@ -23,6 +23,8 @@ struct CameraRun {
   std::int64_t MissedFrames() const;
   /// Frames a second that were handed out; 0: too few to tell.
   double Fps() const;
+  /// Frames a second that the camera took, whatever became of them; 0: too few to tell.
+  double TakenFps() const;
 };
 
 /// Watches all cameras at the same time. Nothing is thrown for a camera that does not work.

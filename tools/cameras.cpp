@@ -105,7 +105,10 @@ void Check(const CamerasOptions& options) {
                     sets.complete, sets.sets, sets.median_spread_ms, sets.p99_spread_ms));
     troubles += PrintTroubles(TroublesOf(sets, runs));
   }
-  if (troubles > 0) throw std::runtime_error(fmt::format("{} troubles, marked with !", troubles));
+  if (troubles > 0) {
+    throw std::runtime_error(
+        fmt::format("{} trouble{}, marked with !", troubles, troubles == 1 ? "" : "s"));
+  }
 }
 
 }  // namespace

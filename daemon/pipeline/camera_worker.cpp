@@ -134,7 +134,9 @@ bool CameraWorker::NoteConditions(const Silhouette& silhouette) {
 
 void CameraWorker::Enter(CameraState state) {
   if (state_.exchange(state, std::memory_order_relaxed) == state) return;
-  std::vector<std::string> remarks = camera_.driver->Facts().remarks;
+  const CameraFacts facts = camera_.driver->Facts();
+  std::vector<std::string> remarks = facts.remarks;
+  if (!facts.damage.empty()) remarks.push_back("frames come damaged: " + facts.damage);
   const std::lock_guard lock(remarks_mutex_);
   remarks_ = std::move(remarks);
 }

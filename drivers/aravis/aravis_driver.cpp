@@ -171,9 +171,8 @@ CameraFacts AravisDriver::Facts() const {
   std::ranges::copy(agreed.remarks, std::back_inserter(facts.remarks));
   std::ranges::copy(session_->StreamRemarks(), std::back_inserter(facts.remarks));
   if (counters.missing_packets > 0) {
-    facts.remarks.push_back(std::to_string(counters.missing_packets) +
-                            " packets were missing: raise packet_delay_us, lower fps or give it a "
-                            "link of its own");
+    facts.damage =
+        "packets are missing; raise packet_delay_us, lower fps or give it a link of its own";
   }
   if (counters.underruns > 0) {
     facts.remarks.push_back(std::to_string(counters.underruns) +

@@ -91,6 +91,23 @@ TEST(CameraCheck, DamageLossAndSilenceHaveTheirKnobs) {
   EXPECT_THAT(Troubles(silent), ElementsAre(HasSubstr("trigger")));
 }
 
+TEST(CameraCheck, DamagedFramesAreOneTroubleAndNoOther) {
+  CameraRun damaged = GoodRun("a");
+  for (int i = kFrames - 2; i > 0; i -= 4) {
+    damaged.times_ns.erase(damaged.times_ns.begin() + i);
+    damaged.sequences.erase(damaged.sequences.begin() + i);
+    ++damaged.torn;
+  }
+  damaged.facts.damage = "packets are missing; lower fps";
+  EXPECT_NEAR(damaged.TakenFps(), 25, 0.2);
+  EXPECT_THAT(Troubles(damaged),
+              ElementsAre("50 frames came damaged: packets are missing; lower fps"));
+  const std::vector<CameraRun> runs = {GoodRun("b"), damaged};
+  const SetSummary sets = SummarizeSets(runs);
+  EXPECT_EQ(sets.complete, kFrames - 50);
+  EXPECT_THAT(TroublesOf(sets, runs), IsEmpty());
+}
+
 TEST(CameraCheck, CamerasOutOfStepOrAtDifferentRatesAreTold) {
   std::vector<CameraRun> runs = {GoodRun("a"), GoodRun("b", kPeriod_ns / 4)};
   EXPECT_THAT(TroublesOf(SummarizeSets(runs), runs),
@@ -99,6 +116,7 @@ TEST(CameraCheck, CamerasOutOfStepOrAtDifferentRatesAreTold) {
   for (std::size_t i = 0; i < half.times_ns.size(); ++i) {
     half.times_ns[i] = half.times_ns.front() + 2 * static_cast<std::int64_t>(i) * kPeriod_ns;
   }
+  half.torn = 1;
   runs = {GoodRun("a"), GoodRun("b"), half};
   EXPECT_THAT(TroublesOf(SummarizeSets(runs), runs), Contains(HasSubstr("lack a camera")));
 }

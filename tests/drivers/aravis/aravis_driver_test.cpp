@@ -242,7 +242,7 @@ TEST_F(AravisDriverTest, LostPacketsTearFramesAndAreCounted) {
   }
   EXPECT_GE(whole, 50);
   EXPECT_GE(torn, 5);
-  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("packets were missing")));
+  EXPECT_THAT(driver.Facts().damage, HasSubstr("packets are missing"));
 }
 
 TEST_F(AravisDriverTest, SoftwareTriggerKeepsTheRateAskedFor) {
