@@ -1,6 +1,8 @@
 #include "core/reconstruction/silhouette/closeup.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "core/reconstruction/silhouette/bit_filters.h"
 
@@ -15,18 +17,19 @@ void Closeup::Set(const Silhouette& suspicious, int width, int height) {
   width_ = width;
   height_ = height;
   Dilate(suspicious, 1, tiles_);
-  const auto is_judged = [this](int column, int row) {
-    return row >= 0 && row < tiles_.height() && tiles_.Test(column, row);
-  };
+  const int rows = tiles_.height(), words = tiles_.words_per_row();
   judged_.Clear(kTile_px);
-  for (int row = 0; row < tiles_.height(); ++row)
-    judged_.AddRow(tiles_.width(), width, 0, [&](int column) { return is_judged(column, row); });
+  for (int row = 0; row < rows; ++row)
+    judged_.AddRow(words, width, 0, [tiles = tiles_.row(row)](int i) { return tiles[i]; });
   // Half of a tile is near to one of those above and below.
   measured_.Clear(kMargin_px);
-  for (int half = 0; half < 2 * tiles_.height(); ++half) {
-    const int row = half / 2, near = row + (half % 2 == 0 ? -1 : 1);
-    measured_.AddRow(tiles_.width(), width, kMargin_px,
-                     [&](int column) { return is_judged(column, row) || is_judged(column, near); });
+  for (int half = 0; half < 2 * rows; ++half) {
+    const int row = half / 2;
+    const int near = std::clamp(row + (half % 2 == 0 ? -1 : 1), 0, rows - 1);
+    measured_.AddRow(words, width, kMargin_px,
+                     [tiles = tiles_.row(row), beside = tiles_.row(near)](int i) {
+                       return tiles[i] | beside[i];
+                     });
   }
 }
 
@@ -43,17 +46,21 @@ void Closeup::Runs::Clear(int row_px) {
   begins_.assign(1, 0);
 }
 
-template <typename Test>
-void Closeup::Runs::AddRow(int columns, int width, int margin_px, Test test) {
+template <typename WordAt>
+void Closeup::Runs::AddRow(int words, int width, int margin_px, WordAt word_at) {
   const int first = begins_.back();
-  for (int column = 0; column < columns; ++column) {
-    if (!test(column)) continue;
-    const int begin = std::max(column * kTile_px - margin_px, 0);
-    const int end = std::min((column + 1) * kTile_px + margin_px, width);
-    if (static_cast<int>(runs_.size()) > first && runs_.back().end >= begin)
-      runs_.back().end = end;
-    else
-      runs_.push_back({begin, end});
+  for (int i = 0; i < words; ++i) {
+    for (std::uint64_t tiles = word_at(i); tiles != 0;) {
+      const int column = std::countr_zero(tiles);
+      const int columns = std::countr_one(tiles >> column);
+      tiles &= column + columns < 64 ? ~std::uint64_t{0} << (column + columns) : 0;
+      const int begin = std::max((i * 64 + column) * kTile_px - margin_px, 0);
+      const int end = std::min((i * 64 + column + columns) * kTile_px + margin_px, width);
+      if (static_cast<int>(runs_.size()) > first && runs_.back().end >= begin)
+        runs_.back().end = end;
+      else
+        runs_.push_back({begin, end});
+    }
   }
   begins_.push_back(static_cast<int>(runs_.size()));
 }

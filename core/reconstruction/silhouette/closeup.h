@@ -42,8 +42,9 @@ class Closeup {
   class Runs {
    public:
     void Clear(int row_px);
-    template <typename Test>
-    void AddRow(int columns, int width, int margin_px, Test test);
+    // `word_at` gives the row's tiles, 64 a word.
+    template <typename WordAt>
+    void AddRow(int words, int width, int margin_px, WordAt word_at);
     std::span<const PixelRun> Row(int y) const {
       const int row = y / row_px_;
       return {runs_.data() + begins_[row], runs_.data() + begins_[row + 1]};

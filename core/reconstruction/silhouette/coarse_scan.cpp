@@ -6,7 +6,6 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/background/expected_picture.h"
-#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -88,55 +87,16 @@ bool IsKnown(const ExpectedHalf& expected, std::size_t tile) {
   return expected.tile_variance[tile] < kUnknownVariance / kArea / 2;
 }
 
-struct PixelRow {
-  std::array<const std::uint8_t*, 3> live, expected;
-  const float* variance;
-  const std::uint8_t* slope;
-  const float* alpha;
-};
-
-MOCAP_VECTORIZED
-void AddMisfits(const PixelRow& row, int width, const std::array<float, 3>& gain, float drift_sq,
-                float shift_sq, float* sums) {
-  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
-  const float *const variance = row.variance, *const alpha = row.alpha;
-  const std::uint8_t* const slopes = row.slope;
-  const std::uint8_t *const l0 = row.live[0], *const l1 = row.live[1], *const l2 = row.live[2];
-  const std::uint8_t *const e0 = row.expected[0], *const e1 = row.expected[1],
-                            *const e2 = row.expected[2];
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float d0 = gain0 * l0[x] - alpha[x] * e0[x];
-    const float d1 = gain1 * l1[x] - alpha[x] * e1[x];
-    const float d2 = gain2 * l2[x] - alpha[x] * e2[x];
-    const float slope = slopes[x];
-    sums[x] += (d0 * d0 + d1 * d1 + d2 * d2) / (variance[x] + drift_sq + shift_sq * slope * slope);
-  }
-}
-
-struct TileMeans {
-  std::array<const float*, 3> live, expected;
-  const float *variance, *slope_sq;
-};
-
-MOCAP_VECTORIZED
-void MeasureTiles(const TileMeans& tiles, int count, const std::array<float, 3>& gain,
-                  float drift_sq, float shift_sq, float* alphas, float* tints, float* glares) {
-  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
-  const auto [l0, l1, l2] = tiles.live;
-  const auto [e0, e1, e2] = tiles.expected;
-  const float *const variances = tiles.variance, *const slope_sq = tiles.slope_sq;
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float c0 = gain0 * l0[i], c1 = gain1 * l1[i], c2 = gain2 * l2[i];
-    const float square = std::max(e0[i] * e0[i] + e1[i] * e1[i] + e2[i] * e2[i], 1.0f);
-    const float alpha = (c0 * e0[i] + c1 * e1[i] + c2 * e2[i]) / square;
-    const float d0 = c0 - alpha * e0[i], d1 = c1 - alpha * e1[i], d2 = c2 - alpha * e2[i];
-    const float weight = 1 / (variances[i] + drift_sq + shift_sq * slope_sq[i]);
-    const float bright = std::max(alpha - 1, 0.0f);
-    alphas[i] = alpha;
-    tints[i] = (d0 * d0 + d1 * d1 + d2 * d2) * weight;
-    glares[i] = bright * bright * square * weight;
+// Rows of a region are too short for the processor to see by itself where the next begins.
+void FetchAhead(ImageView<const Bgr> image, const TileRun& run) {
+  constexpr std::size_t kCacheLine = 64;
+  const int begin = run.begin * HalfPicture::kTile_px;
+  const int end = std::min(run.end * HalfPicture::kTile_px, image.width());
+  const int bottom = std::min((run.row + 1) * HalfPicture::kTile_px, image.height());
+  for (int y = run.row * HalfPicture::kTile_px; y < bottom; ++y) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.row(y) + begin);
+    for (std::size_t i = 0; i < (end - begin) * sizeof(Bgr); i += kCacheLine)
+      __builtin_prefetch(bytes + i);
   }
 }
 
@@ -189,7 +149,9 @@ void CoarseScan::LookAtRegion() {
 }
 
 void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
-  for (const TileRun& look : looks_) {
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    const TileRun& look = looks_[i];
+    if (i + 1 < looks_.size()) FetchAhead(image, looks_[i + 1]);
     Halve(image, look, live_, row_sums_);
     for (int c = 0; c < 3; ++c) AverageTiles(live_, c, look, tiles_.mean[c], row_sums_);
   }
@@ -197,9 +159,10 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
   distance_ = MeasureDistance(expected);
   conditions_.drift = std::min(
       kDriftMargin * Beyond(distance_, expected.usual_distance, kNegligibleDrift), kLargestDrift);
-  drift_ = std::max(conditions_.drift, kDistanceMargin * distance_);
   shift_px_ = MeasureShift(expected);
   conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
+  allowance_ = {conditions_.gain, Square(std::max(conditions_.drift, kDistanceMargin * distance_)),
+                Square(kContourMargin * shift_px_ / kPixel_px)};
   for (const TileRun& look : looks_) {
     MeasureTints(expected, look);
     MeasureMisfit(expected, look);
@@ -298,8 +261,6 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
-  const float drift_sq = Square(drift_);
-  const float shift_sq = Square(kContourMargin * shift_px_ / kPixel_px);
   const int count = run.end - run.begin;
   const std::size_t first = FirstOf(run);
   for (int i = 0; i < count * kTile; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
@@ -311,7 +272,7 @@ void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run)
       pixels.live[c] = &live_.color[c][begin];
       pixels.expected[c] = &expected.mean.color[c][begin];
     }
-    AddMisfits(pixels, count * kTile, conditions_.gain, drift_sq, shift_sq, columns_.data());
+    AddMisfits(pixels, count * kTile, allowance_, columns_.data());
   }
   for (int i = 0; i < count; ++i) {
     const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
@@ -326,9 +287,8 @@ void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) 
     tiles.live[c] = &tiles_.mean[c][first];
     tiles.expected[c] = &expected.tile_mean[c][first];
   }
-  MeasureTiles(tiles, run.end - run.begin, conditions_.gain, Square(drift_),
-               Square(kContourMargin * shift_px_ / kPixel_px), &tiles_.alpha[first],
-               &tiles_.tint[first], &tiles_.glare[first]);
+  MeasureTiles(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first], &tiles_.tint[first],
+               &tiles_.glare[first]);
 }
 
 void CoarseScan::Judge(const ExpectedHalf& expected) {
@@ -341,9 +301,11 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
   for (const TileRun& look : looks_) {
     for (int column = look.begin; column < look.end; ++column) {
       const std::size_t i = FirstOf(look) + (column - look.begin);
-      if (IsKnown(expected, i) &&
-          (tiles_.tint[i] > kHarmlessTint || tiles_.misfit[i] > harmless ||
-           tiles_.alpha[i] < darkest_shadow_ + kDarkMargin || tiles_.glare[i] > kHarmlessGlare))
+      if (!IsKnown(expected, i)) continue;
+      if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
+          tiles_.glare[i] > kHarmlessGlare ||
+          (tiles_.misfit[i] > harmless &&
+           MisfitBesideSlope(live_, expected, look.row, column, allowance_) > harmless))
         suspicious_.Set(column, look.row);
     }
   }

@@ -11,6 +11,7 @@
 #include "core/reconstruction/background/half_picture.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
+#include "core/reconstruction/silhouette/tile_comparison.h"
 
 namespace mocap {
 
@@ -81,7 +82,8 @@ class CoarseScan {
   std::vector<std::size_t> samples_;  // Of the tiles that are looked at.
   std::vector<float> columns_, alphas_, values_;
   Conditions conditions_;
-  float distance_ = 0, drift_ = 0, shift_px_ = 0;
+  float distance_ = 0, shift_px_ = 0;
+  Allowance allowance_;
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
 };

@@ -80,6 +80,26 @@ TEST_F(CoarseScanTest, AnEvenShadowIsNotWorthALook) {
   EXPECT_EQ(CountSet(scan_.suspicious(), {9, 4, 10, 12}), 0);
 }
 
+TEST_F(CoarseScanTest, TheSoftEdgeOfAShadowIsNotWorthALook) {
+  ExactPicture picture = studio_;
+  for (int x = 60; x < 100; ++x) {
+    const auto edge = static_cast<float>(std::min({x - 60, 99 - x, 12})) / 12;
+    Dim(picture, {x, 20, x, 119}, 1 - 0.2f * edge);
+  }
+  Compare(sensor_.Take(picture));
+  EXPECT_EQ(CountSet(scan_.suspicious(), {7, 4, 13, 12}), 0);
+}
+
+TEST_F(CoarseScanTest, TheHardEdgeOfWhatIsGreyIsSuspicious) {
+  ExactPicture picture = studio_;
+  Dim(picture, {60, 20, 91, 119}, 0.7f);
+  Compare(sensor_.Take(picture));
+  for (int y = 24 / 8; y < 112 / 8; ++y) {
+    EXPECT_TRUE(scan_.suspicious().Test(60 / 8, y)) << y;
+    EXPECT_TRUE(scan_.suspicious().Test(91 / 8, y)) << y;
+  }
+}
+
 TEST_F(CoarseScanTest, DriftOfWallsIsMeasured) {
   ExactPicture picture = studio_;
   for (int y = 0; y < kHeight; ++y) {
