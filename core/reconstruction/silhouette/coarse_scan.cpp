@@ -87,19 +87,6 @@ bool IsKnown(const ExpectedHalf& expected, std::size_t tile) {
   return expected.tile_variance[tile] < kUnknownVariance / kArea / 2;
 }
 
-// Rows of a region are too short for the processor to see by itself where the next begins.
-void FetchAhead(ImageView<const Bgr> image, const TileRun& run) {
-  constexpr std::size_t kCacheLine = 64;
-  const int begin = run.begin * HalfPicture::kTile_px;
-  const int end = std::min(run.end * HalfPicture::kTile_px, image.width());
-  const int bottom = std::min((run.row + 1) * HalfPicture::kTile_px, image.height());
-  for (int y = run.row * HalfPicture::kTile_px; y < bottom; ++y) {
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.row(y) + begin);
-    for (std::size_t i = 0; i < (end - begin) * sizeof(Bgr); i += kCacheLine)
-      __builtin_prefetch(bytes + i);
-  }
-}
-
 }  // namespace
 
 CoarseScan::CoarseScan(float darkest_shadow) : darkest_shadow_(darkest_shadow) {}
@@ -149,9 +136,7 @@ void CoarseScan::LookAtRegion() {
 }
 
 void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    const TileRun& look = looks_[i];
-    if (i + 1 < looks_.size()) FetchAhead(image, looks_[i + 1]);
+  for (const TileRun& look : looks_) {
     Halve(image, look, live_, row_sums_);
     for (int c = 0; c < 3; ++c) AverageTiles(live_, c, look, tiles_.mean[c], row_sums_);
   }
