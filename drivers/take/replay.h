@@ -56,6 +56,10 @@ class Replay {
   std::int64_t LoopOffset(std::uint64_t loop) const {
     return static_cast<std::int64_t>(loop) * span_.period_ns;
   }
+  /// How many whole loops a duration has, 0 or more.
+  std::uint64_t LoopsIn(std::int64_t duration_ns) const {
+    return loop_ ? static_cast<std::uint64_t>(duration_ns / span_.period_ns) : 0;
+  }
 
  private:
   const ReplaySpan span_;

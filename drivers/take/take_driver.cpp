@@ -1,6 +1,7 @@
 #include "drivers/take/take_driver.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -18,6 +19,7 @@ void TakeDriver::Start() {
   MOCAP_CHECK(!started_);
   if (!fresh_) video_.Rewind();
   fresh_ = true;
+  read_.reset();
   loop_ = 0;
   row_ = 0;
   shift_ns_ = replay_->Join();
@@ -35,22 +37,15 @@ GrabStatus TakeDriver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   ReplayClock* clock = replay_->clock();
   const std::int64_t timeout_ns = std::chrono::nanoseconds(timeout).count();
   const std::int64_t deadline_ns = clock ? clock->NowNs() + timeout_ns : 0;
-  while (true) {
-    if (row_ == table_.rows.size()) {
-      if (!replay_->loops()) return GrabStatus::kEnd;
-      if (!NextLoop()) {
-        if (clock) clock->SleepUntil(deadline_ns);
-        return GrabStatus::kLost;
-      }
+  while (!ReadNext()) {
+    if (!replay_->loops()) return GrabStatus::kEnd;
+    if (!NextLoop()) {
+      if (clock) clock->SleepUntil(deadline_ns);
+      return GrabStatus::kLost;
     }
-    if (clock) {
-      DropOverdue(clock->NowNs());
-      if (row_ == table_.rows.size()) continue;
-      if (!WaitUntilDue(deadline_ns)) return GrabStatus::kTimeout;
-    }
-    const GrabStatus status = ReadRow(frame);
-    if (status != GrabStatus::kEnd) return status;
   }
+  if (clock && !WaitUntilDue(deadline_ns)) return GrabStatus::kTimeout;
+  return HandOut(frame);
 }
 
 bool TakeDriver::NextLoop() {
@@ -64,11 +59,31 @@ bool TakeDriver::NextLoop() {
   return true;
 }
 
+bool TakeDriver::ReadNext() {
+  if (replay_->clock()) DropOverdue(replay_->clock()->NowNs());
+  if (row_ == table_.rows.size()) return false;
+  fresh_ = false;
+  // Before its time has come, so that it is there when it has.
+  if (!read_) read_ = video_.Read(image_);
+  if (read_ != VideoStatus::kEnd) return true;
+  read_.reset();
+  row_ = table_.rows.size();
+  return false;
+}
+
+std::int64_t TakeDriver::OverdueAtNs() const {
+  const std::size_t rows = table_.rows.size(), newer = row_ + kBufferedFrames;
+  if (newer >= rows && !replay_->loops()) return std::numeric_limits<std::int64_t>::max();
+  return CaptureTimeNs(newer % rows) + replay_->LoopOffset(newer / rows);
+}
+
 void TakeDriver::DropOverdue(std::int64_t now_ns) {
-  while (row_ + kBufferedFrames < table_.rows.size() &&
-         CaptureTimeNs(row_ + kBufferedFrames) <= now_ns) {
+  // A loop later the video stands at the same frame.
+  if (OverdueAtNs() <= now_ns) loop_ += replay_->LoopsIn(now_ns - OverdueAtNs());
+  while (row_ < table_.rows.size() && OverdueAtNs() <= now_ns) {
     fresh_ = false;
-    row_ = video_.Skip() == VideoStatus::kEnd ? table_.rows.size() : row_ + 1;
+    const VideoStatus passed = read_ ? *std::exchange(read_, std::nullopt) : video_.Skip();
+    row_ = passed == VideoStatus::kEnd ? table_.rows.size() : row_ + 1;
   }
 }
 
@@ -79,19 +94,15 @@ bool TakeDriver::WaitUntilDue(std::int64_t deadline_ns) {
   return clock.NowNs() >= due_ns;
 }
 
-GrabStatus TakeDriver::ReadRow(Frame& frame) {
-  fresh_ = false;
-  const VideoStatus status = video_.Read(frame.image);
-  if (status == VideoStatus::kEnd) {
-    row_ = table_.rows.size();
-    return GrabStatus::kEnd;
-  }
+GrabStatus TakeDriver::HandOut(Frame& frame) {
   const TakeRow& row = table_.rows[row_];
+  frame.image = image_;
   frame.capture_ns = CaptureTimeNs(row_);
   frame.sequence = row.frame + loop_ * (table_.rows.back().frame + 1);
   frame.angles = row.angles;
   ++row_;
-  return status == VideoStatus::kFrame ? GrabStatus::kFrame : GrabStatus::kTorn;
+  return std::exchange(read_, std::nullopt) == VideoStatus::kFrame ? GrabStatus::kFrame
+                                                                   : GrabStatus::kTorn;
 }
 
 }  // namespace mocap

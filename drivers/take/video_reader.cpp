@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.h"
@@ -60,6 +61,13 @@ CodecPtr OpenDecoder(const std::filesystem::path& file, const AVStream& stream,
   return decoder;
 }
 
+/// Whether packets can be counted instead of frames, which come in their order.
+bool HasAPacketForEachFrame(AVCodecID codec) {
+  const AVCodecDescriptor* descriptor = avcodec_descriptor_get(codec);
+  const bool stands_alone = descriptor && (descriptor->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
+  return stands_alone || codec == AV_CODEC_ID_FFV1;
+}
+
 }  // namespace
 
 class VideoReader::Impl {
@@ -81,6 +89,8 @@ class VideoReader::Impl {
     stream_ = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
     if (stream_ < 0 || codec == nullptr) Fail(file_, "has no video that FFmpeg decodes");
     decoder_ = OpenDecoder(file_, *input_->streams[stream_], codec);
+    passes_undecoded_ = HasAPacketForEachFrame(codec->id);
+    passed_.clear();
     input_ended_ = false;
     width_px_ = height_px_ = 0;
     first_waits_ = DecodeFirst();
@@ -129,7 +139,7 @@ class VideoReader::Impl {
   }
 
   VideoStatus Skip() {
-    if (kept_.empty()) return Next();
+    if (kept_.empty()) return Pass();
     return next_kept_ == kept_.size() ? VideoStatus::kEnd : kept_[next_kept_++].status;
   }
 
@@ -170,17 +180,35 @@ class VideoReader::Impl {
     }
   }
 
+  VideoStatus Pass() {
+    if (first_waits_ || !passes_undecoded_) return Next();
+    if (!FetchPacket()) return VideoStatus::kEnd;
+    passed_.emplace_back(av_packet_clone(packet_.get()));
+    return VideoStatus::kFrame;
+  }
+
+  // The next packet of the video; a key frame makes those that were passed superfluous.
+  bool FetchPacket() {
+    do {
+      av_packet_unref(packet_.get());
+      if (av_read_frame(input_.get(), packet_.get()) < 0) return false;
+    } while (packet_->stream_index != stream_);
+    if (packet_->flags & AV_PKT_FLAG_KEY) passed_.clear();
+    return true;
+  }
+
   // Hands one packet to the decoder, or tells it that there are no more; false: the packet is bad.
   bool Feed() {
-    while (av_read_frame(input_.get(), packet_.get()) >= 0) {
-      const bool ours = packet_->stream_index == stream_;
-      const int sent = ours ? avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
-      av_packet_unref(packet_.get());
-      if (ours) return sent >= 0;
+    if (!FetchPacket()) {
+      input_ended_ = true;
+      avcodec_send_packet(decoder_.get(), nullptr);
+      return true;
     }
-    input_ended_ = true;
-    avcodec_send_packet(decoder_.get(), nullptr);
-    return true;
+    for (const PacketPtr& packet : std::exchange(passed_, {})) {
+      avcodec_send_packet(decoder_.get(), packet.get());
+      avcodec_receive_frame(decoder_.get(), frame_.get());
+    }
+    return avcodec_send_packet(decoder_.get(), packet_.get()) >= 0;
   }
 
   bool Convert() {
@@ -218,6 +246,8 @@ class VideoReader::Impl {
   int row_px_ = 0;
   bool input_ended_ = false;
   bool first_waits_ = false;
+  bool passes_undecoded_ = false;
+  std::vector<PacketPtr> passed_;  // Since the last key frame: later ones may need them.
   std::vector<Bgr> pixels_;
   std::vector<KeptFrame> kept_;  // Empty: frames are decoded when they are read.
   std::size_t next_kept_ = 0;

@@ -33,7 +33,8 @@ class VideoReader {
 
   /// Gives the next frame; its pixels stay valid until the next call of Read or Skip.
   VideoStatus Read(ImageView<const Bgr>& image);
-  /// Passes over the next frame, which costs less than to read it.
+  /// Passes over the next frame. Lossless video and JPEG are not decoded for that: damage there
+  /// goes unnoticed.
   VideoStatus Skip();
   /// Decodes the whole file at once; from then on frames come from memory, the first of them first.
   void KeepInMemory();

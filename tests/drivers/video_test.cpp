@@ -5,6 +5,7 @@
 #include "drivers/take/video_reader.h"
 #include "drivers/take/video_writer.h"
 #include "tests/support/damage_video.h"
+#include "tests/support/dependent_video.h"
 #include "tests/support/images.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
@@ -139,6 +140,26 @@ TEST_F(Video, SkippingPassesOverOneFrame) {
   EXPECT_EQ(reader.Skip(), VideoStatus::kFrame);
   EXPECT_EQ(CountAndCompare(reader, take_, 2), kFrames - 2);
   EXPECT_EQ(reader.Skip(), VideoStatus::kEnd);
+}
+
+TEST_F(Video, SkippedFramesAreNotDecoded) {
+  testing::WriteVideoWithSpoiledFrame(file_, take_, 4);
+  VideoReader reader(file_);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(reader.Skip(), VideoStatus::kFrame) << i;
+  ImageView<const Bgr> image;
+  ASSERT_EQ(reader.Read(image), VideoStatus::kFrame);
+  EXPECT_EQ(image(0, 0).g, testing::GrayOf(8));
+}
+
+TEST_F(Video, SkippedFramesAreDecodedWhenLaterOnesNeedThem) {
+  testing::WriteVideoOfDependentFrames(file_, 64, 48, kFrames);
+  for (int skipped = 0; skipped < kFrames; ++skipped) {
+    VideoReader reader(file_);
+    for (int i = 0; i < skipped; ++i) EXPECT_EQ(reader.Skip(), VideoStatus::kFrame);
+    ImageView<const Bgr> image;
+    ASSERT_EQ(reader.Read(image), VideoStatus::kFrame) << skipped;
+    for (int x = 0; x < 64; ++x) ASSERT_EQ(image(x, 20).g, testing::NoiseAt(skipped, x, 20));
+  }
 }
 
 TEST_F(Video, CutOffFileEndsWithItsLastWholeFrame) {

@@ -200,6 +200,42 @@ TEST(TakeDriver, JoinsTheLoopThatIsUnderWay) {
   EXPECT_EQ(frame.capture_ns, kStart_ns - take.interval_ns + take.TimeNs(0, 0) - take.first_ns);
 }
 
+TEST(TakeDriver, JoinsLateAsIfItHadRunAllTheTime) {
+  constexpr std::int64_t kLoops = 100'000'000;  // Each of them would take a millisecond to pass.
+  Recording recording(Pace::kRealtime, true);
+  const SmallTake& take = recording.take();
+  const auto punctual = recording.Make(0), late = recording.Make(1);
+  punctual->Start();
+  for (const int behind : {1, 5, 7}) {
+    late->Start();
+    recording.now_ns = kStart_ns + (kLoops * take.frames + behind) * take.interval_ns;
+    Frame frame;
+    // The newest one is not due yet.
+    std::int64_t row =
+        kLoops * take.frames + behind - static_cast<int>(TakeDriver::kBufferedFrames);
+    for (int i = 0; i < 2 * take.frames; ++i, ++row) {
+      ASSERT_EQ(late->Grab(frame, milliseconds(1000)), GrabStatus::kFrame);
+      EXPECT_EQ(frame.sequence, static_cast<std::uint64_t>(row));
+      EXPECT_EQ(frame.capture_ns - kStart_ns, kMillisecond_ns + row * take.interval_ns);
+      const int shown = static_cast<int>(row % take.frames);
+      EXPECT_TRUE(SamePixels<Bgr>(frame.image, SmallPicture(take, 1, shown).view())) << row;
+    }
+    late->Stop();
+  }
+}
+
+TEST(TakeDriver, ReadsAFrameBeforeItIsDue) {
+  Recording recording(Pace::kRealtime, false);
+  const auto driver = recording.Make(0);
+  driver->Start();
+  Frame frame;
+  ASSERT_EQ(driver->Grab(frame, milliseconds(0)), GrabStatus::kFrame);
+  ASSERT_EQ(driver->Grab(frame, milliseconds(15)), GrabStatus::kTimeout);
+  testing::CutFile(recording.video(0), 0);
+  ASSERT_EQ(driver->Grab(frame, milliseconds(100)), GrabStatus::kFrame);
+  EXPECT_TRUE(SamePixels<Bgr>(frame.image, SmallPicture(recording.take(), 0, 1).view()));
+}
+
 TEST(TakeDriver, CutOffVideoStaysInStepWhenItLoops) {
   Recording recording(Pace::kFast, true);
   testing::CutFile(recording.video(0), 0.5);
