@@ -103,6 +103,15 @@ CameraRequest RequestFor(const Config& config, const CameraConfig& camera,
   return request;
 }
 
+/// The one camera whose strobe can be on the other end of this one's trigger.
+std::string MasterOf(const Config& config, const CameraConfig& camera) {
+  if (config.source.driver != "aravis" || !camera.aravis.waits_for_line()) return "";
+  const auto has_strobe = [](const CameraConfig& other) { return !other.aravis.strobe.empty(); };
+  if (std::ranges::count_if(config.cameras, has_strobe) != 1) return "";
+  const std::string& master = std::ranges::find_if(config.cameras, has_strobe)->name;
+  return master == camera.name ? "" : master;
+}
+
 }  // namespace
 
 std::vector<LiveCamera> OpenLiveCameras(const Config& config,
@@ -121,6 +130,7 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
     live.name = camera.name;
     if (!calibrations.empty()) live.calibration = Find(calibrations, camera, config.calibration);
     live.request = RequestFor(config, camera, live.calibration);
+    live.waits_for = MasterOf(config, camera);
     live.driver = MakeDriver(config.source.driver, camera, live.request);
     Mount(camera, person, live);
     if (live.calibration) RequireHeadOrNone(live, config.calibration);
@@ -147,7 +157,7 @@ Studio OpenLiveStudio(const Config& config) {
     auto background =
         OpenCameraBackground(base.string() + ".mkv", base.string() + ".csv", *live.calibration);
     studio.cameras.push_back({std::move(*live.calibration), std::move(live.driver),
-                              std::move(background), live.request.fps});
+                              std::move(background), live.request.fps, std::move(live.waits_for)});
   }
   return studio;
 }

@@ -24,6 +24,7 @@ struct LiveCamera {
   std::unique_ptr<CameraDriver> driver;
   PanTilt* head = nullptr;  ///< The driver's; null: it has none.
   PanTiltLimits range;      ///< How far the studio lets it turn, beside its own limits.
+  std::string waits_for;    ///< The camera that triggers it; empty: none that is known.
 };
 
 /// Makes the drivers of all live cameras. A studio may be looked at before it is calibrated:

@@ -50,6 +50,10 @@ AravisSettings ReadAravisSettings(TomlSection& section) {
   settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
   settings.gain = OptionalWithin(section, "gain", 0, kMostGain);
   settings.trigger = section.Text("trigger", "");
+  settings.strobe = section.Text("strobe", "");
+  if (!settings.strobe.empty() && settings.strobe == settings.trigger) {
+    section.Fail("strobe", "is the line of trigger as well; another one is wanted");
+  }
   settings.ptp = section.Flag("ptp", settings.ptp);
   if (section.Has("packet_bytes")) {
     settings.packet_bytes =

@@ -18,6 +18,7 @@ struct StudioCamera {
   std::unique_ptr<CameraDriver> driver;
   BackgroundSource background;  ///< Read before the driver starts.
   double fps = 0;               ///< Of its own; 0: the studio's.
+  std::string waits_for = "";   ///< The camera that triggers it; empty: none that is known.
 };
 
 /// All cameras, in the order in which the pipeline numbers them.

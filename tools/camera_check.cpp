@@ -44,6 +44,7 @@ CameraRun WatchCamera(LiveCamera& camera, double seconds) {
   CameraRun run;
   run.name = camera.name;
   run.request = camera.request;
+  run.waits_for = camera.waits_for;
   try {
     camera.driver->Start();
   } catch (const SetupError& error) {
@@ -81,7 +82,7 @@ bool IsExplained(const std::vector<CameraRun>& runs) {
   bool loses = false;
   for (const CameraRun& run : runs) {
     loses |= !run.error.empty() || run.torn > 0 || run.times_lost > 0 || run.MissedFrames() > 0;
-    if (run.times_ns.size() < 2) continue;
+    if (run.IsSilent()) continue;
     slowest = std::min(slowest, run.TakenFps());
     fastest = std::max(fastest, run.TakenFps());
   }
@@ -97,7 +98,7 @@ std::int64_t CameraRun::MissedFrames() const {
 }
 
 double CameraRun::Fps() const {
-  if (times_ns.size() < 2) return 0;
+  if (IsSilent()) return 0;
   const double seconds = static_cast<double>(times_ns.back() - times_ns.front()) / 1e9;
   return seconds > 0 ? static_cast<double>(times_ns.size() - 1) / seconds : 0;
 }
@@ -134,7 +135,7 @@ std::vector<BusLoad> LoadsOf(const std::vector<CameraRun>& runs) {
 
 SetSummary SummarizeSets(const std::vector<CameraRun>& runs) {
   SetSummary summary;
-  const auto running = [](const CameraRun& run) { return run.times_ns.size() >= 2; };
+  const auto running = [](const CameraRun& run) { return !run.IsSilent(); };
   const auto cameras = static_cast<int>(std::ranges::count_if(runs, running));
   if (cameras < 2) return summary;
   double fps = 0;
@@ -177,8 +178,10 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
         fmt::format("went away {}: look at its cable and power",
                     run.times_lost == 1 ? "once" : fmt::format("{} times", run.times_lost)));
   }
-  if (run.times_ns.size() < 2) {
-    troubles.push_back("delivers no frames: if it waits for a trigger, see that there is one");
+  if (run.IsSilent()) {
+    if (run.waits_for.empty()) {
+      troubles.push_back("delivers no frames: if it waits for a trigger, see that there is one");
+    }
     return troubles;
   }
   if (run.torn > 0) {
@@ -198,6 +201,26 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
         "takes {:.1f} frames a second instead of {:g}, as cameras do in the dark: set exposure_us "
         "below {:.0f}",
         run.TakenFps(), AskedFps(run), 1e6 / AskedFps(run)));
+  }
+  return troubles;
+}
+
+std::vector<std::string> TriggerTroublesOf(const std::vector<CameraRun>& runs) {
+  std::vector<std::string> troubles;
+  for (const CameraRun& master : runs) {
+    std::vector<std::string> silent;
+    for (const CameraRun& run : runs) {
+      const bool waits = run.waits_for == master.name && run.error.empty() && run.IsSilent();
+      if (waits) silent.push_back(run.name);
+    }
+    if (silent.empty()) continue;
+    troubles.push_back(
+        master.IsSilent()
+            ? fmt::format("waiting for the trigger of {}, which delivers no frames: {}",
+                          master.name, fmt::join(silent, ", "))
+            : fmt::format("no trigger of {} reaches {}: look at the wire, at {}'s strobe and at "
+                          "their trigger",
+                          master.name, fmt::join(silent, ", "), master.name));
   }
   return troubles;
 }

@@ -13,13 +13,16 @@ namespace mocap {
 struct CameraRun {
   std::string name;
   CameraRequest request;
-  std::string error;  ///< Why it could not be started; empty: it could.
+  std::string waits_for;  ///< The camera that triggers it; empty: none that is known.
+  std::string error;      ///< Why it could not be started; empty: it could.
   std::vector<std::int64_t> times_ns;
   std::vector<std::uint64_t> sequences;
   int torn = 0;
   int times_lost = 0;  ///< How often it went away.
   CameraFacts facts;
 
+  /// Too few frames came to tell anything of them.
+  bool IsSilent() const { return times_ns.size() < 2; }
   std::int64_t MissedFrames() const;
   /// Frames a second that were handed out; 0: too few to tell.
   double Fps() const;
@@ -52,6 +55,8 @@ SetSummary SummarizeSets(const std::vector<CameraRun>& runs);
 
 /// Says in one line each what is wrong with a camera, and which one thing to change.
 std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusLoad>& loads);
+/// The same of cameras that another one triggers.
+std::vector<std::string> TriggerTroublesOf(const std::vector<CameraRun>& runs);
 /// The same of buses, and of the cameras together.
 std::vector<std::string> TroublesOf(const BusLoad& load);
 std::vector<std::string> TroublesOf(const SetSummary& sets, const std::vector<CameraRun>& runs);

@@ -93,6 +93,7 @@ void Check(const CamerasOptions& options) {
     PrintRun(run);
     troubles += PrintTroubles(TroublesOf(run, loads));
   }
+  troubles += PrintTroubles(TriggerTroublesOf(runs));
   for (const BusLoad& load : loads) {
     if (load.link_mbit_s <= 0) continue;
     Print(fmt::format("{}: {:.0f} of {:g} Mbit/s", load.bus, load.used_mbit_s, load.link_mbit_s));

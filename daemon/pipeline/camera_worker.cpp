@@ -155,6 +155,7 @@ void CameraWorker::CountFrame(std::uint64_t sequence) {
 CameraStatus CameraWorker::Status() const {
   CameraStatus status;
   status.name = camera_.calibration.name;
+  status.waits_for = camera_.waits_for;
   status.state = state_.load(std::memory_order_relaxed);
   status.frames = frames_.load(std::memory_order_relaxed);
   status.dropped = dropped_.load(std::memory_order_relaxed);

@@ -53,6 +53,7 @@ struct CameraStatus {
   double nudged_px = 0;              ///< How far the picture lies from where it was learned.
   bool is_blind = false;             ///< As the last frame's.
   CameraHealth health;               ///< Whether the other cameras agree.
+  std::string waits_for;             ///< The camera that triggers it; empty: none that is known.
   std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
 };
 

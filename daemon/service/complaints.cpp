@@ -82,7 +82,7 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   const CameraStatus& camera = report.now.status.cameras[i];
   if (camera.state == CameraState::kLost) {
     list.push_back(camera.name + " is lost: look at its cable and power");
-  } else if (camera.state == CameraState::kStarting) {
+  } else if (camera.state == CameraState::kStarting && camera.waits_for.empty()) {
     list.push_back(camera.name + " has not delivered a frame yet");
   }
   const double rate = report.now.frames_per_second[i];
@@ -93,6 +93,31 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
         fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
                     "bus or network, and the processor's load",
                     camera.name, rate, wanted));
+  }
+}
+
+/// Cameras fall silent with the one that triggers them: one line tells of them all.
+void ComplainOfTriggers(const ServiceReport& report, List& list) {
+  const auto& cameras = report.now.status.cameras;
+  for (std::size_t m = 0; m < cameras.size(); ++m) {
+    const CameraStatus& master = cameras[m];
+    List silent;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const bool is_silent =
+          cameras[i].state != CameraState::kLost && report.now.frames_per_second[i] == 0;
+      if (cameras[i].waits_for == master.name && is_silent) silent.push_back(cameras[i].name);
+    }
+    if (silent.empty()) continue;
+    if (master.state == CameraState::kLost || master.state == CameraState::kStarting) {
+      const bool is_lost = master.state == CameraState::kLost;
+      list.push_back(fmt::format("waiting for the trigger of {}, which {}: {}", master.name,
+                                 is_lost ? "is lost" : "has not delivered a frame yet",
+                                 fmt::join(silent, ", ")));
+    } else if (report.now.frames_per_second[m] > 0) {
+      list.push_back(fmt::format(
+          "no trigger of {} reaches {}: look at the wire, at {}'s strobe and at their trigger",
+          master.name, fmt::join(silent, ", "), master.name));
+    }
   }
 }
 
@@ -168,6 +193,7 @@ std::vector<std::string> Complaints(const ServiceReport& report) {
     ComplainOfFlow(report, i, list);
     ComplainOfPicture(report.now.status.cameras[i], list);
   }
+  ComplainOfTriggers(report, list);
   ComplainOfPlace(report.now.status, list);
   ComplainOfLight(report, list);
   ComplainOfTime(report, list);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "drivers/aravis/aravis_triggers.h"
 #include "drivers/aravis/gobject.h"
 #include "drivers/quoted.h"
 
@@ -27,16 +28,6 @@ bool Differs(double got, double wanted) {
   return std::abs(got - wanted) > kSame * std::max(std::abs(wanted), 1.0);
 }
 
-/// A list that one of Aravis's functions gave, as text.
-std::string Joined(const char** names, guint count) {
-  const std::unique_ptr<const char*, GFree> owner(names);
-  std::string text;
-  for (const char* name : std::span(names, names ? count : 0)) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return text;
-}
-
 class Negotiation {
  public:
   Negotiation(ArvCamera* camera, const CameraRequest& request, const AravisSettings& settings)
@@ -50,7 +41,8 @@ class Negotiation {
     SetSize();
     SetFormat();
     SetRate();
-    SetTrigger();
+    SetTrigger(camera_, request_.device, settings_.trigger);
+    SetStrobe(camera_, request_.device, settings_.strobe);
     SetExposure();
     SetGain();
     SetPtp();
@@ -72,13 +64,11 @@ class Negotiation {
   void SetSize();
   void SetFormat();
   void SetRate();
-  void SetTrigger();
   void SetExposure();
   void SetGain();
   void SetPtp();
   bool HasStamps() const;
   std::string Formats() const;
-  std::string Triggers() const;
 
   ArvCamera* const camera_;
   const CameraRequest& request_;
@@ -109,7 +99,7 @@ void Negotiation::SetSize() {
 std::string Negotiation::Formats() const {
   guint count = 0;
   const char** names = arv_camera_dup_available_pixel_formats_as_strings(camera_, &count, nullptr);
-  return Joined(names, count);
+  return JoinNames(names, count);
 }
 
 void Negotiation::SetFormat() {
@@ -153,26 +143,6 @@ void Negotiation::SetRate() {
   if (Differs(got, request_.fps)) {
     Remark("gives " + Number(got) + " frames a second; asked for were " + Number(request_.fps) +
            ": a shorter exposure_us, a smaller picture or a leaner format may allow them");
-  }
-}
-
-std::string Negotiation::Triggers() const {
-  guint count = 0;
-  const char** names = arv_camera_dup_available_trigger_sources(camera_, &count, nullptr);
-  return Joined(names, count);
-}
-
-void Negotiation::SetTrigger() {
-  GFailure failure;
-  if (settings_.trigger.empty()) {
-    arv_camera_clear_triggers(camera_, failure);
-    return;
-  }
-  const std::string source = settings_.trigger == "software" ? "Software" : settings_.trigger;
-  arv_camera_set_trigger(camera_, source.c_str(), failure);
-  const char* got = arv_camera_get_trigger_source(camera_, nullptr);
-  if (failure.failed() || !got || source != got) {
-    Fail("trigger " + Quoted(settings_.trigger) + " cannot be set; it has " + Triggers());
   }
 }
 

@@ -27,7 +27,7 @@ struct AravisAgreement {
 };
 
 /// Sets a camera up.
-/// @throws SetupError  for what cannot be done without: size, format, trigger.
+/// @throws SetupError  for what cannot be done without: size, format, trigger, strobe.
 AravisAgreement Agree(ArvCamera* camera, const CameraRequest& request,
                       const AravisSettings& settings);
 

@@ -17,6 +17,9 @@ struct AravisSettings {
   /// What starts an exposure: empty for the camera's own clock, "software" for this host's at
   /// whole multiples of the period, else the name of the input, as "Line1".
   std::string trigger;
+  /// The output that tells when this camera exposes, as "Line2": wired to the others' inputs it
+  /// triggers them. Empty: outputs stay as they are.
+  std::string strobe;
   bool ptp = true;  ///< Switches PTP on where the camera has it.
   // For GigE Vision:
   std::optional<int> packet_bytes;        ///< Empty: the largest that comes through.
@@ -24,6 +27,9 @@ struct AravisSettings {
   /// Whether to read packets past the kernel's UDP sockets. Empty: where their buffers are too
   /// small for two frames and it is allowed.
   std::optional<bool> packet_socket;
+
+  /// Something else than this program and the camera itself starts its exposures.
+  bool waits_for_line() const { return !trigger.empty() && trigger != "software"; }
 };
 
 }  // namespace mocap

@@ -245,6 +245,7 @@ format = "BayerRG8"
 exposure_us = 8000
 gain = 3
 trigger = "Line1"
+strobe = "Line2"
 ptp = false
 packet_bytes = 9000
 packet_delay_us = 12.5
@@ -258,6 +259,7 @@ device = "192.168.1.12"
   EXPECT_EQ(settings.exposure_us, 8000);
   EXPECT_EQ(settings.gain, 3);
   EXPECT_EQ(settings.trigger, "Line1");
+  EXPECT_EQ(settings.strobe, "Line2");
   EXPECT_FALSE(settings.ptp);
   EXPECT_EQ(settings.packet_bytes, 9000);
   EXPECT_EQ(settings.packet_delay_us, 12.5);

@@ -52,6 +52,20 @@ class LiveStudio : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
+TEST_F(LiveStudio, KnowsWhoTriggersWhom) {
+  const auto waits_for = [this](const std::string& first, const std::string& second) {
+    const std::filesystem::path file = folder_.path() / "mocapd.toml";
+    testing::WriteText(file,
+                       "calibration = \"calibration.toml\"\n[source]\ndriver = \"aravis\"\n"
+                       "[[cameras]]\nname = \"cam1\"\ndevice = \"a\"\n" +
+                           first + "[[cameras]]\nname = \"cam2\"\ndevice = \"b\"\n" + second);
+    return OpenStudio(LoadConfig(file)).cameras.at(1).waits_for;
+  };
+  EXPECT_EQ(waits_for("strobe = \"Line2\"\n", "trigger = \"Line1\"\n"), "cam1");
+  EXPECT_EQ(waits_for("strobe = \"Line2\"\n", "trigger = \"software\"\n"), "");
+  EXPECT_EQ(waits_for("", "trigger = \"Line1\"\n"), "") << "who knows what is on the line";
+}
+
 TEST_F(LiveStudio, TakesTheCamerasThatTheConfigurationNames) {
   const Studio studio = OpenStudio(Load("fps = 100\n"));
   ASSERT_EQ(studio.cameras.size(), 2u);

@@ -97,8 +97,9 @@ TEST(FollowingHeads, KeepAPersonWhoWalksSixMetersInViewOfAllCameras) {
   Studio studio = OpenSimulatedStudio(Walk());
   std::vector<InView> seen(studio.cameras.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    auto& [calibration, driver, background, fps] = studio.cameras[i];
-    driver = std::make_unique<Witness>(std::move(driver), calibration, truth, seen[i]);
+    StudioCamera& camera = studio.cameras[i];
+    camera.driver =
+        std::make_unique<Witness>(std::move(camera.driver), camera.calibration, truth, seen[i]);
   }
   CountingSink sink;
   Pipeline pipeline(std::move(studio),

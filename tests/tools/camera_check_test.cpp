@@ -91,6 +91,19 @@ TEST(CameraCheck, DamageLossAndSilenceHaveTheirKnobs) {
   EXPECT_THAT(Troubles(silent), ElementsAre(HasSubstr("trigger")));
 }
 
+TEST(CameraCheck, CamerasThatWaitForAnotherAreToldOnce) {
+  std::vector<CameraRun> runs = {GoodRun("a"), GoodRun("b"), GoodRun("c")};
+  for (const std::size_t i : {1, 2}) {
+    runs[i].waits_for = "a";
+    runs[i].times_ns.clear();
+  }
+  EXPECT_THAT(Troubles(runs[1]), IsEmpty());
+  EXPECT_THAT(TriggerTroublesOf(runs), ElementsAre(HasSubstr("no trigger of a reaches b, c: ")));
+  runs[0].times_ns.clear();
+  EXPECT_THAT(TriggerTroublesOf(runs),
+              ElementsAre("waiting for the trigger of a, which delivers no frames: b, c"));
+}
+
 TEST(CameraCheck, DamagedFramesAreOneTroubleAndNoOther) {
   CameraRun damaged = GoodRun("a");
   for (int i = kFrames - 2; i > 0; i -= 4) {

@@ -52,6 +52,8 @@ class GigeCamera {
   GigeCamera(const GigeCamera&) = delete;
   GigeCamera& operator=(const GigeCamera&) = delete;
 
+  /// What clients have written to one of its registers.
+  std::uint32_t Read(std::uint32_t address) const;
   /// Some client has started it.
   bool is_streaming() const;
   /// Holds back all frames, as when the cable is pulled, while it still answers.
@@ -66,7 +68,6 @@ class GigeCamera {
   bool IsWanted(std::int64_t capture_ns);
   void Send(const Frame& frame);
   void FollowPtp();
-  std::uint32_t Read(std::uint32_t address) const;
   void Write(std::uint32_t address, std::uint32_t value);
   std::int64_t DeviceTime(std::int64_t host_ns) const;
 

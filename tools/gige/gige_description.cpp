@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -37,29 +38,41 @@ std::string Entry(std::string_view name, std::uint32_t value) {
          "</Value>\n\t\t</EnumEntry>\n";
 }
 
-std::string Register(std::string_view name, std::uint32_t address) {
+/// @param index  the register by which the address moves on in steps of four; empty: none.
+std::string Register(std::string_view name, std::uint32_t address, std::string_view index = "") {
   return "\t<IntReg Name=\"" + std::string(name) + "\" NameSpace=\"Custom\">\n\t\t<Address>" +
-         Hex(address) +
-         "</Address>\n\t\t<Length>4</Length>\n\t\t<AccessMode>RW</AccessMode>\n"
+         Hex(address) + "</Address>\n" +
+         (index.empty() ? "" : "\t\t<pIndex Offset=\"4\">" + std::string(index) + "</pIndex>\n") +
+         "\t\t<Length>4</Length>\n\t\t<AccessMode>RW</AccessMode>\n"
          "\t\t<pPort>Device</pPort>\n\t\t<Cachable>NoCache</Cachable>\n\t\t<Sign>Unsigned</Sign>\n"
          "\t\t<Endianess>BigEndian</Endianess>\n\t</IntReg>\n";
 }
 
+/// A feature that is one of several words, numbered from 0, in the register `name`Register.
+std::string Enumeration(const std::string& name, std::initializer_list<std::string_view> words) {
+  std::string xml = "\t<Enumeration Name=\"" + name + "\" NameSpace=\"Standard\">\n";
+  std::uint32_t value = 0;
+  for (const std::string_view word : words) xml += Entry(word, value++);
+  return xml + "\t\t<pValue>" + name + "Register</pValue>\n\t</Enumeration>\n";
+}
+
 std::string Ptp() {
-  constexpr std::array<std::string_view, 9> kStates = {"Initializing", "Faulty",       "Disabled",
-                                                       "Listening",    "PreMaster",    "Master",
-                                                       "Passive",      "Uncalibrated", "Slave"};
-  std::string xml =
-      "\t<Boolean Name=\"PtpEnable\" NameSpace=\"Standard\">\n"
-      "\t\t<pValue>PtpEnableRegister</pValue>\n\t\t<OnValue>1</OnValue>\n"
-      "\t\t<OffValue>0</OffValue>\n\t</Boolean>\n"
-      "\t<Enumeration Name=\"PtpStatus\" NameSpace=\"Standard\">\n";
-  for (std::size_t i = 0; i < kStates.size(); ++i) {
-    xml += Entry(kStates[i], static_cast<std::uint32_t>(i));
-  }
-  return xml + "\t\t<pValue>PtpStatusRegister</pValue>\n\t</Enumeration>\n" +
+  return "\t<Boolean Name=\"PtpEnable\" NameSpace=\"Standard\">\n"
+         "\t\t<pValue>PtpEnableRegister</pValue>\n\t\t<OnValue>1</OnValue>\n"
+         "\t\t<OffValue>0</OffValue>\n\t</Boolean>\n" +
+         Enumeration("PtpStatus", {"Initializing", "Faulty", "Disabled", "Listening", "PreMaster",
+                                   "Master", "Passive", "Uncalibrated", "Slave"}) +
          Register("PtpEnableRegister", gige_register::kPtpEnable) +
          Register("PtpStatusRegister", gige_register::kPtpStatus);
+}
+
+std::string Lines() {
+  return Enumeration("LineSelector", {"Line0", "Line1"}) +
+         Enumeration("LineMode", {"Input", "Output"}) +
+         Enumeration("LineSource", {"Off", "ExposureActive"}) +
+         Register("LineSelectorRegister", gige_register::kLineSelector) +
+         Register("LineModeRegister", gige_register::kLineMode, "LineSelectorRegister") +
+         Register("LineSourceRegister", gige_register::kLineSource, "LineSelectorRegister");
 }
 
 }  // namespace
@@ -84,7 +97,8 @@ std::string DescribeGigeCamera(bool has_ptp) {
           Entry("BGR8", ARV_PIXEL_FORMAT_BGR_8_PACKED) +
               Entry("YUV422_8", ARV_PIXEL_FORMAT_YUV_422_YUYV_PACKED) +
               Entry("YUV422_8_UYVY", ARV_PIXEL_FORMAT_YUV_422_PACKED) + formats);
-  if (has_ptp) Replace(xml, "\t<Port Name=", Ptp() + "\t<Port Name=");
+  const std::string port = "\t<Port Name=";
+  Replace(xml, port, Lines() + (has_ptp ? Ptp() : "") + port);
   return xml;
 }
 

@@ -17,12 +17,18 @@ inline constexpr std::uint32_t kTriggerSoftware = 0x34c;
 inline constexpr std::uint32_t kFramePeriod_us = 0x390;
 inline constexpr std::uint32_t kPtpEnable = 0x3a0;
 inline constexpr std::uint32_t kPtpStatus = 0x3a4;
+inline constexpr std::uint32_t kLineSelector = 0x3b0;
+/// Each line has its own, four bytes after the one before it.
+inline constexpr std::uint32_t kLineMode = 0x3c0;
+inline constexpr std::uint32_t kLineSource = 0x3d0;
 }  // namespace gige_register
 
+enum class GigeLine : std::uint32_t { kInput = 0, kOutput = 1 };
+enum class GigeLineSource : std::uint32_t { kOff = 0, kExposureActive = 1 };
 enum class GigePtp : std::uint32_t { kDisabled = 2, kListening = 3, kSlave = 8 };
 
 /// Gives the description of Aravis's fake camera in GenICam's XML, with more pixel formats,
-/// triggers of our own, and PTP if wanted.
+/// triggers of our own, lines that can be inputs and outputs, and PTP if wanted.
 std::string DescribeGigeCamera(bool has_ptp);
 
 }  // namespace mocap

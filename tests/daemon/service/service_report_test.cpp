@@ -49,6 +49,23 @@ TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
   EXPECT_THAT(ReportLine(report), HasSubstr("1 of 2 cameras; cam1 is lost"));
 }
 
+TEST(ServiceReport, SaysOnceOfWhomCamerasWaitForTheTrigger) {
+  ServiceReport report = Good();
+  CameraStatus third = report.now.status.cameras[1];
+  third.name = "cam3";
+  third.state = CameraState::kStarting;
+  report.now.status.cameras.push_back(third);
+  for (const std::size_t i : {1, 2}) report.now.status.cameras[i].waits_for = "cam1";
+  report.now.frames_per_second = {25, 25, 0};
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("no trigger of cam1 reaches cam3: ")));
+  report.now.status.cameras[0].state = CameraState::kLost;
+  report.now.frames_per_second = {0, 0, 0};
+  report.now.sets_per_second = 0;
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("cam1 is lost"),
+                          "waiting for the trigger of cam1, which is lost: cam2, cam3"));
+}
+
 TEST(ServiceReport, ACameraIsHeldAgainstItsOwnRate) {
   ServiceReport report = Good();
   report.camera_fps = {0, 10};

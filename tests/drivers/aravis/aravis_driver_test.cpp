@@ -14,6 +14,7 @@
 #include "tests/support/pattern_camera.h"
 #include "tests/support/private_network.h"
 #include "tools/gige/gige_camera.h"
+#include "tools/gige/gige_description.h"
 #include "tools/gige/loopback.h"
 
 namespace mocap {
@@ -170,6 +171,10 @@ TEST_F(AravisDriverTest, WhatCannotBeHadIsToldAtOnce) {
   settings.trigger = "Line7";
   AravisDriver triggered(Request(ip), settings);
   EXPECT_THAT(WhyNotStarted(triggered), HasSubstr("Line0"));
+  settings = Settings();
+  settings.strobe = "Line7";
+  AravisDriver master(Request(ip), settings);
+  EXPECT_EQ(WhyNotStarted(master), ip + ": strobe \"Line7\" cannot be set: it has Line0, Line1");
 }
 
 TEST_F(AravisDriverTest, ValuesThatTheCameraDoesNotTakeAreTold) {
@@ -272,6 +277,36 @@ TEST_F(AravisDriverTest, LineTriggerFollowsTheLine) {
     ASSERT_TRUE(GrabFrame(driver, frame));
     EXPECT_GT(frame.sequence, before.sequence);
   }
+}
+
+TEST_F(AravisDriverTest, StrobeIsAnOutputThatTellsOfTheExposure) {
+  const std::string ip = NextAddress();
+  const auto camera = Serve(ip);
+  AravisSettings settings = Settings();
+  settings.trigger = "Line0";
+  settings.strobe = "Line1";
+  AravisDriver driver(Request(ip), settings);
+  driver.Start();
+  Frame frame;
+  ASSERT_TRUE(GrabFrame(driver, frame));
+  const auto line_1 = [&camera](std::uint32_t of_line_0) { return camera->Read(of_line_0 + 4); };
+  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kInput));
+  EXPECT_EQ(line_1(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kOutput));
+  EXPECT_EQ(line_1(gige_register::kLineSource),
+            static_cast<unsigned>(GigeLineSource::kExposureActive));
+  driver.Stop();
+  // What was an output is an input again.
+  settings.trigger = "";
+  settings.strobe = "Line0";
+  AravisDriver master(Request(ip), settings);
+  master.Start();
+  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kOutput));
+  master.Stop();
+  settings.trigger = "Line0";
+  settings.strobe = "";
+  AravisDriver triggered(Request(ip), settings);
+  triggered.Start();
+  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kInput));
 }
 
 TEST_F(AravisDriverTest, CameraThatWaitsForItsTriggerIsNotLost) {

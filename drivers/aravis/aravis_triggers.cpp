@@ -1,0 +1,108 @@
+#include "drivers/aravis/aravis_triggers.h"
+
+#include <initializer_list>
+#include <memory>
+#include <span>
+
+#include "core/errors.h"
+#include "drivers/aravis/gobject.h"
+#include "drivers/quoted.h"
+
+namespace mocap {
+namespace {
+
+std::string Triggers(ArvCamera* camera) {
+  guint count = 0;
+  const char** names = arv_camera_dup_available_trigger_sources(camera, &count, nullptr);
+  return JoinNames(names, count);
+}
+
+/// What a feature can be set to.
+std::string Choices(ArvCamera* camera, const char* feature) {
+  guint count = 0;
+  const char** names =
+      arv_camera_dup_available_enumerations_as_strings(camera, feature, &count, nullptr);
+  return JoinNames(names, count);
+}
+
+bool Has(ArvCamera* camera, const char* feature) {
+  return arv_camera_is_feature_available(camera, feature, nullptr);
+}
+
+bool Has(ArvCamera* camera, const char* feature, const char* choice) {
+  return Has(camera, feature) &&
+         arv_camera_is_enumeration_entry_available(camera, feature, choice, nullptr);
+}
+
+bool Is(ArvCamera* camera, const char* feature, const std::string& choice) {
+  const char* got = arv_camera_get_string(camera, feature, nullptr);
+  return got && choice == got;
+}
+
+/// Sets a feature to the first of the choices that the camera has. @return whether it is that now.
+bool Choose(ArvCamera* camera, const char* feature, std::initializer_list<const char*> choices) {
+  for (const char* choice : choices) {
+    if (!Has(camera, feature, choice)) continue;
+    // Some lines can be nothing else, and must not be written.
+    if (!Is(camera, feature, choice)) arv_camera_set_string(camera, feature, choice, nullptr);
+    return Is(camera, feature, choice);
+  }
+  return false;
+}
+
+[[noreturn]] void FailStrobe(const std::string& device, const std::string& line,
+                             const std::string& why) {
+  throw SetupError(device + ": strobe " + Quoted(line) + " cannot be set: " + why);
+}
+
+}  // namespace
+
+std::string JoinNames(const char** names, guint count) {
+  const std::unique_ptr<const char*, GFree> owner(names);
+  std::string text;
+  for (const char* name : std::span(names, names ? count : 0)) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
+void SetTrigger(ArvCamera* camera, const std::string& device, const std::string& trigger) {
+  if (trigger.empty()) {
+    arv_camera_clear_triggers(camera, nullptr);
+    return;
+  }
+  // A line that can be both may have been an output.
+  if (Choose(camera, "LineSelector", {trigger.c_str()})) Choose(camera, "LineMode", {"Input"});
+  const std::string source = trigger == "software" ? "Software" : trigger;
+  GFailure failure;
+  arv_camera_set_trigger(camera, source.c_str(), failure);
+  const char* got = arv_camera_get_trigger_source(camera, nullptr);
+  if (failure.failed() || !got || source != got) {
+    throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set; it has " +
+                     Triggers(camera));
+  }
+}
+
+void SetStrobe(ArvCamera* camera, const std::string& device, const std::string& line) {
+  if (line.empty()) return;
+  if (!Choose(camera, "LineSelector", {line.c_str()})) {
+    const std::string lines = Choices(camera, "LineSelector");
+    FailStrobe(device, line, lines.empty() ? "it has no lines" : "it has " + lines);
+  }
+  if (Has(camera, "LineMode") && !Choose(camera, "LineMode", {"Output", "Strobe"})) {
+    FailStrobe(device, line, "it is no output");
+  }
+  // The standard's name, and Hikrobot's. Point Grey's strobes have no source.
+  if (Has(camera, "LineSource") &&
+      !Choose(camera, "LineSource", {"ExposureActive", "ExposureStartActive"})) {
+    FailStrobe(device, line,
+               "it does not tell when it exposes, but " + Choices(camera, "LineSource"));
+  }
+  if (!Has(camera, "StrobeEnable")) return;
+  arv_camera_set_boolean(camera, "StrobeEnable", TRUE, nullptr);
+  if (!arv_camera_get_boolean(camera, "StrobeEnable", nullptr)) {
+    FailStrobe(device, line, "its StrobeEnable stays off");
+  }
+}
+
+}  // namespace mocap
