@@ -55,6 +55,9 @@ AravisSettings ReadAravisSettings(TomlSection& section) {
     section.Fail("strobe", "is the line of trigger as well; another one is wanted");
   }
   settings.ptp = section.Flag("ptp", settings.ptp);
+  if (settings.is_scheduled() && !settings.ptp) {
+    section.Fail("ptp", "is false, but trigger is \"ptp\"; true is wanted");
+  }
   if (section.Has("packet_bytes")) {
     settings.packet_bytes =
         static_cast<int>(section.IntegerWithin("packet_bytes", kLeastPacket, kLargestPacket));

@@ -267,7 +267,8 @@ void AddGigeStudioCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--config", options->config,
                       "Writes a configuration for mocapd to this file");
-  command->add_flag("--ptp", options->has_ptp, "Cameras whose clocks follow PTP, in TAI");
+  command->add_flag("--ptp", options->has_ptp,
+                    "Cameras whose clocks follow PTP, in TAI, and that take actions");
   command
       ->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")
       ->check(CLI::Range(0.0, 1.0));

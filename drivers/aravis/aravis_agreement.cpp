@@ -41,11 +41,12 @@ class Negotiation {
     SetSize();
     SetFormat();
     SetRate();
+    SetPtp();
+    if (settings_.is_scheduled()) RequirePtp();
     SetTrigger(camera_, request_.device, settings_.trigger);
     SetStrobe(camera_, request_.device, settings_.strobe);
     SetExposure();
     SetGain();
-    SetPtp();
     GFailure failure;
     agreed_.payload_bytes = arv_camera_get_payload(camera_, failure);
     if (failure.failed()) Fail("tells no size of a frame: " + failure.text());
@@ -67,6 +68,7 @@ class Negotiation {
   void SetExposure();
   void SetGain();
   void SetPtp();
+  void RequirePtp() const;
   bool HasStamps() const;
   std::string Formats() const;
 
@@ -198,6 +200,11 @@ void Negotiation::SetPtp() {
     if (Has(status)) agreed_.ptp_status = status;
     return;
   }
+}
+
+void Negotiation::RequirePtp() const {
+  if (arv_camera_is_gv_device(camera_) && !agreed_.ptp_status.empty()) return;
+  Fail("trigger \"ptp\" cannot be set: a GigE Vision camera that tells its PTP status is wanted");
 }
 
 bool Negotiation::HasStamps() const {

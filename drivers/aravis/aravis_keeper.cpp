@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "drivers/aravis/gige_probe.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
@@ -26,6 +27,7 @@ constexpr milliseconds kBetweenAttempts{200};
 constexpr milliseconds kBetweenLooksWhenHeld{4000};
 constexpr std::chrono::seconds kBetweenSearches{5};
 constexpr std::chrono::seconds kPtpPeriod{1};
+constexpr milliseconds kAnswerPatience{10};
 
 milliseconds SilenceLimit(const AravisAgreement& agreed) {
   const auto missed_ms =
@@ -70,9 +72,14 @@ std::vector<std::string> AravisKeeper::Remarks() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> remarks;
   if (!trouble_.empty()) remarks.push_back(trouble_);
-  if (!ptp_status_.empty() && !ptp_locked()) {
-    remarks.push_back("PTP is " + ptp_status_ +
-                      ": without a master on its network its own clock is fitted");
+  if (!trigger_trouble_.empty()) remarks.push_back(trigger_trouble_);
+  const bool is_scheduled = settings_.is_scheduled();
+  const bool is_master = is_scheduled && ptp_status_ == "Master";
+  if (!ptp_status_.empty() && !ptp_locked() && !is_master) {
+    remarks.push_back("PTP is " + ptp_status_ + ": without a master on its network " +
+                      (is_scheduled
+                           ? "it is triggered by its own clock, out of step with the others"
+                           : "its own clock is fitted"));
   }
   return remarks;
 }
@@ -194,6 +201,7 @@ void AravisKeeper::Install(Session session) {
     const std::lock_guard lock(mutex_);
     session_ = session;
     trouble_.clear();
+    trigger_trouble_.clear();
     generation = generation_.fetch_add(1, std::memory_order_release) + 1;
   }
   changed_.notify_all();
@@ -217,20 +225,37 @@ void AravisKeeper::Retire() {
 }
 
 void AravisKeeper::Speak(const Session& session, unsigned generation) {
-  const bool triggers = settings_.trigger == "software";
+  ExposureSchedule schedule(request_.fps);
+  GigeActionSender sender(session->target().ip);
   Clock::time_point next_ptp = Clock::now();
   while (!stopping() && generation_.load(std::memory_order_acquire) == generation) {
     if (!session->agreed().ptp_status.empty() && Clock::now() >= next_ptp) {
       NotePtp(session->PtpStatus());
-      next_ptp += kPtpPeriod;
+      const auto ahead_ns = settings_.is_scheduled() ? session->ClockAheadNs() : std::nullopt;
+      if (ahead_ns) schedule.SetOffset(*ahead_ns);
+      next_ptp = Clock::now() + kPtpPeriod;
     }
-    if (!triggers) {
+    if (settings_.trigger == "software") {
+      std::this_thread::sleep_until(NextTrigger(request_.fps));
+      session->Trigger();
+    } else if (schedule.knows_time()) {
+      ScheduleNext(schedule, sender);
+    } else {
+      if (settings_.is_scheduled()) NoteTrigger("does not tell its time, by which it is triggered");
       Pause(kWatchPeriod);
-      continue;
     }
-    std::this_thread::sleep_until(NextTrigger(request_.fps));
-    session->Trigger();
   }
+}
+
+void AravisKeeper::ScheduleNext(ExposureSchedule& schedule, GigeActionSender& sender) {
+  const std::int64_t exposure_ns = schedule.Next(EpochNs());
+  SleepUntilEpoch(schedule.AskAt());
+  NoteTrigger(Describe(sender.Schedule(exposure_ns, kAnswerPatience)));
+}
+
+void AravisKeeper::NoteTrigger(const std::string& trouble) {
+  const std::lock_guard lock(mutex_);
+  trigger_trouble_ = trouble;
 }
 
 void AravisKeeper::NotePtp(const std::string& status) {

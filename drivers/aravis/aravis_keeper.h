@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "drivers/aravis/aravis_session.h"
+#include "drivers/aravis/exposure_schedule.h"
+#include "drivers/aravis/gige_action.h"
 
 namespace mocap {
 
@@ -56,7 +58,9 @@ class AravisKeeper : public std::enable_shared_from_this<AravisKeeper> {
   void Retire();
   void Install(Session session);
   void Speak(const Session& session, unsigned generation);
+  void ScheduleNext(ExposureSchedule& schedule, GigeActionSender& sender);
   void NotePtp(const std::string& status);
+  void NoteTrigger(const std::string& trouble);
   void Pause(std::chrono::milliseconds pause);
   bool stopping() const { return stopping_.load(std::memory_order_relaxed); }
 
@@ -71,7 +75,7 @@ class AravisKeeper : public std::enable_shared_from_this<AravisKeeper> {
   Session session_;
   int closing_ = 0;  ///< Sessions that are being closed.
   bool closed_ = false;
-  std::string trouble_, ptp_status_;
+  std::string trouble_, ptp_status_, trigger_trouble_;
 
   // The keeper's own.
   std::uint64_t signs_ = 0;

@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "drivers/aravis/gige_probe.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
@@ -208,6 +209,21 @@ std::string AravisSession::PtpStatus() {
   }
   const char* status = arv_camera_get_string(camera_.get(), agreed_.ptp_status.c_str(), nullptr);
   return status ? status : "";
+}
+
+std::optional<std::int64_t> AravisSession::ClockAheadNs() {
+  // Of the registers that all GigE Vision cameras have.
+  constexpr guint64 kControl = 0x0944, kLatchedHigh = 0x0948, kLatchedLow = 0x094c;
+  constexpr guint32 kLatch = 2;
+  ArvDevice* device = arv_camera_get_device(camera_.get());
+  GFailure failure;
+  const std::int64_t before_ns = EpochNs();
+  if (!arv_device_write_register(device, kControl, kLatch, failure)) return std::nullopt;
+  const std::int64_t host_ns = before_ns + (EpochNs() - before_ns) / 2;
+  guint32 high = 0, low = 0;
+  if (!arv_device_read_register(device, kLatchedHigh, &high, failure)) return std::nullopt;
+  if (!arv_device_read_register(device, kLatchedLow, &low, failure)) return std::nullopt;
+  return static_cast<std::int64_t>(std::uint64_t{high} << 32 | low) - host_ns;
 }
 
 std::vector<std::string> AravisSession::StreamRemarks() const {

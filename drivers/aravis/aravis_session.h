@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct AravisCounters {
 /// Buffers wait in a fixed pool that the camera's packets are written into; a frame is handed out
 /// where it lies.
 ///
-/// Opening, closing, Trigger and PtpStatus speak with the camera and block for seconds when it is
-/// gone: one thread at a time, and not that of the frames, which calls Pop and Push. The rest: any.
+/// Opening, closing, Trigger, PtpStatus and ClockAheadNs speak with the camera and block for
+/// seconds when it is gone: one thread at a time, and not that of the frames, which calls Pop and
+/// Push. The rest: any.
 class AravisSession {
  public:
   /// Opens the camera and starts it.
@@ -49,6 +51,9 @@ class AravisSession {
   bool Trigger();
   /// As the camera names it, such as "Slave"; empty without PTP or an answer.
   std::string PtpStatus();
+  /// How far a GigE Vision camera's clock is ahead of this host's [ns], within the time that it
+  /// takes to ask; nothing without an answer.
+  std::optional<std::int64_t> ClockAheadNs();
 
   const AravisTarget& target() const { return target_; }
   const AravisAgreement& agreed() const { return agreed_; }

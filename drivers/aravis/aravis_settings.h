@@ -15,7 +15,8 @@ struct AravisSettings {
   std::optional<double> exposure_us;
   std::optional<double> gain;  ///< [the camera's units].
   /// What starts an exposure: empty for the camera's own clock, "software" for this host's at
-  /// whole multiples of the period, else the name of the input, as "Line1".
+  /// whole multiples of the period, "ptp" for these by the clock that cameras share over the
+  /// network, else the name of the input, as "Line1".
   std::string trigger;
   /// The output that tells when this camera exposes, as "Line2": wired to the others' inputs it
   /// triggers them. Empty: outputs stay as they are.
@@ -29,7 +30,11 @@ struct AravisSettings {
   std::optional<bool> packet_socket;
 
   /// Something else than this program and the camera itself starts its exposures.
-  bool waits_for_line() const { return !trigger.empty() && trigger != "software"; }
+  bool waits_for_line() const {
+    return !trigger.empty() && trigger != "software" && !is_scheduled();
+  }
+  /// Exposures are asked for ahead, at times of the cameras' clock.
+  bool is_scheduled() const { return trigger == "ptp"; }
 };
 
 }  // namespace mocap

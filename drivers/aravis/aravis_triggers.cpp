@@ -3,8 +3,10 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "core/errors.h"
+#include "drivers/aravis/gige_action.h"
 #include "drivers/aravis/gobject.h"
 #include "drivers/quoted.h"
 
@@ -50,6 +52,45 @@ bool Choose(ArvCamera* camera, const char* feature, std::initializer_list<const 
   return false;
 }
 
+[[noreturn]] void FailTrigger(ArvCamera* camera, const std::string& device,
+                              const std::string& trigger) {
+  throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set; it has " +
+                   Triggers(camera));
+}
+
+void SetSource(ArvCamera* camera, const std::string& device, const std::string& trigger,
+               const std::string& source) {
+  GFailure failure;
+  arv_camera_set_trigger(camera, source.c_str(), failure);
+  const char* got = arv_camera_get_trigger_source(camera, nullptr);
+  if (failure.failed() || !got || source != got) FailTrigger(camera, device, trigger);
+}
+
+/// The first action: some count from 0, others from 1.
+void SetAction(ArvCamera* camera, const std::string& device, const std::string& trigger) {
+  const int first = Has(camera, "TriggerSource", "Action0") ? 0 : 1;
+  const std::string source = "Action" + std::to_string(first);
+  if (!Has(camera, "TriggerSource", source.c_str())) FailTrigger(camera, device, trigger);
+  constexpr GigeActionKeys kKeys;
+  if (Has(camera, "ActionSelector")) {
+    arv_camera_set_integer(camera, "ActionSelector", first, nullptr);
+  }
+  // Cameras keep their device key to themselves.
+  GFailure failure;
+  arv_camera_set_integer(camera, "ActionDeviceKey", kKeys.device, failure);
+  bool is_set = !failure.failed();
+  for (const auto& [feature, value] :
+       {std::pair("ActionGroupKey", kKeys.group), std::pair("ActionGroupMask", kKeys.mask)}) {
+    arv_camera_set_integer(camera, feature, value, failure);
+    is_set = is_set && arv_camera_get_integer(camera, feature, nullptr) == value;
+  }
+  if (!is_set) {
+    throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set: it takes no " +
+                     "ActionDeviceKey, ActionGroupKey and ActionGroupMask");
+  }
+  SetSource(camera, device, trigger, source);
+}
+
 [[noreturn]] void FailStrobe(const std::string& device, const std::string& line,
                              const std::string& why) {
   throw SetupError(device + ": strobe " + Quoted(line) + " cannot be set: " + why);
@@ -71,16 +112,11 @@ void SetTrigger(ArvCamera* camera, const std::string& device, const std::string&
     arv_camera_clear_triggers(camera, nullptr);
     return;
   }
+  if (trigger == "software") return SetSource(camera, device, trigger, "Software");
+  if (trigger == "ptp") return SetAction(camera, device, trigger);
   // A line that can be both may have been an output.
   if (Choose(camera, "LineSelector", {trigger.c_str()})) Choose(camera, "LineMode", {"Input"});
-  const std::string source = trigger == "software" ? "Software" : trigger;
-  GFailure failure;
-  arv_camera_set_trigger(camera, source.c_str(), failure);
-  const char* got = arv_camera_get_trigger_source(camera, nullptr);
-  if (failure.failed() || !got || source != got) {
-    throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set; it has " +
-                     Triggers(camera));
-  }
+  SetSource(camera, device, trigger, trigger);
 }
 
 void SetStrobe(ArvCamera* camera, const std::string& device, const std::string& line) {

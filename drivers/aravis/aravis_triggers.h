@@ -11,6 +11,7 @@ namespace mocap {
 
 /// Sets what starts an exposure, and reads it back.
 /// @param device       as a person named the camera.
+/// @param trigger      as in AravisSettings; "ptp" is the camera's first action (GigeActionKeys).
 /// @throws SetupError  with what the camera has, when it cannot be set.
 void SetTrigger(ArvCamera* camera, const std::string& device, const std::string& trigger);
 

@@ -268,6 +268,17 @@ device = "192.168.1.12"
   EXPECT_EQ(config.cameras.at(1).aravis.packet_socket, std::nullopt);
 }
 
+TEST_F(ConfigFile, TriggersThatCannotBeAreRefused) {
+  const auto with = [](const std::string& settings) {
+    return "calibration = \"c.toml\"\n[source]\ndriver = \"aravis\"\n[[cameras]]\nname = \"a\"\n"
+           "device = \"x\"\n" +
+           settings;
+  };
+  EXPECT_THAT(Error(with("trigger = \"ptp\"\nptp = false\n")), HasSubstr("cameras[0].ptp"));
+  EXPECT_THAT(Error(with("trigger = \"Line1\"\nstrobe = \"Line1\"\n")),
+              HasSubstr("cameras[0].strobe"));
+}
+
 TEST_F(ConfigFile, MissingFileIsNamed) {
   EXPECT_THROW(LoadConfig(folder_.path() / "absent.toml"), SetupError);
 }

@@ -1,8 +1,7 @@
 #include "tools/gige/gige_camera.h"
 
 #include <arv.h>
-#include <poll.h>
-#include <sys/eventfd.h>
+#include <netinet/in.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -32,6 +31,10 @@ constexpr std::uint32_t kPeriod_us = 33'333;
 constexpr std::uint64_t kFrameNumbers = 65535;
 constexpr std::int64_t kTai_ns = 37'000'000'000;
 constexpr milliseconds kSourceTimeout{50};
+constexpr std::uint32_t kTimestampControl = 0x0944, kTimestampHigh = 0x0948, kTimestampLow = 0x094c;
+constexpr std::uint32_t kLatch = 2;
+/// An action lets through the first picture that was taken no earlier than this before it.
+constexpr std::int64_t kMatch_ns = 1'000'000;
 /// Longer than the server takes to see that a client has started it.
 constexpr milliseconds kPatience{150};
 
@@ -52,36 +55,12 @@ class DescriptionFile {
 
 }  // namespace
 
-/// Lets a frame out at once, and the server's thread sleep in between.
-struct GigeCamera::WakeUp {
-  WakeUp() : fd(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) { MOCAP_CHECK(fd >= 0); }
-  ~WakeUp() { close(fd); }
-  WakeUp(const WakeUp&) = delete;
-  WakeUp& operator=(const WakeUp&) = delete;
-
-  void Wake() {
-    hurry_until_ns.store(EpochNs() + 2'000'000);
-    const std::uint64_t one = 1;
-    static_cast<void>(!write(fd, &one, sizeof(one)));
-  }
-
-  const int fd;
-  /// The server looks at the clock before it looks for a trigger.
-  std::atomic<std::int64_t> hurry_until_ns{0};
-};
-
-namespace {
-/// That of the camera whose server runs in this thread.
-thread_local GigeCamera::WakeUp* server_wake_up = nullptr;
-}  // namespace
-
 GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDriver> source,
                        const GigeFaults& faults)
     : identity_(identity),
       faults_(faults),
       switched_on_ns_(EpochNs()),
       source_(std::move(source)),
-      wake_up_(std::make_unique<WakeUp>()),
       random_(static_cast<std::minstd_rand::result_type>(faults.seed)) {
   const DescriptionFile description(DescribeGigeCamera(identity.has_ptp));
   server_.reset(arv_gv_fake_camera_new_full(identity.ip.c_str(), identity.serial.c_str(),
@@ -111,6 +90,9 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
                                         static_cast<std::uint8_t>(hash)};
   arv_fake_camera_write_memory(registers_, kMac, mac.size(), mac.data());
   arv_fake_camera_set_fill_pattern(registers_, Fill, this);
+  server_thread_ = std::make_unique<GigeServerThread>(
+      identity.ip, GigeServerThread::Extras{[this] { LatchTime(); },
+                                            [this](auto packet) { return TakeAction(packet); }});
   thread_ = std::thread([this] { RunSource(); });
 }
 
@@ -158,7 +140,11 @@ void GigeCamera::RunSource() {
 
 bool GigeCamera::IsWanted(std::int64_t capture_ns) {
   const bool is_triggered = Read(gige_register::kTriggerMode) == kOn;
-  if (is_triggered && Read(gige_register::kTriggerSource) == kSoftware) {
+  const std::uint32_t source = Read(gige_register::kTriggerSource);
+  if (is_triggered && source == static_cast<std::uint32_t>(GigeTrigger::kAction1)) {
+    return HasAction(DeviceTime(capture_ns));
+  }
+  if (is_triggered && source == static_cast<std::uint32_t>(GigeTrigger::kSoftware)) {
     const bool fired = Read(gige_register::kTriggerSoftware) != 0;
     Write(gige_register::kTriggerSoftware, 0);
     return fired;
@@ -186,14 +172,55 @@ void GigeCamera::Send(const Frame& frame) {
     ++sequence_;
   }
   Write(ARV_FAKE_CAMERA_REGISTER_TRIGGER_SOFTWARE, 1);
-  wake_up_->Wake();
+  server_thread_->Wake();
+}
+
+void GigeCamera::LatchTime() {
+  if ((Read(kTimestampControl) & kLatch) == 0) return;
+  const auto time_ns = static_cast<std::uint64_t>(DeviceTime(EpochNs()));
+  Write(kTimestampHigh, static_cast<std::uint32_t>(time_ns >> 32));
+  Write(kTimestampLow, static_cast<std::uint32_t>(time_ns));
+  Write(kTimestampControl, 0);
+}
+
+std::optional<std::uint16_t> GigeCamera::TakeAction(std::span<const std::byte> packet) {
+  const auto number = [packet](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, packet.data() + at, sizeof(value));
+    return ntohl(value);
+  };
+  // Those that say when.
+  constexpr std::uint32_t kAction = 0x0100, kHasTime = 0x80 << 16;
+  constexpr std::size_t kBytes = 28;
+  if (packet.size() != kBytes || (number(0) & 0xffff) != kAction || (number(0) & kHasTime) == 0) {
+    return std::nullopt;
+  }
+  constexpr std::uint16_t kDone = 0, kRefused = 0x8006, kLate = 0x8016;
+  if (number(8) != Read(gige_register::kActionDeviceKey) ||
+      number(12) != Read(gige_register::kActionGroupKey) ||
+      (number(16) & Read(gige_register::kActionGroupMask)) == 0) {
+    return kRefused;
+  }
+  const auto time_ns = static_cast<std::int64_t>(std::uint64_t{number(20)} << 32 | number(24));
+  const std::lock_guard lock(mutex_);
+  actions_ns_.push_back(time_ns);
+  return time_ns < DeviceTime(EpochNs()) ? kLate : kDone;
+}
+
+bool GigeCamera::HasAction(std::int64_t time_ns) {
+  const std::lock_guard lock(mutex_);
+  const auto is_due = [time_ns](std::int64_t action_ns) {
+    return action_ns <= time_ns + kMatch_ns;
+  };
+  return std::erase_if(actions_ns_, is_due) > 0;
 }
 
 void GigeCamera::FollowPtp() {
   if (!identity_.has_ptp) return;
   const bool enabled = Read(gige_register::kPtpEnable) != 0;
+  const GigePtp once_enabled = faults_.has_no_ptp_master ? GigePtp::kListening : GigePtp::kSlave;
   Write(gige_register::kPtpStatus,
-        static_cast<std::uint32_t>(enabled ? GigePtp::kSlave : GigePtp::kDisabled));
+        static_cast<std::uint32_t>(enabled ? once_enabled : GigePtp::kDisabled));
 }
 
 std::int64_t GigeCamera::DeviceTime(std::int64_t host_ns) const {
@@ -207,9 +234,7 @@ std::int64_t GigeCamera::DeviceTime(std::int64_t host_ns) const {
 
 void GigeCamera::Fill(ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned,
                       unsigned pixel_format) {
-  auto* self = static_cast<GigeCamera*>(camera);
-  server_wake_up = self->wake_up_.get();
-  self->FillBuffer(buffer, exposure_us * 1000LL, pixel_format);
+  static_cast<GigeCamera*>(camera)->FillBuffer(buffer, exposure_us * 1000LL, pixel_format);
 }
 
 void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigned pixel_format) {
@@ -237,24 +262,3 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
 }
 
 }  // namespace mocap
-
-/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers
-/// without a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is
-/// early. Threads that serve no camera of ours get what they ask for.
-extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
-  static_assert(sizeof(GPollFD) == sizeof(pollfd));
-  auto* wanted = reinterpret_cast<pollfd*>(fds);
-  mocap::GigeCamera::WakeUp* wake_up = mocap::server_wake_up;
-  std::array<pollfd, 8> all{};
-  if (!wake_up || count + 1 > all.size()) return poll(wanted, count, timeout_ms);
-  std::copy_n(wanted, count, all.begin());
-  all[count] = {wake_up->fd, POLLIN, 0};
-  const bool hurries = mocap::EpochNs() < wake_up->hurry_until_ns.load();
-  const timespec brief{0, hurries ? 50'000 : 20'000'000};
-  const int ready = ppoll(all.data(), count + 1, &brief, nullptr);
-  std::copy_n(all.begin(), count, wanted);
-  if (ready <= 0 || all[count].revents == 0) return ready;
-  std::uint64_t wakes = 0;
-  static_cast<void>(!read(wake_up->fd, &wakes, sizeof(wakes)));
-  return ready - 1;
-}

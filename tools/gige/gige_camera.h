@@ -3,17 +3,22 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/image.h"
 #include "drivers/aravis/gobject.h"
 #include "drivers/camera_driver.h"
+#include "tools/gige/gige_server_thread.h"
 
 struct _ArvBuffer;
 struct _ArvGvFakeCamera;
@@ -28,6 +33,7 @@ struct GigeFaults {
   double clock_drift_ppm = 0;
   double jitter_ms = 0;    ///< Frames leave late by up to that.
   std::uint64_t seed = 1;  ///< Of the jitter.
+  bool has_no_ptp_master = false;
 };
 
 struct GigeIdentity {
@@ -42,7 +48,7 @@ struct GigeIdentity {
 ///
 /// Clients may set size (cut off or filled with black), format, exposure, gain (without effect),
 /// rate (up to the source's), trigger: any line fires with the source, "Software" lets its next
-/// frame through.
+/// frame through, "Action1" the one that is taken when the action was asked for.
 class GigeCamera {
  public:
   /// @throws SetupError  when the address is none of this host's, or taken.
@@ -58,7 +64,6 @@ class GigeCamera {
   bool is_streaming() const;
   /// Holds back all frames, as when the cable is pulled, while it still answers.
   void Stall(bool stalled) { stalled_.store(stalled, std::memory_order_relaxed); }
-  struct WakeUp;
 
  private:
   static void Fill(_ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned gain,
@@ -68,6 +73,9 @@ class GigeCamera {
   bool IsWanted(std::int64_t capture_ns);
   void Send(const Frame& frame);
   void FollowPtp();
+  void LatchTime();
+  std::optional<std::uint16_t> TakeAction(std::span<const std::byte> packet);
+  bool HasAction(std::int64_t time_ns);
   void Write(std::uint32_t address, std::uint32_t value);
   std::int64_t DeviceTime(std::int64_t host_ns) const;
 
@@ -75,7 +83,7 @@ class GigeCamera {
   const GigeFaults faults_;
   const std::int64_t switched_on_ns_;
   std::unique_ptr<CameraDriver> source_;
-  std::unique_ptr<WakeUp> wake_up_;
+  std::unique_ptr<GigeServerThread> server_thread_;  ///< Outlives the server.
   GPtr<_ArvGvFakeCamera> server_;
   _ArvFakeCamera* registers_ = nullptr;  ///< The server's.
   std::minstd_rand random_;
@@ -86,6 +94,7 @@ class GigeCamera {
   bool is_waiting_ = false;  ///< The picture was not sent yet.
   bool is_flowing_ = false;  ///< Some picture was, since the client started the camera.
   Image<Bgr> picture_;
+  std::vector<std::int64_t> actions_ns_;  ///< That were asked for, by its own clock.
   std::int64_t capture_ns_ = 0;
   std::uint64_t sequence_ = 0;
   std::thread thread_;

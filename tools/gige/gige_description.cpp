@@ -66,6 +66,19 @@ std::string Ptp() {
          Register("PtpStatusRegister", gige_register::kPtpStatus);
 }
 
+std::string Integer(const std::string& name, std::uint32_t address) {
+  return "\t<Integer Name=\"" + name + "\" NameSpace=\"Standard\">\n\t\t<pValue>" + name +
+         "Register</pValue>\n\t\t<Min>0</Min>\n\t\t<Max>4294967295</Max>\n\t</Integer>\n" +
+         Register(name + "Register", address);
+}
+
+std::string Actions() {
+  return Integer("ActionSelector", gige_register::kActionSelector) +
+         Integer("ActionDeviceKey", gige_register::kActionDeviceKey) +
+         Integer("ActionGroupKey", gige_register::kActionGroupKey) +
+         Integer("ActionGroupMask", gige_register::kActionGroupMask);
+}
+
 std::string Lines() {
   return Enumeration("LineSelector", {"Line0", "Line1"}) +
          Enumeration("LineMode", {"Input", "Output"}) +
@@ -97,8 +110,13 @@ std::string DescribeGigeCamera(bool has_ptp) {
           Entry("BGR8", ARV_PIXEL_FORMAT_BGR_8_PACKED) +
               Entry("YUV422_8", ARV_PIXEL_FORMAT_YUV_422_YUYV_PACKED) +
               Entry("YUV422_8_UYVY", ARV_PIXEL_FORMAT_YUV_422_PACKED) + formats);
+  if (has_ptp) {
+    const std::string sources = "\t\t<pValue>TriggerSourceRegister</pValue>";
+    Replace(xml, sources,
+            Entry("Action1", static_cast<std::uint32_t>(GigeTrigger::kAction1)) + sources);
+  }
   const std::string port = "\t<Port Name=";
-  Replace(xml, port, Lines() + (has_ptp ? Ptp() : "") + port);
+  Replace(xml, port, Lines() + (has_ptp ? Ptp() + Actions() : "") + port);
   return xml;
 }
 

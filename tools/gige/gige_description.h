@@ -21,14 +21,19 @@ inline constexpr std::uint32_t kLineSelector = 0x3b0;
 /// Each line has its own, four bytes after the one before it.
 inline constexpr std::uint32_t kLineMode = 0x3c0;
 inline constexpr std::uint32_t kLineSource = 0x3d0;
+inline constexpr std::uint32_t kActionSelector = 0x3e0;
+inline constexpr std::uint32_t kActionDeviceKey = 0x3e4;
+inline constexpr std::uint32_t kActionGroupKey = 0x3e8;
+inline constexpr std::uint32_t kActionGroupMask = 0x3ec;
 }  // namespace gige_register
 
+enum class GigeTrigger : std::uint32_t { kLine0 = 0, kSoftware = 1, kAction1 = 2 };
 enum class GigeLine : std::uint32_t { kInput = 0, kOutput = 1 };
 enum class GigeLineSource : std::uint32_t { kOff = 0, kExposureActive = 1 };
 enum class GigePtp : std::uint32_t { kDisabled = 2, kListening = 3, kSlave = 8 };
 
 /// Gives the description of Aravis's fake camera in GenICam's XML, with more pixel formats,
-/// triggers of our own, lines that can be inputs and outputs, and PTP if wanted.
+/// triggers of our own, lines that can be inputs and outputs, and PTP with actions if wanted.
 std::string DescribeGigeCamera(bool has_ptp);
 
 }  // namespace mocap

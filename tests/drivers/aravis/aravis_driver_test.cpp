@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "drivers/aravis/aravis_directory.h"
+#include "drivers/aravis/gige_action.h"
 #include "tests/drivers/driver_suite.h"
 #include "tests/support/pattern_camera.h"
 #include "tests/support/private_network.h"
@@ -262,6 +263,52 @@ TEST_F(AravisDriverTest, SoftwareTriggerKeepsTheRateAskedFor) {
   const std::int64_t first_ns = frame.capture_ns;
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
   EXPECT_GT(frame.capture_ns - first_ns, 10 * 50'000'000 - 100'000'000);
+}
+
+TEST_F(AravisDriverTest, ScheduledExposuresComeAtMultiplesOfThePeriodByPtp) {
+  const std::string ip = NextAddress();
+  const auto camera = Serve(ip, {}, true);
+  AravisSettings settings = Settings();
+  settings.trigger = "ptp";
+  AravisDriver driver(Request(ip, kFps / 2), settings);
+  driver.Start();
+  EXPECT_EQ(camera->Read(gige_register::kTriggerSource),
+            static_cast<unsigned>(GigeTrigger::kAction1));
+  EXPECT_EQ(camera->Read(gige_register::kActionDeviceKey), GigeActionKeys().device);
+  EXPECT_EQ(camera->Read(gige_register::kActionGroupMask), GigeActionKeys().mask);
+  Frame frame;
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (driver.Facts().time_source != "PTP, TAI" && std::chrono::steady_clock::now() < deadline) {
+    ASSERT_TRUE(GrabFrame(driver, frame));
+  }
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(GrabFrame(driver, frame));
+    // TAI is a whole number of seconds ahead.
+    EXPECT_LE((frame.capture_ns + 1000) % (2 * kPeriod_ns), 2000);
+    EXPECT_TRUE(IsOfItsTime(frame));
+  }
+  EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("PTP"))));
+  EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("ahead"))));
+}
+
+TEST_F(AravisDriverTest, SchedulingNeedsPtpAndSaysWhenThereIsNoMaster) {
+  AravisSettings settings = Settings();
+  settings.trigger = "ptp";
+  const std::string ip = NextAddress(), lonely_ip = NextAddress();
+  const auto without = Serve(ip);
+  AravisDriver refused(Request(ip), settings);
+  EXPECT_EQ(WhyNotStarted(refused),
+            ip + ": trigger \"ptp\" cannot be set: a GigE Vision camera that "
+                 "tells its PTP status is wanted");
+  const auto lonely = Serve(lonely_ip, {.has_no_ptp_master = true}, true);
+  AravisDriver driver(Request(lonely_ip), settings);
+  driver.Start();
+  Frame frame;
+  ASSERT_TRUE(GrabFrame(driver, frame));
+  EXPECT_THAT(
+      driver.Facts().remarks,
+      Contains(HasSubstr("without a master on its network it is triggered by its own clock, "
+                         "out of step")));
 }
 
 TEST_F(AravisDriverTest, LineTriggerFollowsTheLine) {
