@@ -78,11 +78,19 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
                   delivering, rates.size()));
 }
 
+/// Such a camera is told with the one that triggers it.
+bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
+  const CameraStatus& camera = report.now.status.cameras[i];
+  return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
+         report.now.frames_per_second[i] == 0;
+}
+
 void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
+  if (WaitsForTrigger(report, i)) return;
   const CameraStatus& camera = report.now.status.cameras[i];
   if (camera.state == CameraState::kLost) {
     list.push_back(camera.name + " is lost: look at its cable and power");
-  } else if (camera.state == CameraState::kStarting && camera.waits_for.empty()) {
+  } else if (camera.state == CameraState::kStarting) {
     list.push_back(camera.name + " has not delivered a frame yet");
   }
   const double rate = report.now.frames_per_second[i];
@@ -103,9 +111,8 @@ void ComplainOfTriggers(const ServiceReport& report, List& list) {
     const CameraStatus& master = cameras[m];
     List silent;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const bool is_silent =
-          cameras[i].state != CameraState::kLost && report.now.frames_per_second[i] == 0;
-      if (cameras[i].waits_for == master.name && is_silent) silent.push_back(cameras[i].name);
+      const bool is_its = cameras[i].waits_for == master.name;
+      if (is_its && WaitsForTrigger(report, i)) silent.push_back(cameras[i].name);
     }
     if (silent.empty()) continue;
     if (master.state == CameraState::kLost || master.state == CameraState::kStarting) {

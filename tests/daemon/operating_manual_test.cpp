@@ -66,6 +66,9 @@ std::vector<std::string> EveryComplaint() {
   poor.light = 0.4;
   poor.nudged_px = 1.2;
   poor.health = {.moments = 9, .shift_px = {6, 0}, .overlap = 0.7};
+  for (const char* master : {"cam1", "cam1", "cam3", "cam3"}) {
+    add(CameraState::kStreaming, 0).waits_for = master;
+  }
   std::set<std::string> all;
   using State = RecordingStatus::State;
   for (const State state : {State::kFailed, State::kComplete, State::kRunning}) {
