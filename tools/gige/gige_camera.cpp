@@ -31,6 +31,7 @@ constexpr std::uint32_t kPeriod_us = 33'333;
 constexpr std::uint64_t kFrameNumbers = 65535;
 constexpr std::int64_t kTai_ns = 37'000'000'000;
 constexpr milliseconds kSourceTimeout{50};
+constexpr std::chrono::seconds kSourcePatience{10};
 constexpr std::uint32_t kTimestampControl = 0x0944, kTimestampHigh = 0x0948, kTimestampLow = 0x094c;
 constexpr std::uint32_t kLatch = 2;
 /// An action lets through the first picture that was taken no earlier than this before it.
@@ -62,6 +63,7 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
       switched_on_ns_(EpochNs()),
       source_(std::move(source)),
       random_(static_cast<std::minstd_rand::result_type>(faults.seed)) {
+  StartSource();
   const DescriptionFile description(DescribeGigeCamera(identity.has_ptp));
   server_.reset(arv_gv_fake_camera_new_full(identity.ip.c_str(), identity.serial.c_str(),
                                             description.path().c_str()));
@@ -116,8 +118,18 @@ bool GigeCamera::is_streaming() const {
   return arv_fake_camera_get_acquisition_status(registers_) != 0;
 }
 
-void GigeCamera::RunSource() {
+// A take that is joined late may have to catch up. Cameras that answer stream as soon as they are
+// told to.
+void GigeCamera::StartSource() {
   source_->Start();
+  Frame first;
+  const auto patience = std::chrono::steady_clock::now() + kSourcePatience;
+  while (source_->Grab(first, kSourceTimeout) == GrabStatus::kTimeout &&
+         std::chrono::steady_clock::now() < patience) {
+  }
+}
+
+void GigeCamera::RunSource() {
   std::uniform_real_distribution<double> jitter_ms(0, faults_.jitter_ms);
   while (!stopping_.load()) {
     FollowPtp();

@@ -69,6 +69,7 @@ class GigeCamera {
   static void Fill(_ArvBuffer* buffer, void* camera, unsigned exposure_us, unsigned gain,
                    unsigned pixel_format);
   void FillBuffer(_ArvBuffer* buffer, std::int64_t exposure_ns, unsigned pixel_format);
+  void StartSource();
   void RunSource();
   bool IsWanted(std::int64_t capture_ns);
   void Send(const Frame& frame);
