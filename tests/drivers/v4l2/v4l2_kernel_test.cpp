@@ -1,12 +1,7 @@
 // The driver on Linux's own test devices. tools/check_vm runs these in a machine that has them.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <linux/videodev2.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <memory>
@@ -16,6 +11,7 @@
 #include "core/errors.h"
 #include "drivers/v4l2/v4l2_driver.h"
 #include "tests/drivers/driver_suite.h"
+#include "tests/support/vivid.h"
 
 namespace mocap::testing {
 namespace {
@@ -25,39 +21,8 @@ using ::testing::HasSubstr;
 constexpr std::chrono::milliseconds kTimeout{500};
 constexpr int kPatience = 100;
 
-std::vector<V4l2Node> VividNodes() {
-  if (!std::getenv("MOCAP_IN_VM")) return {};
-  const auto kernel = SystemVideoKernel();
-  std::vector<V4l2Node> nodes = FindV4l2Nodes(*kernel);
-  std::erase_if(nodes, [](const V4l2Node& node) { return node.kernel_driver != "vivid"; });
-  return nodes;
-}
-
-std::string WhyNoVivid() {
-  return VividNodes().size() >= 2 ? "" : "needs vivid's cameras; tools/check --vm has them";
-}
-
 V4l2Driver VividDriver(const V4l2Node& node, const std::string& format = "GREY", double fps = 25) {
   return {{node.bus, 320, 180, fps}, {.format = format}};
-}
-
-/// Sets a control by its name, as another program would.
-void SetControl(const V4l2Node& node, const std::string& name, int value) {
-  const int handle = open(node.path.c_str(), O_RDWR | O_NONBLOCK);
-  ASSERT_GE(handle, 0) << node.path;
-  v4l2_queryctrl query{};
-  query.id = V4L2_CTRL_FLAG_NEXT_CTRL;
-  bool found = false;
-  while (!found && ioctl(handle, VIDIOC_QUERYCTRL, &query) == 0) {
-    found = name == std::string(std::begin(query.name),
-                                std::find(std::begin(query.name), std::end(query.name), 0));
-    if (found) break;
-    query.id |= V4L2_CTRL_FLAG_NEXT_CTRL;
-  }
-  EXPECT_TRUE(found) << name;
-  v4l2_control control{query.id, value};
-  EXPECT_EQ(ioctl(handle, VIDIOC_S_CTRL, &control), 0) << name;
-  close(handle);
 }
 
 struct VividFactory {
