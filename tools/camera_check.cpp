@@ -190,6 +190,8 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
                                        ? "try another cable, or a socket without a hub"
                                        : run.facts.damage));
   }
+  // Frames are missing from when it was away.
+  if (run.times_lost > 0) return troubles;
   const std::int64_t missed = run.MissedFrames();
   const double taken = static_cast<double>(run.times_ns.size()) + static_cast<double>(missed);
   if (static_cast<double>(missed) > kMostMissed * taken) {

@@ -83,7 +83,7 @@ TEST(CameraCheck, DamageLossAndSilenceHaveTheirKnobs) {
   CameraRun run = GoodRun("a");
   run.torn = 3;
   run.times_lost = 2;
-  run.sequences.back() += 3;
+  run.sequences.back() += 30;
   EXPECT_THAT(Troubles(run),
               ElementsAre(HasSubstr("went away 2 times"), HasSubstr("3 frames came damaged")));
   CameraRun silent;
