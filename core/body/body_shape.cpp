@@ -13,9 +13,9 @@ class ShapeBuilder {
 
   Vector3 At(Point point) const { return points_T_.col(static_cast<int>(point)); }
   void Add(BodyPart part, Segment segment, const Vector3& a, const Vector3& b, double radius_a,
-           double radius_b) {
+           double radius_b, bool ends_at_b = false) {
     capsules_.push_back(
-        {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b});
+        {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b, ends_at_b});
   }
 
   // The chest is deeper than the waist, and the shoulder blades lie behind. What a person has more
@@ -68,12 +68,12 @@ class ShapeBuilder {
     const Vector3 tips = At(tips_point);
     const double upper_radius = s.upper_arm_width / 2;
     const double lower_radius = s.lower_arm_width / 2;
-    Add(upper, upper_segment, shoulder, elbow, 1.1 * upper_radius, 0.85 * upper_radius);
+    Add(upper, upper_segment, shoulder, elbow, 1.1 * upper_radius, 0.85 * upper_radius, true);
     const Vector3 wrist = At(wrist_point);
     const double hand_radius = 0.9 * lower_radius;
     const Vector3 fingers = tips - hand_radius * (tips - elbow).normalized();
     Add(lower, lower_segment, elbow, wrist, 1.1 * lower_radius, 0.75 * lower_radius);
-    Add(lower, hand, wrist, fingers, lower_radius, hand_radius);
+    Add(lower, hand, wrist, fingers, lower_radius, hand_radius, true);
   }
 
   // The thigh's flesh lies before the line from hip to knee, the calf's behind that from knee to
@@ -102,7 +102,7 @@ class ShapeBuilder {
     for (const double side : {1.0, -1.0}) {
       Add(lower, foot, sole + Vector3(-0.1 * length, 0, heel_radius),
           sole + Vector3(0.65 * length, side * 0.25 * breadth, ball_radius), heel_radius,
-          ball_radius);
+          ball_radius, true);
     }
   }
 

@@ -18,6 +18,8 @@ struct Capsule {
   Vector3 b_T = Vector3::Zero();
   double radius_a_mm = 0;
   double radius_b_mm = 0;
+  /// Nothing goes on beyond `b` in the same direction: elbow, fingertips, toes.
+  bool ends_at_b = false;
 };
 
 /// The capsules of a body at the reference configuration.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/tracking/flesh_rules.h"
+#include "core/tracking/protrusion.h"
 
 namespace mocap {
 namespace {
@@ -26,7 +27,7 @@ Vector3 LeanOf(const PosedCapsule& capsule, double share) {
 }  // namespace
 
 void SurfaceFit::SetEvidence(const Evidence& evidence) {
-  cloud_ = &evidence.cloud;
+  evidence_ = &evidence;
   ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
   matcher_.SetContacts(contacts_);
 }
@@ -37,7 +38,7 @@ void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Visit>
-void SurfaceFit::ForEachResidual(const Visit& visit) {
+void SurfaceFit::ForEachContact(const Visit& visit) {
   SurfaceResidual residual;
   const double variance = options_.noise_mm * options_.noise_mm / options_.independent;
   const std::vector<ContactMatch>& matches = matcher_.Match(posed_, options_.reach_mm);
@@ -59,11 +60,38 @@ void SurfaceFit::ForEachResidual(const Visit& visit) {
 }
 
 template <typename Visit>
+void SurfaceFit::ForEachProtrusion(const BodyModel& body, const Visit& visit) const {
+  SurfaceResidual residual;
+  residual.is_edge = true;
+  residual.share = 1;
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    if (!body.shape()[i].ends_at_b) continue;
+    residual.capsule = static_cast<int>(i);
+    residual.p_W = posed_[i].b_W;
+    for (const Outline& outline : evidence_->outlines) {
+      const auto protrusion = ProtrusionOf(outline, residual.p_W, posed_[i].radius_b_mm);
+      if (!protrusion) continue;
+      residual.normal_W = protrusion->outward_W;
+      residual.outside_mm = -protrusion->depth_mm;
+      residual.variance = options_.border_noise_mm * options_.border_noise_mm *
+                          Inflation(protrusion->depth_mm, options_.outlier_mm);
+      visit(residual);
+    }
+  }
+}
+
+template <typename Visit>
+void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
+  ForEachContact(visit);
+  ForEachProtrusion(body, visit);
+}
+
+template <typename Visit>
 void SurfaceFit::ForEachHollow(const Visit& visit) const {
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(posed_[i], share);
-      if (const auto way_W = WayToFlesh(*cloud_, matcher_.surface_W(), p_W)) visit(i, p_W, *way_W);
+      if (const auto way_W = WayToFlesh(evidence_->cloud, matcher_.surface_W(), p_W)) visit(i, p_W, *way_W);
     }
   }
 }
@@ -88,7 +116,7 @@ const std::vector<SurfaceResidual>& SurfaceFit::ResidualsAt(const BodyModel& bod
                                                             const PoseState& pose) {
   PoseCapsules(body, pose);
   residuals_.clear();
-  ForEachResidual([&](const SurfaceResidual& residual) { residuals_.push_back(residual); });
+  ForEachResidual(body, [&](const SurfaceResidual& residual) { residuals_.push_back(residual); });
   for (SurfaceResidual& residual : residuals_) {
     // The same as if the contact moved and the body stood still.
     body.DirectionalJacobian(posture_, body.shape()[residual.capsule].carrier, residual.p_W,
@@ -101,7 +129,7 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
                            UpdateEquations& equations) {
   PoseCapsules(body, pose);
   chain_.Reset(body.table(), posture_);
-  ForEachResidual([&](const SurfaceResidual& residual) {
+  ForEachResidual(body, [&](const SurfaceResidual& residual) {
     chain_.Add(body.shape()[residual.capsule].carrier, residual.p_W, residual.normal_W,
                residual.outside_mm, residual.variance);
   });

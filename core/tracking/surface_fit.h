@@ -22,6 +22,7 @@ struct SurfaceFitOptions {
   double noise_mm = 23;       ///< Spread of the surface about the model.
   double outlier_mm = 45;     ///< Residuals beyond this lose weight quickly.
   double independent = 0.3;   ///< Share of the contacts that are news: neighbours err alike.
+  double border_noise_mm = 40;  ///< Spread of limbs' ends beyond the silhouettes' borders.
   double void_noise_mm = 50;  ///< Spread of bones about the flesh.
   double void_outlier_mm = 60;
 };
@@ -41,7 +42,7 @@ struct SurfaceFitQuality {
 /// One contact against the model.
 struct SurfaceResidual {
   int capsule;   ///< Of the body's shape().
-  bool is_edge;  ///< A bounding edge and not a voxel.
+  bool is_edge;  ///< Of an outline and not of a voxel.
   double share;  ///< Along its core.
   Vector3 p_W;   ///< Where the capsule is drawn to.
   Vector3
@@ -68,14 +69,20 @@ class SurfaceFit {
  private:
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
   template <typename Visit>
-  void ForEachResidual(const Visit& visit);
+  void ForEachResidual(const BodyModel& body, const Visit& visit);
+  template <typename Visit>
+  void ForEachContact(const Visit& visit);
+  // A ray across a hand that reaches over the border cuts into it, and does not say which way to
+  // draw it back; the border that is nearest to the fingertips does.
+  template <typename Visit>
+  void ForEachProtrusion(const BodyModel& body, const Visit& visit) const;
   template <typename Visit>
   void ForEachHollow(const Visit& visit) const;
   template <typename Visit>
   void ForEachOverlap(const BodyModel& body, const Visit& visit) const;
 
   SurfaceFitOptions options_;
-  const VoxelCloud* cloud_ = nullptr;
+  const Evidence* evidence_ = nullptr;
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   Posture posture_;
