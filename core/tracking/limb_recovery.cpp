@@ -21,6 +21,11 @@ constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
+// Exchanged arms that cost no more than this on top of the present ones may come to cost less once
+// the whole body is drawn to the evidence, as the present one was; what they gain must be clear,
+// because noise would exchange folded arms again and again.
+constexpr double kPromisingMm = 4;
+constexpr double kClearlyBetterMm = 1.5;
 // After a search in vain.
 constexpr double kRestS = 0.045;
 constexpr int kIterations = 5;
@@ -164,9 +169,9 @@ bool LimbRecovery::HandsMeet(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Stances>
-bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left,
-                               Segment right, SurfaceFit& fit, const Stances& stances,
-                               PoseState& pose) {
+LimbRecovery::Candidate LimbRecovery::BestPair(const BodyModel& body, const Evidence& evidence,
+                                               Segment left, Segment right, SurfaceFit& fit,
+                                               const Stances& stances, const PoseState& pose) {
   search_.Begin(body, evidence, matcher_, left, right, pose);
   other_search_.Begin(body, evidence, matcher_, right, left, pose);
   stances(search_, other_search_);
@@ -184,10 +189,19 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence, 
   std::ranges::sort(pairs_, {}, &Candidate::cost_mm);
   pairs_.resize(std::min(pairs_.size(), kPairsTried));
   for (Candidate& pair : pairs_) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
-  const Candidate& best = *std::ranges::min_element(pairs_, {}, &Candidate::cost_mm);
-  if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
-  pose = best.pose;
-  return true;
+  return *std::ranges::min_element(pairs_, {}, &Candidate::cost_mm);
+}
+
+void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate) {
+  PoseFilter filter{MotionNoise{}};
+  filter.Jump(candidate.pose);
+  filter.Update(
+      body.table(),
+      [&](const PoseState& pose, UpdateEquations& equations) {
+        fit.Linearize(body, pose, equations);
+      },
+      kIterations);
+  candidate = {filter.pose(), fit.QualityAt(body, filter.pose()).Cost()};
 }
 
 bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
@@ -202,7 +216,10 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
     const auto best = [&](LimbSearch& search, LimbSearch&) {
       FindBest(search, body.table(), StancesOf(left), pose, kPairRefined);
     };
-    changed |= RecoverPair(body, evidence, left, right, fit, best, pose);
+    const Candidate pair = BestPair(body, evidence, left, right, fit, best, pose);
+    if (pair.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) continue;
+    pose = pair.pose;
+    changed = true;
   }
   if (!changed) rest_s_ = kRestS;
   return changed;
@@ -213,13 +230,25 @@ bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence,
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
     FindTowards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
   };
-  return RecoverPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
+  if (exchange_rest_s_ > 0) return false;
+  Candidate pair =
+      BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
+  const double cost_mm = fit.QualityAt(body, pose).Cost();
+  if (pair.cost_mm > cost_mm + kPromisingMm) return false;
+  DrawNear(body, fit, pair);
+  if (pair.cost_mm > cost_mm - kClearlyBetterMm) {
+    exchange_rest_s_ = kRestS;
+    return false;
+  }
+  pose = pair.pose;
+  return true;
 }
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose,
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
+  exchange_rest_s_ -= dt_s;
   const bool is_explained = quality.unexplained_share < kUnexplainedShare;
   const bool hands_meet = HandsMeet(body, pose);
   if (is_explained) {

@@ -50,14 +50,17 @@ class LimbRecovery {
                   PoseState& pose);
   // `stances` makes candidates_ of what to try of the first limb, searched with the second absent.
   template <typename Stances>
-  bool RecoverPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
-                   SurfaceFit& fit, const Stances& stances, PoseState& pose);
+  Candidate BestPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
+                     SurfaceFit& fit, const Stances& stances, const PoseState& pose);
   bool RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                    PoseState& pose);
-  // Hands that cross look as if they had touched and gone back.
+  // Hands that cross look as if they had touched and gone back, until they are apart again.
   bool ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                     PoseState& pose);
   static bool HandsMeet(const BodyModel& body, const PoseState& pose);
+
+  // Draws the whole body to the evidence from a candidate's pose.
+  static void DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate);
 
   // Make candidates_: the limb in each of the stances, the cheapest first;
   template <typename Cost>
@@ -78,7 +81,8 @@ class LimbRecovery {
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
-  double rest_s_ = 0;  ///< Until lost limbs are searched again.
+  double rest_s_ = 0;           ///< Until lost limbs are searched again.
+  double exchange_rest_s_ = 0;  ///< Until arms are tried exchanged again.
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   std::vector<PosedCapsule> posed_;

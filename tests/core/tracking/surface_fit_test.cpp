@@ -95,6 +95,26 @@ TEST_F(Fit, ResidualsFollowAStepAsTheirJacobiansSay) {
   }
 }
 
+TEST_F(Fit, FingertipsBeyondTheBorderAreDrawnBack) {
+  const PoseState truth = Standing(body_, {.arm_l = kArmOut});
+  const Evidence evidence = studio_.Show(body_, truth);
+  BodySizes sizes = body_.sizes();
+  sizes.lower_arm += 70;
+  const BodyModel longer(body_.table(), sizes);
+  fit_.SetEvidence(evidence);
+  const BodyPoints points_W = longer.PointsAt(longer.PostureAt(truth));
+  const Vector3 arm_W = (points_W.col(static_cast<int>(Point::kFingertipsL)) -
+                         points_W.col(static_cast<int>(Point::kElbowL)))
+                            .normalized();
+  int cameras = 0;
+  for (const SurfaceResidual& residual : fit_.ResidualsAt(longer, truth)) {
+    const Capsule& capsule = longer.shape()[residual.capsule];
+    if (capsule.part != BodyPart::kLowerArmL || !capsule.ends_at_b || residual.share < 1) continue;
+    cameras += residual.outside_mm < -40 && residual.normal_W.dot(arm_W) > 0.5;
+  }
+  EXPECT_GE(cameras, 3);
+}
+
 TEST_F(Fit, ALostArmIsFoundAgain) {
   const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
   const Evidence evidence = studio_.Show(body_, truth);
