@@ -17,7 +17,7 @@ constexpr double kHairAndSolesMm = 25;
 constexpr double WorstCostMm(Measurement measurement) {
   return measurement == Measurement::kSurface ? 40 : 60;
 }
-constexpr double kMostHollowMm = 25;
+constexpr double kMostHollowMm = 22;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;

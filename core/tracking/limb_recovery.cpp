@@ -231,8 +231,7 @@ bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence,
     FindTowards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
   };
   if (exchange_rest_s_ > 0) return false;
-  Candidate pair =
-      BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
+  Candidate pair = BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
   const double cost_mm = fit.QualityAt(body, pose).Cost();
   if (pair.cost_mm > cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);

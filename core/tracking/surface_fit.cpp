@@ -91,7 +91,8 @@ void SurfaceFit::ForEachHollow(const Visit& visit) const {
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(posed_[i], share);
-      if (const auto way_W = WayToFlesh(evidence_->cloud, matcher_.surface_W(), p_W)) visit(i, p_W, *way_W);
+      if (const auto way_W = WayToFlesh(evidence_->cloud, matcher_.surface_W(), p_W))
+        visit(i, p_W, *way_W);
     }
   }
 }

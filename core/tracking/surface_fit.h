@@ -16,14 +16,14 @@
 namespace mocap {
 
 struct SurfaceFitOptions {
-  int voxels = 250;           ///< Surface voxels used, spread evenly.
-  int edges = 600;            ///< Bounding edges used, spread evenly.
-  double reach_mm = 150;      ///< What is farther from the model than this does not count.
-  double noise_mm = 23;       ///< Spread of the surface about the model.
-  double outlier_mm = 45;     ///< Residuals beyond this lose weight quickly.
-  double independent = 0.3;   ///< Share of the contacts that are news: neighbours err alike.
+  int voxels = 250;             ///< Surface voxels used, spread evenly.
+  int edges = 600;              ///< Bounding edges used, spread evenly.
+  double reach_mm = 150;        ///< What is farther from the model than this does not count.
+  double noise_mm = 23;         ///< Spread of the surface about the model.
+  double outlier_mm = 45;       ///< Residuals beyond this lose weight quickly.
+  double independent = 0.3;     ///< Share of the contacts that are news: neighbours err alike.
   double border_noise_mm = 40;  ///< Spread of limbs' ends beyond the silhouettes' borders.
-  double void_noise_mm = 50;  ///< Spread of bones about the flesh.
+  double void_noise_mm = 50;    ///< Spread of bones about the flesh.
   double void_outlier_mm = 60;
 };
 
