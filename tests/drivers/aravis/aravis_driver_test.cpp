@@ -10,107 +10,18 @@
 
 #include "core/errors.h"
 #include "drivers/aravis/aravis_directory.h"
-#include "drivers/aravis/gige_action.h"
+#include "tests/drivers/aravis/served_camera.h"
 #include "tests/drivers/driver_suite.h"
-#include "tests/support/pattern_camera.h"
-#include "tests/support/private_network.h"
-#include "tools/gige/gige_camera.h"
-#include "tools/gige/gige_description.h"
-#include "tools/gige/loopback.h"
 
-namespace mocap {
+namespace mocap::testing {
 namespace {
 
 using std::chrono::milliseconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::PatternCamera;
 
-constexpr int kWidth_px = 160, kHeight_px = 120;
-constexpr double kFps = 100;
-constexpr std::int64_t kPeriod_ns = 10'000'000;
-constexpr milliseconds kPatience{3000};
-
-/// Threads of other tests in this process would keep it from getting a network of its own.
-[[maybe_unused]] const bool kNetworkIsEntered = testing::EnterPrivateNetwork().empty();
-
-std::string WhyNoNetwork() { return testing::EnterPrivateNetwork(); }
-
-/// Each test's cameras have addresses of their own: sockets of the last one may linger.
-std::string NextAddress() {
-  static int used = 0;
-  const std::string ip = AddressAfter("127.0.0.11", used++);
-  EXPECT_TRUE(EnsureLoopbackAddress(ip));
-  return ip;
-}
-
-std::unique_ptr<GigeCamera> Serve(const std::string& ip, const GigeFaults& faults = {},
-                                  bool has_ptp = false, double fps = kFps) {
-  return std::make_unique<GigeCamera>(
-      GigeIdentity{ip, "name" + ip.substr(8), "SN" + ip.substr(8), has_ptp},
-      std::make_unique<PatternCamera>(kWidth_px, kHeight_px, fps), faults);
-}
-
-CameraRequest Request(const std::string& device, double fps = kFps) {
-  return {device, kWidth_px, kHeight_px, fps};
-}
-
-AravisSettings Settings(const std::string& format = "BGR8") {
-  AravisSettings settings;
-  settings.format = format;
-  settings.exposure_us = 2000;
-  settings.packet_bytes = 9000;
-  return settings;
-}
-
-class AravisDriverTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string reason = WhyNoNetwork(); !reason.empty()) GTEST_SKIP() << reason;
-  }
-};
-
-/// Grabs until a frame comes; none in time is a failure.
-bool GrabFrame(AravisDriver& driver, Frame& frame, milliseconds patience = kPatience) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (std::chrono::steady_clock::now() < deadline) {
-    if (driver.Grab(frame, milliseconds(50)) == GrabStatus::kFrame) return true;
-  }
-  return false;
-}
-
-/// Grabs until something else than a frame is said.
-GrabStatus GrabUntil(AravisDriver& driver, GrabStatus wanted) {
-  Frame frame;
-  GrabStatus status = GrabStatus::kFrame;
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (status != wanted && std::chrono::steady_clock::now() < deadline) {
-    status = driver.Grab(frame, milliseconds(50));
-  }
-  return status;
-}
-
-/// How far a capture time lies from the multiples of the period at which pictures were taken.
-std::int64_t OffBeat_ns(std::int64_t capture_ns) {
-  const std::int64_t rest = capture_ns % kPeriod_ns;
-  return std::min(rest, kPeriod_ns - rest);
-}
-
-/// Whether a picture is the one that was taken at its capture time.
-bool IsOfItsTime(const Frame& frame) {
-  const std::int64_t beat = (frame.capture_ns + kPeriod_ns / 2) / kPeriod_ns;
-  return frame.image(0, 0).g == PatternCamera::GreyAt(beat);
-}
-
-std::string WhyNotStarted(AravisDriver& driver) {
-  try {
-    driver.Start();
-  } catch (const SetupError& error) {
-    return error.what();
-  }
-  return "";
-}
+using AravisDriverTest = ServedCameraTest;
 
 TEST_F(AravisDriverTest, EveryFormatGivesTheSamePicture) {
   const std::string ip = NextAddress();
@@ -251,128 +162,6 @@ TEST_F(AravisDriverTest, LostPacketsTearFramesAndAreCounted) {
   EXPECT_THAT(driver.Facts().damage, HasSubstr("packets are missing"));
 }
 
-TEST_F(AravisDriverTest, SoftwareTriggerKeepsTheRateAskedFor) {
-  const std::string ip = NextAddress();
-  const auto camera = Serve(ip);
-  AravisSettings settings = Settings();
-  settings.trigger = "software";
-  AravisDriver driver(Request(ip, 20), settings);
-  driver.Start();
-  Frame frame;
-  ASSERT_TRUE(GrabFrame(driver, frame));
-  const std::int64_t first_ns = frame.capture_ns;
-  for (int i = 0; i < 10; ++i) ASSERT_TRUE(GrabFrame(driver, frame));
-  EXPECT_GT(frame.capture_ns - first_ns, 10 * 50'000'000 - 100'000'000);
-}
-
-TEST_F(AravisDriverTest, ScheduledExposuresComeAtMultiplesOfThePeriodByPtp) {
-  const std::string ip = NextAddress();
-  const auto camera = Serve(ip, {}, true);
-  AravisSettings settings = Settings();
-  settings.trigger = "ptp";
-  AravisDriver driver(Request(ip, kFps / 2), settings);
-  driver.Start();
-  EXPECT_EQ(camera->Read(gige_register::kTriggerSource),
-            static_cast<unsigned>(GigeTrigger::kAction1));
-  EXPECT_EQ(camera->Read(gige_register::kActionDeviceKey), GigeActionKeys().device);
-  EXPECT_EQ(camera->Read(gige_register::kActionGroupMask), GigeActionKeys().mask);
-  Frame frame;
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (driver.Facts().time_source != "PTP, TAI" && std::chrono::steady_clock::now() < deadline) {
-    ASSERT_TRUE(GrabFrame(driver, frame));
-  }
-  for (int i = 0; i < 20; ++i) {
-    ASSERT_TRUE(GrabFrame(driver, frame));
-    // TAI is a whole number of seconds ahead.
-    EXPECT_LE((frame.capture_ns + 1000) % (2 * kPeriod_ns), 2000);
-    EXPECT_TRUE(IsOfItsTime(frame));
-  }
-  EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("PTP"))));
-  EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("ahead"))));
-}
-
-TEST_F(AravisDriverTest, SchedulingNeedsPtpAndSaysWhenThereIsNoMaster) {
-  AravisSettings settings = Settings();
-  settings.trigger = "ptp";
-  const std::string ip = NextAddress(), lonely_ip = NextAddress();
-  const auto without = Serve(ip);
-  AravisDriver refused(Request(ip), settings);
-  EXPECT_EQ(WhyNotStarted(refused),
-            ip + ": trigger \"ptp\" cannot be set: a GigE Vision camera that "
-                 "tells its PTP status is wanted");
-  const auto lonely = Serve(lonely_ip, {.has_no_ptp_master = true}, true);
-  AravisDriver driver(Request(lonely_ip), settings);
-  driver.Start();
-  Frame frame;
-  ASSERT_TRUE(GrabFrame(driver, frame));
-  EXPECT_THAT(
-      driver.Facts().remarks,
-      Contains(HasSubstr("without a master on its network it is triggered by its own clock, "
-                         "out of step")));
-}
-
-TEST_F(AravisDriverTest, LineTriggerFollowsTheLine) {
-  const std::string ip = NextAddress();
-  const auto camera = Serve(ip);
-  AravisSettings settings = Settings();
-  settings.trigger = "Line0";
-  AravisDriver driver(Request(ip, 20), settings);
-  driver.Start();
-  Frame before, frame;
-  ASSERT_TRUE(GrabFrame(driver, before));
-  for (int i = 0; i < 5; ++i) {
-    ASSERT_TRUE(GrabFrame(driver, frame));
-    EXPECT_GT(frame.sequence, before.sequence);
-  }
-}
-
-TEST_F(AravisDriverTest, StrobeIsAnOutputThatTellsOfTheExposure) {
-  const std::string ip = NextAddress();
-  const auto camera = Serve(ip);
-  AravisSettings settings = Settings();
-  settings.trigger = "Line0";
-  settings.strobe = "Line1";
-  AravisDriver driver(Request(ip), settings);
-  driver.Start();
-  Frame frame;
-  ASSERT_TRUE(GrabFrame(driver, frame));
-  const auto line_1 = [&camera](std::uint32_t of_line_0) { return camera->Read(of_line_0 + 4); };
-  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kInput));
-  EXPECT_EQ(line_1(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kOutput));
-  EXPECT_EQ(line_1(gige_register::kLineSource),
-            static_cast<unsigned>(GigeLineSource::kExposureActive));
-  driver.Stop();
-  // What was an output is an input again.
-  settings.trigger = "";
-  settings.strobe = "Line0";
-  AravisDriver master(Request(ip), settings);
-  master.Start();
-  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kOutput));
-  master.Stop();
-  settings.trigger = "Line0";
-  settings.strobe = "";
-  AravisDriver triggered(Request(ip), settings);
-  triggered.Start();
-  EXPECT_EQ(camera->Read(gige_register::kLineMode), static_cast<unsigned>(GigeLine::kInput));
-}
-
-TEST_F(AravisDriverTest, CameraThatWaitsForItsTriggerIsNotLost) {
-  const std::string ip = NextAddress();
-  const auto camera = Serve(ip);
-  AravisSettings settings = Settings();
-  settings.trigger = "Line0";
-  AravisDriver driver(Request(ip), settings);
-  driver.Start();
-  Frame frame;
-  ASSERT_TRUE(GrabFrame(driver, frame));
-  camera->Stall(true);
-  ASSERT_EQ(GrabUntil(driver, GrabStatus::kTimeout), GrabStatus::kTimeout);
-  for (int i = 0; i < 10; ++i)
-    EXPECT_EQ(driver.Grab(frame, milliseconds(50)), GrabStatus::kTimeout);
-  camera->Stall(false);
-  EXPECT_TRUE(GrabFrame(driver, frame));
-}
-
 TEST_F(AravisDriverTest, StalledCameraIsLostAndGoesOnByItself) {
   const std::string ip = NextAddress();
   const auto camera = Serve(ip);
@@ -450,9 +239,7 @@ struct AravisFactory {
   std::vector<std::unique_ptr<GigeCamera>> cameras;
 };
 
-}  // namespace
-
-namespace testing {
 INSTANTIATE_TYPED_TEST_SUITE_P(Aravis, CameraDriverSuite, AravisFactory);
-}  // namespace testing
-}  // namespace mocap
+
+}  // namespace
+}  // namespace mocap::testing
