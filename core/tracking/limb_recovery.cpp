@@ -227,10 +227,10 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
 
 bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                 PoseState& pose) {
+  if (exchange_rest_s_ > 0) return false;
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
     FindTowards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
   };
-  if (exchange_rest_s_ > 0) return false;
   Candidate pair = BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
   const double cost_mm = fit.QualityAt(body, pose).Cost();
   if (pair.cost_mm > cost_mm + kPromisingMm) return false;

@@ -112,7 +112,8 @@ TEST_F(Fit, FingertipsBeyondTheBorderAreDrawnBack) {
     if (capsule.part != BodyPart::kLowerArmL || !capsule.ends_at_b || residual.share < 1) continue;
     cameras += residual.outside_mm < -40 && residual.normal_W.dot(arm_W) > 0.5;
   }
-  EXPECT_GE(cameras, 1);  // The outlines' rays are sparse: most cameras' miss the fingertips.
+  // Rays are sparse: most cameras have none at the fingertips.
+  EXPECT_GE(cameras, 1);
 }
 
 TEST_F(Fit, ALostArmIsFoundAgain) {
