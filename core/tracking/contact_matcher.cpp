@@ -1,6 +1,7 @@
 #include "core/tracking/contact_matcher.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/errors.h"
@@ -72,7 +73,7 @@ float GapBetween(const Block& block, const SlimCapsule& capsule) {
   return (capsule.low - block.high).cwiseMax(block.low - capsule.high).maxCoeff();
 }
 
-// A capsule's mismatch is no less than the gap to it.
+// A capsule's mismatch is no less than the gap to it: the sooner good ones are tried, the fewer are.
 MOCAP_VECTORIZED
 void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, float reach,
                 Best& best) {
@@ -80,12 +81,23 @@ void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, floa
   best.distance.fill(reach);
   best.capsule.fill(-1);
   float worst = reach;
-  for (int k = 0; k < count; ++k) {
-    if (GapBetween(block, capsules[k]) > worst + kRounding_mm) continue;
-    TryCapsule(block, capsules[k], k, best);
-    worst = 0;
-    for (const float mismatch : best.mismatch) worst = worst < mismatch ? mismatch : worst;
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
+  for (const std::uint64_t some : {block.favourites, all & ~block.favourites}) {
+    for (std::uint64_t left = some; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (GapBetween(block, capsules[k]) > worst + kRounding_mm) continue;
+      TryCapsule(block, capsules[k], k, best);
+      worst = 0;
+      for (const float mismatch : best.mismatch) worst = worst < mismatch ? mismatch : worst;
+    }
   }
+}
+
+std::uint64_t CapsulesOf(const Best& best) {
+  std::uint64_t capsules = 0;
+  for (const std::int32_t k : best.capsule)
+    if (k >= 0) capsules |= std::uint64_t{1} << k;
+  return capsules;
 }
 
 }  // namespace
@@ -149,6 +161,7 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
     block.along_sq[i] =
         std::max(static_cast<float>((contact.to_W - contact.from_W).squaredNorm()), kLeastSq_mm2);
     block.per_along_sq[i] = 1 / block.along_sq[i];
+    block.favourites = 0;
     block.low = i == 0 ? from.cwiseMin(to).eval() : block.low.cwiseMin(from).cwiseMin(to).eval();
     block.high = i == 0 ? from.cwiseMax(to).eval() : block.high.cwiseMax(from).cwiseMax(to).eval();
   }
@@ -157,12 +170,17 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
 template <typename Visit>
 void ContactMatcher::ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm,
                                  const Visit& visit) {
+  MOCAP_CHECK(!capsules.empty() && capsules.size() <= 64);
   slim_.clear();
   for (const PosedCapsule& capsule : capsules) slim_.emplace_back(capsule);
   Best best;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    // What explains the neighbours is a first guess.
+    if (blocks_[block].favourites == 0 && block > 0)
+      blocks_[block].favourites = blocks_[block - 1].favourites;
     MatchBlock(blocks_[block], slim_.data(), static_cast<int>(slim_.size()),
                static_cast<float>(reach_mm), best);
+    blocks_[block].favourites = CapsulesOf(best);
     const std::size_t first = block * Block::kContacts;
     const std::size_t count = std::min<std::size_t>(Block::kContacts, order_.size() - first);
     for (std::size_t i = 0; i < count; ++i) visit(order_[first + i], best, i);
