@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -23,21 +24,17 @@ bool IsEmpty(const Word* begin, const Word* end) {
   return std::all_of(begin, end, [](Word word) { return word == 0; });
 }
 
-// The words of rows beside which all are empty: [begin, end).
-struct WordRange {
-  int begin, end;
-};
-
-WordRange UsedWords(const Silhouette& s) {
-  WordRange used{s.words_per_row(), 0};
-  for (int y = 0; y < s.height(); ++y) {
-    const Word* const row = s.row(y);
-    for (int i = 0; i < used.begin; ++i)
-      if (row[i] != 0) used.begin = i;
-    for (int i = s.words_per_row() - 1; i >= used.end; --i)
-      if (row[i] != 0) used.end = i + 1;
+// Combines each pixel of a row's words with those `shift` to its left and right; beside them is
+// `before` and `after`.
+template <typename Combine>
+void CombineAlong(std::span<Word> words, int shift, Word before, Word after, Combine combine) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Word here = words[i];
+    const Word next = i + 1 < words.size() ? words[i + 1] : after;
+    words[i] = combine(here, combine(here << shift | before >> (64 - shift),
+                                     here >> shift | next << (64 - shift)));
+    before = here;
   }
-  return used;
 }
 
 // Most rows of most silhouettes are empty, and so is what becomes of them.
@@ -48,34 +45,28 @@ void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Si
   const int height = from.height();
   const bool shrinks = beyond != 0;
   to.Reset(from.width(), height);
-  const WordRange used = UsedWords(from);
-  if (used.begin >= used.end) return;
-  const int first = std::max(used.begin - 1, 0), last = std::min(used.end, words - 1);
+  const std::optional<PixelBox> box = from.BoundingBox();
+  if (!box) return;
+  const int begin = box->left / 64, end = box->right / 64 + 1;
+  const int first = std::max(begin - 1, 0), last = std::min(end, words - 1);
   const Word edge = BeyondEdge(from);
-  for (int y = 0; y < height; ++y) {
-    if (shrinks && IsEmpty(from.row(y) + used.begin, from.row(y) + used.end)) continue;
-    Word* row = to.row(y);
+  for (int y = std::max(box->top - radius, 0); y <= std::min(box->bottom + radius, height - 1);
+       ++y) {
+    if (shrinks && IsEmpty(from.row(y) + begin, from.row(y) + end)) continue;
+    Word* const row = to.row(y);
     std::copy(from.row(y) + first, from.row(y) + last + 1, row + first);
     for (int other = y - radius; other <= y + radius; ++other) {
       if (other < 0 || other >= height || other == y) continue;
-      const Word* from_row = from.row(other);
-      for (int i = used.begin; i < used.end; ++i) row[i] = combine(row[i], from_row[i]);
+      const Word* const from_row = from.row(other);
+      for (int i = begin; i < end; ++i) row[i] = combine(row[i], from_row[i]);
     }
-    if (IsEmpty(row + used.begin, row + used.end)) continue;
+    if (IsEmpty(row + begin, row + end)) continue;
     if (last == words - 1) row[last] = (row[last] & ~edge) | (beyond & edge);
-    // In place: `before` is the word as it was.
-    Word before = first == 0 ? beyond : 0;
-    for (int i = first; i <= last; ++i) {
-      const Word here = row[i];
-      const Word after = i + 1 < words ? row[i + 1] : beyond;
-      Word word = here;
-      for (int shift = 1; shift <= radius; ++shift) {
-        word = combine(word, here << shift | before >> (64 - shift));
-        word = combine(word, here >> shift | after << (64 - shift));
-      }
-      row[i] = word;
-      before = here;
-    }
+    // Three pixels, and then three times three or so.
+    const std::span<Word> span(row + first, row + last + 1);
+    const Word before = first == 0 ? beyond : 0, after = last == words - 1 ? beyond : 0;
+    CombineAlong(span, 1, before, after, combine);
+    if (radius > 1) CombineAlong(span, radius - 1, before, after, combine);
     row[words - 1] &= ~edge;
   }
 }

@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "core/reconstruction/background/half_picture.h"
+#include "core/reconstruction/silhouette/pixel_run.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
-
-/// Pixels [begin, end) of a row.
-struct PixelRun {
-  int begin = 0;
-  int end = 0;
-};
 
 /// Whole tiles of a picture, and around them as much as it takes to judge them.
 ///

@@ -6,6 +6,8 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/background/expected_picture.h"
+#include "core/reconstruction/silhouette/bit_filters.h"
+#include "core/reconstruction/silhouette/pixel_run.h"
 
 namespace mocap {
 namespace {
@@ -14,8 +16,8 @@ constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
 // A pixel of the half is so many of the picture's wide.
 constexpr float kPixel_px = 2;
-// Every so many tiles are enough for a median; few pictures are a multiple of that wide.
-constexpr std::size_t kTileStep = 7;
+// So many tiles are enough for a median.
+constexpr int kSamples = 200;
 // A colour has a ratio to another only away from black [grey levels].
 constexpr float kDarkest = 8;
 constexpr float kLargestGain = 4;
@@ -53,7 +55,7 @@ constexpr int kFewestTiles = 4;
 // Whole rows move on by so many from one picture to the next: what grows from one side is met soon.
 constexpr int kBandStep = 3;
 // So many tiles around what was suspicious are looked at.
-constexpr int kRegionMargin = 4;
+constexpr int kRegionMargin = 3;
 
 float Square(float x) { return x * x; }
 
@@ -114,25 +116,33 @@ void CoarseScan::LookAtAll() {
     looks_.push_back(live_.RowOfTiles(row));
     whole_rows_.push_back(row);
   }
-  samples_.clear();
-  for (std::size_t i = 0; i < live_.tiles(); i += kTileStep) samples_.push_back(i);
+  SampleWholeRows();
 }
 
 void CoarseScan::LookAtRegion() {
   looks_.clear();
   whole_rows_.clear();
-  samples_.clear();
   first_band_ = (first_band_ + kBandStep) % kBandRows;
   for (int row = 0; row < live_.tile_rows(); ++row) {
     if (row % kBandRows == first_band_) {
       looks_.push_back(live_.RowOfTiles(row));
       whole_rows_.push_back(row);
-      const std::size_t first = static_cast<std::size_t>(row) * live_.tile_columns();
-      for (int i = 0; i < live_.tile_columns(); ++i) samples_.push_back(first + i);
-    } else if (region_ && row >= region_->top && row <= region_->bottom) {
-      looks_.push_back({row, region_->left, region_->right + 1});
+    } else {
+      ForEachRun(region_.row(row), 0, region_.width(), 0, [&](const PixelRun& run) {
+        looks_.push_back({row, run.begin, run.end});
+      });
     }
   }
+  SampleWholeRows();
+}
+
+void CoarseScan::SampleWholeRows() {
+  const int columns = live_.tile_columns();
+  const int tiles = static_cast<int>(whole_rows_.size()) * columns;
+  const int step = tiles / kSamples | 1;  // Odd: few pictures are a multiple of that wide.
+  samples_.clear();
+  for (int i = 0; i < tiles; i += step)
+    samples_.push_back(static_cast<std::size_t>(whole_rows_[i / columns]) * columns + i % columns);
 }
 
 void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
@@ -157,15 +167,15 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
 
 // By itself a tile is noise. What reaches the region's edge goes on behind it.
 bool CoarseScan::ShowsBesideRegion() const {
-  const int columns = suspicious_.width(), rows = suspicious_.height();
-  for (const TileRun& look : looks_) {
-    for (int i = look.begin; i + 1 < look.end; ++i) {
-      if (!suspicious_.Test(i, look.row) || !suspicious_.Test(i + 1, look.row)) continue;
-      const bool is_within = region_ && (look.row > region_->top || region_->top == 0) &&
-                             (look.row < region_->bottom || region_->bottom == rows - 1) &&
-                             (i > region_->left || region_->left == 0) &&
-                             (i + 1 < region_->right || region_->right == columns - 1);
-      if (!is_within) return true;
+  const int words = suspicious_.words_per_row();
+  for (int row = 0; row < suspicious_.height(); ++row) {
+    const std::uint64_t* const shown = suspicious_.row(row);
+    const std::uint64_t* const inner = inner_region_.row(row);
+    for (int i = 0; i < words; ++i) {
+      const auto in_pairs = [&](const std::uint64_t* tiles) {
+        return tiles[i] & (tiles[i] >> 1 | (i + 1 < words ? tiles[i + 1] << 63 : 0));
+      };
+      if ((in_pairs(shown) & ~in_pairs(inner)) != 0) return true;
     }
   }
   return false;
@@ -173,13 +183,9 @@ bool CoarseScan::ShowsBesideRegion() const {
 
 void CoarseScan::Conclude() {
   cleaner_.DropBlobs(kFewestTiles, suspicious_);
-  region_ = suspicious_.BoundingBox();
+  Dilate(suspicious_, kRegionMargin, region_);
+  Erode(region_, 1, inner_region_);
   knows_region_ = true;
-  if (!region_) return;
-  region_->left = std::max(region_->left - kRegionMargin, 0);
-  region_->top = std::max(region_->top - kRegionMargin, 0);
-  region_->right = std::min(region_->right + kRegionMargin, suspicious_.width() - 1);
-  region_->bottom = std::min(region_->bottom + kRegionMargin, suspicious_.height() - 1);
 }
 
 void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/image.h"
@@ -54,6 +53,7 @@ class CoarseScan {
   void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
   void LookAtAll();
   void LookAtRegion();
+  void SampleWholeRows();
   void CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image);
   bool ShowsBesideRegion() const;
   void Conclude();
@@ -71,15 +71,16 @@ class CoarseScan {
   // What is looked at in this picture, and the rows among it that are whole.
   std::vector<TileRun> looks_;
   std::vector<int> whole_rows_;
-  // Tiles that everything suspicious in the last picture lies well within.
-  std::optional<PixelBox> region_;
+  // Tiles that everything suspicious in the last picture lies well within, and those that have
+  // such tiles all around.
+  Silhouette region_, inner_region_;
   bool knows_region_ = false;
   int first_band_ = 0;
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;
   std::vector<std::uint16_t> row_sums_;
   Tiles tiles_;
-  std::vector<std::size_t> samples_;  // Of the tiles that are looked at.
+  std::vector<std::size_t> samples_;  // Some of the tiles in whole rows.
   std::vector<float> columns_, alphas_, values_;
   Conditions conditions_;
   float distance_ = 0, shift_px_ = 0;

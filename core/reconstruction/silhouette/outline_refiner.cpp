@@ -11,46 +11,45 @@ namespace {
 
 using Word = std::uint64_t;
 
-constexpr int kRadius_px = 3;
-constexpr int kSide = 2 * kRadius_px + 1;
+// Pixels of a block lie so close together that they share what is around them.
+constexpr int kBlock_px = 2;
+// Where the first begins: blocks that reach over the edge of a tile reach as far on either side.
+constexpr int kFirst = -1;
+constexpr int kReach_px = 3;
+constexpr int kSide = kBlock_px + 2 * kReach_px;
+// Of the rows around a block half tell enough, the outermost among them: counted from its first.
+constexpr std::array<int, 4> kRows = {-3, -1, 2, 4};
 // Colours that are closer than this [grey levels] tell nothing.
 constexpr float kLeastContrast = 4;
 // Pictures are gamma-coded: a pixel half covered by a darker person looks brighter than the middle
 // of the two colours.
 constexpr float kHalfCovered = 0.4f;
 
-// The pixels of a row from `x` − kRadius_px to `x` + kRadius_px, in the lowest bits.
-unsigned BitsAround(const Silhouette& s, int x, int y) {
+constexpr unsigned kAll = (1u << kSide) - 1;
+
+// The kSide pixels of a row from `begin` on, in the lowest bits.
+unsigned BitsFrom(const Silhouette& s, int begin, int y) {
   const Word* const row = s.row(y);
-  const int begin = x - kRadius_px;
-  constexpr Word kMask = (Word{1} << kSide) - 1;
-  if (begin < 0) return static_cast<unsigned>(row[0] << -begin & kMask);
+  if (begin < 0) return static_cast<unsigned>(row[0] << -begin) & kAll;
   const int shift = begin & 63;
   Word bits = row[begin >> 6] >> shift;
   if (shift > 64 - kSide && (begin >> 6) + 1 < s.words_per_row())
     bits |= row[(begin >> 6) + 1] << (64 - shift);
-  return static_cast<unsigned>(bits & kMask);
+  return static_cast<unsigned>(bits) & kAll;
 }
 
 // Those of these pixels that lie within the picture.
-unsigned ValidAround(int x, int width) {
-  unsigned valid = (1u << kSide) - 1;
-  if (x < kRadius_px) valid &= valid << (kRadius_px - x);
-  if (x + kRadius_px >= width) valid &= valid >> (x + kRadius_px + 1 - width);
-  return valid & ((1u << kSide) - 1);
+unsigned ValidFrom(int begin, int width) {
+  unsigned valid = kAll;
+  if (begin < 0) valid &= kAll << -begin;
+  if (begin + kSide > width) valid &= kAll >> (begin + kSide - width);
+  return valid;
 }
 
-constexpr unsigned kAll = (1u << kSide) - 1;
-
-// The channels of so many pixels in a row, and as many bytes as are added at once.
-constexpr int kBytes = 3 * kSide;
-constexpr int kLanes = 24;
-static_assert(kLanes >= kBytes && kLanes % 4 == 0);
-
 // For each set of a row's pixels, the bytes or values that count.
-template <typename T, int lanes, int per_pixel>
+template <typename T, int per_pixel>
 constexpr auto MasksOf() {
-  std::array<std::array<T, lanes>, kAll + 1> masks{};
+  std::array<std::array<T, per_pixel * kSide>, kAll + 1> masks{};
   for (unsigned bits = 0; bits <= kAll; ++bits)
     for (int i = 0; i < per_pixel * kSide; ++i)
       if (bits >> (i / per_pixel) & 1) masks[bits][i] = static_cast<T>(~T{0});
@@ -62,52 +61,54 @@ constexpr auto kCounts = [] {
     counts[bits] = static_cast<std::uint8_t>(counts[bits >> 1] + (bits & 1));
   return counts;
 }();
-constexpr auto kByteMasks = MasksOf<std::uint8_t, kLanes, 3>();
-constexpr auto kValueMasks = MasksOf<std::uint32_t, kSide + 1, 1>();
+constexpr auto kByteMasks = MasksOf<std::uint8_t, 3>();
+constexpr auto kValueMasks = MasksOf<std::uint32_t, 1>();
 
 }  // namespace
 
-// The person's colours and the background's brightness around a pixel.
+// The person's colours and the background's brightness around a block.
 struct OutlineRefiner::Around {
   // Channels in turn.
-  std::array<std::uint16_t, kLanes> person{};
-  std::array<float, kSide + 1> alphas{};
+  std::array<std::uint16_t, 3 * kSide> person{};
+  std::array<float, kSide> alphas{};
   int person_count = 0, background_count = 0;
 
-  // Adds a row of kSide pixels; of those behind them nothing is counted.
+  // Adds a row of kSide pixels.
   void Add(const Bgr* pixels, unsigned inside, const float* alpha_shift, unsigned outside) {
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixels);
-    for (int i = 0; i < kLanes; ++i)
+    for (int i = 0; i < 3 * kSide; ++i)
       person[i] = static_cast<std::uint16_t>(person[i] + (bytes[i] & kByteMasks[inside][i]));
-    for (int i = 0; i <= kSide; ++i)
+    for (int i = 0; i < kSide; ++i)
       alphas[i] += std::bit_cast<float>(std::bit_cast<std::uint32_t>(alpha_shift[i]) &
                                         kValueMasks[outside][i]);
     person_count += kCounts[inside];
     background_count += kCounts[outside];
   }
 
-  void AddSome(const Picture& picture, int x, int y, unsigned inside, unsigned outside) {
+  // Adds those of a row's pixels that are within the picture.
+  void AddSome(const Picture& picture, int begin, int y, unsigned inside, unsigned outside) {
     for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
-      const Bgr& p = picture.image(x - kRadius_px + std::countr_zero(bits), y);
+      const Bgr& p = picture.image(begin + std::countr_zero(bits), y);
       person[0] = static_cast<std::uint16_t>(person[0] + p.b);
       person[1] = static_cast<std::uint16_t>(person[1] + p.g);
       person[2] = static_cast<std::uint16_t>(person[2] + p.r);
     }
     for (unsigned bits = outside; bits != 0; bits &= bits - 1, ++background_count)
-      alphas[0] += picture.alpha_shift(x - kRadius_px + std::countr_zero(bits), y);
+      alphas[0] += picture.alpha_shift(begin + std::countr_zero(bits), y);
   }
 
-  std::array<int, 3> PersonSums() const {
-    std::array<std::uint16_t, kLanes / 2> half;
-    for (int i = 0; i < kLanes / 2; ++i)
-      half[i] = static_cast<std::uint16_t>(person[i] + person[i + kLanes / 2]);
-    std::array<int, 3> sums;
-    for (int c = 0; c < 3; ++c) sums[c] = half[c] + half[c + 3] + half[c + 6] + half[c + 9];
-    return sums;
+  std::array<float, 3> PersonColor() const {
+    std::array<int, 3> sums{};
+    for (int i = 0; i < 3 * kSide; ++i) sums[i % 3] += person[i];
+    std::array<float, 3> color;
+    for (int c = 0; c < 3; ++c)
+      color[c] = static_cast<float>(sums[c]) / static_cast<float>(person_count);
+    return color;
   }
-  float AlphaSum() const {
-    return ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
-           ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
+  float Alpha() const {
+    const float sum = ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
+                      ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
+    return 1 + sum / static_cast<float>(background_count);
   }
 };
 
@@ -117,51 +118,74 @@ void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr
   const Picture picture{expected, image, gain, alpha_shift};
   Erode(silhouette, 1, inside_);
   Dilate(silhouette, 1, near_);
-  for (int y = 0; y < silhouette.height(); ++y) {
+  for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
     for (int i = 0; i < silhouette.words_per_row(); ++i) {
-      Word& word = silhouette.row(y)[i];
-      for (Word band = near_.row(y)[i] & ~inside_.row(y)[i]; band != 0; band &= band - 1) {
+      for (Word band = Band(i, y) | Band(i, y + 1); band != 0;) {
         const int bit = std::countr_zero(band);
-        const Word mask = Word{1} << bit;
-        word = IsCovered(picture, i * 64 + bit, y, (word & mask) != 0) ? word | mask : word & ~mask;
+        const int x = i * 64 + bit;
+        const bool is_first = (x - kFirst) % kBlock_px == 0;
+        RefineBlock(picture, is_first ? x : x - 1, y, silhouette);
+        band &= ~((is_first ? Word{3} : Word{1}) << bit);
       }
     }
   }
 }
 
-// Returns whether the person covers the pixel by half; `otherwise` where that cannot be told.
-bool OutlineRefiner::IsCovered(const Picture& picture, int x, int y, bool otherwise) const {
-  const int height = inside_.height();
-  const unsigned valid = ValidAround(x, inside_.width());
-  // Near the edge there are not as many pixels as are added at once.
-  const bool is_near_edge = x < kRadius_px || x + kRadius_px + 1 >= inside_.width();
+// The pixels of a word that the outline may cross.
+std::uint64_t OutlineRefiner::Band(int word, int y) const {
+  if (y < 0 || y >= near_.height()) return 0;
+  return near_.row(y)[word] & ~inside_.row(y)[word];
+}
+
+// Looks around the block that begins at a pixel.
+OutlineRefiner::Around OutlineRefiner::LookAround(const Picture& picture, int x, int y) const {
+  const int begin = x - kReach_px;
+  const unsigned valid = ValidFrom(begin, inside_.width());
   Around around;
-  // Every other row tells enough.
-  for (int v = y - kRadius_px; v <= y + kRadius_px; v += 2) {
-    if (v < 0 || v >= height) continue;
-    const unsigned inside = BitsAround(inside_, x, v);
-    const unsigned outside = ~BitsAround(near_, x, v) & valid;
-    if (is_near_edge)
-      around.AddSome(picture, x, v, inside, outside);
+  for (const int row : kRows) {
+    const int v = y + row;
+    if (v < 0 || v >= inside_.height()) continue;
+    const unsigned inside = BitsFrom(inside_, begin, v);
+    const unsigned outside = ~BitsFrom(near_, begin, v) & valid;
+    if (valid == kAll)
+      around.Add(&picture.image(begin, v), inside, &picture.alpha_shift(begin, v), outside);
     else
-      around.Add(&picture.image(x - kRadius_px, v), inside, &picture.alpha_shift(x - kRadius_px, v),
-                 outside);
+      around.AddSome(picture, begin, v, inside, outside);
   }
-  if (around.person_count == 0 || around.background_count == 0) return otherwise;
-  const std::array<int, 3> person = around.PersonSums();
-  const float alpha = 1 + around.AlphaSum() / static_cast<float>(around.background_count);
+  return around;
+}
+
+// Keeps those pixels of a block that the person covers by half, if that can be told.
+void OutlineRefiner::RefineBlock(const Picture& picture, int x, int y,
+                                 Silhouette& silhouette) const {
+  const Around around = LookAround(picture, x, y);
+  if (around.person_count == 0 || around.background_count == 0) return;
+  const std::array<float, 3> person = around.PersonColor();
+  const float alpha = around.Alpha();
+  for (int v = std::max(y, 0); v < std::min(y + kBlock_px, silhouette.height()); ++v) {
+    for (int u = std::max(x, 0); u < std::min(x + kBlock_px, silhouette.width()); ++u) {
+      const Word mask = Word{1} << (u & 63);
+      if ((Band(u >> 6, v) & mask) == 0) continue;
+      Word& word = silhouette.row(v)[u >> 6];
+      if (const auto is_covered = IsCovered(picture, u, v, person, alpha))
+        word = *is_covered ? word | mask : word & ~mask;
+    }
+  }
+}
+
+// Returns whether the person covers a pixel by half; nothing where the colours are alike.
+std::optional<bool> OutlineRefiner::IsCovered(const Picture& picture, int x, int y,
+                                              const std::array<float, 3>& person, float alpha) {
   const Bgr& p = picture.image(x, y);
   const std::array<int, 3> color = {p.b, p.g, p.r};
   float along = 0, contrast_sq = 0;
   for (int c = 0; c < 3; ++c) {
     const float background = picture.expected.MeanAt(x, y, c) * alpha;
-    const float contrast =
-        static_cast<float>(person[c]) * picture.gain[c] / static_cast<float>(around.person_count) -
-        background;
+    const float contrast = person[c] * picture.gain[c] - background;
     along += contrast * (static_cast<float>(color[c]) * picture.gain[c] - background);
     contrast_sq += contrast * contrast;
   }
-  if (contrast_sq < kLeastContrast * kLeastContrast) return otherwise;
+  if (contrast_sq < kLeastContrast * kLeastContrast) return std::nullopt;
   return along > kHalfCovered * contrast_sq;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
@@ -32,7 +34,11 @@ class OutlineRefiner {
     const Image<float>& alpha_shift;
   };
   struct Around;
-  bool IsCovered(const Picture& picture, int x, int y, bool otherwise) const;
+  std::uint64_t Band(int word, int y) const;
+  Around LookAround(const Picture& picture, int x, int y) const;
+  void RefineBlock(const Picture& picture, int x, int y, Silhouette& silhouette) const;
+  static std::optional<bool> IsCovered(const Picture& picture, int x, int y,
+                                       const std::array<float, 3>& person, float alpha);
 
   Silhouette inside_, near_;
 };

@@ -6,20 +6,26 @@
 namespace mocap {
 
 std::optional<PixelBox> Silhouette::BoundingBox() const {
-  PixelBox box{width_, height_, -1, -1};
-  for (int y = 0; y < height_; ++y) {
-    const std::uint64_t* words = row(y);
-    int first = 0;
-    while (first < words_per_row_ && words[first] == 0) ++first;
-    if (first == words_per_row_) continue;
-    int last = words_per_row_ - 1;
-    while (words[last] == 0) --last;
-    box.left = std::min(box.left, first * 64 + std::countr_zero(words[first]));
-    box.right = std::max(box.right, last * 64 + 63 - std::countl_zero(words[last]));
-    box.top = std::min(box.top, y);
-    box.bottom = y;
-  }
-  if (box.bottom < 0) return std::nullopt;
+  const auto is_empty = [](std::uint64_t word) { return word == 0; };
+  const auto first = std::find_if_not(words_.begin(), words_.end(), is_empty);
+  if (first == words_.end()) return std::nullopt;
+  const auto last = std::find_if_not(words_.rbegin(), words_.rend(), is_empty).base() - 1;
+  PixelBox box;
+  box.top = static_cast<int>(first - words_.begin()) / words_per_row_;
+  box.bottom = static_cast<int>(last - words_.begin()) / words_per_row_;
+  const auto column = [&](int i) {
+    std::uint64_t any = 0;
+    for (int y = box.top; y <= box.bottom; ++y) any |= row(y)[i];
+    return any;
+  };
+  int i = 0;
+  std::uint64_t any = column(i);
+  while (any == 0) any = column(++i);
+  box.left = i * 64 + std::countr_zero(any);
+  i = words_per_row_ - 1;
+  any = column(i);
+  while (any == 0) any = column(--i);
+  box.right = i * 64 + 63 - std::countl_zero(any);
   return box;
 }
 

@@ -5,20 +5,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/reconstruction/silhouette/pixel_run.h"
+
 namespace mocap {
 namespace {
 
 using Word = std::uint64_t;
-
-// The first pixel at or after `x` whose bit, turned over by `flip`, is set; `width` if none is.
-int FindSet(const Word* row, int x, int width, Word flip) {
-  if (x >= width) return width;
-  int i = x >> 6;
-  Word word = (row[i] ^ flip) & (~Word{0} << (x & 63));
-  const int last = (width - 1) >> 6;
-  while (word == 0 && i < last) word = row[++i] ^ flip;
-  return word == 0 ? width : std::min(width, i * 64 + std::countr_zero(word));
-}
 
 // Bits [begin, end) of the word that starts at pixel 64 i.
 Word MaskOf(int i, int begin, int end) {
@@ -137,16 +129,14 @@ void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette* doubtful,
   for (int y = box->top; y <= box->bottom; ++y) {
     row_begins_.push_back(static_cast<int>(runs_.size()));
     const Word* row = silhouette.row(y);
-    for (int end = first;;) {
-      const int begin = FindSet(row, end, last, flip);
-      if (begin == last) break;
-      end = FindSet(row, begin, last, ~flip);
+    ForEachRun(row, first, last, flip, [&](const PixelRun& pixels) {
+      const auto [begin, end] = pixels;
       Run run{.y = y, .begin = begin, .end = end, .parent = static_cast<int>(runs_.size())};
       run.area = end - begin;
       if (doubtful != nullptr) run.doubtful = CountSet(doubtful->row(y), begin, end);
       run.at_edge = y == box->top || y == box->bottom || begin == first || end == last;
       runs_.push_back(run);
-    }
+    });
   }
   row_begins_.push_back(static_cast<int>(runs_.size()));
 }
