@@ -32,13 +32,25 @@ constexpr double kShortestPauseS = 0.08;
 constexpr double kLongestPauseS = 0.2;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
+// Winter 2009, Fig. 4.1, and de Leva 1996: as AverageSizes, with the spread among adults and
+// children. By the weights of Table 3, which belong to a shorter torso than ours, the lower arms of
+// tall men came out 80 to 100 mm too short.
+constexpr BodyProportions kProportions = {.torso_mean_mm = 560,
+                                          .torso_std_mm = 150,
+                                          .thigh = {0.742, 25},
+                                          .calf = {0.864, 25},
+                                          .upper_arm = {0.49, 20},
+                                          .lower_arm = {0.782, 25},
+                                          .height_std_mm = 15,
+                                          .measurement_std_mm = 40,
+                                          .memory_std_mm = 30};
 
 }  // namespace
 
 class MotionCapture::Impl {
  public:
   explicit Impl(const BodyTable& table)
-      : acquirer_(table, ProportionsOf(table)), nobody_(table, AverageSizes(1750)) {}
+      : acquirer_(table, kProportions), nobody_(table, AverageSizes(1750)) {}
 
   const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer) {
@@ -72,8 +84,6 @@ class MotionCapture::Impl {
   int acquisition_frames() const { return acquisition_frames_; }
 
  private:
-  static BodyProportions ProportionsOf(const BodyTable& table);
-
   void NobodyThere(double dt_s) {
     empty_s_ += dt_s;
     if (result_.state == CaptureState::kTracking) result_.state = CaptureState::kLost;
@@ -228,21 +238,6 @@ class MotionCapture::Impl {
   int doubtful_frames_ = 0;
   int patience_ = kFramesToLose;  ///< Doubtful frames before the next look.
 };
-
-BodyProportions MotionCapture::Impl::ProportionsOf(const BodyTable& table) {
-  if (table.measurement == Measurement::kPoints) return {};
-  // Winter 2009, Fig. 4.1, and de Leva 1996: as AverageSizes, with the spread among adults and
-  // children.
-  return {.torso_mean_mm = 560,
-          .torso_std_mm = 150,
-          .thigh = {0.742, 25},
-          .calf = {0.864, 25},
-          .upper_arm = {0.49, 20},
-          .lower_arm = {0.782, 25},
-          .height_std_mm = 15,
-          .measurement_std_mm = 40,
-          .memory_std_mm = 30};
-}
 
 MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MotionCapture::~MotionCapture() = default;

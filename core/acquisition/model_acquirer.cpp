@@ -13,10 +13,7 @@ namespace {
 // Hair and soles, which a silhouette shows and a stadiometer does not.
 constexpr double kHairAndSolesMm = 25;
 // A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
-// Points hold a body to the voxels less closely than their surface does.
-constexpr double WorstCostMm(Measurement measurement) {
-  return measurement == Measurement::kSurface ? 40 : 60;
-}
+constexpr double kWorstCostMm = 40;
 constexpr double kMostHollowMm = 22;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
@@ -70,7 +67,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
     if (!located) return false;
     const std::vector<Tracker> found =
         FitBody(BodyModel(table_, *known), evidence, *located, TrunkSize::kGiven);
-    if (CostOf(found) > WorstCostMm(table_.measurement)) return false;
+    if (CostOf(found) > kWorstCostMm) return false;
     Begin(found, evidence);
     for (Hypothesis& hypothesis : hypotheses_) hypothesis.tracker.Resize(*known);
     settled_ = true;
@@ -87,7 +84,7 @@ bool ModelAcquirer::TryStature(const Evidence& evidence) {
   const bool is_last = next_stature_ == std::ssize(kStatures);
   const double share = is_last ? likely_stature_ : kStatures[next_stature_];
   next_stature_ = is_last ? 0 : next_stature_ + 1;
-  if (next_stature_ == 1) likely_cost_mm_ = WorstCostMm(table_.measurement);
+  if (next_stature_ == 1) likely_cost_mm_ = kWorstCostMm;
   const HeadCrust crust = CrustOf(AverageSizes(share * HeightOf(evidence.cloud)));
   const std::optional<LocalizedBody> located = LocalizeBody(evidence.cloud, crust);
   if (!located) return false;
@@ -101,7 +98,7 @@ bool ModelAcquirer::TryStature(const Evidence& evidence) {
     likely_cost_mm_ = cost_mm;
     likely_stature_ = share;
   }
-  if (cost_mm > (is_last ? WorstCostMm(table_.measurement) : kGoodCostMm)) return false;
+  if (cost_mm > (is_last ? kWorstCostMm : kGoodCostMm)) return false;
   is_upright_ = share == 1;
   next_stature_ = 0;
   Begin(found, evidence);

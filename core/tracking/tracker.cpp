@@ -6,7 +6,8 @@ namespace {
 using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
 constexpr int kIterations = 5;
-constexpr double kPointStdMm = 40;
+// Labelled points lie some 40 mm off, and those of neighbouring parts err alike.
+constexpr double kPointStdMm = 70;
 // The person was seen to move so much farther than was foreseen: the fit would not reach.
 constexpr double kLeapMm = 50;
 constexpr double kStartStdMm = 50;
@@ -15,8 +16,12 @@ constexpr double kStartStdRad = 0.3;
 }  // namespace
 
 Tracker::Tracker(const BodyModel& body, const PoseState& pose)
-    : body_(body), filter_(MotionNoise{}), surface_fit_(SurfaceFitOptions{}) {
+    : body_(body),
+      filter_(MotionNoise{}),
+      point_filter_(MotionNoise{}),
+      surface_fit_(SurfaceFitOptions{}) {
   filter_.Reset(pose, kStartStdMm, kStartStdRad);
+  point_filter_.Reset(pose, kStartStdMm, kStartStdRad);
 }
 
 void Tracker::Update(const Evidence& evidence, double dt_s) {
@@ -24,12 +29,8 @@ void Tracker::Update(const Evidence& evidence, double dt_s) {
   if (dt_s > 0) filter_.Predict(dt_s);
   surface_fit_.SetEvidence(evidence);
   FollowLeap(evidence.cloud, filter_.pose().X_WT.p - before_W);
-  if (body_.table().measurement == Measurement::kPoints) {
-    FollowPoints(evidence.cloud);
-    quality_ = surface_fit_.QualityAt(body_, filter_.pose());
-  } else {
-    FollowSurface(evidence, dt_s);
-  }
+  FollowSurface(evidence, dt_s);
+  if (MeasuresPoints()) FollowPoints(evidence.cloud, dt_s);
 }
 
 void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
@@ -46,10 +47,11 @@ void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
   middle_W_ = middle_W;
 }
 
-void Tracker::FollowPoints(const VoxelCloud& cloud) {
+void Tracker::FollowPoints(const VoxelCloud& cloud, double dt_s) {
+  if (dt_s > 0) point_filter_.Predict(dt_s);
   const LabeledVoxels& labeled = labeler_.Label(cloud, body_, filter_.pose());
   JacobianBlock J(3, body_.dof());
-  filter_.Update(
+  point_filter_.Update(
       body_.table(),
       [&](const PoseState& pose, UpdateEquations& equations) {
         const Posture posture = body_.PostureAt(pose);
