@@ -254,14 +254,28 @@ std::uint32_t GlanceAll(const Eye& eye, const OctantFrames& frames, int lane,
   return JudgeAll(r, eye.planes);
 }
 
-// The samples of eight voxels, where all of them lie in the region that the planes cover: windows
-// of one pixel or two.
+// Whether all within so far of a frame's place lies well within the planes' region.
+inline __attribute__((always_inline)) bool IsInRegion(const WindowMap::Planes& planes,
+                                                      const Frame& f, float x, float y,
+                                                      float half) {
+  const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
+  return x - reach_x > static_cast<float>(planes.left) &&
+         y - reach_y > static_cast<float>(planes.top) &&
+         x + reach_x < static_cast<float>(planes.right) &&
+         y + reach_y < static_cast<float>(planes.bottom);
+}
+
+// The samples of eight voxels, by windows of one pixel or two. Returns whether all of them lie in
+// the region that the planes cover; otherwise nothing is told.
 MOCAP_VECTORIZED
-void GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
+bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
                       const std::array<float, 3>& middle, float voxel_spread, float sample_spread,
                       unsigned asked, SampleVerdicts& verdicts) {
   const Frame f(frames, lane, middle);
   const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
+  if (!IsInRegion(planes, f, f.x + x.middle / z.middle, f.y + y.middle / z.middle,
+                  voxel_spread + sample_spread))
+    return false;
   const std::uint32_t* const words = planes.words + planes.begins[1];
   const int wider = planes.begins[2] - planes.begins[1];
   const int stride = planes.words_per_row;
@@ -306,20 +320,7 @@ void GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
   static_assert(std::endian::native == std::endian::little);
   verdicts = {std::bit_cast<std::uint64_t>(inside), std::bit_cast<std::uint64_t>(outside), 0,
               std::bit_cast<std::uint64_t>(gap)};
-}
-
-// Whether all within so far of a place lies well within the planes' region.
-bool IsInRegion(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
-                const std::array<float, 3>& middle, float half) {
-  const Frame f(frames, lane, middle);
-  const float per_z = 1 / Slope(f.depth, 1, f.offset).middle;
-  const float x = f.x + Slope(f.along_x, 0, f.offset).middle * per_z;
-  const float y = f.y + Slope(f.along_y, 0, f.offset).middle * per_z;
-  const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
-  return x - reach_x > static_cast<float>(planes.left) &&
-         y - reach_y > static_cast<float>(planes.top) &&
-         x + reach_x < static_cast<float>(planes.right) &&
-         y + reach_y < static_cast<float>(planes.bottom);
+  return true;
 }
 
 }  // namespace
@@ -354,15 +355,13 @@ SampleVerdicts OctantView::GlanceSamples(const OctantFrames& frames, int lane,
                                          const Eigen::Vector3f& middle, float voxel_spread,
                                          float sample_spread, std::uint8_t asked) const {
   const std::array<float, 3> p = {middle.x(), middle.y(), middle.z()};
-  if (IsInRegion(eye_.planes, frames, lane, p, voxel_spread + sample_spread)) {
-    SampleVerdicts verdicts;
-    GlanceSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked, verdicts);
+  SampleVerdicts verdicts;
+  if (GlanceSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked, verdicts))
     return verdicts;
-  }
   constexpr std::uint64_t kAll = 0x0101010101010101;
   const OctantVerdicts voxels =
       Unpack(GlanceAll(eye_, frames, lane, p, voxel_spread, sample_spread));
-  SampleVerdicts verdicts{kAll * voxels.inside, kAll * voxels.outside, kAll * voxels.unseen, 0};
+  verdicts = {kAll * voxels.inside, kAll * voxels.outside, kAll * voxels.unseen, 0};
   unsigned open = asked & ~(voxels.inside | voxels.outside | voxels.unseen);
   for (; open != 0; open &= open - 1) {
     const int voxel = std::countr_zero(open);
