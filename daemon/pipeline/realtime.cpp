@@ -9,17 +9,6 @@
 #include "core/errors.h"
 
 namespace mocap {
-namespace {
-
-constexpr std::size_t kLongestThreadName = 15;
-
-}  // namespace
-
-void GoBehind(const std::string& name) {
-  pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-  const sched_param parameter{};
-  pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameter);
-}
 
 bool KeepToProcessors(const std::vector<int>& processors) {
   if (processors.empty()) return true;

@@ -1,7 +1,6 @@
 // Going before everything else on a busy machine, as far as limits allow.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "config/service_config.h"
@@ -11,10 +10,6 @@ namespace mocap {
 /// Locks memory and looks whether threads may have the priority and the processors that are wished.
 /// @throws SetupError  naming the limit that stands against it.
 void PrepareRealtime(const RealtimeConfig& config);
-
-/// Names the calling thread and lets it have the processor when nobody else wants it (SCHED_IDLE):
-/// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
-void GoBehind(const std::string& name);
 
 /// Keeps the calling thread to these processors; to none in particular when there are none.
 /// @return  false where that is not possible.

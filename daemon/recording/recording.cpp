@@ -11,9 +11,9 @@
 
 #include "config/subject_file.h"
 #include "core/errors.h"
-#include "daemon/pipeline/realtime.h"
 #include "daemon/recording/disk_space.h"
 #include "drivers/clock.h"
+#include "drivers/go_behind.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
 #include "drivers/utc_time.h"

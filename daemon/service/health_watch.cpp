@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/pipeline/realtime.h"
+#include "drivers/go_behind.h"
 
 namespace mocap {
 namespace {

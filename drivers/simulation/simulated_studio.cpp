@@ -7,6 +7,7 @@
 #include "drivers/clock.h"
 #include "drivers/head_follower.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/simulation/picture_ahead.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/scene.h"
 
@@ -66,11 +67,13 @@ void SimulatedCamera::Start() {
     first_ = static_cast<std::int64_t>(
         std::ceil(static_cast<double>(EpochNs() - options.start_ns) * 1e-9 * options.fps));
   next_ = first_;
+  if (options.realtime && !head_) ahead_ = std::make_unique<simulation::PictureAhead>(view_);
   started_ = true;
-  painted_ = false;
+  prepared_ = false;
 }
 
-bool SimulatedCamera::PaintNext() {
+// Returns whether there is one.
+bool SimulatedCamera::PrepareNext() {
   const simulation::Scene& scene = view_->scene();
   const SimulatedStudioOptions& options = scene.options();
   if (options.realtime) {
@@ -82,9 +85,17 @@ bool SimulatedCamera::PaintNext() {
     return false;
   }
   due_ns_ = scene.CaptureTime(view_->camera(), next_);
-  head_ ? painter_->Paint(due_ns_, head_->At(due_ns_)) : painter_->Paint(due_ns_);
-  painted_ = true;
+  if (ahead_) {
+    ahead_->Ask(due_ns_);
+  } else {
+    Paint();
+  }
+  prepared_ = true;
   return true;
+}
+
+void SimulatedCamera::Paint() {
+  head_ ? painter_->Paint(due_ns_, head_->At(due_ns_)) : painter_->Paint(due_ns_);
 }
 
 bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
@@ -99,17 +110,18 @@ bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
 GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
   if (view_->scene().options().realtime && IsLost(EpochNs())) {
-    painted_ = false;
+    prepared_ = false;
     return GrabStatus::kLost;
   }
   const std::int64_t patience_ns = std::chrono::nanoseconds(timeout).count();
   const std::int64_t until_ns = view_->scene().options().realtime ? EpochNs() + patience_ns : 0;
-  if (!painted_ && !PaintNext()) return GrabStatus::kEnd;
+  if (!prepared_ && !PrepareNext()) return GrabStatus::kEnd;
   if (view_->scene().options().realtime) {
     SleepUntilEpoch(std::min(due_ns_, until_ns));
     if (due_ns_ > until_ns) return GrabStatus::kTimeout;
   }
-  painted_ = false;
+  if (ahead_ && !ahead_->Take(due_ns_, painter_)) Paint();
+  prepared_ = false;
   frame.image = painter_->picture().view();
   frame.capture_ns = due_ns_;
   frame.sequence = static_cast<std::uint64_t>(next_ - first_);
@@ -119,7 +131,10 @@ GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout
   return GrabStatus::kFrame;
 }
 
-void SimulatedCamera::Stop() { started_ = false; }
+void SimulatedCamera::Stop() {
+  ahead_.reset();
+  started_ = false;
+}
 
 ImageView<const std::uint8_t> SimulatedCamera::TrueMask() {
   const Image<std::uint8_t>& materials = painter_->materials();

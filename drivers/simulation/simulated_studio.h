@@ -51,6 +51,7 @@ class Person;
 class Scene;
 class SceneView;
 class ScenePainter;
+class PictureAhead;
 }  // namespace simulation
 
 /// Where the simulated person's joints truly are. Reentrant.
@@ -68,7 +69,8 @@ class SimulatedTruth {
   std::unique_ptr<const simulation::Person> person_;
 };
 
-/// One virtual camera.
+/// One virtual camera. In real time it paints ahead of the time when a picture is due, unless its
+/// head is told where to turn meanwhile.
 class SimulatedCamera : public CameraDriver {
  public:
   /// @param head  turns the camera; null: where it points follows from the time.
@@ -83,14 +85,16 @@ class SimulatedCamera : public CameraDriver {
   ImageView<const std::uint8_t> TrueMask();
 
  private:
-  bool PaintNext();
+  bool PrepareNext();
+  void Paint();
   bool IsLost(std::int64_t time_ns) const;
 
   std::shared_ptr<const simulation::SceneView> view_;
   std::shared_ptr<SimulatedHead> head_;
   std::unique_ptr<simulation::ScenePainter> painter_;
+  std::unique_ptr<simulation::PictureAhead> ahead_;
   std::int64_t first_ = 0, next_ = 0;
-  bool started_ = false, painted_ = false;
+  bool started_ = false, prepared_ = false;
   std::int64_t due_ns_ = 0;
   Image<std::uint8_t> mask_;
 };
@@ -116,8 +120,7 @@ class SimulatedStudio {
   std::vector<std::shared_ptr<const simulation::SceneView>> views_;
 };
 
-/// Opens the simulated studio as a source of frames. Cameras share one immutable scene; each
-/// renders in the thread that calls its Grab.
+/// Opens the simulated studio as a source of frames. Cameras share one immutable scene.
 /// @throws SetupError  when the options cannot be.
 Studio OpenSimulatedStudio(const SimulatedStudioOptions& options);
 

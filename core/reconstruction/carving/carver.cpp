@@ -26,17 +26,31 @@ constexpr int kMajority = kSamples / 2 + 1;
 // Of so many cameras one may be wrong about a gap.
 constexpr int kCamerasPerDoubt = 5;
 
-// How many bits are set in each byte; not every processor has an instruction for it.
-std::uint64_t CountBits(std::uint64_t bytes) {
-  bytes -= bytes >> 1 & 0x5555555555555555;
-  bytes = (bytes & 0x3333333333333333) + (bytes >> 2 & 0x3333333333333333);
-  return (bytes + (bytes >> 4)) & 0x0f0f0f0f0f0f0f0f;
+// Which of eight voxels have a majority of their samples: a byte a sample, a bit a voxel. Halves
+// are added to each other, all voxels at once, in the digits of binary numbers.
+std::uint8_t Majorities(std::uint64_t samples) {
+  static_assert(kSamples == 8 && kMajority == 5);
+  const std::uint64_t a = samples >> 32;
+  std::uint64_t ones = samples ^ a, twos = samples & a;
+  const std::uint64_t b = ones >> 16, c = twos >> 16;
+  const std::uint64_t carry = ones & b, either = twos ^ c;
+  ones ^= b;
+  std::uint64_t fours = (twos & c) | (either & carry);
+  twos = either ^ carry;
+  const std::uint64_t d = ones >> 8, e = twos >> 8, f = fours >> 8;
+  const std::uint64_t carry_two = ones & d, any_two = twos ^ e;
+  ones ^= d;
+  const std::uint64_t carry_four = (twos & e) | (any_two & carry_two);
+  twos = any_two ^ carry_two;
+  const std::uint64_t eights = (fours & f) | ((fours ^ f) & carry_four);
+  fours ^= f ^ carry_four;
+  return static_cast<std::uint8_t>(eights | (fours & (twos | ones)));
 }
 
-// A bit for each byte that has a majority of its bits set.
-std::uint8_t Majorities(std::uint64_t bytes) {
-  const std::uint64_t have = (CountBits(bytes) + 0x0101010101010101 * (8 - kMajority)) >> 3;
-  return static_cast<std::uint8_t>((have & 0x0101010101010101) * 0x0102040810204080 >> 56);
+// The samples of one voxel, a bit a sample.
+std::uint8_t SamplesOf(std::uint64_t samples, int voxel) {
+  return static_cast<std::uint8_t>((samples >> voxel & 0x0101010101010101) * 0x0102040810204080 >>
+                                   56);
 }
 
 int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
@@ -74,31 +88,20 @@ class Carver::Walk {
   OctantVerdicts Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
   std::uint8_t OctantsInGrid(const Block& block) const;
   void Fill(const Block& block);
-  bool AskSamples(const Block& block, const Eigen::Vector3i& voxel, std::uint64_t agrees,
-                  std::uint64_t unknown) const;
-  bool SampleAgrees(const Block& block, const Eigen::Vector3i& voxel, int sample) const;
+  bool AskSamples(const Block& block, std::span<const SampleVerdicts> verdicts, int voxel,
+                  unsigned agrees, unsigned unknown) const;
+  bool SampleAgrees(const Block& block, std::span<const SampleVerdicts> verdicts, int voxel,
+                    int sample) const;
+  std::optional<WindowMap::Kind> Look(int view, const Vector3& p_W) const;
 
+  static Eigen::Vector3i VoxelAt(const Block& block, int voxel) {
+    return block.first + Eigen::Vector3i(voxel & 1, voxel >> 1 & 1, voxel >> 2);
+  }
   float VoxelMm() const { return static_cast<float>(voxel_mm_); }
   Eigen::Vector3f MiddleOf(const Block& block) const {
     return (block.first.cast<float>().array() + static_cast<float>(block.side) / 2) * VoxelMm();
   }
-  // Of a block's middle from that of its frame.
-  Eigen::Vector3f OffsetOf(const Block& block, int i) const {
-    const Frames& frames = FramesOf(block, i);
-    const int octant = block.frames[i] % OctantFrames::kLanes;
-    const Eigen::Vector3f sign(static_cast<float>(2 * (octant & 1) - 1),
-                               static_cast<float>(2 * (octant >> 1 & 1) - 1),
-                               static_cast<float>(2 * (octant >> 2) - 1));
-    return MiddleOf(block) - frames.middle - frames.spread * sign;
-  }
-
-  // Of each view, by the level of the block whose octants they are.
-  struct Frames {
-    OctantFrames octants;
-    Eigen::Vector3f middle;
-    float spread = 0;
-  };
-  const Frames& FramesOf(const Block& block, int i) const {
+  const OctantFrames& FramesOf(const Block& block, int i) const {
     return frames_[block.views[i]][block.frames[i] / OctantFrames::kLanes];
   }
 
@@ -110,7 +113,8 @@ class Carver::Walk {
   std::vector<CarvingView> views_;
   std::vector<WindowMap> windows_;
   std::vector<OctantView> octant_views_;
-  std::vector<std::array<Frames, kLevels>> frames_;
+  // Of each view, by the level of the block whose octants they are.
+  std::vector<std::array<OctantFrames, kLevels>> frames_;
 };
 
 void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
@@ -166,12 +170,9 @@ OctantVerdicts Carver::Walk::Judge(const Block& block, int i, float spread, floa
   const OctantView& eye = octant_views_[view];
   framed = 0;
   if (block.frames[i] != kNoFrame)
-    return eye.Glance(FramesOf(block, i).octants, block.frames[i] % OctantFrames::kLanes,
-                      OffsetOf(block, i), spread, half);
-  Frames& frames = frames_[view][block.level];
-  frames.middle = MiddleOf(block);
-  frames.spread = spread;
-  return eye.Project(frames.middle, spread, half, frames.octants, framed);
+    return eye.Glance(FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, MiddleOf(block),
+                      spread, half);
+  return eye.Project(MiddleOf(block), spread, half, frames_[view][block.level], framed);
 }
 
 std::uint8_t Carver::Walk::OctantsInGrid(const Block& block) const {
@@ -238,10 +239,11 @@ bool Carver::Walk::VisitSamples(const Block& block) {
   std::uint8_t asked = OctantsInGrid(block);
   std::uint64_t alive = ~std::uint64_t{0};
   std::array<SampleVerdicts, kMostViews> verdicts;
+  const Eigen::Vector3f middle = MiddleOf(block);
   for (int i = 0; i < block.undecided; ++i) {
     verdicts[i] = octant_views_[block.views[i]].GlanceSamples(
-        FramesOf(block, i).octants, block.frames[i] % OctantFrames::kLanes, OffsetOf(block, i),
-        VoxelMm() / 2, VoxelMm() / kSamplesPerSide / 2, asked);
+        FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, middle, VoxelMm() / 2,
+        VoxelMm() / kSamplesPerSide / 2, asked);
     alive &= ~verdicts[i].outside;
     asked &= Majorities(alive);
     if (asked == 0) return true;
@@ -252,12 +254,13 @@ bool Carver::Walk::VisitSamples(const Block& block) {
 
 // Its octants are the samples.
 void Carver::Walk::VisitVoxel(const Block& voxel) {
-  std::uint64_t alive = 0xff;
+  std::uint64_t alive = SpreadBits(0xff);
   std::array<SampleVerdicts, kMostViews> verdicts;
   for (int i = 0; i < voxel.undecided; ++i) {
     std::uint8_t framed;
-    verdicts[i] = {};
-    verdicts[i].Set(0, Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed));
+    const OctantVerdicts samples = Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed);
+    verdicts[i] = {SpreadBits(samples.inside), SpreadBits(samples.outside),
+                   SpreadBits(samples.unseen), SpreadBits(samples.gap)};
     alive &= ~verdicts[i].outside;
     if (alive == 0) return;
   }
@@ -288,51 +291,62 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> ve
   const std::uint8_t agreed = Majorities(agrees);
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
     const int voxel = std::countr_zero(asked);
-    const Eigen::Vector3i at = block.first + Eigen::Vector3i(voxel & 1, voxel >> 1 & 1, voxel >> 2);
-    if (agreed >> voxel & 1 ||
-        AskSamples(block, at, agrees >> 8 * voxel & 0xff, unknown >> 8 * voxel & 0xff))
-      grid_->Set(at.x(), at.y(), at.z());
+    if (~agreed >> voxel & 1 &&
+        !AskSamples(block, verdicts, voxel, SamplesOf(agrees, voxel), SamplesOf(unknown, voxel)))
+      continue;
+    const Eigen::Vector3i at = VoxelAt(block, voxel);
+    grid_->Set(at.x(), at.y(), at.z());
   }
 }
 
-// Asks the cameras exactly about unknown samples, as long as it depends on them.
-bool Carver::Walk::AskSamples(const Block& block, const Eigen::Vector3i& voxel,
-                              std::uint64_t agrees, std::uint64_t unknown) const {
+// Asks the cameras exactly about unknown samples of a voxel, as long as it depends on them.
+bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleVerdicts> verdicts,
+                              int voxel, unsigned agrees, unsigned unknown) const {
   for (; unknown != 0; unknown &= unknown - 1) {
     const int sample = std::countr_zero(unknown);
-    if (SampleAgrees(block, voxel, sample)) agrees |= std::uint64_t{1} << sample;
-    if (Majorities(agrees)) return true;
-    if (!Majorities(agrees | (unknown & (unknown - 1)))) return false;
+    if (SampleAgrees(block, verdicts, voxel, sample)) agrees |= 1u << sample;
+    if (std::popcount(agrees) >= kMajority) return true;
+    if (std::popcount(agrees | (unknown & (unknown - 1))) < kMajority) return false;
   }
   return false;
 }
 
-bool Carver::Walk::SampleAgrees(const Block& block, const Eigen::Vector3i& voxel,
-                                int sample) const {
-  const Vector3 corner_W = (grid_->first_voxel() + voxel).cast<double>() * voxel_mm_;
+// Asks those cameras that do not know it yet.
+bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleVerdicts> verdicts,
+                                int voxel, int sample) const {
+  const Vector3 corner_W =
+      (grid_->first_voxel() + VoxelAt(block, voxel)).cast<double>() * voxel_mm_;
   const Vector3 p_W =
       corner_W + Vector3((sample & 1) + 0.5, (sample >> 1 & 1) + 0.5, (sample >> 2) + 0.5) *
                      (voxel_mm_ / kSamplesPerSide);
+  const int bit = 8 * sample + voxel;
   int seeing = block.seeing;
   int gaps = 0;
-  for (int i = 0; i < block.undecided; ++i) {
-    const CarvingView& view = views_[block.views[i]];
-    const Vector3 p_C = view.X_CW * p_W;
-    if (p_C.z() <= 0) continue;
-    const SensorPlaneTable::Pixel pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
-    if (pixel.x < 0) continue;
-    switch (windows_[block.views[i]].At(pixel.x, pixel.y)) {
-      case WindowMap::Kind::kInside:
-        ++seeing;
-        break;
-      case WindowMap::Kind::kGap:
-        if (++gaps > most_gaps_) return false;
-        break;
-      case WindowMap::Kind::kOutside:
-        return false;
-    }
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const SampleVerdicts& known = verdicts[i];
+    if (known.unseen >> bit & 1) continue;
+    std::optional<WindowMap::Kind> kind;
+    if (known.inside >> bit & 1)
+      kind = WindowMap::Kind::kInside;
+    else if (known.gap >> bit & 1)
+      kind = WindowMap::Kind::kGap;
+    else
+      kind = Look(block.views[i], p_W);
+    if (kind == WindowMap::Kind::kOutside) return false;
+    if (kind == WindowMap::Kind::kInside) ++seeing;
+    if (kind == WindowMap::Kind::kGap && ++gaps > most_gaps_) return false;
   }
   return seeing >= fewest_;
+}
+
+// What the plain definition says of a place; nothing where the camera does not see it.
+std::optional<WindowMap::Kind> Carver::Walk::Look(int view, const Vector3& p_W) const {
+  const CarvingView& eye = views_[view];
+  const Vector3 p_C = eye.X_CW * p_W;
+  if (p_C.z() <= 0) return std::nullopt;
+  const SensorPlaneTable::Pixel pixel = eye.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
+  if (pixel.x < 0) return std::nullopt;
+  return windows_[view].At(pixel.x, pixel.y);
 }
 
 Carver::Carver(const CarvingOptions& options) : walk_(std::make_unique<Walk>(options.voxel_mm)) {}

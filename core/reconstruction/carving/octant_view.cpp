@@ -46,16 +46,6 @@ inline T Most(T a, T b) {
 // All bits of a negative number's sign.
 inline std::uint32_t Sign(int number) { return static_cast<std::uint32_t>(number >> 31); }
 
-// A byte of ones for each bit.
-std::uint64_t Spread(std::uint8_t bits) {
-  constexpr std::uint64_t kLowest = 0x0101010101010101;
-  // Bit i goes to the lowest of byte i.
-  const std::uint64_t low = bits & 0x7f;
-  const std::uint64_t spread = ((low * 0x02040810204081) & kLowest) | std::uint64_t{bits & 0x80u}
-                                                                          << 49;
-  return spread * 0xff;
-}
-
 struct Rectangles {
   alignas(32) Lanes x, y, reach_x, reach_y;
   // Bits that all lanes start with, and those that are asked for.
@@ -182,6 +172,7 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
     const float reach_y = (std::abs(ay0) + std::abs(ay1) + std::abs(ay2)) * growth;
     // The slope changes at each side of a cell that lies between, and along the cells.
     const float error = bend * (du * (du + 1) + dv * (dv + 1) + 2 * du * dv) + kRounding_px;
+    f.middle[0][i] = wx, f.middle[1][i] = wy, f.middle[2][i] = wz;
     f.x[i] = x;
     f.y[i] = y;
     f.along_x[0][i] = ax0, f.along_x[1][i] = ax1, f.along_x[2][i] = ax2;
@@ -200,47 +191,61 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
   return JudgeAll(r, eye.planes);
 }
 
+// One lane of frames, seen from another place.
 struct Frame {
   float x, y;
   std::array<float, 3> along_x, along_y, depth;
   float reach_x, reach_y, error;
+  std::array<float, 3> offset;  // Of that place from the middle.
+
+  inline __attribute__((always_inline))
+  Frame(const OctantFrames& f, int lane, const std::array<float, 3>& place)
+      : x(f.x[lane]),
+        y(f.y[lane]),
+        along_x(At(f.along_x, lane)),
+        along_y(At(f.along_y, lane)),
+        depth(At(f.depth, lane)),
+        reach_x(f.reach_x[lane]),
+        reach_y(f.reach_y[lane]),
+        error(f.error[lane]),
+        offset{place[0] - f.middle[0][lane], place[1] - f.middle[1][lane],
+               place[2] - f.middle[2][lane]} {}
+
+ private:
+  static inline __attribute__((always_inline)) std::array<float, 3> At(
+      const std::array<Lanes, 3>& lanes, int lane) {
+    return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
+  }
 };
 
-Frame FrameOf(const OctantFrames& frames, int lane) {
-  const auto at = [lane](const std::array<Lanes, 3>& lanes) {
-    return std::array<float, 3>{lanes[0][lane], lanes[1][lane], lanes[2][lane]};
-  };
-  return {frames.x[lane],   frames.y[lane],       at(frames.along_x),   at(frames.along_y),
-          at(frames.depth), frames.reach_x[lane], frames.reach_y[lane], frames.error[lane]};
-}
-
-// A linear function of eight places, and its values there.
+// A linear function of a place, there and around it.
 struct Slope {
   float middle, x, y, z;
-  Slope(const std::array<float, 3>& slope, float constant, const std::array<float, 3>& offset,
-        float spread)
+  inline __attribute__((always_inline))
+  Slope(const std::array<float, 3>& slope, float constant, const std::array<float, 3>& offset)
       : middle(constant + slope[0] * offset[0] + slope[1] * offset[1] + slope[2] * offset[2]),
-        x(slope[0] * spread),
-        y(slope[1] * spread),
-        z(slope[2] * spread) {}
-  inline __attribute__((always_inline)) float At(int lane) const {
-    return middle + kSignX[lane] * x + kSignY[lane] * y + kSignZ[lane] * z;
+        x(slope[0]),
+        y(slope[1]),
+        z(slope[2]) {}
+  // How much more it is in an octant.
+  inline __attribute__((always_inline)) float Beside(int octant, float spread) const {
+    return spread * (kSignX[octant] * x + kSignY[octant] * y + kSignZ[octant] * z);
   }
 };
 
 MOCAP_VECTORIZED
-std::uint32_t GlanceAll(const Eye& eye, const Frame& f, const std::array<float, 3>& offset,
-                        float spread, float half) {
-  const Slope x(f.along_x, 0, offset, spread), y(f.along_y, 0, offset, spread);
-  const Slope z(f.depth, 1, offset, spread);
+std::uint32_t GlanceAll(const Eye& eye, const OctantFrames& frames, int lane,
+                        const std::array<float, 3>& middle, float spread, float half) {
+  const Frame f(frames, lane, middle);
+  const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
   const float reach_x = half * f.reach_x + f.error;
   const float reach_y = half * f.reach_y + f.error;
   Rectangles r;
 #pragma GCC ivdep
   for (int i = 0; i < kLanes; ++i) {
-    const float per_z = 1 / z.At(i);
-    r.x[i] = f.x + x.At(i) * per_z;
-    r.y[i] = f.y + y.At(i) * per_z;
+    const float per_z = 1 / (z.middle + z.Beside(i, spread));
+    r.x[i] = f.x + (x.middle + x.Beside(i, spread)) * per_z;
+    r.y[i] = f.y + (y.middle + y.Beside(i, spread)) * per_z;
     r.reach_x[i] = reach_x;
     r.reach_y[i] = reach_y;
     r.asked[i] = ~0u;
@@ -249,54 +254,73 @@ std::uint32_t GlanceAll(const Eye& eye, const Frame& f, const std::array<float, 
   return JudgeAll(r, eye.planes);
 }
 
-// The samples of those voxels that are asked for, 32 bits for each voxel, where all of them lie in
-// the region that the planes cover and frames are good: windows of one pixel or two.
-MOCAP_VECTORIZED
-void GlanceSamplesAll(const WindowMap::Planes& planes, const Frame& f,
-                      const std::array<float, 3>& offset, float voxel_spread, float sample_spread,
-                      unsigned asked, std::uint32_t* verdicts) {
-  const std::uint32_t* const words = planes.words;
-  const int begin = planes.begins[1], next = planes.begins[2] - begin;
-  const int stride = planes.words_per_row;
-  const float error = f.error;
-  const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);
-  const float low_y = f.y + 0.5f - error - static_cast<float>(planes.top);
-  for (; asked != 0; asked &= asked - 1) {
-    const int voxel = std::countr_zero(asked);
-    const std::array<float, 3> middle = {offset[0] + kSignX[voxel] * voxel_spread,
-                                         offset[1] + kSignY[voxel] * voxel_spread,
-                                         offset[2] + kSignZ[voxel] * voxel_spread};
-    const Slope x(f.along_x, 0, middle, sample_spread), y(f.along_y, 0, middle, sample_spread);
-    const Slope z(f.depth, 1, middle, sample_spread);
-    std::uint32_t bits = 0;
-#pragma GCC ivdep
-    for (int i = 0; i < kLanes; ++i) {
-      const float per_z = 1 / z.At(i);
-      const float left = low_x + x.At(i) * per_z, top = low_y + y.At(i) * per_z;
-      const int column = static_cast<int>(left), row = static_cast<int>(top);
-      const int is_wide =
-          (static_cast<int>(left + 2 * error) - column) | (static_cast<int>(top + 2 * error) - row);
-      const std::uint32_t word =
-          words[begin + is_wide * next + row * stride + (column >> 4)] >> (column & 15);
-      const std::uint32_t inside = word & 1, outside = word >> 16 & 1;
-      const std::uint32_t gap = ~(inside | outside | static_cast<std::uint32_t>(is_wide)) & 1;
-      bits |= (inside | outside << 8 | gap << 24) << i;
-    }
-    verdicts[voxel] = bits;
-  }
-}
-
-// Whether all within so far of a place lies well within the planes' region.
-bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, const std::array<float, 3>& offset,
-                float half) {
-  const float per_z = 1 / Slope(f.depth, 1, offset, 0).middle;
-  const float x = f.x + Slope(f.along_x, 0, offset, 0).middle * per_z;
-  const float y = f.y + Slope(f.along_y, 0, offset, 0).middle * per_z;
+// Whether all within so far of a frame's place lies well within the planes' region.
+inline __attribute__((always_inline)) bool IsInRegion(const WindowMap::Planes& planes,
+                                                      const Frame& f, float x, float y,
+                                                      float half) {
   const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
   return x - reach_x > static_cast<float>(planes.left) &&
          y - reach_y > static_cast<float>(planes.top) &&
          x + reach_x < static_cast<float>(planes.right) &&
          y + reach_y < static_cast<float>(planes.bottom);
+}
+
+// The samples of eight voxels, by windows of one pixel or two. Returns whether all of them lie in
+// the region that the planes cover; otherwise nothing is told.
+MOCAP_VECTORIZED
+bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
+                      const std::array<float, 3>& middle, float voxel_spread, float sample_spread,
+                      unsigned asked, SampleVerdicts& verdicts) {
+  const Frame f(frames, lane, middle);
+  const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
+  if (!IsInRegion(planes, f, f.x + x.middle / z.middle, f.y + y.middle / z.middle,
+                  voxel_spread + sample_spread))
+    return false;
+  const std::uint32_t* const words = planes.words + planes.begins[1];
+  const int wider = planes.begins[2] - planes.begins[1];
+  const int stride = planes.words_per_row;
+  const float error = f.error;
+  const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);
+  const float low_y = f.y + 0.5f - error - static_cast<float>(planes.top);
+  alignas(32) Lanes voxel_x, voxel_y, voxel_z, sample_x, sample_y, sample_z;
+  for (int i = 0; i < kLanes; ++i) {
+    voxel_x[i] = x.middle + x.Beside(i, voxel_spread);
+    voxel_y[i] = y.middle + y.Beside(i, voxel_spread);
+    voxel_z[i] = z.middle + z.Beside(i, voxel_spread);
+    sample_x[i] = x.Beside(i, sample_spread);
+    sample_y[i] = y.Beside(i, sample_spread);
+    sample_z[i] = z.Beside(i, sample_spread);
+  }
+  // A word a sample; in its bytes inside, gap and outside, a bit a voxel.
+  alignas(32) std::array<std::uint32_t, kLanes> bits{};
+  for (; asked != 0; asked &= asked - 1) {
+    const int voxel = std::countr_zero(asked);
+#pragma GCC ivdep
+    for (int i = 0; i < kLanes; ++i) {
+      const float per_z = 1 / (voxel_z[voxel] + sample_z[i]);
+      const float left = low_x + (voxel_x[voxel] + sample_x[i]) * per_z;
+      const float top = low_y + (voxel_y[voxel] + sample_y[i]) * per_z;
+      const int column = static_cast<int>(left), row = static_cast<int>(top);
+      const int is_wide =
+          (static_cast<int>(left + 2 * error) - column) | (static_cast<int>(top + 2 * error) - row);
+      const auto place =
+          static_cast<std::uint32_t>((-is_wide & wider) + row * stride + (column >> 4));
+      const std::uint32_t word = words[place] >> (column & 15);
+      const std::uint32_t known = word & 0x10001;
+      const std::uint32_t gap = ~(known | known >> 16 | static_cast<std::uint32_t>(is_wide)) & 1;
+      bits[i] |= (known | gap << 8) << voxel;
+    }
+  }
+  std::array<std::uint8_t, kLanes> inside, gap, outside;
+  for (int i = 0; i < kLanes; ++i) {
+    inside[i] = static_cast<std::uint8_t>(bits[i]);
+    gap[i] = static_cast<std::uint8_t>(bits[i] >> 8);
+    outside[i] = static_cast<std::uint8_t>(bits[i] >> 16);
+  }
+  static_assert(std::endian::native == std::endian::little);
+  verdicts = {std::bit_cast<std::uint64_t>(inside), std::bit_cast<std::uint64_t>(outside), 0,
+              std::bit_cast<std::uint64_t>(gap)};
+  return true;
 }
 
 }  // namespace
@@ -323,36 +347,33 @@ OctantVerdicts OctantView::Project(const Eigen::Vector3f& middle, float spread, 
 }
 
 OctantVerdicts OctantView::Glance(const OctantFrames& frames, int lane,
-                                  const Eigen::Vector3f& offset, float spread, float half) const {
-  return Unpack(
-      GlanceAll(eye_, FrameOf(frames, lane), {offset.x(), offset.y(), offset.z()}, spread, half));
+                                  const Eigen::Vector3f& middle, float spread, float half) const {
+  return Unpack(GlanceAll(eye_, frames, lane, {middle.x(), middle.y(), middle.z()}, spread, half));
 }
 
 SampleVerdicts OctantView::GlanceSamples(const OctantFrames& frames, int lane,
-                                         const Eigen::Vector3f& offset, float voxel_spread,
+                                         const Eigen::Vector3f& middle, float voxel_spread,
                                          float sample_spread, std::uint8_t asked) const {
-  const Frame frame = FrameOf(frames, lane);
-  const std::array<float, 3> middle = {offset.x(), offset.y(), offset.z()};
-  const OctantVerdicts voxels = Unpack(GlanceAll(eye_, frame, middle, voxel_spread, sample_spread));
-  SampleVerdicts verdicts{Spread(voxels.inside), Spread(voxels.outside), Spread(voxels.unseen), 0};
+  const std::array<float, 3> p = {middle.x(), middle.y(), middle.z()};
+  SampleVerdicts verdicts;
+  if (GlanceSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked, verdicts))
+    return verdicts;
+  constexpr std::uint64_t kAll = 0x0101010101010101;
+  const OctantVerdicts voxels =
+      Unpack(GlanceAll(eye_, frames, lane, p, voxel_spread, sample_spread));
+  verdicts = {kAll * voxels.inside, kAll * voxels.outside, kAll * voxels.unseen, 0};
   unsigned open = asked & ~(voxels.inside | voxels.outside | voxels.unseen);
-  if (open == 0) return verdicts;
-  std::array<std::uint32_t, kLanes> bits;
-  if (IsInRegion(eye_.planes, frame, middle, voxel_spread + sample_spread)) {
-    GlanceSamplesAll(eye_.planes, frame, middle, voxel_spread, sample_spread, open, bits.data());
-  } else {
-    for (unsigned left = open; left != 0; left &= left - 1) {
-      const int voxel = std::countr_zero(left);
-      bits[voxel] = GlanceAll(
-          eye_, frame,
-          {middle[0] + kSignX[voxel] * voxel_spread, middle[1] + kSignY[voxel] * voxel_spread,
-           middle[2] + kSignZ[voxel] * voxel_spread},
-          sample_spread, 0);
-    }
-  }
   for (; open != 0; open &= open - 1) {
     const int voxel = std::countr_zero(open);
-    verdicts.Set(voxel, Unpack(bits[voxel]));
+    const OctantVerdicts samples =
+        Unpack(GlanceAll(eye_, frames, lane,
+                         {p[0] + kSignX[voxel] * voxel_spread, p[1] + kSignY[voxel] * voxel_spread,
+                          p[2] + kSignZ[voxel] * voxel_spread},
+                         sample_spread, 0));
+    verdicts.inside |= SpreadBits(samples.inside) << voxel;
+    verdicts.outside |= SpreadBits(samples.outside) << voxel;
+    verdicts.unseen |= SpreadBits(samples.unseen) << voxel;
+    verdicts.gap |= SpreadBits(samples.gap) << voxel;
   }
   return verdicts;
 }

@@ -18,27 +18,28 @@ struct OctantVerdicts {
   std::uint8_t gap;      ///< All of it is in a gap; told of single pixels alone.
 };
 
-/// What a camera knows of the samples of eight voxels: a byte a voxel, each as OctantVerdicts.
+/// What a camera knows of the samples of eight voxels, each as OctantVerdicts: a byte a sample, and
+/// in it a bit a voxel.
 struct SampleVerdicts {
   std::uint64_t inside, outside, unseen, gap;
-
-  void Set(int voxel, const OctantVerdicts& samples) {
-    inside |= std::uint64_t{samples.inside} << 8 * voxel;
-    outside |= std::uint64_t{samples.outside} << 8 * voxel;
-    unseen |= std::uint64_t{samples.unseen} << 8 * voxel;
-    gap |= std::uint64_t{samples.gap} << 8 * voxel;
-  }
 };
+
+/// The lowest bit of a byte for each bit.
+constexpr std::uint64_t SpreadBits(std::uint8_t bits) {
+  return ((bits & 0x7fu) * 0x02040810204081u & 0x0101010101010101u) | std::uint64_t{bits & 0x80u}
+                                                                          << 49;
+}
 
 /// Where a camera sees eight places, and how that changes around each of them.
 ///
-/// Beside a place by `o` [mm] the picture is at (x, y) + (along · o) / (1 + depth · o), but for
+/// Beside a `middle` by `o` [mm] the picture is at (x, y) + (along · o) / (1 + depth · o), but for
 /// `error` [px].
 struct OctantFrames {
   static constexpr int kLanes = 8;
   using Lanes = std::array<float, kLanes>;
 
-  alignas(32) Lanes x, y;
+  alignas(32) std::array<Lanes, 3> middle;  ///< From the origin of all places [mm].
+  Lanes x, y;
   std::array<Lanes, 3> along_x, along_y;  ///< [px per mm]
   std::array<Lanes, 3> depth;             ///< [1/mm]
   Lanes reach_x, reach_y;  ///< How far a cube reaches at most [px per mm of half its side].
@@ -49,13 +50,13 @@ struct OctantFrames {
 class OctantView {
  public:
   /// Frames with less error serve for all smaller blocks within [px].
-  static constexpr float kGoodFrame_px = 0.15f;
+  static constexpr float kGoodFrame_px = 0.1f;
 
   /// @param origin_W  what all places are relative to.
   void Set(const CarvingView& view, const Vector3& origin_W, const WindowMap& windows);
 
   /// Looks at octants by the sensor-plane table.
-  /// @param middle  of the block [mm].
+  /// @param middle  of the block, from the origin [mm].
   /// @param spread  from there to the middles of the octants, along each axis [mm].
   /// @param half    half the side of the cubes to judge there [mm].
   /// @return the verdicts; and in `framed` the octants that got good frames.
@@ -63,13 +64,12 @@ class OctantView {
                          OctantFrames& frames, std::uint8_t& framed) const;
 
   /// Looks at octants by the frame of one that holds them all.
-  /// @param offset  of the block's middle from the frame's [mm].
-  OctantVerdicts Glance(const OctantFrames& frames, int lane, const Eigen::Vector3f& offset,
+  OctantVerdicts Glance(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
                         float spread, float half) const;
 
   /// Looks at the samples of the eight voxels of a block, likewise.
   /// @param asked  the voxels whose samples matter; of others nothing may be told.
-  SampleVerdicts GlanceSamples(const OctantFrames& frames, int lane, const Eigen::Vector3f& offset,
+  SampleVerdicts GlanceSamples(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
                                float voxel_spread, float sample_spread, std::uint8_t asked) const;
 
   struct Eye {

@@ -95,9 +95,9 @@ TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
         std::uniform_real_distribution<double> shift(side - half + small_half / 2 - side / 2,
                                                      half - side / 2 - small_half / 2);
         const Vector3 offset(0, 0, side < 50 ? shift(random_) / 2 : 0);
-        const OctantVerdicts verdicts =
-            eyes_[camera].Glance(frames, lane, offset.cast<float>(), static_cast<float>(side / 2),
-                                 static_cast<float>(std::max(small_half, 0.0)));
+        const OctantVerdicts verdicts = eyes_[camera].Glance(
+            frames, lane, (frame_W + offset - kOrigin_W).cast<float>(),
+            static_cast<float>(side / 2), static_cast<float>(std::max(small_half, 0.0)));
         for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
           Check(camera, verdicts, octant, MiddleOf(frame_W + offset, side / 2, octant),
                 std::max(small_half, 0.0));
@@ -117,17 +117,22 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
     eyes_[camera].Project((middle_W - kOrigin_W).cast<float>(), 25, 18.75f, frames, framed);
     for (int lane = 0; lane < OctantFrames::kLanes; ++lane) {
       if (~framed >> lane & 1) continue;
+      const Vector3 frame_W = MiddleOf(middle_W, 25, lane);
       const std::uint8_t asked = i % 2 == 0 ? 0xff : 0x36;
-      const SampleVerdicts samples =
-          eyes_[camera].GlanceSamples(frames, lane, Eigen::Vector3f::Zero(), 12.5f, 6.25f, asked);
+      const SampleVerdicts samples = eyes_[camera].GlanceSamples(
+          frames, lane, (frame_W - kOrigin_W).cast<float>(), 12.5f, 6.25f, asked);
       for (int voxel = 0; voxel < OctantFrames::kLanes; ++voxel) {
         if (~asked >> voxel & 1) continue;
         const auto of_voxel = [voxel](std::uint64_t bits) {
-          return static_cast<std::uint8_t>(bits >> 8 * voxel);
+          std::uint8_t samples_of_it = 0;
+          for (int sample = 0; sample < OctantFrames::kLanes; ++sample)
+            samples_of_it |=
+                static_cast<std::uint8_t>((bits >> (8 * sample + voxel) & 1) << sample);
+          return samples_of_it;
         };
         const OctantVerdicts verdicts{of_voxel(samples.inside), of_voxel(samples.outside),
                                       of_voxel(samples.unseen), of_voxel(samples.gap)};
-        const Vector3 voxel_W = MiddleOf(MiddleOf(middle_W, 25, lane), 12.5, voxel);
+        const Vector3 voxel_W = MiddleOf(frame_W, 12.5, voxel);
         for (int sample = 0; sample < OctantFrames::kLanes; ++sample)
           Check(camera, verdicts, sample, MiddleOf(voxel_W, 6.25, sample), 0);
       }

@@ -1,0 +1,19 @@
+#include "drivers/go_behind.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kLongestThreadName = 15;
+
+}  // namespace
+
+void GoBehind(const std::string& name) {
+  pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+  const sched_param parameter{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameter);
+}
+
+}  // namespace mocap
