@@ -8,22 +8,15 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace mocap {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Simulate : public testing::Test {
+class Simulate : public ::testing::Test {
  protected:
-  Simulate()
-      : folder_(fs::path(testing::TempDir()) /
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Simulate() override { fs::remove_all(folder_); }
-
   fs::path Run(const std::string& name, const std::string& options) {
     CLI::App app("mocap");
     AddSimulateCommand(app);
@@ -31,7 +24,8 @@ class Simulate : public testing::Test {
     return folder_ / name;
   }
 
-  fs::path folder_;
+  testing::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 std::string Content(const fs::path& file) {
