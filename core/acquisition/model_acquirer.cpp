@@ -13,27 +13,30 @@ namespace {
 // Hair and soles, which a silhouette shows and a stadiometer does not.
 constexpr double kHairAndSolesMm = 25;
 // A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
-constexpr double kWorstCostMm = 40;
+constexpr double kWorstCostMm = 34;
 constexpr double kMostHollowMm = 22;
 constexpr double kSettledMm = 3;         // §8.1
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
 
 // What the network takes as evidence, and what is measured well enough to be believed as it is.
-constexpr std::array<double BodySizes::*, 10> kWidths = {
-    &BodySizes::torso_width,     &BodySizes::torso_depth,
-    &BodySizes::head_width,      &BodySizes::upper_arm_width,
-    &BodySizes::lower_arm_width, &BodySizes::thigh_width,
-    &BodySizes::calf_width,      &BodySizes::shoulder_width,
-    &BodySizes::hip_width,       &BodySizes::neck};
-constexpr std::array<double BodySizes::*, 14> kMeasured = {
-    &BodySizes::thigh,           &BodySizes::calf,
-    &BodySizes::upper_arm,       &BodySizes::lower_arm,
-    &BodySizes::torso_width,     &BodySizes::torso_depth,
-    &BodySizes::head_width,      &BodySizes::upper_arm_width,
-    &BodySizes::lower_arm_width, &BodySizes::thigh_width,
-    &BodySizes::calf_width,      &BodySizes::shoulder_width,
-    &BodySizes::hip_width,       &BodySizes::neck};
+constexpr std::array<double BodySizes::*, 9> kWidths = {
+    &BodySizes::torso_width,     &BodySizes::torso_depth,     &BodySizes::head_width,
+    &BodySizes::upper_arm_width, &BodySizes::lower_arm_width, &BodySizes::thigh_width,
+    &BodySizes::calf_width,      &BodySizes::shoulder_width,  &BodySizes::neck};
+constexpr std::array<double BodySizes::*, 13> kMeasured = {&BodySizes::thigh,
+                                                           &BodySizes::calf,
+                                                           &BodySizes::upper_arm,
+                                                           &BodySizes::lower_arm,
+                                                           &BodySizes::torso_width,
+                                                           &BodySizes::torso_depth,
+                                                           &BodySizes::head_width,
+                                                           &BodySizes::upper_arm_width,
+                                                           &BodySizes::lower_arm_width,
+                                                           &BodySizes::thigh_width,
+                                                           &BodySizes::calf_width,
+                                                           &BodySizes::shoulder_width,
+                                                           &BodySizes::neck};
 
 // Widths differ among people by some 10 % (ANSUR, Gordon et al. 1989), and clothes, hulls and what
 // touches a part make them err as much.
@@ -135,6 +138,8 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
   for (double BodySizes::*width : kWidths) {
     sizes.*width = average.*width + kMeasuredShare * (mean.*width - average.*width);
   }
+  // The joints lie too deep within flesh to be measured in a few frames.
+  sizes.hip_width = average.hip_width;
   tracker.Resize(sizes);
   return change_mm;
 }

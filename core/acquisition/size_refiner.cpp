@@ -12,17 +12,17 @@ struct RefinedSize {
   double std_share;  // How far it may be from what was acquired.
 };
 
-// Legs differ among people of a stature by some five percent (ANSUR, Gordon et al. 1989). Arms are
-// held closer, because shoulders lie within flesh and contours show little of where an arm begins;
-// so is the trunk. Lengths move joints, which contours show only together with the pose; widths
-// they show as such.
+// Legs and upper arms differ among people of a stature by some five percent (ANSUR, Gordon et al.
+// 1989). Forearms and the trunk are held closer, and so are the hips, which lie so deep within
+// flesh that contours show little of them. Lengths move joints, which contours show only together
+// with the pose; widths they show as such.
 constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::torso_width, 0.10},
                                                    {&BodySizes::torso_depth, 0.10},
                                                    {&BodySizes::head, 0.05},
                                                    {&BodySizes::head_width, 0.10},
                                                    {&BodySizes::neck, 0.02},
-                                                   {&BodySizes::upper_arm, 0.02},
+                                                   {&BodySizes::upper_arm, 0.05},
                                                    {&BodySizes::lower_arm, 0.03},
                                                    {&BodySizes::thigh, 0.05},
                                                    {&BodySizes::calf, 0.05},
@@ -31,7 +31,7 @@ constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::thigh_width, 0.15},
                                                    {&BodySizes::calf_width, 0.15},
                                                    {&BodySizes::shoulder_width, 0.05},
-                                                   {&BodySizes::hip_width, 0.10}}};
+                                                   {&BodySizes::hip_width, 0.03}}};
 constexpr int kSizes = static_cast<int>(kRefined.size());
 constexpr int kMostUnknowns = kMaxDof + kSizes;
 using Information =

@@ -18,7 +18,8 @@ class ShapeBuilder {
         {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b, ends_at_b});
   }
 
-  // The chest is deeper than the waist, and the shoulder blades lie behind. What a person has more
+  // The chest is deeper than the waist, and the shoulder blades lie behind. The shoulder's flesh
+  // reaches some 65 mm above the joint (Rab, Petuskey, Bagley 2002). What a person has more
   // than others of that stature lies in front: the back stays at the spine.
   void AddTrunk() {
     const BodySizes& s = sizes_;
@@ -34,7 +35,7 @@ class ShapeBuilder {
           1.02 * radius);
       Add(BodyPart::kTorso, side > 0 ? Segment::kShoulderL : Segment::kShoulderR,
           {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.1 * radius},
-          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.8 * radius, 0.47 * radius);
+          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.8 * radius, 0.53 * radius);
       Add(BodyPart::kTorso, Segment::kPelvis, waist,
           {hip.x(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius, 0.95 * radius);
     }
@@ -68,7 +69,7 @@ class ShapeBuilder {
     const Vector3 tips = At(tips_point);
     const double upper_radius = s.upper_arm_width / 2;
     const double lower_radius = s.lower_arm_width / 2;
-    Add(upper, upper_segment, shoulder, elbow, 1.1 * upper_radius, 0.85 * upper_radius, true);
+    Add(upper, upper_segment, shoulder, elbow, 1.2 * upper_radius, 0.85 * upper_radius, true);
     const Vector3 wrist = At(wrist_point);
     const double hand_radius = 0.9 * lower_radius;
     const Vector3 fingers = tips - hand_radius * (tips - elbow).normalized();

@@ -5,12 +5,13 @@ namespace {
 
 // Where joints lie behind the middle of the trunk's flesh and below the neck, as shares of the
 // torso's length. The spine runs behind the trunk's middle, the hip joints a little behind it; the
-// shoulder joint lies 0.05 of the stature below C7/T1 (Reed, Manary, Schneider 1999; Winter 2009,
-// Fig. 4.1).
+// shoulder joint lies 0.05 to 0.08 of the stature below C7/T1: so de Leva (1996), and Winter's
+// (2009, Fig. 4.1) shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley
+// 2002).
 constexpr double kNeckBehind = 0.06;
 constexpr double kHipBehind = 0.03;
 constexpr double kShoulderBehind = 0.03;
-constexpr double kShoulderBelowNeck = 0.19;
+constexpr double kShoulderBelowNeck = 0.21;
 // The head's centre leans forward of C7/T1 by this share of its height above it.
 constexpr double kHeadForward = 0.35;
 // Joints between the shoulders, as a share of the width between these; in the forearm with the

@@ -21,6 +21,13 @@ constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
+// A limb that ends elsewhere is weighed once the whole body is drawn to the evidence with it, as it
+// was with the present one: until then a place that is right costs up to so much more, and one that
+// is wrong less. So many places are; what one gains must be clear.
+constexpr double kElsewhereMm = 100;
+constexpr double kWorthDrawingMm = 1;
+constexpr std::size_t kDrawn = 2;
+constexpr double kLimbBetterMm = 1;
 // Exchanged arms that cost no more than this on top of the present ones may come to cost less once
 // the whole body is drawn to the evidence, as the present one was; what they gain must be clear,
 // because noise would exchange folded arms again and again.
@@ -152,11 +159,20 @@ std::span<const LimbRecovery::Option> LimbRecovery::Claims(LimbSearch& search,
 }
 
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                              PoseState& pose) {
+                              SurfaceFit& fit, PoseState& pose) {
   search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose);
   FindBest(search_, body.table(), StancesOf(limb_end), pose, kRefined);
-  const Candidate& best = candidates_.front();
-  if (best.cost_mm > search_.CostAt(pose) - kBetterMm) return false;
+  const double now_mm = search_.CostAt(pose);
+  const Vector3 tip_W = search_.TipAt(pose);
+  std::erase_if(candidates_, [&](const Candidate& candidate) {
+    const bool is_elsewhere = (search_.TipAt(candidate.pose) - tip_W).norm() > kElsewhereMm;
+    return candidate.cost_mm > now_mm + (is_elsewhere ? kWorthDrawingMm : -kBetterMm);
+  });
+  if (candidates_.empty()) return false;
+  candidates_.resize(std::min(candidates_.size(), kDrawn));
+  for (Candidate& candidate : candidates_) DrawNear(body, fit, candidate);
+  const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::cost_mm);
+  if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kLimbBetterMm) return false;
   pose = best.pose;
   return true;
 }
@@ -209,7 +225,7 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
   if (rest_s_ > 0) return false;
   bool changed = false;
   for (const Segment limb_end : kLimbEnds) {
-    changed |= RecoverOne(body, evidence, limb_end, pose);
+    changed |= RecoverOne(body, evidence, limb_end, fit, pose);
   }
   if (IsExplained(body, pose)) return changed;
   for (const auto& [left, right] : kPairs) {

@@ -24,8 +24,8 @@ class LimbRecovery {
  public:
   LimbRecovery();
 
-  /// Looks for a pose that explains clearly more of the evidence than `pose` does, changing the
-  /// limbs alone.
+  /// Looks for a pose that explains clearly more of the evidence than `pose` does, by other places
+  /// of the limbs.
   /// @param fit      holds the evidence.
   /// @param quality  of the fit at that pose.
   /// @param dt_s     since the last call: after a search in vain there is a rest.
@@ -47,7 +47,7 @@ class LimbRecovery {
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                  PoseState& pose);
+                  SurfaceFit& fit, PoseState& pose);
   // `stances` makes candidates_ of what to try of the first limb, searched with the second absent.
   template <typename Stances>
   Candidate BestPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,

@@ -1,7 +1,9 @@
 // Beyond the paper: what reaches over the border of a silhouette.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "core/reconstruction/silhouette/outline.h"
 
@@ -13,9 +15,26 @@ struct Protrusion {
   double depth_mm;    ///< How far the ball reaches over the border.
 };
 
-/// Looks for the border's nearest ray, and tells how far a ball lies beyond it.
-/// @return  empty where the ball lies inside, or where the border is too far off to tell.
-std::optional<Protrusion> ProtrusionOf(const Outline& outline, const Vector3& center_W,
-                                       double radius_mm);
+/// The border of one silhouette, to hold many balls against. Which of its rays is nearest is found
+/// in single precision, for a block of rays at a time.
+class SilhouetteBorder {
+ public:
+  /// Takes what a camera saw; `outline` is borrowed until the next.
+  void SetOutline(const Outline& outline);
+
+  /// Looks for the border's nearest ray, and tells how far a ball lies beyond it.
+  /// @return  empty where the ball lies inside, or where the border is too far off to tell.
+  std::optional<Protrusion> ProtrusionOf(const Vector3& center_W, double radius_mm) const;
+
+  static constexpr int kLanes = 16;
+  /// Directions of neighbouring rays; zero beyond the last.
+  struct Block {
+    alignas(64) std::array<float, kLanes> x{}, y{}, z{};
+  };
+
+ private:
+  const Outline* outline_ = nullptr;
+  std::vector<Block> blocks_;
+};
 
 }  // namespace mocap

@@ -12,6 +12,7 @@
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/pose_filter.h"
+#include "core/tracking/protrusion.h"
 
 namespace mocap {
 
@@ -22,7 +23,7 @@ struct SurfaceFitOptions {
   double noise_mm = 23;         ///< Spread of the surface about the model.
   double outlier_mm = 45;       ///< Residuals beyond this lose weight quickly.
   double independent = 0.3;     ///< Share of the contacts that are news: neighbours err alike.
-  double border_noise_mm = 40;  ///< Spread of limbs' ends beyond the silhouettes' borders.
+  double border_noise_mm = 40;  ///< Spread of flesh beyond the silhouettes' borders.
   double void_noise_mm = 50;    ///< Spread of bones about the flesh.
   double void_outlier_mm = 60;
 };
@@ -72,8 +73,9 @@ class SurfaceFit {
   void ForEachResidual(const BodyModel& body, const Visit& visit);
   template <typename Visit>
   void ForEachContact(const Visit& visit);
-  // A ray across a hand that reaches over the border cuts into it, and does not say which way to
-  // draw it back; the border that is nearest to the fingertips does.
+  // A ray is content with the part that explains it best, whatever else reaches over it; and one
+  // across a hand that sticks out cuts into it, and does not say which way to draw it back. The
+  // border that is nearest to each part does.
   template <typename Visit>
   void ForEachProtrusion(const BodyModel& body, const Visit& visit) const;
   template <typename Visit>
@@ -85,6 +87,7 @@ class SurfaceFit {
   const Evidence* evidence_ = nullptr;
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
+  std::vector<SilhouetteBorder> borders_;  ///< One a camera.
   Posture posture_;
   std::vector<PosedCapsule> posed_;
   ChainEquations chain_;

@@ -22,6 +22,13 @@ Outline OutlineOfHand() {
   return outline;
 }
 
+std::optional<Protrusion> ProtrusionOf(const Outline& outline, const Vector3& center_W,
+                                       double radius_mm) {
+  SilhouetteBorder border;
+  border.SetOutline(outline);
+  return border.ProtrusionOf(center_W, radius_mm);
+}
+
 TEST(Protrusion, IsHowFarABallReachesOverTheBorder) {
   const auto protrusion = ProtrusionOf(OutlineOfHand(), Vector3(0, 50, 0), 25);
   ASSERT_TRUE(protrusion);

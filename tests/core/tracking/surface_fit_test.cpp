@@ -109,11 +109,29 @@ TEST_F(Fit, FingertipsBeyondTheBorderAreDrawnBack) {
   int cameras = 0;
   for (const SurfaceResidual& residual : fit_.ResidualsAt(longer, truth)) {
     const Capsule& capsule = longer.shape()[residual.capsule];
-    if (capsule.part != BodyPart::kLowerArmL || !capsule.ends_at_b || residual.share < 1) continue;
+    if (capsule.part != BodyPart::kLowerArmL || residual.share < 1) continue;
     cameras += residual.outside_mm < -40 && residual.normal_W.dot(arm_W) > 0.5;
   }
   // Rays are sparse: most cameras have none at the fingertips.
   EXPECT_GE(cameras, 1);
+}
+
+// Of rays alone none minds: the collar bone's flesh explains the shoulder's border.
+TEST_F(Fit, AnUpperArmBesideTheBorderIsDrawnBack) {
+  const PoseState truth = Standing(body_, {});
+  const Evidence evidence = studio_.Show(body_, truth);
+  BodySizes sizes = body_.sizes();
+  sizes.shoulder_width += 120;
+  const BodyModel broader(body_.table(), sizes);
+  fit_.SetEvidence(evidence);
+  const Vector3 left_W = truth.X_WT.R.col(1);
+  int drawn_in = 0;
+  for (const SurfaceResidual& residual : fit_.ResidualsAt(broader, truth)) {
+    const Capsule& capsule = broader.shape()[residual.capsule];
+    if (capsule.part != BodyPart::kUpperArmL || residual.share > 0.5) continue;
+    drawn_in += residual.outside_mm < -30 && residual.normal_W.dot(left_W) > 0.5;
+  }
+  EXPECT_GE(drawn_in, 2);
 }
 
 TEST_F(Fit, ALostArmIsFoundAgain) {
