@@ -63,9 +63,11 @@ inline __attribute__((always_inline)) void TryCapsule(const Block& block,
     const float least_yet = best.mismatch[i];
     const std::int32_t best_yet = best.capsule[i];
     const float distance_yet = best.distance[i];
-    best.capsule[i] = value < least_yet ? index : best_yet;
-    best.distance[i] = value < least_yet ? apart : distance_yet;
-    best.mismatch[i] = value < least_yet ? value : least_yet;
+    // Parts that share a joint are as near to what lies beside it: whichever is tried first.
+    const bool is_better = (value < least_yet) | ((value == least_yet) & (index < best_yet));
+    best.capsule[i] = is_better ? index : best_yet;
+    best.distance[i] = is_better ? apart : distance_yet;
+    best.mismatch[i] = is_better ? value : least_yet;
   }
 }
 
@@ -73,7 +75,8 @@ float GapBetween(const Block& block, const SlimCapsule& capsule) {
   return (capsule.low - block.high).cwiseMax(block.low - capsule.high).maxCoeff();
 }
 
-// A capsule's mismatch is no less than the gap to it: the sooner good ones are tried, the fewer are.
+// A capsule's mismatch is no less than the gap to it: the sooner good ones are tried, the fewer
+// are.
 MOCAP_VECTORIZED
 void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, float reach,
                 Best& best) {
