@@ -85,7 +85,7 @@ void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, floa
   best.capsule.fill(-1);
   float worst = reach;
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
-  for (const std::uint64_t some : {block.favourites, all & ~block.favourites}) {
+  for (const std::uint64_t some : {all & block.favourites, all & ~block.favourites}) {
     for (std::uint64_t left = some; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
       if (GapBetween(block, capsules[k]) > worst + kRounding_mm) continue;
