@@ -35,6 +35,9 @@ constexpr double kPromisingMm = 4;
 constexpr double kClearlyBetterMm = 1.5;
 // After a search in vain.
 constexpr double kRestS = 0.045;
+// A search goes on over some frames where they follow each other fast, so that none comes late: each
+// limb is looked for by itself, and then each pair, which costs as much as two.
+constexpr double kLimbsPerS = 80;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
@@ -224,21 +227,42 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
                                PoseState& pose) {
   if (rest_s_ > 0) return false;
   bool changed = false;
-  for (const Segment limb_end : kLimbEnds) {
-    changed |= RecoverOne(body, evidence, limb_end, fit, pose);
+  for (; next_ < kLimbEnds.size() + kPairs.size() && allowance_ > 0; ++next_) {
+    if (next_ < kLimbEnds.size()) {
+      changed |= RecoverOne(body, evidence, kLimbEnds[next_], fit, pose);
+      allowance_ -= 1;
+      continue;
+    }
+    if (next_ == kLimbEnds.size() && IsExplained(body, pose)) {
+      StartOver();
+      return changed;
+    }
+    changed |= RecoverPair(body, evidence, kPairs[next_ - kLimbEnds.size()], fit, pose);
+    allowance_ -= 2;
   }
-  if (IsExplained(body, pose)) return changed;
-  for (const auto& [left, right] : kPairs) {
-    const auto best = [&](LimbSearch& search, LimbSearch&) {
-      FindBest(search, body.table(), StancesOf(left), pose, kPairRefined);
-    };
-    const Candidate pair = BestPair(body, evidence, left, right, fit, best, pose);
-    if (pair.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) continue;
-    pose = pair.pose;
-    changed = true;
-  }
-  if (!changed) rest_s_ = kRestS;
+  is_in_vain_ &= !changed;
+  if (next_ < kLimbEnds.size() + kPairs.size()) return changed;
+  if (is_in_vain_) rest_s_ = kRestS;
+  StartOver();
   return changed;
+}
+
+void LimbRecovery::StartOver() {
+  next_ = 0;
+  is_in_vain_ = true;
+}
+
+bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
+                               const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
+                               PoseState& pose) {
+  const auto [left, right] = limb_ends;
+  const auto best = [&](LimbSearch& search, LimbSearch&) {
+    FindBest(search, body.table(), StancesOf(left), pose, kPairRefined);
+  };
+  const Candidate pair = BestPair(body, evidence, left, right, fit, best, pose);
+  if (pair.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
+  pose = pair.pose;
+  return true;
 }
 
 bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
@@ -264,10 +288,12 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
   exchange_rest_s_ -= dt_s;
+  allowance_ = std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
   const bool is_explained = quality.unexplained_share < kUnexplainedShare;
   const bool hands_meet = HandsMeet(body, pose);
   if (is_explained) {
     rest_s_ = 0;
+    StartOver();
     if (!hands_meet) return std::nullopt;
   }
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);

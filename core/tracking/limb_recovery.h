@@ -2,8 +2,10 @@
 // from the prediction.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/body/body_model.h"
@@ -28,7 +30,8 @@ class LimbRecovery {
   /// of the limbs.
   /// @param fit      holds the evidence.
   /// @param quality  of the fit at that pose.
-  /// @param dt_s     since the last call: after a search in vain there is a rest.
+  /// @param dt_s     since the last call: so much is searched, and after a search in vain there is
+  ///                 a rest.
   std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                    const PoseState& pose, const SurfaceFitQuality& quality,
                                    double dt_s);
@@ -52,8 +55,12 @@ class LimbRecovery {
   template <typename Stances>
   Candidate BestPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
                      SurfaceFit& fit, const Stances& stances, const PoseState& pose);
+  bool RecoverPair(const BodyModel& body, const Evidence& evidence,
+                   const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit, PoseState& pose);
+  // Goes on with a search as far as is allowed.
   bool RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                    PoseState& pose);
+  void StartOver();
   // Hands that cross look as if they had touched and gone back, until they are apart again.
   bool ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                     PoseState& pose);
@@ -81,6 +88,9 @@ class LimbRecovery {
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
+  std::size_t next_ = 0;        ///< Limb, or pair behind the limbs, that is looked for next.
+  bool is_in_vain_ = true;      ///< The search so far.
+  double allowance_ = 0;        ///< How many limbs may be looked for in this frame.
   double rest_s_ = 0;           ///< Until lost limbs are searched again.
   double exchange_rest_s_ = 0;  ///< Until arms are tried exchanged again.
   std::vector<Contact> contacts_;

@@ -33,9 +33,9 @@ class Fit : public testing::Test {
         12);
     return filter.pose();
   }
-  /// @param dt_s  since the last search.
+  /// @param dt_s  since the last search; by default all is searched at once.
   std::optional<PoseState> Recover(const Evidence& evidence, const PoseState& pose,
-                                   double dt_s = 0) {
+                                   double dt_s = 0.1) {
     fit_.SetEvidence(evidence);
     return recovery_.Recover(body_, evidence, fit_, pose, fit_.QualityAt(body_, pose), dt_s);
   }
@@ -139,6 +139,17 @@ TEST_F(Fit, ALostArmIsFoundAgain) {
   const Evidence evidence = studio_.Show(body_, truth);
   const PoseState lost = Standing(body_, {});
   const std::optional<PoseState> found = Recover(evidence, lost);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+}
+
+TEST_F(Fit, FramesThatFollowEachOtherFastShareASearch) {
+  const PoseState truth = Standing(body_, {.arm_r = {.raise = 30, .forward = 30, .elbow = 60}});
+  const Evidence evidence = studio_.Show(body_, truth);
+  const PoseState lost = Standing(body_, {});
+  constexpr double kPeriodS = 0.01;
+  ASSERT_FALSE(Recover(evidence, lost, kPeriodS));  // The left arm was looked for.
+  const std::optional<PoseState> found = Recover(evidence, lost, kPeriodS);
   ASSERT_TRUE(found);
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
