@@ -52,7 +52,7 @@ class ContactMatcher {
 
     std::array<Column, 3> from, along, outward;
     Column along_sq, per_along_sq;
-    Eigen::Vector3f low, high;  ///< The corners of a box around them.
+    Eigen::Vector3f low, high;     ///< The corners of a box around them.
     std::uint64_t favourites = 0;  ///< The capsules that were the best of some, as bits.
   };
   /// What a block's contacts match best.

@@ -35,8 +35,8 @@ constexpr double kPromisingMm = 4;
 constexpr double kClearlyBetterMm = 1.5;
 // After a search in vain.
 constexpr double kRestS = 0.045;
-// A search goes on over some frames where they follow each other fast, so that none comes late: each
-// limb is looked for by itself, and then each pair, which costs as much as two.
+// A search goes on over some frames where they follow each other fast, so that none comes late:
+// each limb is looked for by itself, and then each pair, which costs as much as two.
 constexpr double kLimbsPerS = 80;
 constexpr int kIterations = 5;
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,

@@ -13,7 +13,8 @@ struct PixelRun {
   int end = 0;
 };
 
-/// Finds the first pixel at or after `x` whose bit, turned over by `flip`, is set; `end` if none is.
+/// Finds the first pixel at or after `x` whose bit, turned over by `flip`, is set; `end` if none
+/// is.
 inline int FindPixel(const std::uint64_t* row, int x, int end, std::uint64_t flip) {
   if (x >= end) return end;
   int i = x >> 6;

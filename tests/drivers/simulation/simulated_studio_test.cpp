@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "drivers/simulation/motion.h"
 #include "drivers/simulation/scene.h"
+#include "tests/support/pixels.h"
 
 namespace mocap {
 namespace {
@@ -25,13 +26,6 @@ SimulatedStudioOptions SmallStudio(const std::string& motion = "walk") {
   options.height_px = 240;
   options.seconds = 1;
   return options;
-}
-
-std::vector<Bgr> Pixels(ImageView<const Bgr> image) {
-  std::vector<Bgr> pixels;
-  for (int y = 0; y < image.height(); ++y)
-    pixels.insert(pixels.end(), image.row(y), image.row(y) + image.width());
-  return pixels;
 }
 
 Frame GrabOne(SimulatedCamera& camera) {
@@ -305,30 +299,6 @@ TEST(SimulatedStudio, InRealTimeNoFrameComesBeforeItsTimeOrTwice) {
     last_ns = frame.capture_ns;
     last_sequence = frame.sequence;
     ++frames;
-  }
-}
-
-TEST(SimulatedStudio, InRealTimePicturesAreThoseOfTheirTimes) {
-  SimulatedStudioOptions options = SmallStudio();
-  options.start_ns = 0;
-  options.realtime = true;
-  options.fps = 100;
-  const auto scene = std::make_shared<const simulation::Scene>(options);
-  simulation::ScenePainter painter(std::make_shared<const simulation::SceneView>(scene, 0));
-  const SimulatedStudio studio(options);
-  const auto camera = studio.OpenCamera(0);
-  for (int session = 0; session < 2; ++session) {
-    camera->Start();
-    for (int i = 0; i < 10; ++i) {
-      Frame frame;
-      ASSERT_EQ(camera->Grab(frame, milliseconds(1000)), GrabStatus::kFrame);
-      painter.Paint(frame.capture_ns);
-      EXPECT_EQ(Pixels(frame.image), Pixels(painter.picture().view()));
-      const ImageView<const std::uint8_t> mask = camera->TrueMask();
-      EXPECT_EQ(std::count(mask.row(0), mask.row(0) + mask.width() * mask.height(), 255),
-                std::ranges::count_if(painter.materials().pixels(), [](int m) { return m != 0; }));
-    }
-    camera->Stop();
   }
 }
 

@@ -1,0 +1,44 @@
+#include "drivers/simulation/picture_ahead.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "drivers/simulation/scene.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "tests/support/pixels.h"
+
+namespace mocap {
+namespace {
+
+TEST(PictureAhead, ACameraInRealTimeGivesThePicturesOfTheirTimes) {
+  SimulatedStudioOptions options = RecordedSimulation();
+  options.width_px = 320;
+  options.height_px = 240;
+  options.seconds = 1;
+  options.start_ns = 0;
+  options.realtime = true;
+  options.fps = 100;
+  const auto scene = std::make_shared<const simulation::Scene>(options);
+  simulation::ScenePainter painter(std::make_shared<const simulation::SceneView>(scene, 0));
+  const SimulatedStudio studio(options);
+  const auto camera = studio.OpenCamera(0);
+  for (int session = 0; session < 2; ++session) {
+    camera->Start();
+    for (int i = 0; i < 10; ++i) {
+      Frame frame;
+      ASSERT_EQ(camera->Grab(frame, std::chrono::milliseconds(1000)), GrabStatus::kFrame);
+      painter.Paint(frame.capture_ns);
+      EXPECT_EQ(Pixels(frame.image), Pixels(painter.picture().view()));
+      const ImageView<const std::uint8_t> mask = camera->TrueMask();
+      EXPECT_EQ(std::count(mask.row(0), mask.row(0) + mask.width() * mask.height(), 255),
+                std::ranges::count_if(painter.materials().pixels(), [](int m) { return m != 0; }));
+    }
+    camera->Stop();
+  }
+}
+
+}  // namespace
+}  // namespace mocap
