@@ -39,21 +39,6 @@ double WidthOf(const BodySizes& sizes, BodyPart part) {
   }
 }
 
-// Upper and lower part of each limb in turn.
-std::vector<PosedCapsule> LimbCapsules(const BodyPoints& points_W, const BodySizes& sizes) {
-  std::vector<PosedCapsule> capsules;
-  const auto add = [&](Point from, Point to, BodyPart part) {
-    const double radius_mm = WidthOf(sizes, part) / 2;
-    capsules.emplace_back(points_W.col(static_cast<int>(from)), points_W.col(static_cast<int>(to)),
-                          radius_mm, radius_mm);
-  };
-  for (const LimbParts& limb : kLimbs) {
-    add(limb.root, limb.joint, limb.upper);
-    add(limb.joint, limb.end, limb.lower);
-  }
-  return capsules;
-}
-
 }  // namespace
 
 const LabeledVoxels& VoxelLabeler::Label(const VoxelCloud& cloud, const BodyModel& body,
@@ -101,18 +86,31 @@ void VoxelLabeler::LabelTorso() {
   }
 }
 
+// Upper and lower part of each limb in turn.
+void VoxelLabeler::PoseLimbs() {
+  capsules_.clear();
+  const auto add = [&](Point from, Point to, BodyPart part) {
+    const double radius_mm = WidthOf(body_->sizes(), part) / 2;
+    capsules_.emplace_back(At(from), At(to), radius_mm, radius_mm);
+  };
+  for (const LimbParts& limb : kLimbs) {
+    add(limb.root, limb.joint, limb.upper);
+    add(limb.joint, limb.end, limb.lower);
+  }
+}
+
 // By distance from the parts' surfaces: by the Mahalanobis distance, thick thighs took hands that
 // hang beside them.
 void VoxelLabeler::LabelLimbs() {
-  const std::vector<PosedCapsule> capsules = LimbCapsules(points_W_, body_->sizes());
+  PoseLimbs();
   for (std::vector<int>& lower : lowers_) lower.clear();
   for (const int index : rest_) {
     if (labeled_.part[index] != LabeledVoxels::kNone) continue;
     const Vector3& p_W = cloud_->voxels()[index].center_W;
-    const auto nearest = std::ranges::min_element(capsules, {}, [&](const PosedCapsule& capsule) {
+    const auto nearest = std::ranges::min_element(capsules_, {}, [&](const PosedCapsule& capsule) {
       return capsule.DistanceTo(p_W).outside_mm;
     });
-    const auto place = nearest - capsules.begin();
+    const auto place = nearest - capsules_.begin();
     const LimbParts& limb = kLimbs[place / 2];
     const bool is_lower = place % 2 == 1;
     labeled_.part[index] = static_cast<std::int8_t>(is_lower ? limb.lower : limb.upper);

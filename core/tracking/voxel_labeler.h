@@ -33,6 +33,7 @@ class VoxelLabeler {
  private:
   void LabelHead();
   void LabelTorso();
+  void PoseLimbs();
   void LabelLimbs();
   void MeasureLimb(int limb);
   void MeasureCentroids();
@@ -49,6 +50,7 @@ class VoxelLabeler {
   BodyPoints points_W_;  ///< Of the body at the pose.
   Vector3 neck_W_;
   LabeledVoxels labeled_;
+  std::vector<PosedCapsule> capsules_;      ///< Of the limbs' parts.
   std::vector<int> rest_;                   ///< Voxels that are not the head's.
   std::array<std::vector<int>, 4> lowers_;  ///< Voxels of lower arms and calves.
 };
