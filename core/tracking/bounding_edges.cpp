@@ -34,16 +34,13 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
                                  const Range& in_box) {
   const double step_mm = kStep * cloud.voxel_mm();
   const Vector3 eye_W = ray.eye_W - kInward * cloud.voxel_mm() * ray.outward_W;
-  const auto is_held = [&](int step) {
-    return cloud.Holds(eye_W + (in_box.from_mm + step * step_mm) * ray.direction_W);
-  };
   const int steps = static_cast<int>(std::ceil((in_box.to_mm - in_box.from_mm) / step_mm));
-  int first = 0;
-  while (first < steps && !is_held(first)) ++first;
-  if (first == steps) return std::nullopt;
-  int last = steps - 1;
-  while (last > first && !is_held(last)) --last;
-  return Range{in_box.from_mm + first * step_mm, in_box.from_mm + last * step_mm};
+  const VoxelCloud::Places places =
+      cloud.PlacesAlong(eye_W + in_box.from_mm * ray.direction_W, step_mm * ray.direction_W);
+  const std::optional<int> first = cloud.FirstHeld(places, steps);
+  if (!first) return std::nullopt;
+  const int last = cloud.LastHeld(places, steps);
+  return Range{in_box.from_mm + *first * step_mm, in_box.from_mm + last * step_mm};
 }
 
 BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {

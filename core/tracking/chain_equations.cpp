@@ -1,24 +1,40 @@
 #include "core/tracking/chain_equations.h"
 
+#include <algorithm>
+
+#include "core/vectorized.h"
+
 namespace mocap {
+namespace {
+
+MOCAP_VECTORIZED
+void AddTerms(const WrenchTerm* terms, std::size_t count, WrenchSum* sums) {
+  for (std::size_t term = 0; term < count; ++term) {
+    const WrenchRow& row = terms[term].row;
+    WrenchSum& sum = sums[terms[term].part];
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const double weighted = row[i] / terms[term].variance;
+#pragma GCC ivdep
+      for (std::size_t j = 0; j < row.size(); ++j) sum[i][j] += weighted * row[j];
+    }
+  }
+}
+
+}  // namespace
 
 void ChainEquations::Reset(const BodyTable& table, const Posture& posture) {
   table_ = &table;
   posture_ = &posture;
-  for (int i = -1; i < static_cast<int>(table.joints.size()); ++i) {
-    SumOf(i).squares.setZero();
-    SumOf(i).pull.setZero();
-  }
+  terms_.clear();
 }
 
 void ChainEquations::Add(int carrier, const Vector3& p_WQ, const Vector3& direction_W,
                          double residual_mm, double variance_mm2) {
-  Wrench w;
-  w << direction_W, (p_WQ - posture_->X_WT.p).cross(direction_W);
-  const Wrench weighted = w / variance_mm2;
-  Sum& sum = SumOf(carrier);
-  sum.squares.noalias() += weighted * w.transpose();
-  sum.pull += residual_mm * weighted;
+  const Vector3 moment = (p_WQ - posture_->X_WT.p).cross(direction_W);
+  terms_.push_back({{direction_W.x(), direction_W.y(), direction_W.z(), moment.x(), moment.y(),
+                     moment.z(), residual_mm, 0},
+                    variance_mm2,
+                    carrier + 1});
 }
 
 void ChainEquations::AddPoint(int carrier, const Vector3& p_WQ, const Vector3& residual_mm,
@@ -27,7 +43,20 @@ void ChainEquations::AddPoint(int carrier, const Vector3& p_WQ, const Vector3& r
     Add(carrier, p_WQ, Vector3::Unit(axis), residual_mm[axis], variance_mm2);
 }
 
+void ChainEquations::TakeContacts() {
+  std::fill_n(contacts_.begin(), table_->joints.size() + 1, WrenchSum{});
+  AddTerms(terms_.data(), terms_.size(), contacts_.data());
+  for (std::size_t i = 0; i < table_->joints.size() + 1; ++i) {
+    for (int row = 0; row < 6; ++row) {
+      for (int column = 0; column < 6; ++column)
+        sums_[i].squares(row, column) = contacts_[i][row][column];
+      sums_[i].pull[row] = contacts_[i][row][6];
+    }
+  }
+}
+
 void ChainEquations::AddTo(UpdateEquations& equations) {
+  TakeContacts();
   const auto screw = [this](int joint) {
     const Vector3& axis_W = posture_->axis_W[joint];
     Wrench s;

@@ -3,11 +3,23 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/body/body_model.h"
 #include "core/tracking/pose_filter.h"
 
 namespace mocap {
+
+/// A wrench w and its residual r; nothing in the last place.
+using WrenchRow = std::array<double, 8>;
+/// Σ w (wᵀ r) / σ²: a row for each of a wrench's numbers.
+using WrenchSum = std::array<WrenchRow, 6>;
+/// A contact of a part.
+struct WrenchTerm {
+  WrenchRow row;
+  double variance;
+  int part;
+};
 
 /// Sums up linearised measurements of how far points of one posed body lie along directions.
 ///
@@ -40,10 +52,13 @@ class ChainEquations {
   };
 
   Sum& SumOf(int carrier) { return sums_[carrier + 1]; }
+  void TakeContacts();
 
   const BodyTable* table_ = nullptr;
   const Posture* posture_ = nullptr;
-  std::array<Sum, kMaxJoints + 1> sums_;  ///< The torso's first.
+  std::vector<WrenchTerm> terms_;
+  std::array<WrenchSum, kMaxJoints + 1> contacts_;  ///< As `sums_`, of a part's own contacts.
+  std::array<Sum, kMaxJoints + 1> sums_;            ///< The torso's first.
 };
 
 }  // namespace mocap

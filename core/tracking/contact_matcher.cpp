@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "core/vectorized.h"
+#include "core/tracking/lanes.h"
 
 namespace mocap {
 namespace {
 
 using Block = ContactMatcher::Block;
 using SlimCapsule = ContactMatcher::SlimCapsule;
+using SlimShape = ContactMatcher::SlimShape;
 using Best = ContactMatcher::Best;
 
 // A place on the inside of the left leg is no evidence for the right one: surfaces that face
@@ -28,72 +29,105 @@ constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
 constexpr int kIndexBits = 16;
 
-inline float Clamped(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
-
 // Closest places of two segments (Ericson 2005, §5.1.9), without branches.
-inline __attribute__((always_inline)) void TryCapsule(const Block& block,
-                                                      const SlimCapsule& capsule, int index,
-                                                      Best& best) {
-  const float ax = capsule.a.x(), ay = capsule.a.y(), az = capsule.a.z();
+MOCAP_INLINE void TryCapsule(const Block& block, int i, const SlimCapsule& capsule, int index,
+                             Best& best) {
   const float cx = capsule.core.x(), cy = capsule.core.y(), cz = capsule.core.z();
-  const float core_sq = capsule.core_sq, radius = capsule.radius, taper = capsule.taper;
-  const float per_core_sq = 1 / core_sq;
+  const float core_sq = capsule.core_sq, per_core_sq = 1 / core_sq;
+  Floats lx, ly, lz, bx, by, bz, along_sq, per_along_sq;
+  LoadLanes(&block.along[0][i], lx), LoadLanes(&block.along[1][i], ly),
+      LoadLanes(&block.along[2][i], lz);
+  LoadLanes(&block.from[0][i], bx), LoadLanes(&block.from[1][i], by),
+      LoadLanes(&block.from[2][i], bz);
+  LoadLanes(&block.along_sq[i], along_sq), LoadLanes(&block.per_along_sq[i], per_along_sq);
+  bx = capsule.a.x() - bx, by = capsule.a.y() - by, bz = capsule.a.z() - bz;
+  const Floats dot = cx * lx + cy * ly + cz * lz;
+  const Floats c = cx * bx + cy * by + cz * bz;
+  const Floats f = lx * bx + ly * by + lz * bz;
+  const Floats slant = core_sq * along_sq - dot * dot;
+  const Floats least = kParallel * core_sq * along_sq;
+  Floats first = (dot * f - c * along_sq) / (slant > least ? slant : least);
+  ClampLanes(first);
+  Floats on_segment = (dot * first + f) * per_along_sq;
+  ClampLanes(on_segment);
+  Floats share = (dot * on_segment - c) * per_core_sq;
+  ClampLanes(share);
+  const Floats x = on_segment * lx - bx - share * cx;
+  const Floats y = on_segment * ly - by - share * cy;
+  const Floats z = on_segment * lz - bz - share * cz;
+  Floats length = x * x + y * y + z * z;
+  TakeRoots(length);
+  const Floats outside = length - capsule.radius - share * capsule.taper;
+  const Floats apart = outside > 0 ? outside : -outside;
+  Floats ox, oy, oz, least_yet, distance_yet;
+  Ints best_yet;
+  LoadLanes(&block.outward[0][i], ox), LoadLanes(&block.outward[1][i], oy),
+      LoadLanes(&block.outward[2][i], oz);
+  LoadLanes(&best.mismatch[i], least_yet), LoadLanes(&best.distance[i], distance_yet);
+  LoadLanes(&best.capsule[i], best_yet);
+  const Floats facing = (ox * x + oy * y + oz * z) / (length + 1);
+  const Floats value = apart + kSquare_mm * (1 - facing);
+  // Parts that share a joint are as near to what lies beside it: whichever is tried first.
+  const Ints is_better = (value < least_yet) | ((value == least_yet) & (index < best_yet));
+  const Ints capsule_now = is_better ? Ints{} + index : best_yet;
+  const Floats distance_now = is_better ? apart : distance_yet;
+  const Floats least_now = is_better ? value : least_yet;
+  StoreLanes(capsule_now, &best.capsule[i]);
+  StoreLanes(distance_now, &best.distance[i]);
+  StoreLanes(least_now, &best.mismatch[i]);
+}
+
+// By halves, so that no comparison waits for the one before.
+MOCAP_INLINE float WorstOf(const Best& best) {
+  static_assert(Block::kContacts == 2 * kFloats);
+  Floats a, b;
+  LoadLanes(&best.mismatch[0], a), LoadLanes(&best.mismatch[kFloats], b);
+  a = a > b ? a : b;
+  const float ab = std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
+  return std::max(ab, std::max(std::max(a[4], a[5]), std::max(a[6], a[7])));
+}
+
+using Gaps = std::array<float, ContactMatcher::kMostCapsules>;
+
+// How far the box around a block is from each capsule's.
+inline __attribute__((always_inline)) void FindGaps(const Block& block, const SlimShape& shape,
+                                                    int count, Gaps& gaps) {
+  const float low_x = block.low.x(), low_y = block.low.y(), low_z = block.low.z();
+  const float high_x = block.high.x(), high_y = block.high.y(), high_z = block.high.z();
 #pragma GCC ivdep
-  for (int i = 0; i < Block::kContacts; ++i) {
-    const float lx = block.along[0][i], ly = block.along[1][i], lz = block.along[2][i];
-    const float bx = ax - block.from[0][i], by = ay - block.from[1][i], bz = az - block.from[2][i];
-    const float along_sq = block.along_sq[i];
-    const float dot = cx * lx + cy * ly + cz * lz;
-    const float c = cx * bx + cy * by + cz * bz;
-    const float f = lx * bx + ly * by + lz * bz;
-    const float slant = core_sq * along_sq - dot * dot;
-    const float least = kParallel * core_sq * along_sq;
-    const float first = Clamped((dot * f - c * along_sq) / (slant > least ? slant : least));
-    const float on_segment = Clamped((dot * first + f) * block.per_along_sq[i]);
-    const float share = Clamped((dot * on_segment - c) * per_core_sq);
-    const float x = on_segment * lx - bx - share * cx;
-    const float y = on_segment * ly - by - share * cy;
-    const float z = on_segment * lz - bz - share * cz;
-    const float length = std::sqrt(x * x + y * y + z * z);
-    const float apart = std::abs(length - radius - share * taper);
-    const float facing =
-        (block.outward[0][i] * x + block.outward[1][i] * y + block.outward[2][i] * z) /
-        (length + 1);
-    const float value = apart + kSquare_mm * (1 - facing);
-    const float least_yet = best.mismatch[i];
-    const std::int32_t best_yet = best.capsule[i];
-    const float distance_yet = best.distance[i];
-    // Parts that share a joint are as near to what lies beside it: whichever is tried first.
-    const bool is_better = (value < least_yet) | ((value == least_yet) & (index < best_yet));
-    best.capsule[i] = is_better ? index : best_yet;
-    best.distance[i] = is_better ? apart : distance_yet;
-    best.mismatch[i] = is_better ? value : least_yet;
+  for (int k = 0; k < count; ++k) {
+    const float x = std::max(shape.low[0][k] - high_x, low_x - shape.high[0][k]);
+    const float y = std::max(shape.low[1][k] - high_y, low_y - shape.high[1][k]);
+    const float z = std::max(shape.low[2][k] - high_z, low_z - shape.high[2][k]);
+    gaps[k] = std::max(std::max(x, y), z);
   }
 }
 
-float GapBetween(const Block& block, const SlimCapsule& capsule) {
-  return (capsule.low - block.high).cwiseMax(block.low - capsule.high).maxCoeff();
+MOCAP_INLINE void TryCapsules(const Block& block, const SlimShape& shape, std::uint64_t some,
+                              Best& best) {
+  for (; some != 0; some &= some - 1) {
+    const int k = std::countr_zero(some);
+    for (int i = 0; i < Block::kContacts; i += kFloats)
+      TryCapsule(block, i, shape.capsules[k], k, best);
+  }
 }
 
-// A capsule's mismatch is no less than the gap to it: the sooner good ones are tried, the fewer
-// are.
+// A capsule's mismatch is no less than the gap to it. Which are tried is decided once, after the
+// favourites: a decision after each would wait for its outcome.
 MOCAP_VECTORIZED
-void MatchBlock(const Block& block, const SlimCapsule* capsules, int count, float reach,
-                Best& best) {
+void MatchBlock(const Block& block, const SlimShape& shape, float reach, Best& best) {
   best.mismatch.fill(reach);
   best.distance.fill(reach);
   best.capsule.fill(-1);
-  float worst = reach;
+  const int count = static_cast<int>(shape.capsules.size());
+  Gaps gaps;
+  FindGaps(block, shape, count, gaps);
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
-  for (const std::uint64_t some : {all & block.favourites, all & ~block.favourites}) {
-    for (std::uint64_t left = some; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      if (GapBetween(block, capsules[k]) > worst + kRounding_mm) continue;
-      TryCapsule(block, capsules[k], k, best);
-      worst = 0;
-      for (const float mismatch : best.mismatch) worst = worst < mismatch ? mismatch : worst;
-    }
-  }
+  TryCapsules(block, shape, all & block.favourites, best);
+  const float worst = WorstOf(best);
+  std::uint64_t near = 0;
+  for (int k = 0; k < count; ++k) near |= std::uint64_t{gaps[k] <= worst + kRounding_mm} << k;
+  TryCapsules(block, shape, near & ~block.favourites, best);
 }
 
 std::uint64_t CapsulesOf(const Best& best) {
@@ -105,16 +139,23 @@ std::uint64_t CapsulesOf(const Best& best) {
 
 }  // namespace
 
-ContactMatcher::SlimCapsule::SlimCapsule(const PosedCapsule& capsule)
-    : a(capsule.a_W.cast<float>()),
-      core((capsule.b_W - capsule.a_W).cast<float>()),
-      core_sq(std::max(core.squaredNorm(), kLeastSq_mm2)),
-      radius(static_cast<float>(capsule.radius_a_mm)),
-      taper(static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm)) {
-  const Eigen::Vector3f b = a + core;
-  const auto widest = Eigen::Vector3f::Constant(std::max(radius, radius + taper));
-  low = a.cwiseMin(b) - widest;
-  high = a.cwiseMax(b) + widest;
+void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
+  slim_.capsules.clear();
+  for (const PosedCapsule& capsule : capsules) {
+    SlimCapsule slim;
+    slim.a = capsule.a_W.cast<float>();
+    slim.core = (capsule.b_W - capsule.a_W).cast<float>();
+    slim.core_sq = std::max(slim.core.squaredNorm(), kLeastSq_mm2);
+    slim.radius = static_cast<float>(capsule.radius_a_mm);
+    slim.taper = static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm);
+    const Eigen::Vector3f b = slim.a + slim.core;
+    const float widest = std::max(slim.radius, slim.radius + slim.taper);
+    for (int axis = 0; axis < 3; ++axis) {
+      slim_.low[axis][slim_.capsules.size()] = std::min(slim.a[axis], b[axis]) - widest;
+      slim_.high[axis][slim_.capsules.size()] = std::max(slim.a[axis], b[axis]) + widest;
+    }
+    slim_.capsules.push_back(slim);
+  }
 }
 
 void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
@@ -173,16 +214,14 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
 template <typename Visit>
 void ContactMatcher::ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm,
                                  const Visit& visit) {
-  MOCAP_CHECK(!capsules.empty() && capsules.size() <= 64);
-  slim_.clear();
-  for (const PosedCapsule& capsule : capsules) slim_.emplace_back(capsule);
+  MOCAP_CHECK(!capsules.empty() && capsules.size() <= kMostCapsules);
+  Slim(capsules);
   Best best;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     // What explains the neighbours is a first guess.
     if (blocks_[block].favourites == 0 && block > 0)
       blocks_[block].favourites = blocks_[block - 1].favourites;
-    MatchBlock(blocks_[block], slim_.data(), static_cast<int>(slim_.size()),
-               static_cast<float>(reach_mm), best);
+    MatchBlock(blocks_[block], slim_, static_cast<float>(reach_mm), best);
     blocks_[block].favourites = CapsulesOf(best);
     const std::size_t first = block * Block::kContacts;
     const std::size_t count = std::min<std::size_t>(Block::kContacts, order_.size() - first);

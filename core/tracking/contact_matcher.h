@@ -37,13 +37,17 @@ class ContactMatcher {
   /// @return  `reach_mm` where there is none; valid until the next call.
   const std::vector<float>& Distances(std::span<const PosedCapsule> capsules, double reach_mm);
 
+  static constexpr int kMostCapsules = 64;
   /// A capsule in single precision.
   struct SlimCapsule {
-    explicit SlimCapsule(const PosedCapsule& capsule);
-
     Eigen::Vector3f a, core;
-    Eigen::Vector3f low, high;  ///< The corners of a box around it.
     float core_sq, radius, taper;
+  };
+  /// A posed body in single precision.
+  struct SlimShape {
+    std::vector<SlimCapsule> capsules;
+    /// The corners of boxes around them.
+    alignas(32) std::array<std::array<float, kMostCapsules>, 3> low, high;
   };
   /// So many contacts, in columns.
   struct Block {
@@ -64,13 +68,14 @@ class ContactMatcher {
  private:
   template <typename Visit>
   void ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm, const Visit& visit);
+  void Slim(std::span<const PosedCapsule> capsules);
   void SortByPlace();
   void FillBlock(std::size_t first, Block& block) const;
 
   std::vector<Contact> contacts_;
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
   std::vector<Block> blocks_;
-  std::vector<SlimCapsule> slim_;
+  SlimShape slim_;
   std::vector<Vector3> surface_W_;
   std::vector<ContactMatch> matches_;
   std::vector<float> distances_;

@@ -214,7 +214,7 @@ LimbRecovery::Candidate LimbRecovery::BestPair(const BodyModel& body, const Evid
 void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate) {
   PoseFilter filter{MotionNoise{}};
   filter.Jump(candidate.pose);
-  filter.Update(
+  filter.Draw(
       body.table(),
       [&](const PoseState& pose, UpdateEquations& equations) {
         fit.Linearize(body, pose, equations);

@@ -182,7 +182,11 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
       const double scaled = match.distance.outside_mm / kOutlierMm;
       const double weight =
           1 / (kNoiseMm * kNoiseMm * (1 + scaled * scaled) * (1 + scaled * scaled));
-      information += weight * J * J.transpose();
+      for (int row = 0; row < n; ++row) {
+        const double weighted = weight * J[row];
+        for (int column = 0; column <= row; ++column)
+          information(row, column) += weighted * J[column];
+      }
       gradient += weight * match.distance.outside_mm * J;
     }
     for (int i = 0; i < n; ++i) {

@@ -132,9 +132,9 @@ void PoseFilter::Predict(double dt_s) {
   P_vv_.diagonal() += density * (tau_s * (1 - decay * decay) / 2);
 }
 
-void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int iterations) {
+PoseCovariance PoseFilter::Iterate(const BodyTable& table, const Linearize& linearize,
+                                   int iterations, const PoseCovariance& prior_information) {
   const PoseState prior = pose_;
-  const PoseCovariance prior_information = InverseOfPositive(P_);
   UpdateEquations equations;
   PoseCovariance information;
   for (int i = 0; i < iterations; ++i) {
@@ -149,7 +149,18 @@ void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int 
       break;
     }
   }
-  const PoseCovariance posterior = InverseOfPositive(information);
+  return information;
+}
+
+void PoseFilter::Draw(const BodyTable& table, const Linearize& linearize, int iterations) {
+  Iterate(table, linearize, iterations, InverseOfPositive(P_));
+}
+
+void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int iterations) {
+  const PoseState prior = pose_;
+  const PoseCovariance prior_information = InverseOfPositive(P_);
+  const PoseCovariance posterior =
+      InverseOfPositive(Iterate(table, linearize, iterations, prior_information));
   // The velocity was not measured; it follows the pose as far as the two were correlated.
   const PoseCovariance gain = P_vx_ * prior_information;
   velocity_ += gain * pose_.Minus(prior);

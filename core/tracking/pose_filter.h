@@ -73,6 +73,10 @@ class PoseFilter {
   /// chain takes up what it cannot.
   void Update(const BodyTable& table, const Linearize& linearize, int iterations);
 
+  /// Moves the pose as Update does, for whom it is all that counts: how well it is known, and how
+  /// fast it changes, stay.
+  void Draw(const BodyTable& table, const Linearize& linearize, int iterations);
+
   const PoseState& pose() const { return pose_; }
   const PoseCovariance& covariance() const { return P_; }
 
@@ -84,6 +88,9 @@ class PoseFilter {
   void Jump(const PoseState& pose);
 
  private:
+  // Returns the information about the pose where it comes to rest.
+  PoseCovariance Iterate(const BodyTable& table, const Linearize& linearize, int iterations,
+                         const PoseCovariance& prior_information);
   PoseStep NoiseDensity() const;
   PoseStep VelocityVariance() const;  // Of who is seen for the first time.
   void ForgetVelocity();

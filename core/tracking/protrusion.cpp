@@ -1,58 +1,78 @@
 #include "core/tracking/protrusion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-#include "core/vectorized.h"
+#include "core/tracking/lanes.h"
 
 namespace mocap {
 namespace {
 
 using Block = SilhouetteBorder::Block;
-constexpr int kLanes = SilhouetteBorder::kLanes;
+constexpr int kRays = SilhouetteBorder::kRays;
+// Which of two rays that are as near is taken: those of even lanes first.
+constexpr std::array<std::uint32_t, kFloats> kOrder = {7, 3, 5, 1, 6, 2, 4, 0};
+constexpr std::array<int, kFloats> kLaneOf = {7, 3, 5, 1, 6, 2, 4, 0};
 
 constexpr double kReachMm = 150;
 // A border that is nearest but runs past the ball, as one that the picture's edge cuts off does,
 // does not tell which side the ball is on.
 constexpr double kLeastFacing = 0.5;
 
+// The farthest of a lane so far, and its place.
+struct Farthest {
+  Floats along{};
+  Ints ray{};
+};
+
+MOCAP_INLINE void TryRays(const Block& rays, int begin, int first, const Eigen::Vector3f& sight,
+                          Farthest& farthest) {
+  Floats x, y, z;
+  LoadLanes(&rays.x[begin], x), LoadLanes(&rays.y[begin], y), LoadLanes(&rays.z[begin], z);
+  const Floats along = x * sight.x() + y * sight.y() + z * sight.z();
+  const Ints is_farther = along > farthest.along;
+  farthest.along = is_farther ? along : farthest.along;
+  farthest.ray = is_farther ? Ints{} + first : farthest.ray;
+}
+
 // The ray that goes farthest along a line of sight from the same eye, and so passes nearest to its
 // end; -1: all lead away.
 MOCAP_VECTORIZED
-int NearestRay(const Block* blocks, int count, float x, float y, float z) {
-  std::array<float, kLanes> farthest{};
-  std::array<int, kLanes> block_of{};
+int NearestRay(const Block* blocks, int count, const Eigen::Vector3f& sight) {
+  static_assert(kRays == 2 * kFloats);
+  Farthest a, b;
   for (int block = 0; block < count; ++block) {
-    const Block& rays = blocks[block];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const float along = rays.x[lane] * x + rays.y[lane] * y + rays.z[lane] * z;
-      const bool is_farther = along > farthest[lane];
-      farthest[lane] = is_farther ? along : farthest[lane];
-      block_of[lane] = is_farther ? block : block_of[lane];
-    }
+    TryRays(blocks[block], 0, block * kRays, sight, a);
+    TryRays(blocks[block], kFloats, block * kRays + kFloats, sight, b);
   }
-  std::array<int, kLanes> ray;
-  for (int lane = 0; lane < kLanes; ++lane) ray[lane] = block_of[lane] * kLanes + lane;
-  for (int half = kLanes / 2; half > 0; half /= 2) {
-    for (int lane = 0; lane < half; ++lane) {
-      const bool is_farther = farthest[lane + half] > farthest[lane];
-      farthest[lane] = is_farther ? farthest[lane + half] : farthest[lane];
-      ray[lane] = is_farther ? ray[lane + half] : ray[lane];
-    }
+  const Ints is_farther = b.along > a.along;
+  a.along = is_farther ? b.along : a.along;
+  a.ray = is_farther ? b.ray : a.ray;
+  // Numbers that are not negative are in the order of their bits; below them stands whose they are.
+  std::array<std::uint32_t, kFloats> bits;
+  StoreLanes(a.along, bits.data());
+  std::uint64_t best = 0;
+  for (int lane = 0; lane < kFloats; ++lane) {
+    const std::uint64_t key = std::uint64_t{bits[lane]} << 32 | kOrder[lane];
+    best = std::max(best, key);
   }
-  return farthest[0] > 0 ? ray[0] : -1;
+  if (best >> 32 == 0) return -1;
+  const int lane = kLaneOf[best & (kFloats - 1)];
+  return a.ray[lane] + lane;
 }
 
 }  // namespace
 
 void SilhouetteBorder::SetOutline(const Outline& outline) {
   outline_ = &outline;
-  blocks_.assign((outline.size() + kLanes - 1) / kLanes, Block{});
+  blocks_.assign((outline.size() + kRays - 1) / kRays, Block{});
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector3f direction_W = outline[i].direction_W.cast<float>();
-    Block& block = blocks_[i / kLanes];
-    block.x[i % kLanes] = direction_W.x();
-    block.y[i % kLanes] = direction_W.y();
-    block.z[i % kLanes] = direction_W.z();
+    Block& block = blocks_[i / kRays];
+    block.x[i % kRays] = direction_W.x();
+    block.y[i % kRays] = direction_W.y();
+    block.z[i % kRays] = direction_W.z();
   }
 }
 
@@ -61,8 +81,7 @@ std::optional<Protrusion> SilhouetteBorder::ProtrusionOf(const Vector3& center_W
   if (outline_ == nullptr || outline_->empty()) return std::nullopt;
   const Vector3 sight_W = center_W - outline_->front().eye_W;
   const Eigen::Vector3f sight = sight_W.cast<float>();
-  const int nearest =
-      NearestRay(blocks_.data(), static_cast<int>(blocks_.size()), sight.x(), sight.y(), sight.z());
+  const int nearest = NearestRay(blocks_.data(), static_cast<int>(blocks_.size()), sight);
   if (nearest < 0) return std::nullopt;
   const GrazingRay& ray = (*outline_)[nearest];
   const double beyond_mm = ray.outward_W.dot(sight_W);

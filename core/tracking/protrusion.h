@@ -26,10 +26,10 @@ class SilhouetteBorder {
   /// @return  empty where the ball lies inside, or where the border is too far off to tell.
   std::optional<Protrusion> ProtrusionOf(const Vector3& center_W, double radius_mm) const;
 
-  static constexpr int kLanes = 16;
+  static constexpr int kRays = 16;
   /// Directions of neighbouring rays; zero beyond the last.
   struct Block {
-    alignas(64) std::array<float, kLanes> x{}, y{}, z{};
+    alignas(64) std::array<float, kRays> x{}, y{}, z{};
   };
 
  private:

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/vectorized.h"
+
 namespace mocap {
 namespace {
 
@@ -45,6 +47,27 @@ constexpr auto kBitSums = [] {
       if (bits >> place & 1) ++sums[bits].count, sums[bits].places += place;
   return sums;
 }();
+
+// So many places of a line are looked at together.
+constexpr int kPlaces = 8;
+struct Cells {
+  std::array<int, kPlaces> x, y, z;
+};
+
+// Rounded down, of places from the i-th on; none lies before cell -kAhead.
+MOCAP_VECTORIZED
+void FindCells(const VoxelCloud::Places& places, int i, Cells& cells) {
+  constexpr int kAhead = 1 << 10;
+  const double x = places.first.x() + kAhead, y = places.first.y() + kAhead,
+               z = places.first.z() + kAhead;
+  const double dx = places.step.x(), dy = places.step.y(), dz = places.step.z();
+  for (int place = 0; place < kPlaces; ++place) {
+    const double steps = i + place;
+    cells.x[place] = static_cast<int>(x + steps * dx) - kAhead;
+    cells.y[place] = static_cast<int>(y + steps * dy) - kAhead;
+    cells.z[place] = static_cast<int>(z + steps * dz) - kAhead;
+  }
+}
 
 }  // namespace
 
@@ -199,6 +222,31 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
       }
     }
   }
+}
+
+unsigned VoxelCloud::HeldFrom(const Places& places, int i, int count) const {
+  Cells cells;
+  FindCells(places, i, cells);
+  unsigned held = 0;
+  for (int place = 0; place < std::min(kPlaces, count - i); ++place) {
+    const int x = cells.x[place];
+    const Word word = RowOf(cells.y[place], cells.z[place])[x >> 6];
+    held |= static_cast<unsigned>(word >> (x & 63) & 1) << place;
+  }
+  return held;
+}
+
+std::optional<int> VoxelCloud::FirstHeld(const Places& places, int count) const {
+  for (int i = 0; i < count; i += kPlaces)
+    if (const unsigned held = HeldFrom(places, i, count)) return i + std::countr_zero(held);
+  return std::nullopt;
+}
+
+int VoxelCloud::LastHeld(const Places& places, int count) const {
+  int i = (count - 1) / kPlaces * kPlaces;
+  unsigned held = HeldFrom(places, i, count);
+  while (held == 0) held = HeldFrom(places, i -= kPlaces, count);
+  return i + static_cast<int>(std::bit_width(held)) - 1;
 }
 
 Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {

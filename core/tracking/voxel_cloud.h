@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
@@ -43,6 +44,18 @@ class VoxelCloud {
   int IndexAt(const Vector3& p_W) const { return IndexAt(CellAt(p_W)); }
   /// Whether there is a voxel at a place.
   bool Holds(const Vector3& p_W) const { return HoldsCell(CellAt(p_W)); }
+  /// Places on a line, a step apart; [cells].
+  struct Places {
+    Vector3 first, step;
+  };
+  Places PlacesAlong(const Vector3& first_W, const Vector3& step_W) const {
+    return {(first_W - origin_W_) / voxel_mm_, step_W / voxel_mm_};
+  }
+  /// The first of so many places where there is a voxel.
+  /// @pre none lies farther from box_W() than a voxel.
+  std::optional<int> FirstHeld(const Places& places, int count) const;
+  /// The last of them. @pre there is one.
+  int LastHeld(const Places& places, int count) const;
   /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
   Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
@@ -79,6 +92,8 @@ class VoxelCloud {
   }
   const std::uint64_t* RowOf(int j, int k) const { return &bits_[WordOf(j, k)]; }
 
+  // Of kPlaces places from the i-th on, those below `count` that are held, as bits.
+  unsigned HeldFrom(const Places& places, int i, int count) const;
   void CopyBits(const VoxelGrid& grid);
   void DropIslands();
   void FindRuns();

@@ -1,0 +1,42 @@
+// Numbers side by side, for loops whose choices the compiler would make branches of.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "core/vectorized.h"
+
+/// Stands before a function that becomes part of vectorized ones, and so has as many versions.
+#define MOCAP_INLINE inline __attribute__((always_inline))
+
+namespace mocap {
+
+/// So many numbers side by side, for what the compiler would make branches of. They live in
+/// registers only, because how they lie in memory depends on the processor: there they are arrays.
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+inline constexpr int kFloats = 8;
+
+template <typename Lanes, typename Number>
+MOCAP_INLINE void LoadLanes(const Number* from, Lanes& lanes) {
+  std::memcpy(&lanes, from, sizeof lanes);
+}
+template <typename Lanes, typename Number>
+MOCAP_INLINE void StoreLanes(const Lanes& lanes, Number* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+/// To [0, 1].
+MOCAP_INLINE void ClampLanes(Floats& x) {
+  x = x > 0 ? x : Floats{};
+  x = x < 1 ? x : Floats{} + 1;
+}
+MOCAP_INLINE void TakeRoots(Floats& x) {
+  alignas(32) float numbers[kFloats];
+  StoreLanes(x, numbers);
+#pragma GCC unroll 1
+  for (float& number : numbers) number = std::sqrt(number);
+  LoadLanes(numbers, x);
+}
+
+}  // namespace mocap
