@@ -47,11 +47,11 @@ MOCAP_INLINE void TryCapsule(const Block& block, int i, const SlimCapsule& capsu
   const Floats slant = core_sq * along_sq - dot * dot;
   const Floats least = kParallel * core_sq * along_sq;
   Floats first = (dot * f - c * along_sq) / (slant > least ? slant : least);
-  ClampLanes(first);
+  ClampLanes(first, 0.0f, 1.0f);
   Floats on_segment = (dot * first + f) * per_along_sq;
-  ClampLanes(on_segment);
+  ClampLanes(on_segment, 0.0f, 1.0f);
   Floats share = (dot * on_segment - c) * per_core_sq;
-  ClampLanes(share);
+  ClampLanes(share, 0.0f, 1.0f);
   const Floats x = on_segment * lx - bx - share * cx;
   const Floats y = on_segment * ly - by - share * cy;
   const Floats z = on_segment * lz - bz - share * cz;
@@ -231,13 +231,15 @@ void ContactMatcher::ForEachBest(std::span<const PosedCapsule> capsules, double 
 
 const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
                                                        double reach_mm) {
+  pairs_.clear();
   ForEachBest(capsules, reach_mm, [&](std::uint32_t contact, const Best& best, std::size_t i) {
     ContactMatch& match = matches_[contact];
     match.capsule = best.capsule[i];
     if (match.capsule < 0) return;
-    match.distance =
-        capsules[match.capsule].DistanceTo(contacts_[contact].from_W, contacts_[contact].to_W);
+    pairs_.push_back({&capsules[match.capsule], &contacts_[contact].from_W,
+                      &contacts_[contact].to_W, &match.distance});
   });
+  FindDistances(pairs_);
   return matches_;
 }
 

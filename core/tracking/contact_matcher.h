@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/tracking/contact.h"
+#include "core/tracking/segment_distances.h"
 
 namespace mocap {
 
@@ -77,6 +78,7 @@ class ContactMatcher {
   std::vector<Block> blocks_;
   SlimShape slim_;
   std::vector<Vector3> surface_W_;
+  std::vector<CapsuleAndSegment> pairs_;
   std::vector<ContactMatch> matches_;
   std::vector<float> distances_;
 };

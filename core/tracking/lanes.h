@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "core/vectorized.h"
 
@@ -17,6 +18,8 @@ namespace mocap {
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 inline constexpr int kFloats = 8;
+using Doubles = double __attribute__((vector_size(32)));
+inline constexpr int kDoubles = 4;
 
 template <typename Lanes, typename Number>
 MOCAP_INLINE void LoadLanes(const Number* from, Lanes& lanes) {
@@ -26,16 +29,17 @@ template <typename Lanes, typename Number>
 MOCAP_INLINE void StoreLanes(const Lanes& lanes, Number* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
-/// To [0, 1].
-MOCAP_INLINE void ClampLanes(Floats& x) {
-  x = x > 0 ? x : Floats{};
-  x = x < 1 ? x : Floats{} + 1;
+template <typename Lanes, typename Number>
+MOCAP_INLINE void ClampLanes(Lanes& x, Number low, Number high) {
+  x = x < low ? Lanes{} + low : x;
+  x = x > high ? Lanes{} + high : x;
 }
-MOCAP_INLINE void TakeRoots(Floats& x) {
-  alignas(32) float numbers[kFloats];
+template <typename Lanes>
+MOCAP_INLINE void TakeRoots(Lanes& x) {
+  alignas(32) std::remove_reference_t<decltype(x[0])> numbers[sizeof(Lanes) / sizeof x[0]];
   StoreLanes(x, numbers);
 #pragma GCC unroll 1
-  for (float& number : numbers) number = std::sqrt(number);
+  for (auto& number : numbers) number = std::sqrt(number);
   LoadLanes(numbers, x);
 }
 
