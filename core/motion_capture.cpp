@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -44,6 +45,26 @@ constexpr BodyProportions kProportions = {.torso_mean_mm = 560,
                                           .height_std_mm = 15,
                                           .measurement_std_mm = 40,
                                           .memory_std_mm = 30};
+
+// Of a point of the body, from what is known of the joints that move it.
+Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
+                     const Vector3& p_WQ, const PoseCovariance& pose) {
+  using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
+  const int carrier = body.CarrierOf(point);
+  Jacobian J(3, body.dof());
+  body.PointJacobian(posture, carrier, p_WQ, J);
+  std::array<int, kMaxDof> moving;
+  int count = 0;
+  while (count < kTorsoDof) moving[count] = count, ++count;
+  for (int i = carrier; i >= 0; i = body.table().joints[i].parent) moving[count++] = kTorsoDof + i;
+  Matrix3 covariance = Matrix3::Zero();
+  for (int j = 0; j < count; ++j) {
+    Vector3 sum = Vector3::Zero();
+    for (int i = 0; i < count; ++i) sum += pose(moving[i], moving[j]) * J.col(moving[i]);
+    covariance += sum * J.col(moving[j]).transpose();
+  }
+  return covariance;
+}
 
 }  // namespace
 
@@ -209,11 +230,9 @@ class MotionCapture::Impl {
     result_.pose = filter.pose();
     result_.points_W = body.PointsAt(posture);
     result_.residual_mm = tracker_->quality().surface_mm;
-    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof> J(3, body.dof());
     for (int i = 0; i < kPointCount; ++i) {
-      body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), result_.points_W.col(i),
-                         J);
-      const Matrix3 covariance = J * filter.covariance() * J.transpose();
+      const Matrix3 covariance = CovarianceOf(body, posture, static_cast<Point>(i),
+                                              result_.points_W.col(i), filter.covariance());
       Eigen::SelfAdjointEigenSolver<Matrix3> axes;
       axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
       result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));

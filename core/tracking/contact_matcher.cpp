@@ -162,10 +162,7 @@ void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   contacts_.assign(contacts.begin(), contacts.end());
   matches_.resize(contacts.size());
   distances_.resize(contacts.size());
-  surface_W_.clear();
-  for (const Contact& contact : contacts) {
-    if (!contact.is_edge) surface_W_.push_back(contact.from_W);
-  }
+  surface_W_.Set(contacts);
   SortByPlace();
   blocks_.resize((contacts.size() + Block::kContacts - 1) / Block::kContacts);
   for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);

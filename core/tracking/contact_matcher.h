@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/tracking/contact.h"
+#include "core/tracking/flesh_rules.h"
 #include "core/tracking/segment_distances.h"
 
 namespace mocap {
@@ -25,7 +26,7 @@ class ContactMatcher {
   void SetContacts(std::span<const Contact> contacts);
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Where those contacts are that are no edges.
-  const std::vector<Vector3>& surface_W() const { return surface_W_; }
+  const PlaceColumns& surface_W() const { return surface_W_; }
 
   /// Finds for each contact the capsule of the least mismatch: its distance [mm] and, as
   /// millimetres too, how far the surfaces face apart.
@@ -77,7 +78,7 @@ class ContactMatcher {
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
   std::vector<Block> blocks_;
   SlimShape slim_;
-  std::vector<Vector3> surface_W_;
+  PlaceColumns surface_W_;
   std::vector<CapsuleAndSegment> pairs_;
   std::vector<ContactMatch> matches_;
   std::vector<float> distances_;

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/tracking/lanes.h"
+
 namespace mocap {
 namespace {
 
@@ -13,6 +15,31 @@ bool IsLowerArm(BodyPart part) {
 }
 bool IsThigh(BodyPart part) { return part == BodyPart::kThighL || part == BodyPart::kThighR; }
 bool IsCalf(BodyPart part) { return part == BodyPart::kCalfL || part == BodyPart::kCalfR; }
+
+MOCAP_VECTORIZED
+int FindNearest(const double* xs, const double* ys, const double* zs, int count,
+                const Vector3& p_W) {
+  const double px = p_W.x(), py = p_W.y(), pz = p_W.z();
+  Doubles least_sq = Doubles{} + std::numeric_limits<double>::infinity();
+  Doubles nearest{}, index = {0, 1, 2, 3};
+  for (int i = 0; i < count; i += kDoubles) {
+    Doubles x, y, z;
+    LoadLanes(xs + i, x), LoadLanes(ys + i, y), LoadLanes(zs + i, z);
+    x -= px, y -= py, z -= pz;
+    const Doubles distance_sq = x * x + y * y + z * z;
+    const auto is_nearer = distance_sq < least_sq;
+    least_sq = is_nearer ? distance_sq : least_sq;
+    nearest = is_nearer ? index : nearest;
+    index += kDoubles;
+  }
+  int best = 0;
+  for (int lane = 1; lane < kDoubles; ++lane) {
+    const bool is_nearer = least_sq[lane] < least_sq[best] ||
+                           (least_sq[lane] == least_sq[best] && nearest[lane] < nearest[best]);
+    if (is_nearer) best = lane;
+  }
+  return static_cast<int>(nearest[best]);
+}
 
 }  // namespace
 
@@ -26,18 +53,27 @@ bool MayOverlap(BodyPart limb, BodyPart other) {
   return IsCalf(limb) && (IsCalf(other) || (IsThigh(other) && other != own_thigh));
 }
 
-std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Vector3> surface_W,
-                                  const Vector3& p_W) {
-  if (cloud.Holds(p_W)) return std::nullopt;
-  std::optional<Vector3> nearest;
-  double nearest_sq = std::numeric_limits<double>::infinity();
-  for (const Vector3& place_W : surface_W) {
-    const double distance_sq = (place_W - p_W).squaredNorm();
-    if (distance_sq >= nearest_sq) continue;
-    nearest_sq = distance_sq;
-    nearest = place_W - p_W;
+void PlaceColumns::Set(std::span<const Contact> contacts) {
+  for (std::vector<double>& axis : axes_) axis.clear();
+  for (const Contact& contact : contacts) {
+    if (contact.is_edge) continue;
+    for (int axis = 0; axis < 3; ++axis) axes_[axis].push_back(contact.from_W[axis]);
   }
-  return nearest;
+  size_ = static_cast<int>(axes_[0].size());
+  const auto whole = static_cast<std::size_t>((size_ + kDoubles - 1) / kDoubles * kDoubles);
+  for (std::vector<double>& axis : axes_)
+    axis.resize(whole, std::numeric_limits<double>::infinity());
+}
+
+Vector3 PlaceColumns::NearestTo(const Vector3& p_W) const {
+  const int i = FindNearest(axes_[0].data(), axes_[1].data(), axes_[2].data(), size_, p_W);
+  return {axes_[0][i], axes_[1][i], axes_[2][i]};
+}
+
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& surface_W,
+                                  const Vector3& p_W) {
+  if (surface_W.size() == 0 || cloud.Holds(p_W)) return std::nullopt;
+  return surface_W.NearestTo(p_W) - p_W;
 }
 
 bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other) {

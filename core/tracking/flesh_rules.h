@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/body/body_shape.h"
 #include "core/tracking/contact.h"
@@ -22,9 +23,23 @@ inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
   return capsule.a_W + share * (capsule.b_W - capsule.a_W);
 }
 
+/// Places in columns. Behind the last there may be some that are infinitely far away.
+class PlaceColumns {
+ public:
+  /// Takes where those contacts are that are no edges.
+  void Set(std::span<const Contact> contacts);
+  int size() const { return size_; }
+  /// The nearest to a place; the first of several. @pre there is one.
+  Vector3 NearestTo(const Vector3& p_W) const;
+
+ private:
+  int size_ = 0;
+  std::array<std::vector<double>, 3> axes_;
+};
+
 /// The way from a place in the void to the nearest of some places on the flesh's surface; empty for
 /// a place in flesh.
-std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, std::span<const Vector3> surface_W,
+std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& surface_W,
                                   const Vector3& p_W);
 
 /// A bone that lies farther from flesh than this is no worse: the flesh may have been carved away.

@@ -78,8 +78,7 @@ void LimbSearch::TakeBodyApart(const PoseState& pose) {
 void LimbSearch::OpenContacts(ContactMatcher& contacts) {
   const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
-  const double voxel_weight =
-      kVoxelWeight / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(*surface_W_)));
+  const double voxel_weight = kVoxelWeight / std::max(1, surface_W_->size());
   const std::vector<float>& others_mm = contacts.Distances(others_, kReachMm);
   contacts_.clear();
   terms_.clear();

@@ -57,7 +57,7 @@ class LimbSearch {
 
   const BodyModel* body_ = nullptr;
   const VoxelCloud* cloud_ = nullptr;
-  const std::vector<Vector3>* surface_W_ = nullptr;
+  const PlaceColumns* surface_W_ = nullptr;
   std::vector<int> rows_;
   std::vector<int> absent_rows_;
   std::vector<int> capsules_;         ///< Of the limb, in the body's shape().
