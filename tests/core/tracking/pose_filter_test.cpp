@@ -61,6 +61,21 @@ class Filter : public testing::Test {
   BodyModel body_{LoadBodyTable("mikic2003"), AverageSizes(1750)};
 };
 
+TEST_F(Filter, DrawsThePoseToWhereAnUpdateMovesIt) {
+  PoseState truth = Upright();
+  truth.X_WT.p += Vector3(30, -40, 20);
+  truth.theta.array() += 0.1;
+  PoseFilter updated{MotionNoise{}};
+  updated.Reset(Upright(), 200, 1);
+  PoseFilter drawn = updated;
+  const PoseCovariance before = drawn.covariance();
+  updated.Update(body_.table(), PointsOf(truth, 1), 5);
+  drawn.Draw(body_.table(), PointsOf(truth, 1), 5);
+  EXPECT_EQ(drawn.pose().X_WT.p, updated.pose().X_WT.p);
+  EXPECT_EQ(drawn.pose().theta, updated.pose().theta);
+  EXPECT_EQ(drawn.covariance(), before);
+}
+
 TEST_F(Filter, FindsThePoseWhosePointsWereMeasured) {
   PoseState truth = Upright();
   truth.X_WT.R = ExpRotation(Vector3(0.1, -0.2, 0.4));

@@ -55,6 +55,33 @@ TEST(Cloud, EveryVoxelIsFoundInItsCell) {
   for (int i = 0; i < cloud.size(); ++i) EXPECT_EQ(cloud.IndexAt(cloud.voxels()[i].cell), i);
 }
 
+TEST(Cloud, IsMetWhereALineFirstAndLastHoldsAVoxel) {
+  VoxelGrid grid = Room();
+  AddBall({30, 20, 20}, 9, grid);
+  AddBall({45, 20, 20}, 3, grid);
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  const Vector3 through_W = grid.CenterOf(0, 20, 20);
+  for (double turn = -0.5; turn <= 0.5; turn += 0.05) {
+    const Vector3 step_W(0.8 * kVoxelMm, turn * kVoxelMm, 0.3 * turn * kVoxelMm);
+    constexpr int kSteps = 61;
+    int first = -1, last = -1;
+    for (int i = 0; i < kSteps; ++i) {
+      if (!cloud.Holds(through_W + i * step_W)) continue;
+      if (first < 0) first = i;
+      last = i;
+    }
+    // Places outside the block of voxels are not looked at.
+    const int count = std::min(kSteps, static_cast<int>(20 / std::max(0.01, std::abs(turn))));
+    const VoxelCloud::Places places = cloud.PlacesAlong(through_W, step_W);
+    const std::optional<int> found = cloud.FirstHeld(places, count);
+    ASSERT_EQ(found.value_or(-1), first);
+    if (found) {
+      EXPECT_EQ(cloud.LastHeld(places, count), last);
+    }
+  }
+}
+
 TEST(Cloud, SurfaceNormalsPointOutOfABall) {
   VoxelGrid grid = Room();
   const Eigen::Vector3i center(20, 20, 20);
