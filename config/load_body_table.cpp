@@ -55,6 +55,7 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
     if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; [mean, spread] is wanted");
     joint.rest_rad = rest_deg[0] * kRadPerDeg;
     joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
+    joint.rise_rad = section.Number("rise_deg", 0) * kRadPerDeg;
   }
   if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
   for (const JointAxis& other : joints) {

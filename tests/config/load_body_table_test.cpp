@@ -121,6 +121,7 @@ TEST(BodyTables, LeftAndRightMirrorEachOther) {
       EXPECT_DOUBLE_EQ(right->max_rad, same_sign ? left.max_rad : -left.min_rad) << other;
       EXPECT_DOUBLE_EQ(right->rest_rad, same_sign ? left.rest_rad : -left.rest_rad) << other;
       EXPECT_DOUBLE_EQ(right->rest_std_rad, left.rest_std_rad) << other;
+      EXPECT_DOUBLE_EQ(right->rise_rad, same_sign ? left.rise_rad : -left.rise_rad) << other;
     }
   }
 }
