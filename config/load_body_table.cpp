@@ -69,6 +69,11 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   return joint;
 }
 
+bool CarriesArm(const BodyTable& table, const JointAxis& joint) {
+  const int row = static_cast<int>(&joint - table.joints.data());
+  return table.Carries(row, Segment::kUpperArmL) || table.Carries(row, Segment::kUpperArmR);
+}
+
 BodyTable ReadBodyTable(TomlSection root) {
   BodyTable table;
   table.name = root.Text("name");
@@ -86,6 +91,11 @@ BodyTable ReadBodyTable(TomlSection root) {
     table.carrier[i] = FindJoint(*segments, kSegmentNames[i], table.joints);
   }
   segments->RejectUnknownKeys();
+  for (const JointAxis& joint : table.joints) {
+    if (joint.rise_rad != 0 && !CarriesArm(table, joint)) {
+      root.Fail("joints", "let " + Quoted(joint.name) + " rise, which carries no arm");
+    }
+  }
   root.RejectUnknownKeys();
   return table;
 }

@@ -59,6 +59,13 @@ struct BodyTable {
   std::vector<JointAxis> joints;
   std::array<int, kSegmentCount>
       carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.
+
+  /// Whether the axis of a row moves a segment.
+  bool Carries(int row, Segment segment) const {
+    int axis = carrier[static_cast<int>(segment)];
+    while (axis > row) axis = joints[axis].parent;
+    return axis == row;
+  }
 };
 
 }  // namespace mocap

@@ -9,12 +9,6 @@ struct Elevation {
   JointAngles J_by_angle;
 };
 
-bool Carries(const BodyTable& table, int row, Segment segment) {
-  int carrier = table.carrier[static_cast<int>(segment)];
-  while (carrier > row) carrier = table.joints[carrier].parent;
-  return carrier == row;
-}
-
 // Of what points along `direction_T` at the reference configuration, by the axes from `first` on.
 Elevation ElevationOf(const BodyTable& table, int first, Segment segment,
                       const Vector3& direction_T, const JointAngles& theta) {
@@ -41,7 +35,7 @@ Elevation ElevationOf(const BodyTable& table, int first, Segment segment,
 JointRest RestOf(const BodyTable& table, int row, const JointAngles& theta) {
   const JointAxis& joint = table.joints[row];
   if (joint.rise_rad == 0) return {joint.rest_rad, JointAngles::Zero(theta.size())};
-  const bool is_left = Carries(table, row, Segment::kUpperArmL);
+  const bool is_left = table.Carries(row, Segment::kUpperArmL);
   const Elevation arm = ElevationOf(table, row, is_left ? Segment::kUpperArmL : Segment::kUpperArmR,
                                     is_left ? Vector3::UnitY() : Vector3(-Vector3::UnitY()), theta);
   return {joint.rest_rad + joint.rise_rad * (1 + arm.sine), joint.rise_rad * arm.J_by_angle};
