@@ -55,6 +55,7 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
     if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; [mean, spread] is wanted");
     joint.rest_rad = rest_deg[0] * kRadPerDeg;
     joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
+    joint.rise_rad = section.Number("rise_deg", 0) * kRadPerDeg;
   }
   if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
   for (const JointAxis& other : joints) {
@@ -66,6 +67,11 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   }
   section.RejectUnknownKeys();
   return joint;
+}
+
+bool CarriesArm(const BodyTable& table, const JointAxis& joint) {
+  const int row = static_cast<int>(&joint - table.joints.data());
+  return table.Carries(row, Segment::kUpperArmL) || table.Carries(row, Segment::kUpperArmR);
 }
 
 BodyTable ReadBodyTable(TomlSection root) {
@@ -85,6 +91,11 @@ BodyTable ReadBodyTable(TomlSection root) {
     table.carrier[i] = FindJoint(*segments, kSegmentNames[i], table.joints);
   }
   segments->RejectUnknownKeys();
+  for (const JointAxis& joint : table.joints) {
+    if (joint.rise_rad != 0 && !CarriesArm(table, joint)) {
+      root.Fail("joints", "let " + Quoted(joint.name) + " rise, which carries no arm");
+    }
+  }
   root.RejectUnknownKeys();
   return table;
 }

@@ -20,27 +20,30 @@ constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
 
 // What the network takes as evidence, and what is measured well enough to be believed as it is.
-constexpr std::array<double BodySizes::*, 9> kWidths = {
-    &BodySizes::torso_width,     &BodySizes::torso_depth,     &BodySizes::head_width,
-    &BodySizes::upper_arm_width, &BodySizes::lower_arm_width, &BodySizes::thigh_width,
-    &BodySizes::calf_width,      &BodySizes::shoulder_width,  &BodySizes::neck};
-constexpr std::array<double BodySizes::*, 13> kMeasured = {&BodySizes::thigh,
-                                                           &BodySizes::calf,
-                                                           &BodySizes::upper_arm,
-                                                           &BodySizes::lower_arm,
-                                                           &BodySizes::torso_width,
-                                                           &BodySizes::torso_depth,
-                                                           &BodySizes::head_width,
-                                                           &BodySizes::upper_arm_width,
-                                                           &BodySizes::lower_arm_width,
-                                                           &BodySizes::thigh_width,
-                                                           &BodySizes::calf_width,
-                                                           &BodySizes::shoulder_width,
-                                                           &BodySizes::neck};
+constexpr std::array<SizeMember, 3> kWidths = {&BodySizes::head_width, &BodySizes::shoulder_width,
+                                               &BodySizes::neck};
+constexpr std::array<SizeMember, 13> kMeasured = {&BodySizes::thigh,
+                                                  &BodySizes::calf,
+                                                  &BodySizes::upper_arm,
+                                                  &BodySizes::lower_arm,
+                                                  &BodySizes::torso_width,
+                                                  &BodySizes::torso_depth,
+                                                  &BodySizes::head_width,
+                                                  &BodySizes::upper_arm_width,
+                                                  &BodySizes::lower_arm_width,
+                                                  &BodySizes::thigh_width,
+                                                  &BodySizes::calf_width,
+                                                  &BodySizes::shoulder_width,
+                                                  &BodySizes::neck};
 
 // Widths differ among people by some 10 % (ANSUR, Gordon et al. 1989), and clothes, hulls and what
-// touches a part make them err as much.
+// touches a part make them err as much: of one width alone half is believed. Of those that go
+// together their mean is believed more, and what one differs from the others less.
 constexpr double kMeasuredShare = 0.5;
+constexpr double kMeanVariance =
+    1 + kWidthCorrelation * (static_cast<double>(kStoutWidths.size()) - 1);
+constexpr double kMeasuredMeanShare = kMeanVariance / (kMeanVariance + 1);
+constexpr double kMeasuredOwnShare = (1 - kWidthCorrelation) / (1 - kWidthCorrelation + 1);
 
 // The statures that are tried, as shares of the height: of somebody who sits, crouches or jumps it
 // says little.
@@ -54,6 +57,18 @@ constexpr double kGoodCostMm = 30;
 double CostOf(const std::vector<Tracker>& found) {
   const bool is_body = !found.empty() && found.front().quality().hollow_mm < kMostHollowMm;
   return is_body ? found.front().quality().Cost() : std::numeric_limits<double>::infinity();
+}
+
+// Sets the widths that go together.
+void BelieveStoutness(const BodySizes& average, const BodySizes& measured, BodySizes& sizes) {
+  double stoutness = 0;
+  for (const SizeMember width : kStoutWidths) {
+    stoutness += (measured.*width / (average.*width) - 1) / kStoutWidths.size();
+  }
+  for (const SizeMember width : kStoutWidths) {
+    const double own = measured.*width / (average.*width) - 1 - stoutness;
+    sizes.*width = average.*width * (1 + kMeasuredMeanShare * stoutness + kMeasuredOwnShare * own);
+  }
 }
 
 double HeightOf(const VoxelCloud& cloud) {
@@ -122,7 +137,7 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
       MeasureSizes(tracker.body(), tracker.surface_fit(), tracker.filter().pose(), SizeSpread{});
   // The mean over the frames is the evidence, so that it grows and the sizes come to rest.
   const double share = 1.0 / frames_;
-  for (double BodySizes::*size : kMeasured) {
+  for (const SizeMember size : kMeasured) {
     hypothesis.measured.*size += share * (measured.*size - hypothesis.measured.*size);
   }
   const BodySizes& mean = hypothesis.measured;
@@ -135,9 +150,10 @@ double ModelAcquirer::RefineSizes(Hypothesis& hypothesis, bool remember) {
   if (is_upright_) lengths.height = height_mm_ - sizes.neck - sizes.head / 2;
   const double change_mm = network_.Update(lengths, remember, sizes);
   const BodySizes average = AverageSizes(sizes.Stature());
-  for (double BodySizes::*width : kWidths) {
+  for (const SizeMember width : kWidths) {
     sizes.*width = average.*width + kMeasuredShare * (mean.*width - average.*width);
   }
+  BelieveStoutness(average, mean, sizes);
   // The joints lie too deep within flesh to be measured in a few frames.
   sizes.hip_width = average.hip_width;
   tracker.Resize(sizes);

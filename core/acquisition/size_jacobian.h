@@ -9,8 +9,6 @@
 
 namespace mocap {
 
-using SizeMember = double BodySizes::*;
-
 /// Differentiates the flesh of a posed body by some of its sizes. Reuses its memory.
 class SizeJacobian {
  public:

@@ -13,10 +13,10 @@ struct RefinedSize {
 };
 
 // Legs and upper arms differ among people of a stature by some five percent (ANSUR, Gordon et al.
-// 1989). Forearms and the trunk are held closer, and so are the hips, which lie so deep within
-// flesh that contours show little of them. Lengths move joints, which contours show only together
-// with the pose; widths they show as such.
-constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
+// 1989). Forearms and the trunk are held closer. The hips stay where they are: they lie so deep
+// within flesh that contours show nothing of them. Lengths move joints, which contours show only
+// together with the pose; widths they show as such.
+constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::torso_width, 0.10},
                                                    {&BodySizes::torso_depth, 0.10},
                                                    {&BodySizes::head, 0.05},
@@ -30,8 +30,7 @@ constexpr std::array<RefinedSize, 16> kRefined = {{{&BodySizes::torso, 0.02},
                                                    {&BodySizes::lower_arm_width, 0.15},
                                                    {&BodySizes::thigh_width, 0.15},
                                                    {&BodySizes::calf_width, 0.15},
-                                                   {&BodySizes::shoulder_width, 0.05},
-                                                   {&BodySizes::hip_width, 0.03}}};
+                                                   {&BodySizes::shoulder_width, 0.05}}};
 constexpr int kSizes = static_cast<int>(kRefined.size());
 constexpr int kMostUnknowns = kMaxDof + kSizes;
 using Information =
@@ -46,6 +45,22 @@ std::array<SizeMember, kSizes> RefinedMembers() {
   std::array<SizeMember, kSizes> members{};
   std::ranges::transform(kRefined, members.begin(), &RefinedSize::size);
   return members;
+}
+
+// What is known of the sizes without any frame: the inverse of their covariance.
+Information PriorOf(const BodySizes& acquired) {
+  Information covariance = Information::Zero(kSizes, kSizes);
+  const auto is_stout = [](int i) {
+    return std::ranges::find(kStoutWidths, kRefined[i].size) != kStoutWidths.end();
+  };
+  for (int i = 0; i < kSizes; ++i) {
+    for (int j = 0; j < kSizes; ++j) {
+      const double both = i == j ? 1 : is_stout(i) && is_stout(j) ? kWidthCorrelation : 0;
+      covariance(i, j) = both * kRefined[i].std_share * acquired.*kRefined[i].size *
+                         kRefined[j].std_share * acquired.*kRefined[j].size;
+    }
+  }
+  return covariance.llt().solve(Information::Identity(kSizes, kSizes));
 }
 
 }  // namespace
@@ -90,11 +105,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
 }
 
 BodySizes SizeRefiner::Sizes() const {
-  Information information = information_;
-  for (int i = 0; i < kSizes; ++i) {
-    const double std_mm = kRefined[i].std_share * acquired_.*kRefined[i].size;
-    information(i, i) += 1 / (std_mm * std_mm);
-  }
+  const Information information = information_ + PriorOf(acquired_);
   const InformationVector away = information.llt().solve(vector_);
   BodySizes sizes = acquired_;
   for (int i = 0; i < kSizes; ++i) sizes.*kRefined[i].size += away[i];

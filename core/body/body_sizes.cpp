@@ -4,14 +4,15 @@ namespace mocap {
 namespace {
 
 // Where joints lie behind the middle of the trunk's flesh and below the neck, as shares of the
-// torso's length. The spine runs behind the trunk's middle, the hip joints a little behind it; the
-// shoulder joint lies 0.05 to 0.08 of the stature below C7/T1: so de Leva (1996), and Winter's
-// (2009, Fig. 4.1) shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley
-// 2002).
+// torso's length. The spine runs behind the trunk's middle, the hip joints a little behind it. The
+// joint of a shoulder whose arm hangs lies 0.08 of the stature below C7/T1: Winter's (2009, Fig.
+// 4.1) shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The
+// upper end of the breast bone lies 0.05 below C7/T1 (de Leva 1996).
 constexpr double kNeckBehind = 0.06;
 constexpr double kHipBehind = 0.03;
 constexpr double kShoulderBehind = 0.03;
-constexpr double kShoulderBelowNeck = 0.21;
+constexpr double kShoulderBelowNeck = 0.245;
+constexpr double kClavicleBelowNeck = 0.153;
 // The head's centre leans forward of C7/T1 by this share of its height above it.
 constexpr double kHeadForward = 0.35;
 // Joints between the shoulders, as a share of the width between these; in the forearm with the
@@ -77,7 +78,8 @@ BodyPlaces ReferencePoints(const BodySizes& s) {
     at(lower_arm) = (at(elbow) + at(fingertips)) / 2;
     at(thigh) = (at(hip) + at(knee)) / 2;
     at(calf) = (at(knee) + at(foot)) / 2;
-    at(clavicle) << at(shoulder).x(), side * kClavicleAside * s.shoulder_width, at(shoulder).z();
+    at(clavicle) << at(shoulder).x(), side * kClavicleAside * s.shoulder_width,
+        top - kClavicleBelowNeck * s.torso;
     at(wrist) = at(elbow) + kWristShare * (at(fingertips) - at(elbow));
     at(ankle) = at(foot);
     at(ankle).z() += kAnkleHeight * s.calf;

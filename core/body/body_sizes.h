@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "core/body/body_part.h"
 
@@ -29,6 +30,16 @@ struct BodySizes {
   /// Sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
 };
+
+using SizeMember = double BodySizes::*;
+
+/// Who is stout is so all over: as shares of what is average, these widths correlate among people
+/// by some 0.75 (circumferences of limbs, depths and breadths of the trunk; ANSUR, Gordon et al.
+/// 1989).
+inline constexpr std::array<SizeMember, 6> kStoutWidths = {
+    &BodySizes::torso_width,     &BodySizes::torso_depth, &BodySizes::upper_arm_width,
+    &BodySizes::lower_arm_width, &BodySizes::thigh_width, &BodySizes::calf_width};
+inline constexpr double kWidthCorrelation = 0.75;
 
 /// The sizes of an average adult of a stature [mm].
 ///

@@ -21,6 +21,9 @@ struct JointAxis {
   /// Where the joint rests, and how far it strays from there [rad]: a prior for angles that voxels
   /// hardly show. With a spread of 0 there is none.
   double rest_rad = 0, rest_std_rad = 0;
+  /// Of a collar bone: how much farther it rests once the arm that it carries is level; as much
+  /// again when the arm is overhead.
+  double rise_rad = 0;
 };
 
 /// Segments that are moved as one; a table may move several by the same axis.
@@ -56,6 +59,13 @@ struct BodyTable {
   std::vector<JointAxis> joints;
   std::array<int, kSegmentCount>
       carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.
+
+  /// Whether the axis of a row moves a segment.
+  bool Carries(int row, Segment segment) const {
+    int axis = carrier[static_cast<int>(segment)];
+    while (axis > row) axis = joints[axis].parent;
+    return axis == row;
+  }
 };
 
 }  // namespace mocap

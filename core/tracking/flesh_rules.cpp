@@ -7,8 +7,10 @@
 namespace mocap {
 namespace {
 
-// Flesh gives way a little, and the capsules are rounder than the parts.
+// Flesh gives way, the capsules are rounder than the parts, and what lies on somebody stout sinks
+// in the deeper: as shares of the limb's and the other part's radius.
 constexpr double kHolds = 0.5;
+constexpr double kGivesWay = 0.5;
 
 bool IsLowerArm(BodyPart part) {
   return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;
@@ -81,8 +83,10 @@ bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule
   return (p_W - other.middle_W).squaredNorm() < reach_mm * reach_mm;
 }
 
-double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other) {
-  return kHolds * limb.radius_a_mm - to_other.outside_mm;
+double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
+                    const PosedCapsule::Distance& to_other) {
+  return kHolds * limb.radius_a_mm - kGivesWay * RadiusAt(other, to_other.share) -
+         to_other.outside_mm;
 }
 
 }  // namespace mocap

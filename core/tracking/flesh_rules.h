@@ -22,6 +22,9 @@ inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
 inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
   return capsule.a_W + share * (capsule.b_W - capsule.a_W);
 }
+inline double RadiusAt(const PosedCapsule& capsule, double share) {
+  return capsule.radius_a_mm + share * (capsule.radius_b_mm - capsule.radius_a_mm);
+}
 
 /// Places in columns. Behind the last there may be some that are infinitely far away.
 class PlaceColumns {
@@ -49,6 +52,7 @@ inline constexpr double kMostHollowMm = 100;
 bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other);
 
 /// How deep a place on the core of `limb` sticks in `other`, beyond what flesh gives way [mm].
-double OverlapDepth(const PosedCapsule& limb, const PosedCapsule::Distance& to_other);
+double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
+                    const PosedCapsule::Distance& to_other);
 
 }  // namespace mocap

@@ -109,7 +109,7 @@ double LimbSearch::OverlapCost() const {
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(limb, share);
       if (CanStickIn(limb, p_W, other))
-        depth_mm += std::max(0.0, OverlapDepth(limb, other.DistanceTo(p_W)));
+        depth_mm += std::max(0.0, OverlapDepth(limb, other, other.DistanceTo(p_W)));
     }
   }
   return depth_mm;

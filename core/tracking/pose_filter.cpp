@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body/joint_rest.h"
 #include "core/errors.h"
 #include "core/vectorized.h"
 
@@ -25,7 +26,9 @@ void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquatio
     J[kTorsoDof + i] = 1;
     if (angle != allowed) equations.Add(J, allowed - angle, kLimitStdRad * kLimitStdRad);
     if (joint.rest_std_rad > 0) {
-      equations.Add(J, joint.rest_rad - angle, joint.rest_std_rad * joint.rest_std_rad);
+      const JointRest rest = RestOf(table, i, pose.theta);
+      J.tail(pose.theta.size()) -= rest.J_by_angle;
+      equations.Add(J, rest.rest_rad - angle, joint.rest_std_rad * joint.rest_std_rad);
     }
   }
 }

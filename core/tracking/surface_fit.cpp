@@ -16,10 +16,6 @@ double Inflation(double residual, double outlier) {
   return (1 + scaled * scaled) * (1 + scaled * scaled);
 }
 
-double RadiusAt(const PosedCapsule& capsule, double share) {
-  return capsule.radius_a_mm + share * (capsule.radius_b_mm - capsule.radius_a_mm);
-}
-
 // Of feet only the toes are: with heels held as well, feet on steps came out 60 mm off and not 25.
 // The elbow is the upper arm's, and the wrist the forearm's.
 bool IsHeldByBorders(const Capsule& capsule, double share) {
@@ -128,7 +124,7 @@ void SurfaceFit::ForEachOverlap(const BodyModel& body, const Visit& visit) const
         const Vector3 p_W = CorePlace(posed_[i], share);
         if (!CanStickIn(posed_[i], p_W, posed_[j])) continue;
         const PosedCapsule::Distance distance = posed_[j].DistanceTo(p_W);
-        const double depth_mm = OverlapDepth(posed_[i], distance);
+        const double depth_mm = OverlapDepth(posed_[i], posed_[j], distance);
         if (depth_mm > 0) visit(i, p_W, j, distance.core_W, depth_mm);
       }
     }

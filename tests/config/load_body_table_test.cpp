@@ -121,6 +121,7 @@ TEST(BodyTables, LeftAndRightMirrorEachOther) {
       EXPECT_DOUBLE_EQ(right->max_rad, same_sign ? left.max_rad : -left.min_rad) << other;
       EXPECT_DOUBLE_EQ(right->rest_rad, same_sign ? left.rest_rad : -left.rest_rad) << other;
       EXPECT_DOUBLE_EQ(right->rest_std_rad, left.rest_std_rad) << other;
+      EXPECT_DOUBLE_EQ(right->rise_rad, same_sign ? left.rise_rad : -left.rise_rad) << other;
     }
   }
 }
@@ -168,6 +169,8 @@ TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
       {"name = \"neck_x\"", "name = \"\"", "joints[0].name is empty"},
       {"name = \"neck_y\"", "name = \"neck_x\"", "joints[1].name"},
       {"angle = 1\n", "angle = 17\n", "joints[0].angle is 17"},
+      {"angle = 1\n", "angle = 1\nrest_deg = [0, 5]\nrise_deg = 36\n",
+       "\"neck_x\" rise, which carries no arm"},
       {"angle = 1\n", "angle = 2\n", "joints[1].angle"},
       {"parent = \"neck_x\"", "parent = \"knee_l_y\"", "joints[1].parent is \"knee_l_y\""},
       {"axis = [1, 0, 0]", "axis = [0, 0, 0]", "joints[0].axis"},

@@ -1,0 +1,44 @@
+#include "core/body/joint_rest.h"
+
+namespace mocap {
+namespace {
+
+// How high an arm points in the frame that carries the girdle: -1 hanging, 0 level, 1 overhead.
+struct Elevation {
+  double sine;
+  JointAngles J_by_angle;
+};
+
+// Of what points along `direction_T` at the reference configuration, by the axes from `first` on.
+Elevation ElevationOf(const BodyTable& table, int first, Segment segment,
+                      const Vector3& direction_T, const JointAngles& theta) {
+  Elevation elevation{0, JointAngles::Zero(theta.size())};
+  Vector3 direction = direction_T;
+  // Innermost last: what lies further out turns direction and derivatives alike.
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxJoints> J(3, theta.size());
+  J.setZero();
+  for (int row = table.carrier[static_cast<int>(segment)]; row >= first;
+       row = table.joints[row].parent) {
+    const Vector3& axis_T = table.joints[row].axis_T;
+    const Matrix3 turn = ExpRotation(theta[row] * axis_T);
+    direction = turn * direction;
+    J = turn * J;
+    J.col(row) = axis_T.cross(direction);
+  }
+  elevation.sine = direction.z();
+  elevation.J_by_angle = J.row(2).transpose();
+  return elevation;
+}
+
+}  // namespace
+
+JointRest RestOf(const BodyTable& table, int row, const JointAngles& theta) {
+  const JointAxis& joint = table.joints[row];
+  if (joint.rise_rad == 0) return {joint.rest_rad, JointAngles::Zero(theta.size())};
+  const bool is_left = table.Carries(row, Segment::kUpperArmL);
+  const Elevation arm = ElevationOf(table, row, is_left ? Segment::kUpperArmL : Segment::kUpperArmR,
+                                    is_left ? Vector3::UnitY() : Vector3(-Vector3::UnitY()), theta);
+  return {joint.rest_rad + joint.rise_rad * (1 + arm.sine), joint.rise_rad * arm.J_by_angle};
+}
+
+}  // namespace mocap

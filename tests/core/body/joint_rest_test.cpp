@@ -1,0 +1,66 @@
+#include "core/body/joint_rest.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "config/load_config.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+class Rest : public ::testing::Test {
+ protected:
+  int RowOf(const std::string& name) const {
+    for (int row = 0; row < std::ssize(table_.joints); ++row) {
+      if (table_.joints[row].name == name) return row;
+    }
+    throw std::logic_error("no such joint");
+  }
+  double DegreesOf(const std::string& name) const {
+    return RestOf(table_, RowOf(name), theta_).rest_rad / kRadPerDeg;
+  }
+
+  BodyTable table_ = LoadBodyTable("full");
+  JointAngles theta_ = JointAngles::Zero(std::ssize(table_.joints));
+};
+
+TEST_F(Rest, CollarBonesRiseWithTheirArms) {
+  theta_[RowOf("shoulder_l_x")] = -90 * kRadPerDeg;
+  EXPECT_NEAR(DegreesOf("clavicle_l_x"), 0, 1e-9);
+  EXPECT_NEAR(DegreesOf("clavicle_r_x"), -36, 1e-9) << "the right arm is level";
+  theta_[RowOf("shoulder_l_x")] = 60 * kRadPerDeg;
+  theta_[RowOf("clavicle_l_x")] = 30 * kRadPerDeg;
+  EXPECT_NEAR(DegreesOf("clavicle_l_x"), 72, 1e-9) << "overhead";
+}
+
+TEST_F(Rest, AnArmThatPointsForwardIsLevel) {
+  theta_[RowOf("shoulder_l_z")] = -90 * kRadPerDeg;
+  EXPECT_NEAR(DegreesOf("clavicle_l_x"), 36, 1e-9);
+}
+
+TEST_F(Rest, OtherJointsRestWhereTheTableSays) {
+  const JointRest rest = RestOf(table_, RowOf("hip_l_z"), theta_);
+  EXPECT_NEAR(rest.rest_rad, 5 * kRadPerDeg, 1e-9);
+  EXPECT_EQ(rest.J_by_angle, JointAngles::Zero(theta_.size()));
+}
+
+TEST_F(Rest, ChangesAsItsJacobianSays) {
+  constexpr double kStepRad = 1e-6;
+  for (int i = 0; i < theta_.size(); ++i) theta_[i] = 0.4 - 0.07 * i;
+  for (const char* name : {"clavicle_l_x", "clavicle_r_x"}) {
+    const JointRest rest = RestOf(table_, RowOf(name), theta_);
+    for (int i = 0; i < theta_.size(); ++i) {
+      JointAngles moved = theta_;
+      moved[i] += kStepRad;
+      const double by_difference =
+          (RestOf(table_, RowOf(name), moved).rest_rad - rest.rest_rad) / kStepRad;
+      EXPECT_NEAR(rest.J_by_angle[i], by_difference, 1e-5) << name << " by " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocap
