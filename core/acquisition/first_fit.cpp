@@ -11,7 +11,7 @@ namespace {
 
 // So many guesses are followed closely, limbs and all.
 constexpr std::size_t kFinalists = 3;
-constexpr int kIterations = 5;
+constexpr Iterations kIterations = {5, 15};
 
 struct Candidate {
   PoseState pose;
@@ -21,7 +21,7 @@ struct Candidate {
 // How closely guesses are drawn to the voxels, and how many of them go on.
 struct Round {
   SurfaceFitOptions options;
-  int iterations;
+  Iterations iterations;
   std::size_t kept;
 };
 
@@ -32,7 +32,8 @@ SurfaceFitOptions Samples(int voxels, int edges) {
   return options;
 }
 
-void Improve(const BodyModel& body, SurfaceFit& fit, int iterations, Candidate& candidate) {
+void Improve(const BodyModel& body, SurfaceFit& fit, const Iterations& iterations,
+             Candidate& candidate) {
   PoseFilter filter{MotionNoise{}};
   filter.Reset(candidate.pose, 100, 0.5);
   filter.Update(
@@ -51,7 +52,8 @@ bool IsUpright(const Candidate& candidate) { return candidate.pose.X_WT.R(2, 2) 
 // The best comes first.
 std::vector<Candidate> Compete(const BodyModel& body, const Evidence& evidence,
                                const std::vector<PoseState>& guesses) {
-  const std::array<Round, 2> rounds = {Round{Samples(40, 80), 1, 10}, {Samples(150, 200), 4, 10}};
+  const std::array<Round, 2> rounds = {Round{Samples(40, 80), {1, 4}, 10},
+                                       {Samples(150, 200), {4, 15}, 10}};
   std::vector<Candidate> candidates;
   for (const PoseState& guess : guesses) candidates.push_back({guess, 0});
   for (const Round& round : rounds) {

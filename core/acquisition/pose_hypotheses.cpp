@@ -17,10 +17,11 @@ constexpr LegStance kSeatedLeg{.hip = 85, .knee = 85};
 
 constexpr Stance With(const ArmStance& arms) { return {.arm_l = arms, .arm_r = arms}; }
 
-constexpr std::array<Stance, 8> kStances = {
+constexpr std::array<Stance, 9> kStances = {
     Stance{},                                          // at ease
     With(ArmStance{.raise = -45}),                     // arms half down
     With(ArmStance{.raise = 0}),                       // arms out
+    With(ArmStance{.raise = 75}),                      // arms up
     With(kBentArm),                                    // hands before the chest
     Stance{.leg_l = kFrontLeg, .leg_r = kBackLeg},     // stepping
     Stance{.leg_l = kBackLeg, .leg_r = kFrontLeg},     // stepping

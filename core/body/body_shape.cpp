@@ -18,13 +18,6 @@ class ShapeBuilder {
         {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b, ends_at_b});
   }
 
-  // Where a hip's flesh is thickest: before the joint, but of what somebody has more than others of
-  // that stature half is buttocks. Both as skinned meshes of men, women and a child have it.
-  double HipForward() const {
-    const double average = AverageSizes(sizes_.Stature()).thigh_width / 2;
-    return 0.16 * average - 0.5 * (sizes_.thigh_width / 2 - average);
-  }
-
   // The chest is deeper than the waist, and the shoulder blades lie behind. The shoulder's flesh
   // reaches some 65 mm above the joint (Rab, Petuskey, Bagley 2002). What a person has more
   // than others of that stature lies in front: the back stays at the spine.
@@ -44,8 +37,7 @@ class ShapeBuilder {
           {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.1 * radius},
           {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.8 * radius, 0.53 * radius);
       Add(BodyPart::kTorso, Segment::kPelvis, waist,
-          {hip.x() + HipForward(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius,
-          0.95 * radius);
+          {hip.x(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius, 0.95 * radius);
     }
   }
 
@@ -96,10 +88,9 @@ class ShapeBuilder {
     const Vector3 sole = At(foot_point);
     const double thigh_radius = s.thigh_width / 2;
     const double calf_radius = s.calf_width / 2;
-    const Vector3 top = hip + Vector3(HipForward(), 0, 0);
-    const Vector3 front = hip + 0.55 * (knee - hip) + Vector3(0.25 * thigh_radius, 0, 0);
+    const Vector3 front = hip + 0.55 * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);
     const double front_radius = 0.5 * (1.1 * thigh_radius + 1.1 * calf_radius);
-    Add(upper, upper_segment, top, front, 1.05 * thigh_radius, front_radius);
+    Add(upper, upper_segment, hip, front, 1.1 * thigh_radius, front_radius);
     Add(upper, upper_segment, front, knee, front_radius, 1.05 * calf_radius);
     const Vector3 ankle = At(ankle_point);
     const Vector3 belly = knee + 0.3 * (ankle - knee) - Vector3(0.35 * calf_radius, 0, 0);

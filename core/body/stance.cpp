@@ -1,5 +1,9 @@
 #include "core/body/stance.h"
 
+#include <algorithm>
+
+#include "core/body/joint_rest.h"
+
 namespace mocap {
 namespace {
 
@@ -47,6 +51,11 @@ JointAngles AnglesOf(const Stance& stance, const BodyTable& table) {
     const JointAxis& joint = table.joints[i];
     theta[i] = joint.paper_angle > 0 ? DegreesOf(stance, joint.paper_angle) * EIGEN_PI / 180
                                      : joint.rest_rad;
+  }
+  for (int i = 0; i < theta.size(); ++i) {
+    const JointAxis& joint = table.joints[i];
+    if (joint.rise_rad == 0) continue;
+    theta[i] = std::clamp(RestOf(table, i, theta).rest_rad, joint.min_rad, joint.max_rad);
   }
   return theta;
 }

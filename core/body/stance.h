@@ -27,7 +27,8 @@ struct Stance {
   LegStance leg_l{}, leg_r{};
 };
 
-/// The angles of a table's joints in a stance; axes that the paper's body lacks are at rest.
+/// The angles of a table's joints in a stance; axes that the paper's body lacks are at rest, collar
+/// bones as high as the arms have them.
 JointAngles AnglesOf(const Stance& stance, const BodyTable& table);
 
 }  // namespace mocap

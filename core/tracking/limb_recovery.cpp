@@ -13,7 +13,7 @@ constexpr int kVoxels = 150;
 constexpr int kEdges = 600;
 constexpr double kReachMm = 150;
 constexpr double kUnexplainedMm = 60;
-constexpr double kUnexplainedShare = 0.01;
+constexpr double kUnexplainedShare = 0.005;
 constexpr double kBetterMm = 0.5;
 // So many stances of a limb, which end this far apart, are looked at closely.
 constexpr std::size_t kRefined = 8;
@@ -22,12 +22,12 @@ constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
 // A limb that ends elsewhere is weighed once the whole body is drawn to the evidence with it, as it
-// was with the present one: until then a place that is right costs up to so much more, and one that
+// is with the present one: until then a place that is right costs up to so much more, and one that
 // is wrong less. So many places are; what one gains must be clear.
 constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 1;
 constexpr std::size_t kDrawn = 2;
-constexpr double kLimbBetterMm = 1;
+constexpr double kLimbBetterMm = 0.6;
 // Exchanged arms that cost no more than this on top of the present ones may come to cost less once
 // the whole body is drawn to the evidence, as the present one was; what they gain must be clear,
 // because noise would exchange folded arms again and again.
@@ -39,6 +39,7 @@ constexpr double kRestS = 0.045;
 // each limb is looked for by itself, and then each pair, which costs as much as two.
 constexpr double kLimbsPerS = 80;
 constexpr int kIterations = 5;
+constexpr Iterations kDrawIterations = {5, 15};
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
 constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
@@ -162,7 +163,8 @@ std::span<const LimbRecovery::Option> LimbRecovery::Claims(LimbSearch& search,
 }
 
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                              SurfaceFit& fit, PoseState& pose) {
+                              SurfaceFit& fit, Candidate& present) {
+  const PoseState& pose = present.pose;
   search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose);
   FindBest(search_, body.table(), StancesOf(limb_end), pose, kRefined);
   const double now_mm = search_.CostAt(pose);
@@ -175,8 +177,8 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   candidates_.resize(std::min(candidates_.size(), kDrawn));
   for (Candidate& candidate : candidates_) DrawNear(body, fit, candidate);
   const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::cost_mm);
-  if (best.cost_mm > fit.QualityAt(body, pose).Cost() - kLimbBetterMm) return false;
-  pose = best.pose;
+  if (best.cost_mm > present.cost_mm - kLimbBetterMm) return false;
+  present = best;
   return true;
 }
 
@@ -219,25 +221,24 @@ void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& c
       [&](const PoseState& pose, UpdateEquations& equations) {
         fit.Linearize(body, pose, equations);
       },
-      kIterations);
+      kDrawIterations);
   candidate = {filter.pose(), fit.QualityAt(body, filter.pose()).Cost()};
 }
 
 bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                               PoseState& pose) {
-  if (rest_s_ > 0) return false;
+                               Candidate& present) {
   bool changed = false;
   for (; next_ < kLimbEnds.size() + kPairs.size() && allowance_ > 0; ++next_) {
     if (next_ < kLimbEnds.size()) {
-      changed |= RecoverOne(body, evidence, kLimbEnds[next_], fit, pose);
+      changed |= RecoverOne(body, evidence, kLimbEnds[next_], fit, present);
       allowance_ -= 1;
       continue;
     }
-    if (next_ == kLimbEnds.size() && IsExplained(body, pose)) {
+    if (next_ == kLimbEnds.size() && IsExplained(body, present.pose)) {
       StartOver();
       return changed;
     }
-    changed |= RecoverPair(body, evidence, kPairs[next_ - kLimbEnds.size()], fit, pose);
+    changed |= RecoverPair(body, evidence, kPairs[next_ - kLimbEnds.size()], fit, present);
     allowance_ -= 2;
   }
   is_in_vain_ &= !changed;
@@ -254,32 +255,31 @@ void LimbRecovery::StartOver() {
 
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
                                const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
-                               PoseState& pose) {
+                               Candidate& present) {
   const auto [left, right] = limb_ends;
   const auto best = [&](LimbSearch& search, LimbSearch&) {
-    FindBest(search, body.table(), StancesOf(left), pose, kPairRefined);
+    FindBest(search, body.table(), StancesOf(left), present.pose, kPairRefined);
   };
-  const Candidate pair = BestPair(body, evidence, left, right, fit, best, pose);
-  if (pair.cost_mm > fit.QualityAt(body, pose).Cost() - kBetterMm) return false;
-  pose = pair.pose;
+  const Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
+  if (pair.cost_mm > present.cost_mm - kBetterMm) return false;
+  present = pair;
   return true;
 }
 
 bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                                PoseState& pose) {
-  if (exchange_rest_s_ > 0) return false;
+                                Candidate& present) {
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
-    FindTowards(search, body.table(), arm_stances_, pose, other.TipAt(pose));
+    FindTowards(search, body.table(), arm_stances_, present.pose, other.TipAt(present.pose));
   };
-  Candidate pair = BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, pose);
-  const double cost_mm = fit.QualityAt(body, pose).Cost();
-  if (pair.cost_mm > cost_mm + kPromisingMm) return false;
+  Candidate pair =
+      BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, present.pose);
+  if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);
-  if (pair.cost_mm > cost_mm - kClearlyBetterMm) {
+  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) {
     exchange_rest_s_ = kRestS;
     return false;
   }
-  pose = pair.pose;
+  present = pair;
   return true;
 }
 
@@ -294,15 +294,18 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   if (is_explained) {
     rest_s_ = 0;
     StartOver();
-    if (!hands_meet) return std::nullopt;
   }
+  const bool searches = !is_explained && rest_s_ <= 0 && allowance_ > 0;
+  const bool exchanges = hands_meet && exchange_rest_s_ <= 0;
+  if (!searches && !exchanges) return std::nullopt;
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);
   matcher_.SetContacts(contacts_);
-  PoseState now = pose;
-  bool changed = !is_explained && RecoverLost(body, evidence, fit, now);
-  if (hands_meet) changed |= ExchangeArms(body, evidence, fit, now);
+  Candidate present{pose, 0};
+  DrawNear(body, fit, present);
+  bool changed = searches && RecoverLost(body, evidence, fit, present);
+  if (exchanges) changed |= ExchangeArms(body, evidence, fit, present);
   if (!changed) return std::nullopt;
-  return now;
+  return present.pose;
 }
 
 }  // namespace mocap

@@ -49,21 +49,23 @@ class LimbRecovery {
 
   const std::vector<Stance>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
+  // `present`, whose whole body is drawn to the evidence, becomes what explains it better.
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
-                  SurfaceFit& fit, PoseState& pose);
+                  SurfaceFit& fit, Candidate& present);
   // `stances` makes candidates_ of what to try of the first limb, searched with the second absent.
   template <typename Stances>
   Candidate BestPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
                      SurfaceFit& fit, const Stances& stances, const PoseState& pose);
   bool RecoverPair(const BodyModel& body, const Evidence& evidence,
-                   const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit, PoseState& pose);
+                   const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
+                   Candidate& present);
   // Goes on with a search as far as is allowed.
   bool RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                   PoseState& pose);
+                   Candidate& present);
   void StartOver();
   // Hands that cross look as if they had touched and gone back, until they are apart again.
   bool ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                    PoseState& pose);
+                    Candidate& present);
   static bool HandsMeet(const BodyModel& body, const PoseState& pose);
 
   // Draws the whole body to the evidence from a candidate's pose.

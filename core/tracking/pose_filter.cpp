@@ -15,6 +15,10 @@ constexpr double kLimitStdRad = 0.01;
 // Steps that are not worth another iteration.
 constexpr double kSmallStepMm = 0.5;
 constexpr double kSmallStepRad = 0.003;
+// Between frames far apart poses are on their way after the usual iterations, and limbs that were
+// not drawn to the end seem lost.
+constexpr double kFarMm = 10;
+constexpr double kFarRad = 0.1;
 
 void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquations& equations) {
   PoseStep J(pose.dof());
@@ -136,11 +140,13 @@ void PoseFilter::Predict(double dt_s) {
 }
 
 PoseCovariance PoseFilter::Iterate(const BodyTable& table, const Linearize& linearize,
-                                   int iterations, const PoseCovariance& prior_information) {
+                                   const Iterations& iterations,
+                                   const PoseCovariance& prior_information) {
   const PoseState prior = pose_;
   UpdateEquations equations;
   PoseCovariance information;
-  for (int i = 0; i < iterations; ++i) {
+  bool goes_far = false;
+  for (int i = 0; i < (goes_far ? iterations.most : iterations.usual); ++i) {
     equations.Reset(pose_.dof());
     linearize(pose_, equations);
     AddJointPriors(table, pose_, equations);
@@ -148,18 +154,20 @@ PoseCovariance PoseFilter::Iterate(const BodyTable& table, const Linearize& line
     const PoseStep gradient = equations.gradient() - prior_information * pose_.Minus(prior);
     const PoseStep step = Eigen::LLT<PoseCovariance>(information).solve(gradient);
     pose_.Add(step);
-    if (step.head<3>().norm() < kSmallStepMm && step.tail(step.size() - 3).norm() < kSmallStepRad) {
-      break;
-    }
+    const double step_mm = step.head<3>().norm(), step_rad = step.tail(step.size() - 3).norm();
+    if (step_mm < kSmallStepMm && step_rad < kSmallStepRad) break;
+    goes_far = step_mm > kFarMm || step_rad > kFarRad;
   }
   return information;
 }
 
-void PoseFilter::Draw(const BodyTable& table, const Linearize& linearize, int iterations) {
+void PoseFilter::Draw(const BodyTable& table, const Linearize& linearize,
+                      const Iterations& iterations) {
   Iterate(table, linearize, iterations, InverseOfPositive(P_));
 }
 
-void PoseFilter::Update(const BodyTable& table, const Linearize& linearize, int iterations) {
+void PoseFilter::Update(const BodyTable& table, const Linearize& linearize,
+                        const Iterations& iterations) {
   const PoseState prior = pose_;
   const PoseCovariance prior_information = InverseOfPositive(P_);
   const PoseCovariance posterior =

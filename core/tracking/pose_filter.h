@@ -54,6 +54,13 @@ struct MotionNoise {
   double joint_rad = 20;           ///< [rad/s²/√Hz]
 };
 
+/// How often measurements are linearised: `usual` times at most where the pose comes to rest, and
+/// up to `most` times while it still goes far.
+struct Iterations {
+  int usual;
+  int most;
+};
+
 /// Estimates pose and its rate from measurements. Allocates nothing.
 class PoseFilter {
  public:
@@ -71,11 +78,11 @@ class PoseFilter {
   /// Updates with measurements, linearised anew at each iteration. Joint limits hold as inequality
   /// constraints: an angle beyond its limit is measured to be at the limit, so that the rest of the
   /// chain takes up what it cannot.
-  void Update(const BodyTable& table, const Linearize& linearize, int iterations);
+  void Update(const BodyTable& table, const Linearize& linearize, const Iterations& iterations);
 
   /// Moves the pose as Update does, for whom it is all that counts: how well it is known, and how
   /// fast it changes, stay.
-  void Draw(const BodyTable& table, const Linearize& linearize, int iterations);
+  void Draw(const BodyTable& table, const Linearize& linearize, const Iterations& iterations);
 
   const PoseState& pose() const { return pose_; }
   const PoseCovariance& covariance() const { return P_; }
@@ -89,8 +96,8 @@ class PoseFilter {
 
  private:
   // Returns the information about the pose where it comes to rest.
-  PoseCovariance Iterate(const BodyTable& table, const Linearize& linearize, int iterations,
-                         const PoseCovariance& prior_information);
+  PoseCovariance Iterate(const BodyTable& table, const Linearize& linearize,
+                         const Iterations& iterations, const PoseCovariance& prior_information);
   PoseStep NoiseDensity() const;
   PoseStep VelocityVariance() const;  // Of who is seen for the first time.
   void ForgetVelocity();

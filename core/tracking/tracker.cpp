@@ -5,7 +5,7 @@ namespace {
 
 using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
-constexpr int kIterations = 5;
+constexpr Iterations kIterations = {5, 15};
 // Labelled points lie some 40 mm off, and those of neighbouring parts err alike.
 constexpr double kPointStdMm = 70;
 // The person was seen to move so much farther than was foreseen: the fit would not reach.
