@@ -38,6 +38,7 @@ constexpr double kRestS = 0.045;
 // A search goes on over some frames where they follow each other fast, so that none comes late:
 // each limb is looked for by itself, and then each pair, which costs as much as two.
 constexpr double kLimbsPerS = 80;
+constexpr double kWholeSearch = 8;
 constexpr int kIterations = 5;
 constexpr Iterations kDrawIterations = {5, 15};
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
@@ -266,13 +267,14 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
   return true;
 }
 
-bool LimbRecovery::ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                                Candidate& present) {
+bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
+                            const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
+                            Candidate& present) {
+  const auto [left, right] = limb_ends;
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
-    FindTowards(search, body.table(), arm_stances_, present.pose, other.TipAt(present.pose));
+    FindTowards(search, body.table(), StancesOf(left), present.pose, other.TipAt(present.pose));
   };
-  Candidate pair =
-      BestPair(body, evidence, Segment::kHandL, Segment::kHandR, fit, exchanged, present.pose);
+  Candidate pair = BestPair(body, evidence, left, right, fit, exchanged, present.pose);
   if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);
   if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) {
@@ -288,7 +290,8 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
   exchange_rest_s_ -= dt_s;
-  allowance_ = std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
+  const bool is_first = std::exchange(is_first_, false);
+  allowance_ = is_first ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
   const bool is_explained = quality.unexplained_share < kUnexplainedShare;
   const bool hands_meet = HandsMeet(body, pose);
   if (is_explained) {
@@ -297,13 +300,14 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   }
   const bool searches = !is_explained && rest_s_ <= 0 && allowance_ > 0;
   const bool exchanges = hands_meet && exchange_rest_s_ <= 0;
-  if (!searches && !exchanges) return std::nullopt;
+  if (!searches && !exchanges && !is_first) return std::nullopt;
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);
   matcher_.SetContacts(contacts_);
   Candidate present{pose, 0};
   DrawNear(body, fit, present);
   bool changed = searches && RecoverLost(body, evidence, fit, present);
-  if (exchanges) changed |= ExchangeArms(body, evidence, fit, present);
+  if (exchanges) changed |= Exchange(body, evidence, kPairs[0], fit, present);
+  if (is_first) changed |= Exchange(body, evidence, kPairs[1], fit, present);
   if (!changed) return std::nullopt;
   return present.pose;
 }

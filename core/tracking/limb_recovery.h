@@ -19,9 +19,9 @@ namespace mocap {
 
 /// Tries each arm and leg in many stances when outlines are left that no part explains, and both
 /// arms or both legs together when that does not help: each may have taken the other's place. Arms
-/// whose hands are near each other are tried exchanged even when all is explained. Only what the
-/// rest of the body does not explain is matched, so that a stance costs microseconds. Reuses its
-/// memory.
+/// whose hands are near each other are tried exchanged even when all is explained, and so are the
+/// legs at the first look. Only what the rest of the body does not explain is matched, so that a
+/// stance costs microseconds. Reuses its memory.
 class LimbRecovery {
  public:
   LimbRecovery();
@@ -31,7 +31,7 @@ class LimbRecovery {
   /// @param fit      holds the evidence.
   /// @param quality  of the fit at that pose.
   /// @param dt_s     since the last call: so much is searched, and after a search in vain there is
-  ///                 a rest.
+  ///                 a rest. At the first call all is.
   std::optional<PoseState> Recover(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                                    const PoseState& pose, const SurfaceFitQuality& quality,
                                    double dt_s);
@@ -64,8 +64,8 @@ class LimbRecovery {
                    Candidate& present);
   void StartOver();
   // Hands that cross look as if they had touched and gone back, until they are apart again.
-  bool ExchangeArms(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
-                    Candidate& present);
+  bool Exchange(const BodyModel& body, const Evidence& evidence,
+                const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit, Candidate& present);
   static bool HandsMeet(const BodyModel& body, const PoseState& pose);
 
   // Draws the whole body to the evidence from a candidate's pose.
@@ -90,6 +90,7 @@ class LimbRecovery {
 
   std::vector<Stance> arm_stances_;
   std::vector<Stance> leg_stances_;
+  bool is_first_ = true;        ///< Nobody was looked at yet.
   std::size_t next_ = 0;        ///< Limb, or pair behind the limbs, that is looked for next.
   bool is_in_vain_ = true;      ///< The search so far.
   double allowance_ = 0;        ///< How many limbs may be looked for in this frame.

@@ -25,12 +25,11 @@ class Fit : public testing::Test {
   PoseState FitFrom(const PoseState& start, const BodyModel& body, SurfaceFit& fit) const {
     PoseFilter filter{MotionNoise{}};
     filter.Reset(start, 100, 0.5);
-    filter.Update(
-        body.table(),
-        [&](const PoseState& pose, UpdateEquations& equations) {
-          fit.Linearize(body, pose, equations);
-        },
-        {12, 12});
+    filter.Update(body.table(),
+                  [&](const PoseState& pose, UpdateEquations& equations) {
+                    fit.Linearize(body, pose, equations);
+                  },
+                  {12, 12});
     return filter.pose();
   }
   /// @param dt_s  since the last search; by default all is searched at once.
@@ -148,6 +147,7 @@ TEST_F(Fit, FramesThatFollowEachOtherFastShareASearch) {
   const PoseState truth = Standing(body_, {.arm_r = {.raise = 10, .elbow = 10}});
   const Evidence evidence = studio_.Show(body_, truth);
   const PoseState lost = Standing(body_, {});
+  ASSERT_FALSE(Recover(studio_.Show(body_, lost), lost)) << "the first look";
   constexpr double kPeriodS = 0.01;
   ASSERT_FALSE(Recover(evidence, lost, kPeriodS));  // The left arm was looked for.
   const std::optional<PoseState> found = Recover(evidence, lost, kPeriodS);
@@ -223,6 +223,22 @@ TEST_F(Fit, LimbsOfABodyThatIsNotDrawnYetStayWhereTheyAre) {
   fit_.SetEvidence(evidence);
   ASSERT_GT(fit_.QualityAt(body_, late).unexplained_share, 0.01);
   EXPECT_FALSE(Recover(evidence, late));
+}
+
+TEST_F(Fit, AtTheFirstLookCrossedLegsAreToldFromStraightOnesThatLookAlike) {
+  constexpr LegStance kFront{.hip = 15, .spread = -8, .knee = 40};
+  constexpr LegStance kBack{.hip = -15, .spread = -8, .knee = 40};
+  const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
+  const Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  const PoseState crossed =
+      FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
+  ASSERT_GT(Error(crossed, truth), 40);
+  ASSERT_LT(fit_.QualityAt(body_, crossed).unexplained_share, 0.005);
+  const std::optional<PoseState> found = Recover(evidence, crossed, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
+  EXPECT_FALSE(Recover(evidence, crossed, 0));
 }
 
 TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
