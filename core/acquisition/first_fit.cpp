@@ -11,7 +11,6 @@ namespace {
 
 // So many guesses are followed closely, limbs and all.
 constexpr std::size_t kFinalists = 3;
-constexpr Iterations kIterations = {5, 15};
 
 struct Candidate {
   PoseState pose;
@@ -74,7 +73,7 @@ Tracker FollowClosely(const BodyModel& body, const Evidence& evidence, const Pos
   if (trunk == TrunkSize::kMeasured) {
     SurfaceFit fit(SurfaceFitOptions{});
     fit.SetEvidence(evidence);
-    Improve(body, fit, kIterations, near);
+    Improve(body, fit, Iterations{}, near);
     own.Resize(MeasureTrunk(body, fit, near.pose));
   }
   Tracker tracker(own, near.pose);

@@ -68,6 +68,7 @@ Information PriorOf(const BodySizes& acquired) {
 SizeRefiner::SizeRefiner(const BodyModel& acquired)
     : acquired_(acquired.sizes()),
       by_size_(acquired, RefinedMembers()),
+      prior_(PriorOf(acquired_)),
       information_(Eigen::MatrixXd::Zero(kSizes, kSizes)),
       vector_(Eigen::VectorXd::Zero(kSizes)) {}
 
@@ -105,7 +106,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
 }
 
 BodySizes SizeRefiner::Sizes() const {
-  const Information information = information_ + PriorOf(acquired_);
+  const Information information = information_ + prior_;
   const InformationVector away = information.llt().solve(vector_);
   BodySizes sizes = acquired_;
   for (int i = 0; i < kSizes; ++i) sizes.*kRefined[i].size += away[i];

@@ -27,7 +27,8 @@ class SizeRefiner {
  private:
   BodySizes acquired_;
   SizeJacobian by_size_;
-  Eigen::MatrixXd information_;  ///< Of the sizes, without the prior.
+  Eigen::MatrixXd prior_;        ///< Information without any frame.
+  Eigen::MatrixXd information_;  ///< Of the frames.
   Eigen::VectorXd vector_;
   int frames_ = 0;
 };

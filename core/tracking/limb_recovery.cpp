@@ -40,7 +40,6 @@ constexpr double kRestS = 0.045;
 constexpr double kLimbsPerS = 80;
 constexpr double kWholeSearch = 8;
 constexpr int kIterations = 5;
-constexpr Iterations kDrawIterations = {5, 15};
 constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, Segment::kFootL,
                                               Segment::kFootR};
 constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
@@ -222,7 +221,7 @@ void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& c
       [&](const PoseState& pose, UpdateEquations& equations) {
         fit.Linearize(body, pose, equations);
       },
-      kDrawIterations);
+      Iterations{});
   candidate = {filter.pose(), fit.QualityAt(body, filter.pose()).Cost()};
 }
 

@@ -57,8 +57,8 @@ struct MotionNoise {
 /// How often measurements are linearised: `usual` times at most where the pose comes to rest, and
 /// up to `most` times while it still goes far.
 struct Iterations {
-  int usual;
-  int most;
+  int usual = 5;
+  int most = 15;
 };
 
 /// Estimates pose and its rate from measurements. Allocates nothing.

@@ -5,7 +5,6 @@ namespace {
 
 using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
-constexpr Iterations kIterations = {5, 15};
 // Labelled points lie some 40 mm off, and those of neighbouring parts err alike.
 constexpr double kPointStdMm = 70;
 // The person was seen to move so much farther than was foreseen: the fit would not reach.
@@ -63,7 +62,7 @@ void Tracker::FollowPoints(const VoxelCloud& cloud, double dt_s) {
           equations.AddPoint(J, residual_mm, kPointStdMm * kPointStdMm);
         }
       },
-      kIterations);
+      Iterations{});
 }
 
 void Tracker::FollowSurface(const Evidence& evidence, double dt_s) {
@@ -81,7 +80,7 @@ void Tracker::FitSurface() {
       [this](const PoseState& pose, UpdateEquations& equations) {
         surface_fit_.Linearize(body_, pose, equations);
       },
-      kIterations);
+      Iterations{});
   quality_ = surface_fit_.QualityAt(body_, filter_.pose());
 }
 

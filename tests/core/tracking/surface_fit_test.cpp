@@ -32,6 +32,10 @@ class Fit : public testing::Test {
                   {12, 12});
     return filter.pose();
   }
+  PoseState FitFromStance(const Evidence& evidence, const Stance& stance) {
+    fit_.SetEvidence(evidence);
+    return FitFrom(Standing(body_, stance), body_, fit_);
+  }
   /// @param dt_s  since the last search; by default all is searched at once.
   std::optional<PoseState> Recover(const Evidence& evidence, const PoseState& pose,
                                    double dt_s = 0.1) {
@@ -190,9 +194,7 @@ TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
   constexpr LegStance kBack{.hip = -15, .knee = 30};
   const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
   const Evidence evidence = studio_.Show(body_, truth);
-  fit_.SetEvidence(evidence);
-  const PoseState exchanged =
-      FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
+  const PoseState exchanged = FitFromStance(evidence, {.leg_l = kBack, .leg_r = kFront});
   ASSERT_GT(Error(exchanged, truth), 40);
   const std::optional<PoseState> found = Recover(evidence, exchanged);
   ASSERT_TRUE(found);
@@ -204,9 +206,7 @@ TEST_F(Fit, ForearmsThatCrossedAreNotTakenForHandsThatTouched) {
   constexpr ArmStance kApart{.raise = -45, .forward = 70, .twist = 0, .elbow = 15};
   const PoseState truth = Standing(body_, {.arm_l = kCrossed, .arm_r = kCrossed});
   const Evidence evidence = studio_.Show(body_, truth);
-  fit_.SetEvidence(evidence);
-  const PoseState exchanged =
-      FitFrom(Standing(body_, {.arm_l = kApart, .arm_r = kApart}), body_, fit_);
+  const PoseState exchanged = FitFromStance(evidence, {.arm_l = kApart, .arm_r = kApart});
   ASSERT_GT(Error(exchanged, truth), 40);
   ASSERT_LT(fit_.QualityAt(body_, exchanged).unexplained_share, 0.01);
   const std::optional<PoseState> found = Recover(evidence, exchanged);
@@ -230,9 +230,7 @@ TEST_F(Fit, AtTheFirstLookCrossedLegsAreToldFromStraightOnesThatLookAlike) {
   constexpr LegStance kBack{.hip = -15, .spread = -8, .knee = 40};
   const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
   const Evidence evidence = studio_.Show(body_, truth);
-  fit_.SetEvidence(evidence);
-  const PoseState crossed =
-      FitFrom(Standing(body_, {.leg_l = kBack, .leg_r = kFront}), body_, fit_);
+  const PoseState crossed = FitFromStance(evidence, {.leg_l = kBack, .leg_r = kFront});
   ASSERT_GT(Error(crossed, truth), 40);
   ASSERT_LT(fit_.QualityAt(body_, crossed).unexplained_share, 0.005);
   const std::optional<PoseState> found = Recover(evidence, crossed, 0);
