@@ -35,6 +35,10 @@ class ImageView {
   bool empty() const { return width_ == 0 || height_ == 0; }
   T* row(int y) const { return data_ + y * stride_; }
   T& operator()(int x, int y) const { return row(y)[x]; }
+  /// A part of it.
+  ImageView Section(int left, int top, int width, int height) const {
+    return {row(top) + left, width, height, stride_};
+  }
 
  private:
   T* data_ = nullptr;
@@ -42,6 +46,17 @@ class ImageView {
   int height_ = 0;
   std::ptrdiff_t stride_ = 0;
 };
+
+/// Calls for pixels [begin, end) of a row that are needed soon, if the image has that row: short
+/// stretches of rows end before a processor sees by itself where the next begins.
+template <typename T>
+void FetchPixels(ImageView<const T> image, int y, int begin, int end) {
+  constexpr std::size_t kCacheLine = 64;
+  if (y >= image.height()) return;
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.row(y) + begin);
+  for (std::size_t i = 0; i < (end - begin) * sizeof(T); i += kCacheLine)
+    __builtin_prefetch(bytes + i);
+}
 
 /// Owns pixels, row after row without gaps.
 template <typename T>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "core/tracking/lanes.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/tracking/lanes.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {

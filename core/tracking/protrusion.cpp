@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/tracking/lanes.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {

@@ -22,13 +22,13 @@ inline std::uint16_t Rounded(float value) {
 }
 
 MOCAP_VECTORIZED
-void WeighGroups(const Source& from, int groups, float shift_sq, WeighedPixels* to) {
+void WeighGroups(const Source& from, int groups, float shift_sq, WeighedPixels* to, int stride) {
   const auto [e0, e1, e2] = from.mean;
   const auto [v0, v1, v2] = from.variance;
   const float* const alpha_limit = from.alpha_limit;
   const std::uint8_t* const slopes = from.slope;
   for (int g = 0; g < groups; ++g) {
-    WeighedPixels& group = to[g];
+    WeighedPixels& group = to[static_cast<std::ptrdiff_t>(g) * stride];
     const int first = g * kPixels;
 #pragma GCC ivdep
     for (int k = 0; k < kPixels; ++k) {
@@ -63,8 +63,7 @@ void MixPixels(const float* top, const float* bottom, int count, float a, float 
 ExpectedPicture::ExpectedPicture(int picture_width, int picture_height)
     : width(picture_width),
       height(picture_height),
-      groups_per_row_((picture_width + kPixels - 1) / kPixels),
-      weighed_(static_cast<std::size_t>(groups_per_row_) * picture_height) {
+      weighed_(static_cast<std::size_t>((picture_width + kPixels - 1) / kPixels) * picture_height) {
   // Whole groups are weighed.
   const std::size_t size = static_cast<std::size_t>(width) * height + kPixels;
   for (auto& plane : mean) plane.resize(size, 255);
@@ -92,7 +91,7 @@ void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
     from.variance[c] = &variance[c][first];
   }
   WeighGroups(from, groups, shift_px * shift_px,
-              &weighed_[static_cast<std::size_t>(y) * groups_per_row_ + group]);
+              &weighed_[static_cast<std::size_t>(group) * height + y], height);
 }
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,

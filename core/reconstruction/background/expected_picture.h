@@ -61,9 +61,10 @@ struct ExpectedPicture {
   std::vector<float> alpha_limit;              ///< 1/a as measured; much where it was not.
   std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 
-  /// The groups of a row of pixels, the first of which begins the first group.
-  const WeighedPixels* Row(int y) const {
-    return &weighed_[static_cast<std::size_t>(y) * groups_per_row_];
+  /// Leads to a group of pixels, the first of which is the picture's. The next to the right is
+  /// `height` groups on: a person is higher than wide, and memory is read best in one piece.
+  const WeighedPixels* Group(int group, int y) const {
+    return &weighed_[static_cast<std::size_t>(group) * height + y];
   }
   // Single pixels as they were weighed.
   float MeanAt(int x, int y, int channel) const {
@@ -78,9 +79,8 @@ struct ExpectedPicture {
   }
 
  private:
-  const WeighedPixels& GroupAt(int x, int y) const { return Row(y)[x / WeighedPixels::kPixels]; }
+  const WeighedPixels& GroupAt(int x, int y) const { return *Group(x / WeighedPixels::kPixels, y); }
 
-  int groups_per_row_ = 0;
   std::vector<WeighedPixels> weighed_;
 };
 

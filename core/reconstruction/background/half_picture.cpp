@@ -75,14 +75,6 @@ void MixPixels(const std::uint8_t* top, const std::uint8_t* bottom, int count,
         (w0 * top[x] + w1 * top[x + 1] + w2 * bottom[x] + w3 * bottom[x + 1] + 128) >> 8);
 }
 
-// Rows of a run are too short for the processor to see by itself where the next begins.
-void FetchRow(ImageView<const Bgr> image, int y, int begin, int end) {
-  constexpr std::size_t kCacheLine = 64;
-  if (y >= image.height()) return;
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.row(y) + begin);
-  for (std::size_t i = 0; i < (end - begin) * sizeof(Bgr); i += kCacheLine)
-    __builtin_prefetch(bytes + i);
-}
 constexpr int kFetchAhead = 8;
 
 }  // namespace
@@ -187,7 +179,7 @@ void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
   std::uint16_t* const sums = scratch.data();
   for (int y = run.row * HalfPicture::kTile; y < last_row; ++y) {
     for (const int row : {2 * y, 2 * y + 1})
-      FetchRow(image, row + kFetchAhead, 2 * first, 2 * (first + columns));
+      FetchPixels(image, row + kFetchAhead, 2 * first, 2 * (first + columns));
     SeparateRows(image.row(2 * y) + 2 * first, image.row(2 * y + 1) + 2 * first, 2 * columns, sums,
                  sums + width, sums + 2 * width);
     for (int c = 0; c < 3; ++c)

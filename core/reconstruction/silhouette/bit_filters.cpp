@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
-#include <optional>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
 #include "core/errors.h"
+#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -20,67 +21,64 @@ Word BeyondEdge(const Silhouette& s) {
   return s.width() % 64 == 0 ? 0 : ~Word{0} << s.width() % 64;
 }
 
-bool IsEmpty(const Word* begin, const Word* end) {
-  return std::all_of(begin, end, [](Word word) { return word == 0; });
+MOCAP_VECTORIZED
+void KeepCommon(const Word* from, std::size_t count, Word* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] &= from[i];
 }
 
-// Combines each pixel of a row's words with those `shift` to its left and right; beside them is
-// `before` and `after`.
+MOCAP_VECTORIZED
+void AddAll(const Word* from, std::size_t count, Word* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] |= from[i];
+}
+
+// Combines each pixel of a row with those `shift` to its left and right; beside the row is
+// `beyond`.
 template <typename Combine>
-void CombineAlong(std::span<Word> words, int shift, Word before, Word after, Combine combine) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const Word here = words[i];
-    const Word next = i + 1 < words.size() ? words[i + 1] : after;
-    words[i] = combine(here, combine(here << shift | before >> (64 - shift),
-                                     here >> shift | next << (64 - shift)));
+void CombineAlong(Word* row, int words, int shift, Word beyond, Combine combine) {
+  Word before = beyond;
+  for (int i = 0; i < words; ++i) {
+    const Word here = row[i];
+    const Word next = i + 1 < words ? row[i + 1] : beyond;
+    row[i] = combine(here, combine(here << shift | before >> (64 - shift),
+                                   here >> shift | next << (64 - shift)));
     before = here;
   }
 }
 
-// Most rows of most silhouettes are empty, and so is what becomes of them.
+// Combines each pixel with those of its square neighbourhood; `combine_words` does so with words.
 template <typename Combine>
-void Filter(const Silhouette& from, int radius, Word beyond, Combine combine, Silhouette& to) {
+void Filter(const Silhouette& from, int radius, Word beyond, Combine combine,
+            void (*combine_words)(const Word*, std::size_t, Word*), Silhouette& to) {
   MOCAP_CHECK(radius >= 1 && radius <= 3 && &from != &to);
+  to = from;
   const int words = from.words_per_row();
-  const int height = from.height();
-  const bool shrinks = beyond != 0;
-  to.Reset(from.width(), height);
-  const std::optional<PixelBox> box = from.BoundingBox();
-  if (!box) return;
-  const int begin = box->left / 64, end = box->right / 64 + 1;
-  const int first = std::max(begin - 1, 0), last = std::min(end, words - 1);
+  const auto all = from.words().size();
+  for (int i = 1; i <= std::min(radius, from.height() - 1); ++i) {
+    const std::size_t apart = static_cast<std::size_t>(i) * words;
+    combine_words(from.row(i), all - apart, to.row(0));
+    combine_words(from.row(0), all - apart, to.row(i));
+  }
   const Word edge = BeyondEdge(from);
-  for (int y = std::max(box->top - radius, 0); y <= std::min(box->bottom + radius, height - 1);
-       ++y) {
-    if (shrinks && IsEmpty(from.row(y) + begin, from.row(y) + end)) continue;
+  for (int y = 0; y < from.height(); ++y) {
     Word* const row = to.row(y);
-    std::copy(from.row(y) + first, from.row(y) + last + 1, row + first);
-    for (int other = y - radius; other <= y + radius; ++other) {
-      if (other < 0 || other >= height || other == y) continue;
-      const Word* const from_row = from.row(other);
-      for (int i = begin; i < end; ++i) row[i] = combine(row[i], from_row[i]);
-    }
-    if (IsEmpty(row + begin, row + end)) continue;
-    if (last == words - 1) row[last] = (row[last] & ~edge) | (beyond & edge);
+    row[words - 1] = (row[words - 1] & ~edge) | (beyond & edge);
     // Three pixels, and then three times three or so.
-    const std::span<Word> span(row + first, row + last + 1);
-    const Word before = first == 0 ? beyond : 0, after = last == words - 1 ? beyond : 0;
-    CombineAlong(span, 1, before, after, combine);
-    if (radius > 1) CombineAlong(span, radius - 1, before, after, combine);
+    CombineAlong(row, words, 1, beyond, combine);
+    if (radius > 1) CombineAlong(row, words, radius - 1, beyond, combine);
     row[words - 1] &= ~edge;
   }
 }
 
-// Sixteen bytes of 0 or 1 as bits.
-unsigned Gather(const std::uint8_t* bytes) {
+// One bit of each of sixteen bytes, counted from the lowest.
+unsigned Gather(const std::uint8_t* bytes, int place) {
 #ifdef __SSE2__
   const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
-  return static_cast<unsigned>(_mm_movemask_epi8(_mm_slli_epi16(all, 7)));
+  return static_cast<unsigned>(_mm_movemask_epi8(_mm_slli_epi16(all, 7 - place)));
 #else
-  const auto eight = [](const std::uint8_t* from) {
+  const auto eight = [place](const std::uint8_t* from) {
     Word word;
     std::memcpy(&word, from, 8);
-    return static_cast<unsigned>(word * 0x0102040810204080 >> 56);
+    return static_cast<unsigned>((word >> place & 0x0101010101010101) * 0x0102040810204080 >> 56);
   };
   return eight(bytes) | eight(bytes + 8) << 8;
 #endif
@@ -88,8 +86,9 @@ unsigned Gather(const std::uint8_t* bytes) {
 
 }  // namespace
 
-void PackRow(std::span<const std::uint8_t> pixels, int begin, Word* row) {
-  MOCAP_CHECK(begin % 8 == 0);
+void PackRow(std::span<const std::uint8_t> pixels, unsigned bit, int begin, Word* row) {
+  MOCAP_CHECK(begin % 8 == 0 && std::has_single_bit(bit) && bit < 256);
+  const int place = std::countr_zero(bit);
   constexpr std::size_t kStep = 16;
   const auto add = [&](std::size_t i, Word bits) {
     const std::size_t x = begin + i;
@@ -99,33 +98,39 @@ void PackRow(std::span<const std::uint8_t> pixels, int begin, Word* row) {
   };
   const std::size_t count = pixels.size();
   std::size_t i = 0;
-  for (; i + kStep <= count; i += kStep) add(i, Gather(pixels.data() + i));
+  for (; i + kStep <= count; i += kStep) add(i, Gather(pixels.data() + i, place));
   if (i == count) return;
   std::array<std::uint8_t, kStep> rest{};
   std::copy(pixels.begin() + static_cast<std::ptrdiff_t>(i), pixels.end(), rest.begin());
-  add(i, Gather(rest.data()));
+  add(i, Gather(rest.data(), place));
 }
 
 void Erode(const Silhouette& from, int radius, Silhouette& to) {
   Filter(
-      from, radius, ~Word{0}, [](Word a, Word b) { return a & b; }, to);
+      from, radius, ~Word{0}, [](Word a, Word b) { return a & b; }, KeepCommon, to);
 }
 
 void Dilate(const Silhouette& from, int radius, Silhouette& to) {
   Filter(
-      from, radius, 0, [](Word a, Word b) { return a | b; }, to);
+      from, radius, 0, [](Word a, Word b) { return a | b; }, AddAll, to);
 }
 
 void Unite(const Silhouette& from, Silhouette& to) {
   MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
-  const std::size_t words = from.words().size();
-  for (std::size_t i = 0; i < words; ++i) to.row(0)[i] |= from.words()[i];
+  AddAll(from.row(0), from.words().size(), to.row(0));
 }
 
 void Intersect(const Silhouette& from, Silhouette& to) {
   MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
-  const std::size_t words = from.words().size();
-  for (std::size_t i = 0; i < words; ++i) to.row(0)[i] &= from.words()[i];
+  KeepCommon(from.row(0), from.words().size(), to.row(0));
+}
+
+void Paste(const Silhouette& from, int left, int top, Silhouette& to) {
+  MOCAP_CHECK(left % 64 == 0 && left + from.width() <= to.width() &&
+              top + from.height() <= to.height());
+  MOCAP_CHECK(from.width() % 64 == 0 || left + from.width() == to.width());
+  for (int y = 0; y < from.height(); ++y)
+    std::copy_n(from.row(y), from.words_per_row(), to.row(top + y) + left / 64);
 }
 
 }  // namespace mocap

@@ -31,6 +31,19 @@ void Closeup::Set(const Silhouette& suspicious, int width, int height) {
                        return tiles[i] | beside[i];
                      });
   }
+  MeasureFrame();
+}
+
+void Closeup::MeasureFrame() {
+  constexpr int kWord_px = 64;
+  // What is beside a silhouette is looked at farther than it is measured.
+  constexpr int kBeside_px = kTile_px;
+  const PixelBox tiles = tiles_.BoundingBox().value_or(PixelBox{});
+  frame_.left = std::max(tiles.left * kTile_px - kBeside_px, 0) / kWord_px * kWord_px;
+  frame_.top = std::max(tiles.top * kTile_px - kBeside_px, 0);
+  const int right = (tiles.right + 1) * kTile_px + kBeside_px;
+  frame_.right = std::min((right + kWord_px - 1) / kWord_px * kWord_px, width_) - 1;
+  frame_.bottom = std::min((tiles.bottom + 1) * kTile_px + kBeside_px, height_) - 1;
 }
 
 void Closeup::SetAll(int width, int height) {

@@ -26,6 +26,9 @@ class Closeup {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// What surrounds all pixels that are measured: whole words of silhouettes, and a tile above and
+  /// below.
+  const PixelBox& frame() const { return frame_; }
   /// The pixels of a row that are judged, in runs from left to right.
   std::span<const PixelRun> Judged(int y) const { return judged_.Row(y); }
   /// The pixels of a row whose colours count: those that are judged, and kMargin_px pixels more in
@@ -51,7 +54,10 @@ class Closeup {
     std::vector<int> begins_;
   };
 
+  void MeasureFrame();
+
   int width_ = 0, height_ = 0;
+  PixelBox frame_;
   Silhouette tiles_;
   Runs judged_, measured_;
 };

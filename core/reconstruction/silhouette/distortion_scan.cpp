@@ -1,7 +1,7 @@
 #include "core/reconstruction/silhouette/distortion_scan.h"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 #include "core/errors.h"
 #include "core/vectorized.h"
@@ -9,16 +9,20 @@
 namespace mocap {
 namespace {
 
-// The sum of f(0) + … + f(count − 1), written out, so that loops around it are vectorized.
-template <int count, typename Function>
-inline float Sum(Function f) {
-  return [&]<int... i>(std::integer_sequence<int, i...>) { return (f(i) + ...); }
-  (std::make_integer_sequence<int, count>{});
-}
-
-constexpr int SideOf(std::size_t window) { return 2 * DistortionScan::kRadii_px[window] + 1; }
-
 constexpr int kPixels = WeighedPixels::kPixels;
+
+// Splits pixels into planes.
+MOCAP_VECTORIZED
+void Separate(const Bgr* pixels, int count, const std::array<float, 3>& gain, float* b, float* g,
+              float* r) {
+  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    b[x] = gain0 * pixels[x].b;
+    g[x] = gain1 * pixels[x].g;
+    r[x] = gain2 * pixels[x].r;
+  }
+}
 
 struct Distortions {
   float* alpha_shift;
@@ -28,123 +32,88 @@ struct Distortions {
 
 // Measures pixels, one group after the other.
 MOCAP_VECTORIZED
-void MeasureGroups(const WeighedPixels* groups, const Bgr* pixels, int count,
-                   const std::array<float, 3>& gain, const Distortions& d) {
-  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
+void MeasureGroups(const WeighedPixels* groups, int stride,
+                   const std::array<const float*, 3>& color, int count, const Distortions& d) {
+  const auto [c0, c1, c2] = color;
+  const auto [d0, d1, d2] = d.cd;
+  float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
+  float *const alpha_weight = d.alpha_weight, *const inverse_sigma = d.inverse_sigma;
   for (int g = 0; g < count; ++g) {
-    const WeighedPixels& group = groups[g];
-    const Bgr* const from = pixels + g * kPixels;
-    const int first = g * kPixels;
-    alignas(32) std::array<std::array<float, kPixels>, 3> color;
+    const WeighedPixels& group = groups[static_cast<std::ptrdiff_t>(g) * stride];
 #pragma GCC ivdep
     for (int k = 0; k < kPixels; ++k) {
-      color[0][k] = from[k].b * gain0;
-      color[1][k] = from[k].g * gain1;
-      color[2][k] = from[k].r * gain2;
-    }
-    float *const alpha_shift = d.alpha_shift + first, *const cd_sq = d.cd_sq + first;
-    float *const d0 = d.cd[0] + first, *const d1 = d.cd[1] + first, *const d2 = d.cd[2] + first;
-    float* const alpha_weight = d.alpha_weight + first;
-    float* const inverse_sigma = d.inverse_sigma + first;
-#pragma GCC ivdep
-    for (int k = 0; k < kPixels; ++k) {
+      const int x = g * kPixels + k;
       const float w0 = group.inverse_sigma[0][k] * WeighedPixels::kInverseSigmaUnit;
       const float w1 = group.inverse_sigma[1][k] * WeighedPixels::kInverseSigmaUnit;
       const float w2 = group.inverse_sigma[2][k] * WeighedPixels::kInverseSigmaUnit;
       const float m0 = group.mean[0][k] * (WeighedPixels::kMeanUnit * w0);
       const float m1 = group.mean[1][k] * (WeighedPixels::kMeanUnit * w1);
       const float m2 = group.mean[2][k] * (WeighedPixels::kMeanUnit * w2);
-      const float z0 = color[0][k] * w0, z1 = color[1][k] * w1, z2 = color[2][k] * w2;
+      const float z0 = c0[x] * w0, z1 = c1[x] * w1, z2 = c2[x] * w2;
       const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / (m0 * m0 + m1 * m1 + m2 * m2);
       const float f0 = z0 - alpha * m0;
       const float f1 = z1 - alpha * m1;
       const float f2 = z2 - alpha * m2;
-      alpha_shift[k] = alpha - 1;
-      d0[k] = f0;
-      d1[k] = f1;
-      d2[k] = f2;
-      cd_sq[k] = f0 * f0 + f1 * f1 + f2 * f2;
-      alpha_weight[k] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
-      inverse_sigma[k] = w1;
+      alpha_shift[x] = alpha - 1;
+      d0[x] = f0;
+      d1[x] = f1;
+      d2[x] = f2;
+      cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
+      alpha_weight[x] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
+      inverse_sigma[x] = w1;
     }
   }
 }
 
-// Of a row, within the width of a window.
-struct RowSums {
-  float *alpha, *alpha_sq, *moment;
-  std::array<float*, 3> cd;
+constexpr int kSmaller = kWindowRadii_px[0], kLarger = kWindowRadii_px[1];
+static_assert(kWindows == 2 && kLarger == kSmaller + 1);
+
+// Values and those to their left and right.
+struct Neighbours {
+  MOCAP_INLINE explicit Neighbours(const float* values) {
+#pragma GCC unroll 7
+    for (int i = -kLarger; i <= kLarger; ++i) LoadLanes(values + i, at[i + kLarger]);
+  }
+  // The sum of term(−radius), … term(radius), where `term` is given a value and replaces it.
+  template <int radius, typename Term>
+  MOCAP_INLINE void Sum(Term term, Floats& sum) const {
+    sum = Floats{};
+#pragma GCC unroll 7
+    for (int i = radius; i >= -radius; --i) {
+      Floats value = at[i + kLarger];
+      term(value, static_cast<float>(i));
+      sum = value + sum;
+    }
+  }
+  Floats at[2 * kLarger + 1];
 };
 
 // Sums within the smaller width, and from there within the larger, which is two pixels more.
-template <int side>
-MOCAP_VECTORIZED void SumAlphas(const float* alpha, int count, const RowSums& smaller,
-                                const RowSums& larger) {
-  float *const s0 = smaller.alpha, *const q0 = smaller.alpha_sq, *const m0 = smaller.moment;
-  float *const s1 = larger.alpha, *const q1 = larger.alpha_sq, *const m1 = larger.moment;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float first = alpha[x], last = alpha[x + side + 1];
-    const float sum = Sum<side>([&](int i) { return alpha[x + i + 1]; });
-    const float sum_sq = Sum<side>([&](int i) { return alpha[x + i + 1] * alpha[x + i + 1]; });
-    const float moment =
-        Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * alpha[x + i + 1]; });
-    s0[x] = sum;
-    q0[x] = sum_sq;
-    m0[x] = moment;
-    s1[x] = sum + first + last;
-    q1[x] = sum_sq + first * first + last * last;
-    m1[x] = moment + static_cast<float>(side / 2 + 1) * (last - first);
-  }
+template <typename Term>
+MOCAP_INLINE void SumBoth(const Neighbours& values, Term term, LineSums::Column& smaller,
+                          LineSums::Column& larger) {
+  Floats sum, first = values.at[0], last = values.at[2 * kLarger];
+  values.Sum<kSmaller>(term, sum);
+  StoreLanes(sum, smaller.data());
+  term(first, static_cast<float>(-kLarger)), term(last, static_cast<float>(kLarger));
+  StoreLanes(sum + first + last, larger.data());
 }
 
-template <int side>
-MOCAP_VECTORIZED void SumColors(const std::array<const float*, 3>& cd, int count,
-                                const RowSums& smaller, const RowSums& larger) {
-  for (int c = 0; c < 3; ++c) {
-    const float* const from = cd[c];
-    float *const s0 = smaller.cd[c], *const s1 = larger.cd[c];
-#pragma GCC ivdep
-    for (int x = 0; x < count; ++x) {
-      const float sum = Sum<side>([&](int i) { return from[x + i + 1]; });
-      s0[x] = sum;
-      s1[x] = sum + from[x] + from[x + side + 1];
-    }
-  }
-}
-
-template <int side>
-using Column = std::array<const float*, side>;
-
-template <int side>
-MOCAP_VECTORIZED void JoinAlphas(const Column<side>& sum, const Column<side>& sum_sq,
-                                 const Column<side>& moment, const float* alpha_weight, int count,
-                                 float* alpha_shift, float* roughness_sq) {
-  constexpr float kArea = side * side;
-  // Sum of x² over the window's pixels, counted from its middle.
-  constexpr float kSpread = kArea * (kArea - 1) / 12;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float a = Sum<side>([&](int i) { return sum[i][x]; });
-    const float a_sq = Sum<side>([&](int i) { return sum_sq[i][x]; });
-    const float along = Sum<side>([&](int i) { return moment[i][x]; });
-    const float down =
-        Sum<side>([&](int i) { return static_cast<float>(i - side / 2) * sum[i][x]; });
-    const float variance = (a_sq - a * a / kArea - (along * along + down * down) / kSpread) / kArea;
-    alpha_shift[x] = a / kArea;
-    roughness_sq[x] = variance * alpha_weight[x] * alpha_weight[x];
-  }
-}
-
-template <int side>
-MOCAP_VECTORIZED void JoinColors(const std::array<Column<side>, 3>& sums, int count, float* cd_sq) {
-  constexpr float kArea = side * side;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float d0 = Sum<side>([&](int i) { return sums[0][i][x]; });
-    const float d1 = Sum<side>([&](int i) { return sums[1][i][x]; });
-    const float d2 = Sum<side>([&](int i) { return sums[2][i][x]; });
-    cd_sq[x] = (d0 * d0 + d1 * d1 + d2 * d2) / (kArea * kArea);
+// Sums along a line, `sums` leading to the line's place in the first of the blocks.
+MOCAP_VECTORIZED
+void SumBlocks(const float* alpha_shift, const std::array<const float*, 3>& cd, int blocks,
+               BlockSums* sums) {
+  for (int block = 0; block < blocks; ++block) {
+    auto& [smaller, larger] = sums[block * kSumLines];
+    const int x = block * kFloats;
+    const auto itself = [](Floats&, float) {};
+    const Neighbours alphas(alpha_shift + x);
+    SumBoth(alphas, itself, smaller.alpha, larger.alpha);
+    SumBoth(
+        alphas, [](Floats& a, float) { a *= a; }, smaller.alpha_sq, larger.alpha_sq);
+    SumBoth(
+        alphas, [](Floats& a, float to_right) { a *= to_right; }, smaller.moment, larger.moment);
+    for (int c = 0; c < 3; ++c) SumBoth(Neighbours(cd[c] + x), itself, smaller.cd[c], larger.cd[c]);
   }
 }
 
@@ -158,114 +127,88 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   closeup_ = &closeup;
   image_ = image;
   gain_ = gain;
-  next_ = 0;
-  measured_ = 0;
-  // Whole groups are measured.
-  const auto width = static_cast<std::size_t>(expected.width) + kPixels;
+  next_ = measured_ = closeup.frame().top;
+  const int width = expected.width + kBeside;
+  if (alpha_shift_.width() == width && alpha_shift_.height() == expected.height) return;
+  alpha_shift_ = Image<float>(width, expected.height);
   for (Line& line : lines_) {
-    line.alpha_shift.resize(width + 2 * kPad);
-    for (auto& cd : line.cd) cd.resize(width + 2 * kPad);
-    for (auto* values : {&line.cd_sq, &line.alpha_weight, &line.inverse_sigma})
-      values->resize(width);
-    for (Sums& sums : line.sums) {
-      for (auto* values : {&sums.alpha, &sums.alpha_sq, &sums.moment}) values->resize(width);
-      for (auto& cd : sums.cd) cd.resize(width);
-    }
+    for (auto* values : {&line.cd_sq, &line.alpha_weight, &line.inverse_sigma, &line.cd[0],
+                         &line.cd[1], &line.cd[2]})
+      values->assign(static_cast<std::size_t>(width), 0);
   }
-  for (Results& r : results_)
-    for (auto* values : {&r.alpha_shift, &r.cd_sq, &r.roughness_sq}) values->resize(width);
+  for (auto& color : color_) color.resize(static_cast<std::size_t>(width));
+  sums_.resize(static_cast<std::size_t>(width / kFloats * kLines));
 }
 
 const DistortionScan::Row& DistortionScan::Next() {
   const int y = next_++;
-  MOCAP_CHECK(y < expected_->height);
-  for (; measured_ <= std::min(y + kPad, expected_->height - 1); ++measured_)
-    Measure(measured_, lines_[static_cast<std::size_t>(measured_ % kLines)]);
-  for (const PixelRun& run : closeup_->Judged(y)) {
-    SumDown<0>(y, run);
-    SumDown<1>(y, run);
-  }
-  const Line& line = lines_[static_cast<std::size_t>(y % kLines)];
-  row_.alpha_shift = line.alpha_shift.data() + kPad;
-  row_.cd_sq = line.cd_sq.data();
-  row_.alpha_weight = line.alpha_weight.data();
-  row_.inverse_sigma = line.inverse_sigma.data();
-  for (std::size_t w = 0; w < kWindows; ++w)
-    row_.windows[w] = {results_[w].alpha_shift.data(), results_[w].cd_sq.data(),
-                       results_[w].roughness_sq.data()};
+  const int last = expected_->height - 1;
+  MOCAP_CHECK(y <= last);
+  for (; measured_ <= std::min(y + kLargestRadius_px, last); ++measured_) Measure(measured_);
+  const Line& line = LineAt(y);
+  row_ = {alpha_shift_.row(y) + kPad,
+          line.cd_sq.data() + kPad,
+          line.alpha_weight.data() + kPad,
+          line.inverse_sigma.data() + kPad,
+          {}};
+  for (int i = -kLargestRadius_px; i <= kLargestRadius_px; ++i)
+    row_.sums[i + kLargestRadius_px] = &sums_[std::clamp(y + i, 0, last) % kLines];
   return row_;
 }
 
-void DistortionScan::Measure(int y, Line& line) const {
+void DistortionScan::Measure(int y) {
   int done = 0;
   for (const PixelRun& run : closeup_->Measured(y)) {
+    FetchPixels(image_, y + 1, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
     done = (run.end + kPixels - 1) / kPixels;
     const int whole = std::min(done, expected_->width / kPixels);
-    MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first, line);
+    MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first);
     if (whole == done) continue;
     // The picture ends within the last group.
     std::array<Bgr, kPixels> rest{};
     std::copy(image_.row(y) + whole * kPixels, image_.row(y) + expected_->width, rest.begin());
-    MeasureFrom(y, whole, rest.data(), 1, line);
+    MeasureFrom(y, whole, rest.data(), 1);
   }
-  RepeatEnds(line);
+  RepeatEnds(y);
   // What is summed beyond the ends is judged nowhere.
-  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(run, line);
+  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(y, run);
 }
 
-void DistortionScan::MeasureFrom(int y, int group, const Bgr* pixels, int count, Line& line) const {
-  const int first = group * kPixels;
-  MeasureGroups(expected_->Row(y) + group, pixels, count, gain_,
-                {&line.alpha_shift[first + kPad],
-                 {&line.cd[0][first + kPad], &line.cd[1][first + kPad], &line.cd[2][first + kPad]},
+void DistortionScan::MeasureFrom(int y, int group, const Bgr* pixels, int count) {
+  const auto [b, g, r] = std::array{color_[0].data(), color_[1].data(), color_[2].data()};
+  Separate(pixels, count * kPixels, gain_, b, g, r);
+  const int first = group * kPixels + kPad;
+  Line& line = LineAt(y);
+  MeasureGroups(expected_->Group(group, y), expected_->height, {b, g, r}, count,
+                {alpha_shift_.row(y) + first,
+                 {&line.cd[0][first], &line.cd[1][first], &line.cd[2][first]},
                  &line.cd_sq[first],
                  &line.alpha_weight[first],
                  &line.inverse_sigma[first]});
 }
 
-void DistortionScan::RepeatEnds(Line& line) const {
-  const int width = expected_->width;
-  for (auto* values : {&line.alpha_shift, &line.cd[0], &line.cd[1], &line.cd[2]}) {
-    std::fill_n(values->begin(), kPad, (*values)[kPad]);
-    std::fill_n(values->begin() + width + kPad, kPad, (*values)[width + kPad - 1]);
+void DistortionScan::RepeatEnds(int y) {
+  const std::span<const PixelRun> runs = closeup_->Measured(y);
+  if (runs.empty() || (runs.front().begin > 0 && runs.back().end < expected_->width)) return;
+  Line& line = LineAt(y);
+  for (float* const values :
+       {alpha_shift_.row(y), line.cd[0].data(), line.cd[1].data(), line.cd[2].data()}) {
+    float* const end = values + kPad + expected_->width;
+    std::fill_n(values, kPad, values[kPad]);
+    std::fill_n(end, kPad, end[-1]);
   }
 }
 
-void DistortionScan::SumAlong(const PixelRun& run, Line& line) {
-  static_assert(kRadii_px[1] == kRadii_px[0] + 1 && kRadii_px[1] == kPad);
-  const int count = run.end - run.begin;
-  std::array<RowSums, kWindows> to;
-  for (std::size_t w = 0; w < kWindows; ++w) {
-    Sums& sums = line.sums[w];
-    to[w] = {&sums.alpha[run.begin], &sums.alpha_sq[run.begin], &sums.moment[run.begin], {}};
-    for (int c = 0; c < 3; ++c) to[w].cd[c] = &sums.cd[c][run.begin];
-  }
-  SumAlphas<SideOf(0)>(&line.alpha_shift[run.begin], count, to[0], to[1]);
-  SumColors<SideOf(0)>({&line.cd[0][run.begin], &line.cd[1][run.begin], &line.cd[2][run.begin]},
-                       count, to[0], to[1]);
-}
-
-template <std::size_t window>
-void DistortionScan::SumDown(int y, const PixelRun& run) {
-  constexpr int kSide = SideOf(window);
-  const int count = run.end - run.begin;
-  Column<kSide> a, q, m;
-  std::array<Column<kSide>, 3> d;
-  for (int i = 0; i < kSide; ++i) {
-    const int row = std::clamp(y + i - kRadii_px[window], 0, expected_->height - 1);
-    const Sums& sums = lines_[static_cast<std::size_t>(row % kLines)].sums[window];
-    a[i] = &sums.alpha[run.begin];
-    q[i] = &sums.alpha_sq[run.begin];
-    m[i] = &sums.moment[run.begin];
-    for (int c = 0; c < 3; ++c) d[c][i] = &sums.cd[c][run.begin];
-  }
-  const float* const alpha_weight =
-      &lines_[static_cast<std::size_t>(y % kLines)].alpha_weight[run.begin];
-  Results& results = results_[window];
-  JoinAlphas<kSide>(a, q, m, alpha_weight, count, &results.alpha_shift[run.begin],
-                    &results.roughness_sq[run.begin]);
-  JoinColors<kSide>(d, count, &results.cd_sq[run.begin]);
+void DistortionScan::SumAlong(int y, const PixelRun& run) {
+  // Blocks that are judged anywhere lie well within the run.
+  const int first = (run.begin + kFloats - 1) / kFloats;
+  const int blocks = (run.end + kFloats - 1) / kFloats - first;
+  const int begin = first * kFloats + kPad;
+  const Line& line = LineAt(y);
+  SumBlocks(alpha_shift_.row(y) + begin,
+            {&line.cd[0][begin], &line.cd[1][begin], &line.cd[2][begin]}, blocks,
+            &sums_[first * kLines + y % kLines]);
 }
 
 }  // namespace mocap

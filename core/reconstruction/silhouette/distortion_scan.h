@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
 #include "core/reconstruction/silhouette/closeup.h"
+#include "core/reconstruction/silhouette/window_sums.h"
 
 namespace mocap {
 
@@ -21,27 +24,17 @@ namespace mocap {
 /// own. Thread-bound; reuses its memory.
 class DistortionScan {
  public:
-  static constexpr std::size_t kWindows = 2;
-  /// Half the windows' sides, without the pixel in the middle.
-  static constexpr std::array<int, kWindows> kRadii_px = {2, 3};
-
-  /// Distortions of the windows around the pixels of one row.
-  struct Windows {
-    const float* alpha_shift = nullptr;   ///< Mean of α − 1.
-    const float* cd_sq = nullptr;         ///< Squared length of the mean colour distance.
-    const float* roughness_sq = nullptr;  ///< Variance of α about a plane, divided by a².
-  };
-  /// Results of one row; each pointer leads to one value a pixel, and is valid until the next row,
-  /// for the pixels that are judged.
+  /// One row. Each pointer leads to one value a pixel, and is valid until the next row for the
+  /// pixels that are judged, and for others in the same eight, of which nothing is known.
   struct Row {
-    const float* alpha_shift = nullptr;    ///< α − 1; also for the pixels that are measured.
+    const float* alpha_shift = nullptr;    ///< α − 1; valid for the whole picture.
     const float* cd_sq = nullptr;          ///< CD².
     const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
     const float* inverse_sigma = nullptr;  ///< 1/σ of green.
-    std::array<Windows, kWindows> windows;
+    WindowLines sums{};                    ///< For JoinLines().
   };
 
-  /// Starts at the top of a picture. All but `gain` are borrowed until the last row.
+  /// Starts at the top of a closeup's frame. All but `gain` are borrowed until the last row.
   /// @param expected  weighed for the pixels that are measured.
   /// @param gain      what each of the picture's channels is multiplied by.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
@@ -50,31 +43,28 @@ class DistortionScan {
   /// Measures the next row. Beyond the picture's edge its outermost pixels are repeated.
   const Row& Next();
 
- private:
-  static constexpr int kPad = kRadii_px.back();
-  static constexpr int kLines = 2 * kPad + 1;
-  static_assert(kPad <= Closeup::kMargin_px);
+  /// α − 1 of the pixels that were measured.
+  ImageView<const float> alpha_shift() const {
+    return {alpha_shift_.row(0) + kPad, alpha_shift_.width() - kBeside, alpha_shift_.height(),
+            alpha_shift_.width()};
+  }
 
-  // Sums along a row within the width of a window.
-  struct Sums {
-    std::vector<float> alpha, alpha_sq, moment;
-    std::array<std::vector<float>, 3> cd;
-  };
-  // Pixels and their sums; pixels are padded by kPad on both sides.
+ private:
+  static constexpr int kPad = kFloats;  // On both sides of the picture.
+  static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
+  static constexpr int kLines = kSumLines;
+  static_assert(kLargestRadius_px <= Closeup::kMargin_px && kLargestRadius_px <= kPad);
+
+  // Pixels, padded by kPad.
   struct Line {
-    std::vector<float> alpha_shift, cd_sq, alpha_weight, inverse_sigma;
+    std::vector<float> cd_sq, alpha_weight, inverse_sigma;
     std::array<std::vector<float>, 3> cd;
-    std::array<Sums, kWindows> sums;
   };
-  struct Results {
-    std::vector<float> alpha_shift, cd_sq, roughness_sq;
-  };
-  void Measure(int y, Line& line) const;
-  void MeasureFrom(int y, int group, const Bgr* pixels, int count, Line& line) const;
-  void RepeatEnds(Line& line) const;
-  static void SumAlong(const PixelRun& run, Line& line);
-  template <std::size_t window>
-  void SumDown(int y, const PixelRun& run);
+  Line& LineAt(int y) { return lines_[static_cast<std::size_t>(y % kLines)]; }
+  void Measure(int y);
+  void MeasureFrom(int y, int group, const Bgr* pixels, int count);
+  void RepeatEnds(int y);
+  void SumAlong(int y, const PixelRun& run);
 
   const ExpectedPicture* expected_ = nullptr;
   const Closeup* closeup_ = nullptr;
@@ -82,8 +72,10 @@ class DistortionScan {
   std::array<float, 3> gain_ = {1, 1, 1};
   int next_ = 0;
   int measured_ = 0;
+  Image<float> alpha_shift_;  // Padded too.
   std::array<Line, kLines> lines_;
-  std::array<Results, kWindows> results_;
+  std::array<std::vector<float>, 3> color_;
+  std::vector<BlockSums> sums_;
   Row row_;
 };
 

@@ -37,16 +37,21 @@ void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float
   }
 }
 
-MOCAP_VECTORIZED
-void NormalizeWindows(const DistortionScan::Windows& windows, const float* alpha_weight, int count,
-                      float* cd, float* alpha, float* roughness) {
-  const float *const alpha_shift = windows.alpha_shift, *const cd_sq = windows.cd_sq;
-  const float* const roughness_sq = windows.roughness_sq;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    cd[x] = std::sqrt(cd_sq[x]);
-    alpha[x] = std::abs(alpha_shift[x]) * alpha_weight[x];
-    roughness[x] = std::sqrt(std::max(roughness_sq[x], 0.0f));
+// Of windows of one size: the same, and their roughness. Whole blocks of pixels are written.
+template <std::size_t window>
+MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::Row& row, int blocks, float* cd,
+                                       float* alpha, float* roughness) {
+  for (int block = 0; block < blocks; ++block) {
+    const int x = block * kFloats;
+    WindowDistortions d;
+    Floats weight;
+    LoadLanes(row.alpha_weight + x, weight);
+    JoinLines<window>(row.sums, block, weight, d);
+    const Floats shift = d.alpha_shift < 0 ? -d.alpha_shift : d.alpha_shift;
+    Floats rough_sq = d.roughness_sq > 0 ? d.roughness_sq : Floats{};
+    TakeRoots(d.cd_sq), TakeRoots(rough_sq);
+    StoreLanes(d.cd_sq, cd + x), StoreLanes(shift * weight, alpha + x);
+    StoreLanes(rough_sq, roughness + x);
   }
 }
 
@@ -86,6 +91,13 @@ void DistortionHistograms::Histogram::Add(const float* values, int count) {
   }
 }
 
+void DistortionHistograms::WindowHistograms::Take(const std::array<std::vector<float>, 3>& line,
+                                                  int y) {
+  std::copy_n(line[0].data(), cd_image.width(), cd_image.row(y));
+  std::copy_n(line[1].data(), alpha_image.width(), alpha_image.row(y));
+  std::copy_n(line[2].data(), roughness_image.width(), roughness_image.row(y));
+}
+
 float DistortionHistograms::Histogram::Quantile(double rate) const {
   std::int64_t total = 0;
   for (const std::int64_t count : counts_) total += count;
@@ -110,18 +122,18 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
   everything_.SetAll(width, height);
   scan_.Begin(expected, image, gain, everything_);
   std::array<std::vector<float>, 3> line;
-  for (auto& values : line) values.resize(static_cast<std::size_t>(width));
+  for (auto& values : line) values.resize(static_cast<std::size_t>(width) + kFloats);
   for (int y = 0; y < height; ++y) {
     const DistortionScan::Row& row = scan_.Next();
     NormalizePixels(row, width, line[0].data(), line[1].data(), line[2].data());
     cd_.Add(line[0].data(), width);
     alpha_low_.Add(line[1].data(), width);
     alpha_high_.Add(line[2].data(), width);
-    for (std::size_t k = 0; k < windows_.size(); ++k) {
-      WindowHistograms& w = windows_[k];
-      NormalizeWindows(row.windows[k], row.alpha_weight, width, w.cd_image.row(y),
-                       w.alpha_image.row(y), w.roughness_image.row(y));
-    }
+    const int blocks = (width + kFloats - 1) / kFloats;
+    NormalizeWindows<0>(row, blocks, line[0].data(), line[1].data(), line[2].data());
+    windows_[0].Take(line, y);
+    NormalizeWindows<1>(row, blocks, line[0].data(), line[1].data(), line[2].data());
+    windows_[1].Take(line, y);
   }
   const auto add = [](Image<float>& image_values, int radius, Histogram& histogram) {
     Erode(radius, image_values);
@@ -129,7 +141,7 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
   };
   for (std::size_t k = 0; k < windows_.size(); ++k) {
     WindowHistograms& w = windows_[k];
-    const int radius = DistortionScan::kRadii_px[k];
+    const int radius = kWindowRadii_px[k];
     add(w.cd_image, radius, w.cd);
     add(w.alpha_image, radius, w.alpha);
     add(w.roughness_image, radius, w.roughness);

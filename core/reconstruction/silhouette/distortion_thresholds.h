@@ -21,7 +21,7 @@ struct DistortionThresholds {
   float cd = 0;          ///< Chromaticity distortion of a pixel.
   float alpha_low = 0;   ///< Brightness distortion of a pixel, negative.
   float alpha_high = 0;  ///< Brightness distortion of a pixel, positive.
-  std::array<Window, DistortionScan::kWindows> windows;
+  std::array<Window, kWindows> windows;
 };
 
 /// Collects the distortions of training frames in histograms and reads thresholds off them.
@@ -52,13 +52,16 @@ class DistortionHistograms {
   };
 
   struct WindowHistograms {
+    // Takes a row of all three.
+    void Take(const std::array<std::vector<float>, 3>& line, int y);
+
     Histogram cd, alpha, roughness;
     // Of the picture that is being added.
     Image<float> cd_image, alpha_image, roughness_image;
   };
 
   Histogram cd_, alpha_low_, alpha_high_;
-  std::array<WindowHistograms, DistortionScan::kWindows> windows_;
+  std::array<WindowHistograms, kWindows> windows_;
   Closeup everything_;
   DistortionScan scan_;
 };

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/lanes.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 namespace mocap {
@@ -28,7 +29,7 @@ constexpr float kHalfCovered = 0.4f;
 constexpr unsigned kAll = (1u << kSide) - 1;
 
 // The kSide pixels of a row from `begin` on, in the lowest bits.
-unsigned BitsFrom(const Silhouette& s, int begin, int y) {
+MOCAP_INLINE unsigned BitsFrom(const Silhouette& s, int begin, int y) {
   const Word* const row = s.row(y);
   if (begin < 0) return static_cast<unsigned>(row[0] << -begin) & kAll;
   const int shift = begin & 63;
@@ -39,7 +40,7 @@ unsigned BitsFrom(const Silhouette& s, int begin, int y) {
 }
 
 // Those of these pixels that lie within the picture.
-unsigned ValidFrom(int begin, int width) {
+MOCAP_INLINE unsigned ValidFrom(int begin, int width) {
   unsigned valid = kAll;
   if (begin < 0) valid &= kAll << -begin;
   if (begin + kSide > width) valid &= kAll >> (begin + kSide - width);
@@ -64,17 +65,34 @@ constexpr auto kCounts = [] {
 constexpr auto kByteMasks = MasksOf<std::uint8_t, 3>();
 constexpr auto kValueMasks = MasksOf<std::uint32_t, 1>();
 
-}  // namespace
+// Within the frame of a silhouette.
+struct Picture {
+  const ExpectedPicture& expected;
+  int left, top;  // Of the frame in what is expected.
+  ImageView<const Bgr> image;
+  std::array<float, 3> gain;
+  ImageView<const float> alpha_shift;
+};
+
+// The silhouette without its outermost pixels, and with those beside it.
+struct Bounds {
+  const Silhouette &inside, &near;
+  // The pixels of a word that the outline may cross.
+  MOCAP_INLINE Word Band(int word, int y) const {
+    return y < 0 || y >= near.height() ? 0 : near.row(y)[word] & ~inside.row(y)[word];
+  }
+};
 
 // The person's colours and the background's brightness around a block.
-struct OutlineRefiner::Around {
+struct Around {
   // Channels in turn.
   std::array<std::uint16_t, 3 * kSide> person{};
   std::array<float, kSide> alphas{};
   int person_count = 0, background_count = 0;
 
   // Adds a row of kSide pixels.
-  void Add(const Bgr* pixels, unsigned inside, const float* alpha_shift, unsigned outside) {
+  MOCAP_INLINE void Add(const Bgr* pixels, unsigned inside, const float* alpha_shift,
+                        unsigned outside) {
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixels);
     for (int i = 0; i < 3 * kSide; ++i)
       person[i] = static_cast<std::uint16_t>(person[i] + (bytes[i] & kByteMasks[inside][i]));
@@ -86,7 +104,8 @@ struct OutlineRefiner::Around {
   }
 
   // Adds those of a row's pixels that are within the picture.
-  void AddSome(const Picture& picture, int begin, int y, unsigned inside, unsigned outside) {
+  MOCAP_INLINE void AddSome(const Picture& picture, int begin, int y, unsigned inside,
+                            unsigned outside) {
     for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
       const Bgr& p = picture.image(begin + std::countr_zero(bits), y);
       person[0] = static_cast<std::uint16_t>(person[0] + p.b);
@@ -97,96 +116,103 @@ struct OutlineRefiner::Around {
       alphas[0] += picture.alpha_shift(begin + std::countr_zero(bits), y);
   }
 
-  std::array<float, 3> PersonColor() const {
-    std::array<int, 3> sums{};
-    for (int i = 0; i < 3 * kSide; ++i) sums[i % 3] += person[i];
+  MOCAP_INLINE std::array<float, 3> PersonColor() const {
+    const float per_pixel = 1 / static_cast<float>(person_count);
     std::array<float, 3> color;
-    for (int c = 0; c < 3; ++c)
-      color[c] = static_cast<float>(sums[c]) / static_cast<float>(person_count);
+    for (int c = 0; c < 3; ++c) {
+      int sum = 0;
+#pragma GCC unroll 8
+      for (int i = 0; i < kSide; ++i) sum += person[3 * i + c];
+      color[c] = per_pixel * static_cast<float>(sum);
+    }
     return color;
   }
-  float Alpha() const {
+  MOCAP_INLINE float Alpha() const {
     const float sum = ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
                       ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
     return 1 + sum / static_cast<float>(background_count);
   }
 };
 
-void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                            const std::array<float, 3>& gain, const Image<float>& alpha_shift,
-                            Silhouette& silhouette) {
-  const Picture picture{expected, image, gain, alpha_shift};
-  Erode(silhouette, 1, inside_);
-  Dilate(silhouette, 1, near_);
-  for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
-    for (int i = 0; i < silhouette.words_per_row(); ++i) {
-      for (Word band = Band(i, y) | Band(i, y + 1); band != 0;) {
-        const int bit = std::countr_zero(band);
-        const int x = i * 64 + bit;
-        const bool is_first = (x - kFirst) % kBlock_px == 0;
-        RefineBlock(picture, is_first ? x : x - 1, y, silhouette);
-        band &= ~((is_first ? Word{3} : Word{1}) << bit);
-      }
-    }
-  }
-}
-
-// The pixels of a word that the outline may cross.
-std::uint64_t OutlineRefiner::Band(int word, int y) const {
-  if (y < 0 || y >= near_.height()) return 0;
-  return near_.row(y)[word] & ~inside_.row(y)[word];
-}
-
 // Looks around the block that begins at a pixel.
-OutlineRefiner::Around OutlineRefiner::LookAround(const Picture& picture, int x, int y) const {
+MOCAP_INLINE void LookAround(const Picture& picture, const Bounds& bounds, int x, int y,
+                             Around& around) {
   const int begin = x - kReach_px;
-  const unsigned valid = ValidFrom(begin, inside_.width());
-  Around around;
+  const unsigned valid = ValidFrom(begin, bounds.inside.width());
   for (const int row : kRows) {
     const int v = y + row;
-    if (v < 0 || v >= inside_.height()) continue;
-    const unsigned inside = BitsFrom(inside_, begin, v);
-    const unsigned outside = ~BitsFrom(near_, begin, v) & valid;
+    if (v < 0 || v >= bounds.inside.height()) continue;
+    const unsigned inside = BitsFrom(bounds.inside, begin, v);
+    const unsigned outside = ~BitsFrom(bounds.near, begin, v) & valid;
     if (valid == kAll)
       around.Add(&picture.image(begin, v), inside, &picture.alpha_shift(begin, v), outside);
     else
       around.AddSome(picture, begin, v, inside, outside);
   }
-  return around;
+}
+
+// Keeps a pixel if the person covers it by half; leaves it where the colours are alike.
+MOCAP_INLINE void RefinePixel(const Picture& picture, int x, int y,
+                              const std::array<float, 3>& person, float alpha, Word mask,
+                              Word& word) {
+  const Bgr& p = picture.image(x, y);
+  const std::array<int, 3> color = {p.b, p.g, p.r};
+  float along = 0, contrast_sq = 0;
+  for (int c = 0; c < 3; ++c) {
+    const float background = picture.expected.MeanAt(picture.left + x, picture.top + y, c) * alpha;
+    const float contrast = person[c] * picture.gain[c] - background;
+    along += contrast * (static_cast<float>(color[c]) * picture.gain[c] - background);
+    contrast_sq += contrast * contrast;
+  }
+  if (contrast_sq < kLeastContrast * kLeastContrast) return;
+  word = along > kHalfCovered * contrast_sq ? word | mask : word & ~mask;
 }
 
 // Keeps those pixels of a block that the person covers by half, if that can be told.
-void OutlineRefiner::RefineBlock(const Picture& picture, int x, int y,
-                                 Silhouette& silhouette) const {
-  const Around around = LookAround(picture, x, y);
+MOCAP_INLINE void RefineBlock(const Picture& picture, const Bounds& bounds, int x, int y,
+                              Silhouette& silhouette) {
+  Around around;
+  LookAround(picture, bounds, x, y, around);
   if (around.person_count == 0 || around.background_count == 0) return;
   const std::array<float, 3> person = around.PersonColor();
   const float alpha = around.Alpha();
   for (int v = std::max(y, 0); v < std::min(y + kBlock_px, silhouette.height()); ++v) {
     for (int u = std::max(x, 0); u < std::min(x + kBlock_px, silhouette.width()); ++u) {
       const Word mask = Word{1} << (u & 63);
-      if ((Band(u >> 6, v) & mask) == 0) continue;
-      Word& word = silhouette.row(v)[u >> 6];
-      if (const auto is_covered = IsCovered(picture, u, v, person, alpha))
-        word = *is_covered ? word | mask : word & ~mask;
+      if ((bounds.Band(u >> 6, v) & mask) != 0)
+        RefinePixel(picture, u, v, person, alpha, mask, silhouette.row(v)[u >> 6]);
     }
   }
 }
 
-// Returns whether the person covers a pixel by half; nothing where the colours are alike.
-std::optional<bool> OutlineRefiner::IsCovered(const Picture& picture, int x, int y,
-                                              const std::array<float, 3>& person, float alpha) {
-  const Bgr& p = picture.image(x, y);
-  const std::array<int, 3> color = {p.b, p.g, p.r};
-  float along = 0, contrast_sq = 0;
-  for (int c = 0; c < 3; ++c) {
-    const float background = picture.expected.MeanAt(x, y, c) * alpha;
-    const float contrast = person[c] * picture.gain[c] - background;
-    along += contrast * (static_cast<float>(color[c]) * picture.gain[c] - background);
-    contrast_sq += contrast * contrast;
+MOCAP_VECTORIZED
+void RefineAll(const Picture& picture, const Bounds& bounds, Silhouette& silhouette) {
+  for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
+    for (int i = 0; i < silhouette.words_per_row(); ++i) {
+      for (Word band = bounds.Band(i, y) | bounds.Band(i, y + 1); band != 0;) {
+        const int bit = std::countr_zero(band);
+        const int x = i * 64 + bit;
+        const bool is_first = (x - kFirst) % kBlock_px == 0;
+        RefineBlock(picture, bounds, is_first ? x : x - 1, y, silhouette);
+        band &= ~((is_first ? Word{3} : Word{1}) << bit);
+      }
+    }
   }
-  if (contrast_sq < kLeastContrast * kLeastContrast) return std::nullopt;
-  return along > kHalfCovered * contrast_sq;
+}
+
+}  // namespace
+
+void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr> image,
+                            const std::array<float, 3>& gain, ImageView<const float> alpha_shift,
+                            const PixelBox& frame, Silhouette& silhouette) {
+  const auto in_frame = [&](const auto& view) {
+    return view.Section(frame.left, frame.top, silhouette.width(), silhouette.height());
+  };
+  inside_.Reserve(image.width(), image.height()), near_.Reserve(image.width(), image.height());
+  Erode(silhouette, 1, inside_);
+  Dilate(silhouette, 1, near_);
+  RefineAll({expected, frame.left, frame.top, in_frame(image), gain, in_frame(alpha_shift)},
+            {inside_, near_}, silhouette);
 }
 
 }  // namespace mocap

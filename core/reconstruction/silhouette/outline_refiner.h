@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <optional>
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
@@ -22,24 +20,12 @@ class OutlineRefiner {
  public:
   /// @param gain         what each of the picture's channels is multiplied by.
   /// @param alpha_shift  α − 1 of the picture's pixels, at least within 4 of the silhouette.
+  /// @param frame        where in the picture the silhouette lies.
   void Refine(const ExpectedPicture& expected, ImageView<const Bgr> image,
-              const std::array<float, 3>& gain, const Image<float>& alpha_shift,
-              Silhouette& silhouette);
+              const std::array<float, 3>& gain, ImageView<const float> alpha_shift,
+              const PixelBox& frame, Silhouette& silhouette);
 
  private:
-  struct Picture {
-    const ExpectedPicture& expected;
-    ImageView<const Bgr> image;
-    const std::array<float, 3>& gain;
-    const Image<float>& alpha_shift;
-  };
-  struct Around;
-  std::uint64_t Band(int word, int y) const;
-  Around LookAround(const Picture& picture, int x, int y) const;
-  void RefineBlock(const Picture& picture, int x, int y, Silhouette& silhouette) const;
-  static std::optional<bool> IsCovered(const Picture& picture, int x, int y,
-                                       const std::array<float, 3>& person, float alpha);
-
   Silhouette inside_, near_;
 };
 

@@ -1,9 +1,8 @@
 #include "core/reconstruction/silhouette/pixel_classifier.h"
 
-#include <algorithm>
+#include <cstring>
 
 #include "core/reconstruction/silhouette/bit_filters.h"
-#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -13,56 +12,86 @@ constexpr float kChannels = 3;
 
 constexpr float Square(float x) { return x * x; }
 
-struct Measured {
-  const float *alpha_shift, *alpha_weight, *cd_sq, *roughness_sq;
-  const float* inverse_sigma;
-};
-
 // What is dark is so in itself and for background.
 struct Darkness {
   float shift;  // α − 1.
   float normalized;
 };
 
+struct PixelCriteria {
+  Darkness dark;
+  float cd_sq;
+};
+
+struct WindowCriteria {
+  WindowCriteria(const DistortionThresholds::Window& thresholds, float margin, float darkest_shift)
+      : dark{darkest_shift, -margin * thresholds.alpha},
+        per_cd(1 / Square(thresholds.cd)),
+        per_alpha(1 / Square(thresholds.alpha)),
+        per_roughness(1 / Square(thresholds.roughness)),
+        margin_sq(Square(margin)) {}
+  Darkness dark;
+  float per_cd, per_alpha, per_roughness;
+  float margin_sq;  // What exceeds a threshold is doubtful, what does so by the margin clear.
+};
+
+struct Criteria {
+  PixelCriteria pixel;
+  std::array<WindowCriteria, kWindows> windows;
+  float drift;
+};
+
+// A bit a kind: pixels that cannot be background by themselves, and windows, doubtful and clear.
+constexpr int kClearPixel = 1;
+constexpr int DoubtfulWindow(std::size_t k) { return 2 << k; }
+constexpr int ClearWindow(std::size_t k) { return 2 << (kWindows + k); }
+
+MOCAP_INLINE void TakeLarger(const Floats& other, Floats& value) {
+  value = other > value ? other : value;
+}
+
+// Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
+template <std::size_t window>
+MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_weight,
+                              const Floats& drift_sq, const WindowCriteria& criteria, Ints& marks) {
+  const Floats normalized = d.alpha_shift * alpha_weight;
+  const Floats bright = normalized > 0 ? normalized : Floats{};
+  Floats excess_sq = (d.cd_sq - drift_sq) * criteria.per_cd;
+  TakeLarger((bright * bright - kChannels * drift_sq) * criteria.per_alpha, excess_sq);
+  TakeLarger(d.roughness_sq * criteria.per_roughness, excess_sq);
+  const Ints is_dark =
+      (d.alpha_shift < criteria.dark.shift) & (normalized < criteria.dark.normalized);
+  marks |= (is_dark | (excess_sq > 1)) & DoubtfulWindow(window);
+  marks |= (is_dark | (excess_sq > criteria.margin_sq)) & ClearWindow(window);
+}
+
+// Marks the pixels of blocks.
 MOCAP_VECTORIZED
-void MarkPixels(const Measured& m, int count, const Darkness& dark, float cd_sq, float drift,
-                std::uint8_t* marks) {
-  const auto [alpha_shift, alpha_weight, cds_sq, roughnesses_sq, inverse_sigma] = m;
-  const auto [darkest, low] = dark;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float shift = alpha_shift[x];
-    const float normalized_drift = drift * inverse_sigma[x];
-    const int is_dark = (shift < darkest ? 1 : 0) & (shift * alpha_weight[x] < low ? 1 : 0);
-    const int is_tinted = cds_sq[x] > cd_sq + normalized_drift * normalized_drift ? 1 : 0;
-    marks[x] = static_cast<std::uint8_t>(is_dark | is_tinted);
+void MarkBlocks(const DistortionScan::Row& row, int first, int blocks, const Criteria& criteria,
+                std::int32_t* marks) {
+  for (int block = first; block < first + blocks; ++block) {
+    const int x = block * kFloats;
+    Floats alpha_shift, alpha_weight, cd_sq, drift;
+    LoadLanes(row.alpha_shift + x, alpha_shift), LoadLanes(row.alpha_weight + x, alpha_weight);
+    LoadLanes(row.cd_sq + x, cd_sq), LoadLanes(row.inverse_sigma + x, drift);
+    drift *= criteria.drift;
+    const Floats drift_sq = drift * drift;
+    const PixelCriteria& alone = criteria.pixel;
+    const Ints is_dark =
+        (alpha_shift < alone.dark.shift) & (alpha_shift * alpha_weight < alone.dark.normalized);
+    Ints all = (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel;
+    WindowDistortions d;
+    JoinLines<0>(row.sums, block, alpha_weight, d);
+    MarkWindows<0>(d, alpha_weight, drift_sq, criteria.windows[0], all);
+    JoinLines<1>(row.sums, block, alpha_weight, d);
+    MarkWindows<1>(d, alpha_weight, drift_sq, criteria.windows[1], all);
+    StoreLanes(all, marks + (block - first) * kFloats);
   }
 }
 
-// Marks what exceeds a threshold, and in `clear` what exceeds it by the factor `margin`. Drift is
-// the same all over a window: averaging does not lessen it, and it makes nothing rough.
 MOCAP_VECTORIZED
-void MarkWindows(const Measured& m, int count, const Darkness& dark,
-                 const DistortionThresholds::Window& thresholds, float margin, float drift,
-                 std::uint8_t* marks, std::uint8_t* clear) {
-  const auto [alpha_shift, alpha_weight, cds_sq, roughnesses_sq, inverse_sigma] = m;
-  const auto [darkest, low] = dark;
-  const float per_cd = 1 / Square(thresholds.cd), per_alpha = 1 / Square(thresholds.alpha);
-  const float per_roughness = 1 / Square(thresholds.roughness);
-  const float margin_sq = Square(margin);
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    const float shift = alpha_shift[x];
-    const float normalized = shift * alpha_weight[x];
-    const float bright = std::max(normalized, 0.0f);
-    const float drift_sq = drift * inverse_sigma[x] * (drift * inverse_sigma[x]);
-    const int is_dark = (shift < darkest ? 1 : 0) & (normalized < low ? 1 : 0);
-    const float excess_sq = std::max(std::max((cds_sq[x] - drift_sq) * per_cd,
-                                              (bright * bright - kChannels * drift_sq) * per_alpha),
-                                     roughnesses_sq[x] * per_roughness);
-    marks[x] = static_cast<std::uint8_t>(is_dark | (excess_sq > 1 ? 1 : 0));
-    clear[x] = static_cast<std::uint8_t>(is_dark | (excess_sq > margin_sq ? 1 : 0));
-  }
+void Narrow(const std::int32_t* from, int count, std::uint8_t* to) {
+  for (int i = 0; i < count; ++i) to[i] = static_cast<std::uint8_t>(from[i]);
 }
 
 }  // namespace
@@ -72,69 +101,67 @@ PixelClassifier::PixelClassifier(const DistortionThresholds& thresholds, float d
 
 void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
                                const Conditions& conditions, const Closeup& closeup) {
-  const int width = image.width();
-  const int height = image.height();
-  if (alpha_shift_.width() != width || alpha_shift_.height() != height) {
-    alpha_shift_ = Image<float>(width, height);
-    clear_row_.resize(static_cast<std::size_t>(width));
-    doubtful_row_.resize(static_cast<std::size_t>(width));
-  }
   expected_ = &expected;
-  drift_ = conditions.drift;
-  clear_pixels_.Reset(width, height);
-  for (auto* windows : {&clear_windows_, &doubtful_windows_})
-    for (Silhouette& s : *windows) s.Reset(width, height);
+  Resize(closeup);
   scan_.Begin(expected, image, conditions.gain, closeup);
-  for (int y = 0; y < height; ++y) {
+  const float darkest = darkest_shadow_ - 1;
+  const Criteria criteria{
+      {{darkest, kPixelMargin * thresholds_.alpha_low}, Square(kPixelMargin * thresholds_.cd)},
+      {{{thresholds_.windows[0], kWindowMargins[0], darkest},
+        {thresholds_.windows[1], kWindowMargins[1], darkest}}},
+      conditions.drift};
+  for (int y = frame_.top; y <= frame_.bottom; ++y) {
     const DistortionScan::Row& row = scan_.Next();
-    for (const PixelRun& run : closeup.Measured(y))
-      std::copy(row.alpha_shift + run.begin, row.alpha_shift + run.end,
-                alpha_shift_.row(y) + run.begin);
     for (const PixelRun& run : closeup.Judged(y)) {
-      ClassifyPixels(y, run, row);
-      for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) ClassifyWindows(y, run, k, row);
+      const int count = run.end - run.begin;
+      MarkBlocks(row, run.begin / kFloats, (count + kFloats - 1) / kFloats, criteria,
+                 marks_.data());
+      Narrow(marks_.data(), count, narrow_marks_.data());
+      const std::span<const std::uint8_t> marks(narrow_marks_.data(),
+                                                static_cast<std::size_t>(count));
+      const int begin = run.begin - frame_.left, to = y - frame_.top;
+      PackRow(marks, kClearPixel, begin, clear_pixels_.row(to));
+      for (std::size_t k = 0; k < kWindows; ++k) {
+        PackRow(marks, DoubtfulWindow(k), begin, doubtful_windows_[k].row(to));
+        PackRow(marks, ClearWindow(k), begin, clear_windows_[k].row(to));
+      }
     }
   }
   // A pixel is background when any of the windows with it is, and may well be foreground when no
   // window of one size at least is.
   foreground_ = clear_pixels_;
   doubtful_ = clear_pixels_;
-  for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) {
-    Erode(clear_windows_[k], DistortionScan::kRadii_px[k], eroded_[k]);
-    Erode(doubtful_windows_[k], DistortionScan::kRadii_px[k], clear_windows_[k]);
+  for (std::size_t k = 0; k < kWindows; ++k) {
+    Erode(clear_windows_[k], kWindowRadii_px[k], eroded_[k]);
+    Erode(doubtful_windows_[k], kWindowRadii_px[k], clear_windows_[k]);
     Unite(clear_windows_[k], doubtful_);
   }
   Intersect(eroded_[1], eroded_[0]);
   Unite(eroded_[0], foreground_);
 }
 
+void PixelClassifier::Resize(const Closeup& closeup) {
+  frame_ = closeup.frame();
+  for (auto* windows : {&clear_windows_, &doubtful_windows_, &eroded_})
+    for (Silhouette& s : *windows) s.Reserve(closeup.width(), closeup.height());
+  for (Silhouette* s : {&clear_pixels_, &foreground_, &doubtful_})
+    s->Reserve(closeup.width(), closeup.height());
+  const int width = frame_.right - frame_.left + 1, height = frame_.bottom - frame_.top + 1;
+  clear_pixels_.Reset(width, height);
+  for (auto* windows : {&clear_windows_, &doubtful_windows_})
+    for (Silhouette& s : *windows) s.Reset(width, height);
+  const auto row_px = static_cast<std::size_t>(closeup.width()) + kFloats;
+  marks_.resize(row_px), narrow_marks_.resize(row_px);
+}
+
 PixelClass PixelClassifier::ClassOf(int x, int y) const {
-  if (foreground_.Test(x, y)) return PixelClass::kForeground;
-  const float normalized = alpha_shift_(x, y) * expected_->AlphaWeightAt(x, y);
+  const int u = x - frame_.left, v = y - frame_.top;
+  if (u >= 0 && v >= 0 && u < foreground_.width() && v < foreground_.height() &&
+      foreground_.Test(u, v))
+    return PixelClass::kForeground;
+  const float normalized = scan_.alpha_shift()(x, y) * expected_->AlphaWeightAt(x, y);
   if (normalized < thresholds_.alpha_low) return PixelClass::kShadow;
   return normalized > thresholds_.alpha_high ? PixelClass::kHighlight : PixelClass::kBackground;
-}
-
-void PixelClassifier::ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row) {
-  const auto count = static_cast<std::size_t>(run.end - run.begin);
-  MarkPixels({row.alpha_shift + run.begin, row.alpha_weight + run.begin, row.cd_sq + run.begin,
-              nullptr, row.inverse_sigma + run.begin},
-             run.end - run.begin, {darkest_shadow_ - 1, kPixelMargin * thresholds_.alpha_low},
-             Square(kPixelMargin * thresholds_.cd), drift_, clear_row_.data());
-  PackRow({clear_row_.data(), count}, run.begin, clear_pixels_.row(y));
-}
-
-void PixelClassifier::ClassifyWindows(int y, const PixelRun& run, std::size_t k,
-                                      const DistortionScan::Row& row) {
-  const DistortionScan::Windows& w = row.windows[k];
-  const DistortionThresholds::Window& t = thresholds_.windows[k];
-  const auto count = static_cast<std::size_t>(run.end - run.begin);
-  MarkWindows({w.alpha_shift + run.begin, row.alpha_weight + run.begin, w.cd_sq + run.begin,
-               w.roughness_sq + run.begin, row.inverse_sigma + run.begin},
-              run.end - run.begin, {darkest_shadow_ - 1, -kWindowMargins[k] * t.alpha}, t,
-              kWindowMargins[k], drift_, doubtful_row_.data(), clear_row_.data());
-  PackRow({doubtful_row_.data(), count}, run.begin, doubtful_windows_[k].row(y));
-  PackRow({clear_row_.data(), count}, run.begin, clear_windows_[k].row(y));
 }
 
 }  // namespace mocap

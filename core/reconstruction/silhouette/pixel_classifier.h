@@ -29,7 +29,7 @@ class PixelClassifier {
   /// Factors by which thresholds must be exceeded. They stand for what an empty studio does not
   /// show: tints of shadows, and the noise that a codec lets through only where something moves.
   /// Measured on takes with true masks; a tenth more or less serves as well.
-  static constexpr std::array<float, DistortionScan::kWindows> kWindowMargins = {1.1f, 1.35f};
+  static constexpr std::array<float, kWindows> kWindowMargins = {1.1f, 1.35f};
   /// One pixel alone must differ more, for there are many of them.
   static constexpr float kPixelMargin = 1.6f;
 
@@ -43,27 +43,27 @@ class PixelClassifier {
 
   /// Gives the class of a pixel that was measured.
   PixelClass ClassOf(int x, int y) const;
-  /// Where the class is foreground.
+  /// Where the class is foreground, within the closeup's frame.
   const Silhouette& foreground() const { return foreground_; }
-  /// Where background would be as rare as the training frames allow, but not clearly beyond that.
+  /// Where background would be as rare as the training frames allow, but not clearly beyond that:
+  /// within the closeup's frame.
   const Silhouette& doubtful() const { return doubtful_; }
   /// α − 1 of every pixel that is measured.
-  const Image<float>& alpha_shift() const { return alpha_shift_; }
+  ImageView<const float> alpha_shift() const { return scan_.alpha_shift(); }
 
  private:
-  void ClassifyPixels(int y, const PixelRun& run, const DistortionScan::Row& row);
-  void ClassifyWindows(int y, const PixelRun& run, std::size_t k, const DistortionScan::Row& row);
+  void Resize(const Closeup& closeup);
 
   DistortionThresholds thresholds_;
   float darkest_shadow_;
   const ExpectedPicture* expected_ = nullptr;
-  float drift_ = 0;
+  PixelBox frame_;
   DistortionScan scan_;
-  Image<float> alpha_shift_;
-  // One byte a pixel of a run, before they are packed.
-  std::vector<std::uint8_t> clear_row_, doubtful_row_;
+  // Of the pixels of a run, before they are packed.
+  std::vector<std::int32_t> marks_;
+  std::vector<std::uint8_t> narrow_marks_;
   Silhouette clear_pixels_;
-  std::array<Silhouette, DistortionScan::kWindows> clear_windows_, doubtful_windows_, eroded_;
+  std::array<Silhouette, kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_;
 };
 

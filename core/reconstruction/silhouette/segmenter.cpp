@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/background/displacement.h"
+#include "core/reconstruction/silhouette/bit_filters.h"
 #include "core/reconstruction/silhouette/closeup.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 #include "core/reconstruction/silhouette/outline_refiner.h"
@@ -68,12 +69,16 @@ class Segmenter::Impl {
     closeup_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(closeup_, conditions_);
     classifier_.Classify(expected, image, conditions_, closeup_);
-    silhouette = classifier_.foreground();
-    cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), silhouette);
-    cleaner_.DropBlobs(smallest_blob_px_, silhouette);
-    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
-    cleaner_.FillHoles(kSmallestHole_px, silhouette);
-    cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, silhouette);
+    person_.Reserve(image.width(), image.height());
+    person_ = classifier_.foreground();
+    cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), person_);
+    cleaner_.DropBlobs(smallest_blob_px_, person_);
+    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), closeup_.frame(),
+                    person_);
+    cleaner_.FillHoles(kSmallestHole_px, person_);
+    cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, person_);
+    silhouette.Reset(image.width(), image.height());
+    Paste(person_, closeup_.frame().left, closeup_.frame().top, silhouette);
   }
 
   const Conditions& conditions() const { return conditions_; }
@@ -111,6 +116,7 @@ class Segmenter::Impl {
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
+  Silhouette person_;  // Within the closeup's frame.
   int smallest_blob_px_, largest_thing_px_;
 };
 

@@ -37,6 +37,11 @@ class Silhouette {
     words_.assign(static_cast<std::size_t>(words_per_row_) * height, 0);
   }
 
+  /// Makes room for so many pixels.
+  void Reserve(int width, int height) {
+    words_.reserve(static_cast<std::size_t>((width + 63) / 64) * height);
+  }
+
   int width() const { return width_; }
   int height() const { return height_; }
   int words_per_row() const { return words_per_row_; }

@@ -182,7 +182,7 @@ class PlainClassifier {
 
   bool IsClearWindow(std::size_t k, int x, int y, const DistortionThresholds::Window& t,
                      double darkest_shadow) const {
-    const int radius = DistortionScan::kRadii_px[k];
+    const int radius = kWindowRadii_px[k];
     const double margin = PixelClassifier::kWindowMargins[k];
     const double area = (2 * radius + 1) * (2 * radius + 1);
     const double spread = area * (area - 1) / 12;
@@ -206,7 +206,7 @@ class PlainClassifier {
   }
 
   bool AllClearAround(std::size_t k, int x, int y) const {
-    const int radius = DistortionScan::kRadii_px[k];
+    const int radius = kWindowRadii_px[k];
     for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height_ - 1); ++v)
       for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width_ - 1); ++u)
         if (!clear_windows_[k](u, v)) return false;
@@ -266,7 +266,8 @@ TEST_F(PixelClassifierTest, ACloseupShowsWhatTheWholePictureShows) {
     for (const PixelRun& run : part.Judged(y)) {
       // Windows that reach beyond are taken for background.
       for (int x = run.begin; x < run.end; ++x, ++judged) {
-        if (whole.Test(x, y) != classifier_.foreground().Test(x, y)) {
+        if (whole.Test(x, y) !=
+            classifier_.foreground().Test(x - part.frame().left, y - part.frame().top)) {
           ADD_FAILURE() << x << " " << y;
         }
       }
@@ -312,6 +313,24 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
   }
 }
 
+struct PlainWindow {
+  float alpha_shift, cd_sq, roughness_sq;
+};
+
+// Of the windows around a pixel of a row.
+std::array<PlainWindow, kWindows> WindowsAround(int x, const DistortionScan::Row& row) {
+  std::array<PlainWindow, kWindows> windows;
+  const int block = x / kFloats, lane = x % kFloats;
+  Floats weight;
+  LoadLanes(row.alpha_weight + block * kFloats, weight);
+  WindowDistortions d;
+  JoinLines<0>(row.sums, block, weight, d);
+  windows[0] = {d.alpha_shift[lane], d.cd_sq[lane], d.roughness_sq[lane]};
+  JoinLines<1>(row.sums, block, weight, d);
+  windows[1] = {d.alpha_shift[lane], d.cd_sq[lane], d.roughness_sq[lane]};
+  return windows;
+}
+
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
@@ -329,10 +348,10 @@ TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   EXPECT_NEAR(row.alpha_shift[0], alpha - 1, 1e-5);
   EXPECT_NEAR(row.cd_sq[0], cd_sq, 1e-3);
   EXPECT_NEAR(row.alpha_weight[0], std::sqrt(3300.0), 1e-3);
-  for (const DistortionScan::Windows& windows : row.windows) {
-    EXPECT_NEAR(windows.alpha_shift[0], alpha - 1, 1e-5);
-    EXPECT_NEAR(windows.cd_sq[0], cd_sq, 1e-2);
-    EXPECT_NEAR(windows.roughness_sq[0], 0, 1e-2);
+  for (const PlainWindow& window : WindowsAround(0, row)) {
+    EXPECT_NEAR(window.alpha_shift, alpha - 1, 1e-5);
+    EXPECT_NEAR(window.cd_sq, cd_sq, 1e-2);
+    EXPECT_NEAR(window.roughness_sq, 0, 1e-2);
   }
 }
 
@@ -354,14 +373,14 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
   scan.Begin(expected, image.view(), {1, 1, 1}, everything);
   for (int y = 0; y < 30; ++y) {
     const DistortionScan::Row& row = scan.Next();
-    for (std::size_t k = 0; k < DistortionScan::kWindows; ++k) {
-      const int r = DistortionScan::kRadii_px[k];
+    for (std::size_t k = 0; k < kWindows; ++k) {
+      const int r = kWindowRadii_px[k];
       for (int x = r; x < 40 - r && y >= r && y < 30 - r; ++x) {
         if (std::abs(x - 30) <= r && std::abs(y - 20) <= r) {
-          EXPECT_GT(row.windows[k].roughness_sq[x], 100);
+          EXPECT_GT(WindowsAround(x, row)[k].roughness_sq, 100);
         } else {
-          EXPECT_NEAR(row.windows[k].roughness_sq[x], 0, 0.05);
-          EXPECT_NEAR(row.windows[k].alpha_shift[x], (x + 2 * y) / 100.0 - 0.4, 1e-4);
+          EXPECT_NEAR(WindowsAround(x, row)[k].roughness_sq, 0, 0.05);
+          EXPECT_NEAR(WindowsAround(x, row)[k].alpha_shift, (x + 2 * y) / 100.0 - 0.4, 1e-4);
         }
       }
     }
