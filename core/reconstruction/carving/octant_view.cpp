@@ -92,7 +92,8 @@ inline __attribute__((always_inline)) std::uint32_t JudgeAll(const Rectangles& r
     // Negative where something is not so.
     const int in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
     const int touches_picture = x1 | y1 | (width - 1 - x0) | (height - 1 - y0);
-    const int in_region = (x0 - left) | (y0 - top) | (kWidest_px - side);
+    const int in_region =
+        (x0 - left) | (y0 - top) | (right - x1) | (bottom - y1) | (kWidest_px - side);
     const int touches_region = (x1 - left) | (y1 - top) | (right - x0) | (bottom - y0);
     const std::uint32_t inside = word & ~Sign(in_region | in_picture) & 1;
     const std::uint32_t outside =
