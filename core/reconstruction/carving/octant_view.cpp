@@ -19,6 +19,8 @@ constexpr float kNearest = 4;
 // Makes places positive before they are rounded down, and what lies far away not too large.
 constexpr int kBias_px = 8192;
 constexpr float kFarthest_px = 32768;
+// Four of the largest windows cover so much.
+constexpr int kWidest_px = 2 * WindowMap::kLargest_px;
 
 constexpr Lanes kSignX = {-1, 1, -1, 1, -1, 1, -1, 1};
 constexpr Lanes kSignY = {-1, -1, 1, 1, -1, -1, 1, 1};
@@ -46,6 +48,11 @@ inline T Most(T a, T b) {
 // All bits of a negative number's sign.
 inline std::uint32_t Sign(int number) { return static_cast<std::uint32_t>(number >> 31); }
 
+// By a float's exponent: loops with std::bit_width are not vectorized.
+inline int FloorLog2(int number) {
+  return (std::bit_cast<int>(static_cast<float>(number)) >> 23) - 127;
+}
+
 struct Rectangles {
   alignas(32) Lanes x, y, reach_x, reach_y;
   // Bits that all lanes start with, and those that are asked for.
@@ -61,7 +68,6 @@ inline __attribute__((always_inline)) std::uint32_t RoundedDown(float place_px) 
 inline __attribute__((always_inline)) std::uint32_t JudgeAll(const Rectangles& r,
                                                              const WindowMap::Planes& planes) {
   const std::uint32_t* const words = planes.words;
-  const std::int32_t* const begins = planes.begins;
   const int left = planes.left, top = planes.top, right = planes.right, bottom = planes.bottom;
   const int width = planes.width_px, height = planes.height_px, stride = planes.words_per_row;
   std::uint32_t bits = 0;
@@ -72,19 +78,26 @@ inline __attribute__((always_inline)) std::uint32_t JudgeAll(const Rectangles& r
     const int y0 = static_cast<int>(RoundedDown(r.y[i] - r.reach_y[i])) - kBias_px;
     const int y1 = static_cast<int>(RoundedDown(r.y[i] + r.reach_y[i])) - kBias_px;
     const int side = Most(x1 - x0, y1 - y0) + 1;
-    const int column = Least(Most(x0, left), right) - left;
-    const int row = Least(Most(y0, top), bottom) - top;
-    const std::int32_t begin = begins[Least(side, WindowMap::kLargest_px)];
-    const std::uint32_t word = words[begin + row * stride + (column >> 4)] >> (column & 15);
+    // Windows of half a rectangle's longer side or more, one in each corner, cover it.
+    const int plane = FloorLog2(Least(Most(side - 1, 1), kWidest_px - 1));
+    const int beyond = 1 - (1 << plane);
+    const std::int32_t begin = plane * planes.words_per_plane;
+    const int first_row = begin + (Least(Most(y0, top), bottom) - top) * stride;
+    const int last_row = begin + (Least(Most(y1 + beyond, top), bottom) - top) * stride;
+    const int first = Least(Most(x0, left), right) - left;
+    const int last = Least(Most(x1 + beyond, left), right) - left;
+    const std::uint32_t firsts = words[first_row + (first >> 4)] & words[last_row + (first >> 4)];
+    const std::uint32_t lasts = words[first_row + (last >> 4)] & words[last_row + (last >> 4)];
+    const std::uint32_t word = firsts >> (first & 15) & lasts >> (last & 15);
     // Negative where something is not so.
     const int in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
     const int touches_picture = x1 | y1 | (width - 1 - x0) | (height - 1 - y0);
-    const int in_region = (x0 - left) | (y0 - top) | (WindowMap::kLargest_px - side);
+    const int in_region =
+        (x0 - left) | (y0 - top) | (right - x1) | (bottom - y1) | (kWidest_px - side);
     const int touches_region = (x1 - left) | (y1 - top) | (right - x0) | (bottom - y0);
     const std::uint32_t inside = word & ~Sign(in_region | in_picture) & 1;
     const std::uint32_t outside =
-        ((word >> 16 & ~Sign(WindowMap::kLargest_px - side)) | Sign(touches_region)) &
-        ~Sign(in_picture) & 1;
+        ((word >> 16 & ~Sign(kWidest_px - side)) | Sign(touches_region)) & ~Sign(in_picture) & 1;
     const std::uint32_t unseen = Sign(touches_picture) & 1;
     const std::uint32_t gap = Sign(side - 2) & ~Sign(in_picture) & ~inside & ~outside & 1;
     const std::uint32_t lane = inside | outside << 8 | unseen << 16 | gap << 24;
@@ -170,8 +183,10 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
     const float growth = grown + half * slant * grown * grown;
     const float reach_x = (std::abs(ax0) + std::abs(ax1) + std::abs(ax2)) * growth;
     const float reach_y = (std::abs(ay0) + std::abs(ay1) + std::abs(ay2)) * growth;
-    // The slope changes at each side of a cell that lies between, and along the cells.
-    const float error = bend * (du * (du + 1) + dv * (dv + 1) + 2 * du * dv) + kRounding_px;
+    // The slope changes at each side of a cell that lies between, at worst at once and then after
+    // each whole cell, and along the cells.
+    const float error =
+        bend * (Most(du, 2 * du - 1) + Most(dv, 2 * dv - 1) + du * dv) + kRounding_px;
     f.middle[0][i] = wx, f.middle[1][i] = wy, f.middle[2][i] = wz;
     f.x[i] = x;
     f.y[i] = y;
@@ -276,8 +291,8 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
   if (!IsInRegion(planes, f, f.x + x.middle / z.middle, f.y + y.middle / z.middle,
                   voxel_spread + sample_spread))
     return false;
-  const std::uint32_t* const words = planes.words + planes.begins[1];
-  const int wider = planes.begins[2] - planes.begins[1];
+  const std::uint32_t* const words = planes.words;
+  const int wider = planes.words_per_plane;
   const int stride = planes.words_per_row;
   const float error = f.error;
   const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);

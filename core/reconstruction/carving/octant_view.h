@@ -50,7 +50,7 @@ struct OctantFrames {
 class OctantView {
  public:
   /// Frames with less error serve for all smaller blocks within [px].
-  static constexpr float kGoodFrame_px = 0.1f;
+  static constexpr float kGoodFrame_px = 0.07f;
 
   /// @param origin_W  what all places are relative to.
   void Set(const CarvingView& view, const Vector3& origin_W, const WindowMap& windows);

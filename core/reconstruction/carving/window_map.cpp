@@ -1,6 +1,7 @@
 #include "core/reconstruction/carving/window_map.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/vectorized.h"
@@ -154,25 +155,20 @@ void WindowMap::SetMargins(bool set_beyond_picture, Bits& bits) const {
 void WindowMap::WritePlanes() {
   const int count = stride_ * rows_;
   const std::size_t words = static_cast<std::size_t>(2) * count;
-  planes_.resize(words * kSides_px.size());
+  planes_.resize(words * kPlanes);
   Word* const inside = FirstRow(inside_);
   Word* const outside = FirstRow(outside_);
-  int side = 1;
-  for (std::size_t plane = 0; plane < kSides_px.size(); ++plane) {
-    const int step = kSides_px[plane] - side;
-    if (step > 0) {
-      const int higher = stride_ * std::max(rows_ - step, 0);
-      for (Word* const bits : {inside, outside}) {
-        Widen(bits, count, step);
-        Heighten(bits, higher, step * stride_);
-      }
-      // Below the region nothing is inside.
-      std::fill(inside + higher, inside + count, 0);
+  Interleave(inside, outside, count, planes_.data());
+  for (int plane = 1; plane < kPlanes; ++plane) {
+    const int step = 1 << (plane - 1);
+    const int higher = stride_ * std::max(rows_ - step, 0);
+    for (Word* const bits : {inside, outside}) {
+      Widen(bits, count, step);
+      Heighten(bits, higher, step * stride_);
     }
+    // Below the region nothing is inside.
+    std::fill(inside + higher, inside + count, 0);
     Interleave(inside, outside, count, &planes_[words * plane]);
-    for (int k = side + (step > 0 ? 1 : 0); k <= kSides_px[plane]; ++k)
-      begins_[k] = static_cast<std::int32_t>(words * plane);
-    side = kSides_px[plane];
   }
 }
 

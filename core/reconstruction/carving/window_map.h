@@ -1,7 +1,6 @@
 // §4: what square windows hold of a silhouette, which lets the carver decide whole blocks.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,18 +19,17 @@ class WindowMap {
  public:
   enum class Kind { kInside, kGap, kOutside };
 
-  /// Sides of the windows [px].
-  static constexpr std::array<int, 10> kSides_px = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32};
-  static constexpr int kLargest_px = kSides_px.back();
+  /// The windows of the first plane are a pixel; those of each other twice as wide as the one's
+  /// before.
+  static constexpr int kPlanes = 6;
+  static constexpr int kLargest_px = 1 << (kPlanes - 1);
   /// Half the width of the gaps that are closed [px].
   static constexpr int kGap_px = 6;
 
   /// Planes as loops over many windows want them.
   struct Planes {
     const std::uint32_t* words = nullptr;
-    /// Where the plane begins for a window that has to hold so many pixels in a row.
-    const std::int32_t* begins = nullptr;
-    int words_per_row = 0;
+    int words_per_row = 0, words_per_plane = 0;
     /// The region beside which all is outside, its last column and row included.
     int left = 0, top = 0, right = -1, bottom = -1;
     int width_px = 0, height_px = 0;  ///< Of the picture.
@@ -52,8 +50,8 @@ class WindowMap {
   }
 
   Planes planes() const {
-    return {planes_.data(), begins_.data(), 2 * stride_, left_,     top_,
-            right_,         bottom_,        width_px_,   height_px_};
+    return {planes_.data(), 2 * stride_, 2 * stride_ * rows_, left_,     top_,
+            right_,         bottom_,     width_px_,           height_px_};
   }
 
  private:
@@ -72,7 +70,6 @@ class WindowMap {
   int stride_ = 0;  ///< Words a row, the last of them margin.
   Bits inside_, outside_, scratch_;
   std::vector<std::uint32_t> planes_;
-  std::array<std::int32_t, kLargest_px + 1> begins_{};
 };
 
 }  // namespace mocap

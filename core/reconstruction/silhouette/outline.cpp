@@ -1,5 +1,7 @@
 #include "core/reconstruction/silhouette/outline.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -20,29 +22,61 @@ std::uint64_t BorderWord(const Silhouette& silhouette, int y, int word) {
   return row[word] & ~inner;
 }
 
-// Visits the border's pixels row by row, but those near the picture's edge.
+// Calls `visit` with the border's words row by row, but without pixels near the picture's edge.
 template <typename Visit>
-void ForEachBorderPixel(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
-  const int top = std::max(box.top, kWindow_px + 1);
-  const int bottom = std::min(box.bottom, silhouette.height() - kWindow_px - 2);
+void ForEachBorderWord(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
+  constexpr int kMargin_px = kWindow_px + 1;
+  const int left = std::max(box.left, kMargin_px);
+  const int right = std::min(box.right, silhouette.width() - 1 - kMargin_px);
+  const int top = std::max(box.top, kMargin_px);
+  const int bottom = std::min(box.bottom, silhouette.height() - 1 - kMargin_px);
+  if (left > right) return;
+  const std::uint64_t all = ~std::uint64_t{0};
   for (int y = top; y <= bottom; ++y) {
-    for (int word = box.left / 64; word <= box.right / 64; ++word) {
-      for (std::uint64_t bits = BorderWord(silhouette, y, word); bits != 0; bits &= bits - 1) {
-        const int x = word * 64 + std::countr_zero(bits);
-        if (x > kWindow_px && x < silhouette.width() - kWindow_px - 1) visit(x, y);
-      }
+    for (int word = left / 64; word <= right / 64; ++word) {
+      std::uint64_t bits = BorderWord(silhouette, y, word);
+      if (word == left / 64) bits &= all << left % 64;
+      if (word == right / 64) bits &= all >> (63 - right % 64);
+      if (bits != 0) visit(word * 64, y, bits);
     }
   }
 }
 
-// Out of the silhouette, square to its border; empty where the border has no direction.
-std::optional<Vector2> OutwardAt(const Silhouette& silhouette, int x, int y) {
-  Vector2 inward = Vector2::Zero();
-  for (int dy = -kWindow_px; dy <= kWindow_px; ++dy) {
-    for (int dx = -kWindow_px; dx <= kWindow_px; ++dx) {
-      if (silhouette.Test(x + dx, y + dy)) inward += Vector2(dx, dy);
+// The pixels of a row within the window around x, a bit each.
+unsigned WindowBits(const Silhouette& silhouette, int x, int y) {
+  const std::uint64_t* const row = silhouette.row(y);
+  const int begin = x - kWindow_px, end = x + kWindow_px;
+  std::uint64_t bits = row[begin / 64] >> begin % 64;
+  if (end / 64 != begin / 64) bits |= row[end / 64] << (64 - begin % 64);
+  return static_cast<unsigned>(bits) & ((2u << 2 * kWindow_px) - 1);
+}
+
+// Of the pixels that are set in a row of a window: how many there are, and the sum of their places
+// from the middle.
+struct RowMoments {
+  int count = 0, sum = 0;
+};
+constexpr auto kRowMoments = [] {
+  std::array<RowMoments, 2 << 2 * kWindow_px> moments{};
+  for (std::size_t bits = 0; bits < moments.size(); ++bits) {
+    for (int i = 0; i <= 2 * kWindow_px; ++i) {
+      if (~bits >> i & 1) continue;
+      ++moments[bits].count;
+      moments[bits].sum += i - kWindow_px;
     }
   }
+  return moments;
+}();
+
+// Out of the silhouette, square to its border; empty where the border has no direction.
+std::optional<Vector2> OutwardAt(const Silhouette& silhouette, int x, int y) {
+  int inward_x = 0, inward_y = 0;
+  for (int dy = -kWindow_px; dy <= kWindow_px; ++dy) {
+    const RowMoments& row = kRowMoments[WindowBits(silhouette, x, y + dy)];
+    inward_x += row.sum;
+    inward_y += dy * row.count;
+  }
+  const Vector2 inward(inward_x, inward_y);
   const double length = inward.norm();
   if (length < 1) return std::nullopt;
   return Vector2(-inward / length);
@@ -61,15 +95,11 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
   outline.clear();
   const std::optional<PixelBox> box = silhouette.BoundingBox();
   if (!box) return;
-  int length_px = 0;
-  ForEachBorderPixel(silhouette, *box, [&](int, int) { ++length_px; });
+  std::int64_t length_px = 0;
+  ForEachBorderWord(silhouette, *box,
+                    [&](int, int, std::uint64_t bits) { length_px += std::popcount(bits); });
   const RigidTransform X_WC = X_CW.Inverse();
-  int index = 0;
-  int taken = 0;
-  ForEachBorderPixel(silhouette, *box, [&](int x, int y) {
-    if (static_cast<std::int64_t>(index++) * most < static_cast<std::int64_t>(taken) * length_px)
-      return;
-    ++taken;
+  const auto trace = [&](int x, int y) {
     const std::optional<Vector2> outward = OutwardAt(silhouette, x, y);
     if (!outward) return;
     // The border runs between the last pixel inside and the first one outside.
@@ -80,6 +110,14 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
     if (!ray_C || !beside_C) return;
     const Vector3 outward_C = beside_C->cross(*ray_C).normalized();
     outline.push_back({X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C});
+  };
+  std::int64_t index = 0, taken = 0;
+  ForEachBorderWord(silhouette, *box, [&](int first_x, int y, std::uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1, ++index) {
+      if (index * most < taken * length_px) continue;
+      ++taken;
+      trace(first_x + std::countr_zero(bits), y);
+    }
   });
 }
 

@@ -3,7 +3,19 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/vectorized.h"
+
 namespace mocap {
+namespace {
+
+MOCAP_VECTORIZED
+std::int64_t CountBits(const std::uint64_t* words, std::size_t count) {
+  std::int64_t bits = 0;
+  for (std::size_t i = 0; i < count; ++i) bits += std::popcount(words[i]);
+  return bits;
+}
+
+}  // namespace
 
 std::optional<PixelBox> Silhouette::BoundingBox() const {
   const auto is_empty = [](std::uint64_t word) { return word == 0; };
@@ -31,8 +43,7 @@ std::optional<PixelBox> Silhouette::BoundingBox() const {
 
 double Silhouette::CoveredShare() const {
   if (width_ == 0 || height_ == 0) return 0;
-  std::int64_t count = 0;
-  for (const std::uint64_t word : words_) count += std::popcount(word);
+  const std::int64_t count = CountBits(words_.data(), words_.size());
   return static_cast<double>(count) / (static_cast<double>(width_) * height_);
 }
 

@@ -77,6 +77,29 @@ TEST_F(OctantViewTest, AVerdictHoldsForEveryPlaceInTheOctant) {
   for (const int count : {inside_, outside_, unseen_}) EXPECT_GT(count, 500);
 }
 
+TEST_F(OctantViewTest, WhatReachesBeyondTheSilhouettesBoxIsNotInside) {
+  std::uniform_real_distribution<double> across(-900, 900), up(0, 1800);
+  const CarvingView view = studio_.Views()[0];
+  const int width = view.silhouette->width(), height = view.silhouette->height();
+  const PixelBox box{width / 3, height / 3, width / 2, height / 2};
+  Silhouette block(width, height);
+  for (int y = box.top; y <= box.bottom; ++y)
+    for (int x = box.left; x <= box.right; ++x) block.Set(x, y);
+  windows_[0].Measure(block, box, false);
+  eyes_[0].Set(view, kOrigin_W, windows_[0]);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 middle_W(across(random_), across(random_), up(random_));
+    OctantFrames frames;
+    std::uint8_t framed;
+    const double half = i % 5;
+    const OctantVerdicts verdicts = eyes_[0].Project((middle_W - kOrigin_W).cast<float>(), 6,
+                                                     static_cast<float>(half), frames, framed);
+    for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
+      Check(0, verdicts, octant, MiddleOf(middle_W, 6, octant), half);
+  }
+  for (const int count : {inside_, outside_}) EXPECT_GT(count, 500);
+}
+
 TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
   std::uniform_real_distribution<double> across(-300, 300), up(0, 1800);
   for (int i = 0; i < 500; ++i) {
