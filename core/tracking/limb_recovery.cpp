@@ -33,8 +33,8 @@ constexpr double kLimbBetterMm = 0.6;
 // because noise would exchange folded arms again and again.
 constexpr double kPromisingMm = 4;
 constexpr double kClearlyBetterMm = 1.5;
-// After a search in vain.
-constexpr double kRestS = 0.045;
+// After a search in vain at the least share that is searched; the more is unexplained, the shorter.
+constexpr double kLongestRestS = 0.8;
 // A search goes on over some frames where they follow each other fast, so that none comes late:
 // each limb is looked for by itself, and then each pair, which costs as much as two.
 constexpr double kLimbsPerS = 80;
@@ -182,11 +182,23 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   return true;
 }
 
-bool LimbRecovery::HandsMeet(const BodyModel& body, const PoseState& pose) {
+bool LimbRecovery::IsWorthSearching(double unexplained_share) const {
+  if (unexplained_share < kUnexplainedShare) return false;
+  return next_ > 0 || rest_s_ <= 0 || unexplained_share >= vain_share_ + kUnexplainedShare;
+}
+
+bool LimbRecovery::HandsMeetAnew(const BodyModel& body, const PoseState& pose) {
   const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
   const Vector3 apart_W = points_W.col(static_cast<int>(Point::kFingertipsL)) -
                           points_W.col(static_cast<int>(Point::kFingertipsR));
-  return apart_W.norm() < body.sizes().lower_arm;
+  if (apart_W.norm() > body.sizes().lower_arm) {
+    hands_met_T_.reset();
+    return false;
+  }
+  const Vector3 apart_T = pose.X_WT.R.transpose() * apart_W;
+  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kElsewhereMm) return false;
+  hands_met_T_ = apart_T;
+  return true;
 }
 
 template <typename Stances>
@@ -243,7 +255,10 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
   }
   is_in_vain_ &= !changed;
   if (next_ < kLimbEnds.size() + kPairs.size()) return changed;
-  if (is_in_vain_) rest_s_ = kRestS;
+  if (is_in_vain_) {
+    vain_share_ = begun_share_;
+    rest_s_ = kLongestRestS * kUnexplainedShare / begun_share_;
+  }
   StartOver();
   return changed;
 }
@@ -276,10 +291,7 @@ bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
   Candidate pair = BestPair(body, evidence, left, right, fit, exchanged, present.pose);
   if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);
-  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) {
-    exchange_rest_s_ = kRestS;
-    return false;
-  }
+  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) return false;
   present = pair;
   return true;
 }
@@ -288,17 +300,13 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                SurfaceFit& fit, const PoseState& pose,
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
-  exchange_rest_s_ -= dt_s;
   const bool is_first = std::exchange(is_first_, false);
   allowance_ = is_first ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
-  const bool is_explained = quality.unexplained_share < kUnexplainedShare;
-  const bool hands_meet = HandsMeet(body, pose);
-  if (is_explained) {
-    rest_s_ = 0;
-    StartOver();
-  }
-  const bool searches = !is_explained && rest_s_ <= 0 && allowance_ > 0;
-  const bool exchanges = hands_meet && exchange_rest_s_ <= 0;
+  const double share = quality.unexplained_share;
+  if (share < kUnexplainedShare) StartOver();
+  const bool searches = allowance_ > 0 && IsWorthSearching(share);
+  if (searches && next_ == 0) begun_share_ = share;
+  const bool exchanges = HandsMeetAnew(body, pose);
   if (!searches && !exchanges && !is_first) return std::nullopt;
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);
   matcher_.SetContacts(contacts_);
