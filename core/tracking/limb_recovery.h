@@ -26,7 +26,7 @@ namespace mocap {
 /// costs microseconds. Reuses its memory.
 class LimbRecovery {
  public:
-  LimbRecovery();
+  explicit LimbRecovery(const BodyTable& table);
 
   /// Looks for a pose that explains clearly more of the evidence than `pose` does, by other places
   /// of the limbs.
@@ -48,7 +48,7 @@ class LimbRecovery {
     LimbClaim claim;
   };
 
-  const std::vector<Stance>& StancesOf(Segment limb_end) const;
+  const std::vector<JointAngles>& StancesOf(Segment limb_end) const;
   bool IsExplained(const BodyModel& body, const PoseState& pose);
   // `present`, whose whole body is drawn to the evidence, becomes what explains it better.
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
@@ -77,23 +77,23 @@ class LimbRecovery {
 
   // Make candidates_: the limb in each of the stances, the cheapest first;
   template <typename Cost>
-  void Rank(const LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
+  void Rank(const LimbSearch& search, const std::vector<JointAngles>& stances,
             const PoseState& pose, const Cost& cost_mm);
   // of those that put the limb's end in the same place only the first;
   void KeepDistinct(LimbSearch& search, std::size_t count);
   // improved, the best first;
   void Refine(LimbSearch& search);
   // all of that;
-  void FindBest(LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
-                const PoseState& pose, std::size_t count);
+  void FindBest(LimbSearch& search, const std::vector<JointAngles>& stances, const PoseState& pose,
+                std::size_t count);
   // the stances that put the limb's end nearest to a place, improved, the best first.
-  void FindTowards(LimbSearch& search, const BodyTable& table, const std::vector<Stance>& stances,
+  void FindTowards(LimbSearch& search, const std::vector<JointAngles>& stances,
                    const PoseState& pose, const Vector3& p_WQ);
   // candidates_ with what they claim. Takes of `memory` as much as it needs.
   std::span<const Option> Claims(LimbSearch& search, std::vector<Option>& memory);
 
-  std::vector<Stance> arm_stances_;
-  std::vector<Stance> leg_stances_;
+  std::vector<JointAngles> arm_stances_;
+  std::vector<JointAngles> leg_stances_;
   bool is_first_ = true;    ///< Nobody was looked at yet.
   std::size_t next_ = 0;    ///< Limb, or pair behind the limbs, that is looked for next.
   bool is_in_vain_ = true;  ///< The search so far.

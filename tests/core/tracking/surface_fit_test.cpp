@@ -52,7 +52,7 @@ class Fit : public testing::Test {
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   SurfaceFit fit_{SurfaceFitOptions{}};
-  LimbRecovery recovery_;
+  LimbRecovery recovery_{body_.table()};
 };
 
 constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
