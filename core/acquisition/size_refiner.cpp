@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/vectorized.h"
+
 namespace mocap {
 namespace {
 
@@ -47,6 +49,19 @@ std::array<SizeMember, kSizes> RefinedMembers() {
   return members;
 }
 
+// Adds a row's product with itself to the lower triangle. A residual depends on one chain of joints
+// and on few sizes: most of its row is zero.
+MOCAP_VECTORIZED
+void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* columns) {
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    if (row[j] == 0) continue;
+    const double factor = weight * row[j];
+    double* const column = columns + j * count;
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = j; i < count; ++i) column[i] += factor * row[i];
+  }
+}
+
 // What is known of the sizes without any frame: the inverse of their covariance.
 Information PriorOf(const BodySizes& acquired) {
   Information covariance = Information::Zero(kSizes, kSizes);
@@ -83,7 +98,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
     if (!residual.is_edge) continue;
     row.head(pose_dof) = residual.J_outside_by_step;
     for (int i = 0; i < kSizes; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
-    H.selfadjointView<Eigen::Lower>().rankUpdate(row, 1 / residual.variance);
+    AddSquare(row.data(), n, 1 / residual.variance, H.data());
     g += row * (residual.outside_mm / residual.variance);
   }
   H = Information(H.selfadjointView<Eigen::Lower>());

@@ -1,21 +1,29 @@
 #include "core/tracking/chain_equations.h"
 
 #include <algorithm>
+#include <tuple>
 
-#include "core/vectorized.h"
+#include "core/tracking/lanes.h"
 
 namespace mocap {
 namespace {
 
+static_assert(std::tuple_size_v<WrenchRow> == 2 * kDoubles);
+
 MOCAP_VECTORIZED
 void AddTerms(const WrenchTerm* terms, std::size_t count, WrenchSum* sums) {
   for (std::size_t term = 0; term < count; ++term) {
-    const WrenchRow& row = terms[term].row;
+    Doubles low, high;
+    LoadLanes(&terms[term].row[0], low), LoadLanes(&terms[term].row[kDoubles], high);
+    WrenchRow weighted;
+    StoreLanes(low / terms[term].variance, &weighted[0]);
+    StoreLanes(high / terms[term].variance, &weighted[kDoubles]);
     WrenchSum& sum = sums[terms[term].part];
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      const double weighted = row[i] / terms[term].variance;
-#pragma GCC ivdep
-      for (std::size_t j = 0; j < row.size(); ++j) sum[i][j] += weighted * row[j];
+      Doubles sum_low, sum_high;
+      LoadLanes(&sum[i][0], sum_low), LoadLanes(&sum[i][kDoubles], sum_high);
+      StoreLanes(sum_low + weighted[i] * low, &sum[i][0]);
+      StoreLanes(sum_high + weighted[i] * high, &sum[i][kDoubles]);
     }
   }
 }

@@ -103,6 +103,15 @@ inline __attribute__((always_inline)) void FindGaps(const Block& block, const Sl
   }
 }
 
+MOCAP_INLINE std::uint64_t WithinOf(const Gaps& gaps, std::uint64_t some, float reach) {
+  std::uint64_t within = 0;
+  for (; some != 0; some &= some - 1) {
+    const int k = std::countr_zero(some);
+    within |= std::uint64_t{gaps[k] <= reach + kRounding_mm} << k;
+  }
+  return within;
+}
+
 MOCAP_INLINE void TryCapsules(const Block& block, const SlimShape& shape, std::uint64_t some,
                               Best& best) {
   for (; some != 0; some &= some - 1) {
@@ -123,11 +132,8 @@ void MatchBlock(const Block& block, const SlimShape& shape, float reach, Best& b
   Gaps gaps;
   FindGaps(block, shape, count, gaps);
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
-  TryCapsules(block, shape, all & block.favourites, best);
-  const float worst = WorstOf(best);
-  std::uint64_t near = 0;
-  for (int k = 0; k < count; ++k) near |= std::uint64_t{gaps[k] <= worst + kRounding_mm} << k;
-  TryCapsules(block, shape, near & ~block.favourites, best);
+  TryCapsules(block, shape, WithinOf(gaps, all & block.favourites, reach), best);
+  TryCapsules(block, shape, WithinOf(gaps, all & ~block.favourites, WorstOf(best)), best);
 }
 
 std::uint64_t CapsulesOf(const Best& best) {

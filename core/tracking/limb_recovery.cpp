@@ -33,8 +33,8 @@ constexpr double kLimbBetterMm = 0.6;
 // because noise would exchange folded arms again and again.
 constexpr double kPromisingMm = 4;
 constexpr double kClearlyBetterMm = 1.5;
-// After a search in vain.
-constexpr double kRestS = 0.045;
+// After a search in vain at the least share that is searched; the more is unexplained, the shorter.
+constexpr double kLongestRestS = 0.8;
 // A search goes on over some frames where they follow each other fast, so that none comes late:
 // each limb is looked for by itself, and then each pair, which costs as much as two.
 constexpr double kLimbsPerS = 80;
@@ -45,15 +45,16 @@ constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR, 
 constexpr std::array<std::pair<Segment, Segment>, 2> kPairs = {
     std::pair{Segment::kHandL, Segment::kHandR}, std::pair{Segment::kFootL, Segment::kFootR}};
 
-std::vector<Stance> ArmStances() {
-  std::vector<Stance> stances;
+std::vector<JointAngles> ArmStances(const BodyTable& table) {
+  std::vector<JointAngles> stances;
   for (const double raise : {-85.0, -45.0, 0.0, 45.0, 85.0}) {
     for (const double forward : {-35.0, 15.0, 65.0, 115.0}) {
       for (const double elbow : {15.0, 60.0, 110.0}) {
         for (const double twist : {-50.0, 0.0, 50.0}) {
           if (elbow < 30 && twist != 0) continue;
           const ArmStance arm{raise, forward, twist, elbow};
-          stances.push_back({.arm_l = arm, .arm_r = arm, .leg_l = {}, .leg_r = {}});
+          stances.push_back(
+              AnglesOf({.arm_l = arm, .arm_r = arm, .leg_l = {}, .leg_r = {}}, table));
         }
       }
     }
@@ -61,13 +62,13 @@ std::vector<Stance> ArmStances() {
   return stances;
 }
 
-std::vector<Stance> LegStances() {
-  std::vector<Stance> stances;
+std::vector<JointAngles> LegStances(const BodyTable& table) {
+  std::vector<JointAngles> stances;
   for (const double hip : {-50.0, -15.0, 20.0, 60.0, 100.0}) {
     for (const double spread : {-10.0, 30.0, 70.0}) {
       for (const double knee : {10.0, 60.0, 110.0}) {
         const LegStance leg{hip, spread, knee};
-        stances.push_back({.arm_l = {}, .arm_r = {}, .leg_l = leg, .leg_r = leg});
+        stances.push_back(AnglesOf({.arm_l = {}, .arm_r = {}, .leg_l = leg, .leg_r = leg}, table));
       }
     }
   }
@@ -88,9 +89,10 @@ double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>
 
 }  // namespace
 
-LimbRecovery::LimbRecovery() : arm_stances_(ArmStances()), leg_stances_(LegStances()) {}
+LimbRecovery::LimbRecovery(const BodyTable& table)
+    : arm_stances_(ArmStances(table)), leg_stances_(LegStances(table)) {}
 
-const std::vector<Stance>& LimbRecovery::StancesOf(Segment limb_end) const {
+const std::vector<JointAngles>& LimbRecovery::StancesOf(Segment limb_end) const {
   const bool is_arm = limb_end == Segment::kHandL || limb_end == Segment::kHandR;
   return is_arm ? arm_stances_ : leg_stances_;
 }
@@ -101,12 +103,10 @@ bool LimbRecovery::IsExplained(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Cost>
-void LimbRecovery::Rank(const LimbSearch& search, const BodyTable& table,
-                        const std::vector<Stance>& stances, const PoseState& pose,
-                        const Cost& cost_mm) {
+void LimbRecovery::Rank(const LimbSearch& search, const std::vector<JointAngles>& stances,
+                        const PoseState& pose, const Cost& cost_mm) {
   candidates_.clear();
-  for (const Stance& stance : stances) {
-    const JointAngles angles = AnglesOf(stance, table);
+  for (const JointAngles& angles : stances) {
     Candidate candidate{pose, 0};
     for (const int row : search.rows()) candidate.pose.theta[row] = angles[row];
     candidate.cost_mm = cost_mm(candidate.pose);
@@ -135,18 +135,16 @@ void LimbRecovery::Refine(LimbSearch& search) {
   std::ranges::sort(candidates_, {}, &Candidate::cost_mm);
 }
 
-void LimbRecovery::FindBest(LimbSearch& search, const BodyTable& table,
-                            const std::vector<Stance>& stances, const PoseState& pose,
-                            std::size_t count) {
-  Rank(search, table, stances, pose, [&](const PoseState& at) { return search.CostAt(at); });
+void LimbRecovery::FindBest(LimbSearch& search, const std::vector<JointAngles>& stances,
+                            const PoseState& pose, std::size_t count) {
+  Rank(search, stances, pose, [&](const PoseState& at) { return search.CostAt(at); });
   KeepDistinct(search, count);
   Refine(search);
 }
 
-void LimbRecovery::FindTowards(LimbSearch& search, const BodyTable& table,
-                               const std::vector<Stance>& stances, const PoseState& pose,
-                               const Vector3& p_WQ) {
-  Rank(search, table, stances, pose,
+void LimbRecovery::FindTowards(LimbSearch& search, const std::vector<JointAngles>& stances,
+                               const PoseState& pose, const Vector3& p_WQ) {
+  Rank(search, stances, pose,
        [&](const PoseState& at) { return (search.TipAt(at) - p_WQ).norm(); });
   candidates_.resize(std::min(candidates_.size(), kExchangesTried));
   Refine(search);
@@ -166,7 +164,7 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
                               SurfaceFit& fit, Candidate& present) {
   const PoseState& pose = present.pose;
   search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose);
-  FindBest(search_, body.table(), StancesOf(limb_end), pose, kRefined);
+  FindBest(search_, StancesOf(limb_end), pose, kRefined);
   const double now_mm = search_.CostAt(pose);
   const Vector3 tip_W = search_.TipAt(pose);
   std::erase_if(candidates_, [&](const Candidate& candidate) {
@@ -182,11 +180,23 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   return true;
 }
 
-bool LimbRecovery::HandsMeet(const BodyModel& body, const PoseState& pose) {
+bool LimbRecovery::IsWorthSearching(double unexplained_share) const {
+  if (unexplained_share < kUnexplainedShare) return false;
+  return next_ > 0 || rest_s_ <= 0 || unexplained_share >= vain_share_ + kUnexplainedShare;
+}
+
+bool LimbRecovery::HandsMeetAnew(const BodyModel& body, const PoseState& pose) {
   const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
   const Vector3 apart_W = points_W.col(static_cast<int>(Point::kFingertipsL)) -
                           points_W.col(static_cast<int>(Point::kFingertipsR));
-  return apart_W.norm() < body.sizes().lower_arm;
+  if (apart_W.norm() > body.sizes().lower_arm) {
+    hands_met_T_.reset();
+    return false;
+  }
+  const Vector3 apart_T = pose.X_WT.R.transpose() * apart_W;
+  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kElsewhereMm) return false;
+  hands_met_T_ = apart_T;
+  return true;
 }
 
 template <typename Stances>
@@ -243,7 +253,10 @@ bool LimbRecovery::RecoverLost(const BodyModel& body, const Evidence& evidence, 
   }
   is_in_vain_ &= !changed;
   if (next_ < kLimbEnds.size() + kPairs.size()) return changed;
-  if (is_in_vain_) rest_s_ = kRestS;
+  if (is_in_vain_) {
+    vain_share_ = begun_share_;
+    rest_s_ = kLongestRestS * kUnexplainedShare / begun_share_;
+  }
   StartOver();
   return changed;
 }
@@ -258,7 +271,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
                                Candidate& present) {
   const auto [left, right] = limb_ends;
   const auto best = [&](LimbSearch& search, LimbSearch&) {
-    FindBest(search, body.table(), StancesOf(left), present.pose, kPairRefined);
+    FindBest(search, StancesOf(left), present.pose, kPairRefined);
   };
   const Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
   if (pair.cost_mm > present.cost_mm - kBetterMm) return false;
@@ -271,15 +284,12 @@ bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
                             Candidate& present) {
   const auto [left, right] = limb_ends;
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
-    FindTowards(search, body.table(), StancesOf(left), present.pose, other.TipAt(present.pose));
+    FindTowards(search, StancesOf(left), present.pose, other.TipAt(present.pose));
   };
   Candidate pair = BestPair(body, evidence, left, right, fit, exchanged, present.pose);
   if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);
-  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) {
-    exchange_rest_s_ = kRestS;
-    return false;
-  }
+  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) return false;
   present = pair;
   return true;
 }
@@ -288,17 +298,13 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                SurfaceFit& fit, const PoseState& pose,
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
-  exchange_rest_s_ -= dt_s;
   const bool is_first = std::exchange(is_first_, false);
   allowance_ = is_first ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
-  const bool is_explained = quality.unexplained_share < kUnexplainedShare;
-  const bool hands_meet = HandsMeet(body, pose);
-  if (is_explained) {
-    rest_s_ = 0;
-    StartOver();
-  }
-  const bool searches = !is_explained && rest_s_ <= 0 && allowance_ > 0;
-  const bool exchanges = hands_meet && exchange_rest_s_ <= 0;
+  const double share = quality.unexplained_share;
+  if (share < kUnexplainedShare) StartOver();
+  const bool searches = allowance_ > 0 && IsWorthSearching(share);
+  if (searches && next_ == 0) begun_share_ = share;
+  const bool exchanges = HandsMeetAnew(body, pose);
   if (!searches && !exchanges && !is_first) return std::nullopt;
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);
   matcher_.SetContacts(contacts_);

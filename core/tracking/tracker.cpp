@@ -18,7 +18,8 @@ Tracker::Tracker(const BodyModel& body, const PoseState& pose)
     : body_(body),
       filter_(MotionNoise{}),
       point_filter_(MotionNoise{}),
-      surface_fit_(SurfaceFitOptions{}) {
+      surface_fit_(SurfaceFitOptions{}),
+      limb_recovery_(body.table()) {
   filter_.Reset(pose, kStartStdMm, kStartStdRad);
   point_filter_.Reset(pose, kStartStdMm, kStartStdRad);
 }

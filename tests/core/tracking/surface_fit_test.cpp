@@ -52,7 +52,7 @@ class Fit : public testing::Test {
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   SurfaceFit fit_{SurfaceFitOptions{}};
-  LimbRecovery recovery_;
+  LimbRecovery recovery_{body_.table()};
 };
 
 constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
@@ -185,8 +185,24 @@ TEST_F(Fit, AfterASearchInVainNothingIsSearchedForAWhile) {
   elsewhere.X_WT.p.x() += 1500;
   EXPECT_FALSE(Recover(evidence, elsewhere));
   const PoseState lost = Standing(body_, {});
-  EXPECT_FALSE(Recover(evidence, lost, 0.01));
+  EXPECT_FALSE(Recover(evidence, lost, 0.001));
   EXPECT_TRUE(Recover(evidence, lost, 0.05));
+}
+
+TEST_F(Fit, WhoHasAHatIsSearchedAtOnceWhenAnArmIsLostToo) {
+  BodySizes sizes = body_.sizes();
+  sizes.head += 150;
+  const BodyModel with_hat(body_.table(), sizes);
+  const PoseState lost = Standing(body_, {});
+  const Evidence hat = studio_.Show(with_hat, lost);
+  EXPECT_FALSE(Recover(hat, lost));
+  fit_.SetEvidence(hat);
+  EXPECT_GT(fit_.QualityAt(body_, lost).unexplained_share, 0.005);
+  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
+  const Evidence evidence = studio_.Show(with_hat, truth);
+  const std::optional<PoseState> found = Recover(evidence, lost, 0.01);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
 
 TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
