@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/tracking/lanes.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {
