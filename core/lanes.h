@@ -29,14 +29,6 @@ template <typename Lanes, typename Number>
 MOCAP_INLINE void StoreLanes(const Lanes& lanes, Number* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
-/// Loads small whole numbers.
-template <typename Number>
-MOCAP_INLINE void LoadAsFloats(const Number* from, Floats& lanes) {
-  typedef Number Numbers __attribute__((vector_size(kFloats * sizeof(Number))));
-  Numbers numbers;
-  std::memcpy(&numbers, from, sizeof numbers);
-  lanes = __builtin_convertvector(__builtin_convertvector(numbers, Ints), Floats);
-}
 template <typename Lanes, typename Number>
 MOCAP_INLINE void ClampLanes(Lanes& x, Number low, Number high) {
   x = x < low ? Lanes{} + low : x;

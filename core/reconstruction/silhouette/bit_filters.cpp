@@ -88,21 +88,28 @@ unsigned Gather(const std::uint8_t* bytes, int place) {
 
 void PackRow(std::span<const std::uint8_t> pixels, unsigned bit, int begin, Word* row) {
   MOCAP_CHECK(begin % 8 == 0 && std::has_single_bit(bit) && bit < 256);
-  const int place = std::countr_zero(bit);
   constexpr std::size_t kStep = 16;
-  const auto add = [&](std::size_t i, Word bits) {
-    const std::size_t x = begin + i;
-    const std::size_t shift = x % 64;
-    row[x / 64] |= bits << shift;
-    if (shift > 64 - kStep && bits >> (64 - shift) != 0) row[x / 64 + 1] |= bits >> (64 - shift);
-  };
+  const int place = std::countr_zero(bit);
+  const int shift = begin % 64;
   const std::size_t count = pixels.size();
-  std::size_t i = 0;
-  for (; i + kStep <= count; i += kStep) add(i, Gather(pixels.data() + i, place));
-  if (i == count) return;
-  std::array<std::uint8_t, kStep> rest{};
-  std::copy(pixels.begin() + static_cast<std::ptrdiff_t>(i), pixels.end(), rest.begin());
-  add(i, Gather(rest.data(), place));
+  Word* to = row + begin / 64;
+  for (std::size_t first = 0; first < count; first += 64, ++to) {
+    Word word = 0;
+    for (std::size_t i = 0; i < 64 && first + i < count; i += kStep) {
+      const std::size_t left = count - first - i;
+      Word bits;
+      if (left >= kStep) {
+        bits = Gather(&pixels[first + i], place);
+      } else {
+        std::array<std::uint8_t, kStep> rest{};
+        std::copy_n(&pixels[first + i], left, rest.begin());
+        bits = Gather(rest.data(), place);
+      }
+      word |= bits << i;
+    }
+    to[0] |= word << shift;
+    if (shift > 0 && word >> (64 - shift) != 0) to[1] |= word >> (64 - shift);
+  }
 }
 
 void Erode(const Silhouette& from, int radius, Silhouette& to) {
