@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/errors.h"
@@ -29,7 +29,10 @@ constexpr float kRounding_mm = 0.1f;
 // are large.
 constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
-constexpr int kIndexBits = 16;
+constexpr int kCellBits = 5;
+constexpr int kDigitBits = 9;
+constexpr int kKeyBits = 2 * kDigitBits;
+static_assert(kKeyBits >= 2 + 3 * kCellBits);
 // Blocks that take the same first guess.
 constexpr int kFirstTogether = 8;
 
@@ -161,6 +164,20 @@ int ListOthers(int begin, int end, const Block* blocks, const SlimShape& shape, 
   return count;
 }
 
+// Rows of cells, one above the other; edges stand behind the other contacts.
+std::uint32_t KeyOf(const Contact& contact) {
+  // A number is rounded towards zero.
+  constexpr double kAhead = 1 << 10;
+  const Vector3 place = ((contact.from_W + contact.to_W) / (2 * kCell_mm)).array() + kAhead;
+  const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
+  std::uint32_t key = contact.is_edge ? 1 + is_long : 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const auto cell = static_cast<std::uint32_t>(static_cast<int>(place[axis]));
+    key = key << kCellBits | (cell & ((1u << kCellBits) - 1));
+  }
+  return key;
+}
+
 std::uint32_t CapsulesOf(const Best& best) {
   std::uint32_t capsules = 0;
   for (const std::int32_t k : best.capsule)
@@ -206,23 +223,23 @@ void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   has_favourites_ = false;
 }
 
-// Rows of cells, one above the other.
+// Digit by digit, the lowest first.
 void ContactMatcher::SortByPlace() {
-  MOCAP_CHECK(contacts_.size() < std::size_t{1} << kIndexBits);
-  order_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const Vector3 place = (contact.from_W + contact.to_W) / (2 * kCell_mm);
-    const auto cell = [&](int axis, unsigned bits) {
-      return static_cast<std::uint32_t>(std::lround(place[axis])) & ((1u << bits) - 1);
+  keys_.clear();
+  for (const Contact& contact : contacts_) keys_.push_back(KeyOf(contact));
+  order_.resize(keys_.size());
+  order_before_.resize(keys_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  for (int shift = 0; shift < kKeyBits; shift += kDigitBits) {
+    const auto digit = [&](std::uint32_t i) {
+      return keys_[i] >> shift & ((1u << kDigitBits) - 1);
     };
-    const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
-    const std::uint32_t key =
-        (is_long ? 1u : 0u) << 15 | cell(2, 5) << 10 | cell(1, 5) << 5 | cell(0, 5);
-    order_.push_back(key << kIndexBits | static_cast<std::uint32_t>(i));
+    order_.swap(order_before_);
+    std::array<std::uint32_t, (1 << kDigitBits) + 1> begins{};
+    for (const std::uint32_t i : order_before_) ++begins[digit(i) + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    for (const std::uint32_t i : order_before_) order_[begins[digit(i)]++] = i;
   }
-  std::ranges::sort(order_);
-  for (std::uint32_t& place : order_) place &= (1u << kIndexBits) - 1;
 }
 
 // Behind the last contact it is repeated.

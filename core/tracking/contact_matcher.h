@@ -84,6 +84,8 @@ class ContactMatcher {
 
   std::vector<Contact> contacts_;
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
+  std::vector<std::uint32_t> keys_;   ///< The contacts' own, while they are sorted.
+  std::vector<std::uint32_t> order_before_;
   std::vector<Block> blocks_;
   std::vector<Best> bests_;  ///< One a block.
   std::vector<Trial> trials_;
