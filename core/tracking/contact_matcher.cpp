@@ -115,6 +115,12 @@ MOCAP_INLINE std::uint32_t UnionOf(const Ints& lanes) {
   return ((a[0] | a[1]) | (a[2] | a[3])) | ((a[4] | a[5]) | (a[6] | a[7]));
 }
 
+MOCAP_INLINE bool HasAny(const Ints& lanes) {
+  std::array<std::uint64_t, kFloats / 2> a;
+  StoreLanes(lanes, a.data());
+  return ((a[0] | a[1]) | (a[2] | a[3])) != 0;
+}
+
 // The capsules whose box is as near to the block's.
 MOCAP_INLINE std::uint32_t CapsulesWithin(const Block& block, const SlimShape& shape,
                                           float reach_mm) {
@@ -144,7 +150,7 @@ MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, cons
   x -= on_segment * lx, y -= on_segment * ly, z -= on_segment * lz;
   const Floats reach = mismatch + (capsule.reach + kRounding_mm);
   const Ints is_within = x * x + y * y + z * z <= reach * reach;
-  return UnionOf(is_within) != 0;
+  return HasAny(is_within);
 }
 
 // Lists the capsules that may match a block's contacts better than its favourites do: a mismatch is
