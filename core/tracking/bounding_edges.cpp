@@ -37,9 +37,10 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
   const int steps = static_cast<int>(std::ceil((in_box.to_mm - in_box.from_mm) / step_mm));
   const VoxelCloud::Places places =
       cloud.PlacesAlong(eye_W + in_box.from_mm * ray.direction_W, step_mm * ray.direction_W);
-  const std::optional<int> first = cloud.FirstHeld(places, steps);
+  const VoxelCloud::Stretch stretch = cloud.StretchOf(places, steps);
+  const std::optional<int> first = cloud.FirstHeld(places, stretch);
   if (!first) return std::nullopt;
-  const int last = cloud.LastHeld(places, steps);
+  const int last = cloud.LastHeld(places, stretch);
   return Range{in_box.from_mm + *first * step_mm, in_box.from_mm + last * step_mm};
 }
 

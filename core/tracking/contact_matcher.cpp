@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/lanes.h"
@@ -14,6 +15,7 @@ using Block = ContactMatcher::Block;
 using SlimCapsule = ContactMatcher::SlimCapsule;
 using SlimShape = ContactMatcher::SlimShape;
 using Best = ContactMatcher::Best;
+using Trial = ContactMatcher::Trial;
 
 // A place on the inside of the left leg is no evidence for the right one: surfaces that face
 // square to each other count as this far apart.
@@ -27,19 +29,32 @@ constexpr float kRounding_mm = 0.1f;
 // are large.
 constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
-constexpr int kIndexBits = 16;
+constexpr int kCellBits = 5;
+constexpr int kDigitBits = 9;
+constexpr int kKeyBits = 2 * kDigitBits;
+static_assert(kKeyBits >= 2 + 3 * kCellBits);
+// Blocks that take the same first guess.
+constexpr int kFirstTogether = 8;
+
+// What is found for a block's contacts, while it is looked for.
+struct BestLanes {
+  Floats mismatch, distance;
+  Ints capsule;
+};
+
+MOCAP_INLINE void LoadColumns(const std::array<Block::Column, 3>& columns, Floats& x, Floats& y,
+                              Floats& z) {
+  LoadLanes(columns[0].data(), x), LoadLanes(columns[1].data(), y), LoadLanes(columns[2].data(), z);
+}
 
 // Closest places of two segments (Ericson 2005, §5.1.9), without branches.
-MOCAP_INLINE void TryCapsule(const Block& block, int i, const SlimCapsule& capsule, int index,
-                             Best& best) {
+MOCAP_INLINE void TryCapsule(const Block& block, const SlimCapsule& capsule, int index,
+                             BestLanes& best) {
   const float cx = capsule.core.x(), cy = capsule.core.y(), cz = capsule.core.z();
-  const float core_sq = capsule.core_sq, per_core_sq = 1 / core_sq;
+  const float core_sq = capsule.core_sq, per_core_sq = capsule.per_core_sq;
   Floats lx, ly, lz, bx, by, bz, along_sq, per_along_sq;
-  LoadLanes(&block.along[0][i], lx), LoadLanes(&block.along[1][i], ly),
-      LoadLanes(&block.along[2][i], lz);
-  LoadLanes(&block.from[0][i], bx), LoadLanes(&block.from[1][i], by),
-      LoadLanes(&block.from[2][i], bz);
-  LoadLanes(&block.along_sq[i], along_sq), LoadLanes(&block.per_along_sq[i], per_along_sq);
+  LoadColumns(block.along, lx, ly, lz), LoadColumns(block.from, bx, by, bz);
+  LoadLanes(block.along_sq.data(), along_sq), LoadLanes(block.per_along_sq.data(), per_along_sq);
   bx = capsule.a.x() - bx, by = capsule.a.y() - by, bz = capsule.a.z() - bz;
   const Floats dot = cx * lx + cy * ly + cz * lz;
   const Floats c = cx * bx + cy * by + cz * bz;
@@ -59,87 +74,120 @@ MOCAP_INLINE void TryCapsule(const Block& block, int i, const SlimCapsule& capsu
   TakeRoots(length);
   const Floats outside = length - capsule.radius - share * capsule.taper;
   const Floats apart = outside > 0 ? outside : -outside;
-  Floats ox, oy, oz, least_yet, distance_yet;
-  Ints best_yet;
-  LoadLanes(&block.outward[0][i], ox), LoadLanes(&block.outward[1][i], oy),
-      LoadLanes(&block.outward[2][i], oz);
-  LoadLanes(&best.mismatch[i], least_yet), LoadLanes(&best.distance[i], distance_yet);
-  LoadLanes(&best.capsule[i], best_yet);
+  Floats ox, oy, oz;
+  LoadColumns(block.outward, ox, oy, oz);
   const Floats facing = (ox * x + oy * y + oz * z) / (length + 1);
   const Floats value = apart + kSquare_mm * (1 - facing);
   // Parts that share a joint are as near to what lies beside it: whichever is tried first.
-  const Ints is_better = (value < least_yet) | ((value == least_yet) & (index < best_yet));
-  const Ints capsule_now = is_better ? Ints{} + index : best_yet;
-  const Floats distance_now = is_better ? apart : distance_yet;
-  const Floats least_now = is_better ? value : least_yet;
-  StoreLanes(capsule_now, &best.capsule[i]);
-  StoreLanes(distance_now, &best.distance[i]);
-  StoreLanes(least_now, &best.mismatch[i]);
+  const Ints is_better =
+      (value < best.mismatch) | ((value == best.mismatch) & (index < best.capsule));
+  best.capsule = is_better ? Ints{} + index : best.capsule;
+  best.distance = is_better ? apart : best.distance;
+  best.mismatch = is_better ? value : best.mismatch;
+}
+
+MOCAP_VECTORIZED
+void TryAll(const Trial* trials, int count, const Block* blocks, const SlimCapsule* capsules,
+            Best* bests) {
+  for (int i = 0; i < count; ++i) {
+    const Trial& trial = trials[i];
+    Best& best = bests[trial.block];
+    BestLanes lanes;
+    LoadLanes(best.mismatch.data(), lanes.mismatch);
+    LoadLanes(best.distance.data(), lanes.distance);
+    LoadLanes(best.capsule.data(), lanes.capsule);
+    TryCapsule(blocks[trial.block], capsules[trial.capsule], trial.capsule, lanes);
+    StoreLanes(lanes.mismatch, best.mismatch.data());
+    StoreLanes(lanes.distance, best.distance.data());
+    StoreLanes(lanes.capsule, best.capsule.data());
+  }
 }
 
 // By halves, so that no comparison waits for the one before.
-MOCAP_INLINE float WorstOf(const Best& best) {
-  static_assert(Block::kContacts == 2 * kFloats);
-  Floats a, b;
-  LoadLanes(&best.mismatch[0], a), LoadLanes(&best.mismatch[kFloats], b);
-  a = a > b ? a : b;
-  const float ab = std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
-  return std::max(ab, std::max(std::max(a[4], a[5]), std::max(a[6], a[7])));
+MOCAP_INLINE float WorstOf(const std::array<float, Block::kContacts>& a) {
+  return std::max(std::max(std::max(a[0], a[1]), std::max(a[2], a[3])),
+                  std::max(std::max(a[4], a[5]), std::max(a[6], a[7])));
 }
 
-using Gaps = std::array<float, ContactMatcher::kMostCapsules>;
+MOCAP_INLINE std::uint32_t UnionOf(const Ints& lanes) {
+  std::array<std::uint32_t, kFloats> a;
+  StoreLanes(lanes, a.data());
+  return ((a[0] | a[1]) | (a[2] | a[3])) | ((a[4] | a[5]) | (a[6] | a[7]));
+}
 
-// How far the box around a block is from each capsule's.
-inline __attribute__((always_inline)) void FindGaps(const Block& block, const SlimShape& shape,
-                                                    int count, Gaps& gaps) {
-  const float low_x = block.low.x(), low_y = block.low.y(), low_z = block.low.z();
-  const float high_x = block.high.x(), high_y = block.high.y(), high_z = block.high.z();
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k) {
-    const float x = std::max(shape.low[0][k] - high_x, low_x - shape.high[0][k]);
-    const float y = std::max(shape.low[1][k] - high_y, low_y - shape.high[1][k]);
-    const float z = std::max(shape.low[2][k] - high_z, low_z - shape.high[2][k]);
-    gaps[k] = std::max(std::max(x, y), z);
+MOCAP_INLINE bool HasAny(const Ints& lanes) {
+  std::array<std::uint64_t, kFloats / 2> a;
+  StoreLanes(lanes, a.data());
+  return ((a[0] | a[1]) | (a[2] | a[3])) != 0;
+}
+
+// The capsules whose box is as near to the block's.
+MOCAP_INLINE std::uint32_t CapsulesWithin(const Block& block, const SlimShape& shape,
+                                          float reach_mm) {
+  Ints bits = {1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7};
+  Ints within{};
+  for (int k = 0; k < ContactMatcher::kMostCapsules; k += kFloats, bits <<= kFloats) {
+    Ints is_within = Ints{} - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      Floats low, high;
+      LoadLanes(&shape.low[axis][k], low), LoadLanes(&shape.high[axis][k], high);
+      is_within &= (low <= block.high[axis] + reach_mm) & (high >= block.low[axis] - reach_mm);
+    }
+    within |= is_within & bits;
   }
+  return UnionOf(within);
 }
 
-MOCAP_INLINE std::uint64_t WithinOf(const Gaps& gaps, std::uint64_t some, float reach) {
-  std::uint64_t within = 0;
-  for (; some != 0; some &= some - 1) {
-    const int k = std::countr_zero(some);
-    within |= std::uint64_t{gaps[k] <= reach + kRounding_mm} << k;
-  }
-  return within;
+// Whether the ball around a capsule is near enough to match one of a block's contacts better.
+MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, const Best& best) {
+  Floats lx, ly, lz, x, y, z, per_along_sq, mismatch;
+  LoadColumns(block.along, lx, ly, lz), LoadColumns(block.from, x, y, z);
+  LoadLanes(block.per_along_sq.data(), per_along_sq);
+  LoadLanes(best.mismatch.data(), mismatch);
+  x = capsule.middle.x() - x, y = capsule.middle.y() - y, z = capsule.middle.z() - z;
+  Floats on_segment = (x * lx + y * ly + z * lz) * per_along_sq;
+  ClampLanes(on_segment, 0.0f, 1.0f);
+  x -= on_segment * lx, y -= on_segment * ly, z -= on_segment * lz;
+  const Floats reach = mismatch + (capsule.reach + kRounding_mm);
+  const Ints is_within = x * x + y * y + z * z <= reach * reach;
+  return HasAny(is_within);
 }
 
-MOCAP_INLINE void TryCapsules(const Block& block, const SlimShape& shape, std::uint64_t some,
-                              Best& best) {
-  for (; some != 0; some &= some - 1) {
-    const int k = std::countr_zero(some);
-    for (int i = 0; i < Block::kContacts; i += kFloats)
-      TryCapsule(block, i, shape.capsules[k], k, best);
-  }
-}
-
-// A capsule's mismatch is no less than the gap to it. Which are tried is decided once, after the
-// favourites: a decision after each would wait for its outcome.
+// Lists the capsules that may match a block's contacts better than its favourites do: a mismatch is
+// no less than the gap. Returns how many there are.
 MOCAP_VECTORIZED
-void MatchBlock(const Block& block, const SlimShape& shape, float reach, Best& best) {
-  best.mismatch.fill(reach);
-  best.distance.fill(reach);
-  best.capsule.fill(-1);
-  const int count = static_cast<int>(shape.capsules.size());
-  Gaps gaps;
-  FindGaps(block, shape, count, gaps);
-  const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
-  TryCapsules(block, shape, WithinOf(gaps, all & block.favourites, reach), best);
-  TryCapsules(block, shape, WithinOf(gaps, all & ~block.favourites, WorstOf(best)), best);
+int ListOthers(int begin, int end, const Block* blocks, const SlimShape& shape, const Best* bests,
+               Trial* trials) {
+  int count = 0;
+  for (int b = begin; b < end; ++b) {
+    std::uint32_t some =
+        CapsulesWithin(blocks[b], shape, WorstOf(bests[b].mismatch) + kRounding_mm);
+    for (some &= shape.all & ~blocks[b].favourites; some != 0; some &= some - 1) {
+      trials[count] = {b, std::countr_zero(some)};
+      count += IsInReach(blocks[b], shape.capsules[trials[count].capsule], bests[b]);
+    }
+  }
+  return count;
 }
 
-std::uint64_t CapsulesOf(const Best& best) {
-  std::uint64_t capsules = 0;
+// Rows of cells, one above the other; edges stand behind the other contacts.
+std::uint32_t KeyOf(const Contact& contact) {
+  // A number is rounded towards zero.
+  constexpr double kAhead = 1 << 10;
+  const Vector3 place = ((contact.from_W + contact.to_W) / (2 * kCell_mm)).array() + kAhead;
+  const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
+  std::uint32_t key = contact.is_edge ? 1 + is_long : 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const auto cell = static_cast<std::uint32_t>(static_cast<int>(place[axis]));
+    key = key << kCellBits | (cell & ((1u << kCellBits) - 1));
+  }
+  return key;
+}
+
+std::uint32_t CapsulesOf(const Best& best) {
+  std::uint32_t capsules = 0;
   for (const std::int32_t k : best.capsule)
-    if (k >= 0) capsules |= std::uint64_t{1} << k;
+    if (k >= 0) capsules |= std::uint32_t{1} << k;
   return capsules;
 }
 
@@ -151,7 +199,10 @@ void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
     SlimCapsule slim;
     slim.a = capsule.a_W.cast<float>();
     slim.core = (capsule.b_W - capsule.a_W).cast<float>();
+    slim.middle = capsule.middle_W.cast<float>();
+    slim.reach = static_cast<float>(capsule.reach_mm);
     slim.core_sq = std::max(slim.core.squaredNorm(), kLeastSq_mm2);
+    slim.per_core_sq = 1 / slim.core_sq;
     slim.radius = static_cast<float>(capsule.radius_a_mm);
     slim.taper = static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm);
     const Eigen::Vector3f b = slim.a + slim.core;
@@ -162,6 +213,7 @@ void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
     }
     slim_.capsules.push_back(slim);
   }
+  slim_.all = ~std::uint32_t{0} >> (kMostCapsules - capsules.size());
 }
 
 void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
@@ -172,25 +224,28 @@ void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   SortByPlace();
   blocks_.resize((contacts.size() + Block::kContacts - 1) / Block::kContacts);
   for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);
+  bests_.resize(blocks_.size());
+  trials_.resize(blocks_.size() * kMostCapsules + 1);
+  has_favourites_ = false;
 }
 
-// Rows of cells, one above the other.
+// Digit by digit, the lowest first.
 void ContactMatcher::SortByPlace() {
-  MOCAP_CHECK(contacts_.size() < std::size_t{1} << kIndexBits);
-  order_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const Vector3 place = (contact.from_W + contact.to_W) / (2 * kCell_mm);
-    const auto cell = [&](int axis, unsigned bits) {
-      return static_cast<std::uint32_t>(std::lround(place[axis])) & ((1u << bits) - 1);
+  keys_.clear();
+  for (const Contact& contact : contacts_) keys_.push_back(KeyOf(contact));
+  order_.resize(keys_.size());
+  order_before_.resize(keys_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  for (int shift = 0; shift < kKeyBits; shift += kDigitBits) {
+    const auto digit = [&](std::uint32_t i) {
+      return keys_[i] >> shift & ((1u << kDigitBits) - 1);
     };
-    const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
-    const std::uint32_t key =
-        (is_long ? 1u : 0u) << 15 | cell(2, 5) << 10 | cell(1, 5) << 5 | cell(0, 5);
-    order_.push_back(key << kIndexBits | static_cast<std::uint32_t>(i));
+    order_.swap(order_before_);
+    std::array<std::uint32_t, (1 << kDigitBits) + 1> begins{};
+    for (const std::uint32_t i : order_before_) ++begins[digit(i) + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    for (const std::uint32_t i : order_before_) order_[begins[digit(i)]++] = i;
   }
-  std::ranges::sort(order_);
-  for (std::uint32_t& place : order_) place &= (1u << kIndexBits) - 1;
 }
 
 // Behind the last contact it is repeated.
@@ -214,28 +269,48 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
   }
 }
 
-template <typename Visit>
-void ContactMatcher::ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm,
-                                 const Visit& visit) {
+// What is tried is listed first, for many blocks: a decision after each trial would wait for its
+// outcome.
+void ContactMatcher::MatchBlocks(int begin, int end, float reach_mm) {
+  int count = 0;
+  for (int b = begin; b < end; ++b) {
+    bests_[b].mismatch.fill(reach_mm);
+    bests_[b].distance.fill(reach_mm);
+    bests_[b].capsule.fill(-1);
+    for (std::uint32_t some = slim_.all & blocks_[b].favourites; some != 0; some &= some - 1)
+      trials_[count++] = {b, std::countr_zero(some)};
+  }
+  TryAll(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
+  count = ListOthers(begin, end, blocks_.data(), slim_, bests_.data(), trials_.data());
+  TryAll(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
+  for (int b = begin; b < end; ++b) blocks_[b].favourites = CapsulesOf(bests_[b]);
+}
+
+void ContactMatcher::MatchAll(std::span<const PosedCapsule> capsules, double reach_mm) {
   MOCAP_CHECK(!capsules.empty() && capsules.size() <= kMostCapsules);
   Slim(capsules);
-  Best best;
-  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+  const int count = static_cast<int>(blocks_.size());
+  const int together = std::exchange(has_favourites_, true) ? count : kFirstTogether;
+  for (int begin = 0; begin < count; begin += together) {
+    const int end = std::min(begin + together, count);
     // What explains the neighbours is a first guess.
-    if (blocks_[block].favourites == 0 && block > 0)
-      blocks_[block].favourites = blocks_[block - 1].favourites;
-    MatchBlock(blocks_[block], slim_, static_cast<float>(reach_mm), best);
-    blocks_[block].favourites = CapsulesOf(best);
-    const std::size_t first = block * Block::kContacts;
-    const std::size_t count = std::min<std::size_t>(Block::kContacts, order_.size() - first);
-    for (std::size_t i = 0; i < count; ++i) visit(order_[first + i], best, i);
+    for (int b = begin; b < end && begin > 0; ++b)
+      if (blocks_[b].favourites == 0) blocks_[b].favourites = blocks_[begin - 1].favourites;
+    MatchBlocks(begin, end, static_cast<float>(reach_mm));
   }
+}
+
+template <typename Visit>
+void ContactMatcher::ForEachBest(const Visit& visit) const {
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    visit(order_[i], bests_[i / Block::kContacts], i % Block::kContacts);
 }
 
 const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
                                                        double reach_mm) {
+  MatchAll(capsules, reach_mm);
   pairs_.clear();
-  ForEachBest(capsules, reach_mm, [&](std::uint32_t contact, const Best& best, std::size_t i) {
+  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
     ContactMatch& match = matches_[contact];
     match.capsule = best.capsule[i];
     if (match.capsule < 0) return;
@@ -248,7 +323,8 @@ const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCaps
 
 const std::vector<float>& ContactMatcher::Distances(std::span<const PosedCapsule> capsules,
                                                     double reach_mm) {
-  ForEachBest(capsules, reach_mm, [&](std::uint32_t contact, const Best& best, std::size_t i) {
+  MatchAll(capsules, reach_mm);
+  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
     distances_[contact] = best.distance[i];
   });
   return distances_;

@@ -39,44 +39,57 @@ class ContactMatcher {
   /// @return  `reach_mm` where there is none; valid until the next call.
   const std::vector<float>& Distances(std::span<const PosedCapsule> capsules, double reach_mm);
 
-  static constexpr int kMostCapsules = 64;
+  static constexpr int kMostCapsules = 32;
   /// A capsule in single precision.
   struct SlimCapsule {
-    Eigen::Vector3f a, core;
-    float core_sq, radius, taper;
+    Eigen::Vector3f a, core, middle;
+    float core_sq, per_core_sq, radius, taper;
+    float reach;  ///< All of it lies this near to its middle.
   };
   /// A posed body in single precision.
   struct SlimShape {
     std::vector<SlimCapsule> capsules;
     /// The corners of boxes around them.
-    alignas(32) std::array<std::array<float, kMostCapsules>, 3> low, high;
+    alignas(32) std::array<std::array<float, kMostCapsules>, 3> low{}, high{};
+    std::uint32_t all;  ///< Of them, as bits.
   };
   /// So many contacts, in columns.
-  struct Block {
-    static constexpr int kContacts = 16;
+  struct alignas(64) Block {
+    static constexpr int kContacts = 8;
     using Column = std::array<float, kContacts>;
 
     std::array<Column, 3> from, along, outward;
     Column along_sq, per_along_sq;
     Eigen::Vector3f low, high;     ///< The corners of a box around them.
-    std::uint64_t favourites = 0;  ///< The capsules that were the best of some, as bits.
+    std::uint32_t favourites = 0;  ///< The capsules that were the best of some, as bits.
   };
   /// What a block's contacts match best.
   struct Best {
     alignas(32) std::array<float, Block::kContacts> mismatch, distance;
     alignas(32) std::array<std::int32_t, Block::kContacts> capsule;
   };
+  /// A capsule that is to be held against a block's contacts.
+  struct Trial {
+    std::int32_t block, capsule;
+  };
 
  private:
+  void MatchAll(std::span<const PosedCapsule> capsules, double reach_mm);
+  void MatchBlocks(int begin, int end, float reach_mm);
   template <typename Visit>
-  void ForEachBest(std::span<const PosedCapsule> capsules, double reach_mm, const Visit& visit);
+  void ForEachBest(const Visit& visit) const;
   void Slim(std::span<const PosedCapsule> capsules);
   void SortByPlace();
   void FillBlock(std::size_t first, Block& block) const;
 
   std::vector<Contact> contacts_;
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
+  std::vector<std::uint32_t> keys_;   ///< The contacts' own, while they are sorted.
+  std::vector<std::uint32_t> order_before_;
   std::vector<Block> blocks_;
+  std::vector<Best> bests_;  ///< One a block.
+  std::vector<Trial> trials_;
+  bool has_favourites_ = false;
   SlimShape slim_;
   PlaceColumns surface_W_;
   std::vector<CapsuleAndSegment> pairs_;

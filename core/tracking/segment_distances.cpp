@@ -80,28 +80,31 @@ MOCAP_INLINE void FindFour(int i, Batch& batch) {
 
   const auto slides =
       (share > 0) & (share < 1) & (on_segment > 0) & (on_segment < 1) & (taper != 0);
-  const Doubles slope = taper * dot / core_sq;
-  const Doubles curvature = slant / core_sq / (apart < 1 ? Doubles{} + 1 : apart);
-  Doubles slide = slope / curvature;
-  ClampLanes(slide, -0.5, 0.5);
-  Doubles slid = on_segment + slide;
-  ClampLanes(slid, 0.0, 1.0);
-  Vectors slid_place, from_a, slid_core;
-  GoAlong(from, slid, along, slid_place);
-  Subtract(slid_place, a, from_a);
-  Doubles slid_share;
-  Multiply(from_a, core, slid_share);
-  slid_share /= core_sq;
-  ClampLanes(slid_share, 0.0, 1.0);
-  GoAlong(a, slid_share, core, slid_core);
-  Doubles slid_apart;
-  FindLength(slid_core, slid_place, slid_apart);
-
-  Choose(slides, slid_core, place), Choose(slides, slid_place, segment_place);
-  share = slides ? slid_share : share;
-  const Doubles outside = (slides ? slid_apart : apart) - (radius + share * taper);
+  // Those that are no edges never do, and stand together.
+  if ((slides[0] | slides[1] | slides[2] | slides[3]) != 0) {
+    const Doubles slope = taper * dot / core_sq;
+    const Doubles curvature = slant / core_sq / (apart < 1 ? Doubles{} + 1 : apart);
+    Doubles slide = slope / curvature;
+    ClampLanes(slide, -0.5, 0.5);
+    Doubles slid = on_segment + slide;
+    ClampLanes(slid, 0.0, 1.0);
+    Vectors slid_place, from_a, slid_core;
+    GoAlong(from, slid, along, slid_place);
+    Subtract(slid_place, a, from_a);
+    Doubles slid_share;
+    Multiply(from_a, core, slid_share);
+    slid_share /= core_sq;
+    ClampLanes(slid_share, 0.0, 1.0);
+    GoAlong(a, slid_share, core, slid_core);
+    Doubles slid_apart;
+    FindLength(slid_core, slid_place, slid_apart);
+    Choose(slides, slid_core, place), Choose(slides, slid_place, segment_place);
+    share = slides ? slid_share : share;
+    apart = slides ? slid_apart : apart;
+  }
   StoreVectors(place, i, batch.place), StoreVectors(segment_place, i, batch.segment_place);
-  StoreLanes(outside, &batch.outside[i]), StoreLanes(share, &batch.share[i]);
+  StoreLanes(apart - (radius + share * taper), &batch.outside[i]);
+  StoreLanes(share, &batch.share[i]);
 }
 
 MOCAP_VECTORIZED

@@ -51,21 +51,27 @@ constexpr auto kBitSums = [] {
 // So many places of a line are looked at together.
 constexpr int kPlaces = 8;
 struct Cells {
-  std::array<int, kPlaces> x, y, z;
+  std::array<int, kPlaces> word, x;
+};
+// How rows of bits follow each other.
+struct Pitch {
+  int row, layer;
 };
 
 // Rounded down, of places from the i-th on; none lies before cell -kAhead.
 MOCAP_VECTORIZED
-void FindCells(const VoxelCloud::Places& places, int i, Cells& cells) {
+void FindCells(const VoxelCloud::Places& places, int i, const Pitch& pitch, Cells& cells) {
   constexpr int kAhead = 1 << 10;
   const double x = places.first.x() + kAhead, y = places.first.y() + kAhead,
                z = places.first.z() + kAhead;
   const double dx = places.step.x(), dy = places.step.y(), dz = places.step.z();
   for (int place = 0; place < kPlaces; ++place) {
     const double steps = i + place;
-    cells.x[place] = static_cast<int>(x + steps * dx) - kAhead;
-    cells.y[place] = static_cast<int>(y + steps * dy) - kAhead;
-    cells.z[place] = static_cast<int>(z + steps * dz) - kAhead;
+    const int cell_x = static_cast<int>(x + steps * dx) - kAhead;
+    const int cell_y = static_cast<int>(y + steps * dy) - kAhead;
+    const int cell_z = static_cast<int>(z + steps * dz) - kAhead;
+    cells.word[place] = cell_z * pitch.layer + cell_y * pitch.row + (cell_x >> 6);
+    cells.x[place] = cell_x & 63;
   }
 }
 
@@ -202,6 +208,7 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
   voxels_.clear();
   surface_.clear();
   first_of_row_.clear();
+  held_cells_.setEmpty();
   const std::ptrdiff_t above = WordOf(0, 1) - WordOf(0, 0);
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
@@ -220,33 +227,54 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
           voxels_.push_back({grid.CenterOf(x, j, k), {x, j, k}, is_surface});
         }
       }
+      if (size() == first_of_row_.back()) continue;
+      held_cells_.extend(voxels_[first_of_row_.back()].cell);
+      held_cells_.extend(voxels_.back().cell);
     }
   }
 }
 
-unsigned VoxelCloud::HeldFrom(const Places& places, int i, int count) const {
+unsigned VoxelCloud::HeldFrom(const Places& places, int i, int end) const {
+  const Word* const first = RowOf(0, 0);
+  const Pitch pitch{static_cast<int>(RowOf(1, 0) - first), static_cast<int>(RowOf(0, 1) - first)};
   Cells cells;
-  FindCells(places, i, cells);
+  FindCells(places, i, pitch, cells);
   unsigned held = 0;
-  for (int place = 0; place < std::min(kPlaces, count - i); ++place) {
-    const int x = cells.x[place];
-    const Word word = RowOf(cells.y[place], cells.z[place])[x >> 6];
-    held |= static_cast<unsigned>(word >> (x & 63) & 1) << place;
-  }
+  for (int place = 0; place < std::min(kPlaces, end - i); ++place)
+    held |= static_cast<unsigned>(first[cells.word[place]] >> cells.x[place] & 1) << place;
   return held;
 }
 
-std::optional<int> VoxelCloud::FirstHeld(const Places& places, int count) const {
-  for (int i = 0; i < count; i += kPlaces)
-    if (const unsigned held = HeldFrom(places, i, count)) return i + std::countr_zero(held);
+VoxelCloud::Stretch VoxelCloud::StretchOf(const Places& places, int count) const {
+  // A step more than that, because of rounding.
+  double begin = 0, end = count;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = places.step[axis];
+    if (step == 0) continue;
+    const double a = (held_cells_.min()[axis] - places.first[axis]) / step;
+    const double b = (held_cells_.max()[axis] + 1 - places.first[axis]) / step;
+    begin = std::max(begin, std::min(a, b) - 1);
+    end = std::min(end, std::max(a, b) + 2);
+  }
+  if (begin >= end) return {0, 0};
+  return {static_cast<int>(begin), static_cast<int>(end)};
+}
+
+std::optional<int> VoxelCloud::FirstHeld(const Places& places, const Stretch& stretch) const {
+  for (int i = stretch.begin; i < stretch.end; i += kPlaces)
+    if (const unsigned held = HeldFrom(places, i, stretch.end)) return i + std::countr_zero(held);
   return std::nullopt;
 }
 
-int VoxelCloud::LastHeld(const Places& places, int count) const {
-  int i = (count - 1) / kPlaces * kPlaces;
-  unsigned held = HeldFrom(places, i, count);
-  while (held == 0) held = HeldFrom(places, i -= kPlaces, count);
-  return i + static_cast<int>(std::bit_width(held)) - 1;
+int VoxelCloud::LastHeld(const Places& places, const Stretch& stretch) const {
+  int begin = stretch.end;
+  unsigned held = 0;
+  while (held == 0) {
+    const int end = begin;
+    begin = std::max(stretch.begin, end - kPlaces);
+    held = HeldFrom(places, begin, end);
+  }
+  return begin + static_cast<int>(std::bit_width(held)) - 1;
 }
 
 Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {

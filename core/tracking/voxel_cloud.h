@@ -51,11 +51,17 @@ class VoxelCloud {
   Places PlacesAlong(const Vector3& first_W, const Vector3& step_W) const {
     return {(first_W - origin_W_) / voxel_mm_, step_W / voxel_mm_};
   }
-  /// The first of so many places where there is a voxel.
+  /// Some of them: [begin, end).
+  struct Stretch {
+    int begin, end;
+  };
+  /// Those of so many places that lie in the block of cells around all voxels, or a little beside.
+  Stretch StretchOf(const Places& places, int count) const;
+  /// The first place of a stretch where there is a voxel.
   /// @pre none lies farther from box_W() than a voxel.
-  std::optional<int> FirstHeld(const Places& places, int count) const;
+  std::optional<int> FirstHeld(const Places& places, const Stretch& stretch) const;
   /// The last of them. @pre there is one.
-  int LastHeld(const Places& places, int count) const;
+  int LastHeld(const Places& places, const Stretch& stretch) const;
   /// Out of the body at a surface voxel; unit length, or zero where the body has no outside.
   Vector3 NormalAt(const Voxel& voxel) const;
   /// Indices of the surface voxels.
@@ -92,8 +98,8 @@ class VoxelCloud {
   }
   const std::uint64_t* RowOf(int j, int k) const { return &bits_[WordOf(j, k)]; }
 
-  // Of kPlaces places from the i-th on, those below `count` that are held, as bits.
-  unsigned HeldFrom(const Places& places, int i, int count) const;
+  // Of kPlaces places from the i-th on, those before `end` that are held, as bits.
+  unsigned HeldFrom(const Places& places, int i, int end) const;
   void CopyBits(const VoxelGrid& grid);
   void DropIslands();
   void FindRuns();
@@ -110,6 +116,7 @@ class VoxelCloud {
   std::vector<int> first_of_row_;  // How many voxels the rows before have.
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
+  Eigen::AlignedBox3i held_cells_;
   // While islands are dropped.
   std::vector<Run> runs_;
   std::vector<int> row_begins_;

@@ -73,6 +73,24 @@ TEST_F(RandomCapsules, AreAsFarFromTheirContactsAsTheMatchesSay) {
   }
 }
 
+// Whoever was the best before is tried first; another body may have fewer parts.
+TEST_F(RandomCapsules, MatchTheSameWhateverWasMatchedBefore) {
+  std::vector<Contact> contacts;
+  for (int i = 0; i < 203; ++i) contacts.push_back({Place(), Place(), Place().normalized(), true});
+  ContactMatcher used;
+  used.SetContacts(contacts);
+  for (const int count : {12, 5, 1, ContactMatcher::kMostCapsules}) {
+    std::vector<PosedCapsule> capsules;
+    for (int i = 0; i < count; ++i) capsules.push_back(Capsule());
+    ContactMatcher fresh;
+    fresh.SetContacts(contacts);
+    const std::vector<ContactMatch>& again = used.Match(capsules, kReachMm);
+    const std::vector<ContactMatch>& first = fresh.Match(capsules, kReachMm);
+    for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(again[i].capsule, first[i].capsule);
+    EXPECT_EQ(used.Distances(capsules, kReachMm), fresh.Distances(capsules, kReachMm));
+  }
+}
+
 TEST(ContactMatcher, ChoosesTheSideThatFacesTheContactsWay) {
   const std::vector<PosedCapsule> legs = {{{0, 80, 0}, {0, 80, 400}, 60, 60},
                                           {{0, -80, 0}, {0, -80, 400}, 60, 60}};

@@ -74,10 +74,12 @@ TEST(Cloud, IsMetWhereALineFirstAndLastHoldsAVoxel) {
     // Places outside the block of voxels are not looked at.
     const int count = std::min(kSteps, static_cast<int>(20 / std::max(0.01, std::abs(turn))));
     const VoxelCloud::Places places = cloud.PlacesAlong(through_W, step_W);
-    const std::optional<int> found = cloud.FirstHeld(places, count);
+    const VoxelCloud::Stretch stretch = cloud.StretchOf(places, count);
+    EXPECT_LE(stretch.end - stretch.begin, 40);
+    const std::optional<int> found = cloud.FirstHeld(places, stretch);
     ASSERT_EQ(found.value_or(-1), first);
     if (found) {
-      EXPECT_EQ(cloud.LastHeld(places, count), last);
+      EXPECT_EQ(cloud.LastHeld(places, stretch), last);
     }
   }
 }
