@@ -1,7 +1,6 @@
 #include "core/reconstruction/silhouette/distortion_scan.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/errors.h"
 #include "core/vectorized.h"

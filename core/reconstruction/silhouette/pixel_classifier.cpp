@@ -1,6 +1,6 @@
 #include "core/reconstruction/silhouette/pixel_classifier.h"
 
-#include <cstring>
+#include <span>
 
 #include "core/reconstruction/silhouette/bit_filters.h"
 
