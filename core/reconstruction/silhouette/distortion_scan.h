@@ -27,7 +27,7 @@ class DistortionScan {
   /// One row. Each pointer leads to one value a pixel, and is valid until the next row for the
   /// pixels that are judged, and for others in the same eight, of which nothing is known.
   struct Row {
-    const float* alpha_shift = nullptr;    ///< α − 1; valid for the whole picture.
+    const float* alpha_shift = nullptr;    ///< α − 1; also for all that is measured.
     const float* cd_sq = nullptr;          ///< CD².
     const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
     const float* inverse_sigma = nullptr;  ///< 1/σ of green.
