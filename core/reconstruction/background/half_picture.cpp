@@ -2,33 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/errors.h"
+#include "core/lanes.h"
 #include "core/reconstruction/background/expected_picture.h"
-#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
 
 int RoundUp(int value, int step) { return (value + step - 1) / step * step; }
 
-// Compilers vectorize groups of three and of two, but not of six.
+// Averages the bytes of two rows over pixels that are side by side, whatever their channel.
 MOCAP_VECTORIZED
-void SeparateRows(const Bgr* top, const Bgr* bottom, int count, std::uint16_t* b, std::uint16_t* g,
-                  std::uint16_t* r) {
+void AveragePairs(const std::uint8_t* top, const std::uint8_t* bottom, int count,
+                  std::uint8_t* means) {
 #pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    b[x] = static_cast<std::uint16_t>(top[x].b + bottom[x].b);
-    g[x] = static_cast<std::uint16_t>(top[x].g + bottom[x].g);
-    r[x] = static_cast<std::uint16_t>(top[x].r + bottom[x].r);
-  }
+  for (int i = 0; i < count; ++i)
+    means[i] =
+        static_cast<std::uint8_t>((top[i] + top[i + 3] + bottom[i] + bottom[i + 3] + 2) >> 2);
+}
+
+using Bytes = std::uint8_t __attribute__((vector_size(16)));
+constexpr int kPicked = 8;
+
+// Picks one channel of every second one of the sixteen pixels in three vectors.
+template <int c>
+MOCAP_INLINE void PickChannel(const Bytes& x, const Bytes& y, const Bytes& z, std::uint8_t* to) {
+  constexpr bool kHasSixth = 30 + c < 32;
+  const Bytes xy =
+      __builtin_shufflevector(x, y, c, 6 + c, 12 + c, 18 + c, 24 + c, kHasSixth ? 30 + c : -1, -1,
+                              -1, -1, -1, -1, -1, -1, -1, -1, -1);
+  const Bytes xyz = __builtin_shufflevector(xy, z, 0, 1, 2, 3, 4, kHasSixth ? 5 : 16, 20 + c,
+                                            26 + c, -1, -1, -1, -1, -1, -1, -1, -1);
+  std::memcpy(to, &xyz, kPicked);
 }
 
 MOCAP_VECTORIZED
-void JoinColumns(const std::uint16_t* sums, int count, std::uint8_t* means) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    means[i] = static_cast<std::uint8_t>((sums[2 * i] + sums[2 * i + 1] + 2) >> 2);
+void PickPixels(const std::uint8_t* means, int count, std::uint8_t* b, std::uint8_t* g,
+                std::uint8_t* r) {
+  int i = 0;
+  for (; i + kPicked <= count; i += kPicked) {
+    Bytes x, y, z;
+    LoadLanes(means + 6 * i, x), LoadLanes(means + 6 * i + 16, y), LoadLanes(means + 6 * i + 32, z);
+    PickChannel<0>(x, y, z, b + i), PickChannel<1>(x, y, z, g + i), PickChannel<2>(x, y, z, r + i);
+  }
+  for (; i < count; ++i) b[i] = means[6 * i], g[i] = means[6 * i + 1], r[i] = means[6 * i + 2];
 }
 
 constexpr float kArea = HalfPicture::kTile * HalfPicture::kTile;
@@ -176,15 +195,14 @@ void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
   const int last_row = std::min((run.row + 1) * HalfPicture::kTile, image.height() / 2);
   const auto width = static_cast<std::size_t>(2) * columns;
   scratch.resize(std::max(scratch.size(), 3 * width));
-  std::uint16_t* const sums = scratch.data();
+  auto* const means = reinterpret_cast<std::uint8_t*>(scratch.data());
   for (int y = run.row * HalfPicture::kTile; y < last_row; ++y) {
     for (const int row : {2 * y, 2 * y + 1})
       FetchPixels(image, row + kFetchAhead, 2 * first, 2 * (first + columns));
-    SeparateRows(image.row(2 * y) + 2 * first, image.row(2 * y + 1) + 2 * first, 2 * columns, sums,
-                 sums + width, sums + 2 * width);
-    for (int c = 0; c < 3; ++c)
-      JoinColumns(sums + c * width, columns,
-                  half.color[c].data() + static_cast<std::size_t>(y) * half.width + first);
+    AveragePairs(&image.row(2 * y)[2 * first].b, &image.row(2 * y + 1)[2 * first].b,
+                 6 * columns - 3, means);
+    const std::size_t to = static_cast<std::size_t>(y) * half.width + first;
+    PickPixels(means, columns, &half.color[0][to], &half.color[1][to], &half.color[2][to]);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/reconstruction/background/expected_picture.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 #include "core/reconstruction/silhouette/pixel_run.h"
+#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -59,24 +60,26 @@ constexpr int kRegionMargin = 3;
 
 float Square(float x) { return x * x; }
 
-// Of values that are not negative: among the others of its size, as their bits order numbers.
-float Quantile(std::vector<float>& values, double share) {
-  MOCAP_CHECK(!values.empty());
-  constexpr int kShift = 21;
-  std::array<std::uint32_t, std::size_t{1} << (31 - kShift)> counts{};
-  const auto bin_of = [](float value) { return std::bit_cast<std::uint32_t>(value) >> kShift; };
-  for (const float value : values) ++counts[bin_of(value)];
-  auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  std::uint32_t bin = 0;
-  while (counts[bin] <= rank) rank -= counts[bin++];
-  const auto end = std::partition(values.begin(), values.end(),
-                                  [&](float value) { return bin_of(value) == bin; });
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(values.begin(), place, end);
-  return *place;
+// Of values that are not negative: bit by bit, for their bits order them as integers.
+MOCAP_VECTORIZED
+float QuantileOf(const float* values, int count, int rank) {
+  std::int32_t result = 0;
+  for (std::int32_t bit = 1 << 30; bit != 0; bit >>= 1) {
+    const std::int32_t candidate = result | bit;
+    int less = 0;
+    for (int i = 0; i < count; ++i) less += std::bit_cast<std::int32_t>(values[i]) < candidate;
+    if (less <= rank) result = candidate;
+  }
+  return std::bit_cast<float>(result);
 }
 
-float Median(std::vector<float>& values) { return Quantile(values, 0.5); }
+float Quantile(const std::vector<float>& values, double share) {
+  MOCAP_CHECK(!values.empty());
+  const auto count = static_cast<int>(values.size());
+  return QuantileOf(values.data(), count, static_cast<int>(share * count));
+}
+
+float Median(const std::vector<float>& values) { return Quantile(values, 0.5); }
 
 // What a standard deviation has grown by, where it has grown notably.
 float Beyond(float value, float usual, float negligible) {
@@ -146,10 +149,7 @@ void CoarseScan::SampleWholeRows() {
 }
 
 void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
-  for (const TileRun& look : looks_) {
-    Halve(image, look, live_, row_sums_);
-    for (int c = 0; c < 3; ++c) AverageTiles(live_, c, look, tiles_.mean[c], row_sums_);
-  }
+  for (const int row : whole_rows_) Take(image, live_.RowOfTiles(row));
   for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(expected, c);
   distance_ = MeasureDistance(expected);
   conditions_.drift = std::min(
@@ -159,10 +159,16 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
   allowance_ = {conditions_.gain, Square(std::max(conditions_.drift, kDistanceMargin * distance_)),
                 Square(kContourMargin * shift_px_ / kPixel_px)};
   for (const TileRun& look : looks_) {
+    if (!std::ranges::binary_search(whole_rows_, look.row)) Take(image, look);
     MeasureTints(expected, look);
     MeasureMisfit(expected, look);
   }
   Judge(expected);
+}
+
+void CoarseScan::Take(ImageView<const Bgr> image, const TileRun& run) {
+  Halve(image, run, live_, row_sums_);
+  for (int c = 0; c < 3; ++c) AverageTiles(live_, c, run, tiles_.mean[c], row_sums_);
 }
 
 // By itself a tile is noise. What reaches the region's edge goes on behind it.

@@ -55,6 +55,7 @@ class CoarseScan {
   void LookAtRegion();
   void SampleWholeRows();
   void CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image);
+  void Take(ImageView<const Bgr> image, const TileRun& run);
   bool ShowsBesideRegion() const;
   void Conclude();
   float MeasureGain(const ExpectedHalf& expected, int channel);

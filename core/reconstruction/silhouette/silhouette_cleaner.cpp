@@ -133,8 +133,9 @@ void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette* doubtful,
       const auto [begin, end] = pixels;
       Run run{.y = y, .begin = begin, .end = end, .parent = static_cast<int>(runs_.size())};
       run.area = end - begin;
-      if (doubtful != nullptr) run.doubtful = CountSet(doubtful->row(y), begin, end);
       run.at_edge = y == box->top || y == box->bottom || begin == first || end == last;
+      if (doubtful != nullptr && !run.at_edge)
+        run.doubtful = CountSet(doubtful->row(y), begin, end);
       runs_.push_back(run);
     });
   }
