@@ -1,6 +1,7 @@
 #include "core/reconstruction/silhouette/distortion_scan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/vectorized.h"
@@ -139,20 +140,20 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   sums_.resize(static_cast<std::size_t>(width / kFloats * kLines));
 }
 
-const DistortionScan::Row& DistortionScan::Next() {
-  const int y = next_++;
+const DistortionScan::RowPair& DistortionScan::Next() {
+  const int y = std::exchange(next_, next_ + 2);
   const int last = expected_->height - 1;
   MOCAP_CHECK(y <= last);
-  for (; measured_ <= std::min(y + kLargestRadius_px, last); ++measured_) Measure(measured_);
-  const Line& line = LineAt(y);
-  row_ = {alpha_shift_.row(y) + kPad,
-          line.cd_sq.data() + kPad,
-          line.alpha_weight.data() + kPad,
-          line.inverse_sigma.data() + kPad,
-          {}};
-  for (int i = -kLargestRadius_px; i <= kLargestRadius_px; ++i)
-    row_.sums[i + kLargestRadius_px] = &sums_[std::clamp(y + i, 0, last) % kLines];
-  return row_;
+  for (; measured_ <= std::min(y + 1 + kLargestRadius_px, last); ++measured_) Measure(measured_);
+  for (int row = 0; row < 2; ++row) {
+    const int v = std::min(y + row, last);
+    const Line& line = LineAt(v);
+    pair_.rows[row] = {alpha_shift_.row(v) + kPad, line.cd_sq.data() + kPad,
+                       line.alpha_weight.data() + kPad, line.inverse_sigma.data() + kPad};
+  }
+  for (int i = 0; i < kLines; ++i)
+    pair_.sums[i] = &sums_[std::clamp(y + i - kLargestRadius_px, 0, last) % kLines];
+  return pair_;
 }
 
 void DistortionScan::Measure(int y) {

@@ -24,24 +24,29 @@ namespace mocap {
 /// own. Thread-bound; reuses its memory.
 class DistortionScan {
  public:
-  /// One row. Each pointer leads to one value a pixel, and is valid until the next row for the
-  /// pixels that are judged, and for others in the same eight, of which nothing is known.
+  /// One row. Each pointer leads to one value a pixel.
   struct Row {
     const float* alpha_shift = nullptr;    ///< α − 1; also for all that is measured.
     const float* cd_sq = nullptr;          ///< CD².
     const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
     const float* inverse_sigma = nullptr;  ///< 1/σ of green.
-    WindowLines sums{};                    ///< For JoinLines().
+  };
+  /// Two rows, one below the other; the second may lie below the picture, of which nothing is
+  /// known. Valid until the next two for the pixels that are judged, and for others in the same
+  /// eight, of which nothing is known either.
+  struct RowPair {
+    std::array<Row, 2> rows;
+    WindowLines sums{};  ///< For JoinLines().
   };
 
-  /// Starts at the top of a closeup's frame. All but `gain` are borrowed until the last row.
+  /// Starts at the top of a closeup's frame. All but `gain` are borrowed until the last rows.
   /// @param expected  weighed for the pixels that are measured.
   /// @param gain      what each of the picture's channels is multiplied by.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
              const std::array<float, 3>& gain, const Closeup& closeup);
 
-  /// Measures the next row. Beyond the picture's edge its outermost pixels are repeated.
-  const Row& Next();
+  /// Measures the next two rows. Beyond the picture's edge its outermost pixels are repeated.
+  const RowPair& Next();
 
   /// α − 1 of the pixels that were measured.
   ImageView<const float> alpha_shift() const {
@@ -76,7 +81,7 @@ class DistortionScan {
   std::array<Line, kLines> lines_;
   std::array<std::vector<float>, 3> color_;
   std::vector<BlockSums> sums_;
-  Row row_;
+  RowPair pair_;
 };
 
 }  // namespace mocap

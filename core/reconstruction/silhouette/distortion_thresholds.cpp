@@ -23,6 +23,9 @@ void FindBins(const float* values, int count, float bins_per_unit, int bin_count
     bins[i] = static_cast<int>(std::min(std::max(values[i] * bins_per_unit, 0.0f), last));
 }
 
+// Three values of each pixel of a row.
+using Line = std::array<std::vector<float>, 3>;
+
 // Of pixels: the length of the colour distance, and brightness distortion both ways.
 MOCAP_VECTORIZED
 void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float* low,
@@ -39,19 +42,23 @@ void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float
 
 // Of windows of one size: the same, and their roughness. Whole blocks of pixels are written.
 template <std::size_t window>
-MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::Row& row, int blocks, float* cd,
-                                       float* alpha, float* roughness) {
+MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::RowPair& pair, int blocks,
+                                       std::array<Line, 2>& lines) {
   for (int block = 0; block < blocks; ++block) {
     const int x = block * kFloats;
-    WindowDistortions d;
-    Floats weight;
-    LoadLanes(row.alpha_weight + x, weight);
-    JoinLines<window>(row.sums, block, weight, d);
-    const Floats shift = d.alpha_shift < 0 ? -d.alpha_shift : d.alpha_shift;
-    Floats rough_sq = d.roughness_sq > 0 ? d.roughness_sq : Floats{};
-    TakeRoots(d.cd_sq), TakeRoots(rough_sq);
-    StoreLanes(d.cd_sq, cd + x), StoreLanes(shift * weight, alpha + x);
-    StoreLanes(rough_sq, roughness + x);
+    std::array<WindowDistortions, 2> pair_d;
+    std::array<Floats, 2> weights;
+    for (int row = 0; row < 2; ++row) LoadLanes(pair.rows[row].alpha_weight + x, weights[row]);
+    JoinLines<window>(pair.sums, block, weights, pair_d);
+    for (int row = 0; row < 2; ++row) {
+      WindowDistortions& d = pair_d[row];
+      auto& [cd, alpha, roughness] = lines[row];
+      const Floats shift = d.alpha_shift < 0 ? -d.alpha_shift : d.alpha_shift;
+      Floats rough_sq = d.roughness_sq > 0 ? d.roughness_sq : Floats{};
+      TakeRoots(d.cd_sq), TakeRoots(rough_sq);
+      StoreLanes(d.cd_sq, &cd[x]), StoreLanes(shift * weights[row], &alpha[x]);
+      StoreLanes(rough_sq, &roughness[x]);
+    }
   }
 }
 
@@ -121,19 +128,24 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
         *values = Image<float>(width, height);
   everything_.SetAll(width, height);
   scan_.Begin(expected, image, gain, everything_);
-  std::array<std::vector<float>, 3> line;
-  for (auto& values : line) values.resize(static_cast<std::size_t>(width) + kFloats);
-  for (int y = 0; y < height; ++y) {
-    const DistortionScan::Row& row = scan_.Next();
-    NormalizePixels(row, width, line[0].data(), line[1].data(), line[2].data());
-    cd_.Add(line[0].data(), width);
-    alpha_low_.Add(line[1].data(), width);
-    alpha_high_.Add(line[2].data(), width);
-    const int blocks = (width + kFloats - 1) / kFloats;
-    NormalizeWindows<0>(row, blocks, line[0].data(), line[1].data(), line[2].data());
-    windows_[0].Take(line, y);
-    NormalizeWindows<1>(row, blocks, line[0].data(), line[1].data(), line[2].data());
-    windows_[1].Take(line, y);
+  std::array<Line, 2> lines;
+  for (Line& line : lines)
+    for (auto& values : line) values.resize(static_cast<std::size_t>(width) + kFloats);
+  const int blocks = (width + kFloats - 1) / kFloats;
+  for (int y = 0; y < height; y += 2) {
+    const int rows = std::min(2, height - y);
+    const DistortionScan::RowPair& pair = scan_.Next();
+    for (int row = 0; row < rows; ++row) {
+      auto& [cd, low, high] = lines[row];
+      NormalizePixels(pair.rows[row], width, cd.data(), low.data(), high.data());
+      cd_.Add(cd.data(), width);
+      alpha_low_.Add(low.data(), width);
+      alpha_high_.Add(high.data(), width);
+    }
+    NormalizeWindows<0>(pair, blocks, lines);
+    for (int row = 0; row < rows; ++row) windows_[0].Take(lines[row], y + row);
+    NormalizeWindows<1>(pair, blocks, lines);
+    for (int row = 0; row < rows; ++row) windows_[1].Take(lines[row], y + row);
   }
   const auto add = [](Image<float>& image_values, int radius, Histogram& histogram) {
     Erode(radius, image_values);

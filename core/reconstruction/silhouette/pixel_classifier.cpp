@@ -65,27 +65,51 @@ MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_we
   marks |= (is_dark | (excess_sq > criteria.margin_sq)) & ClearWindow(window);
 }
 
-// Marks the pixels of blocks.
+// How a pixel by itself, and the windows around it, would differ from background.
+struct Judgement {
+  Floats alpha_weight, drift_sq;
+  Ints marks;
+};
+
+MOCAP_INLINE void JudgePixels(const DistortionScan::Row& row, int x, const Criteria& criteria,
+                              Judgement& judgement) {
+  Floats alpha_shift, alpha_weight, cd_sq, drift;
+  LoadLanes(row.alpha_shift + x, alpha_shift), LoadLanes(row.alpha_weight + x, alpha_weight);
+  LoadLanes(row.cd_sq + x, cd_sq), LoadLanes(row.inverse_sigma + x, drift);
+  drift *= criteria.drift;
+  const Floats drift_sq = drift * drift;
+  const PixelCriteria& alone = criteria.pixel;
+  const Ints is_dark =
+      (alpha_shift < alone.dark.shift) & (alpha_shift * alpha_weight < alone.dark.normalized);
+  judgement = {alpha_weight, drift_sq,
+               (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel};
+}
+
+template <std::size_t window>
+MOCAP_INLINE void JudgeWindows(const WindowLines& sums, int block, const Criteria& criteria,
+                               std::array<Judgement, 2>& judgements) {
+  std::array<WindowDistortions, 2> d;
+  JoinLines<window>(sums, block, {judgements[0].alpha_weight, judgements[1].alpha_weight}, d);
+#pragma GCC unroll 2
+  for (int row = 0; row < 2; ++row)
+    MarkWindows<window>(d[row], judgements[row].alpha_weight, judgements[row].drift_sq,
+                        criteria.windows[window], judgements[row].marks);
+}
+
+// Marks the pixels of blocks of two rows.
 MOCAP_VECTORIZED
-void MarkBlocks(const DistortionScan::Row& row, int first, int blocks, const Criteria& criteria,
-                std::int32_t* marks) {
+void MarkBlocks(const DistortionScan::RowPair& pair, int first, int blocks,
+                const Criteria& criteria, const std::array<std::int32_t*, 2>& marks) {
   for (int block = first; block < first + blocks; ++block) {
-    const int x = block * kFloats;
-    Floats alpha_shift, alpha_weight, cd_sq, drift;
-    LoadLanes(row.alpha_shift + x, alpha_shift), LoadLanes(row.alpha_weight + x, alpha_weight);
-    LoadLanes(row.cd_sq + x, cd_sq), LoadLanes(row.inverse_sigma + x, drift);
-    drift *= criteria.drift;
-    const Floats drift_sq = drift * drift;
-    const PixelCriteria& alone = criteria.pixel;
-    const Ints is_dark =
-        (alpha_shift < alone.dark.shift) & (alpha_shift * alpha_weight < alone.dark.normalized);
-    Ints all = (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel;
-    WindowDistortions d;
-    JoinLines<0>(row.sums, block, alpha_weight, d);
-    MarkWindows<0>(d, alpha_weight, drift_sq, criteria.windows[0], all);
-    JoinLines<1>(row.sums, block, alpha_weight, d);
-    MarkWindows<1>(d, alpha_weight, drift_sq, criteria.windows[1], all);
-    StoreLanes(all, marks + (block - first) * kFloats);
+    std::array<Judgement, 2> judgements;
+#pragma GCC unroll 2
+    for (int row = 0; row < 2; ++row)
+      JudgePixels(pair.rows[row], block * kFloats, criteria, judgements[row]);
+    JudgeWindows<0>(pair.sums, block, criteria, judgements);
+    JudgeWindows<1>(pair.sums, block, criteria, judgements);
+#pragma GCC unroll 2
+    for (int row = 0; row < 2; ++row)
+      StoreLanes(judgements[row].marks, marks[row] + (block - first) * kFloats);
   }
 }
 
@@ -110,21 +134,13 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
       {{{thresholds_.windows[0], kWindowMargins[0], darkest},
         {thresholds_.windows[1], kWindowMargins[1], darkest}}},
       conditions.drift};
-  for (int y = frame_.top; y <= frame_.bottom; ++y) {
-    const DistortionScan::Row& row = scan_.Next();
+  for (int y = frame_.top; y <= frame_.bottom; y += 2) {
+    const DistortionScan::RowPair& pair = scan_.Next();
     for (const PixelRun& run : closeup.Judged(y)) {
       const int count = run.end - run.begin;
-      MarkBlocks(row, run.begin / kFloats, (count + kFloats - 1) / kFloats, criteria,
-                 marks_.data());
-      Narrow(marks_.data(), count, narrow_marks_.data());
-      const std::span<const std::uint8_t> marks(narrow_marks_.data(),
-                                                static_cast<std::size_t>(count));
-      const int begin = run.begin - frame_.left, to = y - frame_.top;
-      PackRow(marks, kClearPixel, begin, clear_pixels_.row(to));
-      for (std::size_t k = 0; k < kWindows; ++k) {
-        PackRow(marks, DoubtfulWindow(k), begin, doubtful_windows_[k].row(to));
-        PackRow(marks, ClearWindow(k), begin, clear_windows_[k].row(to));
-      }
+      MarkBlocks(pair, run.begin / kFloats, (count + kFloats - 1) / kFloats, criteria,
+                 {marks_[0].data(), marks_[1].data()});
+      for (int row = 0; row < 2 && y + row <= frame_.bottom; ++row) Pack(marks_[row], run, y + row);
     }
   }
   // A pixel is background when any of the windows with it is, and may well be foreground when no
@@ -140,6 +156,18 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   Unite(eroded_[0], foreground_);
 }
 
+void PixelClassifier::Pack(const std::vector<std::int32_t>& marks, const PixelRun& run, int y) {
+  const int count = run.end - run.begin;
+  Narrow(marks.data(), count, narrow_marks_.data());
+  const std::span<const std::uint8_t> narrow(narrow_marks_.data(), static_cast<std::size_t>(count));
+  const int begin = run.begin - frame_.left, to = y - frame_.top;
+  PackRow(narrow, kClearPixel, begin, clear_pixels_.row(to));
+  for (std::size_t k = 0; k < kWindows; ++k) {
+    PackRow(narrow, DoubtfulWindow(k), begin, doubtful_windows_[k].row(to));
+    PackRow(narrow, ClearWindow(k), begin, clear_windows_[k].row(to));
+  }
+}
+
 void PixelClassifier::Resize(const Closeup& closeup) {
   frame_ = closeup.frame();
   for (auto* windows : {&clear_windows_, &doubtful_windows_, &eroded_})
@@ -151,7 +179,8 @@ void PixelClassifier::Resize(const Closeup& closeup) {
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
     for (Silhouette& s : *windows) s.Reset(width, height);
   const auto row_px = static_cast<std::size_t>(closeup.width()) + kFloats;
-  marks_.resize(row_px), narrow_marks_.resize(row_px);
+  for (auto& marks : marks_) marks.resize(row_px);
+  narrow_marks_.resize(row_px);
 }
 
 PixelClass PixelClassifier::ClassOf(int x, int y) const {

@@ -27,9 +27,9 @@ using BlockSums = std::array<LineSums, kWindows>;
 /// So many lines of the same eight pixels lie together.
 inline constexpr int kSumLines = 2 * kLargestRadius_px + 2;
 
-/// The sums of a row's first block, and of the lines above and below that its windows may need:
-/// those of its other blocks follow in steps of kSumLines.
-using WindowLines = std::array<const BlockSums*, 2 * kLargestRadius_px + 1>;
+/// The sums of the first blocks of two rows, one below the other, and of the lines above and below
+/// that their windows may need: those of the other blocks follow in steps of kSumLines.
+using WindowLines = std::array<const BlockSums*, kSumLines>;
 
 /// How the windows around eight pixels differ.
 struct WindowDistortions {
@@ -38,33 +38,67 @@ struct WindowDistortions {
   Floats roughness_sq;  ///< Variance of α about a plane, divided by a².
 };
 
-/// Measures the windows of one size around eight pixels.
-/// @param block         of the row.
+/// What lines of a window sum up to.
+struct WindowSums {
+  /// Those of one line, so far below the middle.
+  MOCAP_INLINE WindowSums(const LineSums& line, float below) {
+    LoadLanes(line.alpha.data(), alpha), LoadLanes(line.alpha_sq.data(), alpha_sq);
+    LoadLanes(line.moment.data(), along);
+    LoadLanes(line.cd[0].data(), cd0), LoadLanes(line.cd[1].data(), cd1);
+    LoadLanes(line.cd[2].data(), cd2);
+    down = below * alpha;
+  }
+  MOCAP_INLINE void Add(const WindowSums& line) {
+    alpha += line.alpha, alpha_sq += line.alpha_sq, along += line.along, down += line.down;
+    cd0 += line.cd0, cd1 += line.cd1, cd2 += line.cd2;
+  }
+  /// Counts from a middle that lies so much farther down.
+  MOCAP_INLINE void MoveMiddle(float by) { down -= by * alpha; }
+
+  Floats alpha, alpha_sq, along, down, cd0, cd1, cd2;
+};
+
+/// Measures a window of one size around each of eight pixels.
+/// @param sums          of all its lines.
 /// @param alpha_weight  1/a of the pixels.
 template <std::size_t window>
-MOCAP_INLINE void JoinLines(const WindowLines& lines, int block, const Floats& alpha_weight,
-                            WindowDistortions& result) {
-  constexpr int kRadius = kWindowRadii_px[window];
-  constexpr float kArea = (2 * kRadius + 1) * (2 * kRadius + 1);
+MOCAP_INLINE void MeasureWindow(const WindowSums& sums, const Floats& alpha_weight,
+                                WindowDistortions& result) {
+  constexpr int kSide = 2 * kWindowRadii_px[window] + 1;
+  constexpr float kArea = kSide * kSide;
   // Sum of x² over the window's pixels, counted from its middle.
   constexpr float kSpread = kArea * (kArea - 1) / 12;
-  Floats alpha{}, alpha_sq{}, along{}, down{}, cd0{}, cd1{}, cd2{};
-#pragma GCC unroll 7
-  for (int i = kRadius; i >= -kRadius; --i) {
-    const LineSums& line = lines[i + kLargestRadius_px][block * kSumLines][window];
-    Floats a, a_sq, moment, c0, c1, c2;
-    LoadLanes(line.alpha.data(), a), LoadLanes(line.alpha_sq.data(), a_sq);
-    LoadLanes(line.moment.data(), moment);
-    LoadLanes(line.cd[0].data(), c0), LoadLanes(line.cd[1].data(), c1);
-    LoadLanes(line.cd[2].data(), c2);
-    alpha += a, alpha_sq += a_sq, along += moment, down += static_cast<float>(i) * a;
-    cd0 += c0, cd1 += c1, cd2 += c2;
-  }
+  const auto& [alpha, alpha_sq, along, down, cd0, cd1, cd2] = sums;
   result.alpha_shift = alpha * (1 / kArea);
   const Floats squares =
       alpha_sq - alpha * result.alpha_shift - (along * along + down * down) * (1 / kSpread);
   result.roughness_sq = squares * (1 / kArea) * alpha_weight * alpha_weight;
   result.cd_sq = (cd0 * cd0 + cd1 * cd1 + cd2 * cd2) * (1 / (kArea * kArea));
+}
+
+/// Measures the windows of one size around eight pixels of each of two rows, which have all but the
+/// outermost lines in common.
+/// @param block         of the rows.
+/// @param alpha_weight  1/a of the pixels.
+template <std::size_t window>
+MOCAP_INLINE void JoinLines(const WindowLines& lines, int block,
+                            const std::array<Floats, 2>& alpha_weight,
+                            std::array<WindowDistortions, 2>& result) {
+  constexpr int kRadius = kWindowRadii_px[window];
+  const auto line_at = [&](int below_first) -> const LineSums& {
+    return lines[below_first + kLargestRadius_px][block * kSumLines][window];
+  };
+  // From the middle between the rows.
+  WindowSums upper(line_at(kRadius), kRadius - 0.5f);
+#pragma GCC unroll 8
+  for (int i = kRadius - 1; i > -kRadius; --i)
+    upper.Add(WindowSums(line_at(i), static_cast<float>(i) - 0.5f));
+  WindowSums lower = upper;
+  upper.MoveMiddle(-0.5f), lower.MoveMiddle(0.5f);
+  upper.Add(WindowSums(line_at(-kRadius), -kRadius));
+  lower.Add(WindowSums(line_at(kRadius + 1), kRadius));
+  MeasureWindow<window>(upper, alpha_weight[0], result[0]);
+  MeasureWindow<window>(lower, alpha_weight[1], result[1]);
 }
 
 }  // namespace mocap
