@@ -43,9 +43,15 @@ struct Comparison {
   const char *what, *ours, *peer;
 };
 constexpr Comparison kComparisons[] = {
-    {"segmentation, OpenCV MOG2", "SegmentFrame/480", "SegmentByMog2/480"},
-    {"segmentation, OpenCV KNN", "SegmentFrame/480", "SegmentByKnn/480"},
-    {"segmentation, memcpy of the frame", "SegmentFrame/480", "CopyFrame/480"},
+    {"segmentation, OpenCV MOG2", "SegmentFrame/height:480/cameras:6",
+     "SegmentByMog2/height:480/cameras:6"},
+    {"segmentation, OpenCV KNN", "SegmentFrame/height:480/cameras:6",
+     "SegmentByKnn/height:480/cameras:6"},
+    {"one camera alone, OpenCV MOG2", "SegmentFrame/height:480/cameras:1",
+     "SegmentByMog2/height:480/cameras:1"},
+    {"one camera alone, OpenCV KNN", "SegmentFrame/height:480/cameras:1",
+     "SegmentByKnn/height:480/cameras:1"},
+    {"segmentation, memcpy of the frame", "SegmentFrame/height:480/cameras:6", "CopyFrame/480"},
     {"carving, Open3D CarveSilhouette", "CarveSet/height:480/mm:25/cameras:6", "CarveByOpen3d"}};
 
 void PrintComparisons(const Results& results) {
@@ -73,7 +79,8 @@ std::string GrowthPlots(const Results& results) {
   std::vector<std::pair<double, std::string>> segment, by_height, by_voxel, by_cameras;
   for (const int height : {240, 480, 720, 1080}) {
     const double megapixels = height * height * 4 / 3 * 1e-6;
-    segment.emplace_back(megapixels, "SegmentFrame/" + std::to_string(height));
+    segment.emplace_back(megapixels,
+                         "SegmentFrame/height:" + std::to_string(height) + "/cameras:6");
     by_height.emplace_back(megapixels, carve(height, 25, 6));
   }
   for (const int mm : {10, 15, 25, 50}) by_voxel.emplace_back(mm, carve(480, mm, 6));
