@@ -138,7 +138,7 @@ void ExpectedHalf::Finish() {
 }
 
 void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
-  std::vector<std::uint16_t> scratch;
+  std::vector<std::uint8_t> scratch;
   Halve(picture, mean, scratch);
   // The padding continues the picture: its edge is no contour.
   std::vector<float> brightness(mean.size());
@@ -181,28 +181,26 @@ void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displa
   usual_shift_px = from.usual_shift_px;
 }
 
-void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint16_t>& scratch) {
+void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint8_t>& scratch) {
   for (int row = 0; row < half.tile_rows(); ++row)
     Halve(image, half.RowOfTiles(row), half, scratch);
 }
 
 void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
-           std::vector<std::uint16_t>& scratch) {
+           std::vector<std::uint8_t>& scratch) {
   MOCAP_CHECK(RoundUp(image.width(), HalfPicture::kTile_px) == 2 * half.width &&
               RoundUp(image.height(), HalfPicture::kTile_px) == 2 * half.height);
   const int first = run.begin * HalfPicture::kTile;
   const int columns = std::min(run.end * HalfPicture::kTile, image.width() / 2) - first;
   const int last_row = std::min((run.row + 1) * HalfPicture::kTile, image.height() / 2);
-  const auto width = static_cast<std::size_t>(2) * columns;
-  scratch.resize(std::max(scratch.size(), 3 * width));
-  auto* const means = reinterpret_cast<std::uint8_t*>(scratch.data());
+  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(6) * columns));
   for (int y = run.row * HalfPicture::kTile; y < last_row; ++y) {
     for (const int row : {2 * y, 2 * y + 1})
       FetchPixels(image, row + kFetchAhead, 2 * first, 2 * (first + columns));
     AveragePairs(&image.row(2 * y)[2 * first].b, &image.row(2 * y + 1)[2 * first].b,
-                 6 * columns - 3, means);
+                 6 * columns - 3, scratch.data());
     const std::size_t to = static_cast<std::size_t>(y) * half.width + first;
-    PickPixels(means, columns, &half.color[0][to], &half.color[1][to], &half.color[2][to]);
+    PickPixels(scratch.data(), columns, &half.color[0][to], &half.color[1][to], &half.color[2][to]);
   }
 }
 

@@ -90,13 +90,13 @@ class ExpectedHalf {
 };
 
 /// Halves a picture.
-void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint16_t>& scratch);
+void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint8_t>& scratch);
 
 /// Halves some tiles of a picture.
 /// @param half  made for pictures of that size.
 /// @param scratch  memory to work in, kept by the caller.
 void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
-           std::vector<std::uint16_t>& scratch);
+           std::vector<std::uint8_t>& scratch);
 
 /// Measures how steep the brightness of a picture is on its steeper side: an edge is as steep as
 /// its step, not half of it.

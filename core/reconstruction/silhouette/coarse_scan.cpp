@@ -167,7 +167,7 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
 }
 
 void CoarseScan::Take(ImageView<const Bgr> image, const TileRun& run) {
-  Halve(image, run, live_, row_sums_);
+  Halve(image, run, live_, pair_means_);
   for (int c = 0; c < 3; ++c) AverageTiles(live_, c, run, tiles_.mean[c], row_sums_);
 }
 

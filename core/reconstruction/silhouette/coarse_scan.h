@@ -79,6 +79,7 @@ class CoarseScan {
   int first_band_ = 0;
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;
+  std::vector<std::uint8_t> pair_means_;
   std::vector<std::uint16_t> row_sums_;
   Tiles tiles_;
   std::vector<std::size_t> samples_;  // Some of the tiles in whole rows.

@@ -35,7 +35,7 @@ class DisplacementTest : public ::testing::Test {
 
   std::optional<Displacement> Measure(const ExactPicture& picture) {
     HalfPicture live(kWidth, kHeight);
-    std::vector<std::uint16_t> scratch;
+    std::vector<std::uint8_t> scratch;
     Halve(sensor_.Take(picture).view(), live, scratch);
     return MeasureDisplacement(live, 1, background_->Glance({}, {}));
   }
@@ -77,7 +77,7 @@ TEST_F(DisplacementTest, WhatIsExpectedFollowsIt) {
   const ExactPicture wall = Wall(d);
   HalfPicture exact(kWidth, kHeight);
   NoisySensor none(0.01f, 42);
-  std::vector<std::uint16_t> scratch;
+  std::vector<std::uint8_t> scratch;
   Halve(none.Take(wall).view(), exact, scratch);
   for (int y = 4; y < kHeight - 10; ++y) {
     for (int x = 4; x < kWidth - 10; ++x) {

@@ -220,7 +220,7 @@ TEST(HalfPicture, EachPixelIsTheMeanOfFour) {
       image(x, y) = {static_cast<std::uint8_t>(10 * x), static_cast<std::uint8_t>(20 * y),
                      static_cast<std::uint8_t>(x == 3 && y == 3 ? 255 : 0)};
   HalfPicture half(5, 4);
-  std::vector<std::uint16_t> scratch;
+  std::vector<std::uint8_t> scratch;
   Halve(image.view(), half, scratch);
   ASSERT_EQ(half.width, 4);
   ASSERT_EQ(half.height, 4);
