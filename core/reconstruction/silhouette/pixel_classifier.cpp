@@ -81,8 +81,7 @@ MOCAP_INLINE void JudgePixels(const DistortionScan::Row& row, int x, const Crite
   const PixelCriteria& alone = criteria.pixel;
   const Ints is_dark =
       (alpha_shift < alone.dark.shift) & (alpha_shift * alpha_weight < alone.dark.normalized);
-  judgement = {alpha_weight, drift_sq,
-               (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel};
+  judgement = {alpha_weight, drift_sq, (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel};
 }
 
 template <std::size_t window>
