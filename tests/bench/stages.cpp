@@ -130,25 +130,19 @@ BENCHMARK(CarveSet)
     ->Args({1080, 25, 6})
     ->Unit(benchmark::kMicrosecond);
 
+template <typename Create>
+void RegisterPeer(const char* name, const Create& create) {
+  benchmark::RegisterBenchmark(
+      name, [create](benchmark::State& state) { SegmentByOpenCv(state, create); })
+      ->ArgNames({"height", "cameras"})
+      ->Args({480, 6})
+      ->Args({480, 1})
+      ->Unit(benchmark::kMicrosecond);
+}
+
 const bool kPeers = [] {
-  benchmark::RegisterBenchmark("SegmentByMog2",
-                               [](benchmark::State& state) {
-                                 SegmentByOpenCv(
-                                     state, [] { return cv::createBackgroundSubtractorMOG2(); });
-                               })
-      ->ArgNames({"height", "cameras"})
-      ->Args({480, 6})
-      ->Args({480, 1})
-      ->Unit(benchmark::kMicrosecond);
-  benchmark::RegisterBenchmark("SegmentByKnn",
-                               [](benchmark::State& state) {
-                                 SegmentByOpenCv(
-                                     state, [] { return cv::createBackgroundSubtractorKNN(); });
-                               })
-      ->ArgNames({"height", "cameras"})
-      ->Args({480, 6})
-      ->Args({480, 1})
-      ->Unit(benchmark::kMicrosecond);
+  RegisterPeer("SegmentByMog2", [] { return cv::createBackgroundSubtractorMOG2(); });
+  RegisterPeer("SegmentByKnn", [] { return cv::createBackgroundSubtractorKNN(); });
   return true;
 }();
 

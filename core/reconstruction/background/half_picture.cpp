@@ -29,6 +29,7 @@ constexpr int kPicked = 8;
 // Picks one channel of every second one of the sixteen pixels in three vectors.
 template <int c>
 MOCAP_INLINE void PickChannel(const Bytes& x, const Bytes& y, const Bytes& z, std::uint8_t* to) {
+  // The sixth is the last in the first two vectors, or the first in the third.
   constexpr bool kHasSixth = 30 + c < 32;
   const Bytes xy =
       __builtin_shufflevector(x, y, c, 6 + c, 12 + c, 18 + c, 24 + c, kHasSixth ? 30 + c : -1, -1,
