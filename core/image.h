@@ -47,15 +47,18 @@ class ImageView {
   std::ptrdiff_t stride_ = 0;
 };
 
+/// Calls for memory that is needed soon.
+inline void FetchBytes(const void* from, std::size_t count) {
+  constexpr std::size_t kCacheLine = 64;
+  for (std::size_t i = 0; i < count; i += kCacheLine)
+    __builtin_prefetch(static_cast<const std::uint8_t*>(from) + i);
+}
+
 /// Calls for pixels [begin, end) of a row that are needed soon, if the image has that row: short
 /// stretches of rows end before a processor sees by itself where the next begins.
 template <typename T>
 void FetchPixels(ImageView<const T> image, int y, int begin, int end) {
-  constexpr std::size_t kCacheLine = 64;
-  if (y >= image.height()) return;
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.row(y) + begin);
-  for (std::size_t i = 0; i < (end - begin) * sizeof(T); i += kCacheLine)
-    __builtin_prefetch(bytes + i);
+  if (y < image.height()) FetchBytes(image.row(y) + begin, (end - begin) * sizeof(T));
 }
 
 /// Owns pixels, row after row without gaps.

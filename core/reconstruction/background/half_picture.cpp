@@ -13,14 +13,23 @@ namespace {
 
 int RoundUp(int value, int step) { return (value + step - 1) / step * step; }
 
+// Averages, rounded up.
+MOCAP_INLINE std::uint8_t MeanOf(std::uint8_t a, std::uint8_t b) {
+  return static_cast<std::uint8_t>((a + b + 1) >> 1);
+}
+
 // Averages the bytes of two rows over pixels that are side by side, whatever their channel.
 MOCAP_VECTORIZED
 void AveragePairs(const std::uint8_t* top, const std::uint8_t* bottom, int count,
                   std::uint8_t* means) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    means[i] =
-        static_cast<std::uint8_t>((top[i] + top[i + 3] + bottom[i] + bottom[i + 3] + 2) >> 2);
+  for (int i = 0; i < count; ++i) {
+    const std::uint8_t a = top[i], b = top[i + 3], c = bottom[i], d = bottom[i + 3];
+    const std::uint8_t ab = MeanOf(a, b), cd = MeanOf(c, d);
+    // One too many where both were rounded up or one was and their mean is.
+    const std::uint8_t excess = ((a ^ b) | (c ^ d)) & (ab ^ cd) & 1;
+    means[i] = static_cast<std::uint8_t>(MeanOf(ab, cd) - excess);
+  }
 }
 
 using Bytes = std::uint8_t __attribute__((vector_size(16)));

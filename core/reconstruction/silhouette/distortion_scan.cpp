@@ -10,6 +10,8 @@ namespace mocap {
 namespace {
 
 constexpr int kPixels = WeighedPixels::kPixels;
+// What is expected is fetched so many rows before it is needed.
+constexpr int kRowsAhead = 2;
 
 // Splits pixels into planes.
 MOCAP_VECTORIZED
@@ -162,6 +164,7 @@ void DistortionScan::Measure(int y) {
     FetchPixels(image_, y + 1, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
     done = (run.end + kPixels - 1) / kPixels;
+    expected_->Fetch(first, done - first, y + kRowsAhead);
     const int whole = std::min(done, expected_->width / kPixels);
     MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first);
     if (whole == done) continue;

@@ -131,12 +131,14 @@ void SilhouetteCleaner::CollectRuns(Kind kind, const Silhouette* doubtful,
     const Word* row = silhouette.row(y);
     ForEachRun(row, first, last, flip, [&](const PixelRun& pixels) {
       const auto [begin, end] = pixels;
-      Run run{.y = y, .begin = begin, .end = end, .parent = static_cast<int>(runs_.size())};
+      // Filled in where it stays: to copy what was only just written in parts takes long.
+      Run& run = runs_.emplace_back();
+      run.y = y, run.begin = begin, run.end = end;
+      run.parent = static_cast<int>(runs_.size()) - 1;
       run.area = end - begin;
       run.at_edge = y == box->top || y == box->bottom || begin == first || end == last;
       if (doubtful != nullptr && !run.at_edge)
         run.doubtful = CountSet(doubtful->row(y), begin, end);
-      runs_.push_back(run);
     });
   }
   row_begins_.push_back(static_cast<int>(runs_.size()));
