@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image.h"
 #include "core/vectorized.h"
 
 namespace mocap {
@@ -93,11 +92,6 @@ void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
   }
   WeighGroups(from, groups, shift_px * shift_px,
               &weighed_[static_cast<std::size_t>(group) * height + y], height);
-}
-
-void ExpectedPicture::Fetch(int group, int count, int y) const {
-  if (y >= height) return;
-  for (int i = group; i < group + count; ++i) FetchBytes(Group(i, y), sizeof(WeighedPixels));
 }
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,

@@ -66,8 +66,6 @@ struct ExpectedPicture {
   const WeighedPixels* Group(int group, int y) const {
     return &weighed_[static_cast<std::size_t>(group) * height + y];
   }
-  /// Fetches groups of a row into the cache; none of a row below the picture.
-  void Fetch(int group, int count, int y) const;
   // Single pixels as they were weighed.
   float MeanAt(int x, int y, int channel) const {
     return GroupAt(x, y).mean[channel][x % WeighedPixels::kPixels] * WeighedPixels::kMeanUnit;

@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 constexpr int kPixels = WeighedPixels::kPixels;
-// What is expected is fetched so many rows before it is needed.
+// Groups are fetched so many rows before they are needed.
 constexpr int kRowsAhead = 2;
 
 // Splits pixels into planes.
@@ -32,16 +32,18 @@ struct Distortions {
   float *cd_sq, *alpha_weight, *inverse_sigma;
 };
 
-// Measures pixels, one group after the other.
+// Measures pixels, one group after the other, and fetches those so many rows below.
 MOCAP_VECTORIZED
 void MeasureGroups(const WeighedPixels* groups, int stride,
-                   const std::array<const float*, 3>& color, int count, const Distortions& d) {
+                   const std::array<const float*, 3>& color, int count, int ahead,
+                   const Distortions& d) {
   const auto [c0, c1, c2] = color;
   const auto [d0, d1, d2] = d.cd;
   float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
   float *const alpha_weight = d.alpha_weight, *const inverse_sigma = d.inverse_sigma;
   for (int g = 0; g < count; ++g) {
     const WeighedPixels& group = groups[static_cast<std::ptrdiff_t>(g) * stride];
+    FetchBytes(&group + ahead, sizeof group);
 #pragma GCC ivdep
     for (int k = 0; k < kPixels; ++k) {
       const int x = g * kPixels + k;
@@ -164,7 +166,6 @@ void DistortionScan::Measure(int y) {
     FetchPixels(image_, y + 1, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
     done = (run.end + kPixels - 1) / kPixels;
-    expected_->Fetch(first, done - first, y + kRowsAhead);
     const int whole = std::min(done, expected_->width / kPixels);
     MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first);
     if (whole == done) continue;
@@ -182,8 +183,9 @@ void DistortionScan::MeasureFrom(int y, int group, const Bgr* pixels, int count)
   const auto [b, g, r] = std::array{color_[0].data(), color_[1].data(), color_[2].data()};
   Separate(pixels, count * kPixels, gain_, b, g, r);
   const int first = group * kPixels + kPad;
+  const int ahead = y + kRowsAhead < expected_->height ? kRowsAhead : 0;
   Line& line = LineAt(y);
-  MeasureGroups(expected_->Group(group, y), expected_->height, {b, g, r}, count,
+  MeasureGroups(expected_->Group(group, y), expected_->height, {b, g, r}, count, ahead,
                 {alpha_shift_.row(y) + first,
                  {&line.cd[0][first], &line.cd[1][first], &line.cd[2][first]},
                  &line.cd_sq[first],

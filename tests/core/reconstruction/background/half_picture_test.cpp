@@ -1,0 +1,72 @@
+#include "core/reconstruction/background/half_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace mocap {
+namespace {
+
+Image<Bgr> RandomPicture(int width, int height) {
+  std::mt19937 random(1);
+  // Neighbours that differ little are rounded in every way there is.
+  std::uniform_int_distribution<int> level(100, 103), any(0, 255), kind(0, 1);
+  Image<Bgr> picture(width, height);
+  const auto draw = [&] {
+    return static_cast<std::uint8_t>(kind(random) == 0 ? any(random) : level(random));
+  };
+  for (Bgr& p : picture.pixels()) p = {draw(), draw(), draw()};
+  return picture;
+}
+
+// The plain definition: rounded to the nearest, and up from the middle.
+Bgr MeanOfFour(const Image<Bgr>& picture, int x, int y) {
+  const auto mean = [&](std::uint8_t Bgr::*channel) {
+    const int sum = picture(2 * x, 2 * y).*channel + picture(2 * x + 1, 2 * y).*channel +
+                    picture(2 * x, 2 * y + 1).*channel + picture(2 * x + 1, 2 * y + 1).*channel;
+    return static_cast<std::uint8_t>((sum + 2) / 4);
+  };
+  return {mean(&Bgr::b), mean(&Bgr::g), mean(&Bgr::r)};
+}
+
+Bgr PixelOf(const HalfPicture& half, int x, int y) {
+  const std::size_t i = static_cast<std::size_t>(y) * half.width + x;
+  return {half.color[0][i], half.color[1][i], half.color[2][i]};
+}
+
+TEST(HalfPicture, PixelsAreMeansOfFourAndThePaddingIsBlack) {
+  for (const auto& [width, height] : {std::pair{640, 48}, {202, 30}, {38, 22}, {6, 4}}) {
+    const Image<Bgr> picture = RandomPicture(width, height);
+    HalfPicture half(width, height);
+    std::vector<std::uint8_t> scratch;
+    Halve(picture.view(), half, scratch);
+    for (int y = 0; y < half.height; ++y) {
+      for (int x = 0; x < half.width; ++x) {
+        const bool is_in_picture = x < width / 2 && y < height / 2;
+        ASSERT_EQ(PixelOf(half, x, y), is_in_picture ? MeanOfFour(picture, x, y) : Bgr{})
+            << x << ", " << y << " of " << width << " x " << height;
+      }
+    }
+  }
+}
+
+TEST(HalfPicture, SomeTilesAreHalvedAndOthersLeft) {
+  constexpr TileRun kRun{.row = 1, .begin = 3, .end = 8};
+  constexpr int kTile = HalfPicture::kTile;
+  const Image<Bgr> picture = RandomPicture(96, 24);
+  HalfPicture half(96, 24);
+  std::vector<std::uint8_t> scratch;
+  Halve(picture.view(), kRun, half, scratch);
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < half.width; ++x) {
+      const bool is_halved =
+          y / kTile == kRun.row && x / kTile >= kRun.begin && x / kTile < kRun.end;
+      ASSERT_EQ(PixelOf(half, x, y), is_halved ? MeanOfFour(picture, x, y) : Bgr{})
+          << x << ", " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocap
