@@ -38,6 +38,25 @@ Bgr PixelOf(const HalfPicture& half, int x, int y) {
   return {half.color[0][i], half.color[1][i], half.color[2][i]};
 }
 
+TEST(HalfPicture, EachPixelIsTheMeanOfFour) {
+  Image<Bgr> image(5, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 5; ++x)
+      image(x, y) = {static_cast<std::uint8_t>(10 * x), static_cast<std::uint8_t>(20 * y),
+                     static_cast<std::uint8_t>(x == 3 && y == 3 ? 255 : 0)};
+  HalfPicture half(5, 4);
+  std::vector<std::uint8_t> scratch;
+  Halve(image.view(), half, scratch);
+  ASSERT_EQ(half.width, 4);
+  ASSERT_EQ(half.height, 4);
+  EXPECT_EQ(half.color[0][0], 5);
+  EXPECT_EQ(half.color[0][1], 25);
+  EXPECT_EQ(half.color[1][0], 10);
+  EXPECT_EQ(half.color[1][half.width], 50);
+  EXPECT_EQ(half.color[2][half.width + 1], 64);
+  EXPECT_EQ(half.color[0][2], 0);
+}
+
 TEST(HalfPicture, PixelsAreMeansOfFourAndThePaddingIsBlack) {
   for (const auto& [width, height] : {std::pair{640, 48}, {202, 30}, {38, 22}, {6, 4}}) {
     const Image<Bgr> picture = RandomPicture(width, height);
