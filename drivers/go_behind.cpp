@@ -16,4 +16,11 @@ void GoBehind(const std::string& name) {
   pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameter);
 }
 
+bool BringForward(std::thread& thread) {
+  int policy = SCHED_OTHER;
+  sched_param parameter{};
+  return pthread_getschedparam(pthread_self(), &policy, &parameter) == 0 &&
+         pthread_setschedparam(thread.native_handle(), policy, &parameter) == 0;
+}
+
 }  // namespace mocap

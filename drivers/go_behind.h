@@ -1,12 +1,17 @@
-// Work that nobody waits for.
+// Work that nobody waits for, until somebody does.
 #pragma once
 
 #include <string>
+#include <thread>
 
 namespace mocap {
 
 /// Names the calling thread and lets it have the processor when nobody else wants it (SCHED_IDLE):
 /// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
 void GoBehind(const std::string& name);
+
+/// Lets a thread that went behind run as the calling one does, until it goes behind again.
+/// @return  false where that is not permitted.
+bool BringForward(std::thread& thread);
 
 }  // namespace mocap

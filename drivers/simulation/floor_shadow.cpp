@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/vectorized.h"
 #include "drivers/simulation/room_plan.h"
 
 namespace mocap::simulation {
@@ -14,6 +15,8 @@ namespace {
 constexpr float kCell_mm = 256 / kFloorUnitsPerMm;
 constexpr int kColumns = static_cast<int>(kRoomX_mm / kCell_mm) + 1;
 constexpr int kRows = static_cast<int>(kRoomY_mm / kCell_mm) + 1;
+static_assert(kColumns < kNoFloor / 256, "what shows no floor lies beside all cells");
+// Three cells are averaged.
 constexpr int kBlurCells = 1;
 // What is left of full light, 256, with lamps hidden; the rest comes from everywhere.
 constexpr std::array<std::uint16_t, 4> kLightLeft = {256, 220, 187, 159};
@@ -21,12 +24,33 @@ const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3
                                                  Eigen::Vector3f(1600, -700, 3700),
                                                  Eigen::Vector3f(-200, 1500, 3700)};
 
+// Places within a rectangle, which begins at `low`.
+MOCAP_VECTORIZED
+int CountWithin(const FloorPlace* places, std::size_t count, FloorPlace low, FloorPlace size) {
+  int within = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<std::uint16_t>(places[i].x - low.x);
+    const auto y = static_cast<std::uint16_t>(places[i].y - low.y);
+    within += static_cast<int>(x < size.x) & static_cast<int>(y < size.y);
+  }
+  return within;
+}
+
+MOCAP_VECTORIZED
+void AverageThree(const std::uint16_t* a, const std::uint16_t* b, const std::uint16_t* c, int count,
+                  std::uint16_t* means) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i)
+    means[i] = static_cast<std::uint16_t>((a[i] + b[i] + c[i] + 1) / 3);
+}
+
 }  // namespace
 
 FloorShadow::FloorShadow()
     : lamps_hidden_(kColumns * kRows, 0),
       light_(kColumns * kRows, kLightLeft[0]),
       scratch_(kColumns * kRows),
+      line_(kColumns + 2),
       columns_(kColumns) {}
 
 bool FloorShadow::Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const {
@@ -34,6 +58,14 @@ bool FloorShadow::Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const 
   low_W = Eigen::Vector2f(float(x0_), float(y0_)) * kCell_mm - corner;
   high_W = Eigen::Vector2f(float(x1_ + 1), float(y1_ + 1)) * kCell_mm - corner;
   return x0_ <= x1_ && y0_ <= y1_;
+}
+
+bool FloorShadow::MayFallOn(std::span<const FloorPlace> places) const {
+  // As LightAt() has it.
+  const auto from = [](int cell) { return static_cast<std::uint16_t>((cell << 8) + 128); };
+  const auto over = [](int cells) { return static_cast<std::uint16_t>(cells << 8); };
+  return CountWithin(places.data(), places.size(), {from(x0_), from(y0_)},
+                     {over(x1_ - x0_), over(y1_ - y0_)}) > 0;
 }
 
 void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W) {
@@ -99,20 +131,18 @@ void FloorShadow::Blur() {
   for (int y = y0_; y <= y1_; ++y)
     for (int x = x0_; x <= x1_; ++x)
       light_[y * kColumns + x] = kLightLeft[std::popcount(lamps_hidden_[y * kColumns + x])];
-  const auto pass = [this](const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to,
-                           int dx, int dy) {
-    for (int y = y0_; y <= y1_; ++y)
-      for (int x = x0_; x <= x1_; ++x) {
-        int sum = kBlurCells;
-        for (int k = -kBlurCells; k <= kBlurCells; ++k)
-          sum +=
-              from[std::clamp(y + k * dy, y0_, y1_) * kColumns + std::clamp(x + k * dx, x0_, x1_)];
-        to[y * kColumns + x] = static_cast<std::uint16_t>(sum / (2 * kBlurCells + 1));
-      }
-  };
+  const int count = x1_ - x0_ + 1;
+  const auto cell = [this](int y) { return y * kColumns + x0_; };
   for (int i = 0; i < 2; ++i) {
-    pass(light_, scratch_, 1, 0);
-    pass(scratch_, light_, 0, 1);
+    for (int y = y0_; y <= y1_; ++y) {
+      const std::uint16_t* const row = &light_[cell(y)];
+      std::copy_n(row, count, &line_[1]);
+      line_[0] = row[0], line_[count + 1] = row[count - 1];
+      AverageThree(&line_[0], &line_[1], &line_[2], count, &scratch_[cell(y)]);
+    }
+    for (int y = y0_; y <= y1_; ++y)
+      AverageThree(&scratch_[cell(std::max(y - 1, y0_))], &scratch_[cell(y)],
+                   &scratch_[cell(std::min(y + 1, y1_))], count, &light_[cell(y)]);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace mocap::simulation {
 namespace {
@@ -24,6 +25,24 @@ float Shade(const Vector3f& n_W) {
 }
 
 std::uint8_t Byte(float v) { return static_cast<std::uint8_t>(std::min(v + 0.5f, 255.0f)); }
+
+// Rounds up, without a call of the library's function.
+int Ceil(float v) {
+  const int whole = static_cast<int>(v);
+  return whole + (float(whole) < v ? 1 : 0);
+}
+
+// Pixels that are passed over together.
+constexpr int kBytes = 8;
+constexpr int kPlaces = 32;
+
+// Of eight bytes, the highest bits of those that are not zero.
+std::uint64_t FlagsOf(const std::uint8_t* bytes) {
+  constexpr std::uint64_t kLowBits = 0x7f7f7f7f7f7f7f7f;
+  std::uint64_t word;
+  std::memcpy(&word, bytes, kBytes);
+  return (((word & kLowBits) + kLowBits) | word) & ~kLowBits;
+}
 
 void Include(PixelBox& box, const PixelBox& other) {
   if (other.empty()) return;
@@ -151,20 +170,23 @@ void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_C
            std::min(height_px_, static_cast<int>(std::min(high_y, 1e5f)) + 3)};
   if (box.empty()) return;
 
-  for (int y = box.y0; y < box.y1; ++y) {
-    const FloorPlace* floor = view.floor.row(y);
-    Bgr* pixels = canvas.row(y);
-    for (int x = box.x0; x < box.x1; ++x) {
-      if (floor[x].x == kNoFloor) continue;
-      const int light = shadow_.LightAt(floor[x]);
-      if (light == 256) continue;
-      Bgr& pixel = pixels[x];
-      pixel = {static_cast<std::uint8_t>((pixel.b * light) >> 8),
-               static_cast<std::uint8_t>((pixel.g * light) >> 8),
-               static_cast<std::uint8_t>((pixel.r * light) >> 8)};
-    }
-  }
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; x += kPlaces)
+      Darken({view.floor.row(y) + x, static_cast<std::size_t>(std::min(kPlaces, box.x1 - x))},
+             canvas.row(y) + x);
   Include(dirty_, box);
+}
+
+void PersonRenderer::Darken(std::span<const FloorPlace> floor, Bgr* pixels) const {
+  if (!shadow_.MayFallOn(floor)) return;
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    const int light = shadow_.LightAt(floor[i]);
+    if (light == 256) continue;
+    Bgr& pixel = pixels[i];
+    pixel = {static_cast<std::uint8_t>((pixel.b * light) >> 8),
+             static_cast<std::uint8_t>((pixel.g * light) >> 8),
+             static_cast<std::uint8_t>((pixel.r * light) >> 8)};
+  }
 }
 
 void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
@@ -173,8 +195,8 @@ void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
   // Counter-clockwise outside, clockwise in a picture whose y points down.
   const float area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);
   if (area <= 0) return;
-  const int x0 = std::max(person_.x0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
-  const int y0 = std::max(person_.y0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+  const int x0 = std::max(person_.x0, Ceil(std::min({a.x, b.x, c.x})));
+  const int y0 = std::max(person_.y0, Ceil(std::min({a.y, b.y, c.y})));
   const int x1 = std::min(person_.x1 - 1, static_cast<int>(std::max({a.x, b.x, c.x})));
   const int y1 = std::min(person_.y1 - 1, static_cast<int>(std::max({a.y, b.y, c.y})));
   if (x0 > x1 || y0 > y1) return;
@@ -186,8 +208,13 @@ void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
     const float dy = float(y) - a.y;
     float v = vx * (float(x0) - a.x) + vy * dy, w = wx * (float(x0) - a.x) + wy * dy;
     float* nearness = nearness_.row(y);
+    bool is_within = false;
     for (int x = x0; x <= x1; ++x, v += vx, w += wx) {
-      if (v < -1e-5f || w < -1e-5f || v + w > 1.00001f) continue;
+      if (v < -1e-5f || w < -1e-5f || v + w > 1.00001f) {
+        if (is_within) break;
+        continue;
+      }
+      is_within = true;
       const float near = a.nearness + v * (b.nearness - a.nearness) + w * (c.nearness - a.nearness);
       if (near <= nearness[x]) continue;
       nearness[x] = near;
@@ -201,12 +228,23 @@ void PersonRenderer::Compose(const Outfit& outfit, Image<Bgr>& canvas) {
   for (int y = person_.y0; y < person_.y1; ++y)
     for (int x = person_.x0; x < person_.x1; ++x) {
       const int material = materials_(x, y);
-      if (material == 0) continue;
+      if (material == 0) {
+        while (x + kBytes < person_.x1 && FlagsOf(materials_.row(y) + x + 1) == 0) x += kBytes;
+        continue;
+      }
       const Bgr color = outfit.colors[material - 1];
       const float shade = shades_(x, y);
       canvas(x, y) = {Byte(float(color.b) * shade), Byte(float(color.g) * shade),
                       Byte(float(color.r) * shade)};
     }
+}
+
+// Whether any of eight pixels has a neighbour that shows something else.
+bool PersonRenderer::IsOutlineWithin(int x, int y) const {
+  const std::uint8_t* const row = materials_.row(y) + x;
+  const std::uint64_t here = FlagsOf(row);
+  return here != FlagsOf(row - 1) || here != FlagsOf(row + 1) ||
+         here != FlagsOf(materials_.row(y - 1) + x) || here != FlagsOf(materials_.row(y + 1) + x);
 }
 
 // A lens mixes what lies on both sides of an outline.
@@ -215,6 +253,10 @@ void PersonRenderer::SoftenEdges(Image<Bgr>& canvas) {
   const int x1 = std::min(person_.x1, width_px_ - 1), y1 = std::min(person_.y1, height_px_ - 1);
   for (int y = std::max(1, person_.y0); y < y1; ++y)
     for (int x = std::max(1, person_.x0); x < x1; ++x) {
+      if (x + kBytes <= x1 && !IsOutlineWithin(x, y)) {
+        x += kBytes - 1;
+        continue;
+      }
       const bool here = materials_(x, y) != 0;
       if (here == (materials_(x - 1, y) != 0) && here == (materials_(x + 1, y) != 0) &&
           here == (materials_(x, y - 1) != 0) && here == (materials_(x, y + 1) != 0))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image.h"
@@ -42,10 +43,13 @@ class PersonRenderer {
   };
   void Project(const PersonMesh& mesh, const RigidTransform& X_CW);
   void DrawShadow(const EmptyView& view, const RigidTransform& X_CW, Image<Bgr>& canvas);
+  // Lets the shadow fall on pixels that show these places.
+  void Darken(std::span<const FloorPlace> floor, Bgr* pixels) const;
   void DrawTriangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                     Material material);
   void Compose(const Outfit& outfit, Image<Bgr>& canvas);
   void SoftenEdges(Image<Bgr>& canvas);
+  bool IsOutlineWithin(int x, int y) const;
   bool ToScreen(const Eigen::Vector3f& p_C, float& x, float& y) const;
 
   int width_px_, height_px_;

@@ -8,10 +8,7 @@ namespace mocap::simulation {
 
 PictureAhead::PictureAhead(std::shared_ptr<const SceneView> view)
     : painter_(std::make_unique<ScenePainter>(view)),
-      thread_([this, name = view->calibration().name] {
-        GoBehind("paint " + name);
-        Run();
-      }) {}
+      thread_([this, name = "paint " + view->calibration().name] { Run(name); }) {}
 
 PictureAhead::~PictureAhead() {
   state_.store(State::kEnded, std::memory_order_release);
@@ -27,15 +24,20 @@ void PictureAhead::Ask(std::int64_t capture_ns) {
 }
 
 bool PictureAhead::Take(std::int64_t capture_ns, std::unique_ptr<ScenePainter>& painter) {
-  if (state_.load(std::memory_order_acquire) != State::kPainted || capture_ns_ != capture_ns) {
-    return false;
+  if (capture_ns_ != capture_ns) return false;
+  if (state_.load(std::memory_order_acquire) == State::kAsked) {
+    has_come_forward_.store(true, std::memory_order_relaxed);
+    if (!BringForward(thread_)) return false;
+    state_.wait(State::kAsked, std::memory_order_acquire);
   }
+  if (state_.load(std::memory_order_acquire) != State::kPainted) return false;
   std::swap(painter, painter_);
   state_.store(State::kIdle, std::memory_order_relaxed);
   return true;
 }
 
-void PictureAhead::Run() {
+void PictureAhead::Run(const std::string& name) {
+  GoBehind(name);
   for (;;) {
     State state = state_.load(std::memory_order_acquire);
     if (state == State::kEnded) return;
@@ -45,6 +47,8 @@ void PictureAhead::Run() {
     }
     painter_->Paint(capture_ns_);
     state_.compare_exchange_strong(state, State::kPainted, std::memory_order_release);
+    state_.notify_one();
+    if (has_come_forward_.exchange(false, std::memory_order_relaxed)) GoBehind(name);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "drivers/simulation/scene.h"
@@ -13,8 +14,9 @@ namespace mocap::simulation {
 /// Paints one camera's next picture while the last one is looked at.
 ///
 /// A real camera costs no processor. Neither shall a simulated one take it from those who look at
-/// its pictures: it paints in a thread that the kernel runs when nobody else wants to. Who finds
-/// the processors busy paints for himself. One thread asks and takes.
+/// its pictures: it paints in a thread that the kernel runs when nobody else wants to. Who comes
+/// for a picture that is being painted lends that thread his place; where that is not permitted he
+/// paints for himself. One thread asks and takes.
 class PictureAhead {
  public:
   explicit PictureAhead(std::shared_ptr<const SceneView> view);
@@ -24,16 +26,18 @@ class PictureAhead {
   /// is being painted that does nothing.
   void Ask(std::int64_t capture_ns);
 
-  /// Gives a painter for the one that has painted that moment, if there is one. Never waits.
+  /// Gives a painter for the one that has painted that moment, if there is one. Waits for no more
+  /// than what is left to paint.
   /// @return  whether `painter` has changed.
   bool Take(std::int64_t capture_ns, std::unique_ptr<ScenePainter>& painter);
 
  private:
   enum class State : int { kIdle, kAsked, kPainted, kEnded };
 
-  void Run();
+  void Run(const std::string& name);
 
   std::atomic<State> state_{State::kIdle};
+  std::atomic<bool> has_come_forward_{false};
   // The thread's while something is asked for.
   std::int64_t capture_ns_ = 0;
   std::unique_ptr<ScenePainter> painter_;

@@ -159,6 +159,7 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
   allowance_ = {conditions_.gain, Square(std::max(conditions_.drift, kDistanceMargin * distance_)),
                 Square(kContourMargin * shift_px_ / kPixel_px)};
   for (const TileRun& look : looks_) {
+    FetchTiles(expected, look);
     if (!std::ranges::binary_search(whole_rows_, look.row)) Take(image, look);
     MeasureTints(expected, look);
     MeasureMisfit(expected, look);
@@ -255,6 +256,16 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
   if (!is_telling) return 0;
   return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
                   kLargestShift_px);
+}
+
+void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
+  const std::size_t count = static_cast<std::size_t>(run.end - run.begin) * kTile;
+  for (int y = run.row * kTile; y < (run.row + 1) * kTile; ++y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * live_.width + run.begin * kTile;
+    for (const auto& plane : expected.mean.color) FetchBytes(&plane[begin], count);
+    FetchBytes(&expected.variance[begin], count * sizeof(float));
+    FetchBytes(&expected.slope[begin], count);
+  }
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {

@@ -64,6 +64,7 @@ class CoarseScan {
   std::size_t FirstOf(const TileRun& run) const {
     return static_cast<std::size_t>(run.row) * live_.tile_columns() + run.begin;
   }
+  void FetchTiles(const ExpectedHalf& expected, const TileRun& run);
   void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
   void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);

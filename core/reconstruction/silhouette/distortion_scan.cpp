@@ -10,61 +10,56 @@ namespace mocap {
 namespace {
 
 constexpr int kPixels = WeighedPixels::kPixels;
-// Groups are fetched so many rows before they are needed.
-constexpr int kRowsAhead = 2;
 
-// Splits pixels into planes.
-MOCAP_VECTORIZED
-void Separate(const Bgr* pixels, int count, const std::array<float, 3>& gain, float* b, float* g,
-              float* r) {
-  const float gain0 = gain[0], gain1 = gain[1], gain2 = gain[2];
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    b[x] = gain0 * pixels[x].b;
-    g[x] = gain1 * pixels[x].g;
-    r[x] = gain2 * pixels[x].r;
-  }
-}
-
+// Where what is measured goes, in rows so many numbers apart.
 struct Distortions {
   float* alpha_shift;
   std::array<float*, 3> cd;
   float *cd_sq, *alpha_weight, *inverse_sigma;
+  int row_step;
 };
 
-// Measures pixels, one group after the other, and fetches those so many rows below.
+// Measures a band of pixels group by group, and fetches the groups of the next band.
+// @param groups  what they are held against: of the first group, the next so many on.
 MOCAP_VECTORIZED
-void MeasureGroups(const WeighedPixels* groups, int stride,
-                   const std::array<const float*, 3>& color, int count, int ahead,
-                   const Distortions& d) {
-  const auto [c0, c1, c2] = color;
-  const auto [d0, d1, d2] = d.cd;
-  float *const alpha_shift = d.alpha_shift, *const cd_sq = d.cd_sq;
-  float *const alpha_weight = d.alpha_weight, *const inverse_sigma = d.inverse_sigma;
-  for (int g = 0; g < count; ++g) {
-    const WeighedPixels& group = groups[static_cast<std::ptrdiff_t>(g) * stride];
-    FetchBytes(&group + ahead, sizeof group);
+void MeasureGroups(const WeighedPixels* groups, int group_step, ImageView<const Bgr> band,
+                   const std::array<float, 3>& gain, int ahead, const Distortions& to) {
+  const auto [gain0, gain1, gain2] = gain;
+  const auto [to0, to1, to2] = to.cd;
+  for (int begin = 0; begin < band.width(); begin += kPixels, groups += group_step) {
+    for (int row = 0; row < band.height(); ++row) {
+      const WeighedPixels& group = groups[row];
+      FetchBytes(&group + ahead, sizeof group);
+      const Bgr* const pixels = band.row(row) + begin;
+      const int first = row * to.row_step + begin;
+      float *const alpha_shift = to.alpha_shift + first, *const cd_sq = to.cd_sq + first;
+      FetchBytes(alpha_shift + ahead * to.row_step, sizeof(float) * kPixels);
+      float* const alpha_weight = to.alpha_weight + first;
+      float* const inverse_sigma = to.inverse_sigma + first;
+      float *const d0 = to0 + first, *const d1 = to1 + first, *const d2 = to2 + first;
 #pragma GCC ivdep
-    for (int k = 0; k < kPixels; ++k) {
-      const int x = g * kPixels + k;
-      const float w0 = group.inverse_sigma[0][k] * WeighedPixels::kInverseSigmaUnit;
-      const float w1 = group.inverse_sigma[1][k] * WeighedPixels::kInverseSigmaUnit;
-      const float w2 = group.inverse_sigma[2][k] * WeighedPixels::kInverseSigmaUnit;
-      const float m0 = group.mean[0][k] * (WeighedPixels::kMeanUnit * w0);
-      const float m1 = group.mean[1][k] * (WeighedPixels::kMeanUnit * w1);
-      const float m2 = group.mean[2][k] * (WeighedPixels::kMeanUnit * w2);
-      const float z0 = c0[x] * w0, z1 = c1[x] * w1, z2 = c2[x] * w2;
-      const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / (m0 * m0 + m1 * m1 + m2 * m2);
-      const float f0 = z0 - alpha * m0;
-      const float f1 = z1 - alpha * m1;
-      const float f2 = z2 - alpha * m2;
-      alpha_shift[x] = alpha - 1;
-      d0[x] = f0;
-      d1[x] = f1;
-      d2[x] = f2;
-      cd_sq[x] = f0 * f0 + f1 * f1 + f2 * f2;
-      alpha_weight[x] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
-      inverse_sigma[x] = w1;
+      for (int k = 0; k < kPixels; ++k) {
+        const float w0 = group.inverse_sigma[0][k] * WeighedPixels::kInverseSigmaUnit;
+        const float w1 = group.inverse_sigma[1][k] * WeighedPixels::kInverseSigmaUnit;
+        const float w2 = group.inverse_sigma[2][k] * WeighedPixels::kInverseSigmaUnit;
+        const float m0 = group.mean[0][k] * (WeighedPixels::kMeanUnit * w0);
+        const float m1 = group.mean[1][k] * (WeighedPixels::kMeanUnit * w1);
+        const float m2 = group.mean[2][k] * (WeighedPixels::kMeanUnit * w2);
+        const float z0 = gain0 * pixels[k].b * w0;
+        const float z1 = gain1 * pixels[k].g * w1;
+        const float z2 = gain2 * pixels[k].r * w2;
+        const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / (m0 * m0 + m1 * m1 + m2 * m2);
+        const float f0 = z0 - alpha * m0;
+        const float f1 = z1 - alpha * m1;
+        const float f2 = z2 - alpha * m2;
+        alpha_shift[k] = alpha - 1;
+        d0[k] = f0;
+        d1[k] = f1;
+        d2[k] = f2;
+        cd_sq[k] = f0 * f0 + f1 * f1 + f2 * f2;
+        alpha_weight[k] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
+        inverse_sigma[k] = w1;
+      }
     }
   }
 }
@@ -103,21 +98,24 @@ MOCAP_INLINE void SumBoth(const Neighbours& values, Term term, LineSums::Column&
   StoreLanes(sum + first + last, larger.data());
 }
 
-// Sums along a line, `sums` leading to the line's place in the first of the blocks.
+// Sums along lines, `sums` leading to the place of the first in the first of the blocks.
 MOCAP_VECTORIZED
-void SumBlocks(const float* alpha_shift, const std::array<const float*, 3>& cd, int blocks,
-               BlockSums* sums) {
+void SumBlocks(const float* alpha_shift, const std::array<const float*, 3>& cd, int row_step,
+               int blocks, int rows, BlockSums* sums) {
   for (int block = 0; block < blocks; ++block) {
-    auto& [smaller, larger] = sums[block * kSumLines];
-    const int x = block * kFloats;
-    const auto itself = [](Floats&, float) {};
-    const Neighbours alphas(alpha_shift + x);
-    SumBoth(alphas, itself, smaller.alpha, larger.alpha);
-    SumBoth(
-        alphas, [](Floats& a, float) { a *= a; }, smaller.alpha_sq, larger.alpha_sq);
-    SumBoth(
-        alphas, [](Floats& a, float to_right) { a *= to_right; }, smaller.moment, larger.moment);
-    for (int c = 0; c < 3; ++c) SumBoth(Neighbours(cd[c] + x), itself, smaller.cd[c], larger.cd[c]);
+    for (int row = 0; row < rows; ++row) {
+      auto& [smaller, larger] = sums[block * kSumLines + row];
+      const int x = block * kFloats + row * row_step;
+      const auto itself = [](Floats&, float) {};
+      const Neighbours alphas(alpha_shift + x);
+      SumBoth(alphas, itself, smaller.alpha, larger.alpha);
+      SumBoth(
+          alphas, [](Floats& a, float) { a *= a; }, smaller.alpha_sq, larger.alpha_sq);
+      SumBoth(
+          alphas, [](Floats& a, float to_right) { a *= to_right; }, smaller.moment, larger.moment);
+      for (int c = 0; c < 3; ++c)
+        SumBoth(Neighbours(cd[c] + x), itself, smaller.cd[c], larger.cd[c]);
+    }
   }
 }
 
@@ -135,85 +133,88 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   const int width = expected.width + kBeside;
   if (alpha_shift_.width() == width && alpha_shift_.height() == expected.height) return;
   alpha_shift_ = Image<float>(width, expected.height);
-  for (Line& line : lines_) {
-    for (auto* values : {&line.cd_sq, &line.alpha_weight, &line.inverse_sigma, &line.cd[0],
-                         &line.cd[1], &line.cd[2]})
-      values->assign(static_cast<std::size_t>(width), 0);
-  }
-  for (auto& color : color_) color.resize(static_cast<std::size_t>(width));
-  sums_.resize(static_cast<std::size_t>(width / kFloats * kLines));
+  for (auto* lines : {&lines_.cd_sq, &lines_.alpha_weight, &lines_.inverse_sigma, &lines_.cd[0],
+                      &lines_.cd[1], &lines_.cd[2]})
+    *lines = Image<float>(width, kSumLines);
+  last_ = Image<Bgr>(kPixels, kBand_px);
+  sums_.resize(static_cast<std::size_t>(width / kFloats * kSumLines));
 }
 
 const DistortionScan::RowPair& DistortionScan::Next() {
   const int y = std::exchange(next_, next_ + 2);
   const int last = expected_->height - 1;
   MOCAP_CHECK(y <= last);
-  for (; measured_ <= std::min(y + 1 + kLargestRadius_px, last); ++measured_) Measure(measured_);
+  for (; measured_ <= std::min(y + 1 + kLargestRadius_px, last); measured_ += kBand_px)
+    MeasureBand(measured_);
   for (int row = 0; row < 2; ++row) {
-    const int v = std::min(y + row, last);
-    const Line& line = LineAt(v);
-    pair_.rows[row] = {alpha_shift_.row(v) + kPad, line.cd_sq.data() + kPad,
-                       line.alpha_weight.data() + kPad, line.inverse_sigma.data() + kPad};
+    const int v = std::min(y + row, last), line = v % kSumLines;
+    pair_.rows[row] = {alpha_shift_.row(v) + kPad, lines_.cd_sq.row(line) + kPad,
+                       lines_.alpha_weight.row(line) + kPad, lines_.inverse_sigma.row(line) + kPad};
   }
-  for (int i = 0; i < kLines; ++i)
-    pair_.sums[i] = &sums_[std::clamp(y + i - kLargestRadius_px, 0, last) % kLines];
+  for (int i = 0; i < kPairLines; ++i)
+    pair_.sums[i] = &sums_[std::clamp(y + i - kLargestRadius_px, 0, last) % kSumLines];
   return pair_;
 }
 
-void DistortionScan::Measure(int y) {
+void DistortionScan::MeasureBand(int y) {
+  const int rows = std::min(kBand_px, expected_->height - y);
+  const int whole = expected_->width / kPixels;
   int done = 0;
   for (const PixelRun& run : closeup_->Measured(y)) {
-    FetchPixels(image_, y + 1, run.begin, run.end);
+    for (int row = 0; row < rows; ++row)
+      FetchPixels(image_, y + kBand_px + row, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
     done = (run.end + kPixels - 1) / kPixels;
-    const int whole = std::min(done, expected_->width / kPixels);
-    MeasureFrom(y, first, image_.row(y) + first * kPixels, whole - first);
-    if (whole == done) continue;
-    // The picture ends within the last group.
-    std::array<Bgr, kPixels> rest{};
-    std::copy(image_.row(y) + whole * kPixels, image_.row(y) + expected_->width, rest.begin());
-    MeasureFrom(y, whole, rest.data(), 1);
+    Measure(image_.Section(first * kPixels, y, (std::min(done, whole) - first) * kPixels, rows), y,
+            first);
+    if (done > whole) MeasureLast(y, rows);
   }
-  RepeatEnds(y);
+  for (int row = 0; row < rows; ++row) RepeatEnds(y + row);
   // What is summed beyond the ends is judged nowhere.
-  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(y, run);
+  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(y, rows, run);
 }
 
-void DistortionScan::MeasureFrom(int y, int group, const Bgr* pixels, int count) {
-  const auto [b, g, r] = std::array{color_[0].data(), color_[1].data(), color_[2].data()};
-  Separate(pixels, count * kPixels, gain_, b, g, r);
-  const int first = group * kPixels + kPad;
-  const int ahead = y + kRowsAhead < expected_->height ? kRowsAhead : 0;
-  Line& line = LineAt(y);
-  MeasureGroups(expected_->Group(group, y), expected_->height, {b, g, r}, count, ahead,
-                {alpha_shift_.row(y) + first,
-                 {&line.cd[0][first], &line.cd[1][first], &line.cd[2][first]},
-                 &line.cd_sq[first],
-                 &line.alpha_weight[first],
-                 &line.inverse_sigma[first]});
+// The picture ends within the last group.
+void DistortionScan::MeasureLast(int y, int rows) {
+  const int group = expected_->width / kPixels, left = group * kPixels;
+  for (int row = 0; row < rows; ++row)
+    std::copy(image_.row(y + row) + left, image_.row(y + row) + expected_->width, last_.row(row));
+  Measure(last_.view().Section(0, 0, kPixels, rows), y, group);
+}
+
+void DistortionScan::Measure(ImageView<const Bgr> pixels, int y, int group) {
+  const int x = group * kPixels + kPad, line = y % kSumLines;
+  MeasureGroups(
+      expected_->Group(group, y), expected_->height, pixels, gain_,
+      y + 2 * kBand_px <= expected_->height ? kBand_px : 0,
+      {alpha_shift_.row(y) + x,
+       {lines_.cd[0].row(line) + x, lines_.cd[1].row(line) + x, lines_.cd[2].row(line) + x},
+       lines_.cd_sq.row(line) + x,
+       lines_.alpha_weight.row(line) + x,
+       lines_.inverse_sigma.row(line) + x,
+       alpha_shift_.width()});
 }
 
 void DistortionScan::RepeatEnds(int y) {
   const std::span<const PixelRun> runs = closeup_->Measured(y);
   if (runs.empty() || (runs.front().begin > 0 && runs.back().end < expected_->width)) return;
-  Line& line = LineAt(y);
-  for (float* const values :
-       {alpha_shift_.row(y), line.cd[0].data(), line.cd[1].data(), line.cd[2].data()}) {
+  const int line = y % kSumLines;
+  for (float* const values : {alpha_shift_.row(y), lines_.cd[0].row(line), lines_.cd[1].row(line),
+                              lines_.cd[2].row(line)}) {
     float* const end = values + kPad + expected_->width;
     std::fill_n(values, kPad, values[kPad]);
     std::fill_n(end, kPad, end[-1]);
   }
 }
 
-void DistortionScan::SumAlong(int y, const PixelRun& run) {
+void DistortionScan::SumAlong(int y, int rows, const PixelRun& run) {
   // Blocks that are judged anywhere lie well within the run.
   const int first = (run.begin + kFloats - 1) / kFloats;
   const int blocks = (run.end + kFloats - 1) / kFloats - first;
-  const int begin = first * kFloats + kPad;
-  const Line& line = LineAt(y);
-  SumBlocks(alpha_shift_.row(y) + begin,
-            {&line.cd[0][begin], &line.cd[1][begin], &line.cd[2][begin]}, blocks,
-            &sums_[first * kLines + y % kLines]);
+  const int x = first * kFloats + kPad, line = y % kSumLines;
+  SumBlocks(alpha_shift_.row(y) + x,
+            {lines_.cd[0].row(line) + x, lines_.cd[1].row(line) + x, lines_.cd[2].row(line) + x},
+            alpha_shift_.width(), blocks, rows, &sums_[first * kSumLines + line]);
 }
 
 }  // namespace mocap

@@ -57,19 +57,21 @@ class DistortionScan {
  private:
   static constexpr int kPad = kFloats;  // On both sides of the picture.
   static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
-  static constexpr int kLines = kSumLines;
   static_assert(kLargestRadius_px <= Closeup::kMargin_px && kLargestRadius_px <= kPad);
+  // Rows are measured so many at a time: they have the same runs.
+  static constexpr int kBand_px = Closeup::kMargin_px;
+  static_assert(kSumLines % kBand_px == 0 && kSumLines >= kPairLines + kBand_px - 1);
 
-  // Pixels, padded by kPad.
-  struct Line {
-    std::vector<float> cd_sq, alpha_weight, inverse_sigma;
-    std::array<std::vector<float>, 3> cd;
+  // Of the last lines, padded by kPad.
+  struct Lines {
+    Image<float> cd_sq, alpha_weight, inverse_sigma;
+    std::array<Image<float>, 3> cd;
   };
-  Line& LineAt(int y) { return lines_[static_cast<std::size_t>(y % kLines)]; }
-  void Measure(int y);
-  void MeasureFrom(int y, int group, const Bgr* pixels, int count);
+  void MeasureBand(int y);
+  void Measure(ImageView<const Bgr> pixels, int y, int group);
+  void MeasureLast(int y, int rows);
   void RepeatEnds(int y);
-  void SumAlong(int y, const PixelRun& run);
+  void SumAlong(int y, int rows, const PixelRun& run);
 
   const ExpectedPicture* expected_ = nullptr;
   const Closeup* closeup_ = nullptr;
@@ -78,8 +80,8 @@ class DistortionScan {
   int next_ = 0;
   int measured_ = 0;
   Image<float> alpha_shift_;  // Padded too.
-  std::array<Line, kLines> lines_;
-  std::array<std::vector<float>, 3> color_;
+  Lines lines_;
+  Image<Bgr> last_;  // A band of the group in which the picture ends.
   std::vector<BlockSums> sums_;
   RowPair pair_;
 };

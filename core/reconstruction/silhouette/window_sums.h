@@ -24,12 +24,15 @@ struct alignas(32) LineSums {
 
 /// Of all windows around eight pixels.
 using BlockSums = std::array<LineSums, kWindows>;
-/// So many lines of the same eight pixels lie together.
-inline constexpr int kSumLines = 2 * kLargestRadius_px + 2;
+/// So many lines are in the windows around two pixels, one below the other.
+inline constexpr int kPairLines = 2 * kLargestRadius_px + 2;
+/// So many lines of the same eight pixels lie together: lines come a few at a time, some of them
+/// before they are needed.
+inline constexpr int kSumLines = kPairLines + 4;
 
 /// The sums of the first blocks of two rows, one below the other, and of the lines above and below
 /// that their windows may need: those of the other blocks follow in steps of kSumLines.
-using WindowLines = std::array<const BlockSums*, kSumLines>;
+using WindowLines = std::array<const BlockSums*, kPairLines>;
 
 /// How the windows around eight pixels differ.
 struct WindowDistortions {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "drivers/simulation/scene.h"
@@ -37,6 +38,26 @@ TEST(PictureAhead, ACameraInRealTimeGivesThePicturesOfTheirTimes) {
                 std::ranges::count_if(painter.materials().pixels(), [](int m) { return m != 0; }));
     }
     camera->Stop();
+  }
+}
+
+TEST(PictureAhead, APictureThatIsBeingPaintedIsWaitedForOrLeft) {
+  SimulatedStudioOptions options = RecordedSimulation();
+  options.width_px = 320;
+  options.height_px = 240;
+  const auto view = std::make_shared<const simulation::SceneView>(
+      std::make_shared<const simulation::Scene>(options), 0);
+  simulation::PictureAhead ahead(view);
+  simulation::ScenePainter expected(view);
+  auto painter = std::make_unique<simulation::ScenePainter>(view);
+  for (int i = 0; i < 20; ++i) {
+    const std::int64_t capture_ns = options.start_ns + i * 10'000'000;
+    ahead.Ask(capture_ns);
+    EXPECT_FALSE(ahead.Take(capture_ns + 1, painter));
+    // Where the thread may not be brought forward, a picture is painted twice.
+    if (!ahead.Take(capture_ns, painter)) painter->Paint(capture_ns);
+    expected.Paint(capture_ns);
+    EXPECT_EQ(Pixels(painter->picture().view()), Pixels(expected.picture().view()));
   }
 }
 
