@@ -8,12 +8,16 @@ namespace {
 
 constexpr std::size_t kLongestThreadName = 15;
 
+void LetOthersFirst(pthread_t thread) {
+  const sched_param parameter{};
+  pthread_setschedparam(thread, SCHED_IDLE, &parameter);
+}
+
 }  // namespace
 
 void GoBehind(const std::string& name) {
   pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-  const sched_param parameter{};
-  pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameter);
+  LetOthersFirst(pthread_self());
 }
 
 bool BringForward(std::thread& thread) {
@@ -22,5 +26,7 @@ bool BringForward(std::thread& thread) {
   return pthread_getschedparam(pthread_self(), &policy, &parameter) == 0 &&
          pthread_setschedparam(thread.native_handle(), policy, &parameter) == 0;
 }
+
+void SendBehind(std::thread& thread) { LetOthersFirst(thread.native_handle()); }
 
 }  // namespace mocap

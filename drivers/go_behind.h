@@ -10,8 +10,11 @@ namespace mocap {
 /// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
 void GoBehind(const std::string& name);
 
-/// Lets a thread that went behind run as the calling one does, until it goes behind again.
+/// Lets a thread that went behind run as the calling one does.
 /// @return  false where that is not permitted.
 bool BringForward(std::thread& thread);
+
+/// Ends that.
+void SendBehind(std::thread& thread);
 
 }  // namespace mocap

@@ -8,7 +8,10 @@ namespace mocap::simulation {
 
 PictureAhead::PictureAhead(std::shared_ptr<const SceneView> view)
     : painter_(std::make_unique<ScenePainter>(view)),
-      thread_([this, name = "paint " + view->calibration().name] { Run(name); }) {}
+      thread_([this, name = view->calibration().name] {
+        GoBehind("paint " + name);
+        Run();
+      }) {}
 
 PictureAhead::~PictureAhead() {
   state_.store(State::kEnded, std::memory_order_release);
@@ -26,9 +29,9 @@ void PictureAhead::Ask(std::int64_t capture_ns) {
 bool PictureAhead::Take(std::int64_t capture_ns, std::unique_ptr<ScenePainter>& painter) {
   if (capture_ns_ != capture_ns) return false;
   if (state_.load(std::memory_order_acquire) == State::kAsked) {
-    has_come_forward_.store(true, std::memory_order_relaxed);
     if (!BringForward(thread_)) return false;
     state_.wait(State::kAsked, std::memory_order_acquire);
+    SendBehind(thread_);
   }
   if (state_.load(std::memory_order_acquire) != State::kPainted) return false;
   std::swap(painter, painter_);
@@ -36,8 +39,7 @@ bool PictureAhead::Take(std::int64_t capture_ns, std::unique_ptr<ScenePainter>& 
   return true;
 }
 
-void PictureAhead::Run(const std::string& name) {
-  GoBehind(name);
+void PictureAhead::Run() {
   for (;;) {
     State state = state_.load(std::memory_order_acquire);
     if (state == State::kEnded) return;
@@ -48,7 +50,6 @@ void PictureAhead::Run(const std::string& name) {
     painter_->Paint(capture_ns_);
     state_.compare_exchange_strong(state, State::kPainted, std::memory_order_release);
     state_.notify_one();
-    if (has_come_forward_.exchange(false, std::memory_order_relaxed)) GoBehind(name);
   }
 }
 

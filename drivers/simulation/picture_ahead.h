@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <thread>
 
 #include "drivers/simulation/scene.h"
@@ -34,10 +33,9 @@ class PictureAhead {
  private:
   enum class State : int { kIdle, kAsked, kPainted, kEnded };
 
-  void Run(const std::string& name);
+  void Run();
 
   std::atomic<State> state_{State::kIdle};
-  std::atomic<bool> has_come_forward_{false};
   // The thread's while something is asked for.
   std::int64_t capture_ns_ = 0;
   std::unique_ptr<ScenePainter> painter_;
