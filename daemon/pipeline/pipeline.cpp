@@ -14,8 +14,20 @@
 namespace mocap {
 namespace {
 
-constexpr std::size_t kFramesQueued = 4;
-constexpr std::size_t kSetsQueued = LoadControl::kMostUnderWay;
+/// How many items lie between threads at most: frames of each camera, and sets.
+struct QueueSizes {
+  std::size_t frames, sets;
+};
+
+/// Where nothing waits for a pose, every thread finds enough to do.
+constexpr QueueSizes kRoomy{.frames = 8, .sets = 4};
+/// Live, frames do not become old; but who comes in has to be found, and cameras go on meanwhile.
+constexpr QueueSizes kLive{.frames = 4, .sets = LoadControl::kMostUnderWay};
+
+constexpr const QueueSizes& SizesFor(Overflow overflow) {
+  return overflow == Overflow::kWait ? kRoomy : kLive;
+}
+
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.
 constexpr double kPatiencePeriods = 1.75;
 // By the time that a set went on without a camera, up to a period later, it must not be too old.
@@ -63,7 +75,7 @@ struct Pipeline::CameraLine {
   CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
              std::vector<FrameTap*> taps, Overflow overflow, Doorbell& carve_bell)
       : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps)),
-        queue(kFramesQueued, overflow, carve_bell) {}
+        queue(SizesFor(overflow).frames, overflow, carve_bell) {}
 
   CameraWorker worker;
   SpscQueue<SegmentedFrame> queue;
@@ -75,7 +87,7 @@ struct Pipeline::CameraLine {
 Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,
                    PoseSink& sink)
     : options_(options),
-      sets_(kSetsQueued, Overflow::kWait, track_bell_,
+      sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
       track_(body, options.latency_origin, sink, recorders_, studio.person) {
   std::vector<CameraCalibration> calibrations;
@@ -119,7 +131,11 @@ void Pipeline::Launch(const std::string& name, Body body) {
   threads_.emplace_back([this, name, body] {
     pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
     // Whether they may is known by now; without it, frames are only more often late.
-    if (options_.priority > 0) TakePriority(options_.priority);
+    if (options_.priority > 0) {
+      TakePriority(options_.priority);
+    } else if (options_.overflow == Overflow::kWait) {
+      WorkInLongTurns();
+    }
     KeepToProcessors(options_.processors);
     body();
   });

@@ -3,12 +3,30 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cstdint>
 #include <string>
 
 #include "core/errors.h"
 
 namespace mocap {
+namespace {
+
+/// The kernel's struct sched_attr, which its header and glibc's do not let anybody include.
+struct SchedulingAttributes {
+  std::uint32_t size = sizeof(SchedulingAttributes);
+  std::uint32_t policy = SCHED_OTHER;
+  std::uint64_t flags = 0;
+  std::int32_t nice = 0;
+  std::uint32_t priority = 0;
+  std::uint64_t runtime_ns = 0;  ///< Of SCHED_OTHER and SCHED_BATCH: how long a turn is.
+  std::uint64_t deadline_ns = 0;
+  std::uint64_t period_ns = 0;
+};
+
+}  // namespace
 
 bool KeepToProcessors(const std::vector<int>& processors) {
   if (processors.empty()) return true;
@@ -25,6 +43,16 @@ bool TakePriority(int priority) {
   const sched_param parameter{.sched_priority = priority};
   return pthread_setschedparam(pthread_self(), priority > 0 ? SCHED_FIFO : SCHED_OTHER,
                                &parameter) == 0;
+}
+
+void WorkInLongTurns() {
+  constexpr std::uint64_t kLongestTurnNs = 100'000'000;  // The kernel allows no more.
+  constexpr pid_t kThisThread = 0;
+  SchedulingAttributes attributes;  // A thread stays as nice as it is.
+  if (syscall(SYS_sched_getattr, kThisThread, &attributes, sizeof attributes, 0U) != 0) return;
+  attributes.policy = SCHED_BATCH;
+  attributes.runtime_ns = kLongestTurnNs;
+  syscall(SYS_sched_setattr, kThisThread, &attributes, 0U);
 }
 
 // The threads of the frame path take all of this for themselves; here it is only tried.

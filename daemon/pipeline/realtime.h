@@ -19,4 +19,9 @@ bool KeepToProcessors(const std::vector<int>& processors);
 /// @return  false where the limits do not allow it.
 bool TakePriority(int priority);
 
+/// Lets the calling thread work on for long when others are ready as well, where none is in a
+/// hurry: what it has begun is not left lying about half done. Before Linux 6.12 only who wakes up
+/// no longer interrupts it.
+void WorkInLongTurns();
+
 }  // namespace mocap

@@ -11,7 +11,8 @@ namespace {
 
 // Until the person is known and memory has its size.
 constexpr int kWarmUpSets = 200;
-constexpr int kSets = 1000;
+// What waits in queues when the warm-up ends is few of them.
+constexpr int kSets = 2000;
 
 // Measures from the first set after the warm-up to the last.
 class Meter : public PoseSink {

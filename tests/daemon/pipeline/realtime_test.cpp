@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <thread>
 
@@ -52,6 +54,17 @@ TEST(Realtime, TryingTheProcessorsLeavesTheThreadWhereItMayRun) {
   PrepareRealtime(config);
   sched_getaffinity(0, sizeof after, &after);
   EXPECT_TRUE(CPU_EQUAL(&before, &after));
+}
+
+TEST(Realtime, LongTurnsKeepAThreadAsNiceAsItWas) {
+  constexpr int kNice = 3;
+  std::thread([&] {
+    const auto thread = static_cast<id_t>(gettid());
+    setpriority(PRIO_PROCESS, thread, kNice);
+    WorkInLongTurns();
+    EXPECT_EQ(sched_getscheduler(0), SCHED_BATCH);
+    EXPECT_EQ(getpriority(PRIO_PROCESS, thread), kNice);
+  }).join();
 }
 
 }  // namespace
