@@ -169,7 +169,7 @@ void FillStatus(const StatusReport& report, std::int64_t utime, status_t& messag
   }
   message.stages.clear();
   for (const Stage stage : {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter,
-                            Stage::kTotal, Stage::kLatency}) {
+                            Stage::kTotal, Stage::kLatency, Stage::kPublish}) {
     message.stages.push_back(TimingOf(stage, report.recent[stage]));
   }
   message.num_stages = static_cast<std::int32_t>(message.stages.size());

@@ -13,14 +13,15 @@ enum class Stage {
   kCarve,    ///< One set.
   kLabel,    ///< From voxels to measured points.
   kFilter,   ///< From points to a pose.
-  kTotal,    ///< A set's work from end to end: its slowest segmentation, carving, tracking.
+  kPublish,  ///< Handing the pose on.
+  kTotal,    ///< A set's work until there is a pose: its slowest segmentation, carving, tracking.
   kLatency,  ///< From capture to the pose having been handed on; from the set's last arrival when a
              ///< recording is read as fast as it can be.
   kSpread    ///< How far the times in a set lie apart.
 };
-inline constexpr int kStageCount = 7;
+inline constexpr int kStageCount = 8;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames = {
-    "segment", "carve", "label", "filter", "total", "latency", "spread"};
+    "segment", "carve", "label", "filter", "publish", "total", "latency", "spread"};
 
 /// One recorder a stage.
 class StageRecorders {

@@ -47,6 +47,7 @@ void TrackStage::Process(const CarvedSet& set) {
   recorders_[Stage::kTotal].Record(set.work_ns + update_ns);
   state_.store(result.state, std::memory_order_relaxed);
   if (person_) person_->Tell(MiddleOf(result));
+  const std::int64_t publish_ns = SteadyNs();
   sink_.OnSet({.frame = set.frame,
                .capture_ns = set.capture_ns,
                .complete_ns = set.complete_ns,
@@ -55,6 +56,7 @@ void TrackStage::Process(const CarvedSet& set) {
                .result = result,
                .body = capture_.body(),
                .grid = set.grid});
+  recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
   recorders_[Stage::kLatency].Record(EpochNs() - from_ns);

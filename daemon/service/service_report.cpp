@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kCameraStateNames = {"starting", "streaming", "lost",
                                                                "ended"};
-constexpr std::array kTold = {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter,
-                              Stage::kTotal};
+constexpr std::array kTold = {Stage::kSegment, Stage::kCarve,   Stage::kLabel,
+                              Stage::kFilter,  Stage::kPublish, Stage::kTotal};
 
 std::string_view NameOf(CaptureState state) {
   return kCaptureStateNames[static_cast<std::size_t>(state)];

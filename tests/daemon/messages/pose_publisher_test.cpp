@@ -214,11 +214,12 @@ TEST_F(PosePublisherTest, TheStatusTellsCamerasAndStages) {
   EXPECT_EQ(message.cameras[0].state, int{camera_status_t::LOST});
   EXPECT_EQ(message.cameras[0].frames_per_second, 29);
   EXPECT_EQ(message.cameras[0].dropped, 2);
-  ASSERT_EQ(message.stages.size(), 6u);
+  ASSERT_EQ(message.stages.size(), 7u);
   EXPECT_EQ(message.stages[1].name, "carve");
   EXPECT_EQ(message.stages[1].count, 1);
   EXPECT_NEAR(message.stages[1].p50_ms, 20, 0.6);
   EXPECT_EQ(message.stages[5].name, "latency");
+  EXPECT_EQ(message.stages[6].name, "publish");
 }
 
 TEST(Pacer, KeepsItsRateAndForgetsALongPause) {

@@ -105,6 +105,7 @@ TEST(Pipeline, TracksEverySetInOrderWhenItMayWait) {
   EXPECT_EQ(status.cameras[2].state, CameraState::kEnded);
   EXPECT_EQ(status.stages[Stage::kSegment].count(), 105);
   EXPECT_EQ(status.stages[Stage::kTotal].count(), 40);
+  EXPECT_EQ(status.stages[Stage::kPublish].count(), 40);
 }
 
 TEST(Pipeline, TracksOnWhenTheClockIsPutBack) {
