@@ -8,7 +8,7 @@
 /// every x86-64. Other processors have one version.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define MOCAP_VECTORIZED __attribute__((target_clones("avx2", "default")))
+#define MOCAP_VECTORIZED __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define MOCAP_VECTORIZED
 #endif

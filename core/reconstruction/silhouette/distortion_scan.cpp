@@ -17,49 +17,87 @@ struct Distortions {
   std::array<float*, 3> cd;
   float *cd_sq, *alpha_weight, *inverse_sigma;
   int row_step;
+
+  // From a place on.
+  MOCAP_INLINE Distortions From(int i) const {
+    return {alpha_shift + i,   {cd[0] + i, cd[1] + i, cd[2] + i},
+            cd_sq + i,         alpha_weight + i,
+            inverse_sigma + i, row_step};
+  }
 };
+
+using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
+using Shorts = std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t))));
+
+// Eight pixels, the channels of each in the bytes of one number.
+MOCAP_INLINE void LoadPixels(const Bgr* from, Ints& pixels) {
+  constexpr int kHalf = sizeof(Bytes) / 2;
+  // The last four pixels end where the second half does.
+  static_assert(kFloats * sizeof(Bgr) == 24 && kHalf == 16);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(from);
+  std::uint8_t __attribute__((vector_size(kHalf))) first, last;
+  LoadLanes(bytes, first), LoadLanes(bytes + 8, last);
+  const Bytes both =
+      __builtin_shufflevector(first, last, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,
+                              17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
+  pixels = reinterpret_cast<Ints>(
+      __builtin_shufflevector(both, both, 0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 8, 8, 9, 10, 11, 11, 20, 21,
+                              22, 22, 23, 24, 25, 25, 26, 27, 28, 28, 29, 30, 31, 31));
+}
+
+MOCAP_INLINE void ChannelOf(const Ints& pixels, int channel, Floats& values) {
+  values = __builtin_convertvector(pixels >> 8 * channel & 0xff, Floats);
+}
+
+MOCAP_INLINE void LoadShorts(const std::uint16_t* from, float unit, Floats& values) {
+  Shorts shorts;
+  LoadLanes(from, shorts);
+  values = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats) * unit;
+}
+
+// Measures eight pixels, so far into a group.
+MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pixels,
+                                const std::array<float, 3>& gain, const Distortions& to) {
+  Ints packed;
+  LoadPixels(pixels, packed);
+  std::array<Floats, 3> m, z, w, cd;
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c) {
+    LoadShorts(&group.inverse_sigma[c][k], WeighedPixels::kInverseSigmaUnit, w[c]);
+    LoadShorts(&group.mean[c][k], 1, m[c]);
+    ChannelOf(packed, c, z[c]);
+    m[c] *= WeighedPixels::kMeanUnit * w[c];
+    z[c] = gain[c] * z[c] * w[c];
+  }
+  const Floats alpha =
+      (z[0] * m[0] + z[1] * m[1] + z[2] * m[2]) / (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c) {
+    cd[c] = z[c] - alpha * m[c];
+    StoreLanes(cd[c], to.cd[c]);
+  }
+  Floats alpha_weight;
+  LoadShorts(&group.alpha_weight[k], WeighedPixels::kAlphaWeightUnit, alpha_weight);
+  StoreLanes(alpha - 1, to.alpha_shift);
+  StoreLanes(cd[0] * cd[0] + cd[1] * cd[1] + cd[2] * cd[2], to.cd_sq);
+  StoreLanes(alpha_weight, to.alpha_weight);
+  StoreLanes(w[1], to.inverse_sigma);
+}
 
 // Measures a band of pixels group by group, and fetches the groups of the next band.
 // @param groups  what they are held against: of the first group, the next so many on.
 MOCAP_VECTORIZED
 void MeasureGroups(const WeighedPixels* groups, int group_step, ImageView<const Bgr> band,
                    const std::array<float, 3>& gain, int ahead, const Distortions& to) {
-  const auto [gain0, gain1, gain2] = gain;
-  const auto [to0, to1, to2] = to.cd;
   for (int begin = 0; begin < band.width(); begin += kPixels, groups += group_step) {
     for (int row = 0; row < band.height(); ++row) {
       const WeighedPixels& group = groups[row];
       FetchBytes(&group + ahead, sizeof group);
-      const Bgr* const pixels = band.row(row) + begin;
       const int first = row * to.row_step + begin;
-      float *const alpha_shift = to.alpha_shift + first, *const cd_sq = to.cd_sq + first;
-      FetchBytes(alpha_shift + ahead * to.row_step, sizeof(float) * kPixels);
-      float* const alpha_weight = to.alpha_weight + first;
-      float* const inverse_sigma = to.inverse_sigma + first;
-      float *const d0 = to0 + first, *const d1 = to1 + first, *const d2 = to2 + first;
-#pragma GCC ivdep
-      for (int k = 0; k < kPixels; ++k) {
-        const float w0 = group.inverse_sigma[0][k] * WeighedPixels::kInverseSigmaUnit;
-        const float w1 = group.inverse_sigma[1][k] * WeighedPixels::kInverseSigmaUnit;
-        const float w2 = group.inverse_sigma[2][k] * WeighedPixels::kInverseSigmaUnit;
-        const float m0 = group.mean[0][k] * (WeighedPixels::kMeanUnit * w0);
-        const float m1 = group.mean[1][k] * (WeighedPixels::kMeanUnit * w1);
-        const float m2 = group.mean[2][k] * (WeighedPixels::kMeanUnit * w2);
-        const float z0 = gain0 * pixels[k].b * w0;
-        const float z1 = gain1 * pixels[k].g * w1;
-        const float z2 = gain2 * pixels[k].r * w2;
-        const float alpha = (z0 * m0 + z1 * m1 + z2 * m2) / (m0 * m0 + m1 * m1 + m2 * m2);
-        const float f0 = z0 - alpha * m0;
-        const float f1 = z1 - alpha * m1;
-        const float f2 = z2 - alpha * m2;
-        alpha_shift[k] = alpha - 1;
-        d0[k] = f0;
-        d1[k] = f1;
-        d2[k] = f2;
-        cd_sq[k] = f0 * f0 + f1 * f1 + f2 * f2;
-        alpha_weight[k] = group.alpha_weight[k] * WeighedPixels::kAlphaWeightUnit;
-        inverse_sigma[k] = w1;
-      }
+      FetchBytes(to.alpha_shift + first + ahead * to.row_step, sizeof(float) * kPixels);
+#pragma GCC unroll 2
+      for (int k = 0; k < kPixels; k += kFloats)
+        MeasurePixels(group, k, band.row(row) + begin + k, gain, to.From(first + k));
     }
   }
 }
