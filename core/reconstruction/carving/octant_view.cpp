@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/vectorized.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {
@@ -35,75 +35,122 @@ OctantVerdicts Unpack(std::uint32_t bits) {
 // The error of a frame that tells nothing.
 constexpr float kNoFrame_px = 1e6f;
 
-// By value: loops with references are not vectorized.
-template <typename T>
-inline T Least(T a, T b) {
+// The lesser, or the larger, lane by lane.
+template <typename Lanes>
+MOCAP_INLINE Lanes Least(Lanes a, Lanes b) {
   return a < b ? a : b;
 }
-template <typename T>
-inline T Most(T a, T b) {
+template <typename Lanes>
+MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
   return a < b ? b : a;
 }
+MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
+MOCAP_INLINE Ints AllOf(int number) { return Ints{} + number; }
+
+MOCAP_INLINE Floats SizeOf(Floats x) {
+  return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
+}
+MOCAP_INLINE Ints TowardsZero(Floats x) { return __builtin_convertvector(x, Ints); }
+MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats); }
 
 // All bits of a negative number's sign.
-inline std::uint32_t Sign(int number) { return static_cast<std::uint32_t>(number >> 31); }
+MOCAP_INLINE Ints Sign(Ints number) { return number >> 31; }
 
-// By a float's exponent: loops with std::bit_width are not vectorized.
-inline int FloorLog2(int number) {
-  return (std::bit_cast<int>(static_cast<float>(number)) >> 23) - 127;
+// By a float's exponent.
+MOCAP_INLINE Ints FloorLog2(Ints number) {
+  return (reinterpret_cast<Ints>(ToFloats(number)) >> 23) - 127;
 }
 
-struct Rectangles {
-  alignas(32) Lanes x, y, reach_x, reach_y;
-  // Bits that all lanes start with, and those that are asked for.
-  alignas(32) std::array<std::uint32_t, kLanes> known, asked;
+// Where eight places of a table are taken from: they go through memory, for to take them out of a
+// register one by one keeps busy what else shuffles.
+struct Places {
+  MOCAP_INLINE explicit Places(Ints places) {
+    StoreLanes(places, at.data());
+    asm("" : "+m"(at));  // Compilers know that they are still in a register.
+  }
+  alignas(32) std::array<std::int32_t, kLanes> at;
+};
+MOCAP_INLINE Ints LookUp(const std::uint32_t* words, const Places& places) {
+  const auto word = [&](int i) { return static_cast<std::int32_t>(words[places.at[i]]); };
+  return Ints{word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7)};
+}
+MOCAP_INLINE Floats LookUp(const float* numbers, const Places& places) {
+  const auto number = [&](int i) { return numbers[places.at[i]]; };
+  return Floats{number(0), number(1), number(2), number(3),
+                number(4), number(5), number(6), number(7)};
+}
+
+// Where nodes of the table, and those right of them, are in the picture.
+struct Nodes {
+  MOCAP_INLINE Nodes(const SensorPlaneTable::Place* nodes, const Places& places) {
+    // A node and the next are four numbers: read at once, and transposed.
+    const auto two_of = [&](int i) {
+      float __attribute__((vector_size(16))) low, high;
+      LoadLanes(&nodes[places.at[i]].x_px, low), LoadLanes(&nodes[places.at[i + 4]].x_px, high);
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const Floats a = two_of(0), b = two_of(1), c = two_of(2), d = two_of(3);
+    const Floats ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Floats cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Floats next_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Floats next_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    next_x = __builtin_shufflevector(next_ab, next_cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    next_y = __builtin_shufflevector(next_ab, next_cd, 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  Floats x, y, next_x, next_y;
 };
 
-inline __attribute__((always_inline)) std::uint32_t RoundedDown(float place_px) {
-  return static_cast<std::uint32_t>(
-      static_cast<int>(Least(Most(place_px + (kBias_px + 0.5f), 0.0f), kFarthest_px)));
+struct Rectangles {
+  Floats x, y, reach_x, reach_y;
+  // Bits that all lanes start with, and those that are asked for.
+  Ints known, asked;
+};
+
+MOCAP_INLINE Ints RoundedDown(Floats place_px) {
+  const Floats biased = place_px + (kBias_px + 0.5f);
+  return TowardsZero(Least(Most(biased, Floats{}), AllOf(kFarthest_px))) - kBias_px;
 }
 
 // What rectangles hold of the silhouette.
-inline __attribute__((always_inline)) std::uint32_t JudgeAll(const Rectangles& r,
-                                                             const WindowMap::Planes& planes) {
+MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes& planes) {
   const std::uint32_t* const words = planes.words;
   const int left = planes.left, top = planes.top, right = planes.right, bottom = planes.bottom;
   const int width = planes.width_px, height = planes.height_px, stride = planes.words_per_row;
-  std::uint32_t bits = 0;
-#pragma GCC ivdep
-  for (int i = 0; i < kLanes; ++i) {
-    const int x0 = static_cast<int>(RoundedDown(r.x[i] - r.reach_x[i])) - kBias_px;
-    const int x1 = static_cast<int>(RoundedDown(r.x[i] + r.reach_x[i])) - kBias_px;
-    const int y0 = static_cast<int>(RoundedDown(r.y[i] - r.reach_y[i])) - kBias_px;
-    const int y1 = static_cast<int>(RoundedDown(r.y[i] + r.reach_y[i])) - kBias_px;
-    const int side = Most(x1 - x0, y1 - y0) + 1;
-    // Windows of half a rectangle's longer side or more, one in each corner, cover it.
-    const int plane = FloorLog2(Least(Most(side - 1, 1), kWidest_px - 1));
-    const int beyond = 1 - (1 << plane);
-    const std::int32_t begin = plane * planes.words_per_plane;
-    const int first_row = begin + (Least(Most(y0, top), bottom) - top) * stride;
-    const int last_row = begin + (Least(Most(y1 + beyond, top), bottom) - top) * stride;
-    const int first = Least(Most(x0, left), right) - left;
-    const int last = Least(Most(x1 + beyond, left), right) - left;
-    const std::uint32_t firsts = words[first_row + (first >> 4)] & words[last_row + (first >> 4)];
-    const std::uint32_t lasts = words[first_row + (last >> 4)] & words[last_row + (last >> 4)];
-    const std::uint32_t word = firsts >> (first & 15) & lasts >> (last & 15);
-    // Negative where something is not so.
-    const int in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
-    const int touches_picture = x1 | y1 | (width - 1 - x0) | (height - 1 - y0);
-    const int in_region =
-        (x0 - left) | (y0 - top) | (right - x1) | (bottom - y1) | (kWidest_px - side);
-    const int touches_region = (x1 - left) | (y1 - top) | (right - x0) | (bottom - y0);
-    const std::uint32_t inside = word & ~Sign(in_region | in_picture) & 1;
-    const std::uint32_t outside =
-        ((word >> 16 & ~Sign(kWidest_px - side)) | Sign(touches_region)) & ~Sign(in_picture) & 1;
-    const std::uint32_t unseen = Sign(touches_picture) & 1;
-    const std::uint32_t gap = Sign(side - 2) & ~Sign(in_picture) & ~inside & ~outside & 1;
-    const std::uint32_t lane = inside | outside << 8 | unseen << 16 | gap << 24;
-    bits |= ((lane & r.asked[i]) | r.known[i]) << i;
-  }
-  return bits;
+  const Ints x0 = RoundedDown(r.x - r.reach_x), x1 = RoundedDown(r.x + r.reach_x);
+  const Ints y0 = RoundedDown(r.y - r.reach_y), y1 = RoundedDown(r.y + r.reach_y);
+  const Ints side = Most(x1 - x0, y1 - y0) + 1;
+  // Windows of half a rectangle's longer side or more, one in each corner, cover it.
+  const Ints plane = FloorLog2(Least(Most(side - 1, AllOf(1)), AllOf(kWidest_px - 1)));
+  const Ints beyond = 1 - (AllOf(1) << plane);
+  const Ints begin = plane * planes.words_per_plane;
+  const auto row_of = [&](Ints y) {
+    return begin + (Least(Most(y, AllOf(top)), AllOf(bottom)) - top) * stride;
+  };
+  const auto column_of = [&](Ints x) { return Least(Most(x, AllOf(left)), AllOf(right)) - left; };
+  const Ints first_row = row_of(y0), last_row = row_of(y1 + beyond);
+  const Ints first = column_of(x0), last = column_of(x1 + beyond);
+  const Ints firsts = LookUp(words, Places(first_row + (first >> 4))) &
+                      LookUp(words, Places(last_row + (first >> 4)));
+  const Ints lasts = LookUp(words, Places(first_row + (last >> 4))) &
+                     LookUp(words, Places(last_row + (last >> 4)));
+  const Ints word = firsts >> (first & 15) & lasts >> (last & 15);
+  // Negative where something is not so.
+  const Ints in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
+  const Ints touches_picture = x1 | y1 | (width - 1 - x0) | (height - 1 - y0);
+  const Ints in_region =
+      (x0 - left) | (y0 - top) | (right - x1) | (bottom - y1) | (kWidest_px - side);
+  const Ints touches_region = (x1 - left) | (y1 - top) | (right - x0) | (bottom - y0);
+  const Ints inside = word & ~Sign(in_region | in_picture) & 1;
+  const Ints outside =
+      ((word >> 16 & ~Sign(kWidest_px - side)) | Sign(touches_region)) & ~Sign(in_picture) & 1;
+  const Ints unseen = Sign(touches_picture) & 1;
+  const Ints gap = Sign(side - 2) & ~Sign(in_picture) & ~inside & ~outside & 1;
+  const Ints lanes = inside | outside << 8 | unseen << 16 | gap << 24;
+  alignas(32) std::array<std::uint32_t, kLanes> bits;
+  StoreLanes(((lanes & r.asked) | r.known) << Ints{0, 1, 2, 3, 4, 5, 6, 7}, bits.data());
+  return bits[0] | bits[1] | bits[2] | bits[3] | bits[4] | bits[5] | bits[6] | bits[7];
 }
 
 MOCAP_VECTORIZED
@@ -115,95 +162,86 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
   const auto [r20, r21, r22] = r2;
   const auto [p0, p1, p2] = eye.p;
   const auto [m0, m1, m2] = middle;
-  const SensorPlaneTable::Nodes t = eye.table;
-  const SensorPlaneTable::Place* const nodes = t.nodes;
+  const SensorPlaneTable::Nodes& t = eye.table;
   constexpr float kReach = SensorPlaneTable::kBendReach_cells;
   const float nearest = kNearest * half + 1;
-  Rectangles r;
-#pragma GCC ivdep
-  for (int i = 0; i < kLanes; ++i) {
-    const float wx = m0 + spread * kSignX[i];
-    const float wy = m1 + spread * kSignY[i];
-    const float wz = m2 + spread * kSignZ[i];
-    const float cx = r00 * wx + r01 * wy + r02 * wz + p0;
-    const float cy = r10 * wx + r11 * wy + r12 * wz + p1;
-    const float cz = r20 * wx + r21 * wy + r22 * wz + p2;
-    const int is_ahead = cz > nearest ? 1 : 0;
-    const float per_z = 1 / (is_ahead ? cz : nearest);
-    const float nx = cx * per_z, ny = cy * per_z;
-    // How (Xu/f, Yu/f) changes [1/mm], and how far the cube reaches there.
-    const float d0 = r20 * per_z, d1 = r21 * per_z, d2 = r22 * per_z;
-    const float u0 = r00 * per_z - nx * d0, u1 = r01 * per_z - nx * d1;
-    const float u2 = r02 * per_z - nx * d2;
-    const float v0 = r10 * per_z - ny * d0, v1 = r11 * per_z - ny * d1;
-    const float v2 = r12 * per_z - ny * d2;
-    const float slant = std::abs(d0) + std::abs(d1) + std::abs(d2);
-    const float grown = 1 / (1 - Least(half * slant, 0.5f));
-    const float reach_u = half * (std::abs(u0) + std::abs(u1) + std::abs(u2)) * grown;
-    const float reach_v = half * (std::abs(v0) + std::abs(v1) + std::abs(v2)) * grown;
-    const float field = t.field_radius + (reach_u + reach_v + 1e-3f);
-    const float inner = Most(t.field_radius - (reach_u + reach_v + 1e-3f), 0.0f);
-    const float off_axis = nx * nx + ny * ny;
-    const float beyond = Most(Most(off_axis - field * field, t.low_x - (nx + reach_u + 1e-3f)),
-                              t.low_y - (ny + reach_v + 1e-3f));
-    const float beside = Most(nx - reach_u - 1e-3f - t.high_x, ny - reach_v - 1e-3f - t.high_y);
-    const int misses = Most(beyond, beside) > 0 ? 1 : 0;
-    const int is_behind = cz < -nearest ? 1 : 0;
+  Floats sign_x, sign_y, sign_z;
+  LoadLanes(kSignX.data(), sign_x), LoadLanes(kSignY.data(), sign_y);
+  LoadLanes(kSignZ.data(), sign_z);
+  const Floats wx = m0 + spread * sign_x;
+  const Floats wy = m1 + spread * sign_y;
+  const Floats wz = m2 + spread * sign_z;
+  const Floats cx = r00 * wx + r01 * wy + r02 * wz + p0;
+  const Floats cy = r10 * wx + r11 * wy + r12 * wz + p1;
+  const Floats cz = r20 * wx + r21 * wy + r22 * wz + p2;
+  const Ints is_ahead = cz > nearest;
+  const Floats per_z = 1 / (is_ahead ? cz : AllOf(nearest));
+  const Floats nx = cx * per_z, ny = cy * per_z;
+  // How (Xu/f, Yu/f) changes [1/mm], and how far the cube reaches there.
+  const Floats d0 = r20 * per_z, d1 = r21 * per_z, d2 = r22 * per_z;
+  const Floats u0 = r00 * per_z - nx * d0, u1 = r01 * per_z - nx * d1;
+  const Floats u2 = r02 * per_z - nx * d2;
+  const Floats v0 = r10 * per_z - ny * d0, v1 = r11 * per_z - ny * d1;
+  const Floats v2 = r12 * per_z - ny * d2;
+  const Floats slant = SizeOf(d0) + SizeOf(d1) + SizeOf(d2);
+  const Floats grown = 1 / (1 - Least(half * slant, AllOf(0.5f)));
+  const Floats reach_u = half * (SizeOf(u0) + SizeOf(u1) + SizeOf(u2)) * grown;
+  const Floats reach_v = half * (SizeOf(v0) + SizeOf(v1) + SizeOf(v2)) * grown;
+  const Floats field = t.field_radius + (reach_u + reach_v + 1e-3f);
+  const Floats inner = Most(t.field_radius - (reach_u + reach_v + 1e-3f), Floats{});
+  const Floats off_axis = nx * nx + ny * ny;
+  const Floats beyond = Most(Most(off_axis - field * field, t.low_x - (nx + reach_u + 1e-3f)),
+                             t.low_y - (ny + reach_v + 1e-3f));
+  const Floats beside = Most(nx - reach_u - 1e-3f - t.high_x, ny - reach_v - 1e-3f - t.high_y);
+  const Ints misses = Most(beyond, beside) > 0;
+  const Ints is_behind = cz < -nearest;
 
-    const float u = (nx - t.origin_x) * t.cells_per_unit;
-    const float v = (ny - t.origin_y) * t.cells_per_unit;
-    const float du = reach_u * t.cells_per_unit, dv = reach_v * t.cells_per_unit;
-    const float room =
-        Least(Least(Least(u - du, t.last_column - (u + du)), Least(v - dv, t.last_row - (v + dv))),
-              Least(kReach - du, kReach - dv));
-    const int is_valid = is_ahead & (inner * inner > off_axis ? 1 : 0) & (room > 0 ? 1 : 0);
-    const float near_u = Least(Most(u, 0.0f), t.last_column - 1);
-    const float near_v = Least(Most(v, 0.0f), t.last_row - 1);
-    const int column = static_cast<int>(near_u);
-    const int row = static_cast<int>(near_v);
-    const float a = near_u - static_cast<float>(column);
-    const float b = near_v - static_cast<float>(row);
-    const int node = row * t.columns + column;
-    const int below = node + t.columns;
-    const float x00 = nodes[node].x_px, y00 = nodes[node].y_px;
-    const float x01 = nodes[node + 1].x_px, y01 = nodes[node + 1].y_px;
-    const float x10 = nodes[below].x_px, y10 = nodes[below].y_px;
-    const float x11 = nodes[below + 1].x_px, y11 = nodes[below + 1].y_px;
-    const float bend = t.bends_px[node];
-    const float top_x = x00 + a * (x01 - x00), top_y = y00 + a * (y01 - y00);
-    const float down_x = x10 + a * (x11 - x10) - top_x, down_y = y10 + a * (y11 - y10) - top_y;
-    const float right_x = (x01 - x00) + b * (x11 - x10 - x01 + x00);
-    const float right_y = (y01 - y00) + b * (y11 - y10 - y01 + y00);
-    const float x = top_x + b * down_x, y = top_y + b * down_y;
-    const float xu = right_x * t.cells_per_unit, xv = down_x * t.cells_per_unit;
-    const float yu = right_y * t.cells_per_unit, yv = down_y * t.cells_per_unit;
-    const float ax0 = xu * u0 + xv * v0, ax1 = xu * u1 + xv * v1, ax2 = xu * u2 + xv * v2;
-    const float ay0 = yu * u0 + yv * v0, ay1 = yu * u1 + yv * v1, ay2 = yu * u2 + yv * v2;
-    // Within the cube, `grown` bounds 1 / (1 + depth · o), and grown² · slant its change.
-    const float growth = grown + half * slant * grown * grown;
-    const float reach_x = (std::abs(ax0) + std::abs(ax1) + std::abs(ax2)) * growth;
-    const float reach_y = (std::abs(ay0) + std::abs(ay1) + std::abs(ay2)) * growth;
-    // The slope changes at each side of a cell that lies between, at worst at once and then after
-    // each whole cell, and along the cells.
-    const float error =
-        bend * (Most(du, 2 * du - 1) + Most(dv, 2 * dv - 1) + du * dv) + kRounding_px;
-    f.middle[0][i] = wx, f.middle[1][i] = wy, f.middle[2][i] = wz;
-    f.x[i] = x;
-    f.y[i] = y;
-    f.along_x[0][i] = ax0, f.along_x[1][i] = ax1, f.along_x[2][i] = ax2;
-    f.along_y[0][i] = ay0, f.along_y[1][i] = ay1, f.along_y[2][i] = ay2;
-    f.depth[0][i] = d0, f.depth[1][i] = d1, f.depth[2][i] = d2;
-    f.reach_x[i] = reach_x;
-    f.reach_y[i] = reach_y;
-    f.error[i] = error + static_cast<float>(1 - is_valid) * kNoFrame_px;
-    r.x[i] = x;
-    r.y[i] = y;
-    r.reach_x[i] = half * reach_x + error;
-    r.reach_y[i] = half * reach_y + error;
-    r.asked[i] = 0u - static_cast<std::uint32_t>(is_valid);
-    r.known[i] = static_cast<std::uint32_t>(is_behind | (is_ahead & misses)) << 16;
-  }
-  return JudgeAll(r, eye.planes);
+  const Floats u = (nx - t.origin_x) * t.cells_per_unit;
+  const Floats v = (ny - t.origin_y) * t.cells_per_unit;
+  const Floats du = reach_u * t.cells_per_unit, dv = reach_v * t.cells_per_unit;
+  const Floats room =
+      Least(Least(Least(u - du, t.last_column - (u + du)), Least(v - dv, t.last_row - (v + dv))),
+            Least(kReach - du, kReach - dv));
+  const Ints is_valid = is_ahead & (inner * inner > off_axis) & (room > 0);
+  const Floats near_u = Least(Most(u, Floats{}), AllOf(t.last_column - 1));
+  const Floats near_v = Least(Most(v, Floats{}), AllOf(t.last_row - 1));
+  const Ints column = TowardsZero(near_u), row = TowardsZero(near_v);
+  const Floats a = near_u - ToFloats(column), b = near_v - ToFloats(row);
+  const Places node(row * t.columns + column);
+  const auto [x00, y00, x01, y01] = Nodes(t.nodes, node);
+  const auto [x10, y10, x11, y11] = Nodes(t.nodes + t.columns, node);
+  const Floats bend = LookUp(t.bends_px, node);
+  const Floats top_x = x00 + a * (x01 - x00), top_y = y00 + a * (y01 - y00);
+  const Floats down_x = x10 + a * (x11 - x10) - top_x, down_y = y10 + a * (y11 - y10) - top_y;
+  const Floats right_x = (x01 - x00) + b * (x11 - x10 - x01 + x00);
+  const Floats right_y = (y01 - y00) + b * (y11 - y10 - y01 + y00);
+  const Floats x = top_x + b * down_x, y = top_y + b * down_y;
+  const Floats xu = right_x * t.cells_per_unit, xv = down_x * t.cells_per_unit;
+  const Floats yu = right_y * t.cells_per_unit, yv = down_y * t.cells_per_unit;
+  const Floats ax0 = xu * u0 + xv * v0, ax1 = xu * u1 + xv * v1, ax2 = xu * u2 + xv * v2;
+  const Floats ay0 = yu * u0 + yv * v0, ay1 = yu * u1 + yv * v1, ay2 = yu * u2 + yv * v2;
+  // Within the cube, `grown` bounds 1 / (1 + depth · o), and grown² · slant its change.
+  const Floats growth = grown + half * slant * grown * grown;
+  const Floats reach_x = (SizeOf(ax0) + SizeOf(ax1) + SizeOf(ax2)) * growth;
+  const Floats reach_y = (SizeOf(ay0) + SizeOf(ay1) + SizeOf(ay2)) * growth;
+  // The slope changes at each side of a cell that lies between, at worst at once and then after
+  // each whole cell, and along the cells.
+  const Floats error =
+      bend * (Most(du, 2 * du - 1) + Most(dv, 2 * dv - 1) + du * dv) + kRounding_px;
+  StoreLanes(wx, f.middle[0].data()), StoreLanes(wy, f.middle[1].data());
+  StoreLanes(wz, f.middle[2].data());
+  StoreLanes(x, f.x.data()), StoreLanes(y, f.y.data());
+  StoreLanes(ax0, f.along_x[0].data()), StoreLanes(ax1, f.along_x[1].data());
+  StoreLanes(ax2, f.along_x[2].data());
+  StoreLanes(ay0, f.along_y[0].data()), StoreLanes(ay1, f.along_y[1].data());
+  StoreLanes(ay2, f.along_y[2].data());
+  StoreLanes(d0, f.depth[0].data()), StoreLanes(d1, f.depth[1].data());
+  StoreLanes(d2, f.depth[2].data());
+  StoreLanes(reach_x, f.reach_x.data()), StoreLanes(reach_y, f.reach_y.data());
+  StoreLanes(is_valid ? error : error + kNoFrame_px, f.error.data());
+  return JudgeAll({x, y, half * reach_x + error, half * reach_y + error,
+                   (is_behind | (is_ahead & misses)) & 0x10000, is_valid},
+                  eye.planes);
 }
 
 // One lane of frames, seen from another place.
@@ -213,7 +251,7 @@ struct Frame {
   float reach_x, reach_y, error;
   std::array<float, 3> offset;  // Of that place from the middle.
 
-  inline __attribute__((always_inline))
+  MOCAP_INLINE
   Frame(const OctantFrames& f, int lane, const std::array<float, 3>& place)
       : x(f.x[lane]),
         y(f.y[lane]),
@@ -227,8 +265,7 @@ struct Frame {
                place[2] - f.middle[2][lane]} {}
 
  private:
-  static inline __attribute__((always_inline)) std::array<float, 3> At(
-      const std::array<Lanes, 3>& lanes, int lane) {
+  static MOCAP_INLINE std::array<float, 3> At(const std::array<Lanes, 3>& lanes, int lane) {
     return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
   }
 };
@@ -236,15 +273,18 @@ struct Frame {
 // A linear function of a place, there and around it.
 struct Slope {
   float middle, x, y, z;
-  inline __attribute__((always_inline))
+  MOCAP_INLINE
   Slope(const std::array<float, 3>& slope, float constant, const std::array<float, 3>& offset)
       : middle(constant + slope[0] * offset[0] + slope[1] * offset[1] + slope[2] * offset[2]),
         x(slope[0]),
         y(slope[1]),
         z(slope[2]) {}
-  // How much more it is in an octant.
-  inline __attribute__((always_inline)) float Beside(int octant, float spread) const {
-    return spread * (kSignX[octant] * x + kSignY[octant] * y + kSignZ[octant] * z);
+  // How much more it is in the octants.
+  MOCAP_INLINE Floats Beside(float spread) const {
+    Floats sign_x, sign_y, sign_z;
+    LoadLanes(kSignX.data(), sign_x), LoadLanes(kSignY.data(), sign_y);
+    LoadLanes(kSignZ.data(), sign_z);
+    return spread * (sign_x * x + sign_y * y + sign_z * z);
   }
 };
 
@@ -255,24 +295,16 @@ std::uint32_t GlanceAll(const Eye& eye, const OctantFrames& frames, int lane,
   const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
   const float reach_x = half * f.reach_x + f.error;
   const float reach_y = half * f.reach_y + f.error;
-  Rectangles r;
-#pragma GCC ivdep
-  for (int i = 0; i < kLanes; ++i) {
-    const float per_z = 1 / (z.middle + z.Beside(i, spread));
-    r.x[i] = f.x + (x.middle + x.Beside(i, spread)) * per_z;
-    r.y[i] = f.y + (y.middle + y.Beside(i, spread)) * per_z;
-    r.reach_x[i] = reach_x;
-    r.reach_y[i] = reach_y;
-    r.asked[i] = ~0u;
-    r.known[i] = 0;
-  }
-  return JudgeAll(r, eye.planes);
+  const Floats per_z = 1 / (z.middle + z.Beside(spread));
+  return JudgeAll(
+      {f.x + (x.middle + x.Beside(spread)) * per_z, f.y + (y.middle + y.Beside(spread)) * per_z,
+       AllOf(reach_x), AllOf(reach_y), Ints{}, AllOf(-1)},
+      eye.planes);
 }
 
 // Whether all within so far of a frame's place lies well within the planes' region.
-inline __attribute__((always_inline)) bool IsInRegion(const WindowMap::Planes& planes,
-                                                      const Frame& f, float x, float y,
-                                                      float half) {
+MOCAP_INLINE bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, float x, float y,
+                             float half) {
   const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
   return x - reach_x > static_cast<float>(planes.left) &&
          y - reach_y > static_cast<float>(planes.top) &&
@@ -297,35 +329,30 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
   const float error = f.error;
   const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);
   const float low_y = f.y + 0.5f - error - static_cast<float>(planes.top);
-  alignas(32) Lanes voxel_x, voxel_y, voxel_z, sample_x, sample_y, sample_z;
-  for (int i = 0; i < kLanes; ++i) {
-    voxel_x[i] = x.middle + x.Beside(i, voxel_spread);
-    voxel_y[i] = y.middle + y.Beside(i, voxel_spread);
-    voxel_z[i] = z.middle + z.Beside(i, voxel_spread);
-    sample_x[i] = x.Beside(i, sample_spread);
-    sample_y[i] = y.Beside(i, sample_spread);
-    sample_z[i] = z.Beside(i, sample_spread);
-  }
+  alignas(32) Lanes voxel_x, voxel_y, voxel_z;
+  StoreLanes(x.middle + x.Beside(voxel_spread), voxel_x.data());
+  StoreLanes(y.middle + y.Beside(voxel_spread), voxel_y.data());
+  StoreLanes(z.middle + z.Beside(voxel_spread), voxel_z.data());
+  const Floats sample_x = x.Beside(sample_spread), sample_y = y.Beside(sample_spread);
+  const Floats sample_z = z.Beside(sample_spread);
   // A word a sample; in its bytes inside, gap and outside, a bit a voxel.
-  alignas(32) std::array<std::uint32_t, kLanes> bits{};
+  Ints collected{};
   for (; asked != 0; asked &= asked - 1) {
     const int voxel = std::countr_zero(asked);
-#pragma GCC ivdep
-    for (int i = 0; i < kLanes; ++i) {
-      const float per_z = 1 / (voxel_z[voxel] + sample_z[i]);
-      const float left = low_x + (voxel_x[voxel] + sample_x[i]) * per_z;
-      const float top = low_y + (voxel_y[voxel] + sample_y[i]) * per_z;
-      const int column = static_cast<int>(left), row = static_cast<int>(top);
-      const int is_wide =
-          (static_cast<int>(left + 2 * error) - column) | (static_cast<int>(top + 2 * error) - row);
-      const auto place =
-          static_cast<std::uint32_t>((-is_wide & wider) + row * stride + (column >> 4));
-      const std::uint32_t word = words[place] >> (column & 15);
-      const std::uint32_t known = word & 0x10001;
-      const std::uint32_t gap = ~(known | known >> 16 | static_cast<std::uint32_t>(is_wide)) & 1;
-      bits[i] |= (known | gap << 8) << voxel;
-    }
+    const Floats per_z = 1 / (voxel_z[voxel] + sample_z);
+    const Floats left = low_x + (voxel_x[voxel] + sample_x) * per_z;
+    const Floats top = low_y + (voxel_y[voxel] + sample_y) * per_z;
+    const Ints column = TowardsZero(left), row = TowardsZero(top);
+    const Ints is_wide =
+        (TowardsZero(left + 2 * error) - column) | (TowardsZero(top + 2 * error) - row);
+    const Places place((-is_wide & wider) + row * stride + (column >> 4));
+    const Ints word = LookUp(words, place) >> (column & 15);
+    const Ints known = word & 0x10001;
+    const Ints gap = ~(known | known >> 16 | is_wide) & 1;
+    collected |= (known | gap << 8) << voxel;
   }
+  alignas(32) std::array<std::uint32_t, kLanes> bits;
+  StoreLanes(collected, bits.data());
   std::array<std::uint8_t, kLanes> inside, gap, outside;
   for (int i = 0; i < kLanes; ++i) {
     inside[i] = static_cast<std::uint8_t>(bits[i]);
