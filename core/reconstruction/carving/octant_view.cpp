@@ -117,7 +117,7 @@ MOCAP_INLINE Ints RoundedDown(Floats place_px) {
 MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes& planes) {
   const std::uint32_t* const words = planes.words;
   const int left = planes.left, top = planes.top, right = planes.right, bottom = planes.bottom;
-  const int width = planes.width_px, height = planes.height_px, stride = planes.words_per_row;
+  const int width = planes.width_px, height = planes.height_px, stride = planes.words_per_column;
   const Ints x0 = RoundedDown(r.x - r.reach_x), x1 = RoundedDown(r.x + r.reach_x);
   const Ints y0 = RoundedDown(r.y - r.reach_y), y1 = RoundedDown(r.y + r.reach_y);
   const Ints side = Most(x1 - x0, y1 - y0) + 1;
@@ -125,16 +125,16 @@ MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes
   const Ints plane = FloorLog2(Least(Most(side - 1, AllOf(1)), AllOf(kWidest_px - 1)));
   const Ints beyond = 1 - (AllOf(1) << plane);
   const Ints begin = plane * planes.words_per_plane;
-  const auto row_of = [&](Ints y) {
-    return begin + (Least(Most(y, AllOf(top)), AllOf(bottom)) - top) * stride;
-  };
+  const auto row_of = [&](Ints y) { return Least(Most(y, AllOf(top)), AllOf(bottom)) - top; };
   const auto column_of = [&](Ints x) { return Least(Most(x, AllOf(left)), AllOf(right)) - left; };
   const Ints first_row = row_of(y0), last_row = row_of(y1 + beyond);
   const Ints first = column_of(x0), last = column_of(x1 + beyond);
-  const Ints firsts = LookUp(words, Places(first_row + (first >> 4))) &
-                      LookUp(words, Places(last_row + (first >> 4)));
-  const Ints lasts = LookUp(words, Places(first_row + (last >> 4))) &
-                     LookUp(words, Places(last_row + (last >> 4)));
+  const Ints first_column = begin + (first >> 4) * stride,
+             last_column = begin + (last >> 4) * stride;
+  const Ints firsts = LookUp(words, Places(first_column + first_row)) &
+                      LookUp(words, Places(first_column + last_row));
+  const Ints lasts = LookUp(words, Places(last_column + first_row)) &
+                     LookUp(words, Places(last_column + last_row));
   const Ints word = firsts >> (first & 15) & lasts >> (last & 15);
   // Negative where something is not so.
   const Ints in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
@@ -325,7 +325,7 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
     return false;
   const std::uint32_t* const words = planes.words;
   const int wider = planes.words_per_plane;
-  const int stride = planes.words_per_row;
+  const int stride = planes.words_per_column;
   const float error = f.error;
   const float low_x = f.x + 0.5f - error - static_cast<float>(planes.left);
   const float low_y = f.y + 0.5f - error - static_cast<float>(planes.top);
@@ -345,7 +345,7 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
     const Ints column = TowardsZero(left), row = TowardsZero(top);
     const Ints is_wide =
         (TowardsZero(left + 2 * error) - column) | (TowardsZero(top + 2 * error) - row);
-    const Places place((-is_wide & wider) + row * stride + (column >> 4));
+    const Places place((-is_wide & wider) + (column >> 4) * stride + row);
     const Ints word = LookUp(words, place) >> (column & 15);
     const Ints known = word & 0x10001;
     const Ints gap = ~(known | known >> 16 | is_wide) & 1;

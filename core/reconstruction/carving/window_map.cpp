@@ -15,57 +15,60 @@ constexpr int kBits = 32;
 constexpr std::array<int, 3> kGapSteps_px = {1, 2, 3};
 static_assert(kGapSteps_px[0] + kGapSteps_px[1] + kGapSteps_px[2] == WindowMap::kGap_px);
 
-// Rows follow one another with a word of margin between them, so that one loop shifts all of them.
-// What is shifted out of two rows into the margin between them does not meet there.
+// Columns follow one another with margins between them, so that one loop shifts all of them. What
+// is shifted out of two columns into the margin between them does not meet there. `stride` words on
+// is what lies to the right.
 
 MOCAP_VECTORIZED
-void DilateAlong(const Word* from, int count, int step, Word* to) {
+void DilateAlong(const Word* from, int count, std::ptrdiff_t stride, int step, Word* to) {
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i)
-    to[i] = from[i] | from[i] << step | from[i - 1] >> (kBits - step) | from[i] >> step |
-            from[i + 1] << (kBits - step);
+    to[i] = from[i] | from[i] << step | from[i - stride] >> (kBits - step) | from[i] >> step |
+            from[i + stride] << (kBits - step);
 }
 
 MOCAP_VECTORIZED
-void ErodeAlong(const Word* from, int count, int step, Word* to) {
+void ErodeAlong(const Word* from, int count, std::ptrdiff_t stride, int step, Word* to) {
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i)
-    to[i] = from[i] & (from[i] << step | from[i - 1] >> (kBits - step)) &
-            (from[i] >> step | from[i + 1] << (kBits - step));
-}
-
-// `reach` words lie between rows that are `step` apart.
-MOCAP_VECTORIZED
-void DilateAcross(const Word* from, int count, std::ptrdiff_t reach, Word* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] | from[i - reach] | from[i + reach];
+    to[i] = from[i] & (from[i] << step | from[i - stride] >> (kBits - step)) &
+            (from[i] >> step | from[i + stride] << (kBits - step));
 }
 
 MOCAP_VECTORIZED
-void ErodeAcross(const Word* from, int count, std::ptrdiff_t reach, Word* to) {
+void DilateAcross(const Word* from, int count, int step, Word* to) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] & from[i - reach] & from[i + reach];
+  for (int i = 0; i < count; ++i) to[i] = from[i] | from[i - step] | from[i + step];
+}
+
+MOCAP_VECTORIZED
+void ErodeAcross(const Word* from, int count, int step, Word* to) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) to[i] = from[i] & from[i - step] & from[i + step];
 }
 
 // Lets windows grow to the right, and down.
 MOCAP_VECTORIZED
-void Widen(Word* bits, int count, int step) {
+void Widen(Word* bits, int count, std::ptrdiff_t stride, int step) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) bits[i] &= bits[i] >> step | bits[i + 1] << (kBits - step);
+  for (int i = 0; i < count; ++i) bits[i] &= bits[i] >> step | bits[i + stride] << (kBits - step);
 }
 
 MOCAP_VECTORIZED
-void Heighten(Word* bits, int count, std::ptrdiff_t reach) {
+void Heighten(Word* bits, int columns, std::ptrdiff_t stride, int rows, int step) {
+  for (int column = 0; column < columns; ++column, bits += stride) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) bits[i] &= bits[i + reach];
+    for (int i = 0; i < rows - step; ++i) bits[i] &= bits[i + step];
+  }
 }
 
+// Joins words of 32 pixels to two columns of 16.
 MOCAP_VECTORIZED
-void Interleave(const Word* inside, const Word* outside, int count, Word* to) {
+void Join(const Word* inside, const Word* outside, int rows, Word* left, Word* right) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    to[2 * i] = (inside[i] & 0xffff) | outside[i] << 16;
-    to[2 * i + 1] = inside[i] >> 16 | (outside[i] & 0xffff0000);
+  for (int i = 0; i < rows; ++i) {
+    left[i] = (inside[i] & 0xffff) | outside[i] << 16;
+    right[i] = inside[i] >> 16 | (outside[i] & 0xffff0000);
   }
 }
 
@@ -88,7 +91,8 @@ void WindowMap::Measure(const Silhouette& silhouette, const PixelBox& box, bool 
   top_ = std::max(box.top - margin, 0);
   bottom_ = std::min(box.bottom + margin, height_px_ - 1);
   rows_ = bottom_ - top_ + 1;
-  stride_ = (right_ - left_) / kBits + 2;
+  columns_ = (right_ - left_) / kBits + 1;
+  stride_ = rows_ + 2 * kGap_px;
   Extract(silhouette);
   outside_ = inside_;
   if (closes_gaps) CloseGaps();
@@ -98,78 +102,77 @@ void WindowMap::Measure(const Silhouette& silhouette, const PixelBox& box, bool 
 }
 
 void WindowMap::Extract(const Silhouette& silhouette) {
-  inside_.assign(static_cast<std::size_t>(stride_) * (rows_ + 2 * kGap_px) + 2, 0);
-  Word* to = FirstRow(inside_);
-  for (int y = top_; y <= bottom_; ++y, to += stride_)
-    for (int i = 0; i + 1 < stride_; ++i)
-      to[i] = BitsAt(silhouette.row(y), silhouette.words_per_row(), left_ + i * kBits);
+  inside_.assign(static_cast<std::size_t>(stride_) * (columns_ + 2), 0);
+  for (int i = 0; i < columns_; ++i) {
+    Word* const to = Column(inside_, i) - top_;
+    for (int y = top_; y <= bottom_; ++y)
+      to[y] = BitsAt(silhouette.row(y), silhouette.words_per_row(), left_ + i * kBits);
+  }
 }
 
 void WindowMap::CloseGaps() {
   scratch_.resize(inside_.size());
   std::fill(scratch_.begin(), scratch_.end(), 0);
-  const int count = stride_ * rows_;
+  const int count = WordsBetween();
   for (const int step : kGapSteps_px) {
-    DilateAlong(FirstRow(outside_), count, step, FirstRow(scratch_));
+    DilateAlong(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   for (const int step : kGapSteps_px) {
-    DilateAcross(FirstRow(outside_), count, step * stride_, FirstRow(scratch_));
+    DilateAcross(Column(outside_, 0), count, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   // What lies beyond the picture's edge counts as set.
   SetMargins(true, outside_);
   SetMargins(true, scratch_);
   for (const int step : kGapSteps_px) {
-    ErodeAlong(FirstRow(outside_), count, step, FirstRow(scratch_));
+    ErodeAlong(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   for (const int step : kGapSteps_px) {
-    ErodeAcross(FirstRow(outside_), count, step * stride_, FirstRow(scratch_));
+    ErodeAcross(Column(outside_, 0), count, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
 }
 
 // Empties what is beside the region; or sets it where that is beyond the picture's edge.
 void WindowMap::SetMargins(bool set_beyond_picture, Bits& bits) const {
-  const Word all = ~Word{0};
-  const bool set_left = set_beyond_picture && left_ == 0;
-  const bool set_right = set_beyond_picture && right_ == width_px_ - 1;
-  const Word above = set_beyond_picture && top_ == 0 ? all : 0;
-  const Word below = set_beyond_picture && bottom_ == height_px_ - 1 ? all : 0;
-  // A margin's lower half is right of a row, its upper half left of the next.
-  const Word between = (set_right ? all >> kBits / 2 : 0) | (set_left ? all << kBits / 2 : 0);
-  Word* const first = FirstRow(bits);
-  std::fill(bits.data(), first, above);
-  first[-1] = (first[-1] & all >> kBits / 2) | (set_left ? all << kBits / 2 : 0);
+  const auto filler = [&](bool is_edge) { return set_beyond_picture && is_edge ? ~Word{0} : 0; };
+  const Word left = filler(left_ == 0), right = filler(right_ == width_px_ - 1);
+  const Word above = filler(top_ == 0), below = filler(bottom_ == height_px_ - 1);
   const int last_bits = (right_ - left_) % kBits + 1;
-  const Word beyond = last_bits == kBits ? 0 : all << last_bits;
-  for (int row = 0; row < rows_; ++row) {
-    Word* const last = first + row * stride_ + stride_ - 2;
-    last[0] = (last[0] & ~beyond) | (set_right ? beyond : 0);
-    last[1] = between;
+  const Word beyond = last_bits == kBits ? 0 : ~Word{0} << last_bits;
+  Word* const last = Column(bits, columns_ - 1);
+  for (int row = 0; row < rows_; ++row) last[row] = (last[row] & ~beyond) | (right & beyond);
+  std::fill_n(Column(bits, -1), rows_, left);
+  std::fill_n(Column(bits, columns_), rows_, right);
+  for (int i = -1; i <= columns_; ++i) {
+    std::fill_n(Column(bits, i) - kGap_px, kGap_px, above);
+    std::fill_n(Column(bits, i) + rows_, kGap_px, below);
   }
-  std::fill(first + stride_ * rows_, bits.data() + bits.size(), below);
 }
 
 void WindowMap::WritePlanes() {
-  const int count = stride_ * rows_;
-  const std::size_t words = static_cast<std::size_t>(2) * count;
+  const std::size_t words = static_cast<std::size_t>(2) * columns_ * rows_;
   planes_.resize(words * kPlanes);
-  Word* const inside = FirstRow(inside_);
-  Word* const outside = FirstRow(outside_);
-  Interleave(inside, outside, count, planes_.data());
-  for (int plane = 1; plane < kPlanes; ++plane) {
-    const int step = 1 << (plane - 1);
-    const int higher = stride_ * std::max(rows_ - step, 0);
-    for (Word* const bits : {inside, outside}) {
-      Widen(bits, count, step);
-      Heighten(bits, higher, step * stride_);
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    if (plane > 0) Grow(1 << (plane - 1));
+    for (int i = 0; i < columns_; ++i) {
+      Word* const to = &planes_[words * plane + static_cast<std::size_t>(2) * i * rows_];
+      Join(Column(inside_, i), Column(outside_, i), rows_, to, to + rows_);
     }
-    // Below the region nothing is inside.
-    std::fill(inside + higher, inside + count, 0);
-    Interleave(inside, outside, count, &planes_[words * plane]);
   }
+}
+
+// Makes windows so much larger.
+void WindowMap::Grow(int step) {
+  for (Bits* const bits : {&inside_, &outside_}) {
+    Widen(Column(*bits, 0), WordsBetween(), stride_, step);
+    Heighten(Column(*bits, 0), columns_, stride_, rows_, step);
+  }
+  // Below the region nothing is inside.
+  const int lowest = std::min(step, rows_);
+  for (int i = 0; i < columns_; ++i) std::fill_n(Column(inside_, i) + rows_ - lowest, lowest, 0);
 }
 
 }  // namespace mocap

@@ -14,7 +14,9 @@ namespace mocap {
 ///
 /// A map is made of planes, one for each size of window, with two bits for each place of the
 /// window's top left pixel: sixteen places make a word, `inside` in its lower half and `outside` in
-/// its upper one. Thread-bound; reuses its memory.
+/// its upper one. Words that lie one below the other follow one another, for what is looked up at
+/// once is near, and a row lower more often than a word to the right. Thread-bound; reuses its
+/// memory.
 class WindowMap {
  public:
   enum class Kind { kInside, kGap, kOutside };
@@ -29,7 +31,7 @@ class WindowMap {
   /// Planes as loops over many windows want them.
   struct Planes {
     const std::uint32_t* words = nullptr;
-    int words_per_row = 0, words_per_plane = 0;
+    int words_per_column = 0, words_per_plane = 0;
     /// The region beside which all is outside, its last column and row included.
     int left = 0, top = 0, right = -1, bottom = -1;
     int width_px = 0, height_px = 0;  ///< Of the picture.
@@ -44,30 +46,36 @@ class WindowMap {
     if (x < left_ || x > right_ || y < top_ || y > bottom_) return Kind::kOutside;
     const int column = x - left_;
     const std::uint32_t word =
-        planes_[static_cast<std::size_t>(y - top_) * 2 * stride_ + (column >> 4)] >> (column & 15);
+        planes_[static_cast<std::size_t>(column >> 4) * rows_ + (y - top_)] >> (column & 15);
     if (word & 1) return Kind::kInside;
     return word >> 16 & 1 ? Kind::kOutside : Kind::kGap;
   }
 
   Planes planes() const {
-    return {planes_.data(), 2 * stride_, 2 * stride_ * rows_, left_,     top_,
-            right_,         bottom_,     width_px_,           height_px_};
+    return {planes_.data(), rows_,     2 * columns_ * rows_, left_, top_, right_, bottom_,
+            width_px_,      height_px_};
   }
 
  private:
-  // Rows of pixels, one bit each, with margins all around.
+  // Columns of words, a bit a pixel of a row, with margins all around.
   using Bits = std::vector<std::uint32_t>;
 
   void Extract(const Silhouette& silhouette);
   void CloseGaps();
   void SetMargins(bool set_beyond_picture, Bits& bits) const;
   void WritePlanes();
-  std::uint32_t* FirstRow(Bits& bits) const { return bits.data() + 1 + kGap_px * stride_; }
+  void Grow(int step);
+  // The topmost word of a column; of the margins beside them, too.
+  std::uint32_t* Column(Bits& bits, int column) const {
+    return bits.data() + (column + 1) * stride_ + kGap_px;
+  }
+  // From the topmost word of the first column to the lowest of the last.
+  int WordsBetween() const { return columns_ * stride_ - 2 * kGap_px; }
 
   int width_px_ = 0, height_px_ = 0;
   int left_ = 0, top_ = 0, right_ = -1, bottom_ = -1;
-  int rows_ = 0;
-  int stride_ = 0;  ///< Words a row, the last of them margin.
+  int rows_ = 0, columns_ = 0;
+  int stride_ = 0;  ///< From a column to the next.
   Bits inside_, outside_, scratch_;
   std::vector<std::uint32_t> planes_;
 };

@@ -89,8 +89,8 @@ TEST(WindowMap, KnowsOfWindowsWhetherAllOfThemIsInsideOrOutside) {
           }
           const int column = x - planes.left;
           const std::uint32_t word =
-              planes.words[plane * planes.words_per_plane +
-                           (y - planes.top) * planes.words_per_row + column / 16] >>
+              planes.words[plane * planes.words_per_plane + column / 16 * planes.words_per_column +
+                           (y - planes.top)] >>
               column % 16;
           ASSERT_EQ((word & 1) != 0, is_inside) << side << " at " << x << " " << y;
           ASSERT_EQ((word >> 16 & 1) != 0, is_outside) << side << " at " << x << " " << y;
