@@ -1,7 +1,7 @@
 #include "core/reconstruction/carving/octant_view.h"
 
 #include <bit>
-#include <cmath>
+#include <cstring>
 
 #include "core/lanes.h"
 
@@ -312,6 +312,20 @@ MOCAP_INLINE bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, fl
          y + reach_y < static_cast<float>(planes.bottom);
 }
 
+// A bit of each byte.
+constexpr std::uint64_t kEach = 0x0101010101010101;
+
+// The lowest bytes of eight words, then the next, and so on.
+MOCAP_INLINE void SortBytes(Ints words, std::array<std::uint64_t, 4>& bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
+  const auto mixed = reinterpret_cast<Bytes>(words);
+  const Bytes sorted =
+      __builtin_shufflevector(mixed, mixed, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25,
+                              29, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+  std::memcpy(bytes.data(), &sorted, sizeof sorted);
+}
+
 // The samples of eight voxels, by windows of one pixel or two. Returns whether all of them lie in
 // the region that the planes cover; otherwise nothing is told.
 MOCAP_VECTORIZED
@@ -335,10 +349,10 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
   StoreLanes(z.middle + z.Beside(voxel_spread), voxel_z.data());
   const Floats sample_x = x.Beside(sample_spread), sample_y = y.Beside(sample_spread);
   const Floats sample_z = z.Beside(sample_spread);
-  // A word a sample; in its bytes inside, gap and outside, a bit a voxel.
+  // A word a sample; in its bytes what is inside, undecided and outside, a bit a voxel.
   Ints collected{};
-  for (; asked != 0; asked &= asked - 1) {
-    const int voxel = std::countr_zero(asked);
+  for (unsigned left_over = asked; left_over != 0; left_over &= left_over - 1) {
+    const int voxel = std::countr_zero(left_over);
     const Floats per_z = 1 / (voxel_z[voxel] + sample_z);
     const Floats left = low_x + (voxel_x[voxel] + sample_x) * per_z;
     const Floats top = low_y + (voxel_y[voxel] + sample_y) * per_z;
@@ -347,21 +361,12 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
         (TowardsZero(left + 2 * error) - column) | (TowardsZero(top + 2 * error) - row);
     const Places place((-is_wide & wider) + (column >> 4) * stride + row);
     const Ints word = LookUp(words, place) >> (column & 15);
-    const Ints known = word & 0x10001;
-    const Ints gap = ~(known | known >> 16 | is_wide) & 1;
-    collected |= (known | gap << 8) << voxel;
+    collected |= ((word & 0x10001) | is_wide << 8) << voxel;
   }
-  alignas(32) std::array<std::uint32_t, kLanes> bits;
-  StoreLanes(collected, bits.data());
-  std::array<std::uint8_t, kLanes> inside, gap, outside;
-  for (int i = 0; i < kLanes; ++i) {
-    inside[i] = static_cast<std::uint8_t>(bits[i]);
-    gap[i] = static_cast<std::uint8_t>(bits[i] >> 8);
-    outside[i] = static_cast<std::uint8_t>(bits[i] >> 16);
-  }
-  static_assert(std::endian::native == std::endian::little);
-  verdicts = {std::bit_cast<std::uint64_t>(inside), std::bit_cast<std::uint64_t>(outside), 0,
-              std::bit_cast<std::uint64_t>(gap)};
+  std::array<std::uint64_t, 4> bytes;
+  SortBytes(collected, bytes);
+  const auto [inside, undecided, outside, none] = bytes;
+  verdicts = {inside, outside, 0, kEach * asked & ~(inside | undecided | outside)};
   return true;
 }
 
@@ -400,10 +405,9 @@ SampleVerdicts OctantView::GlanceSamples(const OctantFrames& frames, int lane,
   SampleVerdicts verdicts;
   if (GlanceSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked, verdicts))
     return verdicts;
-  constexpr std::uint64_t kAll = 0x0101010101010101;
   const OctantVerdicts voxels =
       Unpack(GlanceAll(eye_, frames, lane, p, voxel_spread, sample_spread));
-  verdicts = {kAll * voxels.inside, kAll * voxels.outside, kAll * voxels.unseen, 0};
+  verdicts = {kEach * voxels.inside, kEach * voxels.outside, kEach * voxels.unseen, 0};
   unsigned open = asked & ~(voxels.inside | voxels.outside | voxels.unseen);
   for (; open != 0; open &= open - 1) {
     const int voxel = std::countr_zero(open);
