@@ -201,8 +201,6 @@ void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image
     full_height_ = image.height();
     knows_region_ = false;
     live_ = HalfPicture(full_width_, full_height_);
-    alphas_.resize(static_cast<std::size_t>(live_.width));
-    columns_.resize(static_cast<std::size_t>(live_.width));
     for (auto* values : {&tiles_.mean[0], &tiles_.mean[1], &tiles_.mean[2], &tiles_.alpha,
                          &tiles_.tint, &tiles_.glare, &tiles_.misfit})
       values->resize(live_.tiles());
@@ -269,23 +267,16 @@ void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
-  const int count = run.end - run.begin;
+  const std::size_t begin =
+      static_cast<std::size_t>(run.row) * kTile * live_.width + run.begin * kTile;
+  TilePixels tiles{{}, {}, &expected.variance[begin], &expected.slope[begin], live_.width};
+  for (int c = 0; c < 3; ++c) {
+    tiles.live[c] = &live_.color[c][begin];
+    tiles.expected[c] = &expected.mean.color[c][begin];
+  }
   const std::size_t first = FirstOf(run);
-  for (int i = 0; i < count * kTile; ++i) alphas_[i] = tiles_.alpha[first + i / kTile];
-  std::fill_n(columns_.begin(), count * kTile, 0.0f);
-  for (int y = run.row * kTile; y < (run.row + 1) * kTile; ++y) {
-    const std::size_t begin = static_cast<std::size_t>(y) * live_.width + run.begin * kTile;
-    PixelRow pixels{{}, {}, &expected.variance[begin], &expected.slope[begin], alphas_.data()};
-    for (int c = 0; c < 3; ++c) {
-      pixels.live[c] = &live_.color[c][begin];
-      pixels.expected[c] = &expected.mean.color[c][begin];
-    }
-    AddMisfits(pixels, count * kTile, allowance_, columns_.data());
-  }
-  for (int i = 0; i < count; ++i) {
-    const float* const sums = &columns_[static_cast<std::size_t>(i) * kTile];
-    tiles_.misfit[first + i] = (sums[0] + sums[1] + sums[2] + sums[3]) / kArea;
-  }
+  MeasureMisfits(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first],
+                 &tiles_.misfit[first]);
 }
 
 void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {

@@ -84,7 +84,7 @@ class CoarseScan {
   std::vector<std::uint16_t> row_sums_;
   Tiles tiles_;
   std::vector<std::size_t> samples_;  // Some of the tiles in whole rows.
-  std::vector<float> columns_, alphas_, values_;
+  std::vector<float> values_;
   Conditions conditions_;
   float distance_ = 0, shift_px_ = 0;
   Allowance allowance_;

@@ -1,9 +1,11 @@
 #include "core/reconstruction/silhouette/tile_comparison.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstring>
 
-#include "core/vectorized.h"
+#include "core/lanes.h"
 
 namespace mocap {
 namespace {
@@ -25,23 +27,57 @@ struct Slope {
   float middle = 0, right = 0, down = 0;
 };
 
+using Row = float __attribute__((vector_size(kTile * sizeof(float))));
+
+// Two rows of a tile, one after the other.
+static_assert(kFloats == 2 * kTile);
+
+MOCAP_INLINE Floats LoadRows(const std::uint8_t* first, int stride) {
+  std::int32_t top, bottom;
+  std::memcpy(&top, first, sizeof top), std::memcpy(&bottom, first + stride, sizeof bottom);
+  const Ints rows =
+      __builtin_shufflevector(Ints{} + top, Ints{} + bottom, 0, 1, 2, 3, 12, 13, 14, 15);
+  static_assert(std::endian::native == std::endian::little);
+  return __builtin_convertvector(rows >> Ints{0, 8, 16, 24, 0, 8, 16, 24} & 0xff, Floats);
+}
+
+MOCAP_INLINE Floats LoadRows(const float* first, int stride) {
+  Row top, bottom;
+  LoadLanes(first, top), LoadLanes(first + stride, bottom);
+  return __builtin_shufflevector(top, bottom, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+// How two rows of a tile, from such a pixel on, differ.
+MOCAP_INLINE Floats MisfitsOfRows(const TilePixels& tiles, std::ptrdiff_t first,
+                                  const Allowance& allowance, float alpha) {
+  Floats squares{};
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c) {
+    const Floats d = allowance.gain[c] * LoadRows(tiles.live[c] + first, tiles.stride) -
+                     alpha * LoadRows(tiles.expected[c] + first, tiles.stride);
+    squares += d * d;
+  }
+  const Floats slope = LoadRows(tiles.slope + first, tiles.stride);
+  return squares / (LoadRows(tiles.variance + first, tiles.stride) + allowance.drift_sq +
+                    allowance.shift_sq * slope * slope);
+}
+
 }  // namespace
 
 MOCAP_VECTORIZED
-void AddMisfits(const PixelRow& row, int width, const Allowance& allowance, float* sums) {
-  const auto [gain0, gain1, gain2] = allowance.gain;
-  const float drift_sq = allowance.drift_sq, shift_sq = allowance.shift_sq;
-  const float *const variance = row.variance, *const alpha = row.alpha;
-  const std::uint8_t* const slopes = row.slope;
-  const auto [l0, l1, l2] = row.live;
-  const auto [e0, e1, e2] = row.expected;
-#pragma GCC ivdep
-  for (int x = 0; x < width; ++x) {
-    const float d0 = gain0 * l0[x] - alpha[x] * e0[x];
-    const float d1 = gain1 * l1[x] - alpha[x] * e1[x];
-    const float d2 = gain2 * l2[x] - alpha[x] * e2[x];
-    const float slope = slopes[x];
-    sums[x] += (d0 * d0 + d1 * d1 + d2 * d2) / (variance[x] + drift_sq + shift_sq * slope * slope);
+void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
+                    const float* alphas, float* misfits) {
+  const Allowance allowed = allowance;
+  for (int i = 0; i < count; ++i) {
+    const Floats upper = MisfitsOfRows(tiles, i * kTile, allowed, alphas[i]);
+    const Floats lower = MisfitsOfRows(tiles, i * kTile + 2 * tiles.stride, allowed, alphas[i]);
+    std::array<float, kTile> columns;
+    StoreLanes(__builtin_shufflevector(upper, upper, 0, 1, 2, 3) +
+                   __builtin_shufflevector(upper, upper, 4, 5, 6, 7) +
+                   __builtin_shufflevector(lower, lower, 0, 1, 2, 3) +
+                   __builtin_shufflevector(lower, lower, 4, 5, 6, 7),
+               columns.data());
+    misfits[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
   }
 }
 

@@ -15,17 +15,19 @@ struct Allowance {
   float shift_sq = 0;                  ///< So many times a slope's square is, too [pixels²].
 };
 
-/// A row of pixels, channel by channel.
-struct PixelRow {
+/// Pixels of tiles that lie side by side, channel by channel, from the first tile's first on.
+struct TilePixels {
   std::array<const std::uint8_t*, 3> live, expected;
   const float* variance;
   const std::uint8_t* slope;
-  const float* alpha;  ///< The brightness distortion of each pixel's tile.
+  int stride;  ///< From a row to the next.
 };
 
-/// Adds to `sums` by how many variances pixels differ from what is expected, but for their tile's
-/// brightness.
-void AddMisfits(const PixelRow& row, int width, const Allowance& allowance, float* sums);
+/// Measures by how many variances the pixels of tiles differ from what is expected in the mean, but
+/// for their tile's brightness.
+/// @param alphas  the tiles' brightness distortion.
+void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
+                    const float* alphas, float* misfits);
 
 /// Means of tiles, channel by channel.
 struct TileMeans {
