@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-/// Stands before a function whose loops shall use AVX2 where the processor has it; which version
-/// runs is settled when the program is loaded. No fused multiply-add: results are the same bits on
-/// every x86-64. Other processors have one version.
+/// Stands before a function whose loops shall use AVX2 or AVX-512 where the processor has it; which
+/// version runs is settled when the program is loaded. Compiled with -ffp-contract=off, results are
+/// the same bits on every x86-64. Other processors have one version.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define MOCAP_VECTORIZED __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))

@@ -1,0 +1,83 @@
+#include "core/reconstruction/silhouette/tile_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace mocap {
+namespace {
+
+constexpr int kTile = HalfPicture::kTile;
+constexpr int kTiles = 5;
+constexpr int kStride = kTiles * kTile;
+constexpr int kPixels = kStride * kTile;
+constexpr Allowance kAllowance{.gain = {1.1f, 0.9f, 1.0f}, .drift_sq = 2, .shift_sq = 0.3f};
+
+// Tiles of any colours.
+struct SomeTiles {
+  SomeTiles() {
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> level(0, 255);
+    for (auto* planes : {&live, &expected})
+      for (std::vector<std::uint8_t>& plane : *planes) {
+        plane.resize(kPixels);
+        for (std::uint8_t& value : plane) value = static_cast<std::uint8_t>(level(random));
+      }
+    for (int i = 0; i < kPixels; ++i) {
+      variance.push_back(1 + static_cast<float>(level(random)) / 10);
+      slope.push_back(static_cast<std::uint8_t>(level(random)));
+    }
+  }
+  TilePixels From(int tile) const {
+    TilePixels pixels{{}, {}, &variance[tile * kTile], &slope[tile * kTile], kStride};
+    for (int c = 0; c < 3; ++c) {
+      pixels.live[c] = &live[c][tile * kTile];
+      pixels.expected[c] = &expected[c][tile * kTile];
+    }
+    return pixels;
+  }
+  double MisfitOf(int tile, double alpha) const {
+    double misfit = 0;
+    for (int y = 0; y < kTile; ++y) {
+      for (int x = 0; x < kTile; ++x) {
+        const int i = y * kStride + tile * kTile + x;
+        double squares = 0;
+        for (int c = 0; c < 3; ++c) {
+          const double d = kAllowance.gain[c] * live[c][i] - alpha * expected[c][i];
+          squares += d * d;
+        }
+        misfit += squares /
+                  (variance[i] + kAllowance.drift_sq + kAllowance.shift_sq * slope[i] * slope[i]);
+      }
+    }
+    return misfit / (kTile * kTile);
+  }
+
+  std::array<std::vector<std::uint8_t>, 3> live, expected;
+  std::vector<float> variance;
+  std::vector<std::uint8_t> slope;
+};
+
+TEST(TileComparison, MisfitsAreThoseOfThePlainDefinition) {
+  const SomeTiles tiles;
+  const std::array<float, kTiles> alphas = {1, 0.5f, 1.3f, 0.9f, 0.7f};
+  for (int begin = 0; begin < kTiles; ++begin) {
+    for (int count = 0; begin + count <= kTiles; ++count) {
+      constexpr float kUntouched = -1;
+      std::array<float, kTiles + 1> misfits;
+      misfits.fill(kUntouched);
+      MeasureMisfits(tiles.From(begin), count, kAllowance, &alphas[begin], misfits.data());
+      for (int i = 0; i < count; ++i) {
+        const double wanted = tiles.MisfitOf(begin + i, alphas[begin + i]);
+        EXPECT_NEAR(misfits[i], wanted, 1e-4 * wanted) << begin << " " << i;
+      }
+      EXPECT_EQ(misfits[count], kUntouched);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocap
