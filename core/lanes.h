@@ -15,6 +15,8 @@ namespace mocap {
 
 /// So many numbers side by side, for what the compiler would make branches of. They live in
 /// registers only, because how they lie in memory depends on the processor: there they are arrays.
+/// How they are handed over depends on it as well: functions that take or give them are
+/// MOCAP_INLINE.
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 inline constexpr int kFloats = 8;

@@ -47,6 +47,10 @@ MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
 MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
 MOCAP_INLINE Ints AllOf(int number) { return Ints{} + number; }
 
+MOCAP_INLINE Ints Within(Ints x, int low, int high) {
+  return Least(Most(x, AllOf(low)), AllOf(high));
+}
+
 MOCAP_INLINE Floats SizeOf(Floats x) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
 }
@@ -83,13 +87,8 @@ MOCAP_INLINE Floats LookUp(const float* numbers, const Places& places) {
 // Where nodes of the table, and those right of them, are in the picture.
 struct Nodes {
   MOCAP_INLINE Nodes(const SensorPlaneTable::Place* nodes, const Places& places) {
-    // A node and the next are four numbers: read at once, and transposed.
-    const auto two_of = [&](int i) {
-      float __attribute__((vector_size(16))) low, high;
-      LoadLanes(&nodes[places.at[i]].x_px, low), LoadLanes(&nodes[places.at[i + 4]].x_px, high);
-      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-    };
-    const Floats a = two_of(0), b = two_of(1), c = two_of(2), d = two_of(3);
+    const Floats a = TwoOf(nodes, places, 0), b = TwoOf(nodes, places, 1);
+    const Floats c = TwoOf(nodes, places, 2), d = TwoOf(nodes, places, 3);
     const Floats ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
     const Floats cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
     const Floats next_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
@@ -100,6 +99,17 @@ struct Nodes {
     next_y = __builtin_shufflevector(next_ab, next_cd, 2, 3, 10, 11, 6, 7, 14, 15);
   }
   Floats x, y, next_x, next_y;
+
+ private:
+  // A node and the next are four numbers: read at once, with those of four lanes on, and transposed
+  // then.
+  static MOCAP_INLINE Floats TwoOf(const SensorPlaneTable::Place* nodes, const Places& places,
+                                   int lane) {
+    float __attribute__((vector_size(16))) low, high;
+    LoadLanes(&nodes[places.at[lane]].x_px, low);
+    LoadLanes(&nodes[places.at[lane + 4]].x_px, high);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
 };
 
 struct Rectangles {
@@ -125,12 +135,11 @@ MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes
   const Ints plane = FloorLog2(Least(Most(side - 1, AllOf(1)), AllOf(kWidest_px - 1)));
   const Ints beyond = 1 - (AllOf(1) << plane);
   const Ints begin = plane * planes.words_per_plane;
-  const auto row_of = [&](Ints y) { return Least(Most(y, AllOf(top)), AllOf(bottom)) - top; };
-  const auto column_of = [&](Ints x) { return Least(Most(x, AllOf(left)), AllOf(right)) - left; };
-  const Ints first_row = row_of(y0), last_row = row_of(y1 + beyond);
-  const Ints first = column_of(x0), last = column_of(x1 + beyond);
-  const Ints first_column = begin + (first >> 4) * stride,
-             last_column = begin + (last >> 4) * stride;
+  const Ints first_row = Within(y0, top, bottom) - top;
+  const Ints last_row = Within(y1 + beyond, top, bottom) - top;
+  const Ints first = Within(x0, left, right) - left, last = Within(x1 + beyond, left, right) - left;
+  const Ints first_column = begin + (first >> 4) * stride;
+  const Ints last_column = begin + (last >> 4) * stride;
   const Ints firsts = LookUp(words, Places(first_column + first_row)) &
                       LookUp(words, Places(first_column + last_row));
   const Ints lasts = LookUp(words, Places(last_column + first_row)) &
