@@ -269,7 +269,7 @@ void LimbRecovery::StartOver() {
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
                                const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                                Candidate& present) {
-  const auto [left, right] = limb_ends;
+  const Segment left = limb_ends.first, right = limb_ends.second;
   const auto best = [&](LimbSearch& search, LimbSearch&) {
     FindBest(search, StancesOf(left), present.pose, kPairRefined);
   };
@@ -282,7 +282,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
 bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
                             const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                             Candidate& present) {
-  const auto [left, right] = limb_ends;
+  const Segment left = limb_ends.first, right = limb_ends.second;
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
     FindTowards(search, StancesOf(left), present.pose, other.TipAt(present.pose));
   };
