@@ -1,6 +1,7 @@
 // Numbers side by side, for loops whose choices the compiler would make branches of.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -43,6 +44,45 @@ MOCAP_INLINE void TakeRoots(Lanes& x) {
 #pragma GCC unroll 1
   for (auto& number : numbers) number = std::sqrt(number);
   LoadLanes(numbers, x);
+}
+
+/// The lesser, or the larger, lane by lane.
+template <typename Lanes>
+MOCAP_INLINE Lanes Least(Lanes a, Lanes b) {
+  return a < b ? a : b;
+}
+template <typename Lanes>
+MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
+  return a < b ? b : a;
+}
+MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
+MOCAP_INLINE Ints AllOf(int number) { return Ints{} + number; }
+MOCAP_INLINE Ints Within(Ints x, int low, int high) {
+  return Least(Most(x, AllOf(low)), AllOf(high));
+}
+MOCAP_INLINE Floats SizeOf(Floats x) {
+  return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
+}
+MOCAP_INLINE Ints TowardsZero(Floats x) { return __builtin_convertvector(x, Ints); }
+MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats); }
+
+/// Where eight numbers of a table are taken from: they go through memory, for to take them out of a
+/// register one by one keeps busy what else shuffles.
+struct Places {
+  MOCAP_INLINE explicit Places(Ints places) {
+    StoreLanes(places, at.data());
+    asm("" : "+m"(at));  // Compilers know that they are still in a register.
+  }
+  alignas(32) std::array<std::int32_t, kFloats> at;
+};
+MOCAP_INLINE Ints LookUp(const std::uint32_t* words, const Places& places) {
+  const auto word = [&](int i) { return static_cast<std::int32_t>(words[places.at[i]]); };
+  return Ints{word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7)};
+}
+MOCAP_INLINE Floats LookUp(const float* numbers, const Places& places) {
+  const auto number = [&](int i) { return numbers[places.at[i]]; };
+  return Floats{number(0), number(1), number(2), number(3),
+                number(4), number(5), number(6), number(7)};
 }
 
 }  // namespace mocap
