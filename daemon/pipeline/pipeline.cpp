@@ -19,13 +19,13 @@ struct QueueSizes {
   std::size_t frames, sets;
 };
 
-/// Where nothing waits for a pose, every thread finds enough to do.
-constexpr QueueSizes kRoomy{.frames = 8, .sets = 4};
+/// Where nothing waits for a pose, every thread finds enough to do, and sets are not laid by.
+constexpr QueueSizes kPatient{.frames = 8, .sets = 4};
 /// Live, frames do not become old; but who comes in has to be found, and cameras go on meanwhile.
 constexpr QueueSizes kLive{.frames = 4, .sets = LoadControl::kMostUnderWay};
 
 constexpr const QueueSizes& SizesFor(Overflow overflow) {
-  return overflow == Overflow::kWait ? kRoomy : kLive;
+  return overflow == Overflow::kWait ? kPatient : kLive;
 }
 
 /// Live: how many periods the other cameras may be ahead before a set goes on without one.

@@ -44,8 +44,8 @@ MOCAP_INLINE Ints FloorLog2(Ints number) {
 }
 
 // Where nodes of the table, and those right of them, are in the picture.
-struct Nodes {
-  MOCAP_INLINE Nodes(const SensorPlaneTable::Place* nodes, const Places& places) {
+struct NodePairs {
+  MOCAP_INLINE NodePairs(const SensorPlaneTable::Place* nodes, const Places& places) {
     const Floats a = TwoOf(nodes, places, 0), b = TwoOf(nodes, places, 1);
     const Floats c = TwoOf(nodes, places, 2), d = TwoOf(nodes, places, 3);
     const Floats ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
@@ -176,8 +176,8 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
   const Ints column = TowardsZero(near_u), row = TowardsZero(near_v);
   const Floats a = near_u - ToFloats(column), b = near_v - ToFloats(row);
   const Places node(row * t.columns + column);
-  const auto [x00, y00, x01, y01] = Nodes(t.nodes, node);
-  const auto [x10, y10, x11, y11] = Nodes(t.nodes + t.columns, node);
+  const auto [x00, y00, x01, y01] = NodePairs(t.nodes, node);
+  const auto [x10, y10, x11, y11] = NodePairs(t.nodes + t.columns, node);
   const Floats bend = LookUp(t.bends_px, node);
   const Floats top_x = x00 + a * (x01 - x00), top_y = y00 + a * (y01 - y00);
   const Floats down_x = x10 + a * (x11 - x10) - top_x, down_y = y10 + a * (y11 - y10) - top_y;

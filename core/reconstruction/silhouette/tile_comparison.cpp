@@ -67,7 +67,7 @@ MOCAP_INLINE Floats MisfitsOfRows(const TilePixels& tiles, std::ptrdiff_t first,
 MOCAP_VECTORIZED
 void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
                     const float* alphas, float* misfits) {
-  const Allowance allowed = allowance;
+  const Allowance allowed = allowance;  // As far as the compiler knows, the results may lie there.
   for (int i = 0; i < count; ++i) {
     const Floats upper = MisfitsOfRows(tiles, i * kTile, allowed, alphas[i]);
     const Floats lower = MisfitsOfRows(tiles, i * kTile + 2 * tiles.stride, allowed, alphas[i]);
