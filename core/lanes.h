@@ -33,9 +33,9 @@ MOCAP_INLINE void StoreLanes(const Lanes& lanes, Number* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
 template <typename Lanes, typename Number>
-MOCAP_INLINE void ClampLanes(Lanes& x, Number low, Number high) {
+MOCAP_INLINE Lanes Clamped(Lanes x, Number low, Number high) {
   x = x < low ? Lanes{} + low : x;
-  x = x > high ? Lanes{} + high : x;
+  return x > high ? Lanes{} + high : x;
 }
 template <typename Lanes>
 MOCAP_INLINE void TakeRoots(Lanes& x) {
@@ -57,9 +57,6 @@ MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
 }
 MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
 MOCAP_INLINE Ints AllOf(int number) { return Ints{} + number; }
-MOCAP_INLINE Ints Within(Ints x, int low, int high) {
-  return Least(Most(x, AllOf(low)), AllOf(high));
-}
 MOCAP_INLINE Floats SizeOf(Floats x) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
 }

@@ -62,11 +62,11 @@ MOCAP_INLINE void TryCapsule(const Block& block, const SlimCapsule& capsule, int
   const Floats slant = core_sq * along_sq - dot * dot;
   const Floats least = kParallel * core_sq * along_sq;
   Floats first = (dot * f - c * along_sq) / (slant > least ? slant : least);
-  ClampLanes(first, 0.0f, 1.0f);
+  first = Clamped(first, 0.0f, 1.0f);
   Floats on_segment = (dot * first + f) * per_along_sq;
-  ClampLanes(on_segment, 0.0f, 1.0f);
+  on_segment = Clamped(on_segment, 0.0f, 1.0f);
   Floats share = (dot * on_segment - c) * per_core_sq;
-  ClampLanes(share, 0.0f, 1.0f);
+  share = Clamped(share, 0.0f, 1.0f);
   const Floats x = on_segment * lx - bx - share * cx;
   const Floats y = on_segment * ly - by - share * cy;
   const Floats z = on_segment * lz - bz - share * cz;
@@ -146,7 +146,7 @@ MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, cons
   LoadLanes(best.mismatch.data(), mismatch);
   x = capsule.middle.x() - x, y = capsule.middle.y() - y, z = capsule.middle.z() - z;
   Floats on_segment = (x * lx + y * ly + z * lz) * per_along_sq;
-  ClampLanes(on_segment, 0.0f, 1.0f);
+  on_segment = Clamped(on_segment, 0.0f, 1.0f);
   x -= on_segment * lx, y -= on_segment * ly, z -= on_segment * lz;
   const Floats reach = mismatch + (capsule.reach + kRounding_mm);
   const Ints is_within = x * x + y * y + z * z <= reach * reach;

@@ -79,7 +79,7 @@ struct Rectangles {
 
 MOCAP_INLINE Ints RoundedDown(Floats place_px) {
   const Floats biased = place_px + (kBias_px + 0.5f);
-  return TowardsZero(Least(Most(biased, Floats{}), AllOf(kFarthest_px))) - kBias_px;
+  return TowardsZero(Clamped(biased, 0.0f, kFarthest_px)) - kBias_px;
 }
 
 // What rectangles hold of the silhouette.
@@ -91,12 +91,13 @@ MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes
   const Ints y0 = RoundedDown(r.y - r.reach_y), y1 = RoundedDown(r.y + r.reach_y);
   const Ints side = Most(x1 - x0, y1 - y0) + 1;
   // Windows of half a rectangle's longer side or more, one in each corner, cover it.
-  const Ints plane = FloorLog2(Least(Most(side - 1, AllOf(1)), AllOf(kWidest_px - 1)));
+  const Ints plane = FloorLog2(Clamped(side - 1, 1, kWidest_px - 1));
   const Ints beyond = 1 - (AllOf(1) << plane);
   const Ints begin = plane * planes.words_per_plane;
-  const Ints first_row = Within(y0, top, bottom) - top;
-  const Ints last_row = Within(y1 + beyond, top, bottom) - top;
-  const Ints first = Within(x0, left, right) - left, last = Within(x1 + beyond, left, right) - left;
+  const Ints first_row = Clamped(y0, top, bottom) - top;
+  const Ints last_row = Clamped(y1 + beyond, top, bottom) - top;
+  const Ints first = Clamped(x0, left, right) - left,
+             last = Clamped(x1 + beyond, left, right) - left;
   const Ints first_column = begin + (first >> 4) * stride;
   const Ints last_column = begin + (last >> 4) * stride;
   const Ints firsts = LookUp(words, Places(first_column + first_row)) &
@@ -171,8 +172,8 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
       Least(Least(Least(u - du, t.last_column - (u + du)), Least(v - dv, t.last_row - (v + dv))),
             Least(kReach - du, kReach - dv));
   const Ints is_valid = is_ahead & (inner * inner > off_axis) & (room > 0);
-  const Floats near_u = Least(Most(u, Floats{}), AllOf(t.last_column - 1));
-  const Floats near_v = Least(Most(v, Floats{}), AllOf(t.last_row - 1));
+  const Floats near_u = Clamped(u, 0.0f, t.last_column - 1);
+  const Floats near_v = Clamped(v, 0.0f, t.last_row - 1);
   const Ints column = TowardsZero(near_u), row = TowardsZero(near_v);
   const Floats a = near_u - ToFloats(column), b = near_v - ToFloats(row);
   const Places node(row * t.columns + column);

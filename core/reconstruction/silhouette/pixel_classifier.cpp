@@ -46,10 +46,6 @@ constexpr int kClearPixel = 1;
 constexpr int DoubtfulWindow(std::size_t k) { return 2 << k; }
 constexpr int ClearWindow(std::size_t k) { return 2 << (kWindows + k); }
 
-MOCAP_INLINE void TakeLarger(const Floats& other, Floats& value) {
-  value = other > value ? other : value;
-}
-
 // Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
 template <std::size_t window>
 MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_weight,
@@ -57,8 +53,8 @@ MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_we
   const Floats normalized = d.alpha_shift * alpha_weight;
   const Floats bright = normalized > 0 ? normalized : Floats{};
   Floats excess_sq = (d.cd_sq - drift_sq) * criteria.per_cd;
-  TakeLarger((bright * bright - kChannels * drift_sq) * criteria.per_alpha, excess_sq);
-  TakeLarger(d.roughness_sq * criteria.per_roughness, excess_sq);
+  excess_sq = Most(excess_sq, (bright * bright - kChannels * drift_sq) * criteria.per_alpha);
+  excess_sq = Most(excess_sq, d.roughness_sq * criteria.per_roughness);
   const Ints is_dark =
       (d.alpha_shift < criteria.dark.shift) & (normalized < criteria.dark.normalized);
   marks |= (is_dark | (excess_sq > 1)) & DoubtfulWindow(window);
