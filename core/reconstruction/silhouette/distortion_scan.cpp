@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/reconstruction/silhouette/pixel_lanes.h"
 #include "core/vectorized.h"
 
 namespace mocap {
@@ -26,35 +27,6 @@ struct Distortions {
   }
 };
 
-using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
-using Shorts = std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t))));
-
-// Eight pixels, the channels of each in the bytes of one number.
-MOCAP_INLINE void LoadPixels(const Bgr* from, Ints& pixels) {
-  constexpr int kHalf = sizeof(Bytes) / 2;
-  // The last four pixels end where the second half does.
-  static_assert(kFloats * sizeof(Bgr) == 24 && kHalf == 16);
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(from);
-  std::uint8_t __attribute__((vector_size(kHalf))) first, last;
-  LoadLanes(bytes, first), LoadLanes(bytes + 8, last);
-  const Bytes both =
-      __builtin_shufflevector(first, last, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,
-                              17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
-  pixels = reinterpret_cast<Ints>(
-      __builtin_shufflevector(both, both, 0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 8, 8, 9, 10, 11, 11, 20, 21,
-                              22, 22, 23, 24, 25, 25, 26, 27, 28, 28, 29, 30, 31, 31));
-}
-
-MOCAP_INLINE void ChannelOf(const Ints& pixels, int channel, Floats& values) {
-  values = __builtin_convertvector(pixels >> 8 * channel & 0xff, Floats);
-}
-
-MOCAP_INLINE void LoadShorts(const std::uint16_t* from, float unit, Floats& values) {
-  Shorts shorts;
-  LoadLanes(from, shorts);
-  values = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats) * unit;
-}
-
 // Measures eight pixels, so far into a group.
 MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pixels,
                                 const std::array<float, 3>& gain, const Distortions& to) {
@@ -63,11 +35,9 @@ MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pi
   std::array<Floats, 3> m, z, w, cd;
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    LoadShorts(&group.inverse_sigma[c][k], WeighedPixels::kInverseSigmaUnit, w[c]);
-    LoadShorts(&group.mean[c][k], 1, m[c]);
-    ChannelOf(packed, c, z[c]);
-    m[c] *= WeighedPixels::kMeanUnit * w[c];
-    z[c] = gain[c] * z[c] * w[c];
+    w[c] = LoadShorts(&group.inverse_sigma[c][k], WeighedPixels::kInverseSigmaUnit);
+    m[c] = LoadShorts(&group.mean[c][k], 1) * (WeighedPixels::kMeanUnit * w[c]);
+    z[c] = gain[c] * ChannelOf(packed, c) * w[c];
   }
   const Floats alpha =
       (z[0] * m[0] + z[1] * m[1] + z[2] * m[2]) / (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
@@ -76,11 +46,9 @@ MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pi
     cd[c] = z[c] - alpha * m[c];
     StoreLanes(cd[c], to.cd[c]);
   }
-  Floats alpha_weight;
-  LoadShorts(&group.alpha_weight[k], WeighedPixels::kAlphaWeightUnit, alpha_weight);
   StoreLanes(alpha - 1, to.alpha_shift);
   StoreLanes(cd[0] * cd[0] + cd[1] * cd[1] + cd[2] * cd[2], to.cd_sq);
-  StoreLanes(alpha_weight, to.alpha_weight);
+  StoreLanes(LoadShorts(&group.alpha_weight[k], WeighedPixels::kAlphaWeightUnit), to.alpha_weight);
   StoreLanes(w[1], to.inverse_sigma);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/lanes.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
+#include "core/reconstruction/silhouette/pixel_lanes.h"
 
 namespace mocap {
 namespace {
@@ -27,43 +28,14 @@ constexpr float kLeastContrast = 4;
 constexpr float kHalfCovered = 0.4f;
 
 constexpr unsigned kAll = (1u << kSide) - 1;
-
-// The kSide pixels of a row from `begin` on, in the lowest bits.
-MOCAP_INLINE unsigned BitsFrom(const Silhouette& s, int begin, int y) {
-  const Word* const row = s.row(y);
-  if (begin < 0) return static_cast<unsigned>(row[0] << -begin) & kAll;
-  const int shift = begin & 63;
-  Word bits = row[begin >> 6] >> shift;
-  if (shift > 64 - kSide && (begin >> 6) + 1 < s.words_per_row())
-    bits |= row[(begin >> 6) + 1] << (64 - shift);
-  return static_cast<unsigned>(bits) & kAll;
-}
-
-// Those of these pixels that lie within the picture.
-MOCAP_INLINE unsigned ValidFrom(int begin, int width) {
-  unsigned valid = kAll;
-  if (begin < 0) valid &= kAll << -begin;
-  if (begin + kSide > width) valid &= kAll >> (begin + kSide - width);
-  return valid;
-}
-
-// For each set of a row's pixels, the bytes or values that count.
-template <typename T, int per_pixel>
-constexpr auto MasksOf() {
-  std::array<std::array<T, per_pixel * kSide>, kAll + 1> masks{};
-  for (unsigned bits = 0; bits <= kAll; ++bits)
-    for (int i = 0; i < per_pixel * kSide; ++i)
-      if (bits >> (i / per_pixel) & 1) masks[bits][i] = static_cast<T>(~T{0});
-  return masks;
-}
+constexpr int kWord_px = 64;
+static_assert(kSide == kFloats);
 constexpr auto kCounts = [] {
   std::array<std::uint8_t, kAll + 1> counts{};
   for (unsigned bits = 1; bits <= kAll; ++bits)
     counts[bits] = static_cast<std::uint8_t>(counts[bits >> 1] + (bits & 1));
   return counts;
 }();
-constexpr auto kByteMasks = MasksOf<std::uint8_t, 3>();
-constexpr auto kValueMasks = MasksOf<std::uint32_t, 1>();
 
 // Within the frame of a silhouette.
 struct Picture {
@@ -83,119 +55,208 @@ struct Bounds {
   }
 };
 
+// A word of a row and the pixels around its blocks: none of those beyond the row are set.
+class Stretch {
+ public:
+  Stretch() = default;
+  // @param flip  what turns pixels over.
+  MOCAP_INLINE Stretch(const Word* row, int words, int word, Word flip) {
+    const Word here = row[word] ^ flip;
+    const Word before = word > 0 ? row[word - 1] ^ flip : 0;
+    const Word after = word + 1 < words ? row[word + 1] ^ flip : 0;
+    first_ = here << kBefore | before >> (kWord_px - kBefore);
+    last_ = here >> (kHalf - kBefore) | after << (kWord_px - kHalf + kBefore);
+  }
+  // The kSide pixels around the block that begins at a pixel of the word.
+  MOCAP_INLINE unsigned Around(int block) const {
+    const int begin = block - kFirst;
+    return static_cast<unsigned>(begin < kHalf ? first_ >> begin : last_ >> (begin - kHalf)) & kAll;
+  }
+
+ private:
+  // The first block begins before the word.
+  static constexpr int kBefore = kReach_px - kFirst, kHalf = kWord_px / 2;
+  // 64 pixels from kBefore before the word on, and as many from kHalf later on.
+  Word first_ = 0, last_ = 0;
+};
+
+// Some of the rows around the blocks of a word.
+struct Surroundings {
+  MOCAP_INLINE Surroundings(const Bounds& bounds, int word, int block_y) {
+    const int words = bounds.inside.words_per_row();
+    for (std::size_t k = 0; k < kRows.size(); ++k) {
+      const int wanted = block_y + kRows[k];
+      y[k] = std::clamp(wanted, 0, bounds.inside.height() - 1);
+      if (y[k] != wanted) continue;
+      person[k] = Stretch(bounds.inside.row(wanted), words, word, 0);
+      background[k] = Stretch(bounds.near.row(wanted), words, word, ~Word{0});
+    }
+  }
+  std::array<int, kRows.size()> y;
+  std::array<Stretch, kRows.size()> person, background;
+};
+
+// The pixels whose bits are set.
+MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
+  const Ints places = Ints{1, 2, 4, 8, 16, 32, 64, 128};
+  return (AllOf(static_cast<int>(bits)) & places) == places;
+}
+
 // The person's colours and the background's brightness around a block.
 struct Around {
-  // Channels in turn.
-  std::array<std::uint16_t, 3 * kSide> person{};
-  std::array<float, kSide> alphas{};
+  // Sums: what lies in one column, or more of it. Blue and red share numbers.
+  Ints blue_red{}, green{};
+  Floats alphas{};
   int person_count = 0, background_count = 0;
 
   // Adds a row of kSide pixels.
-  MOCAP_INLINE void Add(const Bgr* pixels, unsigned inside, const float* alpha_shift,
-                        unsigned outside) {
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixels);
-    for (int i = 0; i < 3 * kSide; ++i)
-      person[i] = static_cast<std::uint16_t>(person[i] + (bytes[i] & kByteMasks[inside][i]));
-    for (int i = 0; i < kSide; ++i)
-      alphas[i] += std::bit_cast<float>(std::bit_cast<std::uint32_t>(alpha_shift[i]) &
-                                        kValueMasks[outside][i]);
-    person_count += kCounts[inside];
-    background_count += kCounts[outside];
+  MOCAP_INLINE void Add(const Bgr* pixels, unsigned person, const float* alpha_shift,
+                        unsigned background) {
+    Ints colors, shifts;
+    LoadPixels(pixels, colors), LoadLanes(alpha_shift, shifts);
+    colors &= ChoiceOf(person);
+    blue_red += colors & 0xff00ff, green += colors >> 8 & 0xff;
+    alphas += reinterpret_cast<Floats>(shifts & ChoiceOf(background));
+    person_count += kCounts[person], background_count += kCounts[background];
   }
 
-  // Adds those of a row's pixels that are within the picture.
-  MOCAP_INLINE void AddSome(const Picture& picture, int begin, int y, unsigned inside,
-                            unsigned outside) {
-    for (unsigned bits = inside; bits != 0; bits &= bits - 1, ++person_count) {
-      const Bgr& p = picture.image(begin + std::countr_zero(bits), y);
-      person[0] = static_cast<std::uint16_t>(person[0] + p.b);
-      person[1] = static_cast<std::uint16_t>(person[1] + p.g);
-      person[2] = static_cast<std::uint16_t>(person[2] + p.r);
+  // Adds those of a row's pixels that count: others may not be there.
+  MOCAP_INLINE void AddSome(const Bgr* pixels, unsigned person, const float* alpha_shift,
+                            unsigned background) {
+    for (; person != 0; person &= person - 1, ++person_count) {
+      const Bgr& p = pixels[std::countr_zero(person)];
+      blue_red[0] += p.b | p.r << 16, green[0] += p.g;
     }
-    for (unsigned bits = outside; bits != 0; bits &= bits - 1, ++background_count)
-      alphas[0] += picture.alpha_shift(begin + std::countr_zero(bits), y);
+    for (; background != 0; background &= background - 1, ++background_count)
+      alphas[0] += alpha_shift[std::countr_zero(background)];
   }
 
   MOCAP_INLINE std::array<float, 3> PersonColor() const {
+    Half both = __builtin_shufflevector(blue_red, green, 0, 1, 8, 9) +
+                __builtin_shufflevector(blue_red, green, 2, 3, 10, 11) +
+                __builtin_shufflevector(blue_red, green, 4, 5, 12, 13) +
+                __builtin_shufflevector(blue_red, green, 6, 7, 14, 15);
+    both += __builtin_shufflevector(both, both, 1, 0, 3, 2);
     const float per_pixel = 1 / static_cast<float>(person_count);
-    std::array<float, 3> color;
-    for (int c = 0; c < 3; ++c) {
-      int sum = 0;
-#pragma GCC unroll 8
-      for (int i = 0; i < kSide; ++i) sum += person[3 * i + c];
-      color[c] = per_pixel * static_cast<float>(sum);
-    }
-    return color;
+    return {per_pixel * static_cast<float>(both[0] & 0xffff),
+            per_pixel * static_cast<float>(both[2]), per_pixel * static_cast<float>(both[0] >> 16)};
   }
   MOCAP_INLINE float Alpha() const {
     const float sum = ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
                       ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
     return 1 + sum / static_cast<float>(background_count);
   }
+
+ private:
+  using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
 };
 
-// Looks around the block that begins at a pixel.
-MOCAP_INLINE void LookAround(const Picture& picture, const Bounds& bounds, int x, int y,
-                             Around& around) {
-  const int begin = x - kReach_px;
-  const unsigned valid = ValidFrom(begin, bounds.inside.width());
-  for (const int row : kRows) {
-    const int v = y + row;
-    if (v < 0 || v >= bounds.inside.height()) continue;
-    const unsigned inside = BitsFrom(bounds.inside, begin, v);
-    const unsigned outside = ~BitsFrom(bounds.near, begin, v) & valid;
-    if (valid == kAll)
-      around.Add(&picture.image(begin, v), inside, &picture.alpha_shift(begin, v), outside);
-    else
-      around.AddSome(picture, begin, v, inside, outside);
-  }
-}
+// What was found around the blocks of a word, pixel by pixel from the first block's first on.
+struct BlockColors {
+  static constexpr std::size_t kPixels = kWord_px + kBlock_px;
+  std::array<std::array<float, kPixels>, 3> person;
+  std::array<float, kPixels> alpha;
+};
 
-// Keeps a pixel if the person covers it by half; leaves it where the colours are alike.
-MOCAP_INLINE void RefinePixel(const Picture& picture, int x, int y,
-                              const std::array<float, 3>& person, float alpha, Word mask,
-                              Word& word) {
-  const Bgr& p = picture.image(x, y);
-  const std::array<int, 3> color = {p.b, p.g, p.r};
-  float along = 0, contrast_sq = 0;
-  for (int c = 0; c < 3; ++c) {
-    const float background = picture.expected.MeanAt(picture.left + x, picture.top + y, c) * alpha;
-    const float contrast = person[c] * picture.gain[c] - background;
-    along += contrast * (static_cast<float>(color[c]) * picture.gain[c] - background);
-    contrast_sq += contrast * contrast;
-  }
-  if (contrast_sq < kLeastContrast * kLeastContrast) return;
-  word = along > kHalfCovered * contrast_sq ? word | mask : word & ~mask;
-}
-
-// Keeps those pixels of a block that the person covers by half, if that can be told.
-MOCAP_INLINE void RefineBlock(const Picture& picture, const Bounds& bounds, int x, int y,
-                              Silhouette& silhouette) {
+// Looks around the block that begins at a pixel of the word.
+// @returns whether both person and background are there.
+MOCAP_INLINE bool LookAround(const Picture& picture, const Surroundings& surroundings, int word,
+                             int block, BlockColors& colors) {
   Around around;
-  LookAround(picture, bounds, x, y, around);
-  if (around.person_count == 0 || around.background_count == 0) return;
+  const int begin = word * kWord_px + block - kReach_px;
+  const int width = picture.image.width();
+  const bool is_whole = begin >= 0 && begin + kSide <= width;
+  const unsigned valid = begin + kSide <= width ? kAll : kAll >> (begin + kSide - width);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kRows.size(); ++k) {
+    const unsigned person = surroundings.person[k].Around(block);
+    const unsigned background = surroundings.background[k].Around(block) & valid;
+    const Bgr* const pixels = picture.image.row(surroundings.y[k]) + begin;
+    const float* const alpha_shift = picture.alpha_shift.row(surroundings.y[k]) + begin;
+    if (is_whole)
+      around.Add(pixels, person, alpha_shift, background);
+    else
+      around.AddSome(pixels, person, alpha_shift, background);
+  }
+  if (around.person_count == 0 || around.background_count == 0) return false;
   const std::array<float, 3> person = around.PersonColor();
   const float alpha = around.Alpha();
-  for (int v = std::max(y, 0); v < std::min(y + kBlock_px, silhouette.height()); ++v) {
-    for (int u = std::max(x, 0); u < std::min(x + kBlock_px, silhouette.width()); ++u) {
-      const Word mask = Word{1} << (u & 63);
-      if ((bounds.Band(u >> 6, v) & mask) != 0)
-        RefinePixel(picture, u, v, person, alpha, mask, silhouette.row(v)[u >> 6]);
-    }
+  for (int i = block - kFirst; i < block - kFirst + kBlock_px; ++i) {
+    for (int c = 0; c < 3; ++c) colors.person[c][i] = person[c];
+    colors.alpha[i] = alpha;
+  }
+  return true;
+}
+
+// Of eight pixels, as bits: where the colours differ enough to tell, and what the person covers by
+// half.
+struct Cover {
+  unsigned is_told, is_person;
+};
+
+MOCAP_INLINE Cover CoverOf(const Picture& picture, const BlockColors& colors, int x, int y) {
+  const int first = x % kWord_px - kFirst, width = picture.image.width();
+  const WeighedPixels& expected =
+      *picture.expected.Group((picture.left + x) / WeighedPixels::kPixels, picture.top + y);
+  std::array<Bgr, kFloats> last{};
+  const Bgr* pixels = picture.image.row(y) + x;
+  if (x + kFloats > width) {
+    std::copy(pixels, picture.image.row(y) + width, last.begin());
+    pixels = last.data();
+  }
+  Ints packed;
+  LoadPixels(pixels, packed);
+  Floats alpha, along{}, contrast_sq{};
+  LoadLanes(&colors.alpha[first], alpha);
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c) {
+    Floats person;
+    LoadLanes(&colors.person[c][first], person);
+    const Floats background =
+        LoadShorts(&expected.mean[c][(picture.left + x) % WeighedPixels::kPixels],
+                   WeighedPixels::kMeanUnit) *
+        alpha;
+    const Floats contrast = person * picture.gain[c] - background;
+    along += contrast * (ChannelOf(packed, c) * picture.gain[c] - background);
+    contrast_sq += contrast * contrast;
+  }
+  return {BitsOf(contrast_sq >= kLeastContrast * kLeastContrast),
+          BitsOf(along > kHalfCovered * contrast_sq)};
+}
+
+// Keeps pixels of a word that the person covers by half; leaves those where the colours are alike.
+MOCAP_INLINE void RefinePixels(const Picture& picture, const BlockColors& colors, Word pixels,
+                               int word, int y, Silhouette& silhouette) {
+  Word& refined = silhouette.row(y)[word];
+  while (pixels != 0) {
+    const int first = std::countr_zero(pixels) / kFloats * kFloats;
+    const Word eight = Word{kAll} << first;
+    const Cover cover = CoverOf(picture, colors, word * kWord_px + first, y);
+    const Word told = pixels & Word{cover.is_told} << first;
+    refined = (refined & ~told) | (Word{cover.is_person} << first & told);
+    pixels &= ~eight;
   }
 }
 
 MOCAP_VECTORIZED
 void RefineAll(const Picture& picture, const Bounds& bounds, Silhouette& silhouette) {
+  BlockColors colors{};
   for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
-    for (int i = 0; i < silhouette.words_per_row(); ++i) {
-      for (Word band = bounds.Band(i, y) | bounds.Band(i, y + 1); band != 0;) {
-        const int bit = std::countr_zero(band);
-        const int x = i * 64 + bit;
-        const bool is_first = (x - kFirst) % kBlock_px == 0;
-        RefineBlock(picture, bounds, is_first ? x : x - 1, y, silhouette);
-        band &= ~((is_first ? Word{3} : Word{1}) << bit);
+    for (int word = 0; word < silhouette.words_per_row(); ++word) {
+      const std::array<Word, kBlock_px> bands = {bounds.Band(word, y), bounds.Band(word, y + 1)};
+      if ((bands[0] | bands[1]) == 0) continue;
+      const Surroundings surroundings(bounds, word, y);
+      Word known = 0;
+      for (Word band = bands[0] | bands[1]; band != 0;) {
+        const int pixel = std::countr_zero(band);
+        const int block = pixel - (pixel - kFirst) % kBlock_px;
+        const Word both = block < 0 ? Word{1} : Word{3} << block;
+        if (LookAround(picture, surroundings, word, block, colors)) known |= both;
+        band &= ~both;
       }
+      for (int row = 0; row < kBlock_px; ++row)
+        if ((bands[row] & known) != 0)
+          RefinePixels(picture, colors, bands[row] & known, word, y + row, silhouette);
     }
   }
 }

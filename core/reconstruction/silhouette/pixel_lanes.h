@@ -1,0 +1,42 @@
+// §4: eight pixels of a row side by side, and what is expected there.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+#include "core/lanes.h"
+
+namespace mocap {
+
+/// Loads eight pixels, the channels of each in the bytes of one number: blue in the lowest, green,
+/// red, and something in the highest.
+MOCAP_INLINE void LoadPixels(const Bgr* from, Ints& pixels) {
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
+  constexpr int kHalf = sizeof(Bytes) / 2;
+  // The last four pixels end where the second half does.
+  static_assert(kFloats * sizeof(Bgr) == 24 && kHalf == 16);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(from);
+  std::uint8_t __attribute__((vector_size(kHalf))) first, last;
+  LoadLanes(bytes, first), LoadLanes(bytes + 8, last);
+  const Bytes both =
+      __builtin_shufflevector(first, last, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,
+                              17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
+  pixels = reinterpret_cast<Ints>(
+      __builtin_shufflevector(both, both, 0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 8, 8, 9, 10, 11, 11, 20, 21,
+                              22, 22, 23, 24, 25, 25, 26, 27, 28, 28, 29, 30, 31, 31));
+}
+
+/// One channel of pixels that were loaded.
+MOCAP_INLINE Floats ChannelOf(Ints pixels, int channel) {
+  return ToFloats(pixels >> 8 * channel & 0xff);
+}
+
+/// Eight values that are kept as so many units.
+MOCAP_INLINE Floats LoadShorts(const std::uint16_t* from, float unit) {
+  using Shorts = std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t))));
+  Shorts shorts;
+  LoadLanes(from, shorts);
+  return ToFloats(__builtin_convertvector(shorts, Ints)) * unit;
+}
+
+}  // namespace mocap
