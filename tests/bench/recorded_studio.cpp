@@ -20,9 +20,7 @@ class MemoryDriver : public CameraDriver {
   void Start() override {}
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
     if (next_ == sets_) return GrabStatus::kEnd;
-    constexpr int kPeriod = 2 * (RecordedStudio::kSets - 1);
-    const int phase = next_ % kPeriod;
-    frame.image = studio_.frame(camera_, std::min(phase, kPeriod - phase));
+    frame.image = studio_.frame(camera_, RecordedStudio::SetAt(next_));
     frame.capture_ns = std::llround(1e9 * next_ / RecordedStudio::kFps);
     frame.sequence = static_cast<std::uint64_t>(next_++);
     frame.angles = {};

@@ -1,6 +1,7 @@
 // A simulated walk, rendered before anything is measured.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,10 +30,15 @@ class RecordedStudio {
   const std::vector<BackgroundFrame>& background(int camera) const { return background_[camera]; }
   ImageView<const Bgr> frame(int camera, int set) const { return frames_[camera][set].view(); }
   const Silhouette& silhouette(int camera, int set) const { return silhouettes_[camera][set]; }
+  /// The set that comes so late, where the walk goes to its end and back again.
+  static int SetAt(int index) {
+    constexpr int kPeriod = 2 * (kSets - 1);
+    return std::min(index % kPeriod, kPeriod - index % kPeriod);
+  }
   /// The silhouettes of a set, to carve.
   std::vector<CarvingView> Views(int set) const;
 
-  /// Opens the recording as a source of so many sets: the walk to its end and back again.
+  /// Opens the recording as a source of so many sets.
   Studio Open(int sets) const;
 
  private:

@@ -39,8 +39,8 @@ void SegmentInTurn(benchmark::State& state, const RecordedStudio& studio, const 
   const auto cameras = static_cast<int>(state.range(1));
   int picture = 0;
   for (auto _ : state) {
-    const int camera = picture % cameras, set = picture / cameras % RecordedStudio::kSets;
-    segment(camera, studio.frame(camera, set));
+    const int camera = picture % cameras;
+    segment(camera, studio.frame(camera, RecordedStudio::SetAt(picture / cameras)));
     ++picture;
   }
 }

@@ -79,6 +79,7 @@ class Segmenter::Impl {
     cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, person_);
     silhouette.Reset(image.width(), image.height());
     Paste(person_, closeup_.frame().left, closeup_.frame().top, silhouette);
+    silhouette.KeepBox();
   }
 
   const Conditions& conditions() const { return conditions_; }

@@ -35,6 +35,7 @@ class Silhouette {
     height_ = height;
     words_per_row_ = (width + 63) / 64;
     words_.assign(static_cast<std::size_t>(words_per_row_) * height, 0);
+    has_box_ = false;
   }
 
   /// Makes room for so many pixels.
@@ -48,24 +49,35 @@ class Silhouette {
   bool Test(int x, int y) const {
     return words_[static_cast<std::size_t>(y) * words_per_row_ + (x >> 6)] >> (x & 63) & 1;
   }
-  void Set(int x, int y) {
-    words_[static_cast<std::size_t>(y) * words_per_row_ + (x >> 6)] |= std::uint64_t{1} << (x & 63);
+  void Set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
+  std::uint64_t* row(int y) {
+    has_box_ = false;
+    return words_.data() + static_cast<std::size_t>(y) * words_per_row_;
   }
-  std::uint64_t* row(int y) { return words_.data() + static_cast<std::size_t>(y) * words_per_row_; }
   const std::uint64_t* row(int y) const {
     return words_.data() + static_cast<std::size_t>(y) * words_per_row_;
   }
   /// The smallest box that holds every pixel that is set; empty when none is.
-  std::optional<PixelBox> BoundingBox() const;
+  std::optional<PixelBox> BoundingBox() const { return has_box_ ? box_ : FindBox(); }
+  /// Finds the bounding box while the pixels are at hand, and keeps it until pixels may change:
+  /// with Set(), Reset() or a row() to write to.
+  void KeepBox() {
+    box_ = FindBox();
+    has_box_ = true;
+  }
   /// Share of the pixels that are set.
   double CoveredShare() const;
   const std::vector<std::uint64_t>& words() const { return words_; }
 
  private:
+  std::optional<PixelBox> FindBox() const;
+
   int width_ = 0;
   int height_ = 0;
   int words_per_row_ = 0;
   std::vector<std::uint64_t> words_;
+  std::optional<PixelBox> box_;
+  bool has_box_ = false;
 };
 
 }  // namespace mocap

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/reconstruction/silhouette/bit_filters.h"
@@ -39,6 +42,37 @@ TEST(Silhouette, ABoundingBoxIsTightAcrossWords) {
   s.Set(199, 49);
   s.Set(5, 20);
   EXPECT_EQ(*s.BoundingBox(), (PixelBox{5, 7, 199, 49}));
+}
+
+TEST(Silhouette, ABoundingBoxIsThatOfItsPixels) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {64, 9}, {200, 50}, {700, 40}}) {
+    for (const int one_in : {1, 30, 3000, 1 << 30}) {
+      const Silhouette s = RandomSilhouette(width, height, one_in, 8);
+      std::optional<PixelBox> box;
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          if (!s.Test(x, y)) continue;
+          if (!box) box = {x, y, x, y};
+          *box = {std::min(box->left, x), box->top, std::max(box->right, x), y};
+        }
+      }
+      EXPECT_EQ(s.BoundingBox(), box) << width << " " << one_in;
+    }
+  }
+}
+
+TEST(Silhouette, AKeptBoundingBoxFollowsWhatIsWritten) {
+  Silhouette s(200, 50);
+  s.KeepBox();
+  EXPECT_FALSE(s.BoundingBox().has_value());
+  s.Set(70, 8);
+  EXPECT_EQ(s.BoundingBox(), (PixelBox{70, 8, 70, 8}));
+  s.KeepBox();
+  s.row(20)[2] = 1;
+  EXPECT_EQ(s.BoundingBox(), (PixelBox{70, 8, 128, 20}));
+  s.KeepBox();
+  s.Reset(200, 50);
+  EXPECT_FALSE(s.BoundingBox().has_value());
 }
 
 TEST(Silhouette, BytesArePackedInOrderAndNothingBeyondTheLast) {
