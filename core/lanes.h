@@ -63,14 +63,18 @@ MOCAP_INLINE Floats SizeOf(Floats x) {
 MOCAP_INLINE Ints TowardsZero(Floats x) { return __builtin_convertvector(x, Ints); }
 MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats); }
 
-/// A bit for each lane of a choice, the first in the lowest.
+/// A choice of lanes as bits, the first in the lowest, and back.
+MOCAP_INLINE Ints PlaceBits() { return Ints{1, 2, 4, 8, 16, 32, 64, 128}; }
 MOCAP_INLINE unsigned BitsOf(Ints choice) {
-  choice &= Ints{1, 2, 4, 8, 16, 32, 64, 128};
   using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
+  choice &= PlaceBits();
   Half bits = __builtin_shufflevector(choice, choice, 0, 1, 2, 3) |
               __builtin_shufflevector(choice, choice, 4, 5, 6, 7);
   bits |= __builtin_shufflevector(bits, bits, 2, 3, 0, 1);
   return static_cast<unsigned>(bits[0] | bits[1]);
+}
+MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
+  return (AllOf(static_cast<int>(bits)) & PlaceBits()) != 0;
 }
 
 /// Where eight numbers of a table are taken from: they go through memory, for to take them out of a

@@ -1,7 +1,9 @@
 #include "core/reconstruction/silhouette/outline_refiner.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/lanes.h"
@@ -28,8 +30,8 @@ constexpr float kLeastContrast = 4;
 constexpr float kHalfCovered = 0.4f;
 
 constexpr unsigned kAll = (1u << kSide) - 1;
-constexpr int kWord_px = 64;
 static_assert(kSide == kFloats);
+constexpr int kWord_px = 64;
 constexpr auto kCounts = [] {
   std::array<std::uint8_t, kAll + 1> counts{};
   for (unsigned bits = 1; bits <= kAll; ++bits)
@@ -87,7 +89,7 @@ struct Surroundings {
     for (std::size_t k = 0; k < kRows.size(); ++k) {
       const int wanted = block_y + kRows[k];
       y[k] = std::clamp(wanted, 0, bounds.inside.height() - 1);
-      if (y[k] != wanted) continue;
+      if (y[k] != wanted) continue;  // Nothing counts beyond the picture.
       person[k] = Stretch(bounds.inside.row(wanted), words, word, 0);
       background[k] = Stretch(bounds.near.row(wanted), words, word, ~Word{0});
     }
@@ -95,12 +97,6 @@ struct Surroundings {
   std::array<int, kRows.size()> y;
   std::array<Stretch, kRows.size()> person, background;
 };
-
-// The pixels whose bits are set.
-MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
-  const Ints places = Ints{1, 2, 4, 8, 16, 32, 64, 128};
-  return (AllOf(static_cast<int>(bits)) & places) == places;
-}
 
 // The person's colours and the background's brightness around a block.
 struct Around {
@@ -230,17 +226,16 @@ MOCAP_INLINE void RefinePixels(const Picture& picture, const BlockColors& colors
   Word& refined = silhouette.row(y)[word];
   while (pixels != 0) {
     const int first = std::countr_zero(pixels) / kFloats * kFloats;
-    const Word eight = Word{kAll} << first;
     const Cover cover = CoverOf(picture, colors, word * kWord_px + first, y);
     const Word told = pixels & Word{cover.is_told} << first;
     refined = (refined & ~told) | (Word{cover.is_person} << first & told);
-    pixels &= ~eight;
+    pixels &= ~(Word{kAll} << first);
   }
 }
 
 MOCAP_VECTORIZED
 void RefineAll(const Picture& picture, const Bounds& bounds, Silhouette& silhouette) {
-  BlockColors colors{};
+  BlockColors colors{};  // Others than those of the word in hand are not asked for.
   for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
     for (int word = 0; word < silhouette.words_per_row(); ++word) {
       const std::array<Word, kBlock_px> bands = {bounds.Band(word, y), bounds.Band(word, y + 1)};
