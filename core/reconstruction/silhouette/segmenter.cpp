@@ -71,12 +71,10 @@ class Segmenter::Impl {
     classifier_.Classify(expected, image, conditions_, closeup_);
     person_.Reserve(image.width(), image.height());
     person_ = classifier_.foreground();
-    cleaner_.FillHoles(kSmallestGap_px, classifier_.doubtful(), person_);
-    cleaner_.DropBlobs(smallest_blob_px_, person_);
+    cleaner_.Clean(kSmallestGap_px, classifier_.doubtful(), smallest_blob_px_, person_);
     refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), closeup_.frame(),
                     person_);
-    cleaner_.FillHoles(kSmallestHole_px, person_);
-    cleaner_.KeepPerson(smallest_blob_px_, largest_thing_px_, person_);
+    cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, person_);
     silhouette.Reset(image.width(), image.height());
     Paste(person_, closeup_.frame().left, closeup_.frame().top, silhouette);
     silhouette.KeepBox();
