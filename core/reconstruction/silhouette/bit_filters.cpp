@@ -9,6 +9,7 @@
 #endif
 
 #include "core/errors.h"
+#include "core/lanes.h"
 #include "core/vectorized.h"
 
 namespace mocap {
@@ -31,42 +32,78 @@ void AddAll(const Word* from, std::size_t count, Word* to) {
   for (std::size_t i = 0; i < count; ++i) to[i] |= from[i];
 }
 
-// Combines each pixel of a row with those `shift` to its left and right; beside the row is
-// `beyond`.
-template <typename Combine>
-void CombineAlong(Word* row, int words, int shift, Word beyond, Combine combine) {
-  Word before = beyond;
-  for (int i = 0; i < words; ++i) {
-    const Word here = row[i];
-    const Word next = i + 1 < words ? row[i + 1] : beyond;
-    row[i] = combine(here, combine(here << shift | before >> (64 - shift),
-                                   here >> shift | next << (64 - shift)));
-    before = here;
+// At least a row: pictures are 16384 pixels wide at most.
+constexpr int kMostWords = 256;
+
+// Combines each word with those before and after it, pixel by pixel with up to `radius` to the left
+// and right: with all or any of them.
+template <bool all, int radius>
+MOCAP_INLINE void CombineBeside(const Word* before, const Word* next, std::size_t count,
+                                Word* words) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Word here = words[k];
+    Word result = here;
+    for (int i = 1; i <= radius; ++i) {
+      const Word left = here << i | before[k] >> (64 - i), right = here >> i | next[k] << (64 - i);
+      result = all ? result & left & right : result | left | right;
+    }
+    words[k] = result;
   }
 }
 
-// Combines each pixel with those of its square neighbourhood; `combine_words` does so with words.
-template <typename Combine>
-void Filter(const Silhouette& from, int radius, Word beyond, Combine combine,
-            void (*combine_words)(const Word*, std::size_t, Word*), Silhouette& to) {
+// Does so in rows of `per_row` words, which follow one another: a few at a time.
+template <bool all>
+MOCAP_INLINE void CombineAlong(Word* words, std::size_t count, std::size_t per_row, int radius) {
+  constexpr Word kBeyond = all ? ~Word{0} : 0;
+  const std::size_t most = kMostWords / per_row * per_row;
+  std::array<Word, kMostWords> before, next;
+  for (std::size_t done = 0, some; done < count; done += some, words += some) {
+    some = std::min(most, count - done);
+    std::copy_n(words, some - 1, &before[1]);
+    std::copy_n(words + 1, some - 1, &next[0]);
+    for (std::size_t k = 0; k < some; k += per_row) before[k] = next[k + per_row - 1] = kBeyond;
+    if (radius == 1) CombineBeside<all, 1>(before.data(), next.data(), some, words);
+    if (radius == 2) CombineBeside<all, 2>(before.data(), next.data(), some, words);
+    if (radius == 3) CombineBeside<all, 3>(before.data(), next.data(), some, words);
+  }
+}
+
+MOCAP_VECTORIZED
+void KeepCommonAlong(Word* words, std::size_t count, std::size_t per_row, int radius) {
+  CombineAlong<true>(words, count, per_row, radius);
+}
+
+MOCAP_VECTORIZED
+void AddAllAlong(Word* words, std::size_t count, std::size_t per_row, int radius) {
+  CombineAlong<false>(words, count, per_row, radius);
+}
+
+// Combines each pixel with those of its square neighbourhood; `combine` and `combine_along` do so
+// with words.
+void Filter(const Silhouette& from, int radius, Word beyond,
+            void (*combine)(const Word*, std::size_t, Word*),
+            void (*combine_along)(Word*, std::size_t, std::size_t, int), Silhouette& to) {
   MOCAP_CHECK(radius >= 1 && radius <= 3 && &from != &to);
   to = from;
   const int words = from.words_per_row();
   const auto all = from.words().size();
+  if (all == 0) return;
+  MOCAP_CHECK(words <= kMostWords);
   for (int i = 1; i <= std::min(radius, from.height() - 1); ++i) {
     const std::size_t apart = static_cast<std::size_t>(i) * words;
-    combine_words(from.row(i), all - apart, to.row(0));
-    combine_words(from.row(0), all - apart, to.row(i));
+    combine(from.row(i), all - apart, to.row(0));
+    combine(from.row(0), all - apart, to.row(i));
   }
   const Word edge = BeyondEdge(from);
-  for (int y = 0; y < from.height(); ++y) {
-    Word* const row = to.row(y);
-    row[words - 1] = (row[words - 1] & ~edge) | (beyond & edge);
-    // Three pixels, and then three times three or so.
-    CombineAlong(row, words, 1, beyond, combine);
-    if (radius > 1) CombineAlong(row, words, radius - 1, beyond, combine);
-    row[words - 1] &= ~edge;
-  }
+  const auto write_beyond_edge = [&](Word value) {
+    for (int y = 0; edge != 0 && y < to.height(); ++y) {
+      Word& last = to.row(y)[words - 1];
+      last = (last & ~edge) | (value & edge);
+    }
+  };
+  write_beyond_edge(beyond);
+  combine_along(to.row(0), all, words, radius);
+  write_beyond_edge(0);
 }
 
 // One bit of each of sixteen bytes, counted from the lowest.
@@ -113,13 +150,11 @@ void PackRow(std::span<const std::uint8_t> pixels, unsigned bit, int begin, Word
 }
 
 void Erode(const Silhouette& from, int radius, Silhouette& to) {
-  Filter(
-      from, radius, ~Word{0}, [](Word a, Word b) { return a & b; }, KeepCommon, to);
+  Filter(from, radius, ~Word{0}, KeepCommon, KeepCommonAlong, to);
 }
 
 void Dilate(const Silhouette& from, int radius, Silhouette& to) {
-  Filter(
-      from, radius, 0, [](Word a, Word b) { return a | b; }, AddAll, to);
+  Filter(from, radius, 0, AddAll, AddAllAlong, to);
 }
 
 void Unite(const Silhouette& from, Silhouette& to) {

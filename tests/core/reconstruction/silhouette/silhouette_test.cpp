@@ -113,7 +113,7 @@ TEST(Silhouette, PastingReplacesAPart) {
 }
 
 TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {
-  for (const int width : {64, 67, 130}) {
+  for (const int width : {64, 67, 130, 700}) {
     for (const int radius : {1, 2, 3}) {
       const Silhouette sparse = RandomSilhouette(width, 40, 60, 5);
       const Silhouette dense = [&] {
