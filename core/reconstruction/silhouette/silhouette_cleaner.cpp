@@ -93,7 +93,8 @@ void SilhouetteCleaner::Connect(const Silhouette& silhouette) {
     if (parts_[i].whole != i) parts_[parts_[i].whole].area += parts_[i].area;
 }
 
-// Lists a row's runs, with one where the first begins, and one where another would end.
+// Lists a row's runs up to `right`, with one where the first begins, and one where another would
+// end.
 // @returns where the next row's begin.
 int SilhouetteCleaner::CollectRuns(std::span<const Word> row, int right, int first) {
   const auto most = static_cast<std::size_t>(first + right + 2);
