@@ -7,6 +7,10 @@
 #include <cstring>
 #include <type_traits>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 #include "core/vectorized.h"
 
 /// Stands before a function that becomes part of vectorized ones, and so has as many versions.
@@ -67,11 +71,18 @@ MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats)
 MOCAP_INLINE Ints PlaceBits() { return Ints{1, 2, 4, 8, 16, 32, 64, 128}; }
 MOCAP_INLINE unsigned BitsOf(Ints choice) {
   using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
-  choice &= PlaceBits();
-  Half bits = __builtin_shufflevector(choice, choice, 0, 1, 2, 3) |
-              __builtin_shufflevector(choice, choice, 4, 5, 6, 7);
+  const Half first = __builtin_shufflevector(choice, choice, 0, 1, 2, 3);
+  const Half last = __builtin_shufflevector(choice, choice, 4, 5, 6, 7);
+#ifdef __SSE2__
+  const auto signs = [](Half half) {
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(half)));
+  };
+  return signs(first) | signs(last) << 4;
+#else
+  Half bits = (first & Half{1, 2, 4, 8}) | (last & Half{16, 32, 64, 128});
   bits |= __builtin_shufflevector(bits, bits, 2, 3, 0, 1);
   return static_cast<unsigned>(bits[0] | bits[1]);
+#endif
 }
 MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
   return (AllOf(static_cast<int>(bits)) & PlaceBits()) != 0;

@@ -1,12 +1,7 @@
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+#include <cstddef>
 
 #include "core/errors.h"
 #include "core/lanes.h"
@@ -106,48 +101,7 @@ void Filter(const Silhouette& from, int radius, Word beyond,
   write_beyond_edge(0);
 }
 
-// One bit of each of sixteen bytes, counted from the lowest.
-unsigned Gather(const std::uint8_t* bytes, int place) {
-#ifdef __SSE2__
-  const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
-  return static_cast<unsigned>(_mm_movemask_epi8(_mm_slli_epi16(all, 7 - place)));
-#else
-  const auto eight = [place](const std::uint8_t* from) {
-    Word word;
-    std::memcpy(&word, from, 8);
-    return static_cast<unsigned>((word >> place & 0x0101010101010101) * 0x0102040810204080 >> 56);
-  };
-  return eight(bytes) | eight(bytes + 8) << 8;
-#endif
-}
-
 }  // namespace
-
-void PackRow(std::span<const std::uint8_t> pixels, unsigned bit, int begin, Word* row) {
-  MOCAP_CHECK(begin % 8 == 0 && std::has_single_bit(bit) && bit < 256);
-  constexpr std::size_t kStep = 16;
-  const int place = std::countr_zero(bit);
-  const int shift = begin % 64;
-  const std::size_t count = pixels.size();
-  Word* to = row + begin / 64;
-  for (std::size_t first = 0; first < count; first += 64, ++to) {
-    Word word = 0;
-    for (std::size_t i = 0; i < 64 && first + i < count; i += kStep) {
-      const std::size_t left = count - first - i;
-      Word bits;
-      if (left >= kStep) {
-        bits = Gather(&pixels[first + i], place);
-      } else {
-        std::array<std::uint8_t, kStep> rest{};
-        std::copy_n(&pixels[first + i], left, rest.begin());
-        bits = Gather(rest.data(), place);
-      }
-      word |= bits << i;
-    }
-    to[0] |= word << shift;
-    if (shift > 0 && word >> (64 - shift) != 0) to[1] |= word >> (64 - shift);
-  }
-}
 
 void Erode(const Silhouette& from, int radius, Silhouette& to) {
   Filter(from, radius, ~Word{0}, KeepCommon, KeepCommonAlong, to);

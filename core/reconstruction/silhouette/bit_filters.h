@@ -1,18 +1,9 @@
 // §4: silhouettes 64 pixels at a time.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
-
-/// Sets pixels of one row where a bit of their byte is set. Pixels that are set stay so.
-/// @param pixels  one byte a pixel.
-/// @param bit     1, 2, 4 … 128.
-/// @param begin   the first byte's pixel, a multiple of 8.
-void PackRow(std::span<const std::uint8_t> pixels, unsigned bit, int begin, std::uint64_t* row);
 
 /// Keeps the pixels whose whole square neighbourhood of 2 radius + 1 pixels is set; what lies
 /// beyond the picture's edge counts as set.

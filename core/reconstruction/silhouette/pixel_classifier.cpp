@@ -1,7 +1,9 @@
 #include "core/reconstruction/silhouette/pixel_classifier.h"
 
-#include <span>
+#include <algorithm>
+#include <bit>
 
+#include "core/lanes.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 namespace mocap {
@@ -41,15 +43,15 @@ struct Criteria {
   float drift;
 };
 
-// A bit a kind: pixels that cannot be background by themselves, and windows, doubtful and clear.
-constexpr int kClearPixel = 1;
-constexpr int DoubtfulWindow(std::size_t k) { return 2 << k; }
-constexpr int ClearWindow(std::size_t k) { return 2 << (kWindows + k); }
+// Of the windows around eight pixels, as bits.
+struct Verdict {
+  unsigned doubtful, clear;
+};
 
 // Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
 template <std::size_t window>
-MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_weight,
-                              const Floats& drift_sq, const WindowCriteria& criteria, Ints& marks) {
+MOCAP_INLINE Verdict JudgeWindows(const WindowDistortions& d, const Floats& alpha_weight,
+                                  const Floats& drift_sq, const WindowCriteria& criteria) {
   const Floats normalized = d.alpha_shift * alpha_weight;
   const Floats bright = normalized > 0 ? normalized : Floats{};
   Floats excess_sq = (d.cd_sq - drift_sq) * criteria.per_cd;
@@ -57,14 +59,14 @@ MOCAP_INLINE void MarkWindows(const WindowDistortions& d, const Floats& alpha_we
   excess_sq = Most(excess_sq, d.roughness_sq * criteria.per_roughness);
   const Ints is_dark =
       (d.alpha_shift < criteria.dark.shift) & (normalized < criteria.dark.normalized);
-  marks |= (is_dark | (excess_sq > 1)) & DoubtfulWindow(window);
-  marks |= (is_dark | (excess_sq > criteria.margin_sq)) & ClearWindow(window);
+  return {BitsOf(is_dark | (excess_sq > 1)), BitsOf(is_dark | (excess_sq > criteria.margin_sq))};
 }
 
-// How a pixel by itself, and the windows around it, would differ from background.
+// How eight pixels by themselves, and the windows around them, would differ from background.
 struct Judgement {
   Floats alpha_weight, drift_sq;
-  Ints marks;
+  unsigned clear;
+  std::array<Verdict, kWindows> windows;
 };
 
 MOCAP_INLINE void JudgePixels(const DistortionScan::Row& row, int x, const Criteria& criteria,
@@ -77,7 +79,8 @@ MOCAP_INLINE void JudgePixels(const DistortionScan::Row& row, int x, const Crite
   const PixelCriteria& alone = criteria.pixel;
   const Ints is_dark =
       (alpha_shift < alone.dark.shift) & (alpha_shift * alpha_weight < alone.dark.normalized);
-  judgement = {alpha_weight, drift_sq, (is_dark | (cd_sq > alone.cd_sq + drift_sq)) & kClearPixel};
+  judgement.alpha_weight = alpha_weight, judgement.drift_sq = drift_sq;
+  judgement.clear = BitsOf(is_dark | (cd_sq > alone.cd_sq + drift_sq));
 }
 
 template <std::size_t window>
@@ -87,30 +90,45 @@ MOCAP_INLINE void JudgeWindows(const WindowLines& sums, int block, const Criteri
   JoinLines<window>(sums, block, {judgements[0].alpha_weight, judgements[1].alpha_weight}, d);
 #pragma GCC unroll 2
   for (int row = 0; row < 2; ++row)
-    MarkWindows<window>(d[row], judgements[row].alpha_weight, judgements[row].drift_sq,
-                        criteria.windows[window], judgements[row].marks);
+    judgements[row].windows[window] = JudgeWindows<window>(
+        d[row], judgements[row].alpha_weight, judgements[row].drift_sq, criteria.windows[window]);
 }
 
-// Marks the pixels of blocks of two rows.
+std::uint8_t* BytesOf(std::uint64_t* words) {
+  static_assert(std::endian::native == std::endian::little);
+  return reinterpret_cast<std::uint8_t*>(words);
+}
+
+// Where verdicts on the pixels of a row go, eight a byte.
+struct VerdictBytes {
+  std::uint8_t* clear_pixels;
+  std::array<std::uint8_t*, kWindows> doubtful, clear;
+
+  MOCAP_INLINE void Set(int block, const Judgement& judgement, unsigned judged) const {
+    clear_pixels[block] = static_cast<std::uint8_t>(judgement.clear & judged);
+#pragma GCC unroll 2
+    for (std::size_t k = 0; k < kWindows; ++k) {
+      doubtful[k][block] = static_cast<std::uint8_t>(judgement.windows[k].doubtful & judged);
+      clear[k][block] = static_cast<std::uint8_t>(judgement.windows[k].clear & judged);
+    }
+  }
+};
+
+// Judges the pixels of a run in two rows, or in the first of them.
 MOCAP_VECTORIZED
-void MarkBlocks(const DistortionScan::RowPair& pair, int first, int blocks,
-                const Criteria& criteria, const std::array<std::int32_t*, 2>& marks) {
-  for (int block = first; block < first + blocks; ++block) {
+void JudgeRun(const DistortionScan::RowPair& pair, const PixelRun& run, const Criteria& criteria,
+              const std::array<VerdictBytes, 2>& to, int rows) {
+  for (int block = run.begin / kFloats; block * kFloats < run.end; ++block) {
     std::array<Judgement, 2> judgements;
 #pragma GCC unroll 2
     for (int row = 0; row < 2; ++row)
       JudgePixels(pair.rows[row], block * kFloats, criteria, judgements[row]);
     JudgeWindows<0>(pair.sums, block, criteria, judgements);
     JudgeWindows<1>(pair.sums, block, criteria, judgements);
-#pragma GCC unroll 2
-    for (int row = 0; row < 2; ++row)
-      StoreLanes(judgements[row].marks, marks[row] + (block - first) * kFloats);
+    const unsigned judged = 0xffu >> std::max((block + 1) * kFloats - run.end, 0);
+    to[0].Set(block, judgements[0], judged);
+    if (rows == 2) to[1].Set(block, judgements[1], judged);
   }
-}
-
-MOCAP_VECTORIZED
-void Narrow(const std::int32_t* from, int count, std::uint8_t* to) {
-  for (int i = 0; i < count; ++i) to[i] = static_cast<std::uint8_t>(from[i]);
 }
 
 }  // namespace
@@ -129,14 +147,23 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
       {{{thresholds_.windows[0], kWindowMargins[0], darkest},
         {thresholds_.windows[1], kWindowMargins[1], darkest}}},
       conditions.drift};
+  // From a row's first pixel in the picture on.
+  const auto bytes_of = [this](int y) {
+    const auto row_of = [this, y](Silhouette& s) {
+      return BytesOf(s.row(y - frame_.top)) - frame_.left / kFloats;
+    };
+    VerdictBytes bytes{row_of(clear_pixels_), {}, {}};
+    for (std::size_t k = 0; k < kWindows; ++k) {
+      bytes.doubtful[k] = row_of(doubtful_windows_[k]);
+      bytes.clear[k] = row_of(clear_windows_[k]);
+    }
+    return bytes;
+  };
   for (int y = frame_.top; y <= frame_.bottom; y += 2) {
     const DistortionScan::RowPair& pair = scan_.Next();
-    for (const PixelRun& run : closeup.Judged(y)) {
-      const int count = run.end - run.begin;
-      MarkBlocks(pair, run.begin / kFloats, (count + kFloats - 1) / kFloats, criteria,
-                 {marks_[0].data(), marks_[1].data()});
-      for (int row = 0; row < 2 && y + row <= frame_.bottom; ++row) Pack(marks_[row], run, y + row);
-    }
+    const int rows = std::min(2, frame_.bottom + 1 - y);
+    const std::array<VerdictBytes, 2> to = {bytes_of(y), bytes_of(y + rows - 1)};
+    for (const PixelRun& run : closeup.Judged(y)) JudgeRun(pair, run, criteria, to, rows);
   }
   // A pixel is background when any of the windows with it is, and may well be foreground when no
   // window of one size at least is.
@@ -151,18 +178,6 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   Unite(eroded_[0], foreground_);
 }
 
-void PixelClassifier::Pack(const std::vector<std::int32_t>& marks, const PixelRun& run, int y) {
-  const int count = run.end - run.begin;
-  Narrow(marks.data(), count, narrow_marks_.data());
-  const std::span<const std::uint8_t> narrow(narrow_marks_.data(), static_cast<std::size_t>(count));
-  const int begin = run.begin - frame_.left, to = y - frame_.top;
-  PackRow(narrow, kClearPixel, begin, clear_pixels_.row(to));
-  for (std::size_t k = 0; k < kWindows; ++k) {
-    PackRow(narrow, DoubtfulWindow(k), begin, doubtful_windows_[k].row(to));
-    PackRow(narrow, ClearWindow(k), begin, clear_windows_[k].row(to));
-  }
-}
-
 void PixelClassifier::Resize(const Closeup& closeup) {
   frame_ = closeup.frame();
   for (auto* windows : {&clear_windows_, &doubtful_windows_, &eroded_})
@@ -173,9 +188,6 @@ void PixelClassifier::Resize(const Closeup& closeup) {
   clear_pixels_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
     for (Silhouette& s : *windows) s.Reset(width, height);
-  const auto row_px = static_cast<std::size_t>(closeup.width()) + kFloats;
-  for (auto& marks : marks_) marks.resize(row_px);
-  narrow_marks_.resize(row_px);
 }
 
 PixelClass PixelClassifier::ClassOf(int x, int y) const {

@@ -53,17 +53,12 @@ class PixelClassifier {
 
  private:
   void Resize(const Closeup& closeup);
-  // Takes in what was found of a run of row `y`.
-  void Pack(const std::vector<std::int32_t>& marks, const PixelRun& run, int y);
 
   DistortionThresholds thresholds_;
   float darkest_shadow_;
   const ExpectedPicture* expected_ = nullptr;
   PixelBox frame_;
   DistortionScan scan_;
-  // Of the pixels of a run in two rows, before they are packed.
-  std::array<std::vector<std::int32_t>, 2> marks_;
-  std::vector<std::uint8_t> narrow_marks_;
   Silhouette clear_pixels_;
   std::array<Silhouette, kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_;

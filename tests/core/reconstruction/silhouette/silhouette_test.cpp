@@ -75,30 +75,6 @@ TEST(Silhouette, AKeptBoundingBoxFollowsWhatIsWritten) {
   EXPECT_FALSE(s.BoundingBox().has_value());
 }
 
-TEST(Silhouette, BytesArePackedInOrderAndNothingBeyondTheLast) {
-  for (const int width : {1, 63, 64, 65, 130}) {
-    std::mt19937 random(4);
-    std::vector<std::uint8_t> bytes;
-    for (int x = 0; x < width; ++x) bytes.push_back(static_cast<std::uint8_t>(random()));
-    for (const unsigned bit : {1u, 8u, 128u}) {
-      Silhouette s(width, 1);
-      PackRow(bytes, bit, 0, s.row(0));
-      for (int x = 0; x < width; ++x) EXPECT_EQ(s.Test(x, 0), (bytes[x] & bit) != 0);
-      if (width % 64 != 0) {
-        EXPECT_EQ(s.words().back() >> (width % 64), 0u);
-      }
-    }
-  }
-}
-
-TEST(Silhouette, PackingARunLeavesTheRestOfTheRow) {
-  Silhouette s(200, 1);
-  s.Set(39, 0);
-  s.Set(141, 0);
-  PackRow(std::vector<std::uint8_t>(101, 1), 1, 40, s.row(0));
-  for (int x = 0; x < 200; ++x) EXPECT_EQ(s.Test(x, 0), x >= 39 && x <= 141) << x;
-}
-
 TEST(Silhouette, PastingReplacesAPart) {
   const Silhouette part = RandomSilhouette(70, 10, 50, 6);
   const Silhouette before = RandomSilhouette(134, 30, 50, 7);
