@@ -59,33 +59,44 @@ template <typename Lanes>
 MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
   return a < b ? b : a;
 }
+/// One number in every lane. GCC 12 would put an integer that is added to zeros into one after the
+/// other.
 MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
-MOCAP_INLINE Ints AllOf(int number) { return Ints{} + number; }
+MOCAP_INLINE Ints AllOf(int number) {
+  Ints first{};
+  first[0] = number;
+  return __builtin_shufflevector(first, first, 0, 0, 0, 0, 0, 0, 0, 0);
+}
 MOCAP_INLINE Floats SizeOf(Floats x) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
 }
 MOCAP_INLINE Ints TowardsZero(Floats x) { return __builtin_convertvector(x, Ints); }
 MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats); }
 
+/// All bits that are set in any lane.
+MOCAP_INLINE unsigned UnionOf(Ints bits) {
+  using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
+  Half united = __builtin_shufflevector(bits, bits, 0, 1, 2, 3) |
+                __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
+  united |= __builtin_shufflevector(united, united, 2, 3, 0, 1);
+  return static_cast<unsigned>(united[0] | united[1]);
+}
 /// A choice of lanes as bits, the first in the lowest, and back.
 MOCAP_INLINE Ints PlaceBits() { return Ints{1, 2, 4, 8, 16, 32, 64, 128}; }
 MOCAP_INLINE unsigned BitsOf(Ints choice) {
-  using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
-  const Half first = __builtin_shufflevector(choice, choice, 0, 1, 2, 3);
-  const Half last = __builtin_shufflevector(choice, choice, 4, 5, 6, 7);
 #ifdef __SSE2__
+  using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
   const auto signs = [](Half half) {
     return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(half)));
   };
-  return signs(first) | signs(last) << 4;
+  return signs(__builtin_shufflevector(choice, choice, 0, 1, 2, 3)) |
+         signs(__builtin_shufflevector(choice, choice, 4, 5, 6, 7)) << 4;
 #else
-  Half bits = (first & Half{1, 2, 4, 8}) | (last & Half{16, 32, 64, 128});
-  bits |= __builtin_shufflevector(bits, bits, 2, 3, 0, 1);
-  return static_cast<unsigned>(bits[0] | bits[1]);
+  return UnionOf(choice & PlaceBits());
 #endif
 }
 MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
-  return (AllOf(static_cast<int>(bits)) & PlaceBits()) != 0;
+  return (AllOf(static_cast<int>(bits)) & PlaceBits()) == PlaceBits();
 }
 
 /// Where eight numbers of a table are taken from: they go through memory, for to take them out of a
