@@ -5,9 +5,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "core/lanes.h"
-#include "core/reconstruction/silhouette/bit_filters.h"
 #include "core/reconstruction/silhouette/pixel_lanes.h"
 
 namespace mocap {
@@ -20,7 +20,6 @@ constexpr int kBlock_px = 2;
 // Where the first begins: blocks that reach over the edge of a tile reach as far on either side.
 constexpr int kFirst = -1;
 constexpr int kReach_px = 3;
-constexpr int kSide = kBlock_px + 2 * kReach_px;
 // Of the rows around a block half tell enough, the outermost among them: counted from its first.
 constexpr std::array<int, 4> kRows = {-3, -1, 2, 4};
 // Colours that are closer than this [grey levels] tell nothing.
@@ -29,15 +28,12 @@ constexpr float kLeastContrast = 4;
 // of the two colours.
 constexpr float kHalfCovered = 0.4f;
 
-constexpr unsigned kAll = (1u << kSide) - 1;
-static_assert(kSide == kFloats);
 constexpr int kWord_px = 64;
-constexpr auto kCounts = [] {
-  std::array<std::uint8_t, kAll + 1> counts{};
-  for (unsigned bits = 1; bits <= kAll; ++bits)
-    counts[bits] = static_cast<std::uint8_t>(counts[bits >> 1] + (bits & 1));
-  return counts;
-}();
+// Eight pixels side by side belong to five blocks; what is around those begins so far before.
+constexpr int kBefore_px = kReach_px - kFirst;
+constexpr int kAround_px = 2 * kFloats;
+constexpr int kAroundRows = kBlock_px + 2 * kReach_px;
+static_assert(kFloats + 2 * kBefore_px == kAround_px);
 
 // Within the frame of a silhouette.
 struct Picture {
@@ -48,210 +44,229 @@ struct Picture {
   ImageView<const float> alpha_shift;
 };
 
-// The silhouette without its outermost pixels, and with those beside it.
-struct Bounds {
-  const Silhouette &inside, &near;
+// The size of planes of bits: an empty word is between rows, and empty rows are above and below.
+struct PlaneSize {
+  PlaneSize(int width, int height_in)
+      : words((width + kWord_px - 1) / kWord_px), height(height_in), stride(words + 1) {}
+  std::ptrdiff_t At(int word, int y) const { return (y + kMargin) * stride + 1 + word; }
+  std::size_t Count() const { return At(0, height + kMargin); }
+  static constexpr int kMargin = kReach_px - kFirst;
+  int words, height;
+  std::ptrdiff_t stride;
+};
+
+struct Planes {
+  PlaneSize size;
+  const Word *person, *background, *inside, *outside;
   // The pixels of a word that the outline may cross.
   MOCAP_INLINE Word Band(int word, int y) const {
-    return y < 0 || y >= near.height() ? 0 : near.row(y)[word] & ~inside.row(y)[word];
+    const std::ptrdiff_t i = size.At(word, y);
+    return (person[i] | background[i]) & ~(inside[i] | outside[i]);
   }
 };
 
-// A word of a row and the pixels around its blocks: none of those beyond the row are set.
-class Stretch {
- public:
-  Stretch() = default;
-  // @param flip  what turns pixels over.
-  MOCAP_INLINE Stretch(const Word* row, int words, int word, Word flip) {
-    const Word here = row[word] ^ flip;
-    const Word before = word > 0 ? row[word - 1] ^ flip : 0;
-    const Word after = word + 1 < words ? row[word + 1] ^ flip : 0;
-    first_ = here << kBefore | before >> (kWord_px - kBefore);
-    last_ = here >> (kHalf - kBefore) | after << (kWord_px - kHalf + kBefore);
+// Writes what is in a silhouette and what is not.
+void Part(const Silhouette& silhouette, const PlaneSize& size, Word* person, Word* background) {
+  const Word last = ~Word{0} >> (size.words * kWord_px - silhouette.width());
+  for (int y = 0; y < size.height; ++y) {
+    const Word* const row = silhouette.row(y);
+    Word* const in = person + size.At(0, y);
+    Word* const out = background + size.At(0, y);
+    for (int word = 0; word < size.words; ++word) in[word] = row[word], out[word] = ~row[word];
+    out[size.words - 1] &= last;
+    in[size.words] = out[size.words] = 0;
   }
-  // The kSide pixels around the block that begins at a pixel of the word.
-  MOCAP_INLINE unsigned Around(int block) const {
-    const int begin = block - kFirst;
-    return static_cast<unsigned>(begin < kHalf ? first_ >> begin : last_ >> (begin - kHalf)) & kAll;
-  }
-
- private:
-  // The first block begins before the word.
-  static constexpr int kBefore = kReach_px - kFirst, kHalf = kWord_px / 2;
-  // 64 pixels from kBefore before the word on, and as many from kHalf later on.
-  Word first_ = 0, last_ = 0;
-};
-
-// Some of the rows around the blocks of a word.
-struct Surroundings {
-  MOCAP_INLINE Surroundings(const Bounds& bounds, int word, int block_y) {
-    const int words = bounds.inside.words_per_row();
-    for (std::size_t k = 0; k < kRows.size(); ++k) {
-      const int wanted = block_y + kRows[k];
-      y[k] = std::clamp(wanted, 0, bounds.inside.height() - 1);
-      if (y[k] != wanted) continue;  // Nothing counts beyond the picture.
-      person[k] = Stretch(bounds.inside.row(wanted), words, word, 0);
-      background[k] = Stretch(bounds.near.row(wanted), words, word, ~Word{0});
-    }
-  }
-  std::array<int, kRows.size()> y;
-  std::array<Stretch, kRows.size()> person, background;
-};
-
-// The person's colours and the background's brightness around a block.
-struct Around {
-  // Sums: what lies in one column, or more of it. Blue and red share numbers.
-  Ints blue_red{}, green{};
-  Floats alphas{};
-  int person_count = 0, background_count = 0;
-
-  // Adds a row of kSide pixels.
-  MOCAP_INLINE void Add(const Bgr* pixels, unsigned person, const float* alpha_shift,
-                        unsigned background) {
-    Ints colors, shifts;
-    LoadPixels(pixels, colors), LoadLanes(alpha_shift, shifts);
-    colors &= ChoiceOf(person);
-    blue_red += colors & 0xff00ff, green += colors >> 8 & 0xff;
-    alphas += reinterpret_cast<Floats>(shifts & ChoiceOf(background));
-    person_count += kCounts[person], background_count += kCounts[background];
-  }
-
-  // Adds those of a row's pixels that count: others may not be there.
-  MOCAP_INLINE void AddSome(const Bgr* pixels, unsigned person, const float* alpha_shift,
-                            unsigned background) {
-    for (; person != 0; person &= person - 1, ++person_count) {
-      const Bgr& p = pixels[std::countr_zero(person)];
-      blue_red[0] += p.b | p.r << 16, green[0] += p.g;
-    }
-    for (; background != 0; background &= background - 1, ++background_count)
-      alphas[0] += alpha_shift[std::countr_zero(background)];
-  }
-
-  MOCAP_INLINE std::array<float, 3> PersonColor() const {
-    Half both = __builtin_shufflevector(blue_red, green, 0, 1, 8, 9) +
-                __builtin_shufflevector(blue_red, green, 2, 3, 10, 11) +
-                __builtin_shufflevector(blue_red, green, 4, 5, 12, 13) +
-                __builtin_shufflevector(blue_red, green, 6, 7, 14, 15);
-    both += __builtin_shufflevector(both, both, 1, 0, 3, 2);
-    const float per_pixel = 1 / static_cast<float>(person_count);
-    return {per_pixel * static_cast<float>(both[0] & 0xffff),
-            per_pixel * static_cast<float>(both[2]), per_pixel * static_cast<float>(both[0] >> 16)};
-  }
-  MOCAP_INLINE float Alpha() const {
-    const float sum = ((alphas[0] + alphas[4]) + (alphas[1] + alphas[5])) +
-                      ((alphas[2] + alphas[6]) + (alphas[3] + alphas[7]));
-    return 1 + sum / static_cast<float>(background_count);
-  }
-
- private:
-  using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
-};
-
-// What was found around the blocks of a word, pixel by pixel from the first block's first on.
-struct BlockColors {
-  static constexpr std::size_t kPixels = kWord_px + kBlock_px;
-  std::array<std::array<float, kPixels>, 3> person;
-  std::array<float, kPixels> alpha;
-};
-
-// Looks around the block that begins at a pixel of the word.
-// @returns whether both person and background are there.
-MOCAP_INLINE bool LookAround(const Picture& picture, const Surroundings& surroundings, int word,
-                             int block, BlockColors& colors) {
-  Around around;
-  const int begin = word * kWord_px + block - kReach_px;
-  const int width = picture.image.width();
-  const bool is_whole = begin >= 0 && begin + kSide <= width;
-  const unsigned valid = begin + kSide <= width ? kAll : kAll >> (begin + kSide - width);
-#pragma GCC unroll 4
-  for (std::size_t k = 0; k < kRows.size(); ++k) {
-    const unsigned person = surroundings.person[k].Around(block);
-    const unsigned background = surroundings.background[k].Around(block) & valid;
-    const Bgr* const pixels = picture.image.row(surroundings.y[k]) + begin;
-    const float* const alpha_shift = picture.alpha_shift.row(surroundings.y[k]) + begin;
-    if (is_whole)
-      around.Add(pixels, person, alpha_shift, background);
-    else
-      around.AddSome(pixels, person, alpha_shift, background);
-  }
-  if (around.person_count == 0 || around.background_count == 0) return false;
-  const std::array<float, 3> person = around.PersonColor();
-  const float alpha = around.Alpha();
-  for (int i = block - kFirst; i < block - kFirst + kBlock_px; ++i) {
-    for (int c = 0; c < 3; ++c) colors.person[c][i] = person[c];
-    colors.alpha[i] = alpha;
-  }
-  return true;
 }
 
-// Of eight pixels, as bits: where the colours differ enough to tell, and what the person covers by
-// half.
-struct Cover {
-  unsigned is_told, is_person;
+// A word's pixels and those beside them.
+MOCAP_INLINE Word Near(const Word* plane, std::ptrdiff_t stride) {
+  const auto column = [=](int word) {
+    return plane[word - stride] | plane[word] | plane[word + stride];
+  };
+  const Word here = column(0);
+  return here | here << 1 | here >> 1 | column(-1) >> (kWord_px - 1) | column(1) << (kWord_px - 1);
+}
+
+// Leaves out what is beside the other.
+MOCAP_VECTORIZED
+void KeepApart(const Word* person, const Word* background, std::ptrdiff_t stride,
+               std::ptrdiff_t count, Word* __restrict inside, Word* __restrict outside) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    inside[i] = person[i] & ~Near(background + i, stride);
+    outside[i] = background[i] & ~Near(person + i, stride);
+  }
+}
+
+// The pixels around eight of a row, in every lane from bit kFirstAround on: words lie in memory
+// lowest byte first.
+constexpr int kFirstAround = 8 - kBefore_px;
+MOCAP_INLINE Ints BitsAround(const Word* row, int pixel) {
+  std::int32_t bits;
+  std::memcpy(&bits, reinterpret_cast<const std::uint8_t*>(row) + pixel / 8 - 1, sizeof bits);
+  return AllOf(bits);
+}
+
+// Of kAround_px columns, to the left or the right half of them.
+struct Columns {
+  // Sums over rows: of pixels as they are loaded, with minus one in the highest byte, and of the
+  // same without green, which leaves room for more.
+  Ints colors{}, blue_red{};
+  Floats shifts{};
+  Ints background_count{};
+
+  MOCAP_INLINE void Add(const Bgr* pixels, Ints person, const float* alpha_shift, Ints background) {
+    Ints pixel, shift;
+    LoadPixels(pixels, pixel), LoadLanes(alpha_shift, shift);
+    pixel = (pixel | -0x1000000) & person;
+    colors += pixel, blue_red += pixel & 0xff00ff;
+    shifts += reinterpret_cast<Floats>(shift & background);
+    background_count -= background;
+  }
 };
 
-MOCAP_INLINE Cover CoverOf(const Picture& picture, const BlockColors& colors, int x, int y) {
-  const int first = x % kWord_px - kFirst, width = picture.image.width();
-  const WeighedPixels& expected =
-      *picture.expected.Group((picture.left + x) / WeighedPixels::kPixels, picture.top + y);
-  std::array<Bgr, kFloats> last{};
-  const Bgr* pixels = picture.image.row(y) + x;
-  if (x + kFloats > width) {
-    std::copy(pixels, picture.image.row(y) + width, last.begin());
-    pixels = last.data();
+// Sums of columns around the block that each of eight pixels belongs to.
+template <typename Lanes>
+MOCAP_INLINE void SumAround(const Lanes& left, const Lanes& right, Lanes& sums) {
+  const Lanes twos = __builtin_shufflevector(left, right, 0, 2, 4, 6, 8, 10, 12, 14) +
+                     __builtin_shufflevector(left, right, 1, 3, 5, 7, 9, 11, 13, 15);
+  const Lanes fours = twos + __builtin_shufflevector(twos, twos, 1, 2, 3, 4, 5, 6, 7, 7);
+  sums = __builtin_shufflevector(fours, fours, 0, 1, 1, 2, 2, 3, 3, 4) +
+         __builtin_shufflevector(fours, fours, 2, 3, 3, 4, 4, 5, 5, 6);
+}
+
+// The person's colours and the background's brightness around eight pixels: not a number where none
+// is there, so that nothing is told.
+struct Around {
+  MOCAP_INLINE Around(const Columns& left, const Columns& right, const std::array<float, 3>& gain) {
+    Ints colors, blue_red, background_count;
+    SumAround(left.colors, right.colors, colors);
+    SumAround(left.blue_red, right.blue_red, blue_red);
+    SumAround(left.shifts, right.shifts, alpha);
+    SumAround(left.background_count, right.background_count, background_count);
+    const Ints green = colors - blue_red;
+    const Floats per_pixel = 1 / ToFloats(-(green >> 24));
+    person[0] = per_pixel * ToFloats(blue_red & 0xffff) * gain[0];
+    person[1] = per_pixel * ToFloats(green >> 8 & 0xffff) * gain[1];
+    person[2] = per_pixel * ToFloats(blue_red >> 16) * gain[2];
+    alpha = 1 + alpha / ToFloats(background_count);
   }
+  std::array<Floats, 3> person;
+  Floats alpha;
+};
+
+// Of eight pixels, as bits of their lanes: where the colours differ enough to tell, and above those
+// what the person covers by half.
+MOCAP_INLINE Ints CoverOf(const Around& around, const Bgr* pixels, const std::array<float, 3>& gain,
+                          const WeighedPixels& expected, int first) {
   Ints packed;
   LoadPixels(pixels, packed);
-  Floats alpha, along{}, contrast_sq{};
-  LoadLanes(&colors.alpha[first], alpha);
+  Floats along{}, contrast_sq{};
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    Floats person;
-    LoadLanes(&colors.person[c][first], person);
     const Floats background =
-        LoadShorts(&expected.mean[c][(picture.left + x) % WeighedPixels::kPixels],
-                   WeighedPixels::kMeanUnit) *
-        alpha;
-    const Floats contrast = person * picture.gain[c] - background;
-    along += contrast * (ChannelOf(packed, c) * picture.gain[c] - background);
+        LoadShorts(&expected.mean[c][first], WeighedPixels::kMeanUnit) * around.alpha;
+    const Floats contrast = around.person[c] - background;
+    along += contrast * (ChannelOf(packed, c) * gain[c] - background);
     contrast_sq += contrast * contrast;
   }
-  return {BitsOf(contrast_sq >= kLeastContrast * kLeastContrast),
-          BitsOf(along > kHalfCovered * contrast_sq)};
+  return ((contrast_sq >= kLeastContrast * kLeastContrast) & PlaceBits()) |
+         ((along > kHalfCovered * contrast_sq) & PlaceBits() << kFloats);
 }
 
-// Keeps pixels of a word that the person covers by half; leaves those where the colours are alike.
-MOCAP_INLINE void RefinePixels(const Picture& picture, const BlockColors& colors, Word pixels,
-                               int word, int y, Silhouette& silhouette) {
-  Word& refined = silhouette.row(y)[word];
-  while (pixels != 0) {
-    const int first = std::countr_zero(pixels) / kFloats * kFloats;
-    const Cover cover = CoverOf(picture, colors, word * kWord_px + first, y);
-    const Word told = pixels & Word{cover.is_told} << first;
-    refined = (refined & ~told) | (Word{cover.is_person} << first & told);
-    pixels &= ~(Word{kAll} << first);
+// The pixels and shifts around eight pixels of a block's rows.
+struct Patch {
+  ImageView<const Bgr> image;
+  ImageView<const float> alpha_shift;
+};
+
+// Copies what of a patch is in the picture, for one that is not there as a whole.
+class PatchAtEdge {
+ public:
+  Patch Copy(const Picture& picture, int left, int top) {
+    const int first = std::max(-left, 0);
+    const int count = std::min(kAround_px, picture.image.width() - left) - first;
+    const ImageView<Bgr> image(image_.data(), kAround_px, kAroundRows);
+    const ImageView<float> shift(shift_.data(), kAround_px, kAroundRows);
+    for (int y = std::max(-top, 0); y < std::min(kAroundRows, picture.image.height() - top); ++y) {
+      std::copy_n(picture.image.row(top + y) + left + first, count, image.row(y) + first);
+      std::copy_n(picture.alpha_shift.row(top + y) + left + first, count, shift.row(y) + first);
+    }
+    return {image, shift};
+  }
+
+ private:
+  std::array<Bgr, kAround_px * kAroundRows> image_{};
+  std::array<float, kAround_px * kAroundRows> shift_{};
+};
+
+MOCAP_INLINE Patch PatchAround(const Picture& picture, int left, int top, PatchAtEdge& at_edge) {
+  if (left < 0 || top < 0 || left + kAround_px > picture.image.width() ||
+      top + kAroundRows > picture.image.height())
+    return at_edge.Copy(picture, left, top);
+  return {picture.image.Section(left, top, kAround_px, kAroundRows),
+          picture.alpha_shift.Section(left, top, kAround_px, kAroundRows)};
+}
+
+// @param inside, outside  the word in the block's first row.
+MOCAP_INLINE Around LookAround(const Patch& patch, const Word* inside, const Word* outside,
+                               std::ptrdiff_t stride, int pixel, const std::array<float, 3>& gain) {
+  Columns left, right;
+#pragma GCC unroll 4
+  for (const int row : kRows) {
+    const Bgr* const pixels = patch.image.row(kReach_px + row);
+    const float* const shifts = patch.alpha_shift.row(kReach_px + row);
+    const Ints person = BitsAround(inside + row * stride, pixel);
+    const Ints background = BitsAround(outside + row * stride, pixel);
+    const Ints first = PlaceBits() << kFirstAround, last = first << kFloats;
+    left.Add(pixels, (person & first) == first, shifts, (background & first) == first);
+    right.Add(pixels + kFloats, (person & last) == last, shifts + kFloats,
+              (background & last) == last);
+  }
+  return {left, right, gain};
+}
+
+// Keeps what the person covers by half of eight pixels of a block's rows, where they may be
+// crossed by the outline; leaves those where the colours are alike.
+MOCAP_INLINE void RefinePixels(const Picture& picture, const Around& around, const Patch& patch,
+                               const std::array<Word, kBlock_px>& bands, int word, int pixel, int y,
+                               ImageView<Word> silhouette) {
+  const int x = picture.left + word * kWord_px + pixel;
+  const int last = silhouette.height() - 1;
+  const std::array<int, kBlock_px> rows = {std::max(y, 0), std::min(y + 1, last)};
+  const WeighedPixels* const expected =
+      picture.expected.Group(x / WeighedPixels::kPixels, picture.top);
+  Ints covers{};
+#pragma GCC unroll 2
+  for (int row = kBlock_px - 1; row >= 0; --row)
+    covers = covers << 2 * kFloats | CoverOf(around, patch.image.row(kReach_px + row) + kBefore_px,
+                                             picture.gain, expected[rows[row]],
+                                             x % WeighedPixels::kPixels);
+  const unsigned cover = UnionOf(covers);
+#pragma GCC unroll 2
+  for (int row = 0; row < kBlock_px; ++row) {
+    const unsigned bits = cover >> 2 * kFloats * row;
+    Word& refined = silhouette(word, rows[row]);
+    const Word told = bands[row] & Word{bits & 0xff} << pixel;
+    refined = (refined & ~told) | (Word{bits >> kFloats & 0xff} << pixel & told);
   }
 }
 
 MOCAP_VECTORIZED
-void RefineAll(const Picture& picture, const Bounds& bounds, Silhouette& silhouette) {
-  BlockColors colors{};  // Others than those of the word in hand are not asked for.
+void RefineAll(const Picture& picture, const Planes& planes, ImageView<Word> silhouette) {
+  PatchAtEdge at_edge;
   for (int y = kFirst; y < silhouette.height(); y += kBlock_px) {
-    for (int word = 0; word < silhouette.words_per_row(); ++word) {
-      const std::array<Word, kBlock_px> bands = {bounds.Band(word, y), bounds.Band(word, y + 1)};
-      if ((bands[0] | bands[1]) == 0) continue;
-      const Surroundings surroundings(bounds, word, y);
-      Word known = 0;
-      for (Word band = bands[0] | bands[1]; band != 0;) {
-        const int pixel = std::countr_zero(band);
-        const int block = pixel - (pixel - kFirst) % kBlock_px;
-        const Word both = block < 0 ? Word{1} : Word{3} << block;
-        if (LookAround(picture, surroundings, word, block, colors)) known |= both;
-        band &= ~both;
+    for (int word = 0; word < silhouette.width(); ++word) {
+      const std::array<Word, kBlock_px> bands = {planes.Band(word, y), planes.Band(word, y + 1)};
+      for (Word left = bands[0] | bands[1]; left != 0;) {
+        const int pixel = std::countr_zero(left) / kFloats * kFloats;
+        left &= ~(Word{0xff} << pixel);
+        const Patch patch =
+            PatchAround(picture, word * kWord_px + pixel - kBefore_px, y - kReach_px, at_edge);
+        const std::ptrdiff_t i = planes.size.At(word, y);
+        const Around around = LookAround(patch, planes.inside + i, planes.outside + i,
+                                         planes.size.stride, pixel, picture.gain);
+        RefinePixels(picture, around, patch, bands, word, pixel, y, silhouette);
       }
-      for (int row = 0; row < kBlock_px; ++row)
-        if ((bands[row] & known) != 0)
-          RefinePixels(picture, colors, bands[row] & known, word, y + row, silhouette);
     }
   }
 }
@@ -264,11 +279,18 @@ void OutlineRefiner::Refine(const ExpectedPicture& expected, ImageView<const Bgr
   const auto in_frame = [&](const auto& view) {
     return view.Section(frame.left, frame.top, silhouette.width(), silhouette.height());
   };
-  inside_.Reserve(image.width(), image.height()), near_.Reserve(image.width(), image.height());
-  Erode(silhouette, 1, inside_);
-  Dilate(silhouette, 1, near_);
+  const PlaneSize size(silhouette.width(), silhouette.height());
+  for (auto* const plane : {&person_, &background_, &inside_, &outside_}) {
+    plane->reserve(PlaneSize(image.width(), image.height()).Count());
+    plane->assign(size.Count(), 0);
+  }
+  const std::ptrdiff_t first = size.At(0, 0);
+  Part(silhouette, size, person_.data(), background_.data());
+  KeepApart(&person_[first], &background_[first], size.stride, size.height * size.stride,
+            &inside_[first], &outside_[first]);
   RefineAll({expected, frame.left, frame.top, in_frame(image), gain, in_frame(alpha_shift)},
-            {inside_, near_}, silhouette);
+            {size, person_.data(), background_.data(), inside_.data(), outside_.data()},
+            {silhouette.row(0), silhouette.words_per_row(), silhouette.height()});
 }
 
 }  // namespace mocap

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
@@ -26,7 +28,9 @@ class OutlineRefiner {
               const PixelBox& frame, Silhouette& silhouette);
 
  private:
-  Silhouette inside_, near_;
+  // What is in the silhouette and what is not, and what of both is not beside the other: a bit a
+  // pixel, with empty words and rows around them.
+  std::vector<std::uint64_t> person_, background_, inside_, outside_;
 };
 
 }  // namespace mocap
