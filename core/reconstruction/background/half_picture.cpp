@@ -1,6 +1,7 @@
 #include "core/reconstruction/background/half_picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -13,63 +14,111 @@ namespace {
 
 int RoundUp(int value, int step) { return (value + step - 1) / step * step; }
 
+constexpr int kTile = HalfPicture::kTile;
+constexpr float kArea = kTile * kTile;
+
 // Averages, rounded up.
 MOCAP_INLINE std::uint8_t MeanOf(std::uint8_t a, std::uint8_t b) {
   return static_cast<std::uint8_t>((a + b + 1) >> 1);
 }
 
-// Averages the bytes of two rows over pixels that are side by side, whatever their channel: byte by
-// byte, for twice as many fit into a vector as of their sums.
-MOCAP_VECTORIZED
-void AveragePairs(const std::uint8_t* top, const std::uint8_t* bottom, int count,
-                  std::uint8_t* means) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const std::uint8_t a = top[i], b = top[i + 3], c = bottom[i], d = bottom[i + 3];
-    const std::uint8_t ab = MeanOf(a, b), cd = MeanOf(c, d);
-    // Rounded up twice, it is one too many: first a pair's mean, then that of both.
-    const std::uint8_t excess = ((a ^ b) | (c ^ d)) & (ab ^ cd) & 1;
-    means[i] = static_cast<std::uint8_t>(MeanOf(ab, cd) - excess);
-  }
+// Averages a byte of two pixels side by side and of those below.
+MOCAP_INLINE std::uint8_t MeanOfFour(const std::uint8_t* top, const std::uint8_t* bottom) {
+  const std::uint8_t a = top[0], b = top[3], c = bottom[0], d = bottom[3];
+  const std::uint8_t ab = MeanOf(a, b), cd = MeanOf(c, d);
+  // Rounded up twice, it is one too many: first a pair's mean, then that of both.
+  const std::uint8_t excess = ((a ^ b) | (c ^ d)) & (ab ^ cd) & 1;
+  return static_cast<std::uint8_t>(MeanOf(ab, cd) - excess);
 }
 
 using Bytes = std::uint8_t __attribute__((vector_size(16)));
-constexpr int kPicked = 8;
+using Shorts = std::uint16_t __attribute__((vector_size(16)));
 
-// Picks one channel of every second one of the sixteen pixels in three vectors.
-template <int c>
-MOCAP_INLINE void PickChannel(const Bytes& x, const Bytes& y, const Bytes& z, std::uint8_t* to) {
-  // The sixth is the last in the first two vectors, or the first in the third.
-  constexpr bool kHasSixth = 30 + c < 32;
-  const Bytes xy =
-      __builtin_shufflevector(x, y, c, 6 + c, 12 + c, 18 + c, 24 + c, kHasSixth ? 30 + c : -1, -1,
-                              -1, -1, -1, -1, -1, -1, -1, -1, -1);
-  const Bytes xyz = __builtin_shufflevector(xy, z, 0, 1, 2, 3, 4, kHasSixth ? 5 : 16, 20 + c,
-                                            26 + c, -1, -1, -1, -1, -1, -1, -1, -1);
-  std::memcpy(to, &xyz, kPicked);
+// Averages the bytes of two rows, whatever their channel: byte by byte, for twice as many fit into
+// a vector as of their sums. Compilers know the average of bytes in loops only.
+MOCAP_INLINE void AverageBytes(const std::uint8_t* top, const std::uint8_t* bottom, Bytes& first,
+                               Bytes& second) {
+  alignas(32) std::array<std::uint8_t, 2 * sizeof(Bytes)> means;
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < means.size(); ++i) means[i] = MeanOfFour(top + i, bottom + i);
+  LoadLanes(means.data(), first), LoadLanes(means.data() + sizeof first, second);
 }
 
+MOCAP_INLINE Shorts FirstHalfOf(Bytes bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  return reinterpret_cast<Shorts>(__builtin_shufflevector(bytes, Bytes{}, 0, 16, 1, 16, 2, 16, 3,
+                                                          16, 4, 16, 5, 16, 6, 16, 7, 16));
+}
+
+// Two tiles side by side are halved at once.
+constexpr int kStrip = 2 * kTile;
+
+// The sums of a strip's columns, channel by channel.
+using Columns = std::array<Shorts, 3>;
+
+// Halves two rows of the picture to eight pixels, and adds these to their columns.
+MOCAP_INLINE void HalveStrip(const std::uint8_t* top, const std::uint8_t* bottom, std::uint8_t* b,
+                             std::uint8_t* g, std::uint8_t* r, Columns& columns) {
+  // The last vector ends where the last pixel does: nothing is read behind the picture.
+  constexpr int kLast = 6 * kStrip - 3 - 2 * static_cast<int>(sizeof(Bytes));
+  Bytes x, y, z, unused;
+  AverageBytes(top, bottom, x, y);
+  AverageBytes(top + kLast, bottom + kLast, unused, z);
+  Bytes blue_green =
+      __builtin_shufflevector(x, y, 0, 6, 12, 18, 24, 30, -1, -1, 1, 7, 13, 19, 25, 31, -1, -1);
+  Bytes red =
+      __builtin_shufflevector(x, y, 2, 8, 14, 20, 26, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1);
+  blue_green = __builtin_shufflevector(blue_green, z, 0, 1, 2, 3, 4, 5, 23, 29, 8, 9, 10, 11, 12,
+                                       13, 24, 30);
+  red = __builtin_shufflevector(red, z, 0, 1, 2, 3, 4, 19, 25, 31, -1, -1, -1, -1, -1, -1, -1, -1);
+  const Bytes green = __builtin_shufflevector(blue_green, blue_green, 8, 9, 10, 11, 12, 13, 14, 15,
+                                              -1, -1, -1, -1, -1, -1, -1, -1);
+  std::memcpy(b, &blue_green, kStrip);
+  std::memcpy(g, &green, kStrip);
+  std::memcpy(r, &red, kStrip);
+  columns[0] += FirstHalfOf(blue_green), columns[1] += FirstHalfOf(green);
+  columns[2] += FirstHalfOf(red);
+}
+
+// Where tiles that lie side by side are halved to, channel by channel.
+struct Halves {
+  std::array<std::uint8_t*, 3> color;
+  std::array<float*, 3> tile_mean;
+  int width;  // From a row of pixels to the next.
+};
+
+// Halves whole tiles, two or more.
 MOCAP_VECTORIZED
-void PickPixels(const std::uint8_t* means, int count, std::uint8_t* b, std::uint8_t* g,
-                std::uint8_t* r) {
-  int i = 0;
-  for (; i + kPicked <= count; i += kPicked) {
-    Bytes x, y, z;
-    LoadLanes(means + 6 * i, x), LoadLanes(means + 6 * i + 16, y), LoadLanes(means + 6 * i + 32, z);
-    PickChannel<0>(x, y, z, b + i), PickChannel<1>(x, y, z, g + i), PickChannel<2>(x, y, z, r + i);
+void HalveTiles(const std::uint8_t* from, std::ptrdiff_t stride, int count, const Halves& to) {
+  const auto [b, g, r] = to.color;
+  const int width = to.width;
+  // The last two tiles, if their number is odd, have one in common with those before.
+  for (int end = 2; end < count + 2; end += 2) {
+    const int tile = std::min(end, count) - 2;
+    Columns columns{};
+#pragma GCC unroll 4
+    for (int y = 0; y < kTile; ++y) {
+      const std::uint8_t* const top = from + 2 * y * stride + tile * kTile * 6;
+      const int i = y * width + tile * kTile;
+      HalveStrip(top, top + stride, b + i, g + i, r + i, columns);
+    }
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      Shorts sums = columns[c];
+      sums += __builtin_shufflevector(sums, sums, 1, 0, 3, 2, 5, 4, 7, 6);
+      sums += __builtin_shufflevector(sums, sums, 2, 3, 0, 1, 6, 7, 4, 5);
+      to.tile_mean[c][tile] = static_cast<float>(sums[0]) / kArea;
+      to.tile_mean[c][tile + 1] = static_cast<float>(sums[kTile]) / kArea;
+    }
   }
-  for (; i < count; ++i) b[i] = means[6 * i], g[i] = means[6 * i + 1], r[i] = means[6 * i + 2];
 }
 
-constexpr float kArea = HalfPicture::kTile * HalfPicture::kTile;
-
 MOCAP_VECTORIZED
-void AverageRow(const std::uint8_t* pixels, int stride, int width, std::uint16_t* columns,
-                float* means) {
+void AverageRow(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means) {
   for (int x = 0; x < width; ++x)
-    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[stride + x] +
-                                            pixels[2 * stride + x] + pixels[3 * stride + x]);
-  for (int i = 0; i < width / HalfPicture::kTile; ++i)
+    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
+                                            pixels[3 * width + x]);
+  for (int i = 0; i < width / kTile; ++i)
     means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
                                   columns[4 * i + 3]) /
                kArea;
@@ -105,40 +154,47 @@ void MixPixels(const std::uint8_t* top, const std::uint8_t* bottom, int count,
         (w0 * top[x] + w1 * top[x + 1] + w2 * bottom[x] + w3 * bottom[x + 1] + 128) >> 8);
 }
 
-constexpr int kFetchAhead = 8;
+// Halves a tile; the picture may lack some of it.
+void HalveTile(ImageView<const Bgr> image, int row, int column, HalfPicture& half) {
+  std::array<int, 3> sums{};
+  for (int y = row * kTile; y < std::min((row + 1) * kTile, image.height() / 2); ++y) {
+    for (int x = column * kTile; x < std::min((column + 1) * kTile, image.width() / 2); ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const std::uint8_t mean =
+            MeanOfFour(&image(2 * x, 2 * y).b + c, &image(2 * x, 2 * y + 1).b + c);
+        half.color[c][static_cast<std::size_t>(y) * half.width + x] = mean;
+        sums[c] += mean;
+      }
+    }
+  }
+  for (int c = 0; c < 3; ++c)
+    half.tile_mean[c][static_cast<std::size_t>(row) * half.tile_columns() + column] =
+        static_cast<float>(sums[c]) / kArea;
+}
 
 }  // namespace
 
 HalfPicture::HalfPicture(int full_width, int full_height)
     : width(RoundUp(full_width, kTile_px) / 2), height(RoundUp(full_height, kTile_px) / 2) {
-  for (auto& plane : color) plane.resize(size());
-}
-
-void AverageTiles(const HalfPicture& half, int channel, const TileRun& run,
-                  std::vector<float>& tiles, std::vector<std::uint16_t>& scratch) {
-  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(half.width)));
-  const std::size_t first = static_cast<std::size_t>(run.row) * HalfPicture::kTile * half.width +
-                            run.begin * HalfPicture::kTile;
-  AverageRow(&half.color[channel][first], half.width, (run.end - run.begin) * HalfPicture::kTile,
-             scratch.data(),
-             &tiles[static_cast<std::size_t>(run.row) * half.tile_columns() + run.begin]);
+  for (auto& plane : color) plane.resize(size() + kTile);
+  for (auto& plane : tile_mean) plane.resize(tiles());
 }
 
 ExpectedHalf::ExpectedHalf(int full_width, int full_height)
     : mean(full_width, full_height),
-      variance(mean.size(), kUnknownVariance),
-      slope(mean.size()),
+      variance(mean.size() + kTile, kUnknownVariance),
+      slope(mean.size() + kTile),
       tile_variance(mean.tiles(), kUnknownVariance),
       tile_slope_sq(mean.tiles()),
-      columns_(static_cast<std::size_t>(mean.width)) {
-  for (auto& tiles : tile_mean) tiles.resize(mean.tiles());
-}
+      sums_(static_cast<std::size_t>(mean.width)),
+      columns_(static_cast<std::size_t>(mean.width)) {}
 
 void ExpectedHalf::Finish() {
   for (int row = 0; row < mean.tile_rows(); ++row) {
-    for (int c = 0; c < 3; ++c) AverageTiles(mean, c, mean.RowOfTiles(row), tile_mean[c], sums_);
-    const std::size_t begin = static_cast<std::size_t>(row) * HalfPicture::kTile * mean.width;
-    const std::size_t tile = static_cast<std::size_t>(row) * mean.tile_columns();
+    const std::size_t begin = mean.FirstPixelOf(mean.RowOfTiles(row));
+    const std::size_t tile = mean.FirstTileOf(mean.RowOfTiles(row));
+    for (int c = 0; c < 3; ++c)
+      AverageRow(&mean.color[c][begin], mean.width, sums_.data(), &mean.tile_mean[c][tile]);
     AverageVariances(&variance[begin], &slope[begin], mean.width, columns_.data(),
                      &tile_variance[tile], &tile_slope_sq[tile]);
   }
@@ -149,8 +205,7 @@ void ExpectedHalf::Finish() {
 }
 
 void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
-  std::vector<std::uint8_t> scratch;
-  Halve(picture, mean, scratch);
+  Halve(picture, mean);
   // The padding continues the picture: its edge is no contour.
   std::vector<float> brightness(mean.size());
   for (int y = 0; y < mean.height; ++y) {
@@ -162,7 +217,7 @@ void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
           static_cast<float>(mean.color[0][i] + mean.color[1][i] + mean.color[2][i]) / 3;
     }
   }
-  slope = SlopeOf(brightness, mean.width, mean.height);
+  std::ranges::copy(SlopeOf(brightness, mean.width, mean.height), slope.begin());
 }
 
 void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displacement) {
@@ -192,27 +247,29 @@ void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displa
   usual_shift_px = from.usual_shift_px;
 }
 
-void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint8_t>& scratch) {
-  for (int row = 0; row < half.tile_rows(); ++row)
-    Halve(image, half.RowOfTiles(row), half, scratch);
+void Halve(ImageView<const Bgr> image, HalfPicture& half) {
+  for (int row = 0; row < half.tile_rows(); ++row) Halve(image, half.RowOfTiles(row), half);
 }
 
-void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
-           std::vector<std::uint8_t>& scratch) {
-  MOCAP_CHECK(RoundUp(image.width(), HalfPicture::kTile_px) == 2 * half.width &&
-              RoundUp(image.height(), HalfPicture::kTile_px) == 2 * half.height);
-  const int first = run.begin * HalfPicture::kTile;
-  const int columns = std::min(run.end * HalfPicture::kTile, image.width() / 2) - first;
-  const int last_row = std::min((run.row + 1) * HalfPicture::kTile, image.height() / 2);
-  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(6) * columns));
-  for (int y = run.row * HalfPicture::kTile; y < last_row; ++y) {
-    for (const int row : {2 * y, 2 * y + 1})
-      FetchPixels(image, row + kFetchAhead, 2 * first, 2 * (first + columns));
-    AveragePairs(&image.row(2 * y)[2 * first].b, &image.row(2 * y + 1)[2 * first].b,
-                 6 * columns - 3, scratch.data());
-    const std::size_t to = static_cast<std::size_t>(y) * half.width + first;
-    PickPixels(scratch.data(), columns, &half.color[0][to], &half.color[1][to], &half.color[2][to]);
+void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half) {
+  constexpr int kTile_px = HalfPicture::kTile_px;
+  MOCAP_CHECK(RoundUp(image.width(), kTile_px) == 2 * half.width &&
+              RoundUp(image.height(), kTile_px) == 2 * half.height);
+  int column = run.begin;
+  const int whole_columns = std::min(run.end, image.width() / kTile_px);
+  if (whole_columns - column >= 2 && run.row < image.height() / kTile_px) {
+    const std::size_t pixel = half.FirstPixelOf(run), tile = half.FirstTileOf(run);
+    Halves to{{}, {}, half.width};
+    for (int c = 0; c < 3; ++c) {
+      to.color[c] = &half.color[c][pixel];
+      to.tile_mean[c] = &half.tile_mean[c][tile];
+    }
+    HalveTiles(&image(column * kTile_px, run.row * kTile_px).b,
+               image.stride() * static_cast<std::ptrdiff_t>(sizeof(Bgr)), whole_columns - column,
+               to);
+    column = whole_columns;
   }
+  for (; column < run.end; ++column) HalveTile(image, run.row, column, half);
 }
 
 std::vector<std::uint8_t> SlopeOf(const std::vector<float>& brightness, int width, int height) {

@@ -37,17 +37,20 @@ struct HalfPicture {
   std::size_t tiles() const { return static_cast<std::size_t>(tile_columns()) * tile_rows(); }
   std::size_t size() const { return static_cast<std::size_t>(width) * height; }
   TileRun RowOfTiles(int row) const { return {row, 0, tile_columns()}; }
+  std::size_t FirstTileOf(const TileRun& run) const {
+    return static_cast<std::size_t>(run.row) * tile_columns() + run.begin;
+  }
+  std::size_t FirstPixelOf(const TileRun& run) const {
+    return (static_cast<std::size_t>(run.row) * width + run.begin) * kTile;
+  }
 
   int width = 0;
   int height = 0;
+  /// Row by row, and a tile's side longer: two tiles are read at once where one is left.
   std::array<std::vector<std::uint8_t>, 3> color;
+  /// Means of the tiles, row by row.
+  std::array<std::vector<float>, 3> tile_mean;
 };
-
-/// Averages some tiles of a plane.
-/// @param tiles    of the whole picture, row by row.
-/// @param scratch  memory to work in, kept by the caller.
-void AverageTiles(const HalfPicture& half, int channel, const TileRun& run,
-                  std::vector<float>& tiles, std::vector<std::uint16_t>& scratch);
 
 /// The half of what a camera would see of the empty studio.
 class ExpectedHalf {
@@ -65,13 +68,13 @@ class ExpectedHalf {
   /// Averages the tiles and lists the steep pixels, after pixels were written.
   void Finish();
 
+  // Pixels go on for a tile's side, as those of `mean` do.
   HalfPicture mean;
   /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
   std::vector<float> variance;
   /// How steep the picture is [grey levels per pixel of the half picture].
   std::vector<std::uint8_t> slope;
   /// Means of the tiles, row by row.
-  std::array<std::vector<float>, 3> tile_mean;
   std::vector<float> tile_variance, tile_slope_sq;
   /// Every so many of those pixels that lie on steep contours and are known.
   std::vector<std::int32_t> steep;
@@ -89,14 +92,12 @@ class ExpectedHalf {
   std::vector<float> columns_;
 };
 
-/// Halves a picture.
-void Halve(ImageView<const Bgr> image, HalfPicture& half, std::vector<std::uint8_t>& scratch);
+/// Halves a picture and averages its tiles.
+void Halve(ImageView<const Bgr> image, HalfPicture& half);
 
-/// Halves some tiles of a picture.
+/// Halves some tiles of a picture and averages them.
 /// @param half  made for pictures of that size.
-/// @param scratch  memory to work in, kept by the caller.
-void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half,
-           std::vector<std::uint8_t>& scratch);
+void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half);
 
 /// Measures how steep the brightness of a picture is on its steeper side: an edge is as steep as
 /// its step, not half of it.

@@ -114,42 +114,36 @@ void CoarseScan::Watch(const ExpectedHalf& expected, ImageView<const Bgr> image)
 
 void CoarseScan::LookAtAll() {
   looks_.clear();
-  whole_rows_.clear();
-  for (int row = 0; row < live_.tile_rows(); ++row) {
-    looks_.push_back(live_.RowOfTiles(row));
-    whole_rows_.push_back(row);
-  }
+  for (int row = 0; row < live_.tile_rows(); ++row) looks_.push_back(live_.RowOfTiles(row));
   SampleWholeRows();
 }
 
 void CoarseScan::LookAtRegion() {
   looks_.clear();
-  whole_rows_.clear();
   first_band_ = (first_band_ + kBandStep) % kBandRows;
-  for (int row = 0; row < live_.tile_rows(); ++row) {
-    if (row % kBandRows == first_band_) {
-      looks_.push_back(live_.RowOfTiles(row));
-      whole_rows_.push_back(row);
-    } else {
-      ForEachRun(region_.row(row), 0, region_.width(), 0, [&](const PixelRun& run) {
-        looks_.push_back({row, run.begin, run.end});
-      });
-    }
-  }
+  for (int row = first_band_; row < live_.tile_rows(); row += kBandRows)
+    looks_.push_back(live_.RowOfTiles(row));
   SampleWholeRows();
+  for (int row = 0; row < live_.tile_rows(); ++row) {
+    if (row % kBandRows == first_band_) continue;
+    ForEachRun(region_.row(row), 0, region_.width(), 0, [&](const PixelRun& run) {
+      looks_.push_back({row, run.begin, run.end});
+    });
+  }
 }
 
 void CoarseScan::SampleWholeRows() {
+  whole_rows_ = looks_.size();
   const int columns = live_.tile_columns();
-  const int tiles = static_cast<int>(whole_rows_.size()) * columns;
+  const int tiles = static_cast<int>(whole_rows_) * columns;
   const int step = tiles / kSamples | 1;  // Odd: few pictures are a multiple of that wide.
   samples_.clear();
   for (int i = 0; i < tiles; i += step)
-    samples_.push_back(static_cast<std::size_t>(whole_rows_[i / columns]) * columns + i % columns);
+    samples_.push_back(live_.FirstTileOf(looks_[i / columns]) + i % columns);
 }
 
 void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image) {
-  for (const int row : whole_rows_) Take(image, live_.RowOfTiles(row));
+  for (std::size_t i = 0; i < whole_rows_; ++i) Take(image, i);
   for (int c = 0; c < 3; ++c) conditions_.gain[c] = MeasureGain(expected, c);
   distance_ = MeasureDistance(expected);
   conditions_.drift = std::min(
@@ -158,18 +152,18 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
   conditions_.shift_px = Beyond(shift_px_, expected.usual_shift_px, kNegligibleShift_px);
   allowance_ = {conditions_.gain, Square(std::max(conditions_.drift, kDistanceMargin * distance_)),
                 Square(kContourMargin * shift_px_ / kPixel_px)};
-  for (const TileRun& look : looks_) {
-    FetchTiles(expected, look);
-    if (!std::ranges::binary_search(whole_rows_, look.row)) Take(image, look);
-    MeasureTints(expected, look);
-    MeasureMisfit(expected, look);
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    FetchTiles(expected, looks_[i]);
+    if (i >= whole_rows_) Take(image, i);
+    MeasureTints(expected, looks_[i]);
+    MeasureMisfit(expected, looks_[i]);
   }
   Judge(expected);
 }
 
-void CoarseScan::Take(ImageView<const Bgr> image, const TileRun& run) {
-  Halve(image, run, live_, pair_means_);
-  for (int c = 0; c < 3; ++c) AverageTiles(live_, c, run, tiles_.mean[c], row_sums_);
+void CoarseScan::Take(ImageView<const Bgr> image, std::size_t look) {
+  if (look + 1 < looks_.size()) FetchPicture(image, looks_[look + 1]);
+  Halve(image, looks_[look], live_);
 }
 
 // By itself a tile is noise. What reaches the region's edge goes on behind it.
@@ -201,16 +195,15 @@ void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image
     full_height_ = image.height();
     knows_region_ = false;
     live_ = HalfPicture(full_width_, full_height_);
-    for (auto* values : {&tiles_.mean[0], &tiles_.mean[1], &tiles_.mean[2], &tiles_.alpha,
-                         &tiles_.tint, &tiles_.glare, &tiles_.misfit})
+    for (auto* values : {&tiles_.alpha, &tiles_.tint, &tiles_.glare, &tiles_.misfit})
       values->resize(live_.tiles());
   }
   MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
 }
 
 float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
-  const std::vector<float>& live = tiles_.mean[channel];
-  const std::vector<float>& expected = expected_half.tile_mean[channel];
+  const std::vector<float>& live = live_.tile_mean[channel];
+  const std::vector<float>& expected = expected_half.mean.tile_mean[channel];
   values_.clear();
   for (const std::size_t i : samples_)
     if (IsKnown(expected_half, i) && expected[i] >= kDarkest)
@@ -229,7 +222,7 @@ float CoarseScan::MeasureDistance(const ExpectedHalf& expected) {
     if (!IsKnown(expected, i)) continue;
     float length_sq = 0;
     for (int c = 0; c < 3; ++c) {
-      const float d = conditions_.gain[c] * tiles_.mean[c][i] - expected.tile_mean[c][i];
+      const float d = conditions_.gain[c] * live_.tile_mean[c][i] - expected.mean.tile_mean[c][i];
       length_sq += d * d;
     }
     values_.push_back(length_sq);
@@ -241,7 +234,8 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
   values_.clear();
   const float gain = conditions_.gain[1];
   const int pixels_per_row = kTile * live_.width;
-  for (const int row : whole_rows_) {
+  for (std::size_t look = 0; look < whole_rows_; ++look) {
+    const int row = looks_[look].row;
     const auto end = std::ranges::lower_bound(expected.steep, (row + 1) * pixels_per_row);
     for (auto i = std::ranges::lower_bound(expected.steep, row * pixels_per_row); i != end; ++i) {
       const float difference = gain * live_.color[1][*i] - expected.mean.color[1][*i];
@@ -250,10 +244,16 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
   }
   // In a low picture there may be no whole row at all.
   const bool is_telling =
-      values_.size() * live_.tile_rows() >= kFewestSteep * whole_rows_.size() && !values_.empty();
+      values_.size() * live_.tile_rows() >= kFewestSteep * whole_rows_ && !values_.empty();
   if (!is_telling) return 0;
   return std::min(kPixel_px / kUndisturbedSize * Quantile(values_, kUndisturbedContours),
                   kLargestShift_px);
+}
+
+void CoarseScan::FetchPicture(ImageView<const Bgr> image, const TileRun& run) {
+  constexpr int kTile_px = HalfPicture::kTile_px;
+  for (int row = run.row * kTile_px; row < (run.row + 1) * kTile_px; ++row)
+    FetchPixels(image, row, run.begin * kTile_px, run.end * kTile_px);
 }
 
 void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
@@ -267,24 +267,23 @@ void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
 }
 
 void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
-  const std::size_t begin =
-      static_cast<std::size_t>(run.row) * kTile * live_.width + run.begin * kTile;
+  const std::size_t begin = live_.FirstPixelOf(run);
   TilePixels tiles{{}, {}, &expected.variance[begin], &expected.slope[begin], live_.width};
   for (int c = 0; c < 3; ++c) {
     tiles.live[c] = &live_.color[c][begin];
     tiles.expected[c] = &expected.mean.color[c][begin];
   }
-  const std::size_t first = FirstOf(run);
+  const std::size_t first = live_.FirstTileOf(run);
   MeasureMisfits(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first],
                  &tiles_.misfit[first]);
 }
 
 void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {
-  const std::size_t first = FirstOf(run);
+  const std::size_t first = live_.FirstTileOf(run);
   TileMeans tiles{{}, {}, &expected.tile_variance[first], &expected.tile_slope_sq[first]};
   for (int c = 0; c < 3; ++c) {
-    tiles.live[c] = &tiles_.mean[c][first];
-    tiles.expected[c] = &expected.tile_mean[c][first];
+    tiles.live[c] = &live_.tile_mean[c][first];
+    tiles.expected[c] = &expected.mean.tile_mean[c][first];
   }
   MeasureTiles(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first], &tiles_.tint[first],
                &tiles_.glare[first]);
@@ -299,7 +298,7 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
   suspicious_.Reset(live_.tile_columns(), live_.tile_rows());
   for (const TileRun& look : looks_) {
     for (int column = look.begin; column < look.end; ++column) {
-      const std::size_t i = FirstOf(look) + (column - look.begin);
+      const std::size_t i = live_.FirstTileOf(look) + (column - look.begin);
       if (!IsKnown(expected, i)) continue;
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||

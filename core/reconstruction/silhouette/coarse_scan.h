@@ -46,7 +46,6 @@ class CoarseScan {
 
  private:
   struct Tiles {
-    std::array<std::vector<float>, 3> mean;
     // Brightness distortion, and what else differs: all in variances.
     std::vector<float> alpha, tint, glare, misfit;
   };
@@ -55,24 +54,22 @@ class CoarseScan {
   void LookAtRegion();
   void SampleWholeRows();
   void CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr> image);
-  void Take(ImageView<const Bgr> image, const TileRun& run);
+  void Take(ImageView<const Bgr> image, std::size_t look);
   bool ShowsBesideRegion() const;
   void Conclude();
   float MeasureGain(const ExpectedHalf& expected, int channel);
   float MeasureDistance(const ExpectedHalf& expected);
   float MeasureShift(const ExpectedHalf& expected);
-  std::size_t FirstOf(const TileRun& run) const {
-    return static_cast<std::size_t>(run.row) * live_.tile_columns() + run.begin;
-  }
+  void FetchPicture(ImageView<const Bgr> image, const TileRun& run);
   void FetchTiles(const ExpectedHalf& expected, const TileRun& run);
   void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
   void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);
 
   float darkest_shadow_;
-  // What is looked at in this picture, and the rows among it that are whole.
+  // What is looked at in this picture; so many whole rows come first.
   std::vector<TileRun> looks_;
-  std::vector<int> whole_rows_;
+  std::size_t whole_rows_ = 0;
   // Tiles that everything suspicious in the last picture lies well within, and those that have
   // such tiles all around.
   Silhouette region_, inner_region_;
@@ -80,8 +77,6 @@ class CoarseScan {
   int first_band_ = 0;
   int full_width_ = 0, full_height_ = 0;
   HalfPicture live_;
-  std::vector<std::uint8_t> pair_means_;
-  std::vector<std::uint16_t> row_sums_;
   Tiles tiles_;
   std::vector<std::size_t> samples_;  // Some of the tiles in whole rows.
   std::vector<float> values_;

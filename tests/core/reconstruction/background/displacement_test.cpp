@@ -35,8 +35,7 @@ class DisplacementTest : public ::testing::Test {
 
   std::optional<Displacement> Measure(const ExactPicture& picture) {
     HalfPicture live(kWidth, kHeight);
-    std::vector<std::uint8_t> scratch;
-    Halve(sensor_.Take(picture).view(), live, scratch);
+    Halve(sensor_.Take(picture).view(), live);
     return MeasureDisplacement(live, 1, background_->Glance({}, {}));
   }
 
@@ -77,8 +76,7 @@ TEST_F(DisplacementTest, WhatIsExpectedFollowsIt) {
   const ExactPicture wall = Wall(d);
   HalfPicture exact(kWidth, kHeight);
   NoisySensor none(0.01f, 42);
-  std::vector<std::uint8_t> scratch;
-  Halve(none.Take(wall).view(), exact, scratch);
+  Halve(none.Take(wall).view(), exact);
   for (int y = 4; y < kHeight - 10; ++y) {
     for (int x = 4; x < kWidth - 10; ++x) {
       for (int c = 0; c < 3; ++c) {

@@ -45,8 +45,7 @@ TEST(HalfPicture, EachPixelIsTheMeanOfFour) {
       image(x, y) = {static_cast<std::uint8_t>(10 * x), static_cast<std::uint8_t>(20 * y),
                      static_cast<std::uint8_t>(x == 3 && y == 3 ? 255 : 0)};
   HalfPicture half(5, 4);
-  std::vector<std::uint8_t> scratch;
-  Halve(image.view(), half, scratch);
+  Halve(image.view(), half);
   ASSERT_EQ(half.width, 4);
   ASSERT_EQ(half.height, 4);
   EXPECT_EQ(half.color[0][0], 5);
@@ -57,12 +56,35 @@ TEST(HalfPicture, EachPixelIsTheMeanOfFour) {
   EXPECT_EQ(half.color[0][2], 0);
 }
 
+// The plain definition, padding and all.
+float MeanOfTile(const HalfPicture& half, int channel, int row, int column) {
+  constexpr int kTile = HalfPicture::kTile;
+  float sum = 0;
+  for (int y = row * kTile; y < (row + 1) * kTile; ++y)
+    for (int x = column * kTile; x < (column + 1) * kTile; ++x)
+      sum += half.color[channel][static_cast<std::size_t>(y) * half.width + x];
+  return sum / (kTile * kTile);
+}
+
+TEST(HalfPicture, TilesAreMeansOfTheirPixels) {
+  for (const auto& [width, height] : {std::pair{640, 48}, {202, 30}, {38, 22}, {8, 8}, {6, 4}}) {
+    const Image<Bgr> picture = RandomPicture(width, height);
+    HalfPicture half(width, height);
+    Halve(picture.view(), half);
+    for (int c = 0; c < 3; ++c)
+      for (int row = 0; row < half.tile_rows(); ++row)
+        for (int column = 0; column < half.tile_columns(); ++column)
+          ASSERT_EQ(half.tile_mean[c][half.FirstTileOf({row, column, column + 1})],
+                    MeanOfTile(half, c, row, column))
+              << column << ", " << row << " of " << width << " x " << height;
+  }
+}
+
 TEST(HalfPicture, PixelsAreMeansOfFourAndThePaddingIsBlack) {
   for (const auto& [width, height] : {std::pair{640, 48}, {202, 30}, {38, 22}, {6, 4}}) {
     const Image<Bgr> picture = RandomPicture(width, height);
     HalfPicture half(width, height);
-    std::vector<std::uint8_t> scratch;
-    Halve(picture.view(), half, scratch);
+    Halve(picture.view(), half);
     for (int y = 0; y < half.height; ++y) {
       for (int x = 0; x < half.width; ++x) {
         const bool is_in_picture = x < width / 2 && y < height / 2;
@@ -78,8 +100,7 @@ TEST(HalfPicture, SomeTilesAreHalvedAndOthersLeft) {
   constexpr int kTile = HalfPicture::kTile;
   const Image<Bgr> picture = RandomPicture(96, 24);
   HalfPicture half(96, 24);
-  std::vector<std::uint8_t> scratch;
-  Halve(picture.view(), kRun, half, scratch);
+  Halve(picture.view(), kRun, half);
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
       const bool is_halved =
