@@ -27,39 +27,35 @@ struct Slope {
   float middle = 0, right = 0, down = 0;
 };
 
-using Row = float __attribute__((vector_size(kTile * sizeof(float))));
-
-// Two rows of a tile, one after the other.
+// A row of two tiles side by side.
 static_assert(kFloats == 2 * kTile);
 
-MOCAP_INLINE Floats LoadRows(const std::uint8_t* first, int stride) {
-  std::int32_t top, bottom;
-  std::memcpy(&top, first, sizeof top), std::memcpy(&bottom, first + stride, sizeof bottom);
-  const Ints rows =
-      __builtin_shufflevector(Ints{} + top, Ints{} + bottom, 0, 1, 2, 3, 12, 13, 14, 15);
-  static_assert(std::endian::native == std::endian::little);
-  return __builtin_convertvector(rows >> Ints{0, 8, 16, 24, 0, 8, 16, 24} & 0xff, Floats);
+MOCAP_INLINE Floats LoadRow(const std::uint8_t* from) {
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
+  using Longs = std::int64_t __attribute__((vector_size(sizeof(Ints))));
+  std::int64_t row;
+  std::memcpy(&row, from, sizeof row);
+  static_assert(std::endian::native == std::endian::little && sizeof row == kFloats);
+  const auto rows = reinterpret_cast<Bytes>(Longs{} + row);
+  return ToFloats(reinterpret_cast<Ints>(__builtin_shufflevector(
+                      rows, rows, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 20, 20, 20, 20,
+                      21, 21, 21, 21, 22, 22, 22, 22, 23, 23, 23, 23)) &
+                  0xff);
 }
 
-MOCAP_INLINE Floats LoadRows(const float* first, int stride) {
-  Row top, bottom;
-  LoadLanes(first, top), LoadLanes(first + stride, bottom);
-  return __builtin_shufflevector(top, bottom, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-// How two rows of a tile, from such a pixel on, differ.
-MOCAP_INLINE Floats MisfitsOfRows(const TilePixels& tiles, std::ptrdiff_t first,
-                                  const Allowance& allowance, float alpha) {
-  Floats squares{};
+// How a row of two tiles, from such a pixel on, differs.
+MOCAP_INLINE Floats MisfitsOfRow(const TilePixels& tiles, std::ptrdiff_t first,
+                                 const Allowance& allowance, Floats alphas) {
+  Floats squares{}, variances;
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    const Floats d = allowance.gain[c] * LoadRows(tiles.live[c] + first, tiles.stride) -
-                     alpha * LoadRows(tiles.expected[c] + first, tiles.stride);
+    const Floats d = allowance.gain[c] * LoadRow(tiles.live[c] + first) -
+                     alphas * LoadRow(tiles.expected[c] + first);
     squares += d * d;
   }
-  const Floats slope = LoadRows(tiles.slope + first, tiles.stride);
-  return squares / (LoadRows(tiles.variance + first, tiles.stride) + allowance.drift_sq +
-                    allowance.shift_sq * slope * slope);
+  const Floats slope = LoadRow(tiles.slope + first);
+  LoadLanes(tiles.variance + first, variances);
+  return squares / (variances + allowance.drift_sq + allowance.shift_sq * slope * slope);
 }
 
 }  // namespace
@@ -68,16 +64,19 @@ MOCAP_VECTORIZED
 void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
                     const float* alphas, float* misfits) {
   const Allowance allowed = allowance;  // As far as the compiler knows, the results may lie there.
-  for (int i = 0; i < count; ++i) {
-    const Floats upper = MisfitsOfRows(tiles, i * kTile, allowed, alphas[i]);
-    const Floats lower = MisfitsOfRows(tiles, i * kTile + 2 * tiles.stride, allowed, alphas[i]);
-    std::array<float, kTile> columns;
-    StoreLanes(__builtin_shufflevector(upper, upper, 0, 1, 2, 3) +
-                   __builtin_shufflevector(upper, upper, 4, 5, 6, 7) +
-                   __builtin_shufflevector(lower, lower, 0, 1, 2, 3) +
-                   __builtin_shufflevector(lower, lower, 4, 5, 6, 7),
-               columns.data());
+  for (int i = 0; i < count; i += 2) {
+    const bool is_last = i + 1 == count;
+    const float left = alphas[i], right = is_last ? left : alphas[i + 1];
+    const Floats both = {left, left, left, left, right, right, right, right};
+    Floats sums{};
+#pragma GCC unroll 4
+    for (int y = 0; y < kTile; ++y)
+      sums += MisfitsOfRow(tiles, i * kTile + y * tiles.stride, allowed, both);
+    std::array<float, kFloats> columns;
+    StoreLanes(sums, columns.data());
     misfits[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
+    if (is_last) break;
+    misfits[i + 1] = (columns[4] + columns[5] + columns[6] + columns[7]) / kArea;
   }
 }
 

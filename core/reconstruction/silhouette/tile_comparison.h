@@ -16,6 +16,7 @@ struct Allowance {
 };
 
 /// Pixels of tiles that lie side by side, channel by channel, from the first tile's first on.
+/// Behind the last tile as many can be read.
 struct TilePixels {
   std::array<const std::uint8_t*, 3> live, expected;
   const float* variance;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kTile = HalfPicture::kTile;
 constexpr int kTiles = 5;
 constexpr int kStride = kTiles * kTile;
-constexpr int kPixels = kStride * kTile;
+constexpr int kPixels = kStride * kTile + kTile;  // As many as can be read.
 constexpr Allowance kAllowance{.gain = {1.1f, 0.9f, 1.0f}, .drift_sq = 2, .shift_sq = 0.3f};
 
 // Tiles of any colours.
