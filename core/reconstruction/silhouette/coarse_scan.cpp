@@ -60,15 +60,23 @@ constexpr int kRegionMargin = 3;
 
 float Square(float x) { return x * x; }
 
-// Of values that are not negative: bit by bit, for their bits order them as integers.
+// Of values that are not negative: two bits at a time, for their bits order them as integers.
 MOCAP_VECTORIZED
 float QuantileOf(const float* values, int count, int rank) {
-  std::int32_t result = 0;
-  for (std::int32_t bit = 1 << 30; bit != 0; bit >>= 1) {
-    const std::int32_t candidate = result | bit;
-    int less = 0;
-    for (int i = 0; i < count; ++i) less += std::bit_cast<std::int32_t>(values[i]) < candidate;
-    if (less <= rank) result = candidate;
+  std::uint32_t result = 0;
+  for (int bits = 30; bits >= 0; bits -= 2) {
+    const std::uint32_t one = result | 1u << bits, two = result | 2u << bits, three = one | two;
+    int less_than_one = 0, less_than_two = 0, less_than_three = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto value = std::bit_cast<std::uint32_t>(values[i]);
+      less_than_one += value < one;
+      less_than_two += value < two;
+      less_than_three += value < three;
+    }
+    result = less_than_three <= rank ? three
+             : less_than_two <= rank ? two
+             : less_than_one <= rank ? one
+                                     : result;
   }
   return std::bit_cast<float>(result);
 }
