@@ -1,6 +1,7 @@
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "core/errors.h"

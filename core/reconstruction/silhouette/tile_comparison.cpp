@@ -31,16 +31,11 @@ struct Slope {
 static_assert(kFloats == 2 * kTile);
 
 MOCAP_INLINE Floats LoadRow(const std::uint8_t* from) {
-  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
-  using Longs = std::int64_t __attribute__((vector_size(sizeof(Ints))));
-  std::int64_t row;
-  std::memcpy(&row, from, sizeof row);
-  static_assert(std::endian::native == std::endian::little && sizeof row == kFloats);
-  const auto rows = reinterpret_cast<Bytes>(Longs{} + row);
-  return ToFloats(reinterpret_cast<Ints>(__builtin_shufflevector(
-                      rows, rows, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 20, 20, 20, 20,
-                      21, 21, 21, 21, 22, 22, 22, 22, 23, 23, 23, 23)) &
-                  0xff);
+  std::int32_t left, right;
+  std::memcpy(&left, from, sizeof left), std::memcpy(&right, from + kTile, sizeof right);
+  static_assert(std::endian::native == std::endian::little);
+  const Ints rows = __builtin_shufflevector(AllOf(left), AllOf(right), 0, 1, 2, 3, 12, 13, 14, 15);
+  return ToFloats(rows >> Ints{0, 8, 16, 24, 0, 8, 16, 24} & 0xff);
 }
 
 // How a row of two tiles, from such a pixel on, differs.
