@@ -1,7 +1,6 @@
 // §4: eight pixels of a row side by side, and what is expected there.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "core/image.h"
@@ -34,13 +33,18 @@ MOCAP_INLINE Floats ChannelOf(Ints pixels, int channel) {
 
 /// Eight values that are kept as so many units.
 MOCAP_INLINE Floats LoadShorts(const std::uint16_t* from, float unit) {
-  std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t)))) shorts;
+  using Shorts = std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t))));
+  Shorts shorts;
   LoadLanes(from, shorts);
-  // With zeros between them they are integers: of a conversion GCC 12 makes two halves.
-  static_assert(std::endian::native == std::endian::little);
-  const auto wide = __builtin_shufflevector(shorts, decltype(shorts){}, 0, 8, 1, 9, 2, 10, 3, 11, 4,
-                                            12, 5, 13, 6, 14, 7, 15);
-  return ToFloats(reinterpret_cast<Ints>(wide)) * unit;
+#ifdef __x86_64__
+  // With zeros between them they are integers: of a conversion GCC 12 makes two halves, and of this
+  // one instruction, where vectors are wide enough.
+  const auto wide = reinterpret_cast<Ints>(__builtin_shufflevector(
+      shorts, Shorts{}, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
+#else
+  const auto wide = __builtin_convertvector(shorts, Ints);
+#endif
+  return ToFloats(wide) * unit;
 }
 
 }  // namespace mocap
