@@ -101,6 +101,7 @@ void KeepApart(const Word* person, const Word* background, std::ptrdiff_t stride
 // lowest byte first.
 constexpr int kFirstAround = 8 - kBefore_px;
 MOCAP_INLINE Ints BitsAround(const Word* row, int pixel) {
+  static_assert(std::endian::native == std::endian::little);
   std::int32_t bits;
   std::memcpy(&bits, reinterpret_cast<const std::uint8_t*>(row) + pixel / 8 - 1, sizeof bits);
   return AllOf(bits);

@@ -78,7 +78,8 @@ void ExpectAllPosedTheSameWay(const StudioFit& fit) {
 }
 
 TEST(RealStudioTest, PosesAllCamerasFromOneBoardOnTheFloorAndCarvesAPersonAsWellAsTheTakes) {
-  if (!fs::exists(kBoard) || !fs::exists(kSeated)) GTEST_SKIP() << "no recording in " << kBoard;
+  if (!fs::exists(kBoard) || !fs::exists(kSeated))
+    GTEST_SKIP() << "not both of " << kBoard << " and " << kSeated;
   SightingOptions options;
   options.still = true;
   const BoardSightings still =

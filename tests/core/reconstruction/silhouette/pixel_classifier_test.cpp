@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "core/reconstruction/silhouette/coarse_scan.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
@@ -48,6 +49,26 @@ class PixelClassifierTest : public ::testing::Test {
   std::unique_ptr<BackgroundModel> background_;
   PixelClassifier classifier_;
 };
+
+// Pixels are judged eight at a time, two rows at once.
+TEST(PixelClassifier, VerdictsEndWhereThePictureDoes) {
+  NoisySensor sensor(2.0f, 11);
+  for (const auto& [width, height] : {std::pair{150, 45}, {161, 32}, {67, 9}}) {
+    const ExactPicture studio = EmptyStudio(width, height);
+    const auto background = LearnFixedBackground(TakeBackground(studio, 30, sensor), 0.999);
+    PixelClassifier classifier(background->thresholds(), 0.7f);
+    Closeup everything;
+    everything.SetAll(width, height);
+    ExactPicture picture = studio;
+    Paint(picture, {0, 0, width - 1, height - 1}, {20, 25, 30});
+    classifier.Classify(background->Expect(everything, {}), sensor.Take(picture).view(), {},
+                        everything);
+    const Silhouette& foreground = classifier.foreground();
+    EXPECT_EQ(CountSet(foreground), width * height);
+    for (int y = 0; y < height; ++y)
+      EXPECT_EQ(foreground.row(y)[width / 64] >> width % 64, 0u) << width << " " << y;
+  }
+}
 
 TEST_F(PixelClassifierTest, TheEmptyStudioIsBackground) {
   Classify(studio_);
