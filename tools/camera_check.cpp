@@ -26,14 +26,18 @@ constexpr double kUsableLink = 0.8;
 constexpr double kInStep = 0.15;
 constexpr double kMostIncomplete = 0.02;
 
-void Watch(CameraDriver& driver, std::int64_t end_ns, CameraRun& run) {
+// That it goes away is told from the start, for nothing of that settles.
+void Watch(CameraDriver& driver, double seconds, CameraRun& run) {
+  const std::int64_t settled_ns = SteadyNs() + kSettle_ns;
+  const std::int64_t end_ns = settled_ns + std::llround(seconds * 1e9);
   bool was_lost = false;
-  while (SteadyNs() < end_ns) {
+  for (std::int64_t now_ns = SteadyNs(); now_ns < end_ns; now_ns = SteadyNs()) {
     Frame frame;
     const GrabStatus status = driver.Grab(frame, kGrabTimeout);
-    run.torn += status == GrabStatus::kTorn;
     run.times_lost += status == GrabStatus::kLost && !was_lost;
     was_lost = status == GrabStatus::kLost;
+    if (now_ns < settled_ns) continue;
+    run.torn += status == GrabStatus::kTorn;
     if (status != GrabStatus::kFrame) continue;
     run.times_ns.push_back(frame.capture_ns);
     run.sequences.push_back(frame.sequence);
@@ -51,9 +55,7 @@ CameraRun WatchCamera(LiveCamera& camera, double seconds) {
     run.error = error.what();
     return run;
   }
-  CameraRun settling;
-  Watch(*camera.driver, SteadyNs() + kSettle_ns, settling);
-  Watch(*camera.driver, SteadyNs() + std::llround(seconds * 1e9), run);
+  Watch(*camera.driver, seconds, run);
   run.facts = camera.driver->Facts();
   camera.driver->Stop();
   return run;

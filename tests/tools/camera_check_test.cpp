@@ -149,5 +149,25 @@ TEST(CameraCheck, CameraThatDoesNotStartIsAResult) {
   EXPECT_EQ(runs.at(0).error, "it is not there");
 }
 
+/// A camera that goes away with its first frame, and is then silent.
+class LooseCamera : public CameraDriver {
+ public:
+  void Start() override {}
+  GrabStatus Grab(Frame&, std::chrono::milliseconds) override {
+    return std::exchange(is_loose_, false) ? GrabStatus::kLost : GrabStatus::kTimeout;
+  }
+  void Stop() override {}
+
+ private:
+  bool is_loose_ = true;
+};
+
+TEST(CameraCheck, CameraThatGoesAwayWhileItSettlesIsTold) {
+  std::vector<LiveCamera> cameras(1);
+  cameras[0].driver = std::make_unique<LooseCamera>();
+  const std::vector<CameraRun> runs = WatchCameras(cameras, 0);
+  EXPECT_THAT(TroublesOf(runs.at(0), {}), Contains(HasSubstr("went away once")));
+}
+
 }  // namespace
 }  // namespace mocap
