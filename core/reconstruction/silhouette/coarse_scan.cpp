@@ -274,15 +274,19 @@ void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
   }
 }
 
-void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
+TilePixels CoarseScan::PixelsOf(const ExpectedHalf& expected, const TileRun& run) const {
   const std::size_t begin = live_.FirstPixelOf(run);
   TilePixels tiles{{}, {}, &expected.variance[begin], &expected.slope[begin], live_.width};
   for (int c = 0; c < 3; ++c) {
     tiles.live[c] = &live_.color[c][begin];
     tiles.expected[c] = &expected.mean.color[c][begin];
   }
+  return tiles;
+}
+
+void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
   const std::size_t first = live_.FirstTileOf(run);
-  MeasureMisfits(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first],
+  MeasureMisfits(PixelsOf(expected, run), run.end - run.begin, allowance_, &tiles_.alpha[first],
                  &tiles_.misfit[first]);
 }
 
@@ -311,7 +315,8 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||
           (tiles_.misfit[i] > harmless &&
-           MisfitBesideSlope(live_, expected, look.row, column, allowance_) > harmless))
+           MisfitBesideSlope(PixelsOf(expected, {look.row, column, column + 1}), allowance_) >
+               harmless))
         suspicious_.Set(column, look.row);
     }
   }

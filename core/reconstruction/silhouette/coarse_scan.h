@@ -63,6 +63,7 @@ class CoarseScan {
   void FetchPicture(ImageView<const Bgr> image, const TileRun& run);
   void FetchTiles(const ExpectedHalf& expected, const TileRun& run);
   void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
+  TilePixels PixelsOf(const ExpectedHalf& expected, const TileRun& run) const;
   void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);
 

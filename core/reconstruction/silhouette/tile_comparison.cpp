@@ -12,45 +12,60 @@ namespace {
 
 constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
-// Where a tile's middle is, and the sum of x² over its pixels counted from there.
-constexpr float kMiddle = (kTile - 1) / 2.0f;
+// The sum of x² over a tile's pixels, counted from its middle.
 constexpr float kSpread = kArea * (kArea - 1) / 12;
 
-// A plane over a tile, from its middle.
-struct Slope {
-  float At(int x, int y) const { return middle + right * (x - kMiddle) + down * (y - kMiddle); }
-  void Add(int x, int y, float value) {
-    middle += value / kArea;
-    right += value * (x - kMiddle) / kSpread;
-    down += value * (y - kMiddle) / kSpread;
-  }
-  float middle = 0, right = 0, down = 0;
-};
-
-// A row of two tiles side by side.
+// Two rows of a tile's side, the second so much farther on: of two tiles side by side, or one below
+// the other.
 static_assert(kFloats == 2 * kTile);
+using Row = float __attribute__((vector_size(kTile * sizeof(float))));
 
-MOCAP_INLINE Floats LoadRow(const std::uint8_t* from) {
-  std::int32_t left, right;
-  std::memcpy(&left, from, sizeof left), std::memcpy(&right, from + kTile, sizeof right);
+MOCAP_INLINE Floats LoadRows(const std::uint8_t* from, std::ptrdiff_t step) {
+  std::int32_t first, second;
+  std::memcpy(&first, from, sizeof first), std::memcpy(&second, from + step, sizeof second);
   static_assert(std::endian::native == std::endian::little);
-  const Ints rows = __builtin_shufflevector(AllOf(left), AllOf(right), 0, 1, 2, 3, 12, 13, 14, 15);
+  const Ints rows =
+      __builtin_shufflevector(AllOf(first), AllOf(second), 0, 1, 2, 3, 12, 13, 14, 15);
   return ToFloats(rows >> Ints{0, 8, 16, 24, 0, 8, 16, 24} & 0xff);
 }
+MOCAP_INLINE Floats LoadRows(const float* from, std::ptrdiff_t step) {
+  Row first, second;
+  LoadLanes(from, first), LoadLanes(from + step, second);
+  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+MOCAP_INLINE float SumOf(Floats rows) {
+  Row sums = __builtin_shufflevector(rows, rows, 0, 1, 2, 3) +
+             __builtin_shufflevector(rows, rows, 4, 5, 6, 7);
+  sums += __builtin_shufflevector(sums, sums, 2, 3, 0, 1);
+  return sums[0] + sums[1];
+}
 
-// How a row of two tiles, from such a pixel on, differs.
-MOCAP_INLINE Floats MisfitsOfRow(const TilePixels& tiles, std::ptrdiff_t first,
-                                 const Allowance& allowance, Floats alphas) {
-  Floats squares{}, variances;
+// How two rows, from such a pixel on, differ.
+MOCAP_INLINE Floats MisfitsOfRows(const TilePixels& tiles, std::ptrdiff_t begin,
+                                  std::ptrdiff_t step, const Allowance& allowance, Floats alphas) {
+  Floats squares{};
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    const Floats d = allowance.gain[c] * LoadRow(tiles.live[c] + first) -
-                     alphas * LoadRow(tiles.expected[c] + first);
+    const Floats d = allowance.gain[c] * LoadRows(tiles.live[c] + begin, step) -
+                     alphas * LoadRows(tiles.expected[c] + begin, step);
     squares += d * d;
   }
-  const Floats slope = LoadRow(tiles.slope + first);
-  LoadLanes(tiles.variance + first, variances);
-  return squares / (variances + allowance.drift_sq + allowance.shift_sq * slope * slope);
+  const Floats slope = LoadRows(tiles.slope + begin, step);
+  return squares / (LoadRows(tiles.variance + begin, step) + allowance.drift_sq +
+                    allowance.shift_sq * slope * slope);
+}
+
+// The brightness distortion of the pixels of two rows of a tile.
+MOCAP_INLINE Floats AlphasOfRows(const TilePixels& tile, std::ptrdiff_t begin,
+                                 const Allowance& allowance) {
+  Floats along{}, square = AllOf(1.0f);
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c) {
+    const Floats expected = LoadRows(tile.expected[c] + begin, tile.stride);
+    along += allowance.gain[c] * LoadRows(tile.live[c] + begin, tile.stride) * expected;
+    square += expected * expected;
+  }
+  return along / square;
 }
 
 }  // namespace
@@ -66,7 +81,7 @@ void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowan
     Floats sums{};
 #pragma GCC unroll 4
     for (int y = 0; y < kTile; ++y)
-      sums += MisfitsOfRow(tiles, i * kTile + y * tiles.stride, allowed, both);
+      sums += MisfitsOfRows(tiles, i * kTile + y * tiles.stride, kTile, allowed, both);
     std::array<float, kFloats> columns;
     StoreLanes(sums, columns.data());
     misfits[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
@@ -97,40 +112,23 @@ void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
   }
 }
 
-float MisfitBesideSlope(const HalfPicture& live, const ExpectedHalf& expected, int tile_row,
-                        int tile_column, const Allowance& allowance) {
-  const std::size_t first =
-      static_cast<std::size_t>(tile_row) * kTile * live.width + tile_column * kTile;
-  const auto index = [&](int x, int y) {
-    return first + static_cast<std::size_t>(y) * live.width + x;
-  };
-  Slope brightness;
-  for (int y = 0; y < kTile; ++y) {
-    for (int x = 0; x < kTile; ++x) {
-      float along = 0, square = 1;
-      for (int c = 0; c < 3; ++c) {
-        const float e = expected.mean.color[c][index(x, y)];
-        along += allowance.gain[c] * live.color[c][index(x, y)] * e;
-        square += e * e;
-      }
-      brightness.Add(x, y, along / square);
-    }
-  }
-  float misfit = 0;
-  for (int y = 0; y < kTile; ++y) {
-    for (int x = 0; x < kTile; ++x) {
-      const std::size_t i = index(x, y);
-      const float slope = expected.slope[i];
-      const float variance =
-          expected.variance[i] + allowance.drift_sq + allowance.shift_sq * slope * slope;
-      for (int c = 0; c < 3; ++c) {
-        const float d =
-            allowance.gain[c] * live.color[c][i] - brightness.At(x, y) * expected.mean.color[c][i];
-        misfit += d * d / variance;
-      }
-    }
-  }
-  return misfit / kArea;
+MOCAP_VECTORIZED
+float MisfitBesideSlope(const TilePixels& tile, const Allowance& allowance) {
+  // Where the pixels of the upper two rows are, from the tile's middle.
+  const Floats right = {-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f};
+  const Floats down = {-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f};
+  const std::ptrdiff_t lower = 2 * tile.stride;
+  const Floats upper_alphas = AlphasOfRows(tile, 0, allowance);
+  const Floats lower_alphas = AlphasOfRows(tile, lower, allowance);
+  // A plane over the tile.
+  const Floats columns = upper_alphas + lower_alphas;
+  const float middle = SumOf(columns) / kArea;
+  const float to_right = SumOf(columns * right) / kSpread;
+  const float to_bottom = SumOf(upper_alphas * down + lower_alphas * (down + 2)) / kSpread;
+  const Floats upper_plane = middle + to_right * right + to_bottom * down;
+  return SumOf(MisfitsOfRows(tile, 0, tile.stride, allowance, upper_plane) +
+               MisfitsOfRows(tile, lower, tile.stride, allowance, upper_plane + 2 * to_bottom)) /
+         kArea;
 }
 
 }  // namespace mocap

@@ -43,7 +43,6 @@ void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
 
 /// Measures the mean misfit of a tile's pixels where brightness may change evenly across it, as at
 /// the soft edge of a shadow [variances].
-float MisfitBesideSlope(const HalfPicture& live, const ExpectedHalf& expected, int tile_row,
-                        int tile_column, const Allowance& allowance);
+float MisfitBesideSlope(const TilePixels& tile, const Allowance& allowance);
 
 }  // namespace mocap

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -15,6 +16,13 @@ constexpr int kTiles = 5;
 constexpr int kStride = kTiles * kTile;
 constexpr int kPixels = kStride * kTile + kTile;  // As many as can be read.
 constexpr Allowance kAllowance{.gain = {1.1f, 0.9f, 1.0f}, .drift_sq = 2, .shift_sq = 0.3f};
+
+// Over a tile, from its middle.
+constexpr double kMiddle = (kTile - 1) / 2.0;
+struct Plane {
+  double At(int x, int y) const { return middle + right * (x - kMiddle) + down * (y - kMiddle); }
+  double middle = 0, right = 0, down = 0;
+};
 
 // Tiles of any colours.
 struct SomeTiles {
@@ -39,14 +47,33 @@ struct SomeTiles {
     }
     return pixels;
   }
-  double MisfitOf(int tile, double alpha) const {
+  // The plane closest to the pixels' brightness distortions.
+  Plane BrightnessOf(int tile) const {
+    constexpr double kArea = kTile * kTile, kSpread = kArea * (kArea - 1) / 12;
+    Plane plane;
+    for (int y = 0; y < kTile; ++y) {
+      for (int x = 0; x < kTile; ++x) {
+        const int i = y * kStride + tile * kTile + x;
+        double along = 0, square = 1;
+        for (int c = 0; c < 3; ++c) {
+          along += kAllowance.gain[c] * live[c][i] * expected[c][i];
+          square += expected[c][i] * expected[c][i];
+        }
+        plane.middle += along / square / kArea;
+        plane.right += along / square * (x - kMiddle) / kSpread;
+        plane.down += along / square * (y - kMiddle) / kSpread;
+      }
+    }
+    return plane;
+  }
+  double MisfitOf(int tile, const Plane& brightness) const {
     double misfit = 0;
     for (int y = 0; y < kTile; ++y) {
       for (int x = 0; x < kTile; ++x) {
         const int i = y * kStride + tile * kTile + x;
         double squares = 0;
         for (int c = 0; c < 3; ++c) {
-          const double d = kAllowance.gain[c] * live[c][i] - alpha * expected[c][i];
+          const double d = kAllowance.gain[c] * live[c][i] - brightness.At(x, y) * expected[c][i];
           squares += d * d;
         }
         misfit += squares /
@@ -71,11 +98,21 @@ TEST(TileComparison, MisfitsAreThoseOfThePlainDefinition) {
       misfits.fill(kUntouched);
       MeasureMisfits(tiles.From(begin), count, kAllowance, &alphas[begin], misfits.data());
       for (int i = 0; i < count; ++i) {
-        const double wanted = tiles.MisfitOf(begin + i, alphas[begin + i]);
+        const double wanted = tiles.MisfitOf(begin + i, {alphas[begin + i]});
         EXPECT_NEAR(misfits[i], wanted, 1e-4 * wanted) << begin << " " << i;
       }
       EXPECT_EQ(misfits[count], kUntouched);
     }
+  }
+}
+
+TEST(TileComparison, MisfitBesideSlopeIsThatOfThePlainDefinition) {
+  const SomeTiles tiles;
+  for (int tile = 0; tile < kTiles; ++tile) {
+    const Plane plane = tiles.BrightnessOf(tile);
+    const double wanted = tiles.MisfitOf(tile, plane);
+    EXPECT_GT(std::abs(tiles.MisfitOf(tile, {plane.middle}) - wanted), 1e-3 * wanted);
+    EXPECT_NEAR(MisfitBesideSlope(tiles.From(tile), kAllowance), wanted, 1e-4 * wanted) << tile;
   }
 }
 
