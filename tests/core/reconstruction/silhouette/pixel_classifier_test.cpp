@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
 
-#include "core/reconstruction/silhouette/coarse_scan.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
 namespace mocap {
@@ -296,125 +296,6 @@ TEST_F(PixelClassifierTest, ACloseupShowsWhatTheWholePictureShows) {
   }
   EXPECT_GT(judged, 4000);
   EXPECT_GT(CountSet(whole), 30 * 30 + 40 * 21 - 1);
-}
-
-TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearned) {
-  NoisySensor sensor(2.0f, 13);
-  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
-  for (const double rate : {0.99, 0.999}) {
-    SCOPED_TRACE(rate);
-    const auto background = LearnFixedBackground(TakeBackground(studio, 30, sensor), rate);
-    const DistortionThresholds& t = background->thresholds();
-    Closeup everything;
-    everything.SetAll(kWidth, kHeight);
-    DistortionScan scan;
-    CoarseScan coarse;
-    int cd = 0, low = 0, high = 0, all = 0;
-    for (int i = 0; i < 10; ++i) {
-      const Image<Bgr> image = sensor.Take(studio);
-      coarse.Compare(background->Glance({}, {}), image.view());
-      scan.Begin(background->Expect(everything, {}), image.view(), coarse.conditions().gain,
-                 everything);
-      static_assert(kHeight % 2 == 0);
-      for (int y = 0; y < kHeight; y += 2) {
-        for (const DistortionScan::Row& row : scan.Next().rows) {
-          for (int x = 0; x < kWidth; ++x) {
-            const float alpha = row.alpha_shift[x] * row.alpha_weight[x];
-            cd += row.cd_sq[x] > t.cd * t.cd;
-            low += alpha < t.alpha_low;
-            high += alpha > t.alpha_high;
-            ++all;
-          }
-        }
-      }
-    }
-    const double wanted = (1 - rate) * all;
-    for (const int exceeding : {cd, low, high}) {
-      EXPECT_LT(exceeding, 1.4 * wanted);
-      EXPECT_GT(exceeding, 0.6 * wanted);
-    }
-  }
-}
-
-struct PlainWindow {
-  float alpha_shift, cd_sq, roughness_sq;
-};
-
-// Of the windows around a pixel of one of two rows.
-std::array<PlainWindow, kWindows> WindowsAround(int x, int row,
-                                                const DistortionScan::RowPair& pair) {
-  std::array<PlainWindow, kWindows> windows;
-  const int block = x / kFloats, lane = x % kFloats;
-  std::array<Floats, 2> weights;
-  for (int k = 0; k < 2; ++k) LoadLanes(pair.rows[k].alpha_weight + block * kFloats, weights[k]);
-  std::array<WindowDistortions, 2> d;
-  const auto take = [&](PlainWindow& window) {
-    window = {d[row].alpha_shift[lane], d[row].cd_sq[lane], d[row].roughness_sq[lane]};
-  };
-  JoinLines<0>(pair.sums, block, weights, d);
-  take(windows[0]);
-  JoinLines<1>(pair.sums, block, weights, d);
-  take(windows[1]);
-  return windows;
-}
-
-TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
-  ExpectedPicture expected(1, 1);
-  expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
-  expected.Weigh(0, 0, 0, 1);
-  Image<Bgr> image(1, 1, {90, 85, 50});
-  Closeup everything;
-  everything.SetAll(image.width(), image.height());
-  DistortionScan scan;
-  scan.Begin(expected, image.view(), {1, 1, 1}, everything);
-  const DistortionScan::RowPair& pair = scan.Next();
-  const DistortionScan::Row& row = pair.rows[0];
-  // z = (45, 21.25, 16.667), m = (50, 20, 20): α = z·m / m·m.
-  const double alpha = (45 * 50 + 21.25 * 20 + 50.0 / 3 * 20) / (2500 + 400 + 400);
-  const double cd_sq = std::pow(45 - alpha * 50, 2) + std::pow(21.25 - alpha * 20, 2) +
-                       std::pow(50.0 / 3 - alpha * 20, 2);
-  EXPECT_NEAR(row.alpha_shift[0], alpha - 1, 1e-5);
-  EXPECT_NEAR(row.cd_sq[0], cd_sq, 1e-3);
-  EXPECT_NEAR(row.alpha_weight[0], std::sqrt(3300.0), 1e-3);
-  for (const PlainWindow& window : WindowsAround(0, 0, pair)) {
-    EXPECT_NEAR(window.alpha_shift, alpha - 1, 1e-5);
-    EXPECT_NEAR(window.cd_sq, cd_sq, 1e-2);
-    EXPECT_NEAR(window.roughness_sq, 0, 1e-2);
-  }
-}
-
-TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
-  ExpectedPicture expected(40, 30);
-  Image<Bgr> image(40, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      expected.SetPixel(static_cast<std::size_t>(y * 40 + x), {100, 100, 100}, {1, 1, 1}, 0);
-      const auto value = static_cast<std::uint8_t>(60 + x + 2 * y);
-      image(x, y) = {value, value, value};
-    }
-  }
-  for (int y = 0; y < 30; ++y) expected.Weigh(0, y, 0, 40);
-  image(30, 20) = {255, 255, 255};
-  Closeup everything;
-  everything.SetAll(image.width(), image.height());
-  DistortionScan scan;
-  scan.Begin(expected, image.view(), {1, 1, 1}, everything);
-  DistortionScan::RowPair pair;
-  for (int y = 0; y < 30; ++y) {
-    if (y % 2 == 0) pair = scan.Next();
-    for (std::size_t k = 0; k < kWindows; ++k) {
-      const int r = kWindowRadii_px[k];
-      for (int x = r; x < 40 - r && y >= r && y < 30 - r; ++x) {
-        if (std::abs(x - 30) <= r && std::abs(y - 20) <= r) {
-          EXPECT_GT(WindowsAround(x, y % 2, pair)[k].roughness_sq, 100);
-        } else {
-          EXPECT_NEAR(WindowsAround(x, y % 2, pair)[k].roughness_sq, 0, 0.05);
-          EXPECT_NEAR(WindowsAround(x, y % 2, pair)[k].alpha_shift, (x + 2 * y) / 100.0 - 0.4,
-                      1e-4);
-        }
-      }
-    }
-  }
 }
 
 }  // namespace
