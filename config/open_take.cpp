@@ -118,9 +118,10 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
          OpenCameraBackground(layout.BackgroundVideo(name), layout.BackgroundTable(name), camera)});
   }
   const bool realtime = options.rate == ReplayRate::kRealtime;
+  studio.times = realtime ? CaptureTimes::kPresent : CaptureTimes::kRecorded;
   const auto replay =
       std::make_shared<Replay>(SpanOf(tables, header.fps_nominal, take), options.loop,
-                               realtime ? MakeSystemClock() : nullptr, options.begin_ns);
+                               realtime ? MakeTimelineClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
     VideoReader video = OpenCameraVideo(layout.Video(names[i]), camera.calibration);

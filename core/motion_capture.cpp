@@ -217,7 +217,7 @@ class MotionCapture::Impl {
 
   void NoticeLoss() {
     bad_frames_ = tracker_->quality().Cost() > kLostCostMm ? bad_frames_ + 1 : 0;
-    if (bad_frames_ < kFramesToLose) return;
+    if (bad_frames_ < kFramesToLose && tracker_->filter().is_sound()) return;
     result_.state = CaptureState::kLost;
     if (!SizesAreKnown()) ForgetPerson();
   }

@@ -15,7 +15,7 @@ namespace mocap {
 /// its next Grab.
 struct Frame {
   ImageView<const Bgr> image;
-  std::int64_t capture_ns = 0;  ///< Middle of the exposure, since the Unix epoch.
+  std::int64_t capture_ns = 0;  ///< Middle of the exposure, on the timeline (or a recording's).
   std::uint64_t sequence = 0;   ///< Counts what the camera took; a gap is what was lost on the way.
   PanTiltAngles angles;         ///< At the moment of exposure; zero without a head.
 };

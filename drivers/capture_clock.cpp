@@ -48,15 +48,20 @@ TimeSource CaptureClock::Choose(std::int64_t ahead_ns, bool ptp_locked) const {
 }
 
 std::int64_t CaptureClock::MiddleOfExposure(std::int64_t stamp_ns, std::int64_t arrival_ns,
-                                            std::int64_t exposure_ns, bool ptp_locked) {
+                                            std::int64_t exposure_ns, bool ptp_locked,
+                                            std::int64_t time_of_day_ahead_ns) {
   const std::int64_t begin_ns = arrival_ns - exposure_ns;
   if (std::exchange(doubted_, false) && !fit_.Fits(stamp_ns, begin_ns)) fit_ = DeviceClock();
   if (has_stamps_) fit_.Observe(stamp_ns, begin_ns);
-  source_ = Choose(stamp_ns - begin_ns, ptp_locked);
+  const bool was_set = time_of_day_ahead_ns != time_of_day_ahead_ns_;
+  time_of_day_ahead_ns_ = time_of_day_ahead_ns;
+  if (was_set && source_ != TimeSource::kArrival) source_ = TimeSource::kDeviceClock;
+  const std::int64_t ptp_ns = stamp_ns - time_of_day_ahead_ns;
+  source_ = Choose(ptp_ns - begin_ns, ptp_locked);
   std::int64_t capture_ns = begin_ns;
   if (source_ == TimeSource::kDeviceClock) capture_ns = fit_.ToHost(stamp_ns);
-  if (source_ == TimeSource::kPtp) capture_ns = stamp_ns;
-  if (source_ == TimeSource::kPtpTai) capture_ns = stamp_ns - leap_ns_;
+  if (source_ == TimeSource::kPtp) capture_ns = ptp_ns;
+  if (source_ == TimeSource::kPtpTai) capture_ns = ptp_ns - leap_ns_;
   return capture_ns + exposure_ns / 2;
 }
 

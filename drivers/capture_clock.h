@@ -22,7 +22,8 @@ std::string_view Describe(TimeSource source);
 ///
 /// Cameras stamp the beginning of the exposure and send once it is over, so that a frame's arrival
 /// less its exposure is the least that the host knows. A clock under PTP is taken at its word where
-/// it is near the host's, with or without the leap seconds; any other is fitted.
+/// it is near the host's, with or without the leap seconds; any other is fitted. Where the host's
+/// clock was set, it is seen anew whether they are near.
 /// Thread-bound.
 class CaptureClock {
  public:
@@ -35,10 +36,12 @@ class CaptureClock {
   /// Tells that the camera was away: its clock may have begun anew, or gone on.
   void Doubt() { doubted_ = true; }
 
-  /// Gives the middle of the exposure [ns since the Unix epoch].
-  /// @param ptp_locked  the camera says that it follows a PTP master.
+  /// Gives the middle of the exposure, on the timeline of the arrival [ns].
+  /// @param ptp_locked        the camera says that it follows a PTP master.
+  /// @param time_of_day_ahead_ns  the host's time of day less the timeline.
   std::int64_t MiddleOfExposure(std::int64_t stamp_ns, std::int64_t arrival_ns,
-                                std::int64_t exposure_ns, bool ptp_locked);
+                                std::int64_t exposure_ns, bool ptp_locked,
+                                std::int64_t time_of_day_ahead_ns = 0);
 
   TimeSource source() const { return source_; }
   double drift_ppm() const { return fit_.drift_ppm(); }
@@ -50,6 +53,7 @@ class CaptureClock {
   const std::int64_t leap_ns_;
   TimeSource source_;
   bool doubted_ = false;
+  std::int64_t time_of_day_ahead_ns_ = 0;
   DeviceClock fit_;
 };
 

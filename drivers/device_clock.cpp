@@ -21,6 +21,9 @@ constexpr int kEarlyToBelieve = 3;
 /// … and none comes so late for a second on end.
 constexpr std::int64_t kTooLate_ns = 500'000'000;
 constexpr int kLateToBelieve = 30;
+/// So late are several on end only where a clock was set, or the machine slept.
+constexpr std::int64_t kFarTooLate_ns = 5'000'000'000;
+constexpr int kFarTooLateToBelieve = 3;
 /// After a camera was away, its first frame may be held up by as much.
 constexpr std::int64_t kAway_ns = 5'000'000'000;
 
@@ -55,7 +58,9 @@ bool DeviceClock::IsDoubtful(const Point& point, std::int64_t above_ns) {
   const bool late = above_ns > kTooLate_ns;
   early_ = early ? early_ + 1 : 0;
   late_ = late ? late_ + 1 : 0;
-  if (early_ >= kEarlyToBelieve || late_ >= kLateToBelieve) {
+  far_too_late_ = above_ns > kFarTooLate_ns ? far_too_late_ + 1 : 0;
+  if (early_ >= kEarlyToBelieve || late_ >= kLateToBelieve ||
+      far_too_late_ >= kFarTooLateToBelieve) {
     Restart(point);
     ++restarts_;
     return true;
@@ -70,7 +75,7 @@ void DeviceClock::Restart(const Point& point) {
   first_ns_ = last_ns_ = slot_begin_ns_ = origin_ns_ = point.device_ns;
   base_ns_ = point.offset_ns;
   slope_ = 0;
-  early_ = late_ = 0;
+  early_ = late_ = far_too_late_ = 0;
 }
 
 void DeviceClock::Keep(const Point& point) {

@@ -52,7 +52,7 @@ class DeviceClock {
   std::int64_t first_ns_ = 0, last_ns_ = 0;
   std::int64_t origin_ns_ = 0, base_ns_ = 0;  ///< The line: base at the origin, and its slope.
   double slope_ = 0;
-  int early_ = 0, late_ = 0;
+  int early_ = 0, late_ = 0, far_too_late_ = 0;
   int restarts_ = 0;
 };
 

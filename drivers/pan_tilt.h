@@ -32,7 +32,7 @@ class PanTilt {
   virtual void Stop() = 0;
   /// Asks the head where it points; about once a frame.
   virtual void Update() = 0;
-  /// Gives where it pointed at a moment since the Unix epoch, between what was read before and
+  /// Gives where it pointed at a moment of the timeline, between what was read before and
   /// after it.
   virtual PanTiltAngles At(std::int64_t capture_ns) const = 0;
   /// Sets off in a direction. @return  false when the head does not reach it, or does not answer.

@@ -29,10 +29,10 @@ void PolledPanTilt::Reach() {
 }
 
 bool PolledPanTilt::Read() {
-  const std::int64_t before_ns = EpochNs();
+  const std::int64_t before_ns = TimelineNs();
   const std::optional<PanTiltAngles> angles = Ask();
   if (!angles) return false;
-  const std::int64_t middle_ns = (before_ns + EpochNs()) / 2;
+  const std::int64_t middle_ns = (before_ns + TimelineNs()) / 2;
   track_.Add(middle_ns - delay_.count(), *angles);
   return true;
 }

@@ -21,6 +21,12 @@ struct StudioCamera {
   std::string waits_for = "";   ///< The camera that triggers it; empty: none that is known.
 };
 
+/// Which clock the capture times of a studio's frames are of.
+enum class CaptureTimes {
+  kPresent,  ///< The program's timeline.
+  kRecorded  ///< That of the recording, which is read as fast as possible.
+};
+
 /// All cameras, in the order in which the pipeline numbers them.
 struct Studio {
   std::string name;
@@ -28,6 +34,7 @@ struct Studio {
   std::vector<StudioCamera> cameras;
   /// To be told where the person is; null: no head follows.
   std::shared_ptr<Whereabouts> person = nullptr;
+  CaptureTimes times = CaptureTimes::kPresent;
 };
 
 }  // namespace mocap

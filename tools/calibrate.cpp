@@ -34,7 +34,7 @@ void WriteFile(const std::filesystem::path& file, const std::string& text) {
 void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
   const std::vector<Finding> findings = CheckAll(arguments, fit);
   CalibrationRecord record;
-  record.made_s = EpochS();
+  record.made_s = TimeOfDayS();
   record.reprojection_px = fit.rms_px;
   WriteCalibration(arguments.out, fit.bundle.cameras, record);
   if (!arguments.report.empty())

@@ -106,7 +106,7 @@ void AddCheck(CLI::App* parent) {
     std::vector<Finding> findings = CheckAll(*a, fit);
     if (!a->footage.empty()) CheckPerson(a->footage, findings);
     if (!against->empty()) Compare(fit.bundle.cameras, *against, findings);
-    std::fputs(RecordText(LoadCalibrationRecord(a->calibration), EpochS()).c_str(), stdout);
+    std::fputs(RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()).c_str(), stdout);
     for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
     std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
   });

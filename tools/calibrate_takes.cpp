@@ -181,7 +181,7 @@ void RunHealth(const TakeArguments& a) {
   std::fputs(text.c_str(), stdout);
   if (a.note.empty()) return;
   CalibrationRecord record = LoadCalibrationRecord(a.note);
-  record.checked_s = EpochS();
+  record.checked_s = TimeOfDayS();
   record.offsets = OffsetsOf(refined.before, refined.moved);
   WriteCalibration(a.note, LoadCalibration(a.note), record);
 }
@@ -189,7 +189,7 @@ void RunHealth(const TakeArguments& a) {
 void RunRefine(const TakeArguments& a) {
   const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
   CalibrationRecord record = LoadCalibrationRecord(TakeLayout{a.take}.Calibration());
-  record.refined_s = record.checked_s = EpochS();
+  record.refined_s = record.checked_s = TimeOfDayS();
   record.offsets = OffsetsOf(refined.after, {});
   WriteCalibration(a.out, refined.cameras, record);
   const std::string text = a.json ? ShiftJson(refined)

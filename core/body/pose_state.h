@@ -41,6 +41,7 @@ struct PoseState {
   void Add(const PoseStep& step);
   /// Gives the step that leads from `from` to this pose; the inverse of Add.
   PoseStep Minus(const PoseState& from) const;
+  bool IsFinite() const { return X_WT.p.allFinite() && X_WT.R.allFinite() && theta.allFinite(); }
 };
 
 }  // namespace mocap

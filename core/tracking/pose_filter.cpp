@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/body/joint_rest.h"
-#include "core/errors.h"
 #include "core/vectorized.h"
 
 namespace mocap {
@@ -54,12 +54,13 @@ void AddSquare(const UpdateEquations::Column& row, int dof, double weight,
   }
 }
 
-PoseCovariance InverseOfPositive(const PoseCovariance& matrix) {
+// Nothing where rounding, or a measurement that is no number, has left no covariance.
+std::optional<PoseCovariance> InverseOfPositive(const PoseCovariance& matrix) {
   const Eigen::LLT<PoseCovariance> cholesky(matrix);
-  MOCAP_CHECK(cholesky.info() == Eigen::Success);
+  if (cholesky.info() != Eigen::Success || !matrix.allFinite()) return std::nullopt;
   const PoseCovariance inverse =
       cholesky.solve(PoseCovariance::Identity(matrix.rows(), matrix.cols()));
-  return 0.5 * (inverse + inverse.transpose());
+  return PoseCovariance(0.5 * (inverse + inverse.transpose()));
 }
 
 }  // namespace
@@ -163,22 +164,33 @@ PoseCovariance PoseFilter::Iterate(const BodyTable& table, const Linearize& line
 
 void PoseFilter::Draw(const BodyTable& table, const Linearize& linearize,
                       const Iterations& iterations) {
-  Iterate(table, linearize, iterations, InverseOfPositive(P_));
+  const PoseState prior = pose_;
+  const auto prior_information = InverseOfPositive(P_);
+  if (prior_information) Iterate(table, linearize, iterations, *prior_information);
+  is_sound_ = prior_information && pose_.IsFinite();
+  if (!is_sound_) pose_ = prior;
 }
 
 void PoseFilter::Update(const BodyTable& table, const Linearize& linearize,
                         const Iterations& iterations) {
   const PoseState prior = pose_;
-  const PoseCovariance prior_information = InverseOfPositive(P_);
-  const PoseCovariance posterior =
-      InverseOfPositive(Iterate(table, linearize, iterations, prior_information));
+  const auto prior_information = InverseOfPositive(P_);
+  const auto posterior =
+      prior_information
+          ? InverseOfPositive(Iterate(table, linearize, iterations, *prior_information))
+          : std::nullopt;
+  is_sound_ = posterior && pose_.IsFinite();
+  if (!is_sound_) {
+    pose_ = prior;
+    return;
+  }
   // The velocity was not measured; it follows the pose as far as the two were correlated.
-  const PoseCovariance gain = P_vx_ * prior_information;
+  const PoseCovariance gain = P_vx_ * *prior_information;
   velocity_ += gain * pose_.Minus(prior);
-  P_vv_ -= gain * (P_ - posterior) * gain.transpose();
+  P_vv_ -= gain * (P_ - *posterior) * gain.transpose();
   P_vv_ = PoseCovariance(0.5 * (P_vv_ + P_vv_.transpose()));
-  P_vx_ = gain * posterior;
-  P_ = posterior;
+  P_vx_ = gain * *posterior;
+  P_ = *posterior;
 }
 
 }  // namespace mocap

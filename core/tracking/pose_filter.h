@@ -84,6 +84,9 @@ class PoseFilter {
   /// fast it changes, stay.
   void Draw(const BodyTable& table, const Linearize& linearize, const Iterations& iterations);
 
+  /// Whether the last update came to a pose and a covariance; otherwise the pose stayed as it was,
+  /// and the track is lost.
+  bool is_sound() const { return is_sound_; }
   const PoseState& pose() const { return pose_; }
   const PoseCovariance& covariance() const { return P_; }
 
@@ -103,6 +106,7 @@ class PoseFilter {
   void ForgetVelocity();
 
   MotionNoise noise_;
+  bool is_sound_ = true;
   PoseState pose_;
   PoseStep velocity_;
   // Blocks of the joint covariance of pose error and velocity.

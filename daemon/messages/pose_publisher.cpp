@@ -67,7 +67,8 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
                    "\" cannot be opened, wanted one like udpm://239.255.76.67:7667?ttl=0");
 }
 
-PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras)
+PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras,
+                             CaptureTimes times)
     : lcm_(lcm),
       pose_channel_(config.prefix + "MOCAP_POSE"),
       body_channel_(config.prefix + "MOCAP_BODY"),
@@ -75,6 +76,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       status_channel_(config.prefix + "MOCAP_STATUS"),
       service_channel_(config.prefix + "MOCAP_SERVICE"),
       cameras_(cameras),
+      times_(times),
       body_pacer_(1),
       voxels_pacer_(config.voxels_hz),
       paced_voxels_hz_(config.voxels_hz),
@@ -89,14 +91,23 @@ void PosePublisher::Publish(const std::string& channel, const Message& message) 
   tap_->Offer([&](TappedMessage& copy) {
     copy.channel = channel;
     copy.bytes = bytes_;
-    copy.utime = EpochNs() / 1000;
+    copy.utime = TimelineNs() / 1000;
     return true;
   });
 }
 
-void PosePublisher::OnSet(const TrackedSet& set) {
+TrackedSet PosePublisher::InTimeOfDay(const TrackedSet& set) const {
+  TrackedSet stamped = set;
+  const std::int64_t ahead_ns = TheHostClock().OffsetNs();
+  if (times_ == CaptureTimes::kPresent) stamped.capture_ns += ahead_ns;
+  stamped.complete_ns += ahead_ns;
+  return stamped;
+}
+
+void PosePublisher::OnSet(const TrackedSet& timeline_set) {
+  const TrackedSet set = InTimeOfDay(timeline_set);
   FillPose(set, cameras_, pose_);
-  pose_.publish_utime = EpochNs() / 1000;
+  pose_.publish_utime = TimeOfDayNs() / 1000;
   Publish(pose_channel_, pose_);
   const std::int64_t now_ns = SteadyNs();
   const bool body_is_due = body_pacer_.IsDue(now_ns);
@@ -116,7 +127,7 @@ void PosePublisher::OnSet(const TrackedSet& set) {
 }
 
 void PosePublisher::PublishStatus(const ServiceReport& report) {
-  const std::int64_t utime = EpochNs() / 1000;
+  const std::int64_t utime = TimeOfDayNs() / 1000;
   FillStatus(report.now, utime, status_);
   lcm_.publish(status_channel_, &status_);
   FillService(report, utime, service_);

@@ -14,6 +14,7 @@
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/tap.h"
 #include "daemon/service/service_report.h"
+#include "drivers/studio.h"
 
 namespace mocap {
 
@@ -31,7 +32,9 @@ class PosePublisher : public PoseSink {
  public:
   /// @param lcm      borrowed for the publisher's life.
   /// @param cameras  of the studio.
-  PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras);
+  /// @param times    of the sets; those of the present are published as the host's time of day.
+  PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras,
+                CaptureTimes times = CaptureTimes::kPresent);
 
   void OnSet(const TrackedSet& set) override;
   /// From now on, what OnSet publishes is offered to the tap as well; borrowed for the publisher's
@@ -44,6 +47,7 @@ class PosePublisher : public PoseSink {
  private:
   template <typename Message>
   void Publish(const std::string& channel, const Message& message);
+  TrackedSet InTimeOfDay(const TrackedSet& set) const;
 
   lcm::LCM& lcm_;
   MessageTap* tap_ = nullptr;
@@ -51,6 +55,7 @@ class PosePublisher : public PoseSink {
   const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
       service_channel_;
   const int cameras_;
+  const CaptureTimes times_;
   Pacer body_pacer_;
   Pacer voxels_pacer_;
   double paced_voxels_hz_;

@@ -80,7 +80,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
     return Outcome::kNothing;
   }
   expectation_.store(Expectation::kCertain, std::memory_order_release);
-  out.arrival_ns = EpochNs();
+  out.arrival_ns = TimelineNs();
   out.capture_ns = frame.capture_ns;
   out.sequence = frame.sequence;
   out.X_CW = camera_.calibration.PoseAt(frame.angles);

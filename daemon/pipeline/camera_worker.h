@@ -30,7 +30,7 @@ struct SegmentedFrame {
   RigidTransform X_CW;  ///< Where the camera stood.
   std::int64_t capture_ns = 0;
   std::uint64_t sequence = 0;
-  std::int64_t arrival_ns = 0;  ///< When the driver handed it out, since the Unix epoch.
+  std::int64_t arrival_ns = 0;  ///< When the driver handed it out, on the timeline.
   std::int64_t segment_ns = 0;  ///< How long segmentation took.
   /// Most of the picture is unlike the empty studio, or the camera looks elsewhere: whoever stands
   /// there is not to be seen, or not where calibration has him.

@@ -56,7 +56,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   const std::int64_t begin_ns = SteadyNs();
   Gather(set);
   if (load_control_) {
-    load_control_->AddSet(set.capture_ns, set.complete_ns, EpochNs(), synchronizer_.PeriodNs());
+    load_control_->AddSet(set.capture_ns, set.complete_ns, TimelineNs(), synchronizer_.PeriodNs());
     PublishLoad();
   }
   carver_.Carve(views_, set.grid);
@@ -88,7 +88,7 @@ void CarveStage::OfferToWatch() {
 void CarveStage::SetTracked(std::int64_t sets) {
   if (!load_control_) return;
   under_way_ = next_frame_ - sets;
-  load_control_->SetUnderWay(under_way_, EpochNs());
+  load_control_->SetUnderWay(under_way_, TimelineNs());
   PublishLoad();
 }
 

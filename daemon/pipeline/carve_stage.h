@@ -28,7 +28,7 @@ struct CarvedSet {
   std::vector<Outline> outlines;  ///< One a camera; empty of those that are not in.
   std::int64_t frame = 0;         ///< Counts sets from 0.
   std::int64_t capture_ns = 0;    ///< The middle one of the members' times.
-  std::int64_t complete_ns = 0;   ///< When the last member had arrived, since the Unix epoch.
+  std::int64_t complete_ns = 0;   ///< When the last member had arrived, on the timeline.
   std::int64_t work_ns = 0;       ///< The slowest member's segmentation, and carving.
   std::uint64_t cameras = 0;      ///< Bit i: camera i is in.
 };

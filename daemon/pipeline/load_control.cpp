@@ -13,7 +13,7 @@ void LoadControl::AddSet(std::int64_t capture_ns, std::int64_t arrival_ns, std::
   last_ns_ = capture_ns;
   captures_ns_[sets_++ % kMostUnderWay] = capture_ns;
   period_ns_ = period_ns;
-  least_delay_ns_ = std::min(least_delay_ns_, arrival_ns - capture_ns);
+  NoteDelay(arrival_ns - capture_ns, now_ns);
   const std::int64_t age_ns = now_ns - capture_ns - least_delay_ns_;
   if (age_ns <= ToleranceNs(now_ns)) return;
   LosePatience(now_ns);
@@ -24,7 +24,20 @@ void LoadControl::StartAnew() {
   wanted_from_ns_ = kAll;
   has_last_ = false;
   impatient_until_ns_ = kAll;
-  least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
+  least_delay_ns_ = least_of_span_ns_ = kNoDelayYet;
+  span_begin_ns_ = kNever;
+}
+
+void LoadControl::NoteDelay(std::int64_t delay_ns, std::int64_t now_ns) {
+  const bool has_span = span_begin_ns_ <= now_ns && now_ns - span_begin_ns_ < kDelaySpanNs;
+  if (!has_span) {
+    // Without an earlier span, this delay is all that is known.
+    least_delay_ns_ = least_of_span_ns_;
+    least_of_span_ns_ = kNoDelayYet;
+    span_begin_ns_ = now_ns;
+  }
+  least_of_span_ns_ = std::min(least_of_span_ns_, delay_ns);
+  least_delay_ns_ = std::min(least_delay_ns_, least_of_span_ns_);
 }
 
 void LoadControl::SetUnderWay(std::int64_t sets, std::int64_t now_ns) {

@@ -28,6 +28,8 @@ class LoadControl {
   /// and this, if no set was left out lately.
   static constexpr std::int64_t kPatienceNs = 1'000'000'000;
   static constexpr std::int64_t kLatelyNs = 10'000'000'000;
+  /// The least delay between capture and arrival is that of one to two spans of this length.
+  static constexpr std::int64_t kDelaySpanNs = 5'000'000'000;
 
   /// Takes note of a set as it is matched.
   /// @param arrival_ns  when the last of its frames had arrived.
@@ -50,8 +52,10 @@ class LoadControl {
   std::int64_t ToleranceNs(std::int64_t now_ns) const;
   void LosePatience(std::int64_t now_ns);
   void WantNext(std::int64_t now_ns);
+  void NoteDelay(std::int64_t delay_ns, std::int64_t now_ns);
   bool IsFull(std::int64_t sets, std::int64_t now_ns) const;
 
+  static constexpr std::int64_t kNoDelayYet = std::numeric_limits<std::int64_t>::max();
   static constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::min();
 
   std::int64_t wanted_from_ns_ = kAll;
@@ -62,7 +66,10 @@ class LoadControl {
   std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
   std::int64_t sets_ = 0;
   /// What lies between capture and arrival when nothing waits: exposure, transfer, another clock.
-  std::int64_t least_delay_ns_ = std::numeric_limits<std::int64_t>::max();
+  /// The least of the span before and of the present one: a clock that was set is forgotten.
+  std::int64_t least_delay_ns_ = kNoDelayYet;
+  std::int64_t least_of_span_ns_ = kNoDelayYet;
+  std::int64_t span_begin_ns_ = kNever;
   std::int64_t skipped_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace mocap {
 struct TrackedSet {
   std::int64_t frame = 0;
   std::int64_t capture_ns = 0;
-  std::int64_t complete_ns = 0;  ///< When its last frame had arrived, since the Unix epoch.
+  std::int64_t complete_ns = 0;  ///< When its last frame had arrived, on the timeline.
   std::uint64_t cameras = 0;     ///< Bit i: camera i was used.
   int acquisition_frames = 0;
   const CaptureResult& result;

@@ -92,7 +92,7 @@ bool CopyFrame(const Frame& from, TappedFrame& to);
 struct TappedMessage {
   std::string channel;
   std::vector<std::uint8_t> bytes;
-  std::int64_t utime = 0;
+  std::int64_t utime = 0;  ///< When, on the timeline [us].
 };
 using MessageTap = Tap<TappedMessage>;
 

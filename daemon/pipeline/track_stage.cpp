@@ -59,7 +59,7 @@ void TrackStage::Process(const CarvedSet& set) {
   recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;
-  recorders_[Stage::kLatency].Record(EpochNs() - from_ns);
+  recorders_[Stage::kLatency].Record(TimelineNs() - from_ns);
   sets_.fetch_add(1, std::memory_order_relaxed);
 }
 

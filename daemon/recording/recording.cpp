@@ -48,7 +48,7 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
   TakeDescription description{.name = folder.filename(),
                               .fps_nominal = studio.fps_nominal,
                               .cameras = {},
-                              .notes = {{"created", UtcText(EpochS())},
+                              .notes = {{"created", UtcText(TimeOfDayS())},
                                         {"recorded_by", std::string("mocapd ") + MOCAP_VERSION},
                                         {"studio", studio.name}},
                               .codec = config.codec};
@@ -145,6 +145,7 @@ void Recording::Prepare(const std::optional<BodySizes>& subject) {
 
 void Recording::Begin() {
   begin_ns_ = SteadyNs();
+  if (studio_.times == CaptureTimes::kPresent) time_of_day_ahead_ns_ = TheHostClock().OffsetNs();
   const double buffer_mb = config_.buffer_mb / static_cast<double>(lines_.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const CameraCalibration& camera = studio_.cameras[i].calibration;
@@ -247,7 +248,8 @@ void Recording::WriteFrame(std::size_t camera, const TappedFrame& frame) {
   }
   line.next_sequence = frame.sequence + 1;
   line.last_ns = frame.capture_ns;
-  writer_->WriteFrame(number, frame.image.view(), frame.capture_ns, frame.angles);
+  writer_->WriteFrame(number, frame.image.view(), frame.capture_ns + time_of_day_ahead_ns_,
+                      frame.angles);
   line.frames.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -276,7 +278,11 @@ void Recording::KeepUntilStopped() {
 }
 
 void Recording::WriteMessages() {
-  while (taps_.messages.queue().TryPop()) log_->Write(taps_.messages.queue().front());
+  while (taps_.messages.queue().TryPop()) {
+    TappedMessage& message = taps_.messages.queue().front();
+    message.utime += time_of_day_ahead_ns_ / 1000;
+    log_->Write(message);
+  }
   log_->Flush();
 }
 
@@ -307,6 +313,10 @@ void Recording::Complete() {
       notes.emplace_back("frames_" + name, std::to_string(line.frames));
       notes.emplace_back("missing_frames_" + name, std::to_string(line.missing + line.refused));
       notes.emplace_back("dropped_while_recording_" + name, std::to_string(line.dropped));
+    }
+    const std::int64_t step_ns = TheHostClock().OffsetNs() - time_of_day_ahead_ns_;
+    if (studio_.times == CaptureTimes::kPresent && step_ns != 0) {
+      notes.emplace_back("clock_was_set_meanwhile_by_ns", std::to_string(step_ns));
     }
     writer_->AddNotes(notes);
     writer_->Finish();

@@ -22,6 +22,7 @@
 #include "daemon/pipeline/tap.h"
 #include "daemon/recording/safe_file.h"
 #include "drivers/background_source.h"
+#include "drivers/studio.h"
 #include "drivers/take/take_writer.h"
 
 namespace mocap {
@@ -38,6 +39,7 @@ struct RecordedStudio {
   double fps_nominal = 30;
   std::vector<RecordedCamera> cameras;
   std::string config_text;  ///< Kept in the take; empty: there is none.
+  CaptureTimes times = CaptureTimes::kPresent;
 };
 
 /// Where the pipeline's threads leave what they have, in the order of the cameras.
@@ -115,6 +117,8 @@ class Recording {
   std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
   std::latch begun_{1};     ///< Frames are kept from here on.
   std::int64_t begin_ns_ = 0;
+  /// From capture times to those of the take: the time of day as it was when the take began.
+  std::int64_t time_of_day_ahead_ns_ = 0;
   std::atomic<std::int64_t> end_ns_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_failed_{false};

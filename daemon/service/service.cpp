@@ -29,6 +29,7 @@
 #include "daemon/recording/disk_space.h"
 #include "daemon/recording/recorder.h"
 #include "daemon/service/change_log.h"
+#include "daemon/service/clock_watch.h"
 #include "daemon/service/light_watch.h"
 #include "daemon/service/live_view.h"
 #include "daemon/service/metrics_file.h"
@@ -159,7 +160,8 @@ class Watch {
     report_.fit = parts_.view.fit();
     report_.recording = parts_.recorder.Status();
     report_.up_ns = SteadyNs() - start_ns_;
-    report_.epoch_s = EpochS();
+    report_.epoch_s = TimeOfDayS();
+    LookAtClock();
     LookAtStudio(status);
     LookAtDisk();
     parts_.publisher.PublishStatus(report_);
@@ -171,6 +173,11 @@ class Watch {
     if (could_write_metrics_ && !could_write)
       spdlog::warn("{}: cannot be written", metrics.c_str());
     could_write_metrics_ = could_write;
+  }
+
+  void LookAtClock() {
+    const std::string step = clock_.Add(TheHostClock().OffsetNs());
+    if (!step.empty()) spdlog::warn("{}", step);
   }
 
   void LookAtStudio(const PipelineStatus& status) {
@@ -209,6 +216,7 @@ class Watch {
   ChangeLog log_;
   StatusWindow window_;
   LightWatch light_;
+  ClockWatch clock_;
   Pacer status_pacer_{kStatusHz};
   Pacer metrics_pacer_{kMetricsHz};
 };
@@ -250,7 +258,7 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);
-  PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));
+  PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()), studio.times);
   KnownBackgrounds known = KnownBackgroundsOf(studio);
   Recorder recorder(RecordedStudioOf(studio, known, live.text()));
   publisher.Tap(recorder.taps().messages);

@@ -61,7 +61,8 @@ RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& kn
   RecordedStudio recorded{.name = studio.name,
                           .fps_nominal = studio.fps_nominal,
                           .cameras = {},
-                          .config_text = config_text};
+                          .config_text = config_text,
+                          .times = studio.times};
   for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
     // What is known by the time of the recording, not now.
     const auto read = [&known, i](const BackgroundSource::Visit& visit) {

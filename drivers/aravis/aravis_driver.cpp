@@ -10,6 +10,7 @@
 #include "drivers/aravis/aravis_keeper.h"
 #include "drivers/aravis/aravis_session.h"
 #include "drivers/aravis/gige_probe.h"
+#include "drivers/clock.h"
 #include "drivers/usb/usb_bus.h"
 
 namespace mocap {
@@ -114,11 +115,13 @@ std::optional<GrabStatus> AravisDriver::Take(ArvBuffer* buffer, Frame& frame) {
     // Others may have lost the packet that tells their number, and keep that of an earlier frame.
     frame.sequence = counter_.Next(arv_buffer_get_frame_id(buffer));
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
-    const auto arrival_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
-    const std::int64_t capture_ns = clock_->MiddleOfExposure(
-        stamp_ns, arrival_ns, session_->agreed().exposure_ns, keeper_->ptp_locked());
-    last_capture_ns_ = std::max(capture_ns, last_capture_ns_ + 1);
-    frame.capture_ns = last_capture_ns_;
+    // Aravis stamps arrivals with the time of day.
+    HostClock& host = TheHostClock();
+    const std::int64_t arrival_ns = host.FromRecentTimeOfDay(
+        static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer)));
+    frame.capture_ns =
+        clock_->MiddleOfExposure(stamp_ns, arrival_ns, session_->agreed().exposure_ns,
+                                 keeper_->ptp_locked(), host.OffsetNs());
     frame.angles = {};
     if (ReadPixels(buffer, frame)) return GrabStatus::kFrame;
   }
@@ -133,12 +136,15 @@ bool AravisDriver::ReadPixels(ArvBuffer* buffer, Frame& frame) {
   const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_image_data(buffer, &bytes));
   if (agreed.format.format == PixelFormat::kBgr) {
     static_assert(sizeof(Bgr) == 3 && alignof(Bgr) == 1);
+    // A camera may send less than the picture that it announces.
+    const auto pixels = static_cast<std::size_t>(agreed.width_px) * agreed.height_px;
+    if (!data || bytes < pixels * sizeof(Bgr)) return false;
     frame.image = {reinterpret_cast<const Bgr*>(data), agreed.width_px, agreed.height_px};
     lent_ = buffer;
     return true;
   }
   const RawPicture raw{agreed.format.format, agreed.width_px, agreed.height_px, 0, {data, bytes}};
-  if (!converter_.Convert(raw, picture_)) return false;
+  if (!data || !converter_.Convert(raw, picture_)) return false;
   session_->Push(buffer);
   frame.image = picture_.view();
   return true;

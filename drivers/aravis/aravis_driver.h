@@ -50,7 +50,6 @@ class AravisDriver : public CameraDriver {
   FrameCounter counter_;
   PixelConverter converter_;
   Image<Bgr> picture_;
-  std::int64_t last_capture_ns_ = 0;
 };
 
 }  // namespace mocap

@@ -1,6 +1,7 @@
 #include "drivers/aravis/aravis_keeper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -41,13 +42,13 @@ void Close(AravisKeeper::Session session) {
   session.reset();
 }
 
-/// The next instant at which hosts that agree on the time trigger together.
-std::chrono::system_clock::time_point NextTrigger(double fps) {
-  using std::chrono::system_clock;
-  const auto period =
-      std::chrono::duration_cast<system_clock::duration>(std::chrono::duration<double>(1 / fps));
-  const auto since_epoch = system_clock::now().time_since_epoch();
-  return system_clock::time_point((since_epoch / period + 1) * period);
+/// The next instant, on the timeline, at which hosts that agree on the time of day trigger
+/// together.
+std::int64_t NextTrigger(double fps) {
+  const std::int64_t period_ns = std::llround(1e9 / fps);
+  const std::int64_t now_ns = TimelineNs();
+  const std::int64_t time_of_day_ns = TheHostClock().ToTimeOfDay(now_ns);
+  return now_ns + period_ns - time_of_day_ns % period_ns;
 }
 
 }  // namespace
@@ -236,7 +237,7 @@ void AravisKeeper::Speak(const Session& session, unsigned generation) {
       next_ptp = Clock::now() + kPtpPeriod;
     }
     if (settings_.trigger == "software") {
-      std::this_thread::sleep_until(NextTrigger(request_.fps));
+      SleepUntil(NextTrigger(request_.fps));
       session->Trigger();
     } else if (schedule.knows_time()) {
       ScheduleNext(schedule, sender);
@@ -248,8 +249,8 @@ void AravisKeeper::Speak(const Session& session, unsigned generation) {
 }
 
 void AravisKeeper::ScheduleNext(ExposureSchedule& schedule, GigeActionSender& sender) {
-  const std::int64_t exposure_ns = schedule.Next(EpochNs());
-  SleepUntilEpoch(schedule.AskAt());
+  const std::int64_t exposure_ns = schedule.Next(TimelineNs());
+  SleepUntil(schedule.AskAt());
   NoteTrigger(Describe(sender.Schedule(exposure_ns, kAnswerPatience)));
 }
 

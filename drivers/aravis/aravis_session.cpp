@@ -217,9 +217,9 @@ std::optional<std::int64_t> AravisSession::ClockAheadNs() {
   constexpr guint32 kLatch = 2;
   ArvDevice* device = arv_camera_get_device(camera_.get());
   GFailure failure;
-  const std::int64_t before_ns = EpochNs();
+  const std::int64_t before_ns = TimelineNs();
   if (!arv_device_write_register(device, kControl, kLatch, failure)) return std::nullopt;
-  const std::int64_t host_ns = before_ns + (EpochNs() - before_ns) / 2;
+  const std::int64_t host_ns = before_ns + (TimelineNs() - before_ns) / 2;
   guint32 high = 0, low = 0;
   if (!arv_device_read_register(device, kLatchedHigh, &high, failure)) return std::nullopt;
   if (!arv_device_read_register(device, kLatchedLow, &low, failure)) return std::nullopt;

@@ -33,6 +33,9 @@ struct RawPicture {
   std::span<const std::uint8_t> bytes;
 };
 
+/// Gives the bytes that a row takes at least; for JPEG 0.
+std::size_t LeastRowBytes(PixelFormat format, int width_px);
+
 /// Gives the bytes that a picture takes at least; for JPEG 1, since only reading it tells.
 std::size_t LeastBytes(const RawPicture& picture);
 
@@ -49,7 +52,8 @@ class PixelConverter {
   PixelConverter& operator=(PixelConverter&&) noexcept;
 
   /// Converts into `out`, whose memory is reused.
-  /// @return  false for a damaged picture: too few bytes, or no whole JPEG of the size named.
+  /// @return  false for a damaged picture: too few bytes, rows that overlap, or no whole JPEG of
+  /// the size named.
   bool Convert(const RawPicture& picture, Image<Bgr>& out);
 
  private:

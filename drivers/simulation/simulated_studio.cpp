@@ -65,7 +65,7 @@ void SimulatedCamera::Start() {
   first_ = 0;
   if (options.realtime)
     first_ = static_cast<std::int64_t>(
-        std::ceil(static_cast<double>(EpochNs() - options.start_ns) * 1e-9 * options.fps));
+        std::ceil(static_cast<double>(TimelineNs() - options.start_ns) * 1e-9 * options.fps));
   next_ = first_;
   if (options.realtime && !head_) ahead_ = std::make_unique<simulation::PictureAhead>(view_);
   started_ = true;
@@ -79,7 +79,7 @@ bool SimulatedCamera::PrepareNext() {
   if (options.realtime) {
     // Whoever comes too late finds the frames between gone, as with any camera.
     const auto now = static_cast<std::int64_t>(
-        std::floor(static_cast<double>(EpochNs() - options.start_ns) * 1e-9 * options.fps));
+        std::floor(static_cast<double>(TimelineNs() - options.start_ns) * 1e-9 * options.fps));
     next_ = std::max(next_, now);
   } else if (options.seconds > 0 && next_ >= std::llround(options.seconds * options.fps)) {
     return false;
@@ -109,15 +109,15 @@ bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
 
 GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
-  if (view_->scene().options().realtime && IsLost(EpochNs())) {
+  if (view_->scene().options().realtime && IsLost(TimelineNs())) {
     prepared_ = false;
     return GrabStatus::kLost;
   }
   const std::int64_t patience_ns = std::chrono::nanoseconds(timeout).count();
-  const std::int64_t until_ns = view_->scene().options().realtime ? EpochNs() + patience_ns : 0;
+  const std::int64_t until_ns = view_->scene().options().realtime ? TimelineNs() + patience_ns : 0;
   if (!prepared_ && !PrepareNext()) return GrabStatus::kEnd;
   if (view_->scene().options().realtime) {
-    SleepUntilEpoch(std::min(due_ns_, until_ns));
+    SleepUntil(std::min(due_ns_, until_ns));
     if (due_ns_ > until_ns) return GrabStatus::kTimeout;
   }
   if (ahead_ && !ahead_->Take(due_ns_, painter_)) Paint();

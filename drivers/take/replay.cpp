@@ -1,37 +1,22 @@
 #include "drivers/take/replay.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "core/errors.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
 
-class SystemClock : public ReplayClock {
+class TimelineClock : public ReplayClock {
  public:
-  std::int64_t NowNs() override {
-    return epoch_ns_ + Nanoseconds(std::chrono::steady_clock::now() - start_);
-  }
-
-  void SleepUntil(std::int64_t time_ns) override {
-    std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(time_ns - epoch_ns_));
-  }
-
- private:
-  template <typename Duration>
-  static std::int64_t Nanoseconds(Duration duration) {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
-  }
-
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  const std::int64_t epoch_ns_ = Nanoseconds(std::chrono::system_clock::now().time_since_epoch());
+  std::int64_t NowNs() override { return TimelineNs(); }
+  void SleepUntil(std::int64_t time_ns) override { mocap::SleepUntil(time_ns); }
 };
 
 }  // namespace
 
-std::unique_ptr<ReplayClock> MakeSystemClock() { return std::make_unique<SystemClock>(); }
+std::unique_ptr<ReplayClock> MakeTimelineClock() { return std::make_unique<TimelineClock>(); }
 
 std::int64_t Replay::Join() {
   const std::lock_guard lock(mutex_);

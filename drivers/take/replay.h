@@ -13,13 +13,13 @@ namespace mocap {
 class ReplayClock {
  public:
   virtual ~ReplayClock() = default;
-  /// Nanoseconds since the Unix epoch; never goes back.
+  /// Nanoseconds of a clock that never goes back.
   virtual std::int64_t NowNs() = 0;
   virtual void SleepUntil(std::int64_t time_ns) = 0;
 };
 
-/// The machine's own clock: steady, and right at the time of the call.
-std::unique_ptr<ReplayClock> MakeSystemClock();
+/// The program's timeline.
+std::unique_ptr<ReplayClock> MakeTimelineClock();
 
 /// What a recording spans, over all its cameras.
 struct ReplaySpan {

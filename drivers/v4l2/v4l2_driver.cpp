@@ -87,7 +87,7 @@ GrabStatus V4l2Driver::Take(const V4l2Buffer& buffer, Frame& frame) {
   if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || !converter_.Convert(picture, image_)) {
     return GrabStatus::kTorn;
   }
-  time_ = CaptureTimeOf(buffer.stamp_ns, buffer.flags, stream_->exposure_ns(), ReadClocks());
+  time_ = CaptureTimeOf(buffer.stamp_ns, buffer.flags, stream_->exposure_ns(), TheHostClock());
   bytes_per_frame_ = static_cast<double>(buffer.bytes.size());
   frame.image = std::as_const(image_).view();
   frame.capture_ns = time_.capture_ns;

@@ -203,6 +203,17 @@ std::vector<std::string> DescribeFormats(VideoKernel& kernel, int handle) {
   return lines;
 }
 
+/// The bytes from row to row; 0 where the driver does not tell, or tells what cannot be.
+std::size_t StrideOf(const KnownFormat& format, const Size& size, std::uint32_t told,
+                     std::vector<std::string>& remarks) {
+  if (format.pixels == PixelFormat::kMjpeg) return 0;
+  const std::size_t least = LeastRowBytes(format.pixels, size.width);
+  if (told == 0 || told >= least) return told;
+  remarks.push_back("its driver says that a row has " + std::to_string(told) + " bytes, where " +
+                    std::to_string(least) + " are needed; rows are read without gaps");
+  return 0;
+}
+
 V4l2Format SetFormat(VideoKernel& kernel, int handle, const std::string& where,
                      const CameraRequest& request, const std::string& wanted,
                      std::vector<std::string>& remarks) {
@@ -231,7 +242,7 @@ V4l2Format SetFormat(VideoKernel& kernel, int handle, const std::string& where,
                      Offers(kernel, handle));
   }
   V4l2Format set{NameOf(chosen.fourcc), chosen.pixels, got.width, got.height, 0, 0};
-  if (chosen.pixels != PixelFormat::kMjpeg) set.stride_bytes = pixels.bytesperline;
+  set.stride_bytes = StrideOf(chosen, got, pixels.bytesperline, remarks);
   set.fps = SetRate(kernel, handle, request.fps);
   RemarkOnRate(kernel, handle, chosen, size, request.fps, set.fps, remarks);
   return set;

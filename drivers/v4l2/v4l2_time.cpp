@@ -2,8 +2,6 @@
 
 #include <linux/videodev2.h>
 
-#include "drivers/clock.h"
-
 namespace mocap {
 namespace {
 
@@ -17,25 +15,19 @@ bool IsRecent(std::int64_t stamp_ns, std::int64_t now_ns) {
 
 }  // namespace
 
-ClockPair ReadClocks() {
-  // On Linux the steady clock is CLOCK_MONOTONIC, by which the kernel stamps.
-  const std::int64_t before_ns = SteadyNs();
-  const std::int64_t epoch_ns = EpochNs();
-  return {(before_ns + SteadyNs()) / 2, epoch_ns};
-}
-
 CaptureTime CaptureTimeOf(std::int64_t stamp_ns, std::uint32_t flags, std::int64_t exposure_ns,
-                          const ClockPair& now) {
+                          HostClock& host) {
+  const ClockReading now = host.Read();
   CaptureTime time;
   const bool is_named = (flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   if (IsRecent(stamp_ns, now.monotonic_ns)) {
-    time.capture_ns = stamp_ns - now.monotonic_ns + now.epoch_ns;
+    time.capture_ns = host.FromMonotonic(stamp_ns);
     time.clock = is_named ? V4l2Clock::kMonotonic : V4l2Clock::kGuessed;
-  } else if (IsRecent(stamp_ns, now.epoch_ns)) {
-    time.capture_ns = stamp_ns;
+  } else if (IsRecent(stamp_ns, now.time_of_day_ns)) {
+    time.capture_ns = host.FromRecentTimeOfDay(stamp_ns);
     time.clock = V4l2Clock::kGuessed;
   } else {
-    time.capture_ns = now.epoch_ns;
+    time.capture_ns = host.FromMonotonic(now.monotonic_ns);
   }
   time.is_start_of_exposure =
       time.clock != V4l2Clock::kArrival &&

@@ -50,7 +50,7 @@ TEST_F(UvcHeadTest, TurnsAndTellsWhereItPoints) {
   EXPECT_EQ(camera_.angles(), (MockHead::Angles{20 * kDegree, -10 * kDegree}));
   camera_.Point({-7 * kDegree, 3 * kDegree});
   head.Update();
-  const PanTiltAngles now = head.At(EpochNs());
+  const PanTiltAngles now = head.At(TimelineNs());
   EXPECT_NEAR(now.pan_rad, -7 * kDegree_rad, 1e-9);
   EXPECT_NEAR(now.tilt_rad, 3 * kDegree_rad, 1e-9);
 }
@@ -103,7 +103,7 @@ TEST_F(UvcHeadTest, KeepsItsAnglesWhileItIsAwayAndReturnsWithItsSerialNumberAtAn
   UsbBus watch;
   head.Update();
   EXPECT_FALSE(head.TurnTo({}));
-  EXPECT_NEAR(head.At(EpochNs()).pan_rad, 5 * kDegree_rad, 1e-9);
+  EXPECT_NEAR(head.At(TimelineNs()).pan_rad, 5 * kDegree_rad, 1e-9);
   other_.Point({9 * kDegree, 0});
   usb_.Plug(4, "PT1", other_);
   ASSERT_TRUE(watch.HasChanged(kPatience));
@@ -112,7 +112,7 @@ TEST_F(UvcHeadTest, KeepsItsAnglesWhileItIsAwayAndReturnsWithItsSerialNumberAtAn
     head.Update();
   }
   head.Update();
-  EXPECT_NEAR(head.At(EpochNs()).pan_rad, 9 * kDegree_rad, 1e-9);
+  EXPECT_NEAR(head.At(TimelineNs()).pan_rad, 9 * kDegree_rad, 1e-9);
 }
 
 TEST(UsbBus, TellsWhatIsPluggedInWithItsPortAndSpeed) {

@@ -48,6 +48,30 @@ TEST(CaptureClock, PtpWithAnEpochOfItsOwnIsFitted) {
   EXPECT_EQ(clock.source(), TimeSource::kDeviceClock);
 }
 
+TEST(CaptureClock, PtpGoesThroughTheTimeOfDayToTheTimeline) {
+  CaptureClock clock(true, kLeapSeconds);
+  const std::int64_t ahead_ns = -3600 * kSecond_ns;
+  const std::int64_t arrival_ns = kNow_ns + kExposure_ns + 2 * kMillisecond_ns;
+  EXPECT_EQ(clock.MiddleOfExposure(kNow_ns + ahead_ns, arrival_ns, kExposure_ns, true, ahead_ns),
+            kNow_ns + kExposure_ns / 2);
+  EXPECT_EQ(clock.source(), TimeSource::kPtp);
+}
+
+TEST(CaptureClock, WherePtpStaysAndTheHostIsSetCaptureTimesGoOn) {
+  for (const std::int64_t step_ns :
+       {-3600 * kSecond_ns, -800 * kMillisecond_ns, 800 * kMillisecond_ns, 3600 * kSecond_ns}) {
+    CaptureClock clock(true, kLeapSeconds);
+    constexpr std::int64_t kPeriod_ns = 10 * kMillisecond_ns;
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t begin_ns = kNow_ns + i * kPeriod_ns;
+      const std::int64_t capture_ns = clock.MiddleOfExposure(
+          begin_ns, begin_ns + kExposure_ns, kExposure_ns, true, i < 50 ? 0 : step_ns);
+      EXPECT_EQ(capture_ns, begin_ns + kExposure_ns / 2) << i << ", " << step_ns;
+    }
+    EXPECT_EQ(clock.source(), TimeSource::kDeviceClock);
+  }
+}
+
 TEST(CaptureClock, CameraThatWasAwayKeepsItsClockIfItWentOn) {
   CaptureClock clock(true, kLeapSeconds);
   Middle(clock, 5 * kSecond_ns, false);

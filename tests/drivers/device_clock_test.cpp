@@ -100,6 +100,17 @@ TEST(DeviceClock, ClockThatBeganAnewIsLearnedAnew) {
   }
 }
 
+TEST(DeviceClock, AnHourThatOnlyTheHostSawIsBelievedAfterThreeFrames) {
+  WrongClock camera{60 * kSecond_ns, 0};
+  DeviceClock clock;
+  LargestError_ms(clock, camera, 0, 900);
+  constexpr int kHour = 3600 * 30;
+  camera.offset_ns -= 3600 * kSecond_ns;
+  LargestError_ms(clock, camera, kHour + 900, kHour + 903);
+  EXPECT_LE(LargestError_ms(clock, camera, kHour + 903, kHour + 990), kJitter_ms);
+  EXPECT_EQ(clock.restarts(), 1);
+}
+
 TEST(DeviceClock, FirstFramesThatWereHeldUpAreForgottenAtOnce) {
   WrongClock camera{60 * kSecond_ns, 0};
   DeviceClock clock;

@@ -85,7 +85,9 @@ int SetFormat(FakeCamera& camera, v4l2_format& format) {
   pixels.pixelformat = mode->fourcc;
   pixels.width = static_cast<std::uint32_t>(mode->width);
   pixels.height = static_cast<std::uint32_t>(mode->height);
-  pixels.bytesperline = static_cast<std::uint32_t>(BytesOf(camera)) / pixels.height;
+  pixels.bytesperline = camera.told_stride > 0
+                            ? camera.told_stride
+                            : static_cast<std::uint32_t>(BytesOf(camera)) / pixels.height;
   return 0;
 }
 

@@ -62,7 +62,7 @@ TEST_F(V4l2Head, TurnsAndTellsWhereItPoints) {
   EXPECT_EQ(camera_.controls[V4L2_CID_PAN_ABSOLUTE].value, 20 * kDegree);
   EXPECT_EQ(camera_.controls[V4L2_CID_TILT_ABSOLUTE].value, -10 * kDegree);
   head.Update();
-  const PanTiltAngles now = head.At(ReadClocks().epoch_ns);
+  const PanTiltAngles now = head.At(TimelineNs());
   EXPECT_NEAR(now.pan_rad, 20 * kDegree_rad, 1e-9);
   EXPECT_NEAR(now.tilt_rad, -10 * kDegree_rad, 1e-9);
 }
@@ -79,10 +79,10 @@ TEST_F(V4l2Head, AngleBetweenReadingsIsInterpolatedAndDelayed) {
   constexpr std::chrono::seconds kDelay{5};
   V4l2PanTilt head = Head(kDelay);
   head.Start();
-  const std::int64_t before_ns = ReadClocks().epoch_ns;
+  const std::int64_t before_ns = TimelineNs();
   camera_.controls[V4L2_CID_PAN_ABSOLUTE].value = 40 * kDegree;
   head.Update();
-  const std::int64_t after_ns = ReadClocks().epoch_ns;
+  const std::int64_t after_ns = TimelineNs();
   // A reading tells where the head pointed five seconds ago.
   EXPECT_NEAR(head.At(after_ns - std::chrono::nanoseconds(kDelay).count()).pan_rad,
               40 * kDegree_rad, 1e-9);

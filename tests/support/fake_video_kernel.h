@@ -35,7 +35,8 @@ struct FakeCamera {
   std::map<std::uint32_t, FakeControl> controls;
 
   std::uint32_t flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-  bool counts = true;  ///< Its sequence goes on.
+  bool counts = true;             ///< Its sequence goes on.
+  std::uint32_t told_stride = 0;  ///< What it says of its rows; 0: the truth.
   std::int64_t stamp_offset_ns = 0;
   std::deque<std::uint32_t> skips;  ///< Frames lost before each of the next ones.
   int error_buffers = 0;            ///< The next buffers carry the error flag.

@@ -60,7 +60,7 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
                        const GigeFaults& faults)
     : identity_(identity),
       faults_(faults),
-      switched_on_ns_(EpochNs()),
+      switched_on_ns_(TimelineNs()),
       source_(std::move(source)),
       random_(static_cast<std::minstd_rand::result_type>(faults.seed)) {
   StartSource();
@@ -139,7 +139,7 @@ void GigeCamera::RunSource() {
     if (status != GrabStatus::kFrame || !IsWanted(frame.capture_ns)) continue;
     const std::int64_t exposure_ns = Read(ARV_FAKE_CAMERA_REGISTER_EXPOSURE_TIME_US) * 1000LL;
     const auto late_ns = static_cast<std::int64_t>(jitter_ms(random_) * 1e6);
-    SleepUntilEpoch(frame.capture_ns + exposure_ns / 2 + late_ns);
+    SleepUntil(frame.capture_ns + exposure_ns / 2 + late_ns);
     if (!is_streaming()) {
       const std::lock_guard lock(mutex_);
       is_flowing_ = is_waiting_ = false;
@@ -189,7 +189,7 @@ void GigeCamera::Send(const Frame& frame) {
 
 void GigeCamera::LatchTime() {
   if ((Read(kTimestampControl) & kLatch) == 0) return;
-  const auto time_ns = static_cast<std::uint64_t>(DeviceTime(EpochNs()));
+  const auto time_ns = static_cast<std::uint64_t>(DeviceTime(TimelineNs()));
   Write(kTimestampHigh, static_cast<std::uint32_t>(time_ns >> 32));
   Write(kTimestampLow, static_cast<std::uint32_t>(time_ns));
   Write(kTimestampControl, 0);
@@ -216,7 +216,7 @@ std::optional<std::uint16_t> GigeCamera::TakeAction(std::span<const std::byte> p
   const auto time_ns = static_cast<std::int64_t>(std::uint64_t{number(20)} << 32 | number(24));
   const std::lock_guard lock(mutex_);
   actions_ns_.push_back(time_ns);
-  return time_ns < DeviceTime(EpochNs()) ? kLate : kDone;
+  return time_ns < DeviceTime(TimelineNs()) ? kLate : kDone;
 }
 
 bool GigeCamera::HasAction(std::int64_t time_ns) {

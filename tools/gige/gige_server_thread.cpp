@@ -67,7 +67,7 @@ GigeServerThread::~GigeServerThread() {
 }
 
 void GigeServerThread::Wake() {
-  hurry_until_ns_.store(EpochNs() + 2'000'000);
+  hurry_until_ns_.store(TimelineNs() + 2'000'000);
   const std::uint64_t one = 1;
   static_cast<void>(!write(wake_up_, &one, sizeof(one)));
 }
@@ -78,7 +78,7 @@ int GigeServerThread::Poll(pollfd* sockets, unsigned count) {
   MOCAP_CHECK(count < all.size());
   std::copy_n(sockets, count, all.begin());
   all[count] = {wake_up_, POLLIN, 0};
-  const bool hurries = EpochNs() < hurry_until_ns_.load();
+  const bool hurries = TimelineNs() < hurry_until_ns_.load();
   int ready = ppoll(all.data(), count + 1, hurries ? &kBriefly : &kAWhile, nullptr);
   std::copy_n(all.begin(), count, sockets);
   if (ready <= 0) return ready;

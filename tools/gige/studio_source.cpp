@@ -35,17 +35,17 @@ bool StudioSource::HasBegun() {
     }
     std::int64_t not_yet = 0;
     // All cameras shall have seen it by then.
-    const std::int64_t soon_ns = EpochNs() + nanoseconds(kHeadStart).count();
+    const std::int64_t soon_ns = TimelineNs() + nanoseconds(kHeadStart).count();
     stage_.begin_ns.compare_exchange_strong(not_yet, soon_ns);
   }
   if (!std::exchange(started_, true)) recording_->Start();
-  return EpochNs() >= stage_.begin_ns.load() - 2 * period_ns_;
+  return TimelineNs() >= stage_.begin_ns.load() - 2 * period_ns_;
 }
 
 GrabStatus StudioSource::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   if (HasBegun()) return recording_->Grab(frame, timeout);
-  const std::int64_t due_ns = (EpochNs() / period_ns_ + 1) * period_ns_;
-  SleepUntilEpoch(due_ns);
+  const std::int64_t due_ns = (TimelineNs() / period_ns_ + 1) * period_ns_;
+  SleepUntil(due_ns);
   frame = {.image = empty_.view(), .capture_ns = due_ns, .sequence = shown_++, .angles = {}};
   return GrabStatus::kFrame;
 }

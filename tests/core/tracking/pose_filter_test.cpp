@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "config/load_config.h"
@@ -46,6 +47,13 @@ class Filter : public testing::Test {
     const Eigen::VectorXd innovation = (measured_W - points_W).reshaped();
     return innovation.dot(S.llt().solve(innovation));
   }
+  // What an update must not take: no number at all.
+  static PoseFilter::Linearize Nonsense() {
+    return [](const PoseState& pose, UpdateEquations& equations) {
+      PoseStep J = PoseStep::Ones(pose.dof());
+      equations.Add(J, std::numeric_limits<double>::quiet_NaN(), 1);
+    };
+  }
   PoseFilter::Linearize Measuring(const BodyPoints& measured_W, double std_mm) const {
     return [this, measured_W, std_mm](const PoseState& pose, UpdateEquations& equations) {
       const Posture posture = body_.PostureAt(pose);
@@ -85,6 +93,20 @@ TEST_F(Filter, FindsThePoseWhosePointsWereMeasured) {
   filter.Reset(Upright(), 200, 1);
   filter.Update(body_.table(), PointsOf(truth, 1), {8, 8});
   EXPECT_NEAR(filter.pose().Minus(truth).norm(), 0, 0.05);
+}
+
+TEST_F(Filter, AMeasurementThatIsNoNumberLosesTheTrackAndLeavesThePose) {
+  PoseFilter filter{MotionNoise{}};
+  filter.Reset(Upright(), 50, 0.3);
+  EXPECT_TRUE(filter.is_sound());
+  filter.Update(body_.table(), Nonsense(), Iterations{});
+  EXPECT_FALSE(filter.is_sound());
+  EXPECT_TRUE(filter.pose().IsFinite());
+  filter.Draw(body_.table(), Nonsense(), Iterations{});
+  EXPECT_FALSE(filter.is_sound());
+  EXPECT_TRUE(filter.pose().IsFinite());
+  filter.Update(body_.table(), PointsOf(Upright(), 10), Iterations{});
+  EXPECT_TRUE(filter.is_sound());
 }
 
 TEST_F(Filter, FollowsAConstantMotionWithoutLag) {

@@ -176,7 +176,7 @@ TEST(Pipeline, LiveLeavesSetsOutWhenTheSinkIsSlow) {
   std::atomic<int> grabbed{0};
   const FakeScript present = [&](int call) {
     grabbed = std::max(grabbed.load(), call);
-    const std::int64_t capture_ns = EpochNs();
+    const std::int64_t capture_ns = TimelineNs();
     return call < 200 ? FakeGrab{GrabStatus::kFrame, capture_ns} : FakeGrab{};
   };
   RecordingSink sink;

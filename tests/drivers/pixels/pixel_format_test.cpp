@@ -178,6 +178,19 @@ TEST(PixelConverter, TooFewBytesAreADamagedPicture) {
   }
 }
 
+TEST(PixelConverter, RowsThatOverlapAreADamagedPicture) {
+  PixelConverter converter;
+  Image<Bgr> out;
+  for (const PixelFormat format :
+       {PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kGrey, PixelFormat::kBgr}) {
+    RawPicture picture = Picture(format, {});
+    const Bytes bytes(LeastBytes(picture));
+    picture.bytes = bytes;
+    picture.stride_bytes = LeastRowBytes(format, picture.width_px) - 1;
+    EXPECT_FALSE(converter.Convert(picture, out));
+  }
+}
+
 class Jpeg : public ::testing::Test {
  protected:
   Jpeg() {

@@ -284,7 +284,7 @@ TEST(TakeDriver, RecordingThatVanishesWhileLoopingIsLostUntilItIsBack) {
 }
 
 TEST(SystemClock, WakesNoEarlierThanAsked) {
-  const std::unique_ptr<ReplayClock> clock = MakeSystemClock();
+  const std::unique_ptr<ReplayClock> clock = MakeTimelineClock();
   const std::int64_t wanted_ns = clock->NowNs() + kMillisecond_ns;
   clock->SleepUntil(wanted_ns);
   EXPECT_GE(clock->NowNs(), wanted_ns);

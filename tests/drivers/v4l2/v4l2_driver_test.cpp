@@ -270,6 +270,14 @@ TEST_F(V4l2, NothingInTimeIsATimeout) {
   EXPECT_EQ(driver.Grab(frame_, kTimeout), GrabStatus::kFrame);
 }
 
+TEST_F(V4l2, RowsThatCannotBeSoShortAreToldAndReadWithoutGaps) {
+  machine_.Plug(0).told_stride = 2;
+  V4l2Driver driver = machine_.Driver(machine_.Node(0));
+  driver.Start();
+  EXPECT_EQ(driver.Grab(frame_, kTimeout), GrabStatus::kFrame);
+  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("says that a row has 2 bytes")));
+}
+
 TEST_F(V4l2, TellsWhereItsTimesComeFrom) {
   FakeCamera& camera = machine_.Plug(0);
   V4l2Driver driver = machine_.Driver(machine_.Node(0));
@@ -286,30 +294,45 @@ TEST_F(V4l2, TellsWhereItsTimesComeFrom) {
   EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("arrival")));
 }
 
-constexpr ClockPair kNow{50'000'000'000, 1'700'000'000'000'000'000};
+constexpr ClockReading kNow{
+    .monotonic_ns = 50'000'000'000, .time_of_day_ns = 1'700'000'000'000'000'000, .width_ns = 0};
 constexpr std::int64_t kAge_ns = 40'000'000, kExposure_ns = 8'000'000;
 
 TEST(V4l2Time, StampsAreMovedToTheMiddleOfTheExposureAndToTheEpoch) {
+  HostClock host([] { return kNow; });
   const std::int64_t stamp_ns = kNow.monotonic_ns - kAge_ns;
   const CaptureTime start =
       CaptureTimeOf(stamp_ns, V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE,
-                    kExposure_ns, kNow);
-  EXPECT_EQ(start.capture_ns, kNow.epoch_ns - kAge_ns + kExposure_ns / 2);
+                    kExposure_ns, host);
+  EXPECT_EQ(start.capture_ns, kNow.time_of_day_ns - kAge_ns + kExposure_ns / 2);
   EXPECT_EQ(start.clock, V4l2Clock::kMonotonic);
   const CaptureTime end =
-      CaptureTimeOf(stamp_ns, V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC, kExposure_ns, kNow);
-  EXPECT_EQ(end.capture_ns, kNow.epoch_ns - kAge_ns - kExposure_ns / 2);
+      CaptureTimeOf(stamp_ns, V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC, kExposure_ns, host);
+  EXPECT_EQ(end.capture_ns, kNow.time_of_day_ns - kAge_ns - kExposure_ns / 2);
 }
 
 TEST(V4l2Time, StampsWithoutAClockAreHeldAgainstTheKernelsClocks) {
-  const CaptureTime monotonic = CaptureTimeOf(kNow.monotonic_ns - kAge_ns, 0, 0, kNow);
-  EXPECT_EQ(monotonic.capture_ns, kNow.epoch_ns - kAge_ns);
+  HostClock host([] { return kNow; });
+  const CaptureTime monotonic = CaptureTimeOf(kNow.monotonic_ns - kAge_ns, 0, 0, host);
+  EXPECT_EQ(monotonic.capture_ns, kNow.time_of_day_ns - kAge_ns);
   EXPECT_EQ(monotonic.clock, V4l2Clock::kGuessed);
-  const CaptureTime epoch = CaptureTimeOf(kNow.epoch_ns - kAge_ns, 0, 0, kNow);
-  EXPECT_EQ(epoch.capture_ns, kNow.epoch_ns - kAge_ns);
-  const CaptureTime none = CaptureTimeOf(7, 0, 0, kNow);
-  EXPECT_EQ(none.capture_ns, kNow.epoch_ns);
+  const CaptureTime epoch = CaptureTimeOf(kNow.time_of_day_ns - kAge_ns, 0, 0, host);
+  EXPECT_EQ(epoch.capture_ns, kNow.time_of_day_ns - kAge_ns);
+  const CaptureTime none = CaptureTimeOf(7, 0, 0, host);
+  EXPECT_EQ(none.capture_ns, kNow.time_of_day_ns);
   EXPECT_EQ(none.clock, V4l2Clock::kArrival);
+}
+
+TEST(V4l2Time, CaptureTimesDoNotStepWithTheTimeOfDay) {
+  for (const std::int64_t step_ns : {-3'600'000'000'000L, -800'000'000L, 800'000'000L}) {
+    ClockReading now = kNow;
+    HostClock host([&now] { return now; });
+    now.time_of_day_ns += step_ns;
+    const CaptureTime monotonic = CaptureTimeOf(now.monotonic_ns - kAge_ns, 0, 0, host);
+    EXPECT_EQ(monotonic.capture_ns, kNow.time_of_day_ns - kAge_ns) << step_ns;
+    const CaptureTime epoch = CaptureTimeOf(now.time_of_day_ns - kAge_ns, 0, 0, host);
+    EXPECT_EQ(epoch.capture_ns, kNow.time_of_day_ns - kAge_ns) << step_ns;
+  }
 }
 
 }  // namespace

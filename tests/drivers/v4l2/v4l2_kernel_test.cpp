@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <ctime>
 #include <fstream>
 #include <future>
 #include <memory>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "drivers/clock.h"
 #include "drivers/v4l2/v4l2_driver.h"
 #include "tests/drivers/driver_suite.h"
 #include "tests/support/vivid.h"
@@ -105,7 +108,25 @@ TEST_F(Vivid, StampsAreTheKernels) {
   ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
   EXPECT_THAT(driver.Facts().time_source, HasSubstr("kernel"));
   // vivid's own frame clock may be a frame ahead.
-  EXPECT_LT(std::abs(ReadClocks().epoch_ns - frame_.capture_ns), 5'000'000'000);
+  EXPECT_LT(std::abs(TimelineNs() - frame_.capture_ns), 5'000'000'000);
+}
+
+TEST_F(Vivid, CaptureTimesGoOnWhenTheHostsClockIsSet) {
+  V4l2Driver driver = VividDriver(nodes_[0]);
+  driver.Start();
+  ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+  std::int64_t last_ns = frame_.capture_ns;
+  for (const double step_s : {-3600.0, -0.8, 0.8, 3600.0}) {
+    const std::int64_t set_ns = TimeOfDayNs() + std::llround(step_s * 1e9);
+    const timespec time{set_ns / 1'000'000'000, set_ns % 1'000'000'000};
+    ASSERT_EQ(clock_settime(CLOCK_REALTIME, &time), 0);
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(GrabUntil(driver, GrabStatus::kFrame));
+      EXPECT_GT(frame_.capture_ns, last_ns) << step_s;
+      EXPECT_LT(frame_.capture_ns - last_ns, 2'000'000'000) << step_s;
+      last_ns = frame_.capture_ns;
+    }
+  }
 }
 
 TEST_F(Vivid, AllCamerasStreamAtOnce) {

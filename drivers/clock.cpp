@@ -1,0 +1,76 @@
+#include "drivers/clock.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+#include <utility>
+
+namespace mocap {
+namespace {
+
+/// Reading two clocks takes a moment; a step is larger.
+constexpr std::int64_t kNoise_ns = 100'000;
+/// A reading that was interrupted is taken again, so many times.
+constexpr int kReadings = 3;
+constexpr std::int64_t kPrompt_ns = 5'000;
+
+std::int64_t BaseOf(const ClockReading& reading) {
+  return reading.time_of_day_ns - reading.monotonic_ns;
+}
+
+}  // namespace
+
+ClockReading ReadClocks() {
+  ClockReading best;
+  for (int i = 0; i < kReadings; ++i) {
+    const std::int64_t before_ns = SteadyNs();
+    const std::int64_t time_of_day_ns = TimeOfDayNs();
+    const std::int64_t width_ns = SteadyNs() - before_ns;
+    if (i > 0 && width_ns >= best.width_ns) continue;
+    best = {before_ns + width_ns / 2, time_of_day_ns, width_ns};
+    if (width_ns < kPrompt_ns) break;
+  }
+  return best;
+}
+
+HostClock::HostClock(std::function<ClockReading()> read)
+    : read_(std::move(read)), base_ns_(BaseOf(read_())) {}
+
+std::int64_t HostClock::OffsetNs() {
+  const ClockReading reading = read_();
+  const std::int64_t now_ns = BaseOf(reading) - base_ns_;
+  const std::int64_t known_ns = offset_ns_.load(std::memory_order_relaxed);
+  if (std::abs(now_ns - known_ns) <= kNoise_ns + reading.width_ns) return known_ns;
+  offset_before_ns_.store(known_ns, std::memory_order_relaxed);
+  offset_ns_.store(now_ns, std::memory_order_relaxed);
+  return now_ns;
+}
+
+std::int64_t HostClock::FromRecentTimeOfDay(std::int64_t stamp_ns) {
+  const std::int64_t after_ns = stamp_ns - OffsetNs();
+  const std::int64_t before_ns = stamp_ns - offset_before_ns_.load(std::memory_order_relaxed);
+  const std::int64_t now_ns = FromMonotonic(read_().monotonic_ns);
+  const auto [older_ns, younger_ns] = std::minmax(after_ns, before_ns);
+  return younger_ns <= now_ns ? younger_ns : std::min(older_ns, now_ns);
+}
+
+HostClock& TheHostClock() {
+  static HostClock clock;
+  return clock;
+}
+
+std::int64_t TimelineNs() { return TheHostClock().FromMonotonic(SteadyNs()); }
+
+void SleepUntil(std::int64_t timeline_ns) {
+  const std::int64_t rest_ns = timeline_ns - TimelineNs();
+  std::this_thread::sleep_until(std::chrono::steady_clock::now() +
+                                std::chrono::nanoseconds(rest_ns));
+}
+
+std::int64_t TimeOfDayNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace mocap
