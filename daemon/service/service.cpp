@@ -32,6 +32,7 @@
 #include "daemon/service/light_watch.h"
 #include "daemon/service/live_view.h"
 #include "daemon/service/metrics_file.h"
+#include "daemon/service/printable_log.h"
 #include "daemon/service/service_folders.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/service/service_setup.h"
@@ -75,11 +76,11 @@ void ReturnLargeBlocks() {
 /// To standard error, which is the journal under systemd, and to a file where there is a place.
 void OpenLog() {
   std::vector<spdlog::sink_ptr> sinks = {std::make_shared<spdlog::sinks::stderr_color_sink_mt>()};
-  sinks[0]->set_pattern("%n: %^%l%$: %v");
+  sinks[0]->set_formatter(PrintableLogFormat("%n: %^%l%$: %*"));
   if (const std::filesystem::path folder = LogsFolder(); !folder.empty()) {
     sinks.push_back(std::make_shared<spdlog::sinks::rotating_file_sink_mt>(folder / "mocapd.log",
                                                                            kLogBytes, kLogFiles));
-    sinks[1]->set_pattern("%Y-%m-%d %T.%e %l: %v");
+    sinks[1]->set_formatter(PrintableLogFormat("%Y-%m-%d %T.%e %l: %*"));
   }
   auto logger = std::make_shared<spdlog::logger>("mocapd", sinks.begin(), sinks.end());
   logger->flush_on(spdlog::level::info);
@@ -248,6 +249,7 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   ServiceManager manager;
   manager.Say("learning the empty studio");
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
+  for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);
   PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));
