@@ -71,8 +71,8 @@ void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesyste
        << wanted_ns / 1e6 << " ms";
   if (times > kRefusedTimes || times < 1 / kRefusedTimes) {
     const std::string unit = UnitOf(times);
-    throw SetupError(text.str() + (unit.empty() ? "" : ": are these " + unit + "?") +
-                     "; timestamp_ns in nanoseconds is wanted");
+    throw SetupError(text.str() + (unit.empty() ? ";" : ": are these " + unit + "?") +
+                     " timestamp_ns in nanoseconds is wanted");
   }
   if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());
 }

@@ -17,7 +17,8 @@ inline CLI::Validator NumberFrom(double least, double most) {
     double value = 0;
     if (!CLI::detail::lexical_cast(text, value)) return "a number " + bounds + " is wanted";
     const bool is_within = std::isfinite(value) && value >= least && value <= most;
-    return is_within ? std::string() : text.substr(0, 40) + " is not " + bounds;
+    return is_within ? std::string()
+                     : text.substr(0, 40) + " is out of range; a number " + bounds + " is wanted";
   };
   return CLI::Validator(check, bounds);
 }

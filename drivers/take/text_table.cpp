@@ -103,7 +103,7 @@ bool TextLines::NextRow(std::string_view& line) {
 }
 
 void TextLines::Fail(const std::string& what) const {
-  throw SetupError(file_.string() + ":" + std::to_string(number_) + ": " + what);
+  throw SetupError(file_.string() + ":" + std::to_string(std::max(number_, 1)) + ": " + what);
 }
 
 std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers,

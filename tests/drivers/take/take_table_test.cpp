@@ -106,7 +106,7 @@ struct DamagedTable {
 
 TEST_F(TakeTableFile, DamageIsNamedWithFileAndLine) {
   const DamagedTable cases[] = {
-      {"", 0, "is empty"},
+      {"", 1, "is empty"},
       {"frame,timestamp_ns", 1, "header"},
       {"frame;timestamp_ns\n0;1\n", 1, "semicolons"},
       {"frame\ttimestamp_ns\n0\t1\n", 1, "tabs"},
