@@ -40,7 +40,8 @@ void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
   const double apart_mm = centers.diagonal().norm();
   if (cameras.size() > 1 && !(apart_mm >= kNearest_mm)) {
     throw SetupError(where + ": its cameras lie within " + Text("%.3g", apart_mm) +
-                     " mm of each other; are its lengths in metres? millimetres are wanted");
+                     " mm of each other: are its lengths in metres? millimetres are wanted, and a "
+                     "pose for each lens");
   }
   const Vector3 size_mm = room.diagonal();
   if (!(size_mm.maxCoeff() <= kLargestRoom_mm)) {

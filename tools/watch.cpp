@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <lcm/lcm-cpp.hpp>
@@ -148,7 +150,10 @@ class Hearing {
   std::optional<service_t> service_;
 };
 
-/// Text of a message, which anybody may have sent.
+/// A number of a message, which anybody may have sent.
+double Sane(double value) { return std::isfinite(value) ? std::clamp(value, -1e6, 1e6) : 0; }
+
+/// Text of a message, likewise.
 std::string Foreign(const std::string& text) {
   constexpr std::size_t kMostCharacters = 200;
   return Shortened(text, kMostCharacters);
@@ -160,8 +165,9 @@ std::string PoseLine(const Hearing& hearing) {
   std::string line =
       fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
                   state < kCaptureStateNames.size() ? kCaptureStateNames[state] : "?",
-                  hearing.Rate(), hearing.LatencyMs());
-  if (pose.state == pose_t::TRACKING) line += fmt::format("  fit {:3.0f} mm", pose.residual_mm);
+                  hearing.Rate(), Sane(hearing.LatencyMs()));
+  if (pose.state == pose_t::TRACKING)
+    line += fmt::format("  fit {:3.0f} mm", Sane(pose.residual_mm));
   line += "  " + Counted(pose.voxels, "voxel");
   if (hearing.HearsSeveral()) return line + "  of several daemons in turns: give each a prefix";
   if (hearing.missed() > 0) line += fmt::format("  {} missed here", hearing.missed());
@@ -172,11 +178,11 @@ std::string PoseLine(const Hearing& hearing) {
 std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
   const bool is_told = service && camera < service->camera_trust.size();
   if (!is_told) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", "-");
-  const double trust = service->camera_trust[camera];
-  const std::string light = fmt::format("{:.0f} %", 100 * service->camera_light[camera]);
+  const double trust = Sane(service->camera_trust[camera]);
+  const std::string light = fmt::format("{:.0f} %", 100 * Sane(service->camera_light[camera]));
   if (trust < 0) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", light);
   return fmt::format("{:>8}{:>8.1f}{:>8}", fmt::format("{:.0f} %", 100 * trust),
-                     service->camera_off_px[camera], light);
+                     Sane(service->camera_off_px[camera]), light);
 }
 
 void AppendCameras(const Hearing& hearing, std::string& page) {
@@ -191,17 +197,17 @@ void AppendCameras(const Hearing& hearing, std::string& page) {
         hearing.pose() && i < hearing.pose()->camera_used.size() && hearing.pose()->camera_used[i];
     page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}{}  {}\n", Foreign(camera.name),
                         state < std::size(kCameraStates) ? kCameraStates[state] : "?",
-                        camera.frames_per_second, camera.dropped, camera.late, camera.torn,
+                        Sane(camera.frames_per_second), camera.dropped, camera.late, camera.torn,
                         HealthCells(hearing.service(), i), is_used ? "yes" : "no");
   }
   page += '\n';
   for (const stage_timing_t& stage : status.stages) {
-    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", Foreign(stage.name), stage.p50_ms,
-                        stage.p99_ms);
+    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", Foreign(stage.name),
+                        Sane(stage.p50_ms), Sane(stage.p99_ms));
   }
   page += fmt::format(
       "sets     {} complete, {} without some camera, {} left out; spread {:.1f} ms\n",
-      status.sets_complete, status.sets_partial, status.sets_dropped, status.spread_p50_ms);
+      status.sets_complete, status.sets_partial, status.sets_dropped, Sane(status.spread_p50_ms));
 }
 
 void AppendService(const service_t& service, std::string& page) {
@@ -209,7 +215,7 @@ void AppendService(const service_t& service, std::string& page) {
   for (const std::string& complaint : service.complaint) page += "! " + Foreign(complaint) + '\n';
   if (service.recording_state != service_t::RUNNING) return;
   page += fmt::format("recording {}, {:.0f} s, {}, {} dropped, {:.1f} GB free\n",
-                      Foreign(service.recording_folder), service.recording_seconds,
+                      Foreign(service.recording_folder), Sane(service.recording_seconds),
                       Counted(service.recording_frames, "frame"), service.recording_dropped,
                       static_cast<double>(service.bytes_free) / 1e9);
 }
@@ -221,9 +227,10 @@ std::string Page(const Hearing& hearing, const std::string& url) {
   if (hearing.pose()) page += PoseLine(hearing) + '\n';
   if (hearing.pose() && hearing.pose()->state != pose_t::SEARCHING) {
     const pose_t& pose = *hearing.pose();
-    page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", pose.torso_mm[0] / 1000,
-                        pose.torso_mm[1] / 1000, pose.torso_mm[2] / 1000);
-    if (hearing.body()) page += fmt::format(", stature {:.0f} mm", hearing.body()->stature_mm);
+    page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", Sane(pose.torso_mm[0]) / 1000,
+                        Sane(pose.torso_mm[1]) / 1000, Sane(pose.torso_mm[2]) / 1000);
+    if (hearing.body())
+      page += fmt::format(", stature {:.0f} mm", Sane(hearing.body()->stature_mm));
     page += '\n';
   }
   if (hearing.service()) AppendService(*hearing.service(), page);

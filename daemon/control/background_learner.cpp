@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -69,8 +70,8 @@ std::string BackgroundLearner::Learn(bool anyway, double seconds) {
   Use(looks);
   std::string text;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    text += fmt::format("{}: {} frames, {:.2f} % of the picture changed\n", place_.cameras[i].name,
-                        looks[i].frames.size(), 100 * looks[i].changed);
+    text += fmt::format("{}: {}, {:.2f} % of the picture changed\n", place_.cameras[i].name,
+                        Counted(looks[i].frames.size(), "frame"), 100 * looks[i].changed);
   }
   return text;
 }

@@ -38,6 +38,7 @@
 #include "daemon/service/service_setup.h"
 #include "daemon/service/status_window.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -148,10 +149,10 @@ class Watch {
     const PipelineStatus status = parts_.pipeline.Status();
     const LatencyHistogram& latency = status.stages[Stage::kLatency];
     spdlog::info(
-        "{} sets, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
+        "{}, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
         "ms",
-        status.sets_tracked, status.sets_partial, status.sets_dropped, latency.PercentileMs(0.5),
-        latency.PercentileMs(0.99));
+        Counted(status.sets_tracked, "set"), status.sets_partial, status.sets_dropped,
+        latency.PercentileMs(0.5), latency.PercentileMs(0.99));
   }
 
  private:
@@ -248,7 +249,8 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   Studio studio = OpenStudio(config);
   ServiceManager manager;
   manager.Say("learning the empty studio");
-  spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
+  spdlog::info("learning the empty studio: {}, {}", studio.name,
+               Counted(studio.cameras.size(), "camera"));
   for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);

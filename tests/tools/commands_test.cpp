@@ -58,7 +58,7 @@ TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
 
 /// Runs a program that fails and gives what it says on standard error.
 template <typename Body>
-std::pair<int, std::string> Run(Body body) {
+std::pair<int, std::string> Ended(Body body) {
   CLI::App app("", "mocap");
   app.callback(body);
   const char* arguments[] = {"mocap"};
@@ -68,14 +68,14 @@ std::pair<int, std::string> Run(Body body) {
 }
 
 TEST(RunProgram, WantOfMemoryIsTold) {
-  const auto [status, said] = Run([] { throw std::bad_alloc(); });
+  const auto [status, said] = Ended([] { throw std::bad_alloc(); });
   EXPECT_EQ(status, 1);
   EXPECT_THAT(said, AllOf(StartsWith("mocap: there is not enough memory"), HasSubstr("wanted")));
 }
 
 TEST(RunProgram, AnErrorIsOneLineWhateverItQuotes) {
   const auto [status, said] =
-      Run([] { throw std::runtime_error("x\x1b[2J\r\nmocap: error: forged"); });
+      Ended([] { throw std::runtime_error("x\x1b[2J\r\nmocap: error: forged"); });
   EXPECT_EQ(status, 1);
   EXPECT_THAT(said, AllOf(EndsWith("forged\n"), Not(HasSubstr("\x1b")), Not(HasSubstr("\nmocap"))));
 }

@@ -84,6 +84,7 @@ TEST_F(Simulate, RefusesWhatCannotBe) {
         "--cameras 0", "--cameras 1000000000", "--width 4", "--height 1000000000"}) {
     EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
   }
+  EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);
   EXPECT_FALSE(fs::exists(folder_ / "take"));
 }
 

@@ -158,7 +158,9 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
   LogReader reader(log);
   Daemons daemons;
   LoggedMessage message;
+  bool is_log = false;
   while (reader.Next(message)) {
+    is_log = true;
     std::string_view channel = message.channel;
     const bool is_pose = channel.ends_with(kPose);
     if (!is_pose && !channel.ends_with(kBody)) continue;
@@ -166,6 +168,11 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
     if (prefix && channel != *prefix) continue;
     Daemon& daemon = daemons[std::string(channel)];
     is_pose ? AddPose(message, daemon) : AddBody(message, daemon);
+  }
+  if (!is_log) {
+    const bool is_empty = reader.damaged_bytes() == 0;
+    throw SetupError(log.string() + (is_empty ? ": is empty" : ": is no LCM log") +
+                     "; one that lcm-logger recorded of mocapd is wanted");
   }
   const auto chosen = Choose(log, prefix, daemons);
   const Daemon none;

@@ -341,7 +341,9 @@ TEST(Result, ALogWithoutPosesIsASetupError) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "lcm.log";
   testing::WriteText(file, "no log at all\n");
-  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("holds no MOCAP_POSE"));
+  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("is no LCM log"));
+  testing::WriteText(file, "");
+  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("is empty"));
   {
     lcm::LogFile log(file, "w");
     Log(log, "MOCAP_POSE", body_t{});
