@@ -35,6 +35,8 @@ struct Studio {
   /// To be told where the person is; null: no head follows.
   std::shared_ptr<Whereabouts> person = nullptr;
   CaptureTimes times = CaptureTimes::kPresent;
+  /// What whoever opened it should know, a line each.
+  std::vector<std::string> remarks = {};
 };
 
 }  // namespace mocap
