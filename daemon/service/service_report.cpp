@@ -53,6 +53,7 @@ std::string RecordingText(const RecordingStatus& recording) {
   std::string text =
       fmt::format("{}, {}, {} frames, {} dropped", recording.folder.string(),
                   Duration(recording.duration_ns), recording.frames, recording.dropped);
+  if (recording.waiting > 0) text += fmt::format(", {} in memory", recording.waiting);
   if (recording.state == Recorded::kComplete) text = "complete: " + text;
   if (recording.state == Recorded::kFailed) text = "FAILED: " + text;
   if (!recording.problem.empty()) text += "; " + recording.problem;
@@ -65,6 +66,7 @@ JsonObject RecordingJson(const RecordingStatus& recording) {
   json.Add("folder", recording.folder.string());
   json.Add("seconds", static_cast<double>(recording.duration_ns) / 1e9, 1);
   json.Add("frames", recording.frames);
+  json.Add("waiting", recording.waiting);
   json.Add("dropped", recording.dropped);
   json.Add("problem", recording.problem);
   return json;
