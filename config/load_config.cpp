@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "config/lcm_url.h"
 #include "config/load_service_config.h"
 #include "config/read_cameras.h"
 #include "config/toml_section.h"
+#include "core/errors.h"
 
 namespace mocap {
 namespace {
@@ -62,10 +64,23 @@ SegmentationOptions ReadSegmentation(TomlSection section) {
   return options;
 }
 
+void CheckUrl(const TomlSection& section, const std::string& url) {
+  if (url.empty()) section.Fail("url", "is empty; an LCM address is wanted");
+  LcmUrl address;
+  try {
+    address = ParseLcmUrl(url);
+  } catch (const SetupError& error) {
+    section.Fail("url", error.what());
+  }
+  if (address.provider == LcmProvider::kFile && !address.is_written) {
+    section.Fail("url", "\"" + url + "\" reads a log, and messages are written; ?mode=w is wanted");
+  }
+}
+
 LcmConfig ReadLcm(TomlSection section) {
   LcmConfig lcm;
   lcm.url = section.Text("url", lcm.url);
-  if (lcm.url.empty()) section.Fail("url", "is empty; an LCM address is wanted");
+  CheckUrl(section, lcm.url);
   lcm.prefix = section.Text("prefix", lcm.prefix);
   if (lcm.prefix.size() > kLongestPrefix) {
     section.Fail("prefix", "is longer than " + std::to_string(kLongestPrefix) + " characters");

@@ -36,6 +36,10 @@ ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& 
   }
   if (auto section = root.Section("metrics")) {
     config.metrics.file = Resolved(file, section->Text("file", ""));
+    if (!config.metrics.file.empty() && config.metrics.file.extension() != ".prom") {
+      section->Fail("file", "is \"" + config.metrics.file.string() +
+                                "\"; node exporter reads files whose names end in .prom alone");
+    }
     section->RejectUnknownKeys();
   }
   if (auto section = root.Section("realtime")) {

@@ -8,9 +8,10 @@
 #include "daemon/number_option.h"
 #include "daemon/run_program.h"
 #include "daemon/service/service.h"
+#include "daemon/service/service_setup.h"
+#include "daemon/service/stop_signals.h"
 
 int main(int argc, char** argv) {
-  mocap::HoldSignals();
   CLI::App app("Captures a person's motion and publishes it on LCM", "mocapd");
   std::optional<std::filesystem::path> file;
   bool only_checks = false;
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
       mocap::CheckConfig(file ? mocap::LoadConfig(*file) : mocap::Config());
       std::puts("the configuration can be used");
     } else {
+      mocap::HoldSignals();
       mocap::RunService(file, seconds);
     }
   });

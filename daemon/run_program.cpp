@@ -1,8 +1,14 @@
 #include "daemon/run_program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
@@ -29,12 +35,32 @@ std::string CommandOf(const CLI::App& app) {
   return command;
 }
 
+/// Opens /dev/null for each of the standard files that was closed: what is opened later must not
+/// take its number, and with it what is printed.
+void OpenStandardFiles() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free number is taken, which is this one.
+    if (fcntl(file, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) return;
+  }
+}
+
+/// What was printed has to have got there, or it was not done.
+int FinishOutput(const CLI::App& app) {
+  std::cout.flush();
+  errno = 0;
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (is_written || errno == EPIPE) return 0;
+  const std::string why = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+  return Fail(app, "standard output cannot be written" + why, kFailed);
+}
+
 }  // namespace
 
 int RunProgram(CLI::App& app, int argc, char** argv) {
+  OpenStandardFiles();
   try {
     app.parse(argc, argv);
-    return 0;
+    return FinishOutput(app);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {

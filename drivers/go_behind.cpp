@@ -20,6 +20,16 @@ void GoBehind(const std::string& name) {
   LetOthersFirst(pthread_self());
 }
 
+bool MayComeForward() {
+  bool may = false;
+  std::thread([&may] {
+    const sched_param parameter{};
+    LetOthersFirst(pthread_self());
+    may = pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameter) == 0;
+  }).join();
+  return may;
+}
+
 bool BringForward(std::thread& thread) {
   int policy = SCHED_OTHER;
   sched_param parameter{};

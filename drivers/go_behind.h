@@ -10,6 +10,10 @@ namespace mocap {
 /// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
 void GoBehind(const std::string& name);
 
+/// Whether a thread that went behind may come forward again: that takes CAP_SYS_NICE, or a limit of
+/// niceness (RLIMIT_NICE) that allows what threads have to begin with.
+bool MayComeForward();
+
 /// Lets a thread that went behind run as the calling one does.
 /// @return  false where that is not permitted.
 bool BringForward(std::thread& thread);

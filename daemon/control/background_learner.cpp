@@ -100,7 +100,10 @@ std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds
   while (!stop_.load() && !std::ranges::all_of(looks, is_done) &&
          SteadyNs() - begin_ns < length_ns + kPatienceNs) {
     for (std::size_t i = 0; i < cameras; ++i) {
-      while (taps_[i].queue().TryPop()) looks[i].Take(taps_[i].queue().front(), length_ns);
+      // More may come as fast as they are taken.
+      for (std::size_t n = 0; n < kFramesQueued && taps_[i].queue().TryPop(); ++n) {
+        looks[i].Take(taps_[i].queue().front(), length_ns);
+      }
     }
     std::this_thread::sleep_for(kPause);
   }

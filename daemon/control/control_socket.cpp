@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "daemon/service/service_folders.h"
 
 namespace mocap {
 namespace {
@@ -53,6 +54,10 @@ int WithAddress(Call call, int fd, const sockaddr_un& address) {
   return call(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address);
 }
 
+[[noreturn]] void RefusePlace(const std::filesystem::path& path, const std::string& why) {
+  throw SetupError(path.string() + ": cannot be made a control socket: " + why);
+}
+
 FileDescriptor Listen(const std::filesystem::path& path) {
   const sockaddr_un address = AddressOf(path);
   std::error_code error;
@@ -65,7 +70,7 @@ FileDescriptor Listen(const std::filesystem::path& path) {
   FileDescriptor listener = NewSocket();
   if (WithAddress(bind, listener.get(), address) != 0 || chmod(path.c_str(), kOwnerAndGroup) != 0 ||
       listen(listener.get(), kWaitingClients) != 0) {
-    throw SetupError(path.string() + ": cannot be made a control socket: " + Why());
+    RefusePlace(path, Why());
   }
   return listener;
 }
@@ -106,6 +111,16 @@ std::filesystem::path ControlSocketOf(const std::filesystem::path& configured) {
     return std::filesystem::path(folder) / "control";
   }
   return UsersOwnSocket();
+}
+
+void RequireSocketPlace(const std::filesystem::path& socket) {
+  AddressOf(socket);
+  std::error_code error;
+  if (std::filesystem::exists(socket, error) && !std::filesystem::is_socket(socket, error)) {
+    RefusePlace(socket, "there is a file or folder of that name");
+  }
+  const std::string why = WhyNotWritable(std::filesystem::absolute(socket).parent_path());
+  if (!why.empty()) RefusePlace(socket, why);
 }
 
 ControlServer::ControlServer(const std::filesystem::path& socket, Handler handler)

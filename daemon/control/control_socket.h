@@ -32,6 +32,9 @@ class FileDescriptor {
 /// XDG_RUNTIME_DIR/mocapd; empty where none of these is.
 std::filesystem::path ControlSocketOf(const std::filesystem::path& configured);
 
+/// Looks whether a control socket can be made there, without making one. @throws SetupError
+void RequireSocketPlace(const std::filesystem::path& socket);
+
 /// Answers requests in a thread of its own, one after the other. Whoever may write to the socket
 /// may control: owner and group.
 class ControlServer {

@@ -5,6 +5,7 @@
 #include "config/config_changes.h"
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/service/service_setup.h"
 
 namespace mocap {
 namespace {
@@ -31,6 +32,7 @@ LiveConfig::LiveConfig(const std::optional<std::filesystem::path>& file) : file_
 ReloadResult LiveConfig::Reload() {
   if (!file_) throw SetupError("mocapd was started without a configuration; there is none to read");
   const Config next = LoadConfig(*file_);
+  RequirePlaces(next);
   const std::string text = ReadConfigText(*file_);
   ReloadResult result;
   for (const std::string& key : ChangedKeys(last_read_, text)) {

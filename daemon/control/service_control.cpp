@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {
@@ -18,25 +19,31 @@ ControlReply ServiceControl::Answer(const ControlRequest& request) {
 void ServiceControl::SetReport(const ServiceReport& report) {
   const std::scoped_lock lock(report_mutex_);
   report_ = report;
+  report_ns_ = SteadyNs();
 }
 
 std::string ServiceControl::Reload() {
   const std::scoped_lock lock(reload_mutex_);
   const std::string text = ReloadText(parts_.config.Reload());
+  {
+    const std::scoped_lock config_lock(config_mutex_);
+    config_ = parts_.config.config();
+  }
   parts_.publisher.SetVoxelsHz(parts_.config.config().lcm.voxels_hz);
   spdlog::info("configuration read again: {}", text);
   return text;
 }
 
 Config ServiceControl::config() {
-  const std::scoped_lock lock(reload_mutex_);
-  return parts_.config.config();
+  const std::scoped_lock lock(config_mutex_);
+  return config_;
 }
 
 std::string ServiceControl::Do(const StatusRequest& request) {
   const std::scoped_lock lock(report_mutex_);
   // Who has just begun or ended a recording wants to see that.
   report_.recording = parts_.recorder.Status();
+  report_.age_ns = SteadyNs() - report_ns_;
   return request.as_json ? ReportJson(report_) : ReportText(report_);
 }
 
@@ -55,7 +62,8 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
     throw std::runtime_error("the recording failed: " + status.problem + "; what there is, is in " +
                              status.folder.string());
   }
-  const std::string why = status.problem.empty() ? "" : "; it " + status.problem;
+  std::string why = status.problem.empty() ? "" : "; it " + status.problem;
+  if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
   const std::string text =
       fmt::format("{}: {:.1f} s, {}, {} dropped while recording{}",
                   Printable(status.folder.string()), static_cast<double>(status.duration_ns) / 1e9,

@@ -29,7 +29,7 @@ struct ServiceParts {
 class ServiceControl {
  public:
   ServiceControl(const ServiceParts& parts, Subjects subjects)
-      : parts_(parts), subjects_(std::move(subjects)) {}
+      : parts_(parts), subjects_(std::move(subjects)), config_(parts.config.config()) {}
 
   /// @throws SetupError for what was asked wrongly, std::runtime_error for what failed.
   ControlReply Answer(const ControlRequest& request);
@@ -37,7 +37,7 @@ class ServiceControl {
   void SetReport(const ServiceReport& report);
   /// Reads the configuration again. @throws SetupError
   std::string Reload();
-  /// What holds at present.
+  /// What holds at present. Waits for no file.
   Config config();
 
  private:
@@ -56,7 +56,10 @@ class ServiceControl {
   const Subjects subjects_;
   std::mutex report_mutex_;
   ServiceReport report_;
-  std::mutex reload_mutex_;
+  std::int64_t report_ns_ = 0;  ///< When it was given, by the steady clock.
+  std::mutex reload_mutex_;     ///< Held while a file is read.
+  std::mutex config_mutex_;
+  Config config_;
 };
 
 }  // namespace mocap

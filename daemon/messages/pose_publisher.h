@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <lcm/lcm-cpp.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "config/config.h"
+#include "daemon/messages/channel_watch.h"
+#include "daemon/messages/lcm_sender.h"
 #include "daemon/messages/messages.h"
+#include "daemon/messages/open_lcm.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/tap.h"
@@ -17,14 +19,6 @@
 #include "drivers/studio.h"
 
 namespace mocap {
-
-/// Opens a way to publish.
-/// @throws SetupError  when there is none; without a multicast route it names the command that adds
-///                     one.
-std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
-
-/// Whether the kernel knows where to send LCM's multicast.
-bool HasMulticastRoute();
 
 /// Publishes poses, bodies, voxels and how the service does, each on its channel. OnSet: one
 /// thread; PublishStatus: one thread, the same or another.
@@ -41,6 +35,10 @@ class PosePublisher : public PoseSink {
   /// life. Before the first OnSet.
   void Tap(MessageTap& tap) { tap_ = &tap; }
   void PublishStatus(const ServiceReport& report);
+  /// From now on, the watch knows the statuses that are this daemon's own; borrowed. Before the
+  /// first PublishStatus.
+  void Watch(ChannelWatch& watch) { watch_ = &watch; }
+  LcmSender& sender() { return sender_; }
   /// How often voxels are published from now on. Any thread.
   void SetVoxelsHz(double hz) { voxels_hz_.store(hz, std::memory_order_relaxed); }
 
@@ -49,9 +47,11 @@ class PosePublisher : public PoseSink {
   void Publish(const std::string& channel, const Message& message);
   TrackedSet InTimeOfDay(const TrackedSet& set) const;
 
-  lcm::LCM& lcm_;
+  LcmSender sender_;
+  ChannelWatch* watch_ = nullptr;
   MessageTap* tap_ = nullptr;
   std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
+  std::vector<std::uint8_t> status_bytes_;
   const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
       service_channel_;
   const int cameras_;

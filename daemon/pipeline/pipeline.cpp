@@ -33,33 +33,27 @@ constexpr const QueueSizes& SizesFor(Overflow overflow) {
 constexpr double kPatiencePeriods = 1.75;
 // By the time that a set went on without a camera, up to a period later, it must not be too old.
 static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
-/// How far tracking is behind when recordings have to wait, and when they may go on. Before the
-/// first, what they have not coded yet still fits into their queues.
+/// How far tracking is behind when recordings have to wait, and when they may go on.
 constexpr std::int64_t kFarBehindNs = 250'000'000;
 constexpr std::int64_t kKeepsUpNs = 50'000'000;
+/// Of all grids that go round together, beyond what a person needs: some dozens of a whole room.
+constexpr std::size_t kMostGridBytes = 256 << 20;
 constexpr std::size_t kLongestThreadName = 15;
 
-/// @throws SetupError
 std::size_t CountCameras(const Studio& studio) {
-  if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
-    throw SetupError(studio.name + ": has " + Counted(studio.cameras.size(), "camera") +
-                     ", wanted 1 to " + std::to_string(kMaxCameras));
-  }
+  RequireCameraCount(studio);
   return studio.cameras.size();
 }
 
-/// Learns all backgrounds at the same time; of several errors the first camera's is thrown.
-std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
-                                        const SegmentationOptions& options) {
-  std::vector<std::future<Segmenter>> learning;
-  for (const StudioCamera& camera : cameras) {
-    learning.push_back(std::async(std::launch::async, [&camera, &options] {
-      return Segmenter(camera.calibration, camera.background(), options);
-    }));
-  }
-  std::vector<Segmenter> segmenters;
-  for (auto& learned : learning) segmenters.push_back(learned.get());
-  return segmenters;
+/// The same pictures, until the program shall end.
+BackgroundSource UntilStopped(const BackgroundSource& source, const std::atomic<bool>* stop) {
+  if (!stop) return source;
+  return BackgroundSource::OneByOne([&source, stop](const BackgroundSource::Visit& visit) {
+    source.ForEach([&](const BackgroundFrame& frame) {
+      if (stop->load(std::memory_order_relaxed)) throw LearningStopped();
+      visit(frame);
+    });
+  });
 }
 
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
@@ -70,6 +64,26 @@ Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
 }
 
 }  // namespace
+
+void RequireCameraCount(const Studio& studio) {
+  if (!studio.cameras.empty() && studio.cameras.size() <= kMaxCameras) return;
+  throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
+                   " cameras, wanted 1 to " + std::to_string(kMaxCameras));
+}
+
+std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
+                                        const SegmentationOptions& options,
+                                        const std::atomic<bool>* stop) {
+  std::vector<std::future<Segmenter>> learning;
+  for (const StudioCamera& camera : cameras) {
+    learning.push_back(std::async(std::launch::async, [&camera, &options, stop] {
+      return Segmenter(camera.calibration, UntilStopped(camera.background, stop)(), options);
+    }));
+  }
+  std::vector<Segmenter> segmenters;
+  for (auto& learned : learning) segmenters.push_back(learned.get());
+  return segmenters;
+}
 
 /// One camera's thread and the queue it fills.
 struct Pipeline::CameraLine {
@@ -90,6 +104,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     : options_(options),
       sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
+      grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
       track_(body, options.latency_origin, sink, recorders_, studio.person) {
   std::vector<CameraCalibration> calibrations;
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
@@ -100,7 +115,8 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     health_ = std::make_unique<HealthWatch>(calibrations);
     carve_->Show(health_->tap());
   }
-  std::vector<Segmenter> segmenters = LearnBackgrounds(studio.cameras, options.segmentation);
+  std::vector<Segmenter> segmenters =
+      LearnBackgrounds(studio.cameras, options.segmentation, options.stop);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
     std::vector<FrameTap*> taps;
     for (std::deque<FrameTap>* of_all : options.taps) taps.push_back(&of_all->at(i));
@@ -212,8 +228,12 @@ void Pipeline::RunCarving() {
     carve_->SetTracked(track_.sets());
     HoldTaps();
     const bool all_ended = FeedFromQueues();
+    const std::size_t grid_bytes = sets_.back().grid.capacity_bytes();
     const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
-    if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
+    if (verdict == Synchronizer::Verdict::kSet) {
+      grids_.NoteGrowth(grid_bytes, sets_.back().grid);
+      sets_.Push();
+    }
     if (verdict != Synchronizer::Verdict::kWait) continue;
     if (all_ended) return;
     carve_bell_.WaitPast(seen);
@@ -237,6 +257,7 @@ void Pipeline::RunTracking() {
     const bool is_closed = sets_.closed();
     if (sets_.TryPop()) {
       track_.Process(sets_.front());
+      grids_.Bound(sets_.front().grid);
       carve_bell_.Ring();
     } else if (is_closed) {
       return;

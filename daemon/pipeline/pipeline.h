@@ -18,6 +18,7 @@
 #include "daemon/pipeline/carve_stage.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/frame_progress.h"
+#include "daemon/pipeline/grid_memory.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "daemon/pipeline/stage.h"
@@ -40,7 +41,22 @@ struct PipelineOptions {
   std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.
   std::vector<std::deque<FrameTap>*> taps = {};
+  /// Learning gives up when this becomes true. Borrowed; null: it does not.
+  const std::atomic<bool>* stop = nullptr;
 };
+
+/// Learning was given up because the program shall end.
+struct LearningStopped {};
+
+/// @throws SetupError  when a studio has no cameras, or too many.
+void RequireCameraCount(const Studio& studio);
+
+/// Learns what each camera sees of the empty studio, all at the same time.
+/// @param stop  as PipelineOptions::stop. @throws SetupError of the first camera whose pictures
+/// cannot be used; LearningStopped.
+std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
+                                        const SegmentationOptions& options,
+                                        const std::atomic<bool>* stop = nullptr);
 
 /// How the pipeline does; counters never go back.
 struct PipelineStatus {
@@ -63,7 +79,7 @@ class Pipeline {
  public:
   /// Learns every camera's background.
   /// @param sink  called from the last thread; borrowed for the pipeline's life.
-  /// @throws SetupError  for cameras or backgrounds that cannot be used.
+  /// @throws SetupError  for cameras or backgrounds that cannot be used; LearningStopped.
   Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body, PoseSink& sink);
   ~Pipeline();
 
@@ -115,6 +131,7 @@ class Pipeline {
   std::unique_ptr<HealthWatch> health_;  ///< Live only.
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
+  GridMemory grids_;  ///< Of sets_.
   TrackStage track_;
   std::vector<std::thread> threads_;
   bool taps_are_held_ = false;

@@ -93,6 +93,13 @@ class SpscQueue {
   }
   /// Once true, a TryPop that finds nothing is final.
   bool closed() const { return closed_.load(std::memory_order_acquire); }
+  /// Items that were handed over so far.
+  std::int64_t pushed() const {
+    return static_cast<std::int64_t>(published_.load(std::memory_order_acquire));
+  }
+  std::size_t capacity() const { return cells_.size(); }
+  /// More than these cannot be held.
+  static constexpr std::size_t kMostCapacity = 60'000;
   /// Items that went to make room.
   std::int64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 

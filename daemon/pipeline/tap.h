@@ -31,10 +31,6 @@ class Tap {
   template <typename Fill>
   void Offer(Fill fill) {
     if (!open_.load(std::memory_order_relaxed)) return;
-    if (is_held()) {
-      held_back_.fetch_add(1, std::memory_order_relaxed);
-      return;
-    }
     // Each side raises its own flag before it looks at the other's, in one order for all threads:
     // Close cannot miss a copy that is under way.
     in_use_.store(true);
@@ -42,18 +38,15 @@ class Tap {
     in_use_.store(false);
   }
 
-  /// Whether nothing is handed over for now, and nothing should be done with what was: the pipeline
-  /// needs the time.
+  /// Whether nothing should be done for now with what is handed over, as long as there is room for
+  /// it: the pipeline needs the time.
   void Hold(bool is_held) { held_.store(is_held, std::memory_order_relaxed); }
   bool is_held() const { return held_.load(std::memory_order_relaxed); }
-  /// Items that were not handed over for that reason, since the last Open.
-  std::int64_t held_back() const { return held_back_.load(std::memory_order_relaxed); }
 
   /// Begins. @param capacity  how many items can wait. @param item  what each is made of at first.
   /// @param bell  rung for each; borrowed until the next Open.
   void Open(std::size_t capacity, const Item& item, Doorbell& bell) {
     queue_ = std::make_unique<Queue>(capacity, Overflow::kDropOldest, bell, item);
-    held_back_.store(0, std::memory_order_relaxed);
     open_.store(true);
   }
   /// Ends; what waits can still be taken out.
@@ -64,6 +57,7 @@ class Tap {
   }
   /// @pre  Open was called.
   Queue& queue() { return *queue_; }
+  const Queue& queue() const { return *queue_; }
   /// Gives the memory back. @pre  closed.
   void Free() { queue_.reset(); }
 
@@ -71,7 +65,6 @@ class Tap {
   std::atomic<bool> open_{false};
   std::atomic<bool> in_use_{false};
   std::atomic<bool> held_{false};
-  std::atomic<std::int64_t> held_back_{0};
   std::unique_ptr<Queue> queue_;
 };
 

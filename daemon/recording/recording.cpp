@@ -1,7 +1,9 @@
 #include "daemon/recording/recording.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,13 +25,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr std::chrono::milliseconds kHeldTick{5};
-/// What waits is lost when the program is killed, and what was not made safe when the power fails:
-/// together less than a second. The count bounds memory; the age holds at any rate of frames.
-constexpr double kMostWaitingS = 0.6;
-constexpr std::int64_t kOldestNs = 500'000'000;
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
 constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
+constexpr std::size_t kLongestThreadName = 15;
 
 constexpr const char* NameOf(VideoCodec codec) {
   switch (codec) {
@@ -78,18 +77,16 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
 
 /// One camera's part.
 struct Recording::Line {
-  std::thread thread;
+  Coder coder;
   Doorbell bell;
   std::optional<SafeFile> video, table;
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
   std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
-  /// Had no room in the queue, waited too long in it, or came while the pipeline was behind.
-  std::atomic<std::int64_t> dropped{0};
+  std::atomic<std::int64_t> dropped{0};  ///< Had no room in memory.
   // The camera's thread only:
   std::optional<std::uint64_t> next_sequence;
   std::int64_t last_ns = -1;
-  std::int64_t stale = 0;
 };
 
 Recording::Recording(const std::filesystem::path& folder, const RecordingConfig& config,
@@ -102,7 +99,8 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       folder_(folder),
       partial_(writer_->partial_folder()),
       backgrounds_(static_cast<std::ptrdiff_t>(studio.cameras.size())),
-      place_(partial_) {
+      place_(partial_),
+      can_return_(MayComeForward()) {
   try {
     Prepare(subject);
   } catch (...) {
@@ -110,7 +108,7 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     throw;
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    lines_[i]->thread = std::thread([this, i] { RunCamera(i); });
+    lines_[i]->coder.thread = std::thread([this, i] { RunCamera(i); });
   }
   backgrounds_.wait();
   // A take opens only with its description, its calibration and the empty studio.
@@ -152,11 +150,15 @@ void Recording::Begin() {
     TappedFrame item;
     item.image = Image<Bgr>(camera.width_px, camera.height_px);
     const double frame_mb = 3e-6 * camera.width_px * camera.height_px;
-    const double fitting = std::min(buffer_mb / frame_mb, kMostWaitingS * studio_.fps_nominal);
-    taps_.frames[i].Open(std::max(static_cast<std::size_t>(fitting), kFewestFrames), item,
+    const auto fitting = static_cast<std::size_t>(buffer_mb / frame_mb);
+    taps_.frames[i].Open(std::clamp(fitting, kFewestFrames, FrameTap::Queue::kMostCapacity), item,
                          lines_[i]->bell);
+    lines_[i]->coder.tap = &taps_.frames[i];
   }
   taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
+  std::vector<Coder*> coders;
+  for (const auto& line : lines_) coders.push_back(&line->coder);
+  watch_.emplace(std::move(coders), can_return_);
   begun_.count_down();
   keeper_ = std::thread([this] { RunKeeper(); });
 }
@@ -195,7 +197,9 @@ void Recording::Guard(Body body) {
 
 void Recording::RunCamera(std::size_t camera) {
   const RecordedCamera& recorded = studio_.cameras[camera];
-  GoBehind("rec " + recorded.calibration.name);
+  const std::string name = "rec " + recorded.calibration.name;
+  pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+  // Somebody waits for this.
   Guard([&] {
     std::int64_t time_ns = 0;
     recorded.background.ForEach([&](const BackgroundFrame& frame) {
@@ -205,32 +209,32 @@ void Recording::RunCamera(std::size_t camera) {
   });
   backgrounds_.count_down();
   begun_.wait();
+  // A thread that could not come forward again would have to wait for as long as others have work.
+  if (can_return_) GoBehind(name);
+  lines_[camera]->coder.id.store(gettid());
   Guard([&] { WriteFrames(camera); });
 }
 
 void Recording::WriteFrames(std::size_t camera) {
   Line& line = *lines_[camera];
-  FrameTap& tap = taps_.frames[camera];
-  FrameTap::Queue& queue = tap.queue();
+  Coder& coder = line.coder;
+  FrameTap::Queue& queue = coder.tap->queue();
   while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
-    if (tap.is_held() && !is_closed) {
+    // Poses come first, as long as no frame is lost for them.
+    if (coder.tap->is_held() && !is_closed && !coder.IsHalfFull()) {
       std::this_thread::sleep_for(kHeldTick);
       continue;
     }
-    line.dropped.store(queue.dropped() + line.stale + tap.held_back(), std::memory_order_relaxed);
+    line.dropped.store(queue.dropped(), std::memory_order_relaxed);
     if (!queue.TryPop()) {
       if (is_closed) return;
       line.bell.WaitPast(seen);
       continue;
     }
-    // Once the end is known, what waits is waited for.
-    if (!is_closed && SteadyNs() - queue.front().offered_ns > kOldestNs) {
-      ++line.stale;
-    } else {
-      WriteFrame(camera, queue.front());
-    }
+    WriteFrame(camera, queue.front());
+    coder.done.fetch_add(1, std::memory_order_release);
   }
 }
 
@@ -254,16 +258,26 @@ void Recording::WriteFrame(std::size_t camera, const TappedFrame& frame) {
 }
 
 void Recording::RunKeeper() {
-  GoBehind("rec keeper");
+  pthread_setname_np(pthread_self(), "rec keeper");
   Guard([&] { KeepUntilStopped(); });
   End();
   taps_.messages.Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
+  EndWatch();
   Guard([&] { WriteMessages(); });
-  for (const auto& line : lines_) line->thread.join();
+  for (const auto& line : lines_) line->coder.thread.join();
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
   taps_.messages.Free();
+}
+
+// Nothing is lost any more, and somebody waits for the rest.
+void Recording::EndWatch() {
+  const std::scoped_lock lock(mutex_);
+  last_cause_ = watch_->cause();
+  watch_.reset();
+  if (!can_return_) return;
+  for (const auto& line : lines_) BringForward(line->coder.thread);
 }
 
 void Recording::KeepUntilStopped() {
@@ -318,6 +332,7 @@ void Recording::Complete() {
     if (studio_.times == CaptureTimes::kPresent && step_ns != 0) {
       notes.emplace_back("clock_was_set_meanwhile_by_ns", std::to_string(step_ns));
     }
+    if (last_cause_) notes.emplace_back("dropped_because", TextOf(*last_cause_));
     writer_->AddNotes(notes);
     writer_->Finish();
     const std::scoped_lock lock(mutex_);
@@ -349,6 +364,10 @@ RecordingStatus Recording::Status() const {
     status.dropped += line->dropped.load(std::memory_order_relaxed);
   }
   const std::scoped_lock lock(mutex_);
+  if (state_ == RecordingStatus::State::kRunning && begin_ns_ > 0) {
+    for (const auto& line : lines_) status.waiting += line->coder.Waiting();
+  }
+  status.cause = watch_ ? watch_->cause() : last_cause_;
   status.state = state_;
   status.problem = problem_;
   status.folder = place_;

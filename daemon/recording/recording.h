@@ -20,6 +20,7 @@
 #include "daemon/messages/message_log.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/tap.h"
+#include "daemon/recording/coder_watch.h"
 #include "daemon/recording/safe_file.h"
 #include "drivers/background_source.h"
 #include "drivers/studio.h"
@@ -54,16 +55,19 @@ struct RecordingStatus {
   State state = State::kNone;
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
-  std::int64_t frames = 0;   ///< Written, of all cameras.
-  std::int64_t dropped = 0;  ///< Came from the cameras and had to wait too long, of all cameras.
-  std::string problem;       ///< Why it ended by itself.
+  std::int64_t frames = 0;         ///< Written, of all cameras.
+  std::int64_t waiting = 0;        ///< In memory, likewise: what a kill would cost.
+  std::int64_t dropped = 0;        ///< Came from the cameras and had no room in memory, likewise.
+  std::optional<LossCause> cause;  ///< Of the latest that were dropped.
+  std::string problem;             ///< Why it ended by itself.
 };
 
 /// Records until Stop, until the disk is nearly full or until something cannot be written.
 ///
-/// One thread a camera codes and writes, one writes messages, keeps what is written safe from a
-/// loss of power and completes the take; all behind the pipeline's threads in priority. A camera
-/// that cannot be written ends the recording; what the others have by then is written still.
+/// One thread a camera codes and writes, when nobody else wants the processor or frames have
+/// waited; one writes messages, keeps what is written safe from a loss of power and completes the
+/// take. Frames wait in memory as long as there is room. A camera that cannot be written ends the
+/// recording; what the others have by then is written still.
 class Recording {
  public:
   /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
@@ -95,6 +99,7 @@ class Recording {
   void WriteFrame(std::size_t camera, const TappedFrame& frame);
   void RunKeeper();
   void KeepUntilStopped();
+  void EndWatch();
   void KeepSafe();
   void WriteMessages();
   void Complete();
@@ -126,6 +131,9 @@ class Recording {
   RecordingStatus::State state_ = RecordingStatus::State::kRunning;
   std::filesystem::path place_;  ///< Where the take is by now.
   std::string problem_;
+  std::optional<LossCause> last_cause_;
+  std::optional<CoderWatch> watch_;  ///< While coders run.
+  const bool can_return_;            ///< Whether threads may go behind and come forward again.
   std::thread keeper_;
 };
 

@@ -24,7 +24,73 @@ constexpr double kNudged_px = 0.75;
 /// Beyond this, colours are no longer those that were learned.
 constexpr double kDarkest = 0.6, kBrightest = 1.5;
 
+/// A report that nobody renewed for so long is none.
+constexpr std::int64_t kOld = 5'000'000'000;
+/// So long a disk may take.
+constexpr std::int64_t kDiskStall = 5'000'000'000;
+/// So long nothing may come before that is told.
+constexpr std::int64_t kSilence = 2'500'000'000;
+/// A camera whose frames find no set more often than this is named.
+constexpr double kMostLate = 0.2;
+
 using List = std::vector<std::string>;
+
+/// What makes all else that is told doubtful.
+void ComplainOfReport(const ServiceReport& report, List& list) {
+  if (report.age_ns > kOld) {
+    list.push_back(
+        fmt::format("nothing has been heard of mocapd's main thread for {}: what stands "
+                    "here is as old; restart it",
+                    Duration(report.age_ns)));
+  }
+  if (report.now.status.cameras.empty()) {
+    list.push_back("nothing is known yet: mocapd has just begun");
+  }
+}
+
+void ComplainOfDelivery(const ServiceReport& report, List& list) {
+  const Delivery& delivery = report.delivery;
+  if (!delivery.problem.empty()) {
+    list.push_back(
+        fmt::format("poses cannot be sent to {}: {}: look at the network, its multicast "
+                    "route or the server there; mocap doctor helps",
+                    report.lcm_url, delivery.problem));
+  } else if (delivery.channel.silent_ns > 0) {
+    list.push_back(
+        fmt::format("no message on {} has come back for {}, though they are sent: look "
+                    "at the firewall, and whether the network changed",
+                    report.lcm_url, Duration(delivery.channel.silent_ns)));
+  }
+  if (delivery.channel.other_sender) {
+    list.push_back(
+        fmt::format("another mocapd, or a log that is played, sends on {} as well: "
+                    "listeners get both in turns; another lcm.prefix or port is wanted",
+                    report.lcm_url));
+  }
+  if (delivery.channel.reaches_nobody) {
+    list.push_back(
+        fmt::format("poses reach nobody outside of this process: lcm.url is {}; one "
+                    "like udpm://239.255.76.67:7667?ttl=0 is wanted",
+                    report.lcm_url));
+  }
+}
+
+void ComplainOfDisk(const ServiceReport& report, List& list) {
+  if (report.disk_stall_ns > kDiskStall) {
+    list.push_back(fmt::format("the disk has not answered for {}: look at {}",
+                               Duration(report.disk_stall_ns), report.takes.string()));
+  }
+  if (!report.takes_problem.empty()) {
+    list.push_back(fmt::format("takes cannot be written to {}: {}", report.takes.string(),
+                               report.takes_problem));
+  }
+  if (!report.metrics_problem.empty()) {
+    list.push_back("the figures cannot be written to " + report.metrics_problem);
+  }
+  if (report.log_fails) {
+    list.push_back("the log cannot be written: look at the room on its disk");
+  }
+}
 
 void ComplainOfRecording(const ServiceReport& report, List& list) {
   const RecordingStatus& recording = report.recording;
@@ -35,9 +101,9 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
     list.push_back("the recording " + recording.problem);
   }
   if (recording.state == RecordingStatus::State::kRunning && recording.dropped > 0) {
-    list.push_back(
-        fmt::format("{} had no room in the recording: a faster disk or another codec is wanted",
-                    Counted(recording.dropped, "frame")));
+    list.push_back(fmt::format("{} had no room in the recording: {}",
+                               Counted(recording.dropped, "frame"),
+                               TextOf(recording.cause.value_or(LossCause::kUnknown))));
   }
   for (const CutOffTake& take : report.cut_off) {
     list.push_back(
@@ -61,6 +127,38 @@ double FpsOf(const ServiceReport& report, std::size_t camera) {
   return has_its_own ? report.camera_fps[camera] : report.fps_nominal;
 }
 
+/// Such a camera is told with the one that triggers it.
+bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
+  const CameraStatus& camera = report.now.status.cameras[i];
+  return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
+         report.now.frames_per_second[i] == 0;
+}
+
+/// Cameras that are there and give nothing, all of them: what they share is to blame.
+void ComplainOfSilence(const ServiceReport& report, List& list) {
+  if (report.now.window_ns < kSilence) return;
+  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
+    const bool is_there = report.now.status.cameras[i].state == CameraState::kStreaming;
+    if (!is_there || WaitsForTrigger(report, i)) continue;
+    list.push_back(
+        "no camera delivers frames: look at what triggers them, a pulse generator or PTP, and at "
+        "their power and network; nothing is tracked meanwhile");
+    return;
+  }
+}
+
+/// Nobody is carved from one camera's pictures, sets or not.
+void ComplainOfOneAlone(const ServiceReport& report, List& list) {
+  const auto& rates = report.now.frames_per_second;
+  const auto gives = [](double rate) { return rate > 0; };
+  if (std::ranges::count_if(rates, gives) != 1) return;
+  const auto only = std::ranges::find_if(rates, gives) - rates.begin();
+  list.push_back(
+      fmt::format("only {} delivers frames: a person is carved from two cameras at "
+                  "least, and well from four; nothing is tracked meanwhile",
+                  report.now.status.cameras[static_cast<std::size_t>(only)].name));
+}
+
 void ComplainOfSets(const ServiceReport& report, List& list) {
   // Sets that are left out have come about; ComplainOfTime tells of them.
   if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
@@ -73,18 +171,12 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
   }
   const auto& rates = report.now.frames_per_second;
   const auto delivering = std::ranges::count_if(rates, [](double rate) { return rate > 0; });
-  if (delivering == 0) return;
+  if (delivering == 0) return ComplainOfSilence(report, list);
+  if (delivering == 1) return;
   list.push_back(
       fmt::format("no frame sets come about, though {} of {} cameras deliver frames: look at their "
                   "trigger and their clocks; nothing is tracked meanwhile",
                   delivering, rates.size()));
-}
-
-/// Such a camera is told with the one that triggers it.
-bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
-  const CameraStatus& camera = report.now.status.cameras[i];
-  return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
-         report.now.frames_per_second[i] == 0;
 }
 
 void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
@@ -103,6 +195,34 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
         fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
                     "bus or network, and the processor's load",
                     camera.name, rate, wanted));
+  }
+}
+
+/// Every camera delivers, and yet sets lack some.
+void ComplainOfMatching(const ServiceReport& report, List& list) {
+  const StatusReport& now = report.now;
+  if (now.late_per_second.size() != now.status.cameras.size()) return;
+  List late;
+  bool all_deliver = true;
+  bool some_is_blind = false;
+  for (std::size_t i = 0; i < now.status.cameras.size(); ++i) {
+    const double rate = now.frames_per_second[i];
+    all_deliver &= rate > kGoodRate * FpsOf(report, i);
+    some_is_blind |= now.status.cameras[i].is_blind;
+    if (rate > 0 && now.late_per_second[i] > kMostLate * rate) {
+      late.push_back(now.status.cameras[i].name);
+    }
+  }
+  if (!late.empty()) {
+    list.push_back(
+        fmt::format("frames come too late for their sets: {}: look at their clocks, "
+                    "their trigger, and their bus or network",
+                    fmt::join(late, ", ")));
+  } else if (all_deliver && !some_is_blind && now.sets_complete_lately == 0 &&
+             now.sets_partial_lately > 0) {
+    list.push_back(
+        "no frame set is complete, though every camera delivers frames: look at their trigger and "
+        "their clocks");
   }
 }
 
@@ -196,13 +316,18 @@ void ComplainOfTime(const ServiceReport& report, List& list) {
 
 std::vector<std::string> Complaints(const ServiceReport& report) {
   List list;
+  ComplainOfReport(report, list);
+  ComplainOfDelivery(report, list);
   ComplainOfRecording(report, list);
+  ComplainOfDisk(report, list);
   ComplainOfSets(report, list);
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     ComplainOfFlow(report, i, list);
     ComplainOfPicture(report.now.status.cameras[i], list);
   }
+  ComplainOfOneAlone(report, list);
   ComplainOfTriggers(report, list);
+  ComplainOfMatching(report, list);
   ComplainOfPlace(report.now.status, list);
   ComplainOfLight(report, list);
   ComplainOfTime(report, list);

@@ -108,14 +108,16 @@ std::string MetricsText(const ServiceReport& report) {
   return writer.Take();
 }
 
-bool WriteMetrics(const std::filesystem::path& file, const ServiceReport& report) {
+bool WriteMetrics(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path unfinished = file.string() + ".part";
   std::ofstream out(unfinished, std::ios::binary);
-  out << MetricsText(report);
+  out << text;
   out.close();
   std::error_code error;
   if (out) std::filesystem::rename(unfinished, file, error);
-  return out && !error;
+  if (out && !error) return true;
+  std::filesystem::remove(unfinished, error);
+  return false;
 }
 
 }  // namespace mocap

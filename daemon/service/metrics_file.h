@@ -11,7 +11,7 @@ namespace mocap {
 /// The report in Prometheus' text format.
 std::string MetricsText(const ServiceReport& report);
 
-/// Puts them into a file in one step. @return whether that worked.
-bool WriteMetrics(const std::filesystem::path& file, const ServiceReport& report);
+/// Puts such a text into a file in one step. @return whether that worked.
+bool WriteMetrics(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace mocap

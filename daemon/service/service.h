@@ -8,18 +8,11 @@
 
 namespace mocap {
 
-/// Holds back SIGINT, SIGTERM and SIGHUP from all threads that start afterwards, so that RunService
-/// can wait for them. Call first in main.
-void HoldSignals();
-
 /// Captures and publishes until the source ends, a signal comes or the time is over; SIGHUP reads
 /// the configuration again.
 /// @param file     the configuration; without one, the simulated studio.
 /// @param seconds  how long to run at most.
 /// @throws SetupError  when the studio, its cameras or LCM cannot be used as configured.
 void RunService(const std::optional<std::filesystem::path>& file, std::optional<double> seconds);
-
-/// Looks whether RunService could begin, without cameras or LCM. @throws SetupError
-void CheckConfig(const Config& config);
 
 }  // namespace mocap

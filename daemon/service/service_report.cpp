@@ -54,6 +54,7 @@ std::string RecordingText(const RecordingStatus& recording) {
   std::string text = fmt::format("{}, {}, {}, {} dropped", recording.folder.string(),
                                  Duration(recording.duration_ns),
                                  Counted(recording.frames, "frame"), recording.dropped);
+  if (recording.waiting > 0) text += fmt::format(", {} in memory", recording.waiting);
   if (recording.state == Recorded::kComplete) text = "complete: " + text;
   if (recording.state == Recorded::kFailed) text = "FAILED: " + text;
   if (!recording.problem.empty()) text += "; " + recording.problem;
@@ -66,6 +67,7 @@ JsonObject RecordingJson(const RecordingStatus& recording) {
   json.Add("folder", recording.folder.string());
   json.Add("seconds", static_cast<double>(recording.duration_ns) / 1e9, 1);
   json.Add("frames", recording.frames);
+  json.Add("waiting", recording.waiting);
   json.Add("dropped", recording.dropped);
   json.Add("problem", recording.problem);
   return json;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/messages/channel_watch.h"
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recording.h"
 #include "daemon/service/light_watch.h"
@@ -26,6 +27,12 @@ struct Made {
   std::int64_t made_s = 0;  ///< Since the Unix epoch; 0: unknown.
 };
 
+/// What becomes of messages.
+struct Delivery {
+  std::string problem;  ///< Why they cannot be sent at present; empty: they can.
+  ChannelStatus channel;
+};
+
 /// Everything that is told of the service when somebody asks.
 struct ServiceReport {
   StatusReport now;
@@ -43,6 +50,12 @@ struct ServiceReport {
   std::filesystem::path takes;  ///< Where recordings go.
   std::int64_t bytes_free = 0;  ///< There.
   double keep_free_mb = 0;
+  std::string takes_problem;       ///< Why none can be written there; empty: they can.
+  std::string metrics_problem;     ///< The file of figures that cannot be written.
+  std::int64_t disk_stall_ns = 0;  ///< How long the disk has been asked and has not answered.
+  bool log_fails = false;          ///< Messages are lost.
+  std::int64_t age_ns = 0;         ///< How long ago this was, when somebody asks.
+  Delivery delivery;
   std::vector<CutOffTake> cut_off;
 };
 

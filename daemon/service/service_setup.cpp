@@ -1,23 +1,18 @@
 #include "daemon/service/service_setup.h"
 
-#include <chrono>
 #include <utility>
 
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "core/errors.h"
+#include "daemon/control/control_socket.h"
+#include "daemon/messages/open_lcm.h"
+#include "daemon/pipeline/realtime.h"
+#include "daemon/service/service_folders.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {
-
-/// When a file was written last, since the Unix epoch; 0 where there is none.
-std::int64_t WrittenAt(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  if (error) return 0;
-  const auto since = std::chrono::file_clock::to_sys(time).time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(since).count();
-}
 
 Made MadeBy(const std::filesystem::path& file) { return {file.string(), WrittenAt(file)}; }
 
@@ -36,7 +31,65 @@ Made CalibrationOf(const Config& config) {
   return {"the simulated studio's own", 0};
 }
 
+/// The folder has to be there: whoever collects figures has made it.
+void RequireMetricsPlace(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw SetupError("metrics.file is " + file.string() + ", and " + folder.string() +
+                     " is no folder; that of the node exporter's textfile collector is wanted");
+  }
+  if (std::filesystem::is_directory(file, error)) {
+    throw SetupError("metrics.file is " + file.string() + ", which is a folder; a file is wanted");
+  }
+  if (const std::string why = WhyNotWritable(folder); !why.empty()) {
+    throw SetupError("metrics.file is " + file.string() + ", which cannot be written: " + why);
+  }
+}
+
+void RequireTakesPlace(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  if (const std::string why = WhyNotWritable(folder); !why.empty()) {
+    throw SetupError("recording.folder is " + folder.string() +
+                     ", which cannot be written: " + why);
+  }
+}
+
+PreparedService Prepare(const Config& config) {
+  RequirePlaces(config);
+  PreparedService prepared;
+  prepared.socket = ControlSocketOf(config.service.control.socket);
+  if (!prepared.socket.empty()) RequireSocketPlace(prepared.socket);
+  prepared.body = LoadBodyTable(config.body);
+  prepared.studio = OpenStudio(config);
+  RequireCameraCount(prepared.studio);
+  return prepared;
+}
+
 }  // namespace
+
+void RequirePlaces(const Config& config) {
+  RequireMetricsPlace(config.service.metrics.file);
+  RequireTakesPlace(config.service.recording.folder);
+}
+
+PreparedService PrepareService(const Config& config) {
+  PrepareRealtime(config.service.realtime);
+  std::unique_ptr<lcm::LCM> lcm = OpenLcm(config.lcm.url);
+  PreparedService prepared = Prepare(config);
+  prepared.lcm = std::move(lcm);
+  return prepared;
+}
+
+void CheckConfig(const Config& config) {
+  PrepareRealtime(config.service.realtime);
+  CheckLcm(config.lcm.url);
+  const PreparedService prepared = Prepare(config);
+  // Pictures that are painted to order cannot be wrong, and take their time.
+  if (config.source.driver == "simulated") return;
+  LearnBackgrounds(prepared.studio.cameras, config.segmentation);
+}
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps) {
   // A recording that is read as fast as it can be has old times, and can wait.
@@ -107,6 +160,7 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   for (const StudioCamera& camera : studio.cameras) report.camera_fps.push_back(camera.fps);
   report.lcm_url = config.lcm.url;
   report.calibration = CalibrationOf(config);
+  report.background = BackgroundOf(config);
   return report;
 }
 

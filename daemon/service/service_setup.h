@@ -2,10 +2,14 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "config/config.h"
+#include "core/body/body_table.h"
 #include "daemon/control/background_learner.h"
 #include "daemon/messages/truth_error.h"
 #include "daemon/pipeline/pipeline.h"
@@ -14,6 +18,25 @@
 #include "drivers/studio.h"
 
 namespace mocap {
+
+/// What the daemon has before its first camera is started.
+struct PreparedService {
+  BodyTable body;
+  std::unique_ptr<lcm::LCM> lcm;
+  Studio studio;
+  std::filesystem::path socket;  ///< Empty: it is not controlled.
+};
+
+/// Opens and looks at all that a configuration names, cameras that answer excepted: the one way to
+/// a start. @throws SetupError
+PreparedService PrepareService(const Config& config);
+
+/// Looks whether RunService could begin, with cameras that answer: what it refuses is refused here,
+/// with the same words. Makes no file and no socket, and sends nothing. @throws SetupError
+void CheckConfig(const Config& config);
+
+/// Looks whether files can be written where the configuration wants them. @throws SetupError
+void RequirePlaces(const Config& config);
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps);
 

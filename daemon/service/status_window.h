@@ -12,11 +12,15 @@ namespace mocap {
 
 /// Counters since the start, with rates and timings of the last seconds.
 struct StatusReport {
-  PipelineStatus status;   ///< Counters; its timings are since the start.
-  StageHistograms recent;  ///< Timings within the window.
+  PipelineStatus status;       ///< Counters; its timings are since the start.
+  StageHistograms recent;      ///< Timings within the window.
+  std::int64_t window_ns = 0;  ///< How far back "lately" goes; 0: nothing can be said of it.
   double sets_per_second = 0;
+  std::int64_t sets_complete_lately = 0;
+  std::int64_t sets_partial_lately = 0;
   std::int64_t sets_dropped_lately = 0;
   std::vector<double> frames_per_second;  ///< By camera.
+  std::vector<double> late_per_second;    ///< Likewise: those that found no set.
 };
 
 /// Remembers a pipeline's status for some seconds, to tell what is new.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
@@ -253,6 +254,93 @@ TEST_F(MocapdTest, WrongInputIsOneLineAndStatusTwo) {
     EXPECT_THAT(errors, EndsWith("\n"));
     EXPECT_EQ(std::ranges::count(errors, '\n'), 1) << errors;
   }
+}
+
+TEST_F(MocapdTest, ASignalEndsItWhileTheEmptyStudioIsLearned) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  // Painting these takes minutes.
+  const std::string config =
+      WriteConfig("driver = \"simulated\"\ncameras = 12\nwidth = 1920\nheight = 1080\n");
+  Daemon daemon({"--config", config}, log_);
+  while (!daemon.HasEnded() && daemon.Errors().find("learning") == std::string::npos) {
+    std::this_thread::yield();
+  }
+  daemon.Signal(SIGTERM);
+  EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
+  EXPECT_THAT(daemon.Errors(), HasSubstr("ended while it was starting"));
+}
+
+TEST_F(MocapdTest, AReaderOfItsLogThatGoesAwayDoesNotEndIt) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string config = WriteConfig("driver = \"take\"\ntake = \"take\"\n");
+  // `true` reads nothing. The shell's status is the daemon's.
+  const std::string command = "bash -c '" + std::string(MOCAP_BIN_DIR) + "/mocapd --config " +
+                              config + " 2>&1 | true; exit ${PIPESTATUS[0]}'";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(MocapdTest, RunsWithoutStandardFiles) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string config = WriteConfig("driver = \"take\"\ntake = \"take\"\n");
+  const std::string command = std::string(MOCAP_BIN_DIR) + "/mocapd --config " + config;
+  const int status = std::system((command + " <&- >&- 2>&-").c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(MocapdTest, WhatTheStartRefusesTheCheckRefusesWithTheSameWords) {
+  WriteEmptyTake(folder_.path() / "take");
+  testing::WriteText(folder_.path() / "file", "x");
+  const std::string take = "driver = \"take\"\ntake = \"take\"\n";
+  const std::pair<std::string, std::string> wrong[] = {
+      {"driver = \"simulated\"\ncameras = 40\nwidth = 32\nheight = 32\n", ""},
+      {take, "[realtime]\nprocessors = [1023]\n"},
+      {take, "[metrics]\nfile = \"m.txt\"\n"},
+      {take, "[metrics]\nfile = \"nowhere/m.prom\"\n"},
+      {take, "[recording]\nfolder = \"file/takes\"\n"},
+      {take, "[control]\nsocket = \"file\"\n"},
+      {take, "[control]\nsocket = \"file/control\"\n"},
+      {take, "[control]\nsocket = \"" + std::string(200, 'x') + "\"\n"}};
+  for (const auto& [source, more] : wrong) {
+    const std::string config = WriteConfig(source, more);
+    Daemon start({"--config", config}, log_);
+    EXPECT_EQ(start.Wait(), 2) << source << more;
+    const std::string said = start.Errors();
+    Daemon check({"--config", config, "--check-config"}, log_);
+    EXPECT_EQ(check.Wait(), 2) << source << more;
+    EXPECT_THAT(said, HasSubstr(check.Errors())) << source << more;
+  }
+  for (const char* url : {"udpm://192.168.1.5:7667", "udpm://239.255.76.67:7667?ttl=300",
+                          "tcpq://127.0.0.1:9", "file:///nowhere/x?mode=w", "file:///tmp/x"}) {
+    const std::string config = folder_.path() / "url.toml";
+    testing::WriteText(config, "[source]\n" + take + "[lcm]\nurl = \"" + url + "\"\n");
+    EXPECT_EQ(Daemon({"--config", config}, log_).Wait(), 2) << url;
+    EXPECT_EQ(Daemon({"--config", config, "--check-config"}, log_).Wait(), 2) << url;
+  }
+}
+
+TEST_F(MocapdTest, CheckConfigLeavesNothing) {
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string config = folder_.path() / "mocapd.toml";
+  testing::WriteText(config,
+                     "[source]\ndriver = \"take\"\ntake = \"take\"\n[lcm]\nurl = \"file://" +
+                         (folder_.path() / "log.lcm").string() +
+                         "?mode=w\"\n[recording]\nfolder = \"takes\"\n[metrics]\nfile = "
+                         "\"m.prom\"\n[control]\nsocket = \"run/control\"\n");
+  Daemon check({"--config", config, "--check-config"}, log_);
+  EXPECT_EQ(check.Wait(), 0) << check.Errors();
+  std::vector<std::string> there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    there.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(there, ::testing::UnorderedElementsAre("take", "mocapd.toml", "errors"));
 }
 
 TEST_F(MocapdTest, CheckConfigAcceptsWhatCanBeUsed) {

@@ -38,6 +38,39 @@ std::string Pattern(const std::string& text) {
   return std::regex_replace(without_names, std::regex(R"([-+]?\d+([.:]\d+)*)"), "#");
 }
 
+/// What goes wrong around cameras that are good.
+std::vector<ServiceReport> SilentReports() {
+  ServiceReport good;
+  good.lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  good.fps_nominal = 25;
+  good.takes = "/takes";
+  good.now.window_ns = 4'000'000'000;
+  for (const char* name : {"cam1", "cam2"}) {
+    CameraStatus& camera = good.now.status.cameras.emplace_back();
+    camera.name = name;
+    camera.state = CameraState::kStreaming;
+  }
+  good.now.frames_per_second = {25, 25};
+  good.now.late_per_second = {0, 0};
+  std::vector<ServiceReport> reports(6, good);
+  reports[0].now.frames_per_second = {0, 0};
+  reports[1].now.frames_per_second = {25, 0};
+  reports[2].now.sets_per_second = 25;
+  reports[2].now.sets_partial_lately = 1;
+  reports[3].now.sets_per_second = 25;
+  reports[3].now.late_per_second = {25, 0};
+  reports[4].age_ns = 12'000'000'000;
+  reports[4].disk_stall_ns = 12'000'000'000;
+  reports[4].takes_problem = "Read-only file system";
+  reports[4].metrics_problem = "/m.prom";
+  reports[4].log_fails = true;
+  reports[4].delivery.problem = "Network is unreachable";
+  reports[5].delivery.channel = {
+      .reaches_nobody = true, .other_sender = true, .silent_ns = 12'000'000'000};
+  reports.emplace_back();
+  return reports;
+}
+
 /// Everything goes wrong that can.
 std::vector<std::string> EveryComplaint() {
   ServiceReport report;
@@ -84,6 +117,10 @@ std::vector<std::string> EveryComplaint() {
     report.now.status.sets_complete = worked_on;
     const std::vector<std::string> without_sets = Complaints(report);
     all.insert(without_sets.begin(), without_sets.end());
+  }
+  for (ServiceReport& silent : SilentReports()) {
+    const std::vector<std::string> some = Complaints(silent);
+    all.insert(some.begin(), some.end());
   }
   return {all.begin(), all.end()};
 }

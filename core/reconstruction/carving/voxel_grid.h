@@ -29,6 +29,15 @@ class VoxelGrid {
     words_.assign(words, 0);
   }
 
+  /// Gives the memory back; there are no voxels then.
+  void Release() {
+    size_ = Eigen::Vector3i::Zero();
+    words_per_row_ = 0;
+    std::vector<std::uint64_t>().swap(words_);
+  }
+  /// Memory that it keeps.
+  std::size_t capacity_bytes() const { return words_.capacity() * sizeof(std::uint64_t); }
+
   double voxel_mm() const { return voxel_mm_; }
   const Eigen::Vector3i& size() const { return size_; }
   /// Index of the first voxel counted from the world's origin.

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <limits>
 #include <thread>
 
 #include "config/open_studio.h"
@@ -45,6 +44,8 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
+constexpr double kFrame_mb = 3e-6 * testing::kFakeWidth * testing::kFakeHeight;
+
 class RecordingTest : public ::testing::Test {
  protected:
   static RecordedStudio TwoCameras() {
@@ -62,10 +63,8 @@ class RecordingTest : public ::testing::Test {
     config_.keep_free_mb = 0;
   }
 
-  /// What a camera's thread does with a frame. @param offered_ns  mostly such that none is too old,
-  /// however slow this computer is. @return whether it was taken.
-  bool Offer(int camera, std::uint64_t sequence,
-             std::int64_t offered_ns = std::numeric_limits<std::int64_t>::max()) {
+  /// What a camera's thread does with a frame. @return whether it was taken.
+  bool Offer(int camera, std::uint64_t sequence, std::int64_t offered_ns = 0) {
     bool is_taken = false;
     const Image<Bgr> picture = FakeRoom(static_cast<int>(sequence));
     Frame frame;
@@ -119,15 +118,26 @@ TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {
   EXPECT_FALSE(studio.cameras[0].background().empty());
 }
 
-TEST_F(RecordingTest, FramesHeldBackAreCountedUpToTheEnd) {
-  const std::filesystem::path take = recorder_->Start("one", config_, {});
-  Offer(0, 0);
+TEST_F(RecordingTest, FramesThatWaitForPosesAreKept) {
+  recorder_->Start("one", config_, {});
   recorder_->taps().frames[0].Hold(true);
-  EXPECT_FALSE(Offer(0, 1));
-  EXPECT_FALSE(Offer(0, 2));
-  EXPECT_EQ(recorder_->Stop().dropped, 2);
-  EXPECT_THAT(testing::ReadText(TakeLayout{take}.Description()),
-              HasSubstr("dropped_while_recording_cam1 = \"2\""));
+  for (std::uint64_t i = 0; i < 3; ++i) EXPECT_TRUE(Offer(0, i));
+  Offer(1, 0);
+  const RecordingStatus status = recorder_->Stop();
+  EXPECT_EQ(status.frames, 4);
+  EXPECT_EQ(status.dropped, 0);
+}
+
+TEST_F(RecordingTest, FramesThatWaitForPosesAreWrittenBeforeTheyAreLost) {
+  config_.buffer_mb = 10 * kFrame_mb * 2;
+  recorder_->Start("one", config_, {});
+  recorder_->taps().frames[0].Hold(true);
+  std::uint64_t next = 0;
+  while (recorder_->Status().frames == 0) {
+    if (recorder_->Status().waiting < 8) Offer(0, next++);
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(recorder_->Status().dropped, 0);
 }
 
 TEST_F(RecordingTest, WhileItRunsTheTakeOpensAsPartial) {
@@ -201,17 +211,22 @@ TEST_F(RecordingTest, AFullQueueLosesTheOldestAndSaysSo) {
   });
 }
 
-TEST_F(RecordingTest, WhatWaitedTooLongIsLeftOutAndCounted) {
+TEST_F(RecordingTest, NoFrameIsTooOldToBeWritten) {
   const std::filesystem::path take = recorder_->Start("one", config_, {});
-  Offer(0, 0);
-  Offer(1, 0);
-  Offer(0, 1, 0);
-  while (recorder_->Status().dropped < 1) std::this_thread::yield();
-  Offer(0, 2);
+  constexpr std::int64_t kLongAgoNs = 1;
+  for (std::uint64_t i = 0; i < 3; ++i) Offer(0, i, kLongAgoNs);
+  Offer(1, 0, kLongAgoNs);
   const RecordingStatus status = recorder_->Stop();
-  EXPECT_EQ(status.frames, 3);
-  EXPECT_EQ(status.dropped, 1);
-  EXPECT_EQ(ReadTakeTable(TakeLayout{take}.Table("cam1")).rows.back().frame, 2u);
+  EXPECT_EQ(status.frames, 4);
+  EXPECT_EQ(status.dropped, 0);
+  EXPECT_EQ(ReadTakeTable(TakeLayout{take}.Table("cam1")).rows.size(), 3u);
+}
+
+TEST_F(RecordingTest, MemoryHoldsAsManyFramesAsTheBufferIsLarge) {
+  config_.buffer_mb = 50 * kFrame_mb * 2;
+  recorder_->Start("one", config_, {});
+  EXPECT_GE(recorder_->taps().frames[0].queue().capacity(), 49u);
+  EXPECT_LE(recorder_->taps().frames[0].queue().capacity(), 50u);
 }
 
 TEST_F(RecordingTest, ACameraThatCannotBeWrittenLeavesTheOthersTheirLastFrames) {

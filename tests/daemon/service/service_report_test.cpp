@@ -60,7 +60,8 @@ TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
   report.now.frames_per_second[0] = 0;
   report.now.frames_per_second[1] = 20;
   EXPECT_THAT(Complaints(report),
-              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 gives 20.0 of 25.0")));
+              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 gives 20.0 of 25.0"),
+                          StartsWith("only cam2 delivers frames")));
   EXPECT_THAT(ReportText(report), StartsWith("! cam1 is lost"));
   EXPECT_THAT(ReportLine(report), HasSubstr("1 of 2 cameras; cam1 is lost"));
 }
@@ -98,6 +99,94 @@ TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
               ElementsAre(StartsWith("no frame sets come about, though 2 of 2")));
   report.now.frames_per_second = {0, 0};
   EXPECT_THAT(Complaints(report), IsEmpty()) << "nothing was counted yet";
+}
+
+TEST(ServiceReport, CamerasThatAllFallSilentAreNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.frames_per_second = {0, 0};
+  report.now.window_ns = 4'000'000'000;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("no camera delivers frames")));
+  for (CameraStatus& camera : report.now.status.cameras) camera.state = CameraState::kLost;
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 is lost")))
+      << "each is told by itself";
+}
+
+TEST(ServiceReport, OneCameraAloneIsNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.frames_per_second = {25, 0};
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("only cam1 delivers frames")));
+  report.now.status.cameras.pop_back();
+  report.now.frames_per_second = {25};
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("only cam1 delivers frames")));
+  report.now.sets_per_second = 25;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("only cam1 delivers frames")))
+      << "sets of one picture carve nobody";
+}
+
+TEST(ServiceReport, SetsThatNeverAreCompleteAreNotGood) {
+  ServiceReport report = Good();
+  report.now.late_per_second = {0, 0};
+  report.now.sets_partial_lately = 100;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("no frame set is complete")));
+  report.now.late_per_second = {0, 25};
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("frames come too late for their sets: cam2: ")));
+  report.now.sets_complete_lately = 100;
+  report.now.late_per_second = {0, 1};
+  EXPECT_THAT(Complaints(report), IsEmpty()) << "now and then is no matter";
+}
+
+TEST(ServiceReport, PosesThatReachNobodyAreNotGood) {
+  ServiceReport report = Good();
+  report.lcm_url = "udpm://x";
+  report.delivery.problem = "Network is unreachable";
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("poses cannot be sent to udpm://x: Network is unreachable")));
+  report.delivery = {};
+  report.delivery.channel.silent_ns = 9'000'000'000;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("no message on udpm://x has come back")));
+  report.delivery = {};
+  report.delivery.channel.other_sender = true;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("another mocapd, or a log")));
+  report.delivery = {};
+  report.delivery.channel.reaches_nobody = true;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("poses reach nobody outside")));
+}
+
+TEST(ServiceReport, WhatNobodyRenewedIsNotGood) {
+  ServiceReport report = Good();
+  report.age_ns = 3'000'000'000;
+  EXPECT_THAT(Complaints(report), IsEmpty());
+  report.age_ns = 12'000'000'000;
+  EXPECT_THAT(Complaints(report), ElementsAre(StartsWith("nothing has been heard of mocapd")));
+  EXPECT_THAT(Complaints(ServiceReport{}), ElementsAre(StartsWith("nothing is known yet")));
+}
+
+TEST(ServiceReport, ADiskThatFailsOrStallsIsNotGood) {
+  ServiceReport report = Good();
+  report.takes = "/takes";
+  report.disk_stall_ns = 12'000'000'000;
+  report.takes_problem = "Read-only file system";
+  report.metrics_problem = "/m.prom";
+  report.log_fails = true;
+  EXPECT_THAT(
+      Complaints(report),
+      ElementsAre(StartsWith("the disk has not answered for 12 s"),
+                  StartsWith("takes cannot be written to /takes: Read-only file system"),
+                  "the figures cannot be written to /m.prom", StartsWith("the log cannot be")));
+}
+
+TEST(ServiceReport, WhatARecordingLostIsToldWithItsCause) {
+  ServiceReport report = Good();
+  report.recording.state = RecordingStatus::State::kRunning;
+  report.recording.dropped = 12;
+  report.recording.cause = LossCause::kOtherWork;
+  EXPECT_THAT(Complaints(report),
+              ElementsAre(StartsWith("12 frames had no room in the recording: the processor had "
+                                     "other work")));
 }
 
 TEST(ServiceReport, DoesNotBlameCamerasForASetThatTakesLong) {
@@ -170,8 +259,8 @@ TEST(MetricsFile, HasOneHeadForEachFamilyAndOneSampleForEachCamera) {
 
 TEST(MetricsFile, APlaceThatCannotBeWrittenIsWeather) {
   const testing::TemporaryFolder folder;
-  EXPECT_TRUE(WriteMetrics(folder.path() / "mocapd.prom", Good()));
-  EXPECT_FALSE(WriteMetrics(folder.path() / "nowhere" / "mocapd.prom", Good()));
+  EXPECT_TRUE(WriteMetrics(folder.path() / "mocapd.prom", MetricsText(Good())));
+  EXPECT_FALSE(WriteMetrics(folder.path() / "nowhere" / "mocapd.prom", MetricsText(Good())));
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+// Whether the daemon's messages arrive, and whether somebody else sends on its channels.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "config/config.h"
+#include "daemon/messages/lcm_sender.h"
+
+namespace mocap {
+
+/// What was heard lately.
+struct ChannelStatus {
+  bool reaches_nobody = false;  ///< Messages stay in this process.
+  bool other_sender = false;    ///< Somebody else sends on the same channels.
+  /// How long none of the daemon's own messages came back, though it sends them; 0: they do, or
+  /// nothing is known of that.
+  std::int64_t silent_ns = 0;
+};
+
+/// Tells one's own statuses from others' by their times. Thread-safe.
+class StatusRegister {
+ public:
+  /// Before it is sent.
+  void NoteSent(std::int64_t utime, std::int64_t now_ns);
+  void NoteHeard(std::int64_t utime, std::int64_t now_ns);
+  ChannelStatus Status(std::int64_t now_ns) const;
+
+ private:
+  static constexpr std::int64_t kNever = -1;
+
+  mutable std::mutex mutex_;
+  std::deque<std::int64_t> sent_;
+  std::int64_t unheard_since_ns_ = kNever;
+  std::int64_t other_ns_ = kNever;
+};
+
+/// Hears the daemon's own status channel in a thread of its own; opens the way in anew when nothing
+/// is heard, because a route may have changed. Where LCM needs a server, asks whether that answers
+/// after it was lost.
+class ChannelWatch {
+ public:
+  /// @param sender  borrowed for the watch's life.
+  ChannelWatch(const LcmConfig& config, LcmSender& sender);
+  ~ChannelWatch();
+
+  /// A status is about to be sent.
+  void NoteSent(std::int64_t utime);
+  ChannelStatus Status() const;
+
+ private:
+  void Run();
+  void Listen();
+  void AskServer();
+
+  const LcmConfig config_;
+  const LcmUrl address_;
+  LcmSender& sender_;
+  StatusRegister register_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,26 @@
+// Ways in and out of LCM.
+#pragma once
+
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <string>
+
+#include "config/lcm_url.h"
+
+namespace mocap {
+
+/// Opens a way to publish.
+/// @throws SetupError  when there is none; without a multicast route it names the command that adds
+///                     one.
+std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
+
+/// Looks whether OpenLcm would succeed, and leaves no file and no message. @throws SetupError
+void CheckLcm(const std::string& url);
+
+/// Whether the kernel knows where to send LCM's multicast.
+bool HasMulticastRoute();
+
+/// Whether a server accepts connections there. Waits for a second at most.
+bool TcpServerAnswers(const LcmUrl& address);
+
+}  // namespace mocap

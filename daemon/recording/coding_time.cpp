@@ -1,0 +1,49 @@
+#include "daemon/recording/coding_time.h"
+
+#include <fstream>
+
+namespace mocap {
+
+std::optional<ThreadTimes> ReadThreadTimes(pid_t thread) {
+  std::ifstream in("/proc/self/task/" + std::to_string(thread) + "/schedstat");
+  ThreadTimes times;
+  if (!(in >> times.ran_ns >> times.queued_ns)) return std::nullopt;
+  return times;
+}
+
+LossCause CauseOf(const CodingTime& time, int processors) {
+  /// A share of the time that is more than chance.
+  constexpr double kMuch = 0.4;
+  const auto all_ns = static_cast<double>(time.all_ns());
+  if (all_ns <= 0) return LossCause::kUnknown;
+  const auto share = [all_ns](std::int64_t part_ns) {
+    return static_cast<double>(part_ns) / all_ns;
+  };
+  if (share(time.blocked_ns) > kMuch) return LossCause::kDisk;
+  if (share(time.held_ns) > kMuch) return LossCause::kPoses;
+  // Threads that are many enough keep each other from the processor.
+  const double own = static_cast<double>(time.ran_ns) /
+                     (static_cast<double>(time.wall_ns) * static_cast<double>(processors));
+  const bool take_all = time.wall_ns > 0 && own > kMuch;
+  return take_all || time.ran_ns > time.queued_ns ? LossCause::kCodec : LossCause::kOtherWork;
+}
+
+std::string TextOf(LossCause cause) {
+  switch (cause) {
+    case LossCause::kUnknown:
+      break;
+    case LossCause::kOtherWork:
+      return "the processor had other work: stop other programs, or give this one more memory "
+             "with recording.buffer_mb";
+    case LossCause::kCodec:
+      return "the codec is too slow on this processor: set recording.codec to \"huffyuv\" or "
+             "\"raw\"";
+    case LossCause::kDisk:
+      return "the disk is too slow: a faster one, or a codec that writes less, is wanted";
+    case LossCause::kPoses:
+      return "poses were late and came first: larger voxels or fewer frames a second are wanted";
+  }
+  return "neither processor nor disk tells why; more memory is wanted: recording.buffer_mb";
+}
+
+}  // namespace mocap

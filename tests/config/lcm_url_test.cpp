@@ -1,0 +1,59 @@
+#include "config/lcm_url.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(LcmUrl, TakesApartWhatLcmKnows) {
+  const LcmUrl usual = ParseLcmUrl("udpm://239.255.76.67:7667?ttl=0");
+  EXPECT_EQ(usual.provider, LcmProvider::kMulticast);
+  EXPECT_EQ(usual.host, "239.255.76.67");
+  EXPECT_EQ(usual.port, 7667);
+  EXPECT_EQ(ParseLcmUrl("udpm://").port, 7667) << "LCM's default";
+  EXPECT_EQ(ParseLcmUrl("udpm://239.0.0.1:1?ttl=255&recv_buf_size=100000").host, "239.0.0.1");
+  EXPECT_EQ(ParseLcmUrl("mpudpm://239.255.76.67:7667?nports=10").provider, LcmProvider::kMulticast);
+  EXPECT_EQ(ParseLcmUrl("tcpq://host:77").host, "host");
+  EXPECT_EQ(ParseLcmUrl("tcpq://").port, 7700);
+  EXPECT_EQ(ParseLcmUrl("memq://").provider, LcmProvider::kMemory);
+  const LcmUrl log = ParseLcmUrl("file:///tmp/x.lcm?mode=w");
+  EXPECT_EQ(log.file, "/tmp/x.lcm");
+  EXPECT_TRUE(log.is_written);
+  EXPECT_FALSE(ParseLcmUrl("file:///tmp/x.lcm").is_written) << "LCM's default is to read";
+}
+
+TEST(LcmUrl, RefusesWhatLcmPassesOver) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"udpm:239.255.76.67:7667", "is no LCM address"},
+      {"updm://239.255.76.67:7667", "begins with updm"},
+      {"udpm://192.168.1.5:7667", "is no multicast address"},
+      {"udpm://239.255.76.67", "no address with a port"},
+      {"udpm://239.255.76.67:0", "no address with a port"},
+      {"udpm://239.255.76.67:99999", "no address with a port"},
+      {"udpm://239.255.76.67:7667?ttl=300", "a number of 0 to 255"},
+      {"udpm://239.255.76.67:7667?ttl=-1", "a number of 0 to 255"},
+      {"udpm://239.255.76.67:7667?ttl=", "a number of 0 to 255"},
+      {"udpm://239.255.76.67:7667?tll=1", "unknown option tll"},
+      {"udpm://239.255.76.67:7667?nports=3", "unknown option nports"},
+      {"tcpq://host", "no address with a port"},
+      {"file://?mode=w", "names no file"},
+      {"file:///tmp/x?mode=x", "mode=x"},
+      {"memq://?ttl=0", "has options"}};
+  for (const auto& [url, what] : wrong) {
+    try {
+      ParseLcmUrl(url);
+      ADD_FAILURE() << url;
+    } catch (const SetupError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(what)) << url;
+      EXPECT_THAT(error.what(), HasSubstr(url));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,120 @@
+#include "daemon/messages/channel_watch.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <mocap/status_t.hpp>
+#include <thread>
+
+#include "core/errors.h"
+#include "daemon/messages/open_lcm.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+TEST(StatusRegister, OnesOwnStatusesAreNobodyElses) {
+  StatusRegister heard;
+  for (int i = 0; i < 100; ++i) {
+    heard.NoteSent(1000 + i, i * kSecond);
+    heard.NoteHeard(1000 + i, i * kSecond + 1);
+    EXPECT_FALSE(heard.Status(i * kSecond + 2).other_sender);
+    EXPECT_EQ(heard.Status(i * kSecond + 2).silent_ns, 0);
+  }
+}
+
+TEST(StatusRegister, AStatusThatOneDidNotSendIsSomebodyElsesForAWhile) {
+  StatusRegister heard;
+  heard.NoteSent(1, 0);
+  heard.NoteHeard(2, kSecond);
+  EXPECT_TRUE(heard.Status(2 * kSecond).other_sender);
+  EXPECT_FALSE(heard.Status(60 * kSecond).other_sender) << "it has ended";
+}
+
+TEST(StatusRegister, StatusesThatDoNotComeBackAreTold) {
+  StatusRegister heard;
+  for (int i = 0; i < 8; ++i) heard.NoteSent(i, i * kSecond);
+  EXPECT_EQ(heard.Status(8 * kSecond).silent_ns, 8 * kSecond);
+  heard.NoteHeard(7, 8 * kSecond);
+  EXPECT_EQ(heard.Status(9 * kSecond).silent_ns, 0);
+}
+
+TEST(StatusRegister, SaysNothingBeforeSomethingWasSent) {
+  const StatusRegister heard;
+  EXPECT_EQ(heard.Status(60 * kSecond).silent_ns, 0);
+}
+
+TEST(ChannelWatch, WhatStaysInTheProcessReachesNobody) {
+  LcmConfig config;
+  config.url = "memq://";
+  lcm::LCM lcm(config.url);
+  LcmSender sender(lcm, LcmProvider::kMemory);
+  EXPECT_TRUE(ChannelWatch(config, sender).Status().reaches_nobody);
+}
+
+class MulticastChannel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasMulticastRoute()) GTEST_SKIP() << "there is no multicast route";
+    config_.url = "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 40000) + "?ttl=0";
+  }
+  void Send(lcm::LCM& lcm, const std::string& channel, std::int64_t utime) {
+    status_t status{};
+    status.utime = utime;
+    lcm.publish(channel, &status);
+  }
+  LcmConfig config_;
+};
+
+TEST_F(MulticastChannel, AnotherSenderOfTheSamePrefixIsHeardAndOneOfAnotherIsNot) {
+  lcm::LCM lcm(config_.url);
+  LcmSender sender(lcm, LcmProvider::kMulticast);
+  config_.prefix = "a.b_";
+  ChannelWatch watch(config_, sender);
+  std::int64_t utime = 0;
+  // Until the watch listens, nothing comes back.
+  watch.NoteSent(++utime);
+  Send(lcm, "axb_MOCAP_STATUS", 1'000'000);
+  Send(lcm, "a.b_MOCAP_STATUS", utime);
+  EXPECT_FALSE(watch.Status().other_sender);
+  while (!watch.Status().other_sender) {
+    Send(lcm, "a.b_MOCAP_STATUS", 2'000'000);
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(watch.Status().other_sender);
+  EXPECT_FALSE(watch.Status().reaches_nobody);
+}
+
+TEST(LcmSender, AMessageThatCannotBeSentIsCountedWithItsReason) {
+  // Writing to this device fails as on a full disk.
+  lcm::LCM lcm("file:///dev/full?mode=w");
+  LcmSender sender(lcm, LcmProvider::kFile);
+  const std::string much(100'000, 'x');
+  for (int i = 0; i < 3; ++i) sender.Send("X", much.data(), much.size());
+  EXPECT_GT(sender.Status().failed, 0);
+  EXPECT_EQ(sender.Status().error, ENOSPC);
+  EXPECT_GT(sender.Status().last_failed_ns, 0);
+}
+
+TEST(LcmSender, ALostServerIsNotAskedForEachMessage) {
+  lcm::LCM lcm("memq://");
+  LcmSender sender(lcm, LcmProvider::kTcp);
+  EXPECT_TRUE(sender.Send("X", "x", 1));
+  EXPECT_FALSE(sender.is_down());
+}
+
+TEST(OpenLcm, AServerThatIsNotThereIsRefusedAtOnceAndInOneLine) {
+  // The port of a service that nobody has.
+  for (const auto& open : {+[](const std::string& url) { OpenLcm(url); }, +CheckLcm}) {
+    EXPECT_THROW(open("tcpq://127.0.0.1:9"), SetupError);
+  }
+}
+
+TEST(OpenLcm, ALogThatCannotBeWrittenIsRefused) {
+  EXPECT_THROW(OpenLcm("file:///nowhere/x.lcm?mode=w"), SetupError);
+  EXPECT_THROW(CheckLcm("file:///nowhere/x.lcm?mode=w"), SetupError);
+}
+
+}  // namespace
+}  // namespace mocap
