@@ -196,7 +196,8 @@ KnownDistance ParseDistance(const std::string& text) {
     distance.to = text.substr(first + 1, second - first - 1);
     char* end = nullptr;
     distance.mm = std::strtod(text.c_str() + second + 1, &end);
-    if (*end == '\0' && distance.mm > 0 && distance.from != distance.to) return distance;
+    const bool is_length = std::isfinite(distance.mm) && distance.mm > 0;
+    if (*end == '\0' && is_length && distance.from != distance.to) return distance;
   }
   throw SetupError("--distance " + Quoted(text) + ": wanted is CAMERA:CAMERA:MM");
 }
