@@ -152,6 +152,7 @@ void ExportCameras(const std::string& format, const fs::path& out, const Cameras
   }
   // A name is part of file names, and of texts in which it must not end what it stands in.
   static_cast<void>(CalibrationText(out, cameras));
+  if (!IsFolderFormat(format)) RequireWritable(out);
   const std::vector<TextFile> files = TextsOf(format, out, cameras, options.unit_mm);
   const ScratchFolder scratch;
   for (const TextFile& file : files)
