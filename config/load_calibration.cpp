@@ -1,4 +1,3 @@
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +10,6 @@
 namespace mocap {
 namespace {
 
-constexpr int kLargestSide_px = 16384;
 constexpr double kRotationTolerance = 1e-3;
 
 Matrix3 ReadRotation(TomlSection& camera) {
@@ -25,8 +23,7 @@ Matrix3 ReadRotation(TomlSection& camera) {
     camera.Fail("rotation", "is a reflection; a rotation, whose determinant is +1, is wanted");
   }
   // Inverses are taken by transposing, so digits that a person left out are put back.
-  const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return error < 1e-12 ? R : Matrix3(svd.matrixU() * svd.matrixV().transpose());
+  return NearestRotation(R);
 }
 
 Vector3 ReadAxis(TomlSection& head, const std::string& key) {
@@ -46,9 +43,16 @@ Matrix3 ReadPinhole(TomlSection& camera) {
   return K;
 }
 
-template <typename OpenCvOrFisheye>
 Lens ReadOpenCvLens(TomlSection& camera) {
-  OpenCvOrFisheye lens;
+  OpenCvLens lens;
+  lens.K = ReadPinhole(camera);
+  const std::vector<double> numbers = camera.Numbers("distortion", 5, lens.distortion.size());
+  std::copy(numbers.begin(), numbers.end(), lens.distortion.begin());
+  return lens;
+}
+
+Lens ReadFisheyeLens(TomlSection& camera) {
+  FisheyeLens lens;
   lens.K = ReadPinhole(camera);
   const std::vector<double> numbers = camera.Numbers("distortion", lens.distortion.size());
   std::copy(numbers.begin(), numbers.end(), lens.distortion.begin());
@@ -75,9 +79,9 @@ Lens ReadLens(TomlSection& camera) {
     case 0:
       return ReadTsaiLens(camera);
     case 1:
-      return ReadOpenCvLens<OpenCvLens>(camera);
+      return ReadOpenCvLens(camera);
     default:
-      return ReadOpenCvLens<FisheyeLens>(camera);
+      return ReadFisheyeLens(camera);
   }
 }
 
@@ -99,7 +103,7 @@ CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
   camera.name = name;
   const std::vector<double> size = section.Numbers("size_px", 2);
   for (const double side : size) {
-    if (!(side >= 1 && side <= kLargestSide_px && side == std::floor(side))) {
+    if (!(side >= 1 && side <= kLargestPicture_px && side == std::floor(side))) {
       section.Fail("size_px", "is no size of a picture; [width, height] in pixels is wanted");
     }
   }

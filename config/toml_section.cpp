@@ -149,6 +149,37 @@ std::vector<double> TomlSection::Numbers(const std::string& key, std::size_t cou
   return numbers;
 }
 
+std::vector<double> TomlSection::Numbers(const std::string& key, std::size_t few,
+                                         std::size_t many) {
+  const std::string wanted =
+      "an array of " + std::to_string(few) + " or " + std::to_string(many) + " numbers";
+  const toml::array* array = Need(key, wanted).as_array();
+  if (array && array->size() == many) return Numbers(key, many);
+  if (array && array->size() == few) return Numbers(key, few);
+  Fail(key, "is " + Shown(Need(key, wanted)) + "; " + wanted + " is wanted");
+}
+
+std::vector<double> TomlSection::AllNumbers(const std::string& key) {
+  if (!Has(key)) return {};
+  const std::string wanted = "an array of numbers";
+  std::vector<double> numbers;
+  const toml::node& node = Need(key, wanted);
+  if (!node.is_array()) Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+  for (const toml::node& element : *node.as_array()) {
+    if (const toml::array* row = element.as_array()) {
+      for (const toml::node& inner : *row) numbers.push_back(NumberFrom(inner, key, wanted));
+    } else {
+      numbers.push_back(NumberFrom(element, key, wanted));
+    }
+  }
+  return numbers;
+}
+
+bool TomlSection::IsTable(const std::string& key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && node->is_table();
+}
+
 std::vector<int> TomlSection::Integers(const std::string& key, int min, int max) {
   if (!Has(key)) return {};
   const std::string wanted = "an array of whole numbers from " + std::to_string(min) + " to " +
@@ -222,11 +253,15 @@ void TomlSection::RejectUnknownKeys() const {
   }
 }
 
-void TomlSection::Fail(const std::string& key, const std::string& what) const {
+std::string TomlSection::Where(const std::string& key) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? node->source() : table_->source()).begin.line;
-  throw SetupError(file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
-                   Shortened(PathOf(key), kLongestKey) + " " + what);
+  return file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
+         Shortened(PathOf(key), kLongestKey);
+}
+
+void TomlSection::Fail(const std::string& key, const std::string& what) const {
+  throw SetupError(Where(key) + " " + what);
 }
 
 const toml::node* TomlSection::Find(const std::string& key) {

@@ -47,10 +47,15 @@ class TomlSection {
                      std::optional<std::size_t> fallback = {});
   std::vector<std::string> Texts(const std::string& key);
   std::vector<double> Numbers(const std::string& key, std::size_t count);
+  /// As many numbers as one of two counts.
+  std::vector<double> Numbers(const std::string& key, std::size_t few, std::size_t many);
+  /// All numbers of an array, or of its rows; none when the key is not there.
+  std::vector<double> AllNumbers(const std::string& key);
   /// Whole numbers within bounds, as many as there are; none when the key is not there.
   std::vector<int> Integers(const std::string& key, int min, int max);
   Vector3 Vector(const std::string& key);
   Matrix3 Matrix(const std::string& key);
+  bool IsTable(const std::string& key) const;
   /// A table in this one; empty when it is not there.
   std::optional<TomlSection> Section(const std::string& key);
   /// An array of tables; empty when it is not there.
@@ -58,6 +63,8 @@ class TomlSection {
 
   /// @throws SetupError  for the first key that was never asked for.
   void RejectUnknownKeys() const;
+  /// Gives "file:line: key", for messages.
+  std::string Where(const std::string& key) const;
   /// Throws: `file:line: key what`.
   [[noreturn]] void Fail(const std::string& key, const std::string& what) const;
 

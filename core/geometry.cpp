@@ -1,5 +1,6 @@
 #include "core/geometry.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +25,12 @@ Vector3 LogRotation(const Matrix3& R) {
   const double sine = q.vec().norm();
   if (sine < 1e-12) return 2 * q.vec();
   return 2 * std::atan2(sine, q.w()) / sine * q.vec();
+}
+
+Matrix3 NearestRotation(const Matrix3& R) {
+  if ((R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-12) return R;
+  const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 RigidTransform RotationAbout(const Vector3& axis, const Vector3& point, double angle) {

@@ -27,6 +27,10 @@ Matrix3 ExpRotation(const Vector3& rotation_vector);
 /// ExpRotation.
 Vector3 LogRotation(const Matrix3& R);
 
+/// Gives the rotation nearest to a matrix that is nearly one, and one itself unchanged.
+/// @param R  with a determinant above 0.
+Matrix3 NearestRotation(const Matrix3& R);
+
 /// Moves points from one frame to another: p_A = R_AB p_B + p_AB.
 struct RigidTransform {
   Matrix3 R = Matrix3::Identity();

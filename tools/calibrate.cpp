@@ -1,6 +1,7 @@
 #include "tools/calibrate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -13,10 +14,10 @@
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibrate_check.h"
+#include "tools/calibrate_convert.h"
 #include "tools/calibrate_live.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibrate_takes.h"
-#include "tools/calibration/exchange.h"
 #include "tools/report/calibration_report.h"
 
 namespace mocap {
@@ -164,60 +165,6 @@ void AddFloor(CLI::App* parent) {
   });
 }
 
-struct ConvertArguments {
-  std::filesystem::path in, out;
-  std::string from = "mocap", to = "mocap";
-  double unit_mm = 1000;
-};
-
-Cameras ReadAny(const ConvertArguments& a) {
-  if (a.from == "pose2sim") return ReadPose2Sim(a.in, a.unit_mm);
-  if (a.from == "easymocap") return ReadEasyMocap(a.in);
-  if (a.from == "opencv") return ReadOpenCvYaml(a.in);
-  if (a.from == "willson") return ReadWillson(a.in);
-  if (a.from == "qualisys") return ReadQualisys(a.in);
-  if (a.from == "vicon") return ReadVicon(a.in);
-  return LoadCalibration(a.in);
-}
-
-void WriteAny(const ConvertArguments& a, const Cameras& cameras) {
-  if (a.to == "pose2sim") return WritePose2Sim(a.out, cameras, a.unit_mm);
-  if (a.to == "easymocap") return WriteEasyMocap(a.out, cameras);
-  if (a.to == "opencv") return WriteOpenCvYaml(a.out, cameras);
-  if (a.to == "willson") return WriteWillson(a.out, cameras);
-  if (a.to == "qualisys") return WriteQualisys(a.out, cameras);
-  if (a.to == "vicon") return WriteVicon(a.out, cameras);
-  WriteCalibration(a.out, cameras);
-}
-
-void AddConvert(CLI::App* parent) {
-  const auto a = std::make_shared<ConvertArguments>();
-  CLI::App* command =
-      parent->add_subcommand("convert", "Calibrations of other programs, in and out");
-  const CLI::IsMember formats(std::vector<std::string>{"mocap", "pose2sim", "easymocap", "opencv",
-                                                       "willson", "qualisys", "vicon"});
-  command->add_option("IN", a->in, "file, or folder for easymocap, opencv and willson")->required();
-  command->add_option("--from", a->from, "format of IN")->capture_default_str()->check(formats);
-  command->add_option("--to", a->to, "format of --out")->capture_default_str()->check(formats);
-  command->add_option("--out", a->out, "file or folder to write")->required();
-  command
-      ->add_option("--unit", a->unit_mm,
-                   "one unit of a pose2sim file in mm (aniposelib's is its board's)")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->callback([a] {
-    const Cameras cameras = ReadAny(*a);
-    const bool has_head =
-        std::any_of(cameras.begin(), cameras.end(),
-                    [](const CameraCalibration& c) { return c.head.has_value(); });
-    if (has_head && a->to != "mocap")
-      throw SetupError("--to " + a->to + ": knows no pan-tilt heads; mocap does");
-    WriteAny(*a, cameras);
-    for (const Finding& finding : CheckCameras(cameras, true))
-      std::fprintf(stdout, "look: %s\n", finding.text.c_str());
-  });
-}
-
 struct TsaiArguments {
   std::filesystem::path points, out;
   std::vector<double> pitch_mm, center_px;
@@ -238,12 +185,31 @@ std::vector<PointSighting> ReadPoints(const std::filesystem::path& file) {
                     &p.pixel.x(), &p.pixel.y()) != 5)
       throw SetupError(file.string() + ":" + std::to_string(number) +
                        ": is not five numbers: xw yw zw Xf Yf");
+    if (!p.p_W.allFinite() || !p.pixel.allFinite())
+      throw SetupError(file.string() + ":" + std::to_string(number) +
+                       ": has a number that is not finite");
     points.push_back(p);
   }
   return points;
 }
 
+void CheckTsaiArguments(const TsaiArguments& a) {
+  const auto is_length = [](double length) { return std::isfinite(length) && length > 0; };
+  if (!std::all_of(a.pitch_mm.begin(), a.pitch_mm.end(), is_length))
+    throw SetupError("--pitch: lengths above 0 are wanted, in mm");
+  if (!is_length(a.sx)) throw SetupError("--sx: a number above 0 is wanted");
+  for (const double center_px : a.center_px) {
+    if (!std::isfinite(center_px)) throw SetupError("--center: pixels are wanted");
+  }
+  for (const int side_px : a.size_px) {
+    if (side_px < 1 || side_px > kLargestPicture_px)
+      throw SetupError("--size: " + std::to_string(side_px) + " is no side of a picture; 1 to " +
+                       std::to_string(kLargestPicture_px) + " pixels are wanted");
+  }
+}
+
 void RunTsai(const TsaiArguments& a) {
+  CheckTsaiArguments(a);
   TsaiSensor sensor;
   sensor.pitch_mm = {a.pitch_mm[0], a.pitch_mm[1]};
   const Vector2 size(a.size_px[0], a.size_px[1]);

@@ -41,6 +41,7 @@ class Progress {
 
 BoardSightings Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
                        bool all_must_see) {
+  for (const std::string& note : footage.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
   const Progress progress;
   SightingOptions options;
   options.still = still;

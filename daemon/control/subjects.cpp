@@ -5,6 +5,7 @@
 
 #include "config/subject_file.h"
 #include "core/errors.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 
@@ -30,7 +31,8 @@ std::vector<std::string> Subjects::Names() const {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+    if (entry.path().extension() == ".toml" && !IsHidden(entry.path()))
+      names.push_back(entry.path().stem());
   }
   std::ranges::sort(names);
   return names;

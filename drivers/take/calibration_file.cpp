@@ -1,10 +1,14 @@
 #include "drivers/take/calibration_file.h"
 
-#include <initializer_list>
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <sstream>
 #include <string>
-#include <type_traits>
 
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "drivers/utc_time.h"
@@ -35,9 +39,25 @@ void Write(std::ostream& out, const TsaiLens& lens) {
       << "pitch_mm = " << Array(lens.pitch_mm) << '\n';
 }
 
-template <typename OpenCvOrFisheye>
-void Write(std::ostream& out, const OpenCvOrFisheye& lens) {
+void Write(std::ostream& out, const OpenCvLens& lens) {
+  const std::span all(lens.distortion);
+  out << "matrix = " << Array(lens.K) << '\n'
+      << "distortion = " << Array(lens.IsRational() ? all : all.first(5)) << '\n';
+}
+
+void Write(std::ostream& out, const FisheyeLens& lens) {
   out << "matrix = " << Array(lens.K) << '\n' << "distortion = " << Array(lens.distortion) << '\n';
+}
+
+bool IsFinite(const TsaiLens& lens) {
+  return std::isfinite(lens.focal_mm) && std::isfinite(lens.kappa1) && std::isfinite(lens.sx) &&
+         lens.center_px.allFinite() && lens.pitch_mm.allFinite();
+}
+
+template <typename OpenCvOrFisheye>
+bool IsFinite(const OpenCvOrFisheye& lens) {
+  return lens.K.allFinite() && std::all_of(lens.distortion.begin(), lens.distortion.end(),
+                                           [](double k) { return std::isfinite(k); });
 }
 
 const char* ModelOf(const Lens& lens) {
@@ -88,17 +108,56 @@ void Write(std::ostream& out, const CalibrationRecord& record) {
   }
 }
 
+// What would stop a reader, or a program that trusts the file.
+std::string FaultOf(const CameraCalibration& camera) {
+  constexpr double kRotationTolerance = 1e-6;
+  if (!IsCameraName(camera.name)) return "its name is none; letters, digits, _ and - are wanted";
+  const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kLargestPicture_px; };
+  if (!is_side(camera.width_px) || !is_side(camera.height_px)) return "its picture has no size";
+  if (!std::visit([](const auto& lens) { return IsFinite(lens); }, camera.lens))
+    return "its lens has a number that is not finite";
+  const Matrix3& R = camera.X_CW.R;
+  const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kRotationTolerance) || !(R.determinant() > 0)) return "its rotation is none";
+  if (!camera.X_CW.p.allFinite()) return "its translation is not finite";
+  if (!camera.head) return "";
+  const PanTiltHead& head = *camera.head;
+  const bool is_finite = head.pan_axis_W.allFinite() && head.pan_point_W.allFinite() &&
+                         head.tilt_axis_W.allFinite() && head.tilt_point_W.allFinite() &&
+                         std::isfinite(head.pan_scale) && std::isfinite(head.tilt_scale) &&
+                         std::isfinite(head.zero.pan_rad) && std::isfinite(head.zero.tilt_rad);
+  return is_finite ? "" : "its head has a number that is not finite";
+}
+
+void RequireSound(const std::filesystem::path& file, std::span<const CameraCalibration> cameras) {
+  const auto fail = [&](const std::string& name, const std::string& what) {
+    throw SetupError(file.string() + ": is not written: camera " + Quoted(name) + ": " + what);
+  };
+  std::set<std::string> names;
+  for (const CameraCalibration& camera : cameras) {
+    if (const std::string fault = FaultOf(camera); !fault.empty()) fail(camera.name, fault);
+    if (!names.insert(camera.name).second) fail(camera.name, "another has its name");
+  }
+}
+
 }  // namespace
 
-void WriteCalibration(const std::filesystem::path& file, std::span<const CameraCalibration> cameras,
-                      const CalibrationRecord& record) {
+std::string CalibrationText(const std::filesystem::path& file,
+                            std::span<const CameraCalibration> cameras,
+                            const CalibrationRecord& record) {
+  RequireSound(file, cameras);
   std::ostringstream out;
   for (const CameraCalibration& camera : cameras) {
     if (&camera != cameras.data()) out << '\n';
     Write(out, camera);
   }
   Write(out, record);
-  ReplaceText(file, out.str());
+  return out.str();
+}
+
+void WriteCalibration(const std::filesystem::path& file, std::span<const CameraCalibration> cameras,
+                      const CalibrationRecord& record) {
+  ReplaceText(file, CalibrationText(file, cameras, record));
 }
 
 }  // namespace mocap

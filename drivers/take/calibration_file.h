@@ -11,6 +11,9 @@
 
 namespace mocap {
 
+/// Pictures are no wider and no higher.
+inline constexpr int kLargestPicture_px = 16384;
+
 /// How far a camera's pictures lie from where the others put the person.
 struct CameraOffset {
   std::string camera;
@@ -27,8 +30,17 @@ struct CalibrationRecord {
   std::vector<CameraOffset> offsets;  ///< What that look found.
 };
 
-/// Writes calibration.toml, every number with all its digits.
-/// @throws std::runtime_error  when the file cannot be written.
+/// Makes the text of calibration.toml, every number with all its digits. What is written can be
+/// read again.
+/// @param file  what messages call it.
+/// @throws SetupError  naming the camera and what is wrong, where that cannot be: a number that is
+/// not finite, a name that is none or another camera's too, a rotation that is none.
+std::string CalibrationText(const std::filesystem::path& file,
+                            std::span<const CameraCalibration> cameras,
+                            const CalibrationRecord& record = {});
+
+/// Writes calibration.toml.
+/// @throws SetupError  as CalibrationText; std::runtime_error  when the file cannot be written.
 void WriteCalibration(const std::filesystem::path& file, std::span<const CameraCalibration> cameras,
                       const CalibrationRecord& record = {});
 

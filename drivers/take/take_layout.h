@@ -16,6 +16,12 @@ inline bool IsCameraName(std::string_view name) {
   });
 }
 
+/// Tells files that other systems leave in folders: those that begin with a dot, as a Mac's
+/// "._cam1.yml" beside cam1.yml.
+inline bool IsHidden(const std::filesystem::path& file) {
+  return file.filename().native().starts_with('.');
+}
+
 /// The files of the take in `folder`.
 struct TakeLayout {
   std::filesystem::path folder;

@@ -1,6 +1,8 @@
 #include "drivers/take/video_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,8 +85,10 @@ class VideoReader::Impl {
     Open();
   }
 
-  int width_px() const { return width_px_; }
-  int height_px() const { return height_px_; }
+  int width_px() const { return turn_.SwapsSides() ? height_px_ : width_px_; }
+  int height_px() const { return turn_.SwapsSides() ? width_px_ : height_px_; }
+  const PictureTurn& turn() const { return turn_; }
+  std::optional<std::int64_t> time_ns() const { return time_ns_; }
 
   void Open() {
     input_ = OpenInput(file_);
@@ -104,15 +108,19 @@ class VideoReader::Impl {
     if (width_px_ > kLargestSide_px || height_px_ > kLargestSide_px) Fail(file_, "is too large");
     row_px_ = (width_px_ + kRowAlignment_px - 1) / kRowAlignment_px * kRowAlignment_px;
     pixels_.resize(static_cast<std::size_t>(row_px_) * (height_px_ + 1));
+    turn_ = TurnOf(*input_->streams[stream_]);
+    if (!turn_.IsNone()) turned_ = Image<Bgr>(width_px(), height_px());
   }
 
   VideoStatus Next() {
     if (first_waits_) {
       first_waits_ = false;
+      KeepTime(frame_->best_effort_timestamp);
       return VideoStatus::kFrame;
     }
     const VideoStatus status = Decode();
     if (status != VideoStatus::kFrame) return status;
+    KeepTime(frame_->best_effort_timestamp);
     const bool whole = frame_->width == width_px_ && frame_->height == height_px_ &&
                        (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 &&
                        frame_->decode_error_flags == 0;
@@ -123,10 +131,10 @@ class VideoReader::Impl {
     Open();
     KeptFrame frame;
     for (ImageView<const Bgr> image; (frame.status = Decoded(image)) != VideoStatus::kEnd;) {
-      frame.image = Image<Bgr>(width_px_, height_px_);
+      frame.image = Image<Bgr>(width_px(), height_px());
       if (frame.status == VideoStatus::kFrame) {
-        for (int y = 0; y < height_px_; ++y)
-          std::copy_n(image.row(y), width_px_, frame.image.row(y));
+        for (int y = 0; y < height_px(); ++y)
+          std::copy_n(image.row(y), width_px(), frame.image.row(y));
       }
       kept_.push_back(std::move(frame));
     }
@@ -163,7 +171,34 @@ class VideoReader::Impl {
     if (status != VideoStatus::kFrame) return status;
     if (!Convert()) return VideoStatus::kBroken;
     image = {pixels_.data(), width_px_, height_px_, row_px_};
+    if (turn_.IsNone()) return status;
+    Turn(turn_, image, turned_.view());
+    image = std::as_const(turned_).view();
     return status;
+  }
+
+  void KeepTime(std::int64_t pts) {
+    time_ns_.reset();
+    if (pts == AV_NOPTS_VALUE) return;
+    time_ns_ = av_rescale_q(pts, input_->streams[stream_]->time_base, {1, 1'000'000'000});
+  }
+
+  // The first frame's own word goes before that of the file.
+  PictureTurn TurnOf(const AVStream& stream) const {
+    std::array<std::int32_t, 9> matrix{};
+    std::size_t size = 0;
+    const std::uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
+    if (const AVFrameSideData* of_frame =
+            av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX)) {
+      data = of_frame->data;
+      size = of_frame->size;
+    }
+    if (data == nullptr || size < sizeof(matrix)) return {};
+    std::memcpy(matrix.data(), data, sizeof(matrix));
+    const std::optional<PictureTurn> turn = TurnFromDisplayMatrix(matrix);
+    if (!turn)
+      Fail(file_, "is to be shown turned by other than quarters; record it without a rotation");
+    return *turn;
   }
 
   // A recording may begin with frames whose key frame was not recorded: they are none of the
@@ -187,6 +222,7 @@ class VideoReader::Impl {
   VideoStatus Pass() {
     if (first_waits_ || !passes_undecoded_) return Next();
     if (!FetchPacket()) return VideoStatus::kEnd;
+    KeepTime(packet_->pts);
     passed_.emplace_back(av_packet_clone(packet_.get()));
     return VideoStatus::kFrame;
   }
@@ -253,6 +289,9 @@ class VideoReader::Impl {
   bool passes_undecoded_ = false;
   std::vector<PacketPtr> passed_;  // Since the last key frame: later ones may need them.
   std::vector<Bgr> pixels_;
+  PictureTurn turn_;
+  Image<Bgr> turned_;
+  std::optional<std::int64_t> time_ns_;
   std::vector<KeptFrame> kept_;  // Empty: frames are decoded when they are read.
   std::size_t next_kept_ = 0;
 };
@@ -264,6 +303,8 @@ VideoReader::~VideoReader() = default;
 
 int VideoReader::width_px() const { return impl_->width_px(); }
 int VideoReader::height_px() const { return impl_->height_px(); }
+const PictureTurn& VideoReader::turn() const { return impl_->turn(); }
+std::optional<std::int64_t> VideoReader::time_ns() const { return impl_->time_ns(); }
 VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(image); }
 VideoStatus VideoReader::Skip() { return impl_->Skip(); }
 void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }

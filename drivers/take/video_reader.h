@@ -1,10 +1,13 @@
 // Video files of any kind that FFmpeg decodes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "core/image.h"
+#include "drivers/take/picture_turn.h"
 
 namespace mocap {
 
@@ -22,14 +25,20 @@ enum class VideoStatus {
 class VideoReader {
  public:
   /// Opens a file and decodes its first frame.
-  /// @throws SetupError  naming the file, when it is missing, is no video or holds no whole frame.
+  /// @throws SetupError  naming the file, when it is missing, is no video, holds no whole frame or
+  /// is to be shown turned by other than quarters.
   explicit VideoReader(const std::filesystem::path& file);
   VideoReader(VideoReader&&) noexcept;
   VideoReader& operator=(VideoReader&&) noexcept;
   ~VideoReader();
 
+  /// The size of the frames as they are given: turned as the file says that they are to be shown.
   int width_px() const;
   int height_px() const;
+  const PictureTurn& turn() const;
+  /// When the frame that was read or passed last is shown, from the file's beginning; empty where
+  /// the file does not tell, or frames come from memory.
+  std::optional<std::int64_t> time_ns() const;
 
   /// Gives the next frame; its pixels stay valid until the next call of Read or Skip.
   VideoStatus Read(ImageView<const Bgr>& image);

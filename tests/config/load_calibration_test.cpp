@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "drivers/take/calibration_file.h"
@@ -77,6 +79,41 @@ TEST_F(Calibration, ComesBackToTheLastBit) {
   EXPECT_EQ(loaded[0].head->pan_scale, 1.03);
   EXPECT_EQ(loaded[0].head->tilt_scale, 1);
   EXPECT_EQ(loaded[0].head->zero, (PanTiltAngles{0, -0.25}));
+}
+
+TEST_F(Calibration, ALensOfOpenCvHasFiveCoefficientsOrEight) {
+  std::vector<CameraCalibration> cameras = AllModels();
+  auto& lens = std::get<OpenCvLens>(cameras[1].lens);
+  WriteCalibration(file_, cameras);
+  EXPECT_EQ(std::get<OpenCvLens>(LoadCalibration(file_)[1].lens).distortion, lens.distortion);
+  EXPECT_EQ(testing::ReadText(file_).find(", 0.0, 0.0, 0.0]\nrotation"), std::string::npos)
+      << "eight are written where five say all";
+  lens.distortion = {1.5, -0.8, 0.001, -0.0005, 0.2, 1.9, -0.6, 0.1};
+  WriteCalibration(file_, cameras);
+  EXPECT_EQ(std::get<OpenCvLens>(LoadCalibration(file_)[1].lens).distortion, lens.distortion);
+}
+
+TEST_F(Calibration, WhatCouldNotBeReadAgainIsNotWritten) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto why = [&](auto change) {
+    std::vector<CameraCalibration> cameras = AllModels();
+    change(cameras[1]);
+    try {
+      WriteCalibration(file_, cameras);
+    } catch (const SetupError& error) {
+      EXPECT_FALSE(std::filesystem::exists(file_));
+      return std::string(error.what());
+    }
+    return std::string("written");
+  };
+  using Camera = CameraCalibration;
+  EXPECT_THAT(why([&](Camera& c) { c.X_CW.p.x() = nan; }), HasSubstr("\"cam2\": its translation"));
+  EXPECT_THAT(why([&](Camera& c) { c.X_CW.R *= 2; }), HasSubstr("its rotation"));
+  EXPECT_THAT(why([&](Camera& c) { std::get<OpenCvLens>(c.lens).distortion[7] = nan; }),
+              HasSubstr("its lens"));
+  EXPECT_THAT(why([&](Camera& c) { c.width_px = 0; }), HasSubstr("its picture"));
+  EXPECT_THAT(why([&](Camera& c) { c.name = "../x"; }), HasSubstr("letters, digits"));
+  EXPECT_THAT(why([&](Camera& c) { c.name = "cam1"; }), HasSubstr("another has its name"));
 }
 
 TEST_F(Calibration, TellsItsAgeAndHealth) {

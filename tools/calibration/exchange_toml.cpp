@@ -1,102 +1,70 @@
 // Pose2Sim, aniposelib, Caliscope.
-#include <toml++/toml.h>
-
+#include <algorithm>
 #include <sstream>
 
+#include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/take/take_layout.h"
-#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "tools/calibration/exchange.h"
 
 namespace mocap {
 namespace {
 
-std::vector<double> Numbers(const toml::table& camera, const char* key, const std::string& where) {
-  std::vector<double> numbers;
-  const auto add = [&](const toml::node& node) {
-    const auto number = node.value<double>();
-    if (!number) throw SetupError(where + key + " holds something that is no number");
-    numbers.push_back(*number);
-  };
-  const toml::array* array = camera[key].as_array();
-  if (array == nullptr)
-    throw SetupError(where + key + " is missing; an array of numbers is wanted");
-  for (const toml::node& node : *array) {
-    if (const toml::array* row = node.as_array()) {
-      for (const toml::node& inner : *row) add(inner);
-    } else {
-      add(node);
-    }
-  }
+ForeignNumbers Numbers(TomlSection& table, const std::string& key) {
+  ForeignNumbers numbers{table.Where(key), table.AllNumbers(key)};
   return numbers;
 }
 
-Matrix3 RowMajor(const std::vector<double>& n) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(n.data());
+ForeignNumbers Needed(TomlSection& table, const std::string& key) {
+  if (!table.Has(key)) table.Fail(key, "is missing; an array of numbers is wanted");
+  return Numbers(table, key);
 }
 
-CameraCalibration ReadCamera(const std::string& name, const toml::table& table,
-                             const std::string& file, double millimetres_per_unit) {
-  const std::string where = file + ": " + name + ".";
-  const std::vector<double> size = Numbers(table, "size", where);
-  const std::vector<double> matrix = Numbers(table, "matrix", where);
-  std::vector<double> distortion = Numbers(table, "distortions", where);
-  const std::vector<double> rotation = Numbers(table, "rotation", where);
-  const std::vector<double> translation = Numbers(table, "translation", where);
-  if (size.size() != 2 || matrix.size() != 9 || translation.size() != 3 ||
-      (rotation.size() != 3 && rotation.size() != 9) || distortion.size() > 5)
-    throw SetupError(where +
-                     "size, matrix, distortions, rotation or translation has another length "
-                     "than 2, 9, up to 5, 3 or 9, and 3");
-  CameraCalibration camera;
-  camera.name = name;
-  camera.width_px = static_cast<int>(size[0]);
-  camera.height_px = static_cast<int>(size[1]);
-  if (table["fisheye"].value_or(false)) {
-    FisheyeLens lens{RowMajor(matrix), {}};
-    distortion.resize(4);
-    std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
-    camera.lens = lens;
-  } else {
-    OpenCvLens lens{RowMajor(matrix), {}};
-    distortion.resize(5);
-    std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
-    camera.lens = lens;
+ForeignCamera ReadCamera(const std::string& key, TomlSection table, double unit_mm) {
+  ForeignCamera camera;
+  camera.where = table.Where("name");
+  camera.name = table.Text("name", key);
+  // Caliscope and aniposelib let people call cameras anything; then the table's own name serves.
+  if (!IsCameraName(camera.name) && IsCameraName(key)) camera.name = key;
+  camera.has_lens = table.Has("matrix");
+  if (!camera.has_lens) return camera;
+  camera.size_px = Needed(table, "size");
+  if (camera.size_px.values.size() < 2) table.Fail("size", "is not [width, height]");
+  camera.is_fisheye = table.Flag("fisheye", false);
+  camera.matrix = Needed(table, "matrix");
+  camera.distortion = Needed(table, "distortions");
+  const auto pose_part = [&](const std::string& part) -> std::optional<ForeignNumbers> {
+    ForeignNumbers numbers = Numbers(table, part);
+    if (numbers.values.empty()) return std::nullopt;
+    return numbers;
+  };
+  camera.rotation = pose_part("rotation");
+  camera.translation_mm = pose_part("translation");
+  if (camera.translation_mm) {
+    for (double& value : camera.translation_mm->values) value *= unit_mm;
   }
-  camera.X_CW.R = rotation.size() == 9 ? RowMajor(rotation)
-                                       : ExpRotation({rotation[0], rotation[1], rotation[2]});
-  camera.X_CW.p = millimetres_per_unit * Vector3(translation[0], translation[1], translation[2]);
   return camera;
 }
 
-std::string List(const double* numbers, int count) {
+std::string List(const double* numbers, std::size_t count) {
   std::string text = "[ ";
-  for (int i = 0; i < count; ++i) text += TomlNumber(numbers[i]) + ", ";
+  for (std::size_t i = 0; i < count; ++i) text += TomlNumber(numbers[i]) + ", ";
   return text + "]";
 }
 
 }  // namespace
 
-Cameras ReadPose2Sim(const std::filesystem::path& file, double millimetres_per_unit) {
-  toml::table root;
-  try {
-    root = toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    std::ostringstream line;
-    line << file.string() << ':' << error.source().begin.line << ": " << error.description();
-    throw SetupError(line.str());
-  }
+std::vector<ForeignCamera> ReadPose2Sim(const std::filesystem::path& file, double unit_mm) {
+  TomlSection root = TomlSection::ReadFile(file);
   // Caliscope has its cameras in a table of their own.
-  const toml::table* tables = root["cameras"].as_table();
-  if (tables == nullptr) tables = &root;
-  Cameras cameras;
-  for (const auto& [key, node] : *tables) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr || !table->contains("matrix")) continue;
-    std::string name = (*table)["name"].value_or(std::string(key.str()));
-    if (!IsCameraName(name)) name = std::string(key.str());
-    cameras.push_back(ReadCamera(name, *table, file.string(), millimetres_per_unit));
+  TomlSection tables = root.IsTable("cameras") ? *root.Section("cameras") : root;
+  std::vector<ForeignCamera> cameras;
+  for (const std::string& key : tables.Keys()) {
+    if (!tables.IsTable(key)) continue;
+    TomlSection table = *tables.Section(key);
+    if (!table.Has("matrix") && !table.Has("size")) continue;
+    cameras.push_back(ReadCamera(key, table, unit_mm));
   }
   if (cameras.empty())
     throw SetupError(file.string() +
@@ -105,27 +73,26 @@ Cameras ReadPose2Sim(const std::filesystem::path& file, double millimetres_per_u
   return cameras;
 }
 
-void WritePose2Sim(const std::filesystem::path& file, const Cameras& cameras,
-                   double millimetres_per_unit) {
+std::vector<TextFile> Pose2SimText(const Cameras& cameras, double unit_mm) {
   std::ostringstream out;
   for (const CameraCalibration& camera : cameras) {
     const auto* fisheye = std::get_if<FisheyeLens>(&camera.lens);
     const OpenCvLens lens = fisheye != nullptr ? OpenCvLens{} : AsOpenCvLens(camera);
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> K = fisheye != nullptr ? fisheye->K : lens.K;
     const Vector3 w = LogRotation(camera.X_CW.R);
-    const Vector3 t = camera.X_CW.p / millimetres_per_unit;
+    const Vector3 t = camera.X_CW.p / unit_mm;
     const double size[2] = {static_cast<double>(camera.width_px),
                             static_cast<double>(camera.height_px)};
     out << '[' << camera.name << "]\nname = " << TomlText(camera.name)
         << "\nsize = " << List(size, 2) << "\nmatrix = [ " << List(K.data(), 3) << ", "
         << List(K.data() + 3, 3) << ", " << List(K.data() + 6, 3) << ",]\ndistortions = "
         << (fisheye != nullptr ? List(fisheye->distortion.data(), 4)
-                               : List(lens.distortion.data(), 5))
+                               : List(lens.distortion.data(), lens.IsRational() ? 8 : 5))
         << "\nrotation = " << List(w.data(), 3) << "\ntranslation = " << List(t.data(), 3)
         << "\nfisheye = " << (fisheye != nullptr ? "true" : "false") << "\n\n";
   }
   out << "[metadata]\nadjusted = true\nerror = 0.0\n";
-  ReplaceText(file, out.str());
+  return {{"", out.str()}};
 }
 
 }  // namespace mocap

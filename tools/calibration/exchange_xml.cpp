@@ -6,8 +6,7 @@
 #include <sstream>
 
 #include "core/errors.h"
-#include "drivers/take/take_layout.h"
-#include "drivers/take/text_file.h"
+#include "drivers/quoted.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration/xml_tags.h"
 
@@ -20,80 +19,114 @@ constexpr int kGrid = 12;
 // Qualisys' cameras look along their negative z with y up.
 const Matrix3 kTurnedOver = Vector3(1, -1, -1).asDiagonal();
 
-std::string NameOf(const XmlTag& tag, const char* key) {
-  const std::string name = tag.Has(key) ? tag.attributes.at(key) : "";
-  return IsCameraName(name) ? name : fmt::format("cam_line{}", tag.line);
+std::string Where(const std::filesystem::path& file, const XmlTag& tag, const std::string& key) {
+  return fmt::format("{}:{}: {}.{}", Printable(file.string()), tag.line, tag.name, key);
+}
+
+ForeignCamera NamedCamera(const std::filesystem::path& file, const XmlTag& tag, const char* key) {
+  if (!tag.Has(key)) throw SetupError(Where(file, tag, key) + " is missing; a name is wanted");
+  ForeignCamera camera;
+  camera.where = Where(file, tag, key);
+  camera.name = tag.attributes.at(key);
+  return camera;
 }
 
 double One(const XmlTag& tag, const std::string& key, const std::filesystem::path& file) {
   return XmlNumbers(tag, key, 1, file)[0];
 }
 
-Lens QualisysLens(const XmlTag& tag, const Vector2& corner_px, const std::filesystem::path& file) {
-  OpenCvLens lens;
-  lens.K << One(tag, "focalLengthU", file) / kQualisysUnits, 0,
-      One(tag, "centerPointU", file) / kQualisysUnits - corner_px.x(), 0,
-      One(tag, "focalLengthV", file) / kQualisysUnits,
-      One(tag, "centerPointV", file) / kQualisysUnits - corner_px.y(), 0, 0, 1;
-  lens.distortion = {One(tag, "radialDistortion1", file), One(tag, "radialDistortion2", file),
-                     One(tag, "tangentalDistortion1", file), One(tag, "tangentalDistortion2", file),
-                     tag.Has("radialDistortion3") ? One(tag, "radialDistortion3", file) : 0};
-  return lens;
+void SetPose(const Matrix3& R_CW, const Vector3& p_WC, const std::string& rotation_where,
+             const std::string& translation_where, ForeignCamera& camera) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = R_CW;
+  const Vector3 t = -(R_CW * p_WC);
+  camera.rotation = ForeignNumbers{rotation_where, {R.data(), R.data() + 9}};
+  camera.translation_mm = ForeignNumbers{translation_where, {t.data(), t.data() + 3}};
 }
 
-RigidTransform QualisysPose(const XmlTag& tag, const std::filesystem::path& file) {
+void TakeQualisysLens(const XmlTag& tag, const Vector2& corner_px,
+                      const std::filesystem::path& file, ForeignCamera& camera) {
+  const auto one = [&](const char* key) { return One(tag, key, file); };
+  camera.matrix = {Where(file, tag, "focalLengthU"),
+                   {one("focalLengthU") / kQualisysUnits, 0,
+                    one("centerPointU") / kQualisysUnits - corner_px.x(), 0,
+                    one("focalLengthV") / kQualisysUnits,
+                    one("centerPointV") / kQualisysUnits - corner_px.y(), 0, 0, 1}};
+  if (tag.Has("skew")) camera.matrix.values[1] = one("skew") / kQualisysUnits;
+  camera.distortion = {
+      Where(file, tag, "radialDistortion1"),
+      {one("radialDistortion1"), one("radialDistortion2"), one("tangentalDistortion1"),
+       one("tangentalDistortion2"), tag.Has("radialDistortion3") ? one("radialDistortion3") : 0}};
+}
+
+void TakeQualisysPose(const XmlTag& tag, const std::filesystem::path& file, ForeignCamera& camera) {
   Matrix3 M;
   for (int i = 0; i < 9; ++i)
     M(i / 3, i % 3) = One(tag, fmt::format("r{}{}", i / 3 + 1, i % 3 + 1), file);
   const Vector3 p_WC(One(tag, "x", file), One(tag, "y", file), One(tag, "z", file));
-  RigidTransform X_CW;
-  X_CW.R = kTurnedOver * M;
-  X_CW.p = -(X_CW.R * p_WC);
-  return X_CW;
+  SetPose(kTurnedOver * M, p_WC, Where(file, tag, "r11"), Where(file, tag, "x"), camera);
 }
 
 // r_u = r_d (1 + k1 r_d² + k2 r_d⁴ + k3 r_d⁶), pixels from the principal point.
-CameraCalibration ReadViconCamera(const XmlTag& camera_tag, const XmlTag& key_frame,
-                                  const std::filesystem::path& file) {
-  CameraCalibration camera;
-  camera.name = NameOf(camera_tag, "DEVICEID");
-  const std::vector<double> size = XmlNumbers(camera_tag, "SENSOR_SIZE", 2, file);
-  camera.width_px = static_cast<int>(size[0]);
-  camera.height_px = static_cast<int>(size[1]);
-  const double aspect =
-      camera_tag.Has("PIXEL_ASPECT_RATIO") ? One(camera_tag, "PIXEL_ASPECT_RATIO", file) : 1;
-  const double f = One(key_frame, "FOCAL_LENGTH", file);
-  const std::vector<double> c = XmlNumbers(key_frame, "PRINCIPAL_POINT", 2, file);
-  Vector3 k = Vector3::Zero();
+Vector3 ReadViconRadial(const XmlTag& key_frame, const std::filesystem::path& file) {
   if (key_frame.Has("VICON_RADIAL2")) {
     // A word that names the model, the centre, then the coefficients.
     XmlTag numbers = key_frame;
     std::string& text = numbers.attributes["VICON_RADIAL2"];
     text.erase(0, text.find_first_of(" \t"));
     const std::vector<double> n = XmlNumbers(numbers, "VICON_RADIAL2", 5, file);
-    k = {n[2], n[3], n[4]};
-  } else if (key_frame.Has("VICON_RADIAL")) {
-    const std::vector<double> n = XmlNumbers(key_frame, "VICON_RADIAL", 2, file);
-    k = {n[0], n[1], 0};
+    return {n[2], n[3], n[4]};
   }
-  OpenCvLens start;
-  start.K << f, 0, c[0], 0, f / aspect, c[1], 0, 0, 1;
+  if (!key_frame.Has("VICON_RADIAL")) return Vector3::Zero();
+  const std::vector<double> n = XmlNumbers(key_frame, "VICON_RADIAL", 2, file);
+  return {n[0], n[1], 0};
+}
+
+Lens FitViconLens(const ForeignCamera& camera, const OpenCvLens& start, const Vector3& k) {
+  const double f = start.K(0, 0), aspect = f / start.K(1, 1);
+  const Vector2 center = start.K.topRightCorner<2, 1>();
   std::vector<Vector2> normalized, pixels;
   for (int i = 0; i <= kGrid; ++i) {
     for (int j = 0; j <= kGrid; ++j) {
-      const Vector2 pixel((size[0] - 1) * i / kGrid, (size[1] - 1) * j / kGrid);
-      Vector2 d = pixel - Vector2(c[0], c[1]);
+      const Vector2 pixel((camera.size_px.values[0] - 1) * i / kGrid,
+                          (camera.size_px.values[1] - 1) * j / kGrid);
+      Vector2 d = pixel - center;
       d.y() *= aspect;
       const double r2 = d.squaredNorm();
       normalized.push_back(d * (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[2]))) / f);
       pixels.push_back(pixel);
     }
   }
-  camera.lens = FitOpenCvLens(camera.name, start, normalized, pixels);
-  const std::vector<double> q = XmlNumbers(key_frame, "ORIENTATION", 4, file);
-  const std::vector<double> p = XmlNumbers(key_frame, "POSITION", 3, file);
-  camera.X_CW.R = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
-  camera.X_CW.p = -(camera.X_CW.R * Vector3(p[0], p[1], p[2]));
+  return FitOpenCvLens(camera.where, start, normalized, pixels);
+}
+
+ForeignCamera ReadViconCamera(const XmlTag& camera_tag, const XmlTag* key_frame,
+                              const std::filesystem::path& file) {
+  ForeignCamera camera = NamedCamera(file, camera_tag, "DEVICEID");
+  camera.size_px = {Where(file, camera_tag, "SENSOR_SIZE"),
+                    XmlNumbers(camera_tag, "SENSOR_SIZE", 2, file)};
+  camera.has_lens = key_frame != nullptr;
+  if (!camera.has_lens) return camera;
+  const double aspect =
+      camera_tag.Has("PIXEL_ASPECT_RATIO") ? One(camera_tag, "PIXEL_ASPECT_RATIO", file) : 1;
+  const double f = One(*key_frame, "FOCAL_LENGTH", file);
+  const std::vector<double> c = XmlNumbers(*key_frame, "PRINCIPAL_POINT", 2, file);
+  if (!(aspect > 0))
+    throw SetupError(Where(file, camera_tag, "PIXEL_ASPECT_RATIO") + " is not above 0");
+  camera.matrix = {Where(file, *key_frame, "FOCAL_LENGTH"),
+                   {f, 0, c[0], 0, f / aspect, c[1], 0, 0, 1}};
+  camera.distortion = {Where(file, *key_frame, "VICON_RADIAL2"), {}};
+  // Only what passes the check can be fitted.
+  const Imported plain = CheckForeignCameras(file.string(), {camera}, {.lenses_alone = true});
+  const Vector3 k = ReadViconRadial(*key_frame, file);
+  camera.lens = FitViconLens(camera, std::get<OpenCvLens>(plain.cameras[0].lens), k);
+  const std::vector<double> q = XmlNumbers(*key_frame, "ORIENTATION", 4, file);
+  const std::vector<double> p = XmlNumbers(*key_frame, "POSITION", 3, file);
+  const Eigen::Quaterniond q_CW(q[3], q[0], q[1], q[2]);
+  if (!(std::abs(q_CW.norm() - 1) < 1e-2))
+    throw SetupError(Where(file, *key_frame, "ORIENTATION") +
+                     " is no unit quaternion; x y z w are wanted");
+  SetPose(q_CW.normalized().toRotationMatrix(), {p[0], p[1], p[2]},
+          Where(file, *key_frame, "ORIENTATION"), Where(file, *key_frame, "POSITION"), camera);
   return camera;
 }
 
@@ -120,42 +153,42 @@ Vector3 ViconRadial(const CameraCalibration& camera, const OpenCvLens& lens) {
 
 }  // namespace
 
-Cameras ReadQualisys(const std::filesystem::path& file) {
-  Cameras cameras;
+std::vector<ForeignCamera> ReadQualisys(const std::filesystem::path& file) {
+  std::vector<ForeignCamera> cameras;
   Vector2 corner_px = Vector2::Zero();
   for (const XmlTag& tag : ReadXmlTags(file)) {
     if (tag.name == "camera") {
-      cameras.emplace_back();
-      cameras.back().name = NameOf(tag, "serial");
+      cameras.push_back(NamedCamera(file, tag, "serial"));
       corner_px.setZero();
     }
     if (cameras.empty()) continue;
-    CameraCalibration& camera = cameras.back();
+    ForeignCamera& camera = cameras.back();
     if (tag.name == "fov_video") {
       corner_px = {One(tag, "left", file), One(tag, "top", file)};
-      camera.width_px = static_cast<int>(std::lround(One(tag, "right", file) - corner_px.x())) + 1;
-      camera.height_px =
-          static_cast<int>(std::lround(One(tag, "bottom", file) - corner_px.y())) + 1;
+      camera.size_px = {Where(file, tag, "right"),
+                        {std::round(One(tag, "right", file) - corner_px.x()) + 1,
+                         std::round(One(tag, "bottom", file) - corner_px.y()) + 1}};
     } else if (tag.name == "transform") {
-      camera.X_CW = QualisysPose(tag, file);
+      TakeQualisysPose(tag, file, camera);
     } else if (tag.name == "intrinsic") {
-      camera.lens = QualisysLens(tag, corner_px, file);
-      if (camera.width_px == 0) {
-        camera.width_px = static_cast<int>((One(tag, "sensorMaxU", file) + 1) / kQualisysUnits);
-        camera.height_px = static_cast<int>((One(tag, "sensorMaxV", file) + 1) / kQualisysUnits);
-      }
+      TakeQualisysLens(tag, corner_px, file, camera);
+      if (camera.size_px.values.empty())
+        camera.size_px = {Where(file, tag, "sensorMaxU"),
+                          {std::floor((One(tag, "sensorMaxU", file) + 1) / kQualisysUnits),
+                           std::floor((One(tag, "sensorMaxV", file) + 1) / kQualisysUnits)}};
     }
   }
   if (cameras.empty())
     throw SetupError(file.string() + ": holds no <camera>; a .qca.txt is wanted");
+  for (ForeignCamera& camera : cameras) camera.has_lens = !camera.matrix.values.empty();
   return cameras;
 }
 
-void WriteQualisys(const std::filesystem::path& file, const Cameras& cameras) {
+std::vector<TextFile> QualisysText(const Cameras& cameras) {
   std::ostringstream out;
   out << "<calibration>\n <cameras>\n";
   for (const CameraCalibration& camera : cameras) {
-    const OpenCvLens lens = AsOpenCvLens(camera);
+    const OpenCvLens lens = AsFiveCoefficients(camera, "qualisys");
     const Matrix3 M = kTurnedOver * camera.X_CW.R;
     const Vector3 p_WC = camera.X_CW.Inverse().p;
     const auto& d = lens.distortion;
@@ -178,32 +211,29 @@ void WriteQualisys(const std::filesystem::path& file, const Cameras& cameras) {
         d[0], d[1], d[4], d[2], d[3]);
   }
   out << " </cameras>\n</calibration>\n";
-  ReplaceText(file, out.str());
+  return {{"", out.str()}};
 }
 
-Cameras ReadVicon(const std::filesystem::path& file) {
-  Cameras cameras;
-  XmlTag camera;
-  bool waits = false;
-  for (const XmlTag& tag : ReadXmlTags(file)) {
-    if (tag.name == "Camera") {
-      camera = tag;
-      waits = true;
-    } else if (tag.name == "KeyFrame" && waits) {
-      cameras.push_back(ReadViconCamera(camera, tag, file));
-      waits = false;
+std::vector<ForeignCamera> ReadVicon(const std::filesystem::path& file) {
+  std::vector<ForeignCamera> cameras;
+  const std::vector<XmlTag> tags = ReadXmlTags(file);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    if (tags[i].name != "Camera") continue;
+    const XmlTag* key_frame = nullptr;
+    for (std::size_t k = i + 1; k < tags.size() && tags[k].name != "Camera"; ++k) {
+      if (tags[k].name == "KeyFrame" && key_frame == nullptr) key_frame = &tags[k];
     }
+    cameras.push_back(ReadViconCamera(tags[i], key_frame, file));
   }
-  if (cameras.empty())
-    throw SetupError(file.string() + ": holds no <Camera> with a <KeyFrame>; a .xcp is wanted");
+  if (cameras.empty()) throw SetupError(file.string() + ": holds no <Camera>; a .xcp is wanted");
   return cameras;
 }
 
-void WriteVicon(const std::filesystem::path& file, const Cameras& cameras) {
+std::vector<TextFile> ViconText(const Cameras& cameras) {
   std::ostringstream out;
   out << "<Cameras VERSION=\"1.0\">\n";
   for (const CameraCalibration& camera : cameras) {
-    const OpenCvLens lens = AsOpenCvLens(camera);
+    const OpenCvLens lens = AsFiveCoefficients(camera, "vicon");
     const Eigen::Quaterniond q(camera.X_CW.R);
     const Vector3 p_WC = camera.X_CW.Inverse().p, k = ViconRadial(camera, lens);
     out << fmt::format(
@@ -217,7 +247,7 @@ void WriteVicon(const std::filesystem::path& file, const Cameras& cameras) {
         lens.K(0, 2), lens.K(1, 2), k[0], k[1], k[2]);
   }
   out << "</Cameras>\n";
-  ReplaceText(file, out.str());
+  return {{"", out.str()}};
 }
 
 }  // namespace mocap

@@ -1,10 +1,12 @@
-// EasyMocap and OpenCV's own YAML.
-#include <algorithm>
-#include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/core/persistence.hpp>
+// OpenCV's own YAML and XML, ROS's camera_info, EasyMocap.
+#include <fmt/format.h>
+
+#include <span>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/toml_text.h"
+#include "tools/calibration/data_tree.h"
 #include "tools/calibration/exchange.h"
 
 namespace mocap {
@@ -12,159 +14,155 @@ namespace {
 
 namespace fs = std::filesystem;
 
-cv::FileStorage Open(const fs::path& file, int mode) {
-  cv::FileStorage storage;
-  try {
-    if (storage.open(file.string(), mode)) return storage;
-  } catch (const cv::Exception& error) {
-    throw SetupError(file.string() + ": is no YAML of OpenCV (" + error.err + ")");
+std::string WhereOf(const DataFile& file, const std::string& key) {
+  const DataNode* node = file.root.Find(key);
+  return (node != nullptr ? file.At(*node) : Printable(file.path.string())) + ": " + Printable(key);
+}
+
+std::optional<ForeignNumbers> Numbers(const DataFile& file, const std::string& key) {
+  const DataNode* node = file.root.Find(key);
+  if (node == nullptr) return std::nullopt;
+  return ForeignNumbers{WhereOf(file, key), file.Numbers(*node, key)};
+}
+
+ForeignNumbers Needed(const DataFile& file, const std::string& key) {
+  std::optional<ForeignNumbers> numbers = Numbers(file, key);
+  if (!numbers) throw SetupError(WhereOf(file, key) + " is missing");
+  return *numbers;
+}
+
+// Of two keys, neither of which may be there.
+ForeignNumbers Size(const DataFile& file, const std::string& width, const std::string& height) {
+  ForeignNumbers size{WhereOf(file, width), {}};
+  const auto w = Numbers(file, width), h = Numbers(file, height);
+  if (w && h) {
+    size.values = w->values;
+    size.values.insert(size.values.end(), h->values.begin(), h->values.end());
   }
-  throw SetupError(file.string() + ": cannot be opened; a file of OpenCV's YAML is wanted");
+  return size;
 }
 
-std::vector<double> Numbers(const cv::FileStorage& storage, const std::string& key,
-                            const fs::path& file) {
-  cv::Mat matrix;
-  storage[key] >> matrix;
-  if (matrix.empty()) throw SetupError(file.string() + ": " + key + " is missing");
-  matrix.convertTo(matrix, CV_64F);
-  return {matrix.begin<double>(), matrix.end<double>()};
+// What ROS calls the lens decides, where it does.
+void TakeDistortionModel(const DataFile& file, ForeignCamera& camera) {
+  const DataNode* model = file.root.Find("distortion_model");
+  if (model == nullptr) return;
+  if (model->text == "equidistant" || model->text == "fisheye") {
+    camera.is_fisheye = true;
+  } else if (model->text != "plumb_bob" && model->text != "rational_polynomial" &&
+             !model->text.empty()) {
+    throw SetupError(WhereOf(file, "distortion_model") + " is " + Quoted(model->text) +
+                     "; plumb_bob, rational_polynomial or equidistant is wanted");
+  }
 }
 
-Matrix3 RowMajor(const std::vector<double>& n, const std::string& what) {
-  if (n.size() != 9)
-    throw SetupError(what + " has " + std::to_string(n.size()) + " numbers, not 9");
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(n.data());
+ForeignCamera ReadOpenCvFile(const fs::path& path) {
+  const std::string text = ReadForeignText(path);
+  const std::size_t first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  const bool is_xml = first != std::string::npos && text[first] == '<';
+  const DataFile file = is_xml ? ReadOpenCvXml(path) : ReadYaml(path);
+  ForeignCamera camera;
+  camera.where = Printable(path.string());
+  camera.name = path.stem().string();
+  camera.size_px = Size(file, "image_width", "image_height");
+  camera.matrix = Needed(file, "camera_matrix");
+  camera.distortion = Needed(file, "distortion_coefficients");
+  // OpenCV's sample says so in flags or in a comment only; ours in a key.
+  if (const auto fisheye = Numbers(file, "fisheye_model"))
+    camera.is_fisheye = fisheye->values != std::vector<double>{0};
+  TakeDistortionModel(file, camera);
+  camera.rotation = Numbers(file, "rotation");
+  camera.translation_mm = Numbers(file, "translation");
+  return camera;
 }
 
-Vector3 Three(const std::vector<double>& n, const std::string& what) {
-  if (n.size() != 3)
-    throw SetupError(what + " has " + std::to_string(n.size()) + " numbers, not 3");
-  return {n[0], n[1], n[2]};
+template <typename Matrix>
+std::string MatrixText(const Matrix& matrix) {
+  std::string text = fmt::format("!!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ ",
+                                 matrix.rows(), matrix.cols());
+  for (Eigen::Index i = 0; i < matrix.size(); ++i)
+    text += (i > 0 ? ", " : "") + TomlNumber(matrix(i / matrix.cols(), i % matrix.cols()));
+  return text + " ]\n";
 }
 
-template <std::size_t kCount>
-std::array<double, kCount> UpTo(const std::vector<double>& numbers) {
-  std::array<double, kCount> all{};
-  std::copy_n(numbers.begin(), std::min(numbers.size(), kCount), all.begin());
-  return all;
+Eigen::MatrixXd Row(std::span<const double> numbers) {
+  return Eigen::Map<const Eigen::RowVectorXd>(numbers.data(),
+                                              static_cast<Eigen::Index>(numbers.size()));
 }
 
-cv::Mat MatOf(const Matrix3& m) {
-  cv::Mat mat(3, 3, CV_64F);
-  for (int i = 0; i < 9; ++i) mat.at<double>(i / 3, i % 3) = m(i / 3, i % 3);
-  return mat;
+Eigen::MatrixXd DistortionOf(const OpenCvLens& lens) {
+  const std::span all(lens.distortion);
+  return Row(lens.IsRational() ? all : all.first(5));
 }
 
-template <typename Container>
-cv::Mat Column(const Container& numbers, int count) {
-  cv::Mat mat(count, 1, CV_64F);
-  for (int i = 0; i < count; ++i) mat.at<double>(i) = numbers[i];
-  return mat;
-}
+constexpr const char* kOpenCvHead = "%YAML:1.0\n---\n";
 
 }  // namespace
 
-Cameras ReadEasyMocap(const fs::path& folder) {
-  const fs::path intri_file = folder / "intri.yml", extri_file = folder / "extri.yml";
-  const cv::FileStorage intri = Open(intri_file, cv::FileStorage::READ);
-  const cv::FileStorage extri = Open(extri_file, cv::FileStorage::READ);
-  Cameras cameras;
-  for (const cv::FileNode& node : intri["names"]) {
-    const std::string name = static_cast<std::string>(node);
-    CameraCalibration camera;
-    camera.name = name;
-    OpenCvLens lens;
-    lens.K = RowMajor(Numbers(intri, "K_" + name, intri_file), intri_file.string() + ": K_" + name);
-    lens.distortion = UpTo<5>(Numbers(intri, "dist_" + name, intri_file));
-    const int width = static_cast<int>(std::lround(2 * lens.K(0, 2)));
-    const int height = static_cast<int>(std::lround(2 * lens.K(1, 2)));
-    camera.width_px = intri["W_" + name].empty() ? width : static_cast<int>(intri["W_" + name]);
-    camera.height_px = intri["H_" + name].empty() ? height : static_cast<int>(intri["H_" + name]);
-    camera.lens = lens;
-    camera.X_CW.R = extri["Rot_" + name].empty()
-                        ? ExpRotation(Three(Numbers(extri, "R_" + name, extri_file), "R_" + name))
-                        : RowMajor(Numbers(extri, "Rot_" + name, extri_file), "Rot_" + name);
-    camera.X_CW.p = 1000 * Three(Numbers(extri, "T_" + name, extri_file), "T_" + name);
-    cameras.push_back(camera);
-  }
-  if (cameras.empty()) throw SetupError(intri_file.string() + ": names no camera");
+std::vector<ForeignCamera> ReadOpenCv(const fs::path& folder) {
+  std::vector<ForeignCamera> cameras;
+  for (const fs::path& file : FilesOf(folder, {".yml", ".yaml", ".xml"}))
+    cameras.push_back(ReadOpenCvFile(file));
   return cameras;
 }
 
-void WriteEasyMocap(const fs::path& folder, const Cameras& cameras) {
-  fs::create_directories(folder);
-  cv::FileStorage intri = Open(folder / "intri.yml", cv::FileStorage::WRITE);
-  cv::FileStorage extri = Open(folder / "extri.yml", cv::FileStorage::WRITE);
-  for (cv::FileStorage* storage : {&intri, &extri}) {
-    *storage << "names"
-             << "[";
-    for (const CameraCalibration& camera : cameras) *storage << camera.name;
-    *storage << "]";
-  }
+std::vector<TextFile> OpenCvText(const Cameras& cameras) {
+  std::vector<TextFile> files;
   for (const CameraCalibration& camera : cameras) {
-    const OpenCvLens lens = AsOpenCvLens(camera);
-    intri << "K_" + camera.name << MatOf(lens.K);
-    intri << "dist_" + camera.name << Column(lens.distortion, 5).t();
-    intri << "H_" + camera.name << camera.height_px;
-    intri << "W_" + camera.name << camera.width_px;
-    extri << "R_" + camera.name << Column(LogRotation(camera.X_CW.R), 3);
-    extri << "Rot_" + camera.name << MatOf(camera.X_CW.R);
-    extri << "T_" + camera.name << Column(Vector3(camera.X_CW.p / 1000), 3);
-  }
-}
-
-Cameras ReadOpenCvYaml(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (fs::is_directory(folder)) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension == ".yml" || extension == ".yaml") files.push_back(entry.path());
-    }
-  } else {
-    files.push_back(folder);
-  }
-  std::sort(files.begin(), files.end());
-  Cameras cameras;
-  for (const fs::path& file : files) {
-    const cv::FileStorage storage = Open(file, cv::FileStorage::READ);
-    CameraCalibration camera;
-    camera.name = file.stem().string();
-    camera.width_px = static_cast<int>(storage["image_width"]);
-    camera.height_px = static_cast<int>(storage["image_height"]);
-    const Matrix3 K = RowMajor(Numbers(storage, "camera_matrix", file), "camera_matrix");
-    const std::vector<double> distortion = Numbers(storage, "distortion_coefficients", file);
-    // OpenCV's sample says so in flags or in a comment only; ours in a key.
-    if (static_cast<int>(
-            storage["fisheye_model"].empty() ? 0 : static_cast<int>(storage["fisheye_model"])))
-      camera.lens = FisheyeLens{K, UpTo<4>(distortion)};
-    else
-      camera.lens = OpenCvLens{K, UpTo<5>(distortion)};
-    if (!storage["rotation"].empty()) {
-      camera.X_CW.R = RowMajor(Numbers(storage, "rotation", file), "rotation");
-      camera.X_CW.p = Three(Numbers(storage, "translation", file), "translation");
-    }
-    cameras.push_back(camera);
-  }
-  if (cameras.empty()) throw SetupError(folder.string() + ": holds no .yml file");
-  return cameras;
-}
-
-void WriteOpenCvYaml(const fs::path& folder, const Cameras& cameras) {
-  fs::create_directories(folder);
-  for (const CameraCalibration& camera : cameras) {
-    cv::FileStorage storage = Open(folder / (camera.name + ".yml"), cv::FileStorage::WRITE);
-    storage << "image_width" << camera.width_px << "image_height" << camera.height_px;
+    std::string text = kOpenCvHead + fmt::format("image_width: {}\nimage_height: {}\n",
+                                                 camera.width_px, camera.height_px);
     if (const auto* fisheye = std::get_if<FisheyeLens>(&camera.lens)) {
-      storage << "fisheye_model" << 1 << "camera_matrix" << MatOf(fisheye->K)
-              << "distortion_coefficients" << Column(fisheye->distortion, 4);
+      text += "fisheye_model: 1\ncamera_matrix: " + MatrixText(fisheye->K) +
+              "distortion_coefficients: " + MatrixText(Row(fisheye->distortion).transpose());
     } else {
       const OpenCvLens lens = AsOpenCvLens(camera);
-      storage << "camera_matrix" << MatOf(lens.K) << "distortion_coefficients"
-              << Column(lens.distortion, 5);
+      text += "camera_matrix: " + MatrixText(lens.K) +
+              "distortion_coefficients: " + MatrixText(DistortionOf(lens).transpose());
     }
-    storage << "rotation" << MatOf(camera.X_CW.R) << "translation" << Column(camera.X_CW.p, 3);
+    text += "rotation: " + MatrixText(camera.X_CW.R) + "translation: " + MatrixText(camera.X_CW.p);
+    files.push_back({camera.name + ".yml", text});
   }
+  return files;
+}
+
+std::vector<ForeignCamera> ReadEasyMocap(const fs::path& intri_file, const fs::path& extri_file) {
+  const DataFile intri = ReadYaml(intri_file), extri = ReadYaml(extri_file);
+  const DataNode* names = intri.root.Find("names");
+  if (names == nullptr || names->kind != DataNode::Kind::kSequence || names->items.empty())
+    throw SetupError(WhereOf(intri, "names") + " lists no camera; a list of names is wanted");
+  std::vector<ForeignCamera> cameras;
+  for (const DataNode& node : names->items) {
+    ForeignCamera camera;
+    camera.where = intri.At(node) + ": names";
+    camera.name = node.text;
+    camera.size_px = Size(intri, "W_" + camera.name, "H_" + camera.name);
+    camera.matrix = Needed(intri, "K_" + camera.name);
+    camera.distortion = Needed(intri, "dist_" + camera.name);
+    camera.rotation = Numbers(extri, "Rot_" + camera.name);
+    if (!camera.rotation) camera.rotation = Numbers(extri, "R_" + camera.name);
+    camera.translation_mm = Numbers(extri, "T_" + camera.name);
+    if (camera.translation_mm) {
+      for (double& value : camera.translation_mm->values) value *= 1000;
+    }
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+std::vector<TextFile> EasyMocapText(const Cameras& cameras) {
+  std::string intri = std::string(kOpenCvHead) + "names:\n";
+  for (const CameraCalibration& camera : cameras) intri += "   - \"" + camera.name + "\"\n";
+  std::string extri = intri;
+  for (const CameraCalibration& camera : cameras) {
+    const std::string& name = camera.name;
+    const OpenCvLens lens = AsOpenCvLens(camera);
+    intri += "K_" + name + ": " + MatrixText(lens.K) + "dist_" + name + ": " +
+             MatrixText(DistortionOf(lens)) +
+             fmt::format("H_{}: {}\nW_{}: {}\n", name, camera.height_px, name, camera.width_px);
+    extri += "R_" + name + ": " + MatrixText(LogRotation(camera.X_CW.R)) + "Rot_" + name + ": " +
+             MatrixText(camera.X_CW.R) + "T_" + name + ": " +
+             MatrixText(Vector3(camera.X_CW.p / 1000));
+  }
+  return {{"intri.yml", intri}, {"extri.yml", extri}};
 }
 
 }  // namespace mocap

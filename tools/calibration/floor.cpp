@@ -137,6 +137,8 @@ std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
   std::vector<FloorPoint> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || (number == 1 && line == "point,camera,x_px,y_px")) continue;
     std::istringstream row(line);
     std::string name, camera, x, y;
@@ -152,7 +154,7 @@ std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
     FloorPoint point;
     point.pixel = {std::strtod(x.c_str(), &x_end), std::strtod(y.c_str(), &y_end)};
     if (place == std::end(kPointNames) || owner == cameras.end() || x_end == x.c_str() ||
-        y_end == y.c_str())
+        y_end == y.c_str() || !point.pixel.allFinite())
       throw SetupError(fmt::format("{}:{}: {} is no floor point; wanted is origin|x|y,CAMERA,X,Y",
                                    file, number, Quoted(line)));
     point.point = static_cast<int>(place - std::begin(kPointNames));

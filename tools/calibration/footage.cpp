@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
-#include <map>
-#include <memory>
+#include <numeric>
+#include <optional>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
@@ -32,7 +29,7 @@ std::string Extension(const fs::path& file) {
 
 bool IsVideo(const fs::path& file) {
   const std::string e = Extension(file);
-  return e == ".mkv" || e == ".mp4" || e == ".avi" || e == ".mov" || e == ".webm";
+  return e == ".mkv" || e == ".mp4" || e == ".avi" || e == ".mov" || e == ".m4v" || e == ".webm";
 }
 
 bool IsPicture(const fs::path& file) {
@@ -42,16 +39,50 @@ bool IsPicture(const fs::path& file) {
 
 std::vector<fs::path> Sorted(const fs::path& folder, bool (*wanted)(const fs::path&)) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (wanted(entry.path())) files.push_back(entry.path());
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (wanted(entry->path()) && !IsHidden(entry->path())) files.push_back(entry->path());
   }
+  if (error) throw SetupError(folder.string() + ": cannot be listed: " + error.message());
   std::sort(files.begin(), files.end());
   return files;
 }
 
+// Frames by the times that the file gives them, where it does and they increase.
 void CountFrames(VideoReader video, FootageCamera& camera) {
-  for (int i = 0; video.Skip() != VideoStatus::kEnd; ++i)
-    camera.frames.push_back({i * kUntimedInterval_ns, {}, "frame " + std::to_string(i)});
+  bool has_times = true;
+  std::optional<std::int64_t> first_ns;
+  std::vector<std::int64_t> times_ns;
+  for (int i = 0; video.Skip() != VideoStatus::kEnd; ++i) {
+    camera.frames.push_back({i * kUntimedInterval_ns, {}, "frame " + std::to_string(i), ""});
+    const std::optional<std::int64_t> time_ns = video.time_ns();
+    if (!first_ns) first_ns = time_ns;
+    has_times =
+        has_times && time_ns && (times_ns.empty() || *time_ns - *first_ns > times_ns.back());
+    if (has_times) times_ns.push_back(*time_ns - *first_ns);
+  }
+  camera.placed = has_times;
+  if (!has_times) return;
+  for (std::size_t i = 0; i < times_ns.size(); ++i) camera.frames[i].time_ns = times_ns[i];
+}
+
+// What was made of a file that is more than its frames.
+void TellHowItWasRead(const fs::path& file, const PictureTurn& turn, const FootageCamera& camera,
+                      std::vector<std::string>& notes) {
+  const std::string name = Printable(file.filename().string());
+  if (!turn.IsNone()) notes.push_back(name + ": " + turn.Text() + ", as the file says");
+  if (camera.timed || !camera.placed || camera.frames.size() < 3) return;
+  std::int64_t shortest_ns = std::numeric_limits<std::int64_t>::max(), longest_ns = 0;
+  for (std::size_t i = 1; i < camera.frames.size(); ++i) {
+    const std::int64_t step_ns = camera.frames[i].time_ns - camera.frames[i - 1].time_ns;
+    shortest_ns = std::min(shortest_ns, step_ns);
+    longest_ns = std::max(longest_ns, step_ns);
+  }
+  if (2 * longest_ns > 3 * shortest_ns)
+    notes.push_back(name + ": its frames lie " + std::to_string(shortest_ns / 1'000'000) + " to " +
+                    std::to_string(longest_ns / 1'000'000) +
+                    " ms apart; they are paired with others' by these times");
 }
 
 fs::path TableOf(const fs::path& video) { return fs::path(video).replace_extension(".csv"); }
@@ -59,10 +90,12 @@ fs::path TableOf(const fs::path& video) { return fs::path(video).replace_extensi
 /// A camera that had delivered nothing by the end of the recording.
 bool IsSilent(const fs::path& video) { return HoldsNoRows(TableOf(video)) || HoldsNoFrame(video); }
 
-FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file) {
+FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file,
+                              std::vector<std::string>& notes) {
   FootageCamera camera;
   camera.name = name;
   VideoReader video(file);
+  const PictureTurn turn = video.turn();
   camera.width_px = video.width_px();
   camera.height_px = video.height_px();
   CountFrames(std::move(video), camera);
@@ -74,8 +107,9 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file) {
     camera.frames.resize(std::min(camera.frames.size(), table.rows.size()));
     for (std::size_t i = 0; i < camera.frames.size(); ++i)
       camera.frames[i] = {table.rows[i].timestamp_ns, table.rows[i].angles,
-                          "frame " + std::to_string(table.rows[i].frame)};
+                          "frame " + std::to_string(table.rows[i].frame), ""};
   }
+  TellHowItWasRead(file, turn, camera, notes);
   camera.ForEach = [file, count = static_cast<int>(camera.frames.size())](const auto& use) {
     VideoReader reader(file);
     ImageView<const Bgr> view;
@@ -88,34 +122,6 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file) {
   return camera;
 }
 
-// A recording of Caliscope keeps all cameras' times in one file: sync_index,cam_id,frame_index,
-// frame_time [s].
-void ReadSharedTimes(const fs::path& file, Footage& footage) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  if (line.rfind("sync_index,cam_id,frame_index,frame_time", 0) != 0)
-    throw SetupError(file.string() + ":1: is no table of sync_index,cam_id,frame_index,frame_time");
-  std::map<std::string, std::map<int, std::int64_t>> times_ns;
-  for (int number = 2; std::getline(in, line); ++number) {
-    int sync = 0, id = 0, frame = 0;
-    double time_s = 0;
-    if (std::sscanf(line.c_str(), "%d,%d,%d,%lf", &sync, &id, &frame, &time_s) != 4)
-      throw SetupError(file.string() + ":" + std::to_string(number) + ": is not four numbers");
-    times_ns["cam_" + std::to_string(id)][frame] = std::llround(time_s * 1e9);
-  }
-  for (FootageCamera& camera : footage.cameras) {
-    const std::map<int, std::int64_t>& of_camera = times_ns[camera.name];
-    if (of_camera.size() != camera.frames.size())
-      throw SetupError(file.string() + ": tells times of " + std::to_string(of_camera.size()) +
-                       " frames of " + camera.name + "; its video has " +
-                       std::to_string(camera.frames.size()));
-    camera.timed = true;
-    auto time = of_camera.begin();
-    for (FootageFrame& frame : camera.frames) frame.time_ns = (time++)->second;
-  }
-}
-
 // To FFmpeg a picture is a video of one frame.
 VideoReader OpenPicture(const fs::path& file) {
   try {
@@ -126,15 +132,28 @@ VideoReader OpenPicture(const fs::path& file) {
   }
 }
 
-FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::path>& files) {
+FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::path>& unsorted,
+                                std::vector<std::string>& notes) {
   FootageCamera camera;
   camera.name = name;
+  const std::vector<std::string> keys = PictureKeys(unsorted);
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return IsKeyLess(keys[a], keys[b]); });
+  std::vector<fs::path> files;
+  for (const std::size_t i : order) {
+    camera.frames.push_back({static_cast<std::int64_t>(files.size()) * kUntimedInterval_ns,
+                             {},
+                             unsorted[i].filename().string(),
+                             keys[i]});
+    files.push_back(unsorted[i]);
+  }
   const VideoReader first = OpenPicture(files.front());
   camera.width_px = first.width_px();
   camera.height_px = first.height_px();
-  for (std::size_t i = 0; i < files.size(); ++i)
-    camera.frames.push_back(
-        {static_cast<std::int64_t>(i) * kUntimedInterval_ns, {}, files[i].filename().string()});
+  if (!first.turn().IsNone())
+    notes.push_back(name + ": its pictures are " + first.turn().Text() + ", as they say");
   camera.ForEach = [files, width_px = camera.width_px,
                     height_px = camera.height_px](const auto& use) {
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -162,7 +181,8 @@ Footage OpenFootage(const std::filesystem::path& folder) {
   footage.folder = folder;
   const std::vector<fs::path> recorded = Sorted(folder, IsVideo);
   for (const fs::path& file : recorded) {
-    if (!IsSilent(file)) footage.cameras.push_back(OpenVideoCamera(file.stem().string(), file));
+    if (!IsSilent(file))
+      footage.cameras.push_back(OpenVideoCamera(file.stem().string(), file, footage.notes));
   }
   if (footage.cameras.empty() && !recorded.empty())
     throw SetupError(folder.string() +
@@ -175,15 +195,17 @@ Footage OpenFootage(const std::filesystem::path& folder) {
       const std::string name = inside.filename().string();
       const std::vector<fs::path> videos = Sorted(inside, IsVideo);
       const std::vector<fs::path> pictures = Sorted(inside, IsPicture);
-      if (videos.size() == 1) footage.cameras.push_back(OpenVideoCamera(name, videos[0]));
+      if (videos.size() == 1)
+        footage.cameras.push_back(OpenVideoCamera(name, videos[0], footage.notes));
       if (videos.empty() && !pictures.empty())
-        footage.cameras.push_back(OpenPictureCamera(name, pictures));
+        footage.cameras.push_back(OpenPictureCamera(name, pictures, footage.notes));
     }
   }
   if (footage.cameras.empty()) {
     const std::vector<fs::path> pictures = Sorted(folder, IsPicture);
     if (!pictures.empty())
-      footage.cameras.push_back(OpenPictureCamera(folder.filename().string(), pictures));
+      footage.cameras.push_back(
+          OpenPictureCamera(folder.filename().string(), pictures, footage.notes));
   }
   if (footage.cameras.empty())
     throw SetupError(
@@ -192,47 +214,12 @@ Footage OpenFootage(const std::filesystem::path& folder) {
         "camera is wanted");
   for (const FootageCamera& camera : footage.cameras) {
     if (!IsCameraName(camera.name))
-      throw SetupError(folder.string() +
+      throw SetupError(folder.string() + ": " + Quoted(camera.name) +
                        ": a recording's name is that of its camera; letters, digits, "
                        "_ and - are wanted");
   }
+  PairPictures(footage);
   return footage;
-}
-
-std::vector<FootageMoment> MatchMoments(const Footage& footage) {
-  std::int64_t shortest_ns = std::numeric_limits<std::int64_t>::max();
-  const bool timed = std::all_of(footage.cameras.begin(), footage.cameras.end(),
-                                 [](const FootageCamera& camera) { return camera.timed; });
-  const auto time_of = [&](const FootageCamera& camera, std::size_t i) {
-    return timed ? camera.frames[i].time_ns : static_cast<std::int64_t>(i) * kUntimedInterval_ns;
-  };
-  for (const FootageCamera& camera : footage.cameras) {
-    for (std::size_t i = 1; i < camera.frames.size(); ++i)
-      shortest_ns = std::min(shortest_ns, time_of(camera, i) - time_of(camera, i - 1));
-  }
-  if (shortest_ns == std::numeric_limits<std::int64_t>::max()) shortest_ns = kUntimedInterval_ns;
-  // Cameras' frames in the order of time; a new moment where the last one is too old or taken.
-  struct Entry {
-    std::int64_t time_ns;
-    int camera, frame;
-  };
-  std::vector<Entry> entries;
-  for (std::size_t c = 0; c < footage.cameras.size(); ++c) {
-    for (std::size_t i = 0; i < footage.cameras[c].frames.size(); ++i)
-      entries.push_back({time_of(footage.cameras[c], i), static_cast<int>(c), static_cast<int>(i)});
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.time_ns != b.time_ns ? a.time_ns < b.time_ns : a.camera < b.camera;
-  });
-  std::vector<FootageMoment> moments;
-  for (const Entry& entry : entries) {
-    const bool fits = !moments.empty() &&
-                      entry.time_ns - moments.back().time_ns <= shortest_ns / 2 &&
-                      moments.back().frames[entry.camera] < 0;
-    if (!fits) moments.push_back({entry.time_ns, std::vector<int>(footage.cameras.size(), -1)});
-    moments.back().frames[entry.camera] = entry.frame;
-  }
-  return moments;
 }
 
 }  // namespace mocap

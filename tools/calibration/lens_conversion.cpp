@@ -36,6 +36,8 @@ Samples SamplePicture(const CameraCalibration& camera) {
 template <typename SomeLens>
 SomeLens FitLensTo(const std::string& name, const Samples& samples, const SomeLens& start,
                    const char* model) {
+  if (samples.pixels.empty())
+    throw SetupError(fmt::format("{}: its lens shows nothing in its picture", name));
   const std::vector<double> first = LensParameters(start);
   const Eigen::VectorXd x =
       Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()));
@@ -68,6 +70,25 @@ OpenCvLens AsOpenCvLens(const CameraCalibration& camera) {
   const Vector2 center = CenterPx(camera.lens);
   start.K << FocalPx(camera.lens), 0, center.x(), 0, FocalPx(camera.lens), center.y(), 0, 0, 1;
   return FitLensTo(camera.name, SamplePicture(camera), start, "OpenCV");
+}
+
+OpenCvLens AsFiveCoefficients(const CameraCalibration& camera, const std::string& format) {
+  const OpenCvLens lens = AsOpenCvLens(camera);
+  if (lens.IsRational())
+    throw SetupError(camera.name + ": its lens has OpenCV's eight coefficients, k4 to k6 among " +
+                     "them; " + format +
+                     " knows five: mocap, pose2sim, opencv and easymocap hold it");
+  return lens;
+}
+
+double LensDifferencePx(const CameraCalibration& a, const Lens& b) {
+  const Samples samples = SamplePicture(a);
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.pixels.size(); ++i) {
+    const auto pixel = PixelFromNormalized(b, samples.normalized[i]);
+    sum += pixel ? (*pixel - samples.pixels[i]).squaredNorm() : 1e6;
+  }
+  return std::sqrt(sum / std::max<double>(1, static_cast<double>(samples.pixels.size())));
 }
 
 OpenCvLens FitOpenCvLens(const std::string& name, const OpenCvLens& start,

@@ -1,6 +1,7 @@
 #include "tools/calibration/lens_parameters.h"
 
 #include <algorithm>
+#include <span>
 
 namespace mocap {
 namespace {
@@ -9,10 +10,15 @@ std::vector<double> Parameters(const TsaiLens& lens) {
   return {lens.focal_mm, lens.kappa1, lens.center_px.x(), lens.center_px.y(), lens.sx};
 }
 
+// A board leaves k4 k5 k6 of a rational lens open beside k1 k2 k3: they stay as they are.
+std::span<double> Refined(OpenCvLens& lens) { return std::span(lens.distortion).first(5); }
+std::span<double> Refined(FisheyeLens& lens) { return lens.distortion; }
+
 template <typename OpenCvOrFisheye>
-std::vector<double> Parameters(const OpenCvOrFisheye& lens) {
+std::vector<double> Parameters(OpenCvOrFisheye lens) {
   std::vector<double> p = {lens.K(0, 0), lens.K(1, 1), lens.K(0, 2), lens.K(1, 2)};
-  p.insert(p.end(), lens.distortion.begin(), lens.distortion.end());
+  const std::span<double> refined = Refined(lens);
+  p.insert(p.end(), refined.begin(), refined.end());
   return p;
 }
 
@@ -30,7 +36,8 @@ Lens With(OpenCvOrFisheye lens, const double* p) {
   lens.K(1, 1) = p[1];
   lens.K(0, 2) = p[2];
   lens.K(1, 2) = p[3];
-  std::copy_n(p + 4, lens.distortion.size(), lens.distortion.begin());
+  const std::span<double> refined = Refined(lens);
+  std::copy_n(p + 4, refined.size(), refined.begin());
   return lens;
 }
 

@@ -7,8 +7,8 @@
 
 namespace mocap {
 
-/// What is refined of a lens. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3; fisheye: fx
-/// fy cx cy k1 k2 k3 k4.
+/// What is refined of a lens. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3 (k4 k5 k6
+/// stay as they are); fisheye: fx fy cx cy k1 k2 k3 k4.
 std::vector<double> LensParameters(const Lens& lens);
 
 /// Puts numbers back; the lens gives the model and what is not refined.

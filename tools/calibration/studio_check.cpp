@@ -53,6 +53,12 @@ void CheckPlaces(const std::vector<CameraCalibration>& cameras, bool has_floor,
   int under = 0;
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     const Vector3 p_WC = cameras[a].X_CW.Inverse().p;
+    const bool is_lens_alone = p_WC.isZero(0) && cameras[a].X_CW.R == Matrix3::Identity();
+    if (has_floor && is_lens_alone)
+      findings.push_back(
+          {Severity::kWrong, cameras[a].name +
+                                 ": stands at the origin and looks straight up: it has a lens and "
+                                 "no pose yet, or the floor is not set"});
     if (has_floor && p_WC.z() < 0) {
       ++under;
       findings.push_back(
@@ -196,7 +202,8 @@ KnownDistance ParseDistance(const std::string& text) {
     distance.to = text.substr(first + 1, second - first - 1);
     char* end = nullptr;
     distance.mm = std::strtod(text.c_str() + second + 1, &end);
-    if (*end == '\0' && distance.mm > 0 && distance.from != distance.to) return distance;
+    const bool is_length = std::isfinite(distance.mm) && distance.mm > 0;
+    if (*end == '\0' && is_length && distance.from != distance.to) return distance;
   }
   throw SetupError("--distance " + Quoted(text) + ": wanted is CAMERA:CAMERA:MM");
 }

@@ -1,12 +1,12 @@
 #include "tools/calibration/xml_tags.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
+#include "tools/calibration/data_tree.h"
+#include "tools/calibration/foreign_camera.h"
 
 namespace mocap {
 namespace {
@@ -36,46 +36,47 @@ XmlTag ParseTag(const std::string& text, int line) {
 }  // namespace
 
 std::vector<XmlTag> ReadXmlTags(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw SetupError(file.string() + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = ReadForeignText(file);
+  const std::string name = Printable(file.string());
   std::vector<XmlTag> tags;
   int line = 1;
   std::size_t at = 0;
   for (;;) {
     const std::size_t open = text.find('<', at);
+    const std::size_t text_end = std::min(open, text.size());
+    if (!tags.empty()) tags.back().text += text.substr(at, text_end - at);
     if (open == std::string::npos) break;
+    const bool comment = text.compare(open, 4, "<!--") == 0;
     line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
                                         text.begin() + static_cast<std::ptrdiff_t>(open), '\n'));
-    const bool comment = text.compare(open, 4, "<!--") == 0;
     const std::size_t close = comment ? text.find("-->", open) : text.find('>', open);
     if (close == std::string::npos)
-      throw SetupError(file.string() + ":" + std::to_string(line) + ": a tag does not end");
+      throw SetupError(name + ":" + std::to_string(line) + ": a tag does not end");
     std::string inside = text.substr(open + 1, close - open - 1);
-    if (!inside.empty() && inside.back() == '/') inside.pop_back();
-    if (!inside.empty() && inside[0] != '!' && inside[0] != '?')
+    const bool is_empty = !inside.empty() && inside.back() == '/';
+    if (is_empty) inside.pop_back();
+    if (!inside.empty() && inside[0] != '!' && inside[0] != '?') {
       tags.push_back(ParseTag(inside, line));
-    at = open + 1;
-    if (comment) at = close;
+      tags.back().is_empty = is_empty;
+    }
+    line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(open),
+                                        text.begin() + static_cast<std::ptrdiff_t>(close), '\n'));
+    at = close + (comment ? 3 : 1);
   }
+  if (tags.empty()) throw SetupError(name + ": is no XML; a calibration is wanted");
   return tags;
 }
 
 std::vector<double> XmlNumbers(const XmlTag& tag, const std::string& key, std::size_t count,
                                const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& what) {
-    throw SetupError(file.string() + ":" + std::to_string(tag.line) + ": " + tag.name + "." + key +
-                     " " + what);
-  };
-  if (!tag.Has(key)) fail("is missing");
+  const std::string where = Printable(file.string()) + ":" + std::to_string(tag.line) + ": " +
+                            Printable(tag.name) + "." + key;
+  if (!tag.Has(key)) throw SetupError(where + " is missing");
   std::istringstream in(tag.attributes.at(key));
   std::vector<double> numbers;
-  for (std::string word; in >> word;) {
-    char* end = nullptr;
-    numbers.push_back(std::strtod(word.c_str(), &end));
-    if (end == word.c_str() || *end != '\0') fail("holds \"" + word + "\", which is no number");
-  }
-  if (numbers.size() < count) fail("has fewer than " + std::to_string(count) + " numbers");
+  for (std::string word; in >> word;) numbers.push_back(FiniteNumber(word, where));
+  if (numbers.size() < count)
+    throw SetupError(where + " has fewer than " + std::to_string(count) + " numbers");
   return numbers;
 }
 

@@ -43,32 +43,60 @@ std::vector<double> SignChanges(std::span<const double> coefficients, double lim
   return roots;
 }
 
-// A radial polynomial f(r) = r (1 + k1 r² + k2 r⁴ + …) as far out as it rises: where it turns back,
-// a lens shows nothing.
-class RadialPolynomial {
+// The coefficients of N + 2 s N', the derivative by r of r N(s) with s = r².
+std::vector<double> SlopeOf(std::span<const double> numerator) {
+  std::vector<double> slope;
+  for (std::size_t i = 0; i < numerator.size(); ++i) slope.push_back((2 * i + 1) * numerator[i]);
+  return slope;
+}
+
+// Adds a constant times s^shift times a polynomial to another.
+void AddProduct(double factor, std::size_t shift, std::span<const double> polynomial,
+                std::vector<double>& sum) {
+  if (sum.size() < polynomial.size() + shift) sum.resize(polynomial.size() + shift);
+  for (std::size_t i = 0; i < polynomial.size(); ++i) sum[i + shift] += factor * polynomial[i];
+}
+
+// A radial function f(r) = r N(r²) / D(r²) as far out as it rises: where it turns back, or has a
+// pole, a lens shows nothing. N and D begin with 1; without k of D it is a polynomial.
+class RadialFunction {
  public:
-  explicit RadialPolynomial(std::span<const double> k) {
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      value_.push_back(k[i]);
-      slope_.push_back((2 * i + 3) * k[i]);
+  explicit RadialFunction(std::span<const double> numerator,
+                          std::span<const double> denominator = {}) {
+    numerator_.insert(numerator_.end(), numerator.begin(), numerator.end());
+    denominator_.insert(denominator_.end(), denominator.begin(), denominator.end());
+    const std::vector<double> slope = SlopeOf(numerator_);
+    if (denominator.empty()) {
+      rise_ = slope;
+      return;
+    }
+    // f' D² = (N + 2 s N') D − 2 s N D'.
+    rise_.clear();
+    for (std::size_t i = 0; i < denominator_.size(); ++i) {
+      AddProduct(denominator_[i], i, slope, rise_);
+      if (i > 0) AddProduct(-2.0 * i * denominator_[i], i, numerator_, rise_);
     }
   }
 
-  double At(double r) const { return r * Evaluate(value_, r * r); }
-  double SlopeAt(double r) const { return Evaluate(slope_, r * r); }
+  double At(double r) const { return r * Evaluate(numerator_, r * r) / DenominatorAt(r); }
+  double SlopeAt(double r) const {
+    const double d = DenominatorAt(r);
+    return Evaluate(rise_, r * r) / (d * d);
+  }
 
   // The first radius within `limit` beyond which it no longer rises; `limit` if there is none.
   double TurningRadius(double limit) const {
-    const std::vector<double> roots = SignChanges(slope_, limit * limit);
-    return roots.empty() ? limit : std::sqrt(roots.front());
+    const std::vector<double> turns = SignChanges(rise_, limit * limit);
+    double turning = turns.empty() ? limit : std::sqrt(turns.front());
+    if (const std::vector<double> poles = SignChanges(denominator_, limit * limit); !poles.empty())
+      turning = std::min(turning, std::sqrt(poles.front()));
+    return turning;
   }
 
   bool RisesUpTo(double r) const {
     // Most directions are settled by the falling terms alone.
-    double falling = 0;
-    for (auto c = slope_.rbegin(); c != slope_.rend(); ++c)
-      falling = falling * r * r + (c + 1 == slope_.rend() ? *c : std::min(*c, 0.0));
-    return falling > 0 || TurningRadius(r) >= r;
+    if (LowestUpTo(rise_, r) > 0 && LowestUpTo(denominator_, r) > 0) return true;
+    return TurningRadius(r) >= r;
   }
 
   // The radius that is mapped to `value`, on the branch that rises from zero.
@@ -89,8 +117,20 @@ class RadialPolynomial {
   }
 
  private:
-  std::vector<double> value_{1};  // f(r) / r as a polynomial in r².
-  std::vector<double> slope_{1};  // f'(r), likewise.
+  double DenominatorAt(double r) const {
+    return denominator_.size() == 1 ? 1 : Evaluate(denominator_, r * r);
+  }
+
+  // A bound from below on a polynomial in r² within (0, r).
+  static double LowestUpTo(std::span<const double> polynomial, double r) {
+    double falling = 0;
+    for (std::size_t i = polynomial.size(); i-- > 0;)
+      falling = falling * r * r + (i == 0 ? polynomial[i] : std::min(polynomial[i], 0.0));
+    return falling;
+  }
+
+  std::vector<double> numerator_{1}, denominator_{1};  // In r².
+  std::vector<double> rise_;                           // Has the sign of f', in r².
 };
 
 constexpr double kFarthestAngle_rad = 85 * std::numbers::pi / 180;
@@ -134,28 +174,33 @@ std::array<double, 3> RadialTerms(const OpenCvLens& lens) {
   return {lens.distortion[0], lens.distortion[1], lens.distortion[4]};
 }
 
+RadialFunction RadialOf(const OpenCvLens& lens) {
+  if (!lens.IsRational()) return RadialFunction(RadialTerms(lens));
+  return RadialFunction(RadialTerms(lens), std::span(lens.distortion).subspan<5>());
+}
+
 Vector2 Distort(const OpenCvLens& lens, const Vector2& n) {
   const double p1 = lens.distortion[2], p2 = lens.distortion[3];
   const double r2 = n.squaredNorm();
   const double xy = n.x() * n.y();
-  return n * (1 + r2 * Evaluate(RadialTerms(lens), r2)) +
-         Vector2(2 * p1 * xy + p2 * (r2 + 2 * n.x() * n.x()),
-                 p1 * (r2 + 2 * n.y() * n.y()) + 2 * p2 * xy);
+  double factor = 1 + r2 * Evaluate(RadialTerms(lens), r2);
+  if (lens.IsRational()) factor /= 1 + r2 * Evaluate(std::span(lens.distortion).subspan<5>(), r2);
+  return n * factor + Vector2(2 * p1 * xy + p2 * (r2 + 2 * n.x() * n.x()),
+                              p1 * (r2 + 2 * n.y() * n.y()) + 2 * p2 * xy);
 }
 
 std::optional<Vector2> Project(const OpenCvLens& lens, const Vector2& normalized) {
-  const std::array<double, 3> k = RadialTerms(lens);
   const double r = normalized.norm();
-  if (!(r <= kFarthestNormalized) || !RadialPolynomial(k).RisesUpTo(r)) return std::nullopt;
+  if (!(r <= kFarthestNormalized) || !RadialOf(lens).RisesUpTo(r)) return std::nullopt;
   return ToPixel(lens.K, Distort(lens, normalized));
 }
 
 std::optional<Vector2> Unproject(const OpenCvLens& lens, const Vector2& pixel) {
   const Vector2 distorted = FromPixel(lens.K, pixel);
-  const std::array<double, 3> k = RadialTerms(lens);
+  const RadialFunction radial = RadialOf(lens);
   const double radius = distorted.norm();
-  const double turning = RadialPolynomial(k).TurningRadius(kFarthestNormalized);
-  const std::optional<double> r = RadialPolynomial(k).Invert(radius, kFarthestNormalized);
+  const double turning = radial.TurningRadius(kFarthestNormalized);
+  const std::optional<double> r = radial.Invert(radius, kFarthestNormalized);
   // Near the rim the tangential terms may still pull a pixel into the picture.
   Vector2 n = radius > 0 ? Vector2(distorted * (r.value_or(turning) / radius)) : distorted;
   for (int i = 0; i < kMaxNewtonSteps; ++i) {
@@ -176,7 +221,7 @@ std::optional<Vector2> Unproject(const OpenCvLens& lens, const Vector2& pixel) {
 std::optional<Vector2> Project(const FisheyeLens& lens, const Vector2& normalized) {
   const double r = normalized.norm();
   if (!(r <= kFarthestNormalized)) return std::nullopt;
-  const RadialPolynomial polynomial(lens.distortion);
+  const RadialFunction polynomial(lens.distortion);
   const double theta = std::atan(r);
   if (!polynomial.RisesUpTo(theta)) return std::nullopt;
   return ToPixel(lens.K, normalized * (r > 0 ? polynomial.At(theta) / r : 1));
@@ -186,7 +231,7 @@ std::optional<Vector2> Unproject(const FisheyeLens& lens, const Vector2& pixel) 
   const Vector2 distorted = FromPixel(lens.K, pixel);
   const double radius = distorted.norm();
   const std::optional<double> theta =
-      RadialPolynomial(lens.distortion).Invert(radius, kFarthestAngle_rad);
+      RadialFunction(lens.distortion).Invert(radius, kFarthestAngle_rad);
   if (!theta) return std::nullopt;
   return Vector2(distorted * (radius > 0 ? std::tan(*theta) / radius : 1));
 }
@@ -196,12 +241,10 @@ double Radius(const TsaiLens& lens) {
   return std::min(kFarthestNormalized, 2 / (3 * lens.focal_mm * std::sqrt(-3 * lens.kappa1)));
 }
 
-double Radius(const OpenCvLens& lens) {
-  return RadialPolynomial(RadialTerms(lens)).TurningRadius(kFarthestNormalized);
-}
+double Radius(const OpenCvLens& lens) { return RadialOf(lens).TurningRadius(kFarthestNormalized); }
 
 double Radius(const FisheyeLens& lens) {
-  return std::tan(RadialPolynomial(lens.distortion).TurningRadius(kFarthestAngle_rad));
+  return std::tan(RadialFunction(lens.distortion).TurningRadius(kFarthestAngle_rad));
 }
 
 }  // namespace

@@ -24,10 +24,14 @@ struct TsaiLens {
   Vector2 pitch_mm = Vector2::Zero();  ///< dx, dy.
 };
 
-/// OpenCV's pinhole with radial and tangential distortion, undistorted -> distorted.
+/// OpenCV's pinhole with radial and tangential distortion, undistorted -> distorted. The radial
+/// factor is (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶).
 struct OpenCvLens {
   Matrix3 K = Matrix3::Identity();     ///< [px].
-  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3.
+  std::array<double, 8> distortion{};  ///< k1 k2 p1 p2 k3 k4 k5 k6.
+
+  /// Tells whether k4, k5 or k6 is in use.
+  bool IsRational() const { return distortion[5] != 0 || distortion[6] != 0 || distortion[7] != 0; }
 };
 
 /// OpenCV's fisheye (Kannala and Brandt, 2006).
@@ -39,7 +43,7 @@ struct FisheyeLens {
 using Lens = std::variant<TsaiLens, OpenCvLens, FisheyeLens>;
 
 /// Maps undistorted sensor-plane coordinates (Xu/f, Yu/f) to a pixel. Empty where the lens shows no
-/// such direction (the polynomial has turned back).
+/// such direction (its radius has turned back).
 std::optional<Vector2> PixelFromNormalized(const Lens& lens, const Vector2& normalized);
 
 /// Maps a pixel to undistorted sensor-plane coordinates (Xu/f, Yu/f); the inverse of

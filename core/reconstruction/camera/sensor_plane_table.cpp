@@ -14,6 +14,8 @@ constexpr double kWidestCell_px = 16;
 constexpr double kNarrowestCell_px = 4;
 // Of the half pixel that a table may err, all but this is left to rounding.
 constexpr double kWantedError_px = 0.02;
+// Half a gigabyte: far above what any lens needs.
+constexpr double kMostNodes = 1 << 26;
 
 }  // namespace
 
@@ -42,10 +44,12 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
       high_ = high_.cwiseMax(*direction);
     }
   }
-  if (!(low_.array() < high_.array()).all())
-    throw SetupError("camera " + camera.name + ": the lens shows nothing in its picture of " +
+  const auto refuse = [&](const std::string& what) {
+    throw SetupError("camera " + camera.name + ": the lens " + what + " in its picture of " +
                      std::to_string(width_px_) + " x " + std::to_string(height_px_) +
-                     " px; wanted a focal length and centre that fit it");
+                     " px; wanted a focal length, centre and distortion that fit it");
+  };
+  if (!(low_.array() < high_.array()).all()) refuse("shows nothing");
   if (beyond_the_rim) {
     low_.setConstant(-field_radius_);
     high_.setConstant(field_radius_);
@@ -65,13 +69,16 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
     return most;
   }();
   for (double cell_px = kWidestCell_px; cell_px >= kNarrowestCell_px; cell_px /= 2) {
-    FillNodes(camera.lens, cell_px / densest);
+    const double cell = cell_px / densest;
+    const Vector2 cells = (high_ - low_) / cell;
+    if (!((cells.x() + 3) * (cells.y() + 3) < kMostNodes)) refuse("spreads directions too far");
+    if (!FillNodes(camera.lens, cell)) refuse("has a radius that folds back and forth");
     if (WorstError_px(camera.lens) < kWantedError_px) break;
   }
   MeasureBends();
 }
 
-void SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
+bool SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
   // One cell on each side beyond the picture.
   columns_ = static_cast<int>(std::ceil((high_.x() - low_.x()) / cell)) + 3;
   rows_ = static_cast<int>(std::ceil((high_.y() - low_.y()) / cell)) + 3;
@@ -88,10 +95,12 @@ void SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
       const double inside = field_radius_ * (1 - 1e-9);
       if (at.norm() > inside) at *= inside / at.norm();
       const std::optional<Vector2> place = PixelFromNormalized(lens, at);
-      MOCAP_CHECK(place.has_value());
+      // Two turns so close to each other that only one of two searches finds them.
+      if (!place) return false;
       nodes_.push_back({static_cast<float>(place->x()), static_cast<float>(place->y())});
     }
   }
+  return true;
 }
 
 double SensorPlaneTable::WorstError_px(const Lens& lens) const {

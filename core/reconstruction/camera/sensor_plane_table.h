@@ -114,7 +114,7 @@ class SensorPlaneTable {
   Window WindowOf(int left, int top, int right, int bottom) const;
 
  private:
-  void FillNodes(const Lens& lens, double cell);
+  bool FillNodes(const Lens& lens, double cell);
   double WorstError_px(const Lens& lens) const;
   void MeasureBends();
 

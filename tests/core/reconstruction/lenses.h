@@ -38,6 +38,12 @@ inline OpenCvLens WideOpenCvLens() {
           .distortion = {-0.3687, 0.2032, 0.003, -0.002, -0.0712}};
 }
 
+/// With all eight coefficients, as wide lenses are calibrated with OpenCV's rational model.
+inline OpenCvLens RationalOpenCvLens() {
+  return {.K = PinholeMatrix(330, 333, 316.5, 247.5),
+          .distortion = {1.5, -0.8, 0.001, -0.0005, 0.2, 1.9, -0.6, 0.1}};
+}
+
 inline FisheyeLens WideFisheyeLens() {
   return {.K = PinholeMatrix(310, 311, 318, 243), .distortion = {-0.05, 0.02, -0.01, 0.003}};
 }
@@ -58,7 +64,8 @@ inline std::vector<NamedCamera> DistortedCameras() {
     return NamedCamera{name, calibration};
   };
   return {camera("barrel_tsai", BarrelTsaiLens()), camera("pincushion_tsai", PincushionTsaiLens()),
-          camera("opencv", WideOpenCvLens()), camera("fisheye", WideFisheyeLens())};
+          camera("opencv", WideOpenCvLens()), camera("rational", RationalOpenCvLens()),
+          camera("fisheye", WideFisheyeLens())};
 }
 
 }  // namespace mocap

@@ -60,8 +60,8 @@ std::string ReasonOf(const std::function<void()>& step) {
 TEST(ExchangeTest, Pose2SimComesBackTheSame) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "Calib.toml";
-  WritePose2Sim(file, Asymmetric(), 1000);
-  const Cameras back = ReadPose2Sim(file, 1000);
+  ExportCameras("pose2sim", file, Asymmetric(), {.unit_mm = 1000});
+  const Cameras back = ImportCameras("pose2sim", file, {.unit_mm = 1000}).cameras;
   ExpectSameViews(Asymmetric(), back, 1e-6);
   EXPECT_EQ(back[0].width_px, 1280);
   EXPECT_EQ(back[0].height_px, 720);
@@ -77,7 +77,7 @@ TEST(ExchangeTest, Pose2SimIsReadAsItsOwnDocumentationHasIt) {
             "1.5707963267948966]\n"
             "translation = [ -0.5, 1.25, 4.0]\nfisheye = false\n\n[metadata]\nadjusted = "
             "false\nerror = 0.0\n");
-  const Cameras cameras = ReadPose2Sim(file, 1000);
+  const Cameras cameras = ImportCameras("pose2sim", file, {.unit_mm = 1000}).cameras;
   ASSERT_EQ(cameras.size(), 1u);
   EXPECT_EQ(cameras[0].X_CW.p, Vector3(-500, 1250, 4000));
   EXPECT_NEAR((cameras[0].X_CW.R * Vector3::UnitX() - Vector3::UnitY()).norm(), 0, 1e-12);
@@ -89,8 +89,9 @@ TEST(ExchangeTest, AFisheyeOfPose2SimComesBackTheSame) {
   Cameras fisheyes = Asymmetric();
   for (CameraCalibration& camera : fisheyes)
     camera.lens = FisheyeLens{std::get<OpenCvLens>(camera.lens).K, {0.04, -0.011, 0.003, -0.0007}};
-  WritePose2Sim(folder.path() / "Calib.toml", fisheyes, 1000);
-  const Cameras back = ReadPose2Sim(folder.path() / "Calib.toml", 1000);
+  ExportCameras("pose2sim", folder.path() / "Calib.toml", fisheyes, {.unit_mm = 1000});
+  const Cameras back =
+      ImportCameras("pose2sim", folder.path() / "Calib.toml", {.unit_mm = 1000}).cameras;
   EXPECT_TRUE(std::holds_alternative<FisheyeLens>(back[0].lens));
   ExpectSameViews(fisheyes, back, 1e-6);
 }
@@ -98,34 +99,35 @@ TEST(ExchangeTest, AFisheyeOfPose2SimComesBackTheSame) {
 TEST(ExchangeTest, AniposelibsUnitIsThatOfItsBoard) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "calibration.toml";
-  WritePose2Sim(file, Asymmetric(), 25.4);
-  ExpectSameViews(Asymmetric(), ReadPose2Sim(file, 25.4), 1e-6);
+  ExportCameras("pose2sim", file, Asymmetric(), {.unit_mm = 25.4});
+  ExpectSameViews(Asymmetric(), ImportCameras("pose2sim", file, {.unit_mm = 25.4}).cameras, 1e-6);
   WriteText(file,
             "[cam_0]\nname = \"A\"\nsize = [ 1280, 1024,]\nmatrix = [ [ 1400.0, 0.0, 639.5,], "
             "[ 0.0, 1400.0, 511.5,], [ 0.0, 0.0, 1.0,],]\ndistortions = [ -0.1, 0.0, 0.0, 0.0, "
             "0.0,]\nrotation = [ 0.0, 0.0, 0.0,]\ntranslation = [ 1.0, 2.0, 30.0,]\n\n"
             "[metadata]\nadjusted = false\nerror = 0.4\n");
-  const Cameras cameras = ReadPose2Sim(file, 10);
+  const Cameras cameras = ImportCameras("pose2sim", file, {.unit_mm = 10}).cameras;
   EXPECT_EQ(cameras[0].name, "A");
   EXPECT_EQ(cameras[0].X_CW.p, Vector3(10, 20, 300));
 }
 
 TEST(ExchangeTest, EasyMocapComesBackTheSame) {
   const TemporaryFolder folder;
-  WriteEasyMocap(folder.path() / "easy", Asymmetric());
-  ExpectSameViews(Asymmetric(), ReadEasyMocap(folder.path() / "easy"), 1e-6);
+  ExportCameras("easymocap", folder.path() / "easy", Asymmetric());
+  ExpectSameViews(Asymmetric(), ImportCameras("easymocap", folder.path() / "easy").cameras, 1e-6);
 }
 
 TEST(ExchangeTest, OpenCvYamlComesBackTheSame) {
   const TemporaryFolder folder;
-  WriteOpenCvYaml(folder.path() / "cv", Asymmetric());
-  ExpectSameViews(Asymmetric(), ReadOpenCvYaml(folder.path() / "cv"), 1e-6);
+  ExportCameras("opencv", folder.path() / "cv", Asymmetric());
+  ExpectSameViews(Asymmetric(), ImportCameras("opencv", folder.path() / "cv").cameras, 1e-6);
 }
 
 TEST(ExchangeTest, QualisysComesBackTheSame) {
   const TemporaryFolder folder;
-  WriteQualisys(folder.path() / "a.qca.txt", Asymmetric());
-  ExpectSameViews(Asymmetric(), ReadQualisys(folder.path() / "a.qca.txt"), 1e-6);
+  ExportCameras("qualisys", folder.path() / "a.qca.txt", Asymmetric());
+  ExpectSameViews(Asymmetric(), ImportCameras("qualisys", folder.path() / "a.qca.txt").cameras,
+                  1e-6);
 }
 
 TEST(ExchangeTest, ViconComesBackAsNearAsItsRadialModelAllows) {
@@ -135,15 +137,17 @@ TEST(ExchangeTest, ViconComesBackAsNearAsItsRadialModelAllows) {
     OpenCvLens& lens = std::get<OpenCvLens>(camera.lens);
     lens.distortion[2] = lens.distortion[3] = 0;
   }
-  WriteVicon(folder.path() / "a.xcp", radial);
-  ExpectSameViews(radial, ReadVicon(folder.path() / "a.xcp"), 0.3);
+  ExportCameras("vicon", folder.path() / "a.xcp", radial);
+  ExpectSameViews(radial, ImportCameras("vicon", folder.path() / "a.xcp").cameras, 0.3);
 }
 
 TEST(ExchangeTest, WillsonComesBackTheSameForTsaiLenses) {
   const TemporaryFolder folder;
   const Cameras rig = simulation::HangCameras({});
-  WriteWillson(folder.path() / "cal", rig);
-  const Cameras back = ReadWillson(folder.path() / "cal");
+  ExportCameras("willson", folder.path() / "cal", rig);
+  const Cameras back = ImportCameras("willson", folder.path() / "cal",
+                                     {.size_px = {{rig[0].width_px, rig[0].height_px}}})
+                           .cameras;
   ASSERT_EQ(back.size(), rig.size());
   for (std::size_t c = 0; c < rig.size(); ++c) {
     EXPECT_NEAR((back[c].X_CW.R - rig[c].X_CW.R).norm(), 0, 1e-12);
@@ -173,10 +177,13 @@ TEST(ExchangeTest, NamesFileAndLineOfWhatIsMissing) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "bad.qca.txt";
   WriteText(file, "<calibration>\n<camera serial=\"1\">\n<transform x=\"1\" y=\"2\"/>\n</camera>");
-  EXPECT_THAT(ReasonOf([&] { ReadQualisys(file); }), HasSubstr("bad.qca.txt:3: transform."));
+  EXPECT_THAT(ReasonOf([&] { ImportCameras("qualisys", file); }),
+              HasSubstr("bad.qca.txt:3: transform."));
   WriteText(file, "[cam]\nmatrix = [[1");
-  EXPECT_THAT(ReasonOf([&] { ReadPose2Sim(file, 1000); }), HasSubstr("bad.qca.txt:2"));
-  EXPECT_THAT(ReasonOf([&] { ReadEasyMocap(folder.path()); }), HasSubstr("intri.yml"));
+  EXPECT_THAT(ReasonOf([&] { ImportCameras("pose2sim", file, {.unit_mm = 1000}); }),
+              HasSubstr("bad.qca.txt:2"));
+  EXPECT_THAT(ReasonOf([&] { ImportCameras("easymocap", folder.path()); }),
+              HasSubstr("intri.yml"));
 }
 
 }  // namespace

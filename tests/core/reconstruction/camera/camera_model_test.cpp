@@ -32,6 +32,14 @@ TEST(CameraModel, OpenCvLensProjectsLikeOpenCv) {
   ExpectNear(PixelFromNormalized(lens, {0.3, -0.4}), {457.28593750, 53.07862500}, 1e-6);
 }
 
+TEST(CameraModel, ALensOfEightCoefficientsProjectsLikeOpenCvsRationalModel) {
+  OpenCvLens lens = RationalOpenCvLens();
+  lens.K = PinholeMatrix(500, 510, 320, 240);
+  // cv::projectPoints of (0.3, -0.4, 1) and (0.7, 0.5, 1).
+  ExpectNear(PixelFromNormalized(lens, {0.3, -0.4}), {458.20898208, 52.07828436}, 1e-6);
+  ExpectNear(PixelFromNormalized(lens, {0.7, 0.5}), {609.60298965, 451.50864960}, 1e-6);
+}
+
 TEST(CameraModel, FisheyeLensProjectsLikeOpenCv) {
   const FisheyeLens lens{.K = PinholeMatrix(500, 510, 320, 240),
                          .distortion = {-0.05, 0.02, -0.01, 0.003}};
@@ -115,6 +123,38 @@ TEST(CameraModel, AWiggleOfThePolynomialFarFromThePictureIsFound) {
   const OpenCvLens lens{PinholeMatrix(400, 400, 320, 240), {-1, 0.4, 0, 0, 0}};
   EXPECT_NEAR(FieldRadius(lens), std::sqrt(0.5), 1e-9);
   EXPECT_FALSE(PixelFromNormalized(lens, {0, 1.5}).has_value());
+}
+
+TEST(CameraModel, ARationalLensShowsNothingBeyondWhereItTurnsBack) {
+  // r / (1 + r²) rises up to r = 1.
+  const OpenCvLens lens{PinholeMatrix(400, 400, 320, 240), {0, 0, 0, 0, 0, 1, 0, 0}};
+  EXPECT_NEAR(FieldRadius(lens), 1, 1e-9);
+  EXPECT_TRUE(PixelFromNormalized(lens, {0.99, 0}).has_value());
+  EXPECT_FALSE(PixelFromNormalized(lens, {1.01, 0}).has_value());
+  // 400 / 2 pixels from the centre the picture ends.
+  EXPECT_TRUE(NormalizedFromPixel(lens, {320 + 199, 240}).has_value());
+  EXPECT_FALSE(NormalizedFromPixel(lens, {320 + 201, 240}).has_value());
+}
+
+TEST(CameraModel, ARationalLensShowsNothingBeyondItsPole) {
+  // r / (1 - r²) rises without end up to r = 1, and again beyond it.
+  const OpenCvLens lens{PinholeMatrix(400, 400, 320, 240), {0, 0, 0, 0, 0, -1, 0, 0}};
+  EXPECT_NEAR(FieldRadius(lens), 1, 1e-9);
+  EXPECT_FALSE(PixelFromNormalized(lens, {1.2, 0}).has_value());
+  ExpectNear(NormalizedFromPixel(lens, {320 + 400 * 0.5 / 0.75, 240}), {0.5, 0}, 1e-9);
+}
+
+TEST(CameraModel, ALensWhoseLastThreeCoefficientsVanishIsThatOfFive) {
+  const OpenCvLens five = WideOpenCvLens();
+  OpenCvLens eight = five;
+  eight.distortion[5] = 1e-300;
+  for (int i = 0; i < 200; ++i) {
+    const Vector2 pixel(3.2 * i, 2.4 * (199 - i));
+    const auto a = NormalizedFromPixel(five, pixel);
+    if (!a) continue;
+    ExpectNear(NormalizedFromPixel(eight, pixel), *a, 1e-12);
+    ExpectNear(PixelFromNormalized(eight, *a), pixel, 1e-9);
+  }
 }
 
 TEST(CameraModel, AFisheyeIsFollowedToWideAngles) {

@@ -89,6 +89,22 @@ TEST(SensorPlaneTable, DirectionsBeyondTheTurnOfALensAreNotFoldedBackIntoThePict
   for (const double r : {0.58, 0.7, 0.9, 1.0, 1.5}) EXPECT_LT(table.Lookup(r, 0).x, 0) << r;
 }
 
+TEST(SensorPlaneTable, ALensThatNoMemoryCouldHoldIsRefusedByName) {
+  CameraCalibration camera;
+  camera.name = "cam7";
+  camera.width_px = 640;
+  camera.height_px = 480;
+  // Its picture is a sliver at the rim of 170 degrees.
+  camera.lens = FisheyeLens{PinholeMatrix(1e6, 1e6, 1483600, 240), {}};
+  std::string reason;
+  try {
+    const SensorPlaneTable table(camera);
+  } catch (const SetupError& error) {
+    reason = error.what();
+  }
+  EXPECT_NE(reason.find("camera cam7: the lens"), std::string::npos) << reason;
+}
+
 // The slope of a cell [px per cell], at places within it.
 struct Slope {
   Eigen::Vector2f place, right, down;

@@ -1,0 +1,181 @@
+#include "tools/calibration/footage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "core/errors.h"
+#include "drivers/take/video_writer.h"
+#include "tests/support/telephone_video.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using testing::TemporaryFolder;
+using testing::WriteText;
+
+class FootageTest : public ::testing::Test {
+ protected:
+  // A portable pixmap of 16 x 16; FFmpeg needs no more than its name to end in .bmp or .png to be
+  // asked for it, and looks at what it holds.
+  void WritePicture(const std::string& name) {
+    fs::create_directories((folder_.path() / name).parent_path());
+    std::ofstream out(folder_.path() / name, std::ios::binary);
+    const auto number = [&out](auto value) {
+      out.write(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    constexpr std::int32_t kSide = 16;
+    out << "BM";
+    for (const std::int32_t n : {54 + 3 * kSide * kSide, 0, 54, 40, kSide, kSide}) number(n);
+    for (const std::int16_t n : {1, 24}) number(n);
+    for (const std::int32_t n : {0, 3 * kSide * kSide, 0, 0, 0, 0}) number(n);
+    out << std::string(3 * kSide * kSide, 'x');
+  }
+  void WriteVideo(const std::string& name, int frames) {
+    VideoWriter writer(folder_.path() / name, 16, 16, 10, VideoPixels::kBgr);
+    const Image<Bgr> picture(16, 16);
+    for (int i = 0; i < frames; ++i) writer.Write(picture.view());
+    writer.Finish();
+  }
+  // "img1+img1 -+img2": which pictures belong to one moment, camera by camera.
+  std::string Moments(const Footage& footage) {
+    std::string text;
+    for (const FootageMoment& moment : MatchMoments(footage)) {
+      for (std::size_t c = 0; c < moment.frames.size(); ++c) {
+        const int frame = moment.frames[c];
+        text += (c == 0 ? (text.empty() ? "" : " ") : "+") +
+                (frame < 0 ? "-" : fs::path(footage.cameras[c].frames[frame].name).stem().string());
+      }
+    }
+    return text;
+  }
+  std::string Why() {
+    try {
+      OpenFootage(folder_.path());
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(FootageTest, PicturesOfAMomentAreThoseOfOneNumber) {
+  for (const char* name :
+       {"cam1/img1.bmp", "cam1/img2.bmp", "cam1/img10.bmp", "cam2/img01.bmp", "cam2/img10.bmp"})
+    WritePicture(name);
+  const Footage footage = OpenFootage(folder_.path());
+  EXPECT_EQ(Moments(footage), "img1+img01 img2+- img10+img10");
+  EXPECT_THAT(footage.notes, ElementsAre(AllOf(HasSubstr("cam2"), HasSubstr("img2.bmp"))));
+}
+
+TEST_F(FootageTest, NumbersAreTakenFromWhereTheyCount) {
+  EXPECT_THAT(PictureKeys({"cam2_009.png", "cam2_10.png"}), ElementsAre("9", "10"));
+  EXPECT_THAT(PictureKeys({"0003_cam2.png", "0012_cam2.png"}), ElementsAre("3", "12"));
+  EXPECT_THAT(PictureKeys({"left.png", "right.png"}), ElementsAre("left.png", "right.png"));
+  EXPECT_THAT(PictureKeys({"1.png", "01.png"}), ElementsAre("1.png", "01.png"));
+  EXPECT_THAT(PictureKeys({"20261125093000123456789.png"}), ElementsAre("20261125093000123456789"));
+  EXPECT_TRUE(IsKeyLess("9", "10"));
+  EXPECT_FALSE(IsKeyLess("10", "9"));
+}
+
+TEST_F(FootageTest, CamerasThatCountEachForThemselvesArePairedInOrderAndThatIsTold) {
+  for (const char* name :
+       {"cam1/DSC_7.bmp", "cam1/DSC_8.bmp", "cam2/DSC_99.bmp", "cam2/DSC_100.bmp"})
+    WritePicture(name);
+  const Footage footage = OpenFootage(folder_.path());
+  EXPECT_EQ(Moments(footage), "DSC_7+DSC_99 DSC_8+DSC_100");
+  EXPECT_THAT(footage.notes, Contains(HasSubstr("no numbers in common")));
+  WritePicture("cam2/DSC_101.bmp");
+  const Footage more = OpenFootage(folder_.path());
+  EXPECT_EQ(Moments(more), "DSC_7+- DSC_8+- -+DSC_99 -+DSC_100 -+DSC_101");
+  EXPECT_THAT(more.notes, Contains(HasSubstr("cannot be told")));
+}
+
+TEST_F(FootageTest, HiddenFilesOfOtherSystemsArePassedOver) {
+  WritePicture("cam1/img1.bmp");
+  WriteText(folder_.path() / "cam1/._img1.bmp", "x");
+  WriteText(folder_.path() / "cam1/Thumbs.db", "x");
+  WriteText(folder_.path() / ".DS_Store", "x");
+  fs::create_directories(folder_.path() / ".Trashes");
+  WritePicture(".Trashes/img1.bmp");
+  const Footage footage = OpenFootage(folder_.path());
+  ASSERT_THAT(footage.cameras, SizeIs(1));
+  EXPECT_THAT(footage.cameras[0].frames, SizeIs(1));
+  WriteVideo("cam2.mkv", 2);
+  WriteText(folder_.path() / "._cam2.mkv", "x");
+  EXPECT_THAT(OpenFootage(folder_.path()).cameras, SizeIs(1));
+}
+
+TEST_F(FootageTest, CaliscopesTablesTellTimes) {
+  WriteVideo("cam_0.mkv", 3);
+  WriteVideo("cam_1.mkv", 3);
+  const fs::path table = folder_.path() / "timestamps.csv";
+  for (const char* text :
+       {"cam_id,frame_time\n0,9.1\n1,9.1\n0,9.2\n1,9.2\n0,9.4\n1,9.4\n",
+        "\xEF\xBB\xBF"
+        "cam_id,frame_time\r\n0,9.1\r\n1,9.1\r\n0,9.2\r\n1,9.2\r\n0,9.4\r\n1,9.4",
+        "port,frame_index,frame_time\n0,0,9.1\n1,0,9.1\n0,2,9.4\n0,1,9.2\n1,1,9.2\n1,2,9.4\n",
+        "sync_index,cam_id,frame_index,frame_time\n0,0,0,9.1\n0,1,0,9.1\n1,0,1,9.2\n1,1,1,9.2\n2,"
+        "0,2,9.4\n2,1,2,9.4\n"}) {
+    WriteText(table, text);
+    const Footage footage = OpenFootage(folder_.path());
+    ASSERT_THAT(footage.cameras, SizeIs(2)) << text;
+    EXPECT_TRUE(footage.cameras[1].timed);
+    EXPECT_EQ(footage.cameras[1].frames[2].time_ns, 9'400'000'000) << text;
+  }
+}
+
+TEST_F(FootageTest, ATableOfTimesThatIsWrongIsRefusedByItsLine) {
+  WriteVideo("cam_0.mkv", 2);
+  const fs::path table = folder_.path() / "timestamps.csv";
+  const auto why = [&](const std::string& text) {
+    WriteText(table, text);
+    return Why();
+  };
+  EXPECT_THAT(why("frame,time\n"), AllOf(HasSubstr("timestamps.csv:1"), HasSubstr("cam_id")));
+  EXPECT_THAT(why(""), HasSubstr("timestamps.csv:1"));
+  EXPECT_THAT(why("cam_id,frame_time\n0,nan\n0,2\n"), HasSubstr("timestamps.csv:2"));
+  EXPECT_THAT(why("cam_id,frame_time\n0,1\n0,1e300\n"), HasSubstr("timestamps.csv:3"));
+  EXPECT_THAT(why("cam_id,frame_time\n0,2\n0,1\n"), HasSubstr("timestamps.csv:3"));
+  EXPECT_THAT(why("cam_id,frame_time\n0,1,2\n"), HasSubstr("timestamps.csv:2"));
+  EXPECT_THAT(why("cam_id,frame_time\nx,1\n"), HasSubstr("timestamps.csv:2"));
+  EXPECT_THAT(why("cam_id,frame_time\n0,1\n0,2\n0,3\n"), AllOf(HasSubstr("3"), HasSubstr("cam_0")));
+}
+
+TEST_F(FootageTest, VideosOfTelephonesArePairedByTheirOwnTimesAndThatIsTold) {
+  testing::WriteTelephoneVideo(folder_.path() / "cam1.mov", {0, 33, 66, 100, 133},
+                               testing::kHeldUpright);
+  // One that dropped the second frame and the third.
+  testing::WriteTelephoneVideo(folder_.path() / "cam2.mov", {0, 99, 135}, testing::kHeldUpright);
+  const Footage footage = OpenFootage(folder_.path());
+  EXPECT_EQ(Moments(footage),
+            "frame 0+frame 0 frame 1+- frame 2+- frame 3+frame 1 frame 4+frame 2");
+  EXPECT_EQ(footage.cameras[0].width_px, 32);
+  EXPECT_THAT(footage.notes,
+              AllOf(Contains(HasSubstr("cam2.mov: turned right by 90 degrees")),
+                    Contains(AllOf(HasSubstr("cam2.mov"), HasSubstr("36 to 99 ms")))));
+}
+
+TEST_F(FootageTest, VideosWithoutSuchTimesSayNothing) {
+  WriteVideo("cam1.mkv", 3);
+  WriteVideo("cam2.mkv", 3);
+  const Footage footage = OpenFootage(folder_.path());
+  EXPECT_EQ(Moments(footage), "frame 0+frame 0 frame 1+frame 1 frame 2+frame 2");
+  EXPECT_THAT(footage.notes, IsEmpty());
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,80 @@
+#include "tools/calibrate_convert.h"
+
+#include <charconv>
+#include <cstdio>
+#include <memory>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
+#include "tools/calibration/exchange.h"
+#include "tools/calibration/studio_check.h"
+
+namespace mocap {
+namespace {
+
+// Above this no unit of length is.
+constexpr double kLargestUnit_mm = 1e6;
+
+struct ConvertArguments {
+  std::filesystem::path in, out;
+  std::string from = "mocap", to = "mocap", size;
+  ImportOptions options;
+};
+
+// "1280x720".
+std::array<int, 2> ParseSize(const std::string& text) {
+  std::array<int, 2> size_px{};
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size_px[0]);
+  if (width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
+    const auto height = std::from_chars(width.ptr + 1, end, size_px[1]);
+    const auto is_side = [](int side) { return side >= 1 && side <= kLargestPicture_px; };
+    if (height.ec == std::errc() && height.ptr == end && is_side(size_px[0]) && is_side(size_px[1]))
+      return size_px;
+  }
+  throw SetupError("--size " + Quoted(text) + ": wanted is WIDTHxHEIGHT in pixels, as 1280x720");
+}
+
+void RunConvert(ConvertArguments a) {
+  if (!a.size.empty()) a.options.size_px = ParseSize(a.size);
+  const Imported imported = ImportCameras(a.from, a.in, a.options);
+  for (const std::string& note : imported.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
+  ExportCameras(a.to, a.out, imported.cameras, a.options);
+  if (imported.are_lenses_alone) return;
+  for (const Finding& finding : CheckCameras(imported.cameras, a.from != "kalibr"))
+    std::fprintf(stdout, "look: %s\n", finding.text.c_str());
+  if (a.from == "kalibr")
+    std::fputs("look: the world is the first camera's; set the floor with mocap calibrate floor\n",
+               stdout);
+}
+
+}  // namespace
+
+void AddConvert(CLI::App* parent) {
+  const auto a = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      parent->add_subcommand("convert", "Calibrations of other programs, in and out");
+  command->add_option("IN", a->in, "file, or folder for easymocap, opencv, ros and willson")
+      ->required();
+  command->add_option("--from", a->from, "format of IN")
+      ->capture_default_str()
+      ->check(CLI::IsMember(ImportFormats()));
+  command->add_option("--to", a->to, "format of --out")
+      ->capture_default_str()
+      ->check(CLI::IsMember(ExportFormats()));
+  command->add_option("--out", a->out, "file or folder to write")->required();
+  command
+      ->add_option("--unit", a->options.unit_mm,
+                   "one unit of a pose2sim file in mm (aniposelib's is its board's)")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-6, kLargestUnit_mm));
+  command->add_option("--size", a->size,
+                      "WIDTHxHEIGHT of the pictures, where IN does not tell [px]");
+  command->add_flag("--lenses", a->options.lenses_alone,
+                    "keep cameras without a pose too, at the identity, for mocap calibrate "
+                    "extrinsics --intrinsics");
+  command->callback([a] { RunConvert(*a); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,281 @@
+#include "tools/calibration/foreign_camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
+#include "drivers/take/take_layout.h"
+
+namespace mocap {
+namespace {
+
+// Rotations are printed with few digits by some programs.
+constexpr double kRotationTolerance = 1e-3;
+constexpr double kMostTurns_rad = 100;
+constexpr double kFarthest_mm = 1e6;
+constexpr double kNoSkew = 1e-9;
+constexpr double kLongestFocal_px = 1e6, kLargestCoefficient = 1e6;
+// A studio in metres that was taken for millimetres would fit into a hand.
+constexpr double kSmallestStudio_mm = 50;
+constexpr int kColumns = 16, kRows = 12;
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+[[noreturn]] void Fail(const ForeignNumbers& numbers, const std::string& what) {
+  throw SetupError(numbers.where + " " + what);
+}
+
+void RequireFinite(const ForeignNumbers& numbers) {
+  for (const double value : numbers.values) {
+    if (!std::isfinite(value))
+      Fail(numbers, fmt::format("has {}; finite numbers are wanted", value));
+  }
+}
+
+void CheckName(const ForeignCamera& found, std::set<std::string>& names) {
+  if (!IsCameraName(found.name))
+    throw SetupError(found.where + ": a camera is called " + Quoted(found.name) +
+                     "; up to 64 letters, digits, _ and - are wanted: rename it there");
+  if (!names.insert(found.name).second)
+    throw SetupError(found.where + ": a second camera is called " + Quoted(found.name) +
+                     "; a name of its own is wanted for each: rename it there");
+}
+
+std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& options) {
+  ForeignNumbers size = found.size_px;
+  RequireFinite(size);
+  if (size.values.size() < 2) {
+    if (!options.size_px)
+      Fail(size, "does not tell the size of the pictures; add --size WIDTHxHEIGHT, in pixels");
+    if (size.values.size() == 1 && size.values[0] != (*options.size_px)[0])
+      Fail(size, fmt::format("has pictures {} px wide; --size has {}", size.values[0],
+                             (*options.size_px)[0]));
+    size.values = {static_cast<double>((*options.size_px)[0]),
+                   static_cast<double>((*options.size_px)[1])};
+  }
+  const auto is_side = [](double side) {
+    return side >= 1 && side <= kLargestPicture_px && side == std::floor(side);
+  };
+  if (size.values.size() != 2 || !is_side(size.values[0]) || !is_side(size.values[1])) {
+    std::string shown;
+    for (const double side : size.values)
+      shown += fmt::format("{}{}", shown.empty() ? "" : " x ", side);
+    Fail(size, "is " + shown.substr(0, 60) +
+                   fmt::format("; width and height in whole pixels, from 1 to {}, are wanted",
+                               kLargestPicture_px));
+  }
+  return {static_cast<int>(size.values[0]), static_cast<int>(size.values[1])};
+}
+
+Matrix3 CheckMatrix(const ForeignNumbers& matrix) {
+  RequireFinite(matrix);
+  if (matrix.values.size() != 9)
+    Fail(matrix, fmt::format("has {} numbers; 3 x 3 are wanted", matrix.values.size()));
+  Matrix3 K = Eigen::Map<const RowMajor3>(matrix.values.data());
+  if (std::abs(K(0, 1)) < kNoSkew) K(0, 1) = 0;
+  if (K(0, 1) != 0)
+    Fail(matrix, fmt::format("has the skew {}; a lens without skew is wanted", K(0, 1)));
+  if (K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0 || K(2, 2) != 1)
+    Fail(matrix, "is not [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]");
+  const auto is_focal = [](double f) { return f > 0 && f <= kLongestFocal_px; };
+  if (!is_focal(K(0, 0)) || !is_focal(K(1, 1)))
+    Fail(matrix, fmt::format("has the focal lengths {} and {}; pixels, above 0 and up to {}, are "
+                             "wanted",
+                             K(0, 0), K(1, 1), kLongestFocal_px));
+  if (std::abs(K(0, 2)) > kLongestFocal_px || std::abs(K(1, 2)) > kLongestFocal_px)
+    Fail(matrix, "has its centre far outside any picture");
+  return K;
+}
+
+Lens CheckFisheye(const Matrix3& K, const ForeignNumbers& distortion) {
+  FisheyeLens lens{K, {}};
+  if (!distortion.values.empty() && distortion.values.size() != lens.distortion.size())
+    Fail(distortion,
+         fmt::format("has {} numbers; a fisheye has 4: k1 k2 k3 k4", distortion.values.size()));
+  std::copy(distortion.values.begin(), distortion.values.end(), lens.distortion.begin());
+  return lens;
+}
+
+Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
+  const std::vector<double>& k = distortion.values;
+  static const std::set<std::size_t> kCounts = {0, 4, 5, 8, 12, 14};
+  if (!kCounts.contains(k.size()))
+    Fail(
+        distortion,
+        fmt::format("has {} numbers; 4, 5 or 8 are wanted: k1 k2 p1 p2 [k3 [k4 k5 k6]]", k.size()));
+  OpenCvLens lens{K, {}};
+  const std::size_t kept = std::min(k.size(), lens.distortion.size());
+  for (std::size_t i = kept; i < k.size(); ++i) {
+    if (k[i] != 0)
+      Fail(distortion, fmt::format("has {} {}, of OpenCV's {} model, which is not known here; "
+                                   "calibrate with k1 to k6, p1 and p2 alone",
+                                   i < 12    ? fmt::format("s{}", i - 7)
+                                   : i == 12 ? "tau x"
+                                             : "tau y",
+                                   k[i], i < 12 ? "thin prism" : "tilted sensor"));
+  }
+  std::copy_n(k.begin(), kept, lens.distortion.begin());
+  return lens;
+}
+
+Lens CheckLens(const ForeignCamera& found) {
+  if (found.lens) return *found.lens;
+  const Matrix3 K = CheckMatrix(found.matrix);
+  RequireFinite(found.distortion);
+  for (const double k : found.distortion.values) {
+    if (std::abs(k) > kLargestCoefficient)
+      Fail(found.distortion, fmt::format("has {}, as no lens has", k));
+  }
+  return found.is_fisheye ? CheckFisheye(K, found.distortion) : CheckPinhole(K, found.distortion);
+}
+
+Matrix3 CheckRotation(const ForeignNumbers& rotation) {
+  RequireFinite(rotation);
+  const std::vector<double>& n = rotation.values;
+  if (n.size() == 3) {
+    const Vector3 w(n[0], n[1], n[2]);
+    if (!(w.norm() < kMostTurns_rad))
+      Fail(rotation, "is no rotation vector: it turns too far; radians are wanted");
+    return ExpRotation(w);
+  }
+  if (n.size() != 9)
+    Fail(rotation, fmt::format("has {} numbers; a rotation vector of 3, or a matrix of 3 x 3, is "
+                               "wanted",
+                               n.size()));
+  const Matrix3 R = Eigen::Map<const RowMajor3>(n.data());
+  if (!((R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < kRotationTolerance))
+    Fail(rotation, "is no rotation; three rows that are perpendicular unit vectors are wanted");
+  if (R.determinant() < 0)
+    Fail(rotation, "is a reflection; a rotation, whose determinant is +1, is wanted");
+  return NearestRotation(R);
+}
+
+Vector3 CheckTranslation(const ForeignNumbers& translation) {
+  RequireFinite(translation);
+  if (translation.values.size() != 3)
+    Fail(translation, fmt::format("has {} numbers; 3 are wanted", translation.values.size()));
+  const Vector3 t(translation.values[0], translation.values[1], translation.values[2]);
+  if (!(t.norm() <= kFarthest_mm))
+    Fail(translation,
+         fmt::format("is {:.0f} m long; is the unit of length right (--unit)?", t.norm() / 1000));
+  return t;
+}
+
+std::string Lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// What may be so, and seldom is.
+void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::string>& notes) {
+  std::set<std::string> lowered;
+  for (const CameraCalibration& camera : cameras) {
+    if (!lowered.insert(Lowered(camera.name)).second)
+      notes.push_back(source + ": " + camera.name +
+                      " has the name of another camera but for small and capital letters; on disks "
+                      "that do not tell those apart, files of both are one");
+    if (const double folded = FoldedShare(camera); folded > 0)
+      notes.push_back(fmt::format(
+          "{}: {}: its lens folds inside the picture: {:.0f} % of it, at the rim, shows no "
+          "direction; was it calibrated with views that fill the picture?",
+          source, camera.name, std::max(1.0, 100 * folded)));
+  }
+  double widest_mm = 0;
+  for (const CameraCalibration& a : cameras) {
+    for (const CameraCalibration& b : cameras)
+      widest_mm = std::max(widest_mm, (a.X_CW.Inverse().p - b.X_CW.Inverse().p).norm());
+  }
+  if (cameras.size() > 1 && widest_mm < kSmallestStudio_mm)
+    notes.push_back(fmt::format(
+        "{}: all cameras stand within {:.1f} mm; are its lengths in metres, and millimetres wanted "
+        "(--unit)?",
+        source, widest_mm));
+}
+
+}  // namespace
+
+double FiniteNumber(std::string_view text, const std::string& where) {
+  std::string_view digits = text;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+  if (!is_number || digits.empty() || !std::isfinite(number))
+    throw SetupError(where + " is " + Quoted(text) + "; a finite number is wanted");
+  return number;
+}
+
+double FoldedShare(const CameraCalibration& camera) {
+  int folded = 0;
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kColumns; ++i) {
+      const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,
+                          (camera.height_px - 1.0) * j / kRows);
+      folded += !NormalizedFromPixel(camera.lens, pixel).has_value();
+    }
+  }
+  return static_cast<double>(folded) / ((kColumns + 1) * (kRows + 1));
+}
+
+Imported CheckForeignCameras(const std::string& source, const std::vector<ForeignCamera>& found,
+                             const ImportOptions& options) {
+  Imported imported;
+  imported.are_lenses_alone = options.lenses_alone;
+  std::set<std::string> names;
+  std::string no_lens, no_pose;
+  const auto add = [](const std::string& name, std::string& list) {
+    list += (list.empty() ? "" : ", ") + name;
+  };
+  for (const ForeignCamera& foreign : found) {
+    CheckName(foreign, names);
+    if (!foreign.has_lens) {
+      add(foreign.name, no_lens);
+      continue;
+    }
+    CameraCalibration camera;
+    camera.name = foreign.name;
+    const auto [width_px, height_px] = CheckSize(foreign, options);
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.lens = CheckLens(foreign);
+    if (FoldedShare(camera) == 1)
+      throw SetupError(
+          foreign.where + ": " + foreign.name +
+          ": the lens shows nothing in its picture; a focal length and centre that fit "
+          "it are wanted");
+    if (foreign.rotation.has_value() != foreign.translation_mm.has_value())
+      throw SetupError(
+          foreign.where + ": " + foreign.name + " has a " +
+          (foreign.rotation ? "rotation and no translation" : "translation and no rotation") +
+          "; both are wanted, or neither");
+    if (foreign.rotation) {
+      camera.X_CW.R = CheckRotation(*foreign.rotation);
+      camera.X_CW.p = CheckTranslation(*foreign.translation_mm);
+    } else if (!options.lenses_alone) {
+      add(foreign.name, no_pose);
+      continue;
+    }
+    imported.cameras.push_back(std::move(camera));
+  }
+  if (imported.cameras.empty() && no_pose.empty())
+    throw SetupError(source + ": holds no camera with a lens; a calibration is wanted");
+  if (imported.cameras.empty())
+    throw SetupError(source + ": has no pose of any camera, but lenses alone (" + no_pose +
+                     "); add --lenses to keep those for mocap calibrate extrinsics --intrinsics");
+  if (!no_lens.empty())
+    imported.notes.push_back(source + ": has no lens of " + no_lens + "; left out");
+  if (!no_pose.empty())
+    imported.notes.push_back(source + ": has no pose of " + no_pose + "; left out");
+  if (!options.lenses_alone) Doubt(source, imported.cameras, imported.notes);
+  return imported;
+}
+
+}  // namespace mocap
