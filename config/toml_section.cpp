@@ -226,7 +226,8 @@ void TomlSection::Fail(const std::string& key, const std::string& what) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? node->source() : table_->source()).begin.line;
   throw SetupError(file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
-                   Shortened(PathOf(key), kLongestKey) + " " + what);
+                   Shortened(PathOf(key), kLongestKey) + " " + what +
+                   (root_->empty() ? " (the file is empty)" : ""));
 }
 
 const toml::node* TomlSection::Find(const std::string& key) {
@@ -237,8 +238,7 @@ const toml::node* TomlSection::Find(const std::string& key) {
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
   if (!node) {
-    const char* empty = root_->empty() ? ", for the file is empty" : "";
-    Fail(key, std::string("is missing") + empty + "; " + wanted + " is wanted");
+    Fail(key, "is missing; " + wanted + " is wanted");
   }
   return *node;
 }

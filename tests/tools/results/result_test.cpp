@@ -155,6 +155,8 @@ TEST(Result, IsReadHoweverASpreadsheetSavedIt) {
     testing::WriteText(file, text);
     EXPECT_EQ(ReadResult(folder.path()).poses.size(), 3u);
   }
+  EXPECT_THAT(ReadResult(folder.path()).remarks,
+              ::testing::ElementsAre(HasSubstr("the last line has no end")));
 }
 
 TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
