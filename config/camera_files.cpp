@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
@@ -34,6 +36,32 @@ void ReadBackground(const std::filesystem::path& file, const CameraCalibration& 
     }
     if (camera.head) frame.angles = rows[i].angles;
     visit(frame);
+  }
+}
+
+/// The folder itself, where a link leads to one, without a slash at its end.
+std::filesystem::path Behind(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(folder, error);
+  return PlainFolder(error ? folder : target);
+}
+
+/// A folder that is taken away must not be somebody's.
+void RequirePicturesOnly(const std::filesystem::path& folder) {
+  if (!IsThere(folder)) return;
+  RequireFolder(folder, "a folder for pictures of the empty studio");
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::filesystem::path extension = entry->path().extension();
+    const bool is_picture = extension == ".mkv" || extension == ".csv";
+    if (is_picture && entry->is_regular_file(error)) continue;
+    throw SetupError(folder.string() + ": holds " + Quoted(entry->path().filename().string()) +
+                     ", which is no picture of the empty studio; a folder of its own is wanted");
+  }
+  if (error) {
+    throw SetupError(folder.string() + ": cannot be read: " + error.message() +
+                     "; a folder that may be read is wanted");
   }
 }
 
@@ -80,12 +108,29 @@ BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
       });
 }
 
-void ReplaceFolder(const std::filesystem::path& folder, const std::filesystem::path& with) {
-  if (!std::filesystem::exists(folder)) return std::filesystem::rename(with, folder);
-  if (renameat2(AT_FDCWD, with.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) != 0) {
-    throw std::runtime_error(folder.string() + ": cannot be replaced: " + std::strerror(errno));
+std::filesystem::path BeginBackground(const std::filesystem::path& folder) {
+  const std::filesystem::path target = Behind(folder);
+  const std::filesystem::path partial = target.string() + ".partial";
+  RequirePicturesOnly(target);
+  RequirePicturesOnly(partial);
+  std::error_code error;
+  std::filesystem::remove_all(partial, error);
+  if (!error) std::filesystem::create_directories(partial, error);
+  if (!error) return partial;
+  throw SetupError(partial.string() + ": cannot be made: " + error.message() +
+                   "; for the service, background = \"/var/lib/mocapd/background\" is a place");
+}
+
+void ReplaceBackground(const std::filesystem::path& folder, const std::filesystem::path& with) {
+  const std::filesystem::path target = Behind(folder);
+  RequirePicturesOnly(target);
+  const unsigned how = IsThere(target) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+  if (renameat2(AT_FDCWD, with.c_str(), AT_FDCWD, target.c_str(), how) != 0) {
+    throw std::runtime_error(target.string() + ": cannot be replaced: " + std::strerror(errno) +
+                             "; a folder that may be renamed is wanted");
   }
-  std::filesystem::remove_all(with);
+  std::error_code error;
+  if (how == RENAME_EXCHANGE) std::filesystem::remove_all(with, error);
 }
 
 }  // namespace mocap

@@ -24,8 +24,14 @@ BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
                                       const std::filesystem::path& table,
                                       const CameraCalibration& camera);
 
-/// Puts a folder in another's place in one step, and takes the other away.
-/// @throws std::runtime_error, std::filesystem::filesystem_error  when that cannot be.
-void ReplaceFolder(const std::filesystem::path& folder, const std::filesystem::path& with);
+/// Makes an empty folder beside that of the empty studio, in which the next one is written.
+/// @param folder  may end with a slash, and may be a link.
+/// @throws SetupError  when there is something else than pictures in either, which would be taken
+/// away, or it cannot be made.
+std::filesystem::path BeginBackground(const std::filesystem::path& folder);
+
+/// Puts what BeginBackground made in the folder's place in one step, and takes the old one away.
+/// @throws SetupError, std::runtime_error  when that cannot be.
+void ReplaceBackground(const std::filesystem::path& folder, const std::filesystem::path& with);
 
 }  // namespace mocap

@@ -1,14 +1,9 @@
 #include "config/config_changes.h"
 
-#include <toml++/toml.h>
-
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
-#include "config/toml_section.h"
-#include "core/errors.h"
+#include "config/parse_toml.h"
 
 namespace mocap {
 namespace {
@@ -29,19 +24,14 @@ void Flatten(const toml::table& table, const std::string& path, FlatTable& flat)
 }
 
 FlatTable FlatTableOf(const std::string& text) {
-  TomlSection::ReadText(text, "configuration");  // Complains as everywhere.
   FlatTable flat;
-  Flatten(toml::parse(text), "", flat);
+  Flatten(ParseToml(text, "configuration"), "", flat);
   return flat;
 }
 
 }  // namespace
 
-std::string ReadConfigText(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw SetupError(file.string() + ": cannot be read; a TOML file is wanted");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
+std::string ReadConfigText(const std::filesystem::path& file) { return ReadTomlText(file); }
 
 std::vector<std::string> ChangedKeys(const std::string& before, const std::string& after) {
   const FlatTable old_values = FlatTableOf(before);

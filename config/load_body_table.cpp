@@ -6,6 +6,7 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
@@ -110,7 +111,7 @@ BodyTable LoadBodyTable(const std::string& name_or_path) {
     }
     known += '"' + std::string(table.name) + "\" or ";
   }
-  if (!std::filesystem::is_regular_file(name_or_path)) {
+  if (!IsThere(name_or_path)) {
     throw SetupError("body " + Quoted(name_or_path) + " is not known; " + known +
                      "the path of a body table is wanted");
   }

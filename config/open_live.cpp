@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "drivers/aravis/aravis_driver.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/take/input_file.h"
 #include "drivers/usb/uvc_pan_tilt.h"
 #include "drivers/v4l2/v4l2_driver.h"
 #include "drivers/v4l2/v4l2_pan_tilt.h"
@@ -121,7 +122,7 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
                      "\", which has no live cameras; \"v4l2\" or \"aravis\" is wanted");
   }
   std::vector<CameraCalibration> calibrations;
-  if (std::filesystem::exists(config.calibration)) {
+  if (IsThere(config.calibration)) {
     calibrations = LoadCalibration(config.calibration);
   }
   std::vector<LiveCamera> cameras;
@@ -139,14 +140,11 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
 }
 
 Studio OpenLiveStudio(const Config& config) {
-  if (!std::filesystem::exists(config.calibration)) {
+  if (!IsThere(config.calibration)) {
     throw SetupError(config.calibration.string() +
                      ": is missing; `mocap calibrate studio` makes one");
   }
-  if (!std::filesystem::is_directory(config.background)) {
-    throw SetupError(config.background.string() +
-                     ": is missing; `mocap background learn` makes it while the studio is empty");
-  }
+  RequireFolder(config.background, "what `mocap background learn` makes while the studio is empty");
   Studio studio{"live studio", 0, {}};
   if (std::ranges::any_of(config.cameras, [](const auto& c) { return c.head.follow; })) {
     studio.person = std::make_shared<Whereabouts>();

@@ -1,6 +1,8 @@
 #include "config/open_studio.h"
 
 #include "config/open_live.h"
+#include "config/room_limits.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 
@@ -19,16 +21,27 @@ SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
   return options;
 }
 
+std::vector<CameraCalibration> CalibrationsOf(const Studio& studio) {
+  std::vector<CameraCalibration> calibrations;
+  for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
+  return calibrations;
+}
+
 Studio OpenStudio(const Config& config) {
   const SourceConfig& source = config.source;
   if (source.driver == "take") {
-    return OpenTake(source.take, {.rate = source.rate,
-                                  .loop = source.loop,
-                                  .in_memory = source.in_memory,
-                                  .cameras = {}});
+    Studio studio = OpenTake(source.take, {.rate = source.rate,
+                                           .loop = source.loop,
+                                           .in_memory = source.in_memory,
+                                           .cameras = {}});
+    RequireRoom(CalibrationsOf(studio), config.voxel_mm,
+                TakeLayout{source.take}.Calibration().string());
+    return studio;
   }
-  if (IsLive(source)) return OpenLiveStudio(config);
-  return OpenSimulatedStudio(LiveSimulation(source));
+  if (!IsLive(source)) return OpenSimulatedStudio(LiveSimulation(source));
+  Studio studio = OpenLiveStudio(config);
+  RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
+  return studio;
 }
 
 }  // namespace mocap

@@ -16,6 +16,9 @@ namespace mocap {
 /// Gives the simulated studio that the configuration names, in real time.
 SimulatedStudioOptions LiveSimulation(const SourceConfig& source);
 
+/// The cameras' calibrations, in their order.
+std::vector<CameraCalibration> CalibrationsOf(const Studio& studio);
+
 /// Opens whatever source the configuration names.
 Studio OpenStudio(const Config& config);
 

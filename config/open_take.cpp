@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "config/camera_files.h"
@@ -8,11 +9,15 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_driver.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {
+
+/// A rate that is so many times another than the nominal one is wrong, or worth a word.
+constexpr double kRefusedTimes = 50, kDoubtfulTimes = 4;
 
 /// What take.toml says that replaying needs; it may say more.
 struct TakeHeader {
@@ -41,6 +46,35 @@ TakeHeader ReadHeader(const std::filesystem::path& file) {
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What somebody took for nanoseconds, who is that many times off; empty: something else.
+const char* UnitOf(double times) {
+  if (times > 3e2 && times < 3e3) return "microseconds";
+  if (times > 3e5 && times < 3e6) return "milliseconds";
+  return times > 3e8 && times < 3e9 ? "seconds" : "";
+}
+
+/// Holds a table's times against the rate that take.toml tells.
+/// @throws SetupError  when they cannot be nanoseconds.
+void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesystem::path& file,
+                std::vector<std::string>& remarks) {
+  if (table.is_cut_off) {
+    remarks.push_back(file.string() + ": the last line is cut off; that frame is left out");
+  }
+  const auto apart_ns = static_cast<double>(UsualIntervalNs(table));
+  if (apart_ns == 0) return;
+  const double wanted_ns = 1e9 / fps_nominal, times = wanted_ns / apart_ns;
+  std::ostringstream text;
+  text << file.string() << ": its frames are " << apart_ns / 1e6
+       << " ms apart, but take.toml has fps_nominal = " << fps_nominal << ", which is "
+       << wanted_ns / 1e6 << " ms";
+  if (times > kRefusedTimes || times < 1 / kRefusedTimes) {
+    const std::string unit = UnitOf(times);
+    throw SetupError(text.str() + (unit.empty() ? ";" : ": are these " + unit + "?") +
+                     " timestamp_ns in nanoseconds is wanted");
+  }
+  if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());
 }
 
 /// A camera that had delivered nothing by the end of the recording.
@@ -100,9 +134,7 @@ ReplaySpan SpanOf(const std::vector<TakeTable>& tables, double fps_nominal,
 }  // namespace
 
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
-  if (!std::filesystem::is_directory(take)) {
-    throw SetupError(take.string() + ": is no folder; a take is wanted");
-  }
+  RequireFolder(take, "a take");
   const TakeLayout layout{take};
   const TakeHeader header = ReadHeader(layout.Description());
   const std::vector<CameraCalibration> calibrations = LoadCalibration(layout.Calibration());
@@ -113,6 +145,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   for (const std::string& name : names) {
     const CameraCalibration& camera = Find(calibrations, name, layout.Calibration());
     tables.push_back(ReadCameraTable(layout.Table(name), camera));
+    CheckTimes(tables.back(), header.fps_nominal, layout.Table(name), studio.remarks);
     studio.cameras.push_back(
         {camera, nullptr,
          OpenCameraBackground(layout.BackgroundVideo(name), layout.BackgroundTable(name), camera)});

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
+#include "config/parse_toml.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
 
+constexpr std::size_t kLongestKey = 80;
+
 std::string Shown(double value) {
   std::ostringstream out;
-  out << value;
+  // Adding zero turns -0 into 0.
+  out << value + 0.0;
   return out.str();
 }
 
@@ -30,34 +33,21 @@ std::string Shown(const toml::node& node) {
   return node.is_table() ? "a table" : "a date";
 }
 
-std::string ReadAll(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !in) {
-    throw SetupError(file.string() + ": is missing; a TOML file is wanted");
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path) {
   if (path.empty()) return {};
-  return (file.parent_path() / path).lexically_normal();
+  return PlainFolder(file.parent_path() / path);
 }
 
 TomlSection TomlSection::ReadFile(const std::filesystem::path& file) {
-  return ReadText(ReadAll(file), file.string());
+  return ReadText(ReadTomlText(file), file.string());
 }
 
 TomlSection TomlSection::ReadText(std::string_view text, const std::string& name) {
-  try {
-    auto root = std::make_shared<const toml::table>(toml::parse(text, name));
-    const toml::table* table = root.get();
-    return {std::move(root), table, name, ""};
-  } catch (const toml::parse_error& error) {
-    throw SetupError(name + ":" + std::to_string(error.source().begin.line) +
-                     ": is no TOML: " + Printable(error.description()));
-  }
+  auto root = std::make_shared<const toml::table>(ParseToml(text, name));
+  const toml::table* table = root.get();
+  return {std::move(root), table, name, ""};
 }
 
 TomlSection::TomlSection(std::shared_ptr<const toml::table> root, const toml::table* table,
@@ -266,7 +256,8 @@ void TomlSection::RejectUnknownKeys() const {
 std::string TomlSection::Where(const std::string& key) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? node->source() : table_->source()).begin.line;
-  return file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + Printable(PathOf(key));
+  return file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " +
+         Shortened(PathOf(key), kLongestKey);
 }
 
 void TomlSection::Fail(const std::string& key, const std::string& what) const {
@@ -280,7 +271,10 @@ const toml::node* TomlSection::Find(const std::string& key) {
 
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
-  if (!node) Fail(key, "is missing; " + wanted + " is wanted");
+  if (!node) {
+    const char* empty = root_->empty() ? ", for the file is empty" : "";
+    Fail(key, std::string("is missing") + empty + "; " + wanted + " is wanted");
+  }
   return *node;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "config/load_config.h"
+#include "daemon/number_option.h"
 #include "daemon/run_program.h"
 #include "daemon/service/service.h"
 
@@ -16,7 +17,7 @@ int main(int argc, char** argv) {
   std::optional<double> seconds;
   app.add_option("--config", file, "TOML file; without one, the simulated studio");
   app.add_flag("--check-config", only_checks, "only look whether the configuration can be used");
-  app.add_option("--seconds", seconds, "stop after so long")->check(CLI::PositiveNumber);
+  app.add_option("--seconds", seconds, "stop after so long")->check(mocap::NumberFrom(0.001, 1e8));
   app.set_version_flag("--version", MOCAP_VERSION);
   app.callback([&] {
     if (only_checks) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -16,7 +18,7 @@ constexpr int kWrongInput = 2;
 int Fail(const CLI::App& app, std::string message, int status) {
   std::ranges::replace(message, '\n', ' ');
   std::fflush(stdout);
-  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), Printable(message).c_str());
   return status;
 }
 
@@ -40,6 +42,11 @@ int RunProgram(CLI::App& app, int argc, char** argv) {
                 kWrongInput);
   } catch (const SetupError& error) {
     return Fail(app, error.what(), kWrongInput);
+  } catch (const std::bad_alloc&) {
+    return Fail(app,
+                "there is not enough memory: smaller pictures, fewer cameras or larger voxels are "
+                "wanted",
+                kFailed);
   } catch (const std::exception& error) {
     return Fail(app, error.what(), kFailed);
   }

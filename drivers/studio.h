@@ -28,6 +28,8 @@ struct Studio {
   std::vector<StudioCamera> cameras;
   /// To be told where the person is; null: no head follows.
   std::shared_ptr<Whereabouts> person = nullptr;
+  /// What whoever opened it should know, a line each.
+  std::vector<std::string> remarks = {};
 };
 
 }  // namespace mocap

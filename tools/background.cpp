@@ -15,6 +15,8 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
+#include "daemon/number_option.h"
+#include "drivers/printable_text.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"
 
@@ -58,17 +60,15 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
 void Learn(const LearnOptions& options) {
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
-  const std::filesystem::path partial = config.background.string() + ".partial";
-  std::filesystem::remove_all(partial);
-  std::filesystem::create_directories(partial);
+  const std::filesystem::path partial = BeginBackground(config.background);
   if (isatty(STDERR_FILENO)) {
     std::fprintf(stderr, "recording the empty studio for %g s\n", options.seconds);
   }
   const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, options.seconds);
   RequireStillRoom(cameras, records);
-  ReplaceFolder(config.background, partial);
+  ReplaceBackground(config.background, partial);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    std::printf("%s: %d frames\n", cameras[i].name.c_str(), records[i].frames);
+    std::printf("%s: %s\n", cameras[i].name.c_str(), Counted(records[i].frames, "frame").c_str());
   }
 }
 
@@ -86,7 +86,7 @@ void AddBackgroundCommand(CLI::App& app) {
                         "use the cameras of this TOML file, while no mocapd does; else the running "
                         "mocapd learns");
   learn->add_option("--seconds", options->seconds, "how long to look")
-      ->check(CLI::Range(1.0, 600.0))
+      ->check(NumberFrom(1, 600))
       ->capture_default_str()
       ->needs(config);
   learn

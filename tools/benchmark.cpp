@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "daemon/number_option.h"
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
@@ -131,6 +134,8 @@ void RunBenchmark(const BenchmarkOptions& options) {
   if (!options.out.empty()) {
     MakeFolder(options.out);
     RequireWritable(options.out / "accuracy.md");
+    constexpr std::string_view kBeginning = "# Accuracy on simulated people";
+    RequireOwn(options.out / "accuracy.md", std::span(&kBeginning, 1), "a benchmark");
   }
   AccuracyBenchmark benchmark{.seconds = options.seconds, .grid = {}, .sweeps = {}};
   Print(AccuracyHeader());
@@ -153,16 +158,17 @@ void AddBenchmarkCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "benchmark", "Measures accuracy on a grid of simulated takes, and what makes it worse");
   command->add_option("--seconds", options->seconds, "length of each take")
-      ->check(CLI::Range(1.0, 600.0))
+      ->check(NumberFrom(1, 600))
       ->capture_default_str();
   command->add_option("--motions", options->motions, "what people do, as in walk,dance")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--statures", options->statures_mm, "how tall they are [mm]")
       ->delimiter(',')
+      ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
   command->add_option("--seeds", options->seeds, "how many people of each")
-      ->check(CLI::Range(1, 1000))
+      ->check(NumberFrom(1, 1000))
       ->capture_default_str();
   command->add_option("--parts", options->parts, "what to measure")
       ->delimiter(',')

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "daemon/pipeline/synchronizer.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -187,7 +188,7 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
     return troubles;
   }
   if (run.torn > 0) {
-    troubles.push_back(fmt::format("{} frames came damaged: {}", run.torn,
+    troubles.push_back(fmt::format("{} came damaged: {}", Counted(run.torn, "frame"),
                                    run.facts.damage.empty()
                                        ? "try another cable, or a socket without a hub"
                                        : run.facts.damage));

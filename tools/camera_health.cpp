@@ -11,6 +11,7 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/silhouette/silhouette_shift.h"
+#include "drivers/printable_text.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "tools/report/hull_overlap.h"
@@ -221,7 +222,8 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
                     [](const CameraShift& s) { return s.moments >= kFewestMoments; });
   if (seeing < 3)
     throw SetupError(
-        fmt::format("{} cameras see a whole person who moves; three at least are wanted", seeing));
+        fmt::format("a whole person who moves is seen by {}; three at least are wanted",
+                    Counted(seeing, "camera")));
   for (std::size_t round = 0; round < 3 * refined.cameras.size(); ++round) {
     const auto worst =
         std::ranges::max_element(refined.after, {}, [](const CameraShift& s) { return Excess(s); });

@@ -15,8 +15,10 @@
 #include "config/load_config.h"
 #include "config/open_live.h"
 #include "core/errors.h"
+#include "daemon/number_option.h"
 #include "drivers/aravis/aravis_directory.h"
 #include "drivers/camera_listing.h"
+#include "drivers/printable_text.h"
 #include "drivers/usb/usb_bus.h"
 #include "drivers/usb/uvc_heads.h"
 #include "drivers/v4l2/v4l2_devices.h"
@@ -31,7 +33,8 @@ struct CamerasOptions {
   double seconds = 5;
 };
 
-void Print(const std::string& line) { std::puts(line.c_str()); }
+/// One line, whatever a device calls itself.
+void Print(const std::string& line) { std::puts(Printable(line).c_str()); }
 
 void PrintListed(const ListedCamera& camera) {
   std::string line = fmt::format("{}  {}, {}", camera.device, camera.model, camera.bus);
@@ -84,7 +87,8 @@ void Check(const CamerasOptions& options) {
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   if (isatty(STDERR_FILENO)) {
-    std::fprintf(stderr, "watching %zu cameras for %g s\n", cameras.size(), options.seconds);
+    std::fprintf(stderr, "watching %s for %g s\n", Counted(cameras.size(), "camera").c_str(),
+                 options.seconds);
   }
   const std::vector<CameraRun> runs = WatchCameras(cameras, options.seconds);
   const std::vector<BusLoad> loads = LoadsOf(runs);
@@ -107,8 +111,7 @@ void Check(const CamerasOptions& options) {
     troubles += PrintTroubles(TroublesOf(sets, runs));
   }
   if (troubles > 0) {
-    throw std::runtime_error(
-        fmt::format("{} trouble{}, marked with !", troubles, troubles == 1 ? "" : "s"));
+    throw std::runtime_error(fmt::format("{}, marked with !", Counted(troubles, "trouble")));
   }
 }
 
@@ -121,7 +124,7 @@ void AddCamerasCommand(CLI::App& app) {
   command->add_option("--check", options->config,
                       "stream from the cameras of this configuration, and say what to change");
   command->add_option("--seconds", options->seconds, "how long to watch them")
-      ->check(CLI::Range(1.0, 3600.0))
+      ->check(NumberFrom(1, 3600))
       ->capture_default_str();
   command->callback([options] {
     if (options->config.empty()) {

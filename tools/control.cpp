@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -60,7 +61,7 @@ void AskAndPrint(const std::filesystem::path& socket, const std::string& request
   const ControlReply reply = AskDaemon(socket, request);
   switch (reply.outcome) {
     case ControlOutcome::kDone:
-      std::fputs(reply.text.c_str(), stdout);
+      std::fputs(PrintableLines(reply.text).c_str(), stdout);
       return;
     case ControlOutcome::kFailed:
       throw std::runtime_error(reply.text);

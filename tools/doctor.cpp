@@ -9,6 +9,7 @@
 
 #include "config/load_config.h"
 #include "daemon/recording/recorder.h"
+#include "drivers/printable_text.h"
 #include "tools/doctor_checks.h"
 
 namespace mocap {
@@ -66,8 +67,8 @@ void Doctor(const DoctorOptions& options) {
   diagnoses.push_back(
       CheckControl(options.socket.empty() ? config.service.control.socket : options.socket));
   for (const Diagnosis& diagnosis : diagnoses) {
-    std::printf("%s  %s\n", MarkOf(diagnosis.verdict), diagnosis.what.c_str());
-    if (!diagnosis.fix.empty()) std::printf("        -> %s\n", diagnosis.fix.c_str());
+    std::printf("%s  %s\n", MarkOf(diagnosis.verdict), Printable(diagnosis.what).c_str());
+    if (!diagnosis.fix.empty()) std::printf("        -> %s\n", Printable(diagnosis.fix).c_str());
   }
   const auto bad = std::ranges::count(diagnoses, Verdict::kBad, &Diagnosis::verdict);
   if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be mended");

@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "drivers/printable_text.h"
 #include "drivers/take/text_file.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/evaluation_text.h"
@@ -20,12 +22,14 @@ struct EvaluateArguments {
   std::filesystem::path take;
   std::filesystem::path result;
   std::filesystem::path report;
+  std::optional<std::string> prefix;
   bool json = false;
 };
 
 std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
                                        const Evaluation& evaluation) {
   RequireWritable(arguments.report);
+  RequireOwn(arguments.report, kReportBeginnings, "a report");
   const TakeSamples samples =
       SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
   std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
@@ -34,7 +38,10 @@ std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
 }
 
 void RunEvaluate(const EvaluateArguments& arguments) {
-  const Evaluation evaluation = Evaluate(arguments.take, arguments.result);
+  const Evaluation evaluation = Evaluate(arguments.take, arguments.result, arguments.prefix);
+  for (const std::string& remark : evaluation.result.remarks) {
+    std::fprintf(stderr, "mocap evaluate: %s\n", Printable(remark).c_str());
+  }
   std::vector<CameraOverlap> overlaps;
   if (!arguments.report.empty()) overlaps = WriteReport(arguments, evaluation);
   const std::string text =
@@ -52,6 +59,8 @@ void AddEvaluateCommand(CLI::App& app) {
       ->required();
   command->add_option("--report", arguments->report,
                       "HTML file to write: figures, camera views, tables");
+  command->add_option("--prefix", arguments->prefix,
+                      "of a log of several daemons: what stands before the channels' names");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments] { RunEvaluate(*arguments); });
 }

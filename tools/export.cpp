@@ -5,10 +5,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 #include "drivers/take/text_file.h"
 #include "tools/results/bvh_motion.h"
 #include "tools/results/bvh_writer.h"
@@ -23,7 +27,17 @@ struct ExportArguments {
   std::filesystem::path result;
   std::string format;
   std::filesystem::path out;
+  std::optional<std::string> prefix;
 };
+
+/// What is written over must be a former export.
+void RequireRoomForExport(const ExportArguments& arguments) {
+  const std::string_view beginning = arguments.format == "bvh"   ? "HIERARCHY"
+                                     : arguments.format == "trc" ? "PathFileType"
+                                                                 : "time_s,utime_us,";
+  RequireWritable(arguments.out);
+  RequireOwn(arguments.out, std::span(&beginning, 1), "a " + arguments.format + " export");
+}
 
 /// BVH cannot say all that a result says; the person should know what is not in the file.
 void TellLosses(const BvhMotion& motion) {
@@ -55,8 +69,14 @@ void WriteBvhOf(const Result& result, const std::filesystem::path& source, std::
 }
 
 void Export(const ExportArguments& arguments) {
-  RequireWritable(arguments.out);
-  const Result result = ReadResult(arguments.result);
+  RequireRoomForExport(arguments);
+  const Result result = ReadResult(arguments.result, arguments.prefix);
+  for (const std::string& remark : result.remarks) {
+    fmt::print(stderr, "mocap export: {}\n", Printable(remark));
+  }
+  if (result.poses.empty()) {
+    throw SetupError(arguments.result.string() + ": holds no frame; one at least is wanted");
+  }
   std::ostringstream out;
   if (arguments.format == "bvh") {
     WriteBvhOf(result, arguments.result, out);
@@ -82,6 +102,8 @@ void AddExportCommand(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"bvh", "trc", "csv"}));
   command->add_option("--out", arguments->out, "file to write")->required();
+  command->add_option("--prefix", arguments->prefix,
+                      "of a log of several daemons: what stands before the channels' names");
   command->callback([arguments] { Export(*arguments); });
 }
 

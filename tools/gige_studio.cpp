@@ -13,22 +13,25 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "daemon/number_option.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "drivers/take/video_reader.h"
 #include "tools/gige/gige_camera.h"
 #include "tools/gige/loopback.h"
+#include "tools/gige/own_config.h"
 #include "tools/gige/studio_source.h"
 
 namespace mocap {
@@ -216,7 +219,7 @@ class Cast {
 
 /// Writes a configuration with which mocapd uses the served studio.
 void WriteConfig(const StudioOptions& options, const StudioPlan& plan) {
-  std::ofstream out(options.config);
+  std::ostringstream out;
   const std::filesystem::path take = std::filesystem::absolute(options.take);
   if (!options.take.empty()) {
     out << "calibration = " << TomlText((take / "calibration.toml").string()) << "\n"
@@ -228,11 +231,14 @@ void WriteConfig(const StudioOptions& options, const StudioPlan& plan) {
     out << "\n[[cameras]]\nname = \"" << plan.names[i] << "\"\ndevice = \"" << plan.ips[i]
         << "\"\nformat = \"BGR8\"\npacket_bytes = 9000\n";
   }
-  out.close();
-  if (!out) throw SetupError(options.config.string() + ": cannot be written");
+  ReplaceText(options.config, SignedConfig(out.str()));
 }
 
 void ServeStudio(const StudioOptions& options) {
+  if (!options.config.empty()) {
+    RequireOwnConfig(options.config);
+    RequireWritable(options.config);
+  }
   const StudioPlan plan = PlanFor(options);
   if (!options.config.empty()) WriteConfig(options, plan);
   sigset_t signals;
@@ -259,6 +265,7 @@ void AddGigeStudioCommand(CLI::App& app) {
   command->add_option("--motion", options->simulation.motion, "What the simulated person does")
       ->capture_default_str();
   command->add_option("--stature", options->simulation.stature_mm, "Height of that person [mm]")
+      ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
   command->add_option("--seed", options->simulation.seed, "Person, clothes, room, lenses and path")
       ->capture_default_str();
@@ -271,10 +278,10 @@ void AddGigeStudioCommand(CLI::App& app) {
                     "Cameras whose clocks follow PTP, in TAI, and that take actions");
   command
       ->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(NumberFrom(0, 1));
   command
       ->add_option("--jitter", options->faults.jitter_ms, "Frames leave late by up to so many ms")
-      ->check(CLI::NonNegativeNumber);
+      ->check(NumberFrom(0, 10000));
   command
       ->add_option(
           "--clock-offset",
@@ -283,14 +290,15 @@ void AddGigeStudioCommand(CLI::App& app) {
             return true;
           },
           "The cameras' clocks against this host's [s]")
-      ->check(CLI::Number);
-  command->add_option("--clock-drift", options->faults.clock_drift_ppm,
-                      "And how much they gain [ppm]");
+      ->check(NumberFrom(-1e9, 1e9));
+  command
+      ->add_option("--clock-drift", options->faults.clock_drift_ppm, "And how much they gain [ppm]")
+      ->check(NumberFrom(-1e5, 1e5));
   command
       ->add_option("--return-after", options->return_after_s,
                    "A camera whose process was killed returns after so many seconds")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(NumberFrom(0, 1e6));
   command->callback([options] { ServeStudio(*options); });
 }
 

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "daemon/number_option.h"
 #include "drivers/simulation/motion.h"
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_writer.h"
 
 namespace mocap {
@@ -42,8 +44,7 @@ std::string Text(double value) {
 TakeDescription Describe(const SimulateOptions& options,
                          const std::vector<CameraCalibration>& cameras) {
   TakeDescription description;
-  description.name = options.out.filename().empty() ? options.out.parent_path().filename().string()
-                                                    : options.out.filename().string();
+  description.name = PlainFolder(options.out).filename().string();
   description.fps_nominal = options.studio.fps;
   description.cameras = cameras;
   // The simulated time, so that the same options give the same bytes.
@@ -134,8 +135,6 @@ void SimulateBoard(const SimulateOptions& options) {
 }
 
 void Simulate(const SimulateOptions& options) {
-  if (!(options.studio.seconds > 0))
-    throw SetupError("--seconds is " + Text(options.studio.seconds) + "; wanted is more than 0");
   options.board.empty() ? SimulatePerson(options) : SimulateBoard(options);
 }
 
@@ -153,15 +152,22 @@ void AddSimulateCommand(CLI::App& app) {
   command->add_option("--motion", options->studio.motion, "What the person does: " + motions)
       ->capture_default_str();
   command->add_option("--stature", options->studio.stature_mm, "Height of the person [mm]")
+      ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
   command->add_option("--seconds", options->studio.seconds, "Length of the take")
+      ->check(NumberFrom(0.001, 86400))
       ->capture_default_str();
-  command->add_option("--fps", options->studio.fps, "Frames a second")->capture_default_str();
+  command->add_option("--fps", options->studio.fps, "Frames a second")
+      ->check(NumberFrom(1, 1000))
+      ->capture_default_str();
   command->add_option("--cameras", options->studio.cameras, "Number of cameras")
+      ->check(NumberFrom(1, 64))
       ->capture_default_str();
   command->add_option("--width", options->studio.width_px, "Of the pictures [pixels]")
+      ->check(NumberFrom(16, 8192))
       ->capture_default_str();
   command->add_option("--height", options->studio.height_px, "Of the pictures [pixels]")
+      ->check(NumberFrom(16, 8192))
       ->capture_default_str();
   command->add_flag("--pan-tilt", options->studio.pan_tilt,
                     "Cameras on heads that follow the person");

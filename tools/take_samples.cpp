@@ -8,6 +8,7 @@
 #include "config/config.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "config/room_limits.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/silhouette/segmenter.h"
@@ -83,6 +84,7 @@ void AddSilentCameras(const std::filesystem::path& take, TakeSamples& samples) {
 TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm) {
   Studio studio = OpenTake(take, {});
+  RequireRoom(CalibrationsOf(studio), voxel_mm, TakeLayout{take}.Calibration().string());
   const std::int64_t tolerance_ns = std::llround(0.5e9 / studio.fps_nominal);
   TakeSamples samples;
   for (const SampleRequest& request : requests) {

@@ -11,13 +11,17 @@
 #include "config/config.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "config/room_limits.h"
 #include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/control/json_object.h"
+#include "daemon/number_option.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
-#include "drivers/take/text_file.h"
+#include "tools/results/result.h"
 #include "tools/results/result_sink.h"
 
 namespace mocap {
@@ -51,6 +55,12 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
 
 void Track(const TrackOptions& options) {
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
+  RequireRoom(CalibrationsOf(studio), options.voxel_mm,
+              TakeLayout{options.take}.Calibration().string());
+  for (const std::string& remark : studio.remarks) {
+    std::fprintf(stderr, "mocap track: %s\n", Printable(remark).c_str());
+  }
+  RequireRoomForResult(options.out);
   ResultSink sink(isatty(STDERR_FILENO) == 1);
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
@@ -58,10 +68,9 @@ void Track(const TrackOptions& options) {
                      .latency_origin = LatencyOrigin::kArrival},
                     LoadBodyTable(options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
-  if (!options.measure && std::filesystem::exists(subject)) {
+  if (!options.measure && IsThere(subject)) {
     pipeline.ChangeSubject(LoadSubject(subject));
   }
-  MakeFolder(options.out);
   const std::int64_t begin_ns = SteadyNs();
   pipeline.Start();
   pipeline.Join();
@@ -74,9 +83,10 @@ void Track(const TrackOptions& options) {
   if (options.json) {
     std::puts(JsonOf(sink, pipeline.Status().stages, seconds).c_str());
   } else {
-    std::printf("%zu frame sets, %zu tracked, at %.1f a second: %s\n", sink.frames(),
-                sink.tracked_frames(), static_cast<double>(sink.frames()) / seconds,
-                options.out.c_str());
+    std::printf("%s, %zu tracked, at %.1f a second: %s\n",
+                Counted(sink.frames(), "frame set").c_str(), sink.tracked_frames(),
+                static_cast<double>(sink.frames()) / seconds,
+                Printable(options.out.string()).c_str());
   }
 }
 
@@ -88,7 +98,7 @@ void AddTrackCommand(CLI::App& app) {
   command->add_option("TAKE", options->take, "the take's folder")->required();
   command->add_option("--out", options->out, "folder for poses.csv and body.toml")->required();
   command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
-      ->check(CLI::Range(10.0, 100.0))
+      ->check(NumberFrom(10, 100))
       ->capture_default_str();
   command->add_option("--body", options->body, "mikic2003, full, or a body table's file")
       ->capture_default_str();

@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <lcm/lcm-cpp.hpp>
@@ -15,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,7 +25,9 @@
 #include "core/motion_capture.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/number_option.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -48,10 +53,21 @@ std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
 }
 
+/// LCM takes channels for regular expressions: a dot would stand for anything.
+std::string Literally(const std::string& name) {
+  std::string pattern;
+  for (const char c : name) {
+    if (std::string_view("\\^$.|?*+()[]{}").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
 /// The latest of what was heard.
 class Hearing {
  public:
-  Hearing(lcm::LCM& lcm, const std::string& prefix) {
+  Hearing(lcm::LCM& lcm, const std::string& named) {
+    const std::string prefix = Literally(named);
     lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
     lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
@@ -76,6 +92,8 @@ class Hearing {
     return arrivals_.empty() ? 0 : sum / static_cast<double>(arrivals_.size());
   }
   std::int64_t missed() const { return missed_; }
+  /// Whether poses of several daemons come in turns.
+  bool HearsSeveral() const { return steps_back_ > 3 + poses_ / 20; }
   const std::optional<pose_t>& pose() const { return pose_; }
   const std::optional<body_t>& body() const { return body_; }
   const std::optional<status_t>& status() const { return status_; }
@@ -91,10 +109,22 @@ class Hearing {
     std::optional<pose_t> pose = DecodeMessage<pose_t>(BytesOf(*buffer));
     if (!pose) return;
     heard_ns_ = SteadyNs();
-    if (pose_ && pose->frame > pose_->frame + 1) missed_ += pose->frame - pose_->frame - 1;
-    arrivals_.push_back({heard_ns_, static_cast<double>(pose->publish_utime - pose->utime) / 1000});
+    Count(pose->frame);
+    arrivals_.push_back(
+        {heard_ns_,
+         (static_cast<double>(pose->publish_utime) - static_cast<double>(pose->utime)) / 1000});
     pose_ = std::move(pose);
   }
+  /// Frames of one daemon follow each other; whatever stands in a message, nothing overflows.
+  void Count(std::int64_t frame) {
+    constexpr std::int64_t kMostMissed = 1'000'000;
+    const std::int64_t before = pose_ ? pose_->frame : frame - 1;
+    const bool is_gap = before >= 0 && frame > before;
+    if (is_gap && frame - before - 1 < kMostMissed) missed_ += frame - before - 1;
+    steps_back_ += pose_ && frame <= before ? 1 : 0;
+    ++poses_;
+  }
+
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
     Take(DecodeMessage<body_t>(BytesOf(*buffer)), body_);
   }
@@ -113,12 +143,21 @@ class Hearing {
 
   std::int64_t heard_ns_ = SteadyNs();
   std::deque<Arrival> arrivals_;
-  std::int64_t missed_ = 0;
+  std::int64_t missed_ = 0, steps_back_ = 0, poses_ = 0;
   std::optional<pose_t> pose_;
   std::optional<body_t> body_;
   std::optional<status_t> status_;
   std::optional<service_t> service_;
 };
+
+/// A number of a message, which anybody may have sent.
+double Sane(double value) { return std::isfinite(value) ? std::clamp(value, -1e6, 1e6) : 0; }
+
+/// Text of a message, likewise.
+std::string Foreign(const std::string& text) {
+  constexpr std::size_t kMostCharacters = 200;
+  return Shortened(text, kMostCharacters);
+}
 
 std::string PoseLine(const Hearing& hearing) {
   const pose_t& pose = *hearing.pose();
@@ -126,9 +165,11 @@ std::string PoseLine(const Hearing& hearing) {
   std::string line =
       fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
                   state < kCaptureStateNames.size() ? kCaptureStateNames[state] : "?",
-                  hearing.Rate(), hearing.LatencyMs());
-  if (pose.state == pose_t::TRACKING) line += fmt::format("  fit {:3.0f} mm", pose.residual_mm);
-  line += fmt::format("  {} voxels", pose.voxels);
+                  hearing.Rate(), Sane(hearing.LatencyMs()));
+  if (pose.state == pose_t::TRACKING)
+    line += fmt::format("  fit {:3.0f} mm", Sane(pose.residual_mm));
+  line += "  " + Counted(pose.voxels, "voxel");
+  if (hearing.HearsSeveral()) return line + "  of several daemons in turns: give each a prefix";
   if (hearing.missed() > 0) line += fmt::format("  {} missed here", hearing.missed());
   return line;
 }
@@ -137,11 +178,11 @@ std::string PoseLine(const Hearing& hearing) {
 std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
   const bool is_told = service && camera < service->camera_trust.size();
   if (!is_told) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", "-");
-  const double trust = service->camera_trust[camera];
-  const std::string light = fmt::format("{:.0f} %", 100 * service->camera_light[camera]);
+  const double trust = Sane(service->camera_trust[camera]);
+  const std::string light = fmt::format("{:.0f} %", 100 * Sane(service->camera_light[camera]));
   if (trust < 0) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", light);
   return fmt::format("{:>8}{:>8.1f}{:>8}", fmt::format("{:.0f} %", 100 * trust),
-                     service->camera_off_px[camera], light);
+                     Sane(service->camera_off_px[camera]), light);
 }
 
 void AppendCameras(const Hearing& hearing, std::string& page) {
@@ -154,40 +195,42 @@ void AppendCameras(const Hearing& hearing, std::string& page) {
     const auto state = static_cast<std::size_t>(camera.state);
     const bool is_used =
         hearing.pose() && i < hearing.pose()->camera_used.size() && hearing.pose()->camera_used[i];
-    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}{}  {}\n", camera.name,
+    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}{}  {}\n", Foreign(camera.name),
                         state < std::size(kCameraStates) ? kCameraStates[state] : "?",
-                        camera.frames_per_second, camera.dropped, camera.late, camera.torn,
+                        Sane(camera.frames_per_second), camera.dropped, camera.late, camera.torn,
                         HealthCells(hearing.service(), i), is_used ? "yes" : "no");
   }
   page += '\n';
   for (const stage_timing_t& stage : status.stages) {
-    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", stage.name, stage.p50_ms,
-                        stage.p99_ms);
+    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", Foreign(stage.name),
+                        Sane(stage.p50_ms), Sane(stage.p99_ms));
   }
   page += fmt::format(
       "sets     {} complete, {} without some camera, {} left out; spread {:.1f} ms\n",
-      status.sets_complete, status.sets_partial, status.sets_dropped, status.spread_p50_ms);
+      status.sets_complete, status.sets_partial, status.sets_dropped, Sane(status.spread_p50_ms));
 }
 
 void AppendService(const service_t& service, std::string& page) {
   if (service.complaint.empty()) page += "all is good\n";
-  for (const std::string& complaint : service.complaint) page += "! " + complaint + '\n';
+  for (const std::string& complaint : service.complaint) page += "! " + Foreign(complaint) + '\n';
   if (service.recording_state != service_t::RUNNING) return;
-  page += fmt::format("recording {}, {:.0f} s, {} frames, {} dropped, {:.1f} GB free\n",
-                      service.recording_folder, service.recording_seconds, service.recording_frames,
-                      service.recording_dropped, static_cast<double>(service.bytes_free) / 1e9);
+  page += fmt::format("recording {}, {:.0f} s, {}, {} dropped, {:.1f} GB free\n",
+                      Foreign(service.recording_folder), Sane(service.recording_seconds),
+                      Counted(service.recording_frames, "frame"), service.recording_dropped,
+                      static_cast<double>(service.bytes_free) / 1e9);
 }
 
 std::string Page(const Hearing& hearing, const std::string& url) {
   std::string page = "mocapd";
-  if (hearing.status()) page += ' ' + hearing.status()->version;
-  page += " on " + url + "    Ctrl-C ends\n\n";
+  if (hearing.status()) page += ' ' + Foreign(hearing.status()->version);
+  page += " on " + Printable(url) + "    Ctrl-C ends\n\n";
   if (hearing.pose()) page += PoseLine(hearing) + '\n';
   if (hearing.pose() && hearing.pose()->state != pose_t::SEARCHING) {
     const pose_t& pose = *hearing.pose();
-    page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", pose.torso_mm[0] / 1000,
-                        pose.torso_mm[1] / 1000, pose.torso_mm[2] / 1000);
-    if (hearing.body()) page += fmt::format(", stature {:.0f} mm", hearing.body()->stature_mm);
+    page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", Sane(pose.torso_mm[0]) / 1000,
+                        Sane(pose.torso_mm[1]) / 1000, Sane(pose.torso_mm[2]) / 1000);
+    if (hearing.body())
+      page += fmt::format(", stature {:.0f} mm", Sane(hearing.body()->stature_mm));
     page += '\n';
   }
   if (hearing.service()) AppendService(*hearing.service(), page);
@@ -226,7 +269,7 @@ void Watch(const WatchOptions& options) {
     next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
     hearing.Age(now_ns);
     const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
-    const std::string silence = "nothing is heard on " + options.url +
+    const std::string silence = "nothing is heard on " + Printable(options.url) +
                                 ": does mocapd run? mocap doctor looks at the network\n";
     if (on_terminal) {
       Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, options.url));
@@ -246,7 +289,7 @@ void AddWatchCommand(CLI::App& app) {
   command->add_option("--url", options->url, "LCM's address")->capture_default_str();
   command->add_option("--prefix", options->prefix, "what stands before each channel's name");
   command->add_option("--seconds", options->seconds, "stop after so long")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberFrom(0.001, 1e8));
   command->callback([options] { Watch(*options); });
 }
 

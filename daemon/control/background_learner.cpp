@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -69,8 +70,8 @@ std::string BackgroundLearner::Learn(bool anyway, double seconds) {
   Use(looks);
   std::string text;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    text += fmt::format("{}: {} frames, {:.2f} % of the picture changed\n", place_.cameras[i].name,
-                        looks[i].frames.size(), 100 * looks[i].changed);
+    text += fmt::format("{}: {}, {:.2f} % of the picture changed\n", place_.cameras[i].name,
+                        Counted(looks[i].frames.size(), "frame"), 100 * looks[i].changed);
   }
   return text;
 }
@@ -126,13 +127,7 @@ void BackgroundLearner::RequireEmptyRoom(const std::deque<Look>& looks) const {
 }
 
 void BackgroundLearner::Keep(const std::deque<Look>& looks) const {
-  const std::filesystem::path partial = place_.folder.string() + ".partial";
-  std::error_code error;
-  std::filesystem::remove_all(partial, error);
-  if (!std::filesystem::create_directories(partial, error)) {
-    throw SetupError(partial.string() + ": cannot be made: " + error.message() +
-                     "; for the service, background = \"/var/lib/mocapd/background\" is a place");
-  }
+  const std::filesystem::path partial = BeginBackground(place_.folder);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const CameraCalibration& camera = place_.cameras[i];
     VideoWriter video(partial / (camera.name + ".mkv"), camera.width_px, camera.height_px, kFps,
@@ -140,7 +135,7 @@ void BackgroundLearner::Keep(const std::deque<Look>& looks) const {
     for (const BackgroundFrame& frame : looks[i].frames) video.Write(frame.image.view());
     video.Finish();
   }
-  ReplaceFolder(place_.folder, partial);
+  ReplaceBackground(place_.folder, partial);
 }
 
 void BackgroundLearner::Use(const std::deque<Look>& looks) {

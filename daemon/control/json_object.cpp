@@ -5,20 +5,33 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
 
-std::string Quoted(std::string_view text) {
+/// What is no UTF-8 is none of JSON's: U+FFFD stands for it.
+constexpr std::string_view kReplacement = "\\ufffd";
+
+std::string Escaped(char32_t code) {
+  if (code < 0x10000) return fmt::format("\\u{:04x}", static_cast<unsigned>(code));
+  const auto rest = static_cast<unsigned>(code - 0x10000);
+  return fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + (rest >> 10), 0xdc00 + (rest & 0x3ff));
+}
+
+/// What a terminal would obey is spelled out as well.
+std::string InQuotes(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+  while (!text.empty()) {
+    const TextCharacter character = TakeCharacter(text);
+    if (character.bytes == "\"" || character.bytes == "\\") {
+      quoted += '\\' + std::string(character.bytes);
+    } else if (!character.code) {
+      quoted += kReplacement;
+    } else if (IsHarmless(*character.code)) {
+      quoted += character.bytes;
     } else {
-      quoted += c;
+      quoted += Escaped(*character.code);
     }
   }
   return quoted + '"';
@@ -39,7 +52,7 @@ void JsonObject::Add(std::string_view name, std::int64_t value) {
 
 void JsonObject::Add(std::string_view name, bool value) { AddRaw(name, value ? "true" : "false"); }
 
-void JsonObject::Add(std::string_view name, std::string_view text) { AddRaw(name, Quoted(text)); }
+void JsonObject::Add(std::string_view name, std::string_view text) { AddRaw(name, InQuotes(text)); }
 
 void JsonObject::Add(std::string_view name, const JsonObject& object) {
   AddRaw(name, object.Text());
@@ -53,12 +66,12 @@ void JsonObject::Add(std::string_view name, std::span<const JsonObject> objects)
 
 void JsonObject::Add(std::string_view name, std::span<const std::string> texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + Quoted(text);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + InQuotes(text);
   AddRaw(name, '[' + list + ']');
 }
 
 void JsonObject::AddRaw(std::string_view name, std::string_view value) {
-  members_ += fmt::format("{}{}: {}", members_.empty() ? "" : ", ", Quoted(name), value);
+  members_ += fmt::format("{}{}: {}", members_.empty() ? "" : ", ", InQuotes(name), value);
 }
 
 }  // namespace mocap

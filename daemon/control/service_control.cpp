@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 
@@ -55,9 +56,10 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
                              status.folder.string());
   }
   const std::string why = status.problem.empty() ? "" : "; it " + status.problem;
-  const std::string text = fmt::format(
-      "{}: {:.1f} s, {} frames, {} dropped while recording{}", status.folder.string(),
-      static_cast<double>(status.duration_ns) / 1e9, status.frames, status.dropped, why);
+  const std::string text =
+      fmt::format("{}: {:.1f} s, {}, {} dropped while recording{}",
+                  Printable(status.folder.string()), static_cast<double>(status.duration_ns) / 1e9,
+                  Counted(status.frames, "frame"), status.dropped, why);
   spdlog::info("recorded {}", text);
   return text + '\n';
 }
@@ -104,9 +106,10 @@ std::string ServiceControl::Do(const SubjectListRequest&) {
   std::string text;
   for (const std::string& name : subjects_.Names()) {
     try {
-      text += fmt::format("{:<24}stature {:.0f} mm\n", name, subjects_.Load(name).Stature());
+      text +=
+          fmt::format("{:<24}stature {:.0f} mm\n", Printable(name), subjects_.Load(name).Stature());
     } catch (const SetupError& error) {
-      text += fmt::format("{:<24}{}\n", name, error.what());
+      text += fmt::format("{:<24}{}\n", Printable(name), Printable(error.what()));
     }
   }
   return text.empty() ? "no subject is kept yet\n" : text;

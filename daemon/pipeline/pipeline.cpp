@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "daemon/pipeline/realtime.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -41,8 +42,8 @@ constexpr std::size_t kLongestThreadName = 15;
 /// @throws SetupError
 std::size_t CountCameras(const Studio& studio) {
   if (studio.cameras.empty() || studio.cameras.size() > kMaxCameras) {
-    throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
-                     " cameras, wanted 1 to " + std::to_string(kMaxCameras));
+    throw SetupError(studio.name + ": has " + Counted(studio.cameras.size(), "camera") +
+                     ", wanted 1 to " + std::to_string(kMaxCameras));
   }
   return studio.cameras.size();
 }

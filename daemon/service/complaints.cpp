@@ -8,6 +8,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "drivers/printable_text.h"
+
 namespace mocap {
 namespace {
 
@@ -33,9 +35,9 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
     list.push_back("the recording " + recording.problem);
   }
   if (recording.state == RecordingStatus::State::kRunning && recording.dropped > 0) {
-    list.push_back(fmt::format(
-        "{} frames had no room in the recording: a faster disk or another codec is wanted",
-        recording.dropped));
+    list.push_back(
+        fmt::format("{} had no room in the recording: a faster disk or another codec is wanted",
+                    Counted(recording.dropped, "frame")));
   }
   for (const CutOffTake& take : report.cut_off) {
     list.push_back(

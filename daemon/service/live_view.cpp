@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/printable_text.h"
+
 namespace mocap {
 
 void LiveView::OnSet(const TrackedSet& set) {
@@ -37,11 +39,11 @@ std::string LiveView::Line(const StatusReport& report) const {
   };
   const CaptureState state = state_.load(std::memory_order_relaxed);
   std::string line =
-      fmt::format("{:<9}  {:4.1f} sets/s  latency {:3.0f} ms  residual {}  {} voxels",
+      fmt::format("{:<9}  {:4.1f} sets/s  latency {:3.0f} ms  residual {}  {}",
                   kCaptureStateNames[static_cast<std::size_t>(state)], report.sets_per_second,
                   report.recent[Stage::kLatency].PercentileMs(0.5),
                   millimetres(residual_mm_.load(std::memory_order_relaxed)),
-                  voxels_.load(std::memory_order_relaxed));
+                  Counted(voxels_.load(std::memory_order_relaxed), "voxel"));
   if (error_) {
     line += "  error " + millimetres(error_mm_.load(std::memory_order_relaxed));
   }

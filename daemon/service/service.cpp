@@ -32,11 +32,13 @@
 #include "daemon/service/light_watch.h"
 #include "daemon/service/live_view.h"
 #include "daemon/service/metrics_file.h"
+#include "daemon/service/printable_log.h"
 #include "daemon/service/service_folders.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/service/service_setup.h"
 #include "daemon/service/status_window.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -75,11 +77,11 @@ void ReturnLargeBlocks() {
 /// To standard error, which is the journal under systemd, and to a file where there is a place.
 void OpenLog() {
   std::vector<spdlog::sink_ptr> sinks = {std::make_shared<spdlog::sinks::stderr_color_sink_mt>()};
-  sinks[0]->set_pattern("%n: %^%l%$: %v");
+  sinks[0]->set_formatter(PrintableLogFormat("%n: %^%l%$: %*"));
   if (const std::filesystem::path folder = LogsFolder(); !folder.empty()) {
     sinks.push_back(std::make_shared<spdlog::sinks::rotating_file_sink_mt>(folder / "mocapd.log",
                                                                            kLogBytes, kLogFiles));
-    sinks[1]->set_pattern("%Y-%m-%d %T.%e %l: %v");
+    sinks[1]->set_formatter(PrintableLogFormat("%Y-%m-%d %T.%e %l: %*"));
   }
   auto logger = std::make_shared<spdlog::logger>("mocapd", sinks.begin(), sinks.end());
   logger->flush_on(spdlog::level::info);
@@ -147,10 +149,10 @@ class Watch {
     const PipelineStatus status = parts_.pipeline.Status();
     const LatencyHistogram& latency = status.stages[Stage::kLatency];
     spdlog::info(
-        "{} sets, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
+        "{}, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} "
         "ms",
-        status.sets_tracked, status.sets_partial, status.sets_dropped, latency.PercentileMs(0.5),
-        latency.PercentileMs(0.99));
+        Counted(status.sets_tracked, "set"), status.sets_partial, status.sets_dropped,
+        latency.PercentileMs(0.5), latency.PercentileMs(0.99));
   }
 
  private:
@@ -247,7 +249,9 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   Studio studio = OpenStudio(config);
   ServiceManager manager;
   manager.Say("learning the empty studio");
-  spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
+  spdlog::info("learning the empty studio: {}, {}", studio.name,
+               Counted(studio.cameras.size(), "camera"));
+  for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);
   PosePublisher publisher(*lcm, config.lcm, static_cast<int>(studio.cameras.size()));

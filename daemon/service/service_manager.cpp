@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "drivers/printable_text.h"
+
 namespace mocap {
 namespace {
 
@@ -22,7 +24,8 @@ void ServiceManager::Ready() {
 void ServiceManager::Say(const std::string& line) {
   if (line == line_) return;
   line_ = line;
-  Notify("STATUS=" + line);
+  // A line's end would begin another assignment.
+  Notify("STATUS=" + Printable(line));
 }
 
 void ServiceManager::FeedWatchdog() { Notify("WATCHDOG=1"); }

@@ -7,6 +7,7 @@
 
 #include "daemon/control/json_object.h"
 #include "daemon/service/complaints.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -35,7 +36,7 @@ std::string StateText(const ServiceReport& report) {
   if (state == CaptureState::kTracking) {
     text += fmt::format(", fit {:.0f} mm", report.fit.residual_mm);
   }
-  return text + fmt::format(", {} voxels", report.fit.voxels);
+  return text + ", " + Counted(report.fit.voxels, "voxel");
 }
 
 std::string Percentiles(const LatencyHistogram& histogram) {
@@ -50,9 +51,9 @@ constexpr std::array<std::string_view, 4> kRecordedNames = {"none", "running", "
 /// "walk, 12 s, 2160 frames, 0 dropped".
 std::string RecordingText(const RecordingStatus& recording) {
   if (recording.state == Recorded::kNone) return "none since the start";
-  std::string text =
-      fmt::format("{}, {}, {} frames, {} dropped", recording.folder.string(),
-                  Duration(recording.duration_ns), recording.frames, recording.dropped);
+  std::string text = fmt::format("{}, {}, {}, {} dropped", recording.folder.string(),
+                                 Duration(recording.duration_ns),
+                                 Counted(recording.frames, "frame"), recording.dropped);
   if (recording.state == Recorded::kComplete) text = "complete: " + text;
   if (recording.state == Recorded::kFailed) text = "FAILED: " + text;
   if (!recording.problem.empty()) text += "; " + recording.problem;
@@ -79,7 +80,7 @@ JsonObject TimingJson(const LatencyHistogram& histogram) {
 }
 
 std::string Line(const std::string& label, const std::string& text) {
-  return fmt::format("{:<12} {}\n", label, text);
+  return fmt::format("{:<12} {}\n", label, Printable(text));
 }
 
 /// "9 days old, /etc/mocapd/calibration.toml".
@@ -168,7 +169,7 @@ std::string ReportText(const ServiceReport& report) {
   const StageHistograms& recent = report.now.recent;
   const std::vector<std::string> complaints = Complaints(report);
   std::string text = complaints.empty() ? "all is good\n" : "";
-  for (const std::string& complaint : complaints) text += "! " + complaint + '\n';
+  for (const std::string& complaint : complaints) text += "! " + Printable(complaint) + '\n';
   text += '\n' + Line("mocapd", fmt::format("{}, up {}; {}", MOCAP_VERSION, Duration(report.up_ns),
                                             report.studio));
   text += Line("poses", "on " + report.lcm_url);
@@ -193,7 +194,7 @@ std::string ReportText(const ServiceReport& report) {
 }
 
 std::string BackgroundText(const ServiceReport& report) {
-  std::string text = MadeText(report.background, report.epoch_s) + '\n';
+  std::string text = Printable(MadeText(report.background, report.epoch_s)) + '\n';
   for (const CameraStatus& camera : report.now.status.cameras) {
     text +=
         fmt::format("{}: {:.0f} % of the light that was learned", camera.name, 100 * camera.light);

@@ -12,6 +12,7 @@ namespace mocap::simulation {
 namespace {
 
 constexpr double kJitter_ns = 300'000;
+constexpr double kMostMegapixels = 128;
 
 const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
   const auto refuse = [](const char* name, double found, const char* wanted) {
@@ -27,6 +28,11 @@ const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
     refuse("width_px", options.width_px, "16 to 8192");
   if (options.height_px < 16 || options.height_px > 8192)
     refuse("height_px", options.height_px, "16 to 8192");
+  // Pictures of the empty studio are kept: some hundred bytes a pixel.
+  const double megapixels = 1e-6 * options.cameras * options.width_px * options.height_px;
+  if (megapixels > kMostMegapixels) {
+    refuse("the size of all pictures together", megapixels, "at most 128 megapixels");
+  }
   if (!(options.seconds >= 0 && options.seconds < 1e6))
     refuse("seconds", options.seconds, "0 to 1000000");
   return options;

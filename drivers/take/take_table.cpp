@@ -1,133 +1,135 @@
 #include "drivers/take/take_table.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include "core/errors.h"
-#include "drivers/quoted.h"
+#include "drivers/take/text_table.h"
 
 namespace mocap {
 namespace {
 
-constexpr std::string_view kPlainHeader = "frame,timestamp_ns";
-constexpr std::string_view kHeadHeader = "frame,timestamp_ns,pan_rad,tilt_rad";
+constexpr const char* kWanted = "a table of capture times";
+const std::array<std::string, 2> kHeaders = {"frame,timestamp_ns",
+                                             "frame,timestamp_ns,pan_rad,tilt_rad"};
+const std::array<std::string, 4> kColumns = {"frame", "timestamp_ns", "pan_rad", "tilt_rad"};
 
 // Far beyond any recording, yet safe to add and to multiply.
 constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;
 constexpr std::uint64_t kLastFrame = 1'000'000'000'000;
+constexpr double kStill_rad = 0.01;
 
-/// Where in the file one is, for messages.
-struct Place {
-  const std::filesystem::path& file;
-  int line = 1;
-
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw SetupError(file.string() + ":" + std::to_string(line) + ": " + what);
-  }
-};
-
-// Takes the field before the next comma off `rest`.
-std::string_view NextField(std::string_view& rest) {
-  const std::size_t comma = rest.find(',');
-  const std::string_view field = rest.substr(0, comma);
-  rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
-  return field;
+std::size_t RequireTakeHeader(TextLines& lines) {
+  return RequireHeader(lines, kHeaders, "\"frame,timestamp_ns[,pan_rad,tilt_rad]\"");
 }
 
-template <typename Number>
-Number ParseField(std::string_view& rest, const char* column, const Place& place) {
-  const std::string_view field = NextField(rest);
-  Number value{};
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) {
-    place.Fail(std::string(column) + " is " + Quoted(field) + "; a number is wanted");
-  }
-  return value;
-}
-
-TakeRow ParseRow(std::string_view line, bool has_angles, const Place& place) {
-  const auto commas = std::count(line.begin(), line.end(), ',');
-  const int wanted = has_angles ? 4 : 2;
-  if (commas + 1 != wanted) {
-    place.Fail("has " + std::to_string(commas + 1) + " fields; " + std::to_string(wanted) +
-               " are wanted");
-  }
+TakeRow ParseRow(std::string_view line, bool has_angles, const TextLines& lines) {
+  const TableRow cells(line, std::span(kColumns).first(has_angles ? 4 : 2), lines);
   TakeRow row;
-  row.frame = ParseField<std::uint64_t>(line, "frame", place);
-  row.timestamp_ns = ParseField<std::int64_t>(line, "timestamp_ns", place);
-  if (row.frame > kLastFrame) place.Fail("frame " + std::to_string(row.frame) + " is too large");
+  row.frame = cells.Number<std::uint64_t>(0);
+  row.timestamp_ns = cells.Number<std::int64_t>(1);
+  if (row.frame > kLastFrame) lines.Fail("frame " + std::to_string(row.frame) + " is too large");
   if (row.timestamp_ns < 0 || row.timestamp_ns > kLatest_ns) {
-    place.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
+    lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
                " is no time; nanoseconds since the Unix epoch are wanted");
   }
-  if (has_angles) {
-    row.angles.pan_rad = ParseField<double>(line, "pan_rad", place);
-    row.angles.tilt_rad = ParseField<double>(line, "tilt_rad", place);
-    if (!std::isfinite(row.angles.pan_rad) || !std::isfinite(row.angles.tilt_rad)) {
-      place.Fail("pan_rad and tilt_rad must be finite");
-    }
-  }
+  if (has_angles) row.angles = {cells.Number<double>(2), cells.Number<double>(3)};
   return row;
 }
 
+bool IsRow(std::string_view line, bool has_angles, const TextLines& lines) {
+  try {
+    ParseRow(line, has_angles, lines);
+  } catch (const SetupError&) {
+    return false;
+  }
+  return true;
+}
+
 void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row,
-                const Place& place) {
+                const TextLines& lines) {
   if (row.frame <= before.frame) {
-    place.Fail("frame " + std::to_string(row.frame) + " follows " + std::to_string(before.frame) +
+    lines.Fail("frame " + std::to_string(row.frame) + " follows " + std::to_string(before.frame) +
                "; frame numbers must increase");
   }
   if (row.timestamp_ns <= before.timestamp_ns) {
-    place.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
-               std::to_string(before.timestamp_ns) + "; times must increase");
+    lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
+               std::to_string(before.timestamp_ns) +
+               "; times in nanoseconds that increase are wanted");
   }
   if (row.timestamp_ns - first.timestamp_ns > kLongestTake_ns) {
-    place.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
+    lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
                " is more than a week after the first; a shorter take is wanted");
   }
 }
 
-// Gives the next whole line, without its end.
-bool NextLine(std::istream& in, std::string& line) {
-  if (!std::getline(in, line) || in.eof()) return false;
-  if (line.ends_with('\r')) line.pop_back();
-  return true;
+// A row without a line's end is one that an editor left so, or half of one: a number that lost its
+// last digits comes before its predecessor, or far behind it where those were small.
+bool IsPlausible(const std::vector<TakeRow>& rows, const TakeRow& row) {
+  if (rows.size() < 2) return true;
+  const auto turn = [](const TakeRow& from, const TakeRow& to) {
+    return std::hypot(to.angles.pan_rad - from.angles.pan_rad,
+                      to.angles.tilt_rad - from.angles.tilt_rad);
+  };
+  double most_rad = kStill_rad;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    most_rad = std::max(most_rad, turn(rows[i - 1], rows[i]));
+  }
+  const std::int64_t usual_ns = (rows.back().timestamp_ns - rows.front().timestamp_ns) /
+                                static_cast<std::int64_t>(rows.size() - 1);
+  return row.timestamp_ns - rows.back().timestamp_ns > usual_ns / 4 &&
+         turn(rows.back(), row) < 2 * most_rad;
 }
-
-bool IsHeader(const std::string& line) { return line == kPlainHeader || line == kHeadHeader; }
 
 }  // namespace
 
 TakeTable ReadTakeTable(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !in) {
-    throw SetupError(file.string() + ": is missing; each frame's capture time is wanted");
-  }
-  Place place{file};
-  std::string line;
-  const bool any = NextLine(in, line);
-  if (!any || !IsHeader(line)) {
-    place.Fail("the header \"" + std::string(kPlainHeader) + "[,pan_rad,tilt_rad]\" is wanted");
-  }
+  TextLines lines(file, kWanted);
   TakeTable table;
-  table.has_angles = line == kHeadHeader;
-  while (NextLine(in, line)) {
-    ++place.line;
-    const TakeRow row = ParseRow(line, table.has_angles, place);
-    if (!table.rows.empty()) CheckOrder(table.rows.front(), table.rows.back(), row, place);
-    table.rows.push_back(row);
+  table.has_angles = RequireTakeHeader(lines) == 1;
+  if (!lines.has_end()) lines.Fail("ends with its header; a row for each frame is wanted");
+  std::string_view line;
+  while (lines.NextRow(line)) {
+    try {
+      const TakeRow row = ParseRow(line, table.has_angles, lines);
+      if (!table.rows.empty()) CheckOrder(table.rows.front(), table.rows.back(), row, lines);
+      table.is_cut_off = !lines.has_end() && !IsPlausible(table.rows, row);
+      if (!table.is_cut_off) table.rows.push_back(row);
+    } catch (const SetupError&) {
+      if (lines.has_end()) throw;
+      table.is_cut_off = true;
+    }
   }
-  if (table.rows.empty()) place.Fail("no rows follow; one for each recorded frame is wanted");
+  if (table.rows.empty()) lines.Fail("no rows follow; one for each recorded frame is wanted");
   return table;
 }
 
 bool HoldsNoRows(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string line;
-  return NextLine(in, line) && IsHeader(line) && !NextLine(in, line);
+  try {
+    TextLines lines(file, kWanted);
+    const bool has_angles = RequireTakeHeader(lines) == 1;
+    std::string_view line;
+    if (!lines.has_end()) return false;
+    if (!lines.NextRow(line)) return true;
+    if (lines.has_end()) return false;
+    return !IsRow(line, has_angles, lines);
+  } catch (const SetupError&) {
+    return false;
+  }
+}
+
+std::int64_t UsualIntervalNs(const TakeTable& table) {
+  std::vector<std::int64_t> intervals_ns;
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    intervals_ns.push_back(table.rows[i].timestamp_ns - table.rows[i - 1].timestamp_ns);
+  }
+  if (intervals_ns.empty()) return 0;
+  const auto middle = intervals_ns.begin() + static_cast<std::ptrdiff_t>(intervals_ns.size() / 2);
+  std::nth_element(intervals_ns.begin(), middle, intervals_ns.end());
+  return *middle;
 }
 
 }  // namespace mocap

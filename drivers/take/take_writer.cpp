@@ -1,6 +1,8 @@
 #include "drivers/take/take_writer.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -9,6 +11,7 @@
 #include "core/errors.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
@@ -20,15 +23,24 @@ namespace {
 /// A text file that complains when it cannot be written.
 class TextFile {
  public:
-  explicit TextFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {}
+  explicit TextFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {
+    Check();
+  }
 
   // Flushed so that a row is on its way to the disk once its frame is.
   void Write(const std::string& text) {
+    errno = 0;
     out_ << text << std::flush;
-    if (!out_) throw std::runtime_error(name_ + ": cannot be written");
+    Check();
   }
 
  private:
+  void Check() const {
+    if (out_) return;
+    throw std::runtime_error(name_ + ": cannot be written: " + std::strerror(errno) +
+                             "; room on its disk is wanted");
+  }
+
   std::string name_;
   std::ofstream out_;
 };
@@ -108,7 +120,7 @@ void CheckNames(const TakeDescription& description) {
 class TakeWriter::Impl {
  public:
   Impl(const std::filesystem::path& folder, const TakeDescription& description)
-      : folder_(folder.has_filename() ? folder : folder.parent_path()),
+      : folder_(PlainFolder(folder)),
         layout_{folder_.string() + ".partial"},
         fps_(description.fps_nominal),
         codec_(description.codec),
@@ -222,7 +234,7 @@ class TakeWriter::Impl {
 
   void MakeFolder() const {
     for (const std::filesystem::path& path : {folder_, layout_.folder}) {
-      if (std::filesystem::exists(path)) {
+      if (IsThere(path)) {
         throw SetupError(path.string() + ": exists; the name of a new folder is wanted");
       }
     }

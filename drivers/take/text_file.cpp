@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
@@ -120,12 +122,30 @@ void RequireWritable(const std::filesystem::path& file) {
   if (!is_special) unlink(tried.c_str());
 }
 
+void RequireOwn(const std::filesystem::path& file, std::span<const std::string_view> beginnings,
+                std::string_view kind) {
+  constexpr std::size_t kLongestBeginning = 256;
+  if (!IsThere(file) || IsSpecial(file)) return;
+  std::string begin(kLongestBeginning, '\0');
+  const int fd = OpenToRead(file, kind);
+  const ssize_t got = read(fd, begin.data(), begin.size());
+  close(fd);
+  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  const bool is_own = std::any_of(beginnings.begin(), beginnings.end(),
+                                  [&](std::string_view own) { return begin.starts_with(own); });
+  if (is_own || begin.empty()) return;
+  throw SetupError(file.string() + ": is there, and is not " + std::string(kind) +
+                   " of mocap's; the name of a new file is wanted");
+}
+
 void MakeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw SetupError(folder.string() + ": is no folder and cannot be made one; another is wanted");
+  if (error) {
+    throw SetupError(folder.string() + ": cannot be made a folder: " + error.message() +
+                     "; another is wanted");
   }
+  RequireFolder(folder, "a folder for results");
 }
 
 }  // namespace mocap

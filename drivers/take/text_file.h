@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace mocap {
 
@@ -17,6 +19,14 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text);
 /// Finds out before the work whether ReplaceText can keep its result; leaves the file as it is.
 /// @throws SetupError  naming the file and why it cannot be written.
 void RequireWritable(const std::filesystem::path& file);
+
+/// Makes sure that writing over a file takes nothing from anybody: it is absent, empty, or begins
+/// as the program's own do.
+/// @param beginnings  what such a file may begin with.
+/// @param kind        for the message, as in "a report".
+/// @throws SetupError  naming the file.
+void RequireOwn(const std::filesystem::path& file, std::span<const std::string_view> beginnings,
+                std::string_view kind);
 
 /// Makes a folder for results unless it is there, before the work.
 /// @throws SetupError  naming it.

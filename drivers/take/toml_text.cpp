@@ -6,20 +6,31 @@
 #include <cstdio>
 
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
+namespace {
+
+/// Stands for bytes that are no UTF-8, which TOML cannot hold: U+FFFD.
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";
+
+}  // namespace
 
 std::string TomlText(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += {'\\', c};
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned>(c));
-      quoted += escape.data();
+  while (!text.empty()) {
+    const TextCharacter character = TakeCharacter(text);
+    if (character.bytes == "\"" || character.bytes == "\\") {
+      quoted += '\\' + std::string(character.bytes);
+    } else if (!character.code) {
+      quoted += kReplacement;
+    } else if (IsHarmless(*character.code)) {
+      quoted += character.bytes;
     } else {
-      quoted += c;
+      std::array<char, 16> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\U%08x",
+                    static_cast<unsigned>(*character.code));
+      quoted += escape.data();
     }
   }
   return quoted + '"';

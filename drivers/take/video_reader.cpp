@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/libav.h"
 
 namespace mocap {
@@ -35,8 +36,11 @@ class NoFrame : public SetupError {
 }
 
 InputPtr OpenInput(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) Fail(file, "is missing; a video file is wanted");
-  if (!std::filesystem::is_regular_file(file)) Fail(file, "is not a file; a video file is wanted");
+  RequireFile(file, "a video file");
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) == 0 && !error) {
+    Fail(file, "is empty; a Matroska file is wanted");
+  }
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
   // Without a whitelist a playlist in disguise could reach for the network.

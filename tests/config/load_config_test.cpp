@@ -99,6 +99,14 @@ device = "192.168.0.7"
   EXPECT_EQ(config.cameras[1].device, "192.168.0.7");
 }
 
+TEST_F(ConfigFile, FoldersMayEndWithASlash) {
+  EXPECT_EQ(Load("background = \"bg/\"").background, folder_.path() / "bg");
+  EXPECT_EQ(Load("background = \"./a/../bg//\"").background, folder_.path() / "bg");
+  EXPECT_EQ(Load("background = \"/var/bg/\"").background, "/var/bg");
+  EXPECT_EQ(Load("[recording]\nfolder = \"takes/\"").service.recording.folder,
+            folder_.path() / "takes");
+}
+
 TEST_F(ConfigFile, OnlyPathsAreMadeRelativeToTheFile) {
   EXPECT_EQ(Load("body = \"mikic2003\"").body, "mikic2003");
   EXPECT_EQ(Load("body = \"child.toml\"").body, (folder_.path() / "child.toml").string());
@@ -127,6 +135,10 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"[source]\nwidth = 8\n", 2, "source.width is 8"},
       {"[source]\nheight = 9000\n", 2, "source.height is 9000"},
       {"[source]\nfps = 0\n", 2, "source.fps is 0"},
+      {"[source]\nfps = -0.0\n", 2, "source.fps is 0;"},
+      {"[source]\nwidth = 1000000000\n", 2, "source.width is 1000000000; a whole number from 16"},
+      {"[recording]\nbuffer_mb = 1e300\n", 2, "recording.buffer_mb is 1e+300"},
+      {"\"x\\u001b]0;owned\\u0007\" = 1\n", 1, "x\\x1b]0;owned\\x07 is unknown"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
       {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},
       {"[voxels]\nsize_mm = 9.9\n", 2, "voxels.size_mm is 9.9"},

@@ -119,7 +119,8 @@ TEST_F(OpenedTake, InterruptedRecordingOpens) {
   {
     TakeWriter writer(layout_.folder, testing::SmallDescription({.cameras = 1}));
     writer.WriteBackground(0, SmallPicture(take_, 0, 50).view(), 1);
-    for (int i = 0; i < 3; ++i) writer.WriteFrame(0, SmallPicture(take_, 0, i).view(), 10 + i);
+    for (int i = 0; i < 3; ++i)
+      writer.WriteFrame(0, SmallPicture(take_, 0, i).view(), take_.TimeNs(0, i));
   }
   const Studio studio = OpenTake(layout_.folder.string() + ".partial", {});
   EXPECT_EQ(CountFrames(*studio.cameras[0].driver), 3);
@@ -133,7 +134,7 @@ TEST_F(OpenedTake, ACameraThatDeliveredNothingIsLeftOutUnlessItIsNamed) {
     }
     for (const int camera : {0, 2}) {
       for (int i = 0; i < 3; ++i) {
-        writer.WriteFrame(camera, SmallPicture(take_, camera, i).view(), 10 + i);
+        writer.WriteFrame(camera, SmallPicture(take_, camera, i).view(), take_.TimeNs(camera, i));
       }
     }
     writer.Finish();
@@ -143,6 +144,36 @@ TEST_F(OpenedTake, ACameraThatDeliveredNothingIsLeftOutUnlessItIsNamed) {
   WriteText(layout_.Table("cam1"), "frame,timestamp_ns\n");
   WriteText(layout_.Table("cam3"), "frame,timestamp_ns\n");
   EXPECT_THAT(ErrorOnOpening(), HasSubstr("holds no frame of any camera (cam1, cam2, cam3)"));
+}
+
+/// Rows as they come when the unit of time is another.
+std::string TableWithIntervals(std::int64_t interval) {
+  std::string text = "frame,timestamp_ns\n";
+  for (int i = 0; i < 5; ++i) {
+    text += std::to_string(i) + ',' + std::to_string(1'000'000 + i * interval) + '\n';
+  }
+  return text;
+}
+
+TEST_F(OpenedTake, TimesThatAreNoNanosecondsAreRefused) {
+  WriteSmallTake(layout_.folder, take_);
+  const std::pair<std::int64_t, const char*> cases[] = {
+      {40'000, "microseconds?"}, {40, "milliseconds?"}, {40'000'000'000, "nanoseconds is wanted"}};
+  for (const auto& [interval, says] : cases) {
+    WriteText(layout_.Table("cam2"), TableWithIntervals(interval));
+    EXPECT_THAT(ErrorOnOpening(),
+                AllOf(HasSubstr("cam2.csv: "), HasSubstr("fps_nominal = 25"), HasSubstr(says)));
+  }
+}
+
+TEST_F(OpenedTake, ADoubtfulRateAndACutOffRowAreRemarks) {
+  WriteSmallTake(layout_.folder, take_);
+  EXPECT_EQ(OpenTake(layout_.folder, {}).remarks.size(), 0u);
+  WriteText(layout_.Table("cam2"), TableWithIntervals(8'000'000));
+  WriteText(layout_.Table("cam3"), TableWithIntervals(40'000'000) + "5,1");
+  const Studio studio = OpenTake(layout_.folder, {});
+  EXPECT_THAT(studio.remarks,
+              ElementsAre(HasSubstr("frames are 8 ms apart"), HasSubstr("last line is cut off")));
 }
 
 struct Damage {

@@ -207,9 +207,13 @@ TEST_F(Video, MissingFileIsNamed) {
   EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(file_.string()), HasSubstr("missing")));
 }
 
+TEST_F(Video, AnEmptyFileIsToldAsEmpty) {
+  testing::WriteText(file_, "");
+  EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(file_.string()), HasSubstr("is empty")));
+}
+
 TEST_F(Video, TextIsNoVideo) {
-  for (const char* text :
-       {"", "no video\n", "ffconcat version 1.0\nfile other.mkv\n", "#EXTM3U\n"}) {
+  for (const char* text : {"no video\n", "ffconcat version 1.0\nfile other.mkv\n", "#EXTM3U\n"}) {
     testing::WriteText(file_, text);
     EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(file_.string()), HasSubstr("no"))) << text;
   }

@@ -79,10 +79,12 @@ TEST_F(Simulate, PicturesHaveTheSizeThatIsAskedFor) {
 
 TEST_F(Simulate, RefusesWhatCannotBe) {
   EXPECT_THROW(Run("take", "--motion fly"), SetupError);
-  EXPECT_THROW(Run("take", "--stature 20"), SetupError);
-  EXPECT_THROW(Run("take", "--seconds 0"), SetupError);
-  EXPECT_THROW(Run("take", "--cameras 0"), SetupError);
-  EXPECT_THROW(Run("take", "--width 4"), SetupError);
+  for (const char* option :
+       {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300", "--fps 1e9",
+        "--cameras 0", "--cameras 1000000000", "--width 4", "--height 1000000000"}) {
+    EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
+  }
+  EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);
   EXPECT_FALSE(fs::exists(folder_ / "take"));
 }
 

@@ -12,7 +12,6 @@ namespace mocap {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 /// Two frames 50 ms apart; the second is lost and has no pose.
 Result TwoFrames() {
@@ -73,7 +72,42 @@ TEST(TrcWriter, TurnsTheWorldYUpWithoutMirroringIt) {
   EXPECT_EQ(row[4 + 3 * 18], "100.000");
 }
 
-TEST(TrcWriter, LeavesCellsOfAFrameNotTrackedEmpty) {
+/// As OpenSim's reader: what follows the last tab counts if it is not empty.
+std::vector<std::string> OpenSimFields(const std::string& line) {
+  std::vector<std::string> fields = Cells(line, '\t').at(0);
+  if (fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+TEST(TrcWriter, OpenSimFindsAllColumnsInEveryRow) {
+  std::ostringstream text;
+  WriteTrc(TwoFrames(), "walk.trc", text);
+  std::istringstream lines(text.str());
+  std::string line;
+  for (int i = 0; i < 6; ++i) std::getline(lines, line);
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) EXPECT_EQ(OpenSimFields(line).size(), 2u + 3 * 23);
+  EXPECT_EQ(rows, 2);
+}
+
+TEST(TrcWriter, ANameOfAFileForgesNoLine) {
+  std::ostringstream text;
+  WriteTrc(TwoFrames(), "a\nb\t.trc", text);
+  EXPECT_EQ(Cells(text.str(), '\t')[0].back(), "a\\x0ab\\x09.trc");
+}
+
+TEST(TableWriters, WriteNoMinusBeforeZero) {
+  Result result = TwoFrames();
+  result.poses[0].points_W.setConstant(-1e-9);
+  result.poses[0].paper.torso_axis.setConstant(-1e-9);
+  for (const bool as_trc : {true, false}) {
+    std::ostringstream text;
+    as_trc ? WriteTrc(result, "walk.trc", text) : WriteCsv(result, text);
+    EXPECT_EQ(text.str().find("-0.000"), std::string::npos);
+  }
+}
+
+TEST(TrcWriter, MarksCellsOfAFrameNotTrackedAsMissing) {
   std::ostringstream text;
   WriteTrc(TwoFrames(), "walk.trc", text);
   const auto rows = Cells(text.str(), '\t');
@@ -81,7 +115,7 @@ TEST(TrcWriter, LeavesCellsOfAFrameNotTrackedEmpty) {
   ASSERT_EQ(row.size(), 2u + 3 * 23);
   EXPECT_EQ(row[0], "2");
   EXPECT_EQ(row[1], "0.050000");
-  EXPECT_THAT(std::vector(row.begin() + 2, row.end()), testing::Each(IsEmpty()));
+  EXPECT_THAT(std::vector(row.begin() + 2, row.end()), testing::Each("nan"));
 }
 
 TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {

@@ -145,9 +145,8 @@ void TellMissing(Footage& footage, const std::set<std::string, decltype(&IsKeyLe
       }
     }
     if (missing == 0) continue;
-    footage.notes.push_back(camera.name + ": lacks " + std::to_string(missing) +
-                            " pictures that others have (" + named +
-                            (missing > kMostNamed ? ", ..." : "") +
+    footage.notes.push_back(camera.name + ": lacks " + Counted(missing, "picture") +
+                            " that others have (" + named + (missing > kMostNamed ? ", ..." : "") +
                             "); the rest is paired by the numbers in their names");
   }
 }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/errors.h"
+#include "drivers/take/input_file.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -50,6 +50,21 @@ std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& 
   return pairs;
 }
 
+/// Poses of another take, or times in another unit, would be "no tracked frame has truth".
+void TellOfOtherTimes(const std::filesystem::path& take, Evaluation& evaluation) {
+  const std::vector<PoseRow>& poses = evaluation.result.poses;
+  if (!evaluation.truth || poses.empty()) return;
+  const std::vector<ScoredFrame>& truth = evaluation.truth->frames;
+  const bool meet = poses.front().timestamp_ns <= truth.back().timestamp_ns &&
+                    truth.front().timestamp_ns <= poses.back().timestamp_ns;
+  if (meet) return;
+  evaluation.result.remarks.push_back(
+      take.string() + ": its truth is of " + std::to_string(truth.front().timestamp_ns) + " to " +
+      std::to_string(truth.back().timestamp_ns) + " ns, the result of " +
+      std::to_string(poses.front().timestamp_ns) + " to " +
+      std::to_string(poses.back().timestamp_ns) + " ns: nothing can be compared");
+}
+
 }  // namespace
 
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
@@ -68,11 +83,11 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   return evaluation;
 }
 
-Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result) {
-  if (!std::filesystem::is_directory(take)) {
-    throw SetupError(take.string() + ": is no folder; a take is wanted");
-  }
-  Evaluation evaluation = Evaluate(ReadResult(result), ReadTakeTruth(take));
+Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result,
+                    const std::optional<std::string>& prefix) {
+  RequireFolder(take, "a take");
+  Evaluation evaluation = Evaluate(ReadResult(result, prefix), ReadTakeTruth(take));
+  TellOfOtherTimes(take, evaluation);
   evaluation.take = std::filesystem::weakly_canonical(take).filename().string();
   return evaluation;
 }

@@ -41,8 +41,10 @@ struct Evaluation {
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
 
 /// Reads a take's truth and a result and compares them.
+/// @param prefix  of a result that is a log: see ReadResult.
 /// @throws SetupError  when either cannot be read.
-Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result);
+Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result,
+                    const std::optional<std::string>& prefix = {});
 
 /// What the sixteen angles of Table 1 turn, and about which axis of the torso.
 inline constexpr std::array<std::string_view, kPaperAngleCount> kPaperAngleLabels = {

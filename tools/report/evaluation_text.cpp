@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "daemon/control/json_object.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -93,9 +94,9 @@ void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
 
 std::string EvaluationText(const Evaluation& evaluation) {
   const BodyRecord& body = evaluation.result.body;
-  std::string text =
-      fmt::format("{}: {} frames, body {}, stature {:.0f} mm\n\nstates     ", evaluation.take,
-                  evaluation.result.poses.size(), body.model, body.stature_mm);
+  std::string text = fmt::format(
+      "{}: {}, body {}, stature {:.0f} mm\n\nstates     ", Printable(evaluation.take),
+      Counted(evaluation.result.poses.size(), "frame"), Printable(body.model), body.stature_mm);
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
     text += fmt::format(" {} {}{}", kCaptureStateNames[i], evaluation.frames_in_state[i],
                         i + 1 < kCaptureStateNames.size() ? "," : "\n");

@@ -262,13 +262,14 @@ std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
           ? 0
           : 1e-9 * static_cast<double>(poses.back().timestamp_ns - poses.front().timestamp_ns);
   std::string html = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "{7}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><title>{0} – motion capture "
       "report</title><style>{1}</style></head><body><main>\n<h1>{0}</h1><p class=\"under\">{2} "
       "frames in {3:.1f} s from {4} cameras · body “{5}”{6}</p>\n",
       EscapeHtml(evaluation.take), kReportStyle, poses.size(), seconds, samples.cameras.size(),
       EscapeHtml(evaluation.result.body.model),
-      evaluation.truth ? "" : " · no truth: accuracy cannot be told, precision can");
+      evaluation.truth ? "" : " · no truth: accuracy cannot be told, precision can",
+      kReportBeginnings[0]);
   html += Tiles(evaluation, overlaps) + StateTimeline(evaluation) +
           ViewsSection(evaluation, samples, overlaps);
   if (evaluation.first_tracked_pose >= 0) {

@@ -1,7 +1,9 @@
 // The report of `mocap evaluate`: one HTML file that needs nothing beside it.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/report/evaluation.h"
@@ -19,6 +21,12 @@ std::vector<SampleRequest> ChooseReportMoments(const Evaluation& evaluation);
 
 /// Measures how far the voxels of each moment cover each camera's silhouette.
 std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples);
+
+/// What a page of ours begins with: other files are not written over.
+inline constexpr std::array<std::string_view, 2> kReportBeginnings = {
+    "<!doctype html><!-- written by mocap -->",
+    "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+    "content=\"width=device-width,initial-scale=1\"><title>"};
 
 /// Writes the page.
 std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "drivers/printable_text.h"
+
 namespace mocap {
 namespace {
 
@@ -187,7 +189,7 @@ std::vector<double> RoundTicks(double low, double high, int count) {
 
 std::string EscapeHtml(std::string_view text) {
   std::string safe;
-  for (const char c : text) {
+  for (const char c : Printable(text)) {
     switch (c) {
       case '&':
         safe += "&amp;";

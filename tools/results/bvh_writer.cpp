@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tools/results/export_axes.h"
+#include "tools/results/fixed_text.h"
 
 namespace mocap {
 namespace {
@@ -36,10 +37,14 @@ Vector3 NearestEquivalent(const Vector3& angles, const Vector3& last) {
   return (first - last).squaredNorm() <= (second - last).squaredNorm() ? first : second;
 }
 
+std::string Numbers(const Vector3& v, int decimals) {
+  return FixedText(v.x(), decimals) + ' ' + FixedText(v.y(), decimals) + ' ' +
+         FixedText(v.z(), decimals);
+}
+
 std::string Offset(const Vector3& offset_mm) {
   const Vector3 cm = kCmPerMm * (YUpFromWorld() * offset_mm);
-  // Adding zero turns -0 into 0.
-  return fmt::format("OFFSET {:.4f} {:.4f} {:.4f}\n", cm.x() + 0.0, cm.y() + 0.0, cm.z() + 0.0);
+  return "OFFSET " + Numbers(cm, 4) + '\n';
 }
 
 void WriteJoint(const BvhSkeleton& skeleton, int joint, int depth, std::ostream& out) {
@@ -75,10 +80,10 @@ void WriteBvh(const BvhMotion& motion, std::ostream& out) {
   last.fill(Vector3::Zero());
   for (const BvhPose& pose : motion.frames) {
     const Vector3 hips_cm = kCmPerMm * (R_YW * pose.p_WHips);
-    std::string line = fmt::format("{:.4f} {:.4f} {:.4f}", hips_cm.x(), hips_cm.y(), hips_cm.z());
+    std::string line = Numbers(hips_cm, 4);
     for (int i = 0; i < kBvhJointCount; ++i) {
       last[i] = NearestEquivalent(AnglesZxy(R_YW * pose.R[i] * R_YW.transpose()), last[i]);
-      for (const double angle : last[i]) line += fmt::format(" {:.5f}", angle * 180 / kPi);
+      line += ' ' + Numbers(last[i] * 180 / kPi, 5);
     }
     out << line << '\n';
   }

@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string>
 
+#include "tools/results/fixed_text.h"
+
 namespace mocap {
 namespace {
 
@@ -20,12 +22,12 @@ std::string Header() {
 }
 
 void AppendPose(const PoseRow& row, std::string& line) {
-  for (const double mm : row.paper.torso_mm) line += fmt::format(",{:.3f}", mm);
-  for (const double component : row.paper.torso_axis) line += fmt::format(",{:.6f}", component);
-  line += fmt::format(",{:.6f}", row.paper.torso_angle_rad);
-  for (const double theta_rad : row.paper.theta_rad) line += fmt::format(",{:.6f}", theta_rad);
-  for (const double mm : row.points_W.reshaped()) line += fmt::format(",{:.3f}", mm);
-  line += fmt::format(",{:.3f}", row.residual_mm);
+  for (const double mm : row.paper.torso_mm) line += ',' + FixedText(mm, 3);
+  for (const double component : row.paper.torso_axis) line += ',' + FixedText(component, 6);
+  line += ',' + FixedText(row.paper.torso_angle_rad, 6);
+  for (const double theta_rad : row.paper.theta_rad) line += ',' + FixedText(theta_rad, 6);
+  for (const double mm : row.points_W.reshaped()) line += ',' + FixedText(mm, 3);
+  line += ',' + FixedText(row.residual_mm, 3);
 }
 
 }  // namespace

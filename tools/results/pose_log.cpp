@@ -1,31 +1,42 @@
 #include "tools/results/pose_log.h"
 
 #include <algorithm>
-#include <lcm/lcm-cpp.hpp>
-#include <optional>
+#include <cmath>
+#include <map>
 #include <string_view>
 
 #include "config/body_size_fields.h"
 #include "core/errors.h"
 #include "daemon/messages/decode_message.h"
+#include "daemon/messages/log_reader.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
 
-template <typename Message>
-Message Decode(const std::filesystem::path& log, const lcm::LogEvent& event) {
-  std::optional<Message> message = DecodeMessage<Message>(
-      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
-  if (!message) {
-    throw SetupError(log.string() + ": event " + std::to_string(event.eventnum) + ": " +
-                     event.channel +
-                     " is not a message of this version; a log that lcm-logger "
-                     "recorded of this mocapd is wanted");
-  }
-  return *std::move(message);
+constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY";
+/// Microseconds that are no time of day any more, long before nanoseconds overflow.
+constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
+/// A frame that comes again so soon is another daemon's, not one of a daemon that was restarted.
+constexpr std::int64_t kRestart_ns = 1'000'000'000;
+
+/// What a log has of one daemon: of all channels with the same beginning.
+struct Daemon {
+  std::vector<PoseRow> poses;
+  std::optional<BodyRecord> body;
+  std::int64_t garbled = 0;   ///< Messages on its channels that are none of ours.
+  std::int64_t repeated = 0;  ///< Messages that came twice.
+};
+
+bool IsFinite(const PoseRow& row) {
+  double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() + row.paper.torso_angle_rad +
+               row.points_W.sum() + row.residual_mm;
+  for (const double theta_rad : row.paper.theta_rad) sum += theta_rad;
+  return std::isfinite(sum);
 }
 
-PoseRow RowOf(const pose_t& message) {
+std::optional<PoseRow> RowOf(const pose_t& message) {
+  if (message.utime < 0 || message.utime > kLatest_us) return {};
   PoseRow row;
   row.frame = message.frame;
   row.timestamp_ns = message.utime * 1000;
@@ -38,43 +49,144 @@ PoseRow RowOf(const pose_t& message) {
   for (int i = 0; i < kPointCount; ++i) row.points_W.col(i) = Vector3(message.point_mm[i]);
   row.residual_mm = message.residual_mm;
   row.voxels = message.voxels;
+  if (!IsFinite(row)) return {};
   return row;
 }
 
-BodyRecord RecordOf(const body_t& message) {
+std::optional<BodyRecord> RecordOf(const body_t& message) {
   BodyRecord body;
   body.model = message.model;
   body.stature_mm = message.stature_mm;
+  double sum = body.stature_mm;
   for (const BodySizeField& field : kBodySizeFields) {
     const auto name = std::ranges::find(message.size_name, field.name);
     if (name == message.size_name.end()) continue;
     body.sizes.*field.value = message.size_mm[name - message.size_name.begin()];
+    sum += body.sizes.*field.value;
   }
+  if (!std::isfinite(sum)) return {};
   return body;
+}
+
+void AddPose(const LoggedMessage& message, Daemon& daemon) {
+  const auto pose = DecodeMessage<pose_t>(message.bytes);
+  const std::optional<PoseRow> row = pose ? RowOf(*pose) : std::nullopt;
+  if (!row) {
+    ++daemon.garbled;
+    return;
+  }
+  const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
+                        daemon.poses.back().timestamp_ns == row->timestamp_ns;
+  is_again ? void(++daemon.repeated) : daemon.poses.push_back(*row);
+}
+
+void AddBody(const LoggedMessage& message, Daemon& daemon) {
+  const auto body = DecodeMessage<body_t>(message.bytes);
+  const std::optional<BodyRecord> record = body ? RecordOf(*body) : std::nullopt;
+  record ? void(daemon.body = *record) : void(++daemon.garbled);
+}
+
+using Daemons = std::map<std::string, Daemon>;
+
+/// The one whose prefix was asked for, or the only one. @throws SetupError
+Daemons::iterator Choose(const std::filesystem::path& log, const std::optional<std::string>& prefix,
+                         Daemons& daemons) {
+  if (prefix) return daemons.find(*prefix);
+  std::string found, first;
+  int count = 0;
+  for (const auto& [name, daemon] : daemons) {
+    if (daemon.poses.empty()) continue;
+    if (count++ == 0) first = name;
+    found += (found.empty() ? "" : ", ") + Quoted(name);
+  }
+  if (count > 1) {
+    throw SetupError(log.string() + ": holds poses of several daemons, with the prefixes " + found +
+                     "; --prefix with one of them is wanted");
+  }
+  return count == 1 ? daemons.find(first) : daemons.end();
+}
+
+/// Poses of two persons in turns are nobody's motion.
+void RequireOneDaemon(const std::filesystem::path& log, const std::string& channel,
+                      const std::vector<PoseRow>& poses) {
+  std::size_t back = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const bool is_soon = std::abs(poses[i].timestamp_ns - poses[i - 1].timestamp_ns) < kRestart_ns;
+    if (is_soon && poses[i].frame <= poses[i - 1].frame) ++back;
+  }
+  if (back <= 2 + poses.size() / 20) return;
+  throw SetupError(log.string() + ": holds poses of several daemons in turns on " +
+                   Printable(channel) +
+                   "; a log of one is wanted, or a prefix for each (lcm.prefix)");
+}
+
+void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& poses,
+                 std::vector<std::string>& remarks) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    if (poses[i].timestamp_ns > poses[i - 1].timestamp_ns) continue;
+    remarks.push_back(log.string() + ": capture times go back at frame " +
+                      std::to_string(poses[i].frame) + ": the clock was set meanwhile");
+    return;
+  }
+}
+
+std::vector<std::string> RemarksOf(const std::filesystem::path& log, const LogReader& reader,
+                                   const Daemons& daemons, const Daemon& chosen) {
+  std::vector<std::string> remarks;
+  if (reader.damaged_places() > 0) {
+    remarks.push_back(log.string() + ": is damaged in " +
+                      Counted(reader.damaged_places(), "place") + "; " +
+                      Counted(reader.damaged_bytes(), "byte") + " were passed over");
+  }
+  for (const auto& [name, daemon] : daemons) {
+    if (daemon.garbled == 0) continue;
+    remarks.push_back(log.string() + ": " + Counted(daemon.garbled, "message") + " on " +
+                      Printable(name) + std::string(kPose) + " and " + std::string(kBody) +
+                      " could not be understood by this version, and were left out");
+  }
+  if (chosen.repeated > 0) {
+    remarks.push_back(log.string() + ": " + Counted(chosen.repeated, "pose") +
+                      " came twice, and count once");
+  }
+  TellOfTimes(log, chosen.poses, remarks);
+  return remarks;
 }
 
 }  // namespace
 
-Result ReadPoseLog(const std::filesystem::path& log) {
-  lcm::LogFile file(log.string(), "r");
-  if (!file.good()) throw SetupError(log.string() + ": cannot be read");
-  Result result;
-  bool has_body = false;
-  while (const lcm::LogEvent* event = file.readNextEvent()) {
-    const std::string_view channel = event->channel;
-    if (channel.ends_with("MOCAP_POSE")) {
-      result.poses.push_back(RowOf(Decode<pose_t>(log, *event)));
-    } else if (channel.ends_with("MOCAP_BODY")) {
-      result.body = RecordOf(Decode<body_t>(log, *event));
-      has_body = true;
-    }
+Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
+  LogReader reader(log);
+  Daemons daemons;
+  LoggedMessage message;
+  bool is_log = false;
+  while (reader.Next(message)) {
+    is_log = true;
+    std::string_view channel = message.channel;
+    const bool is_pose = channel.ends_with(kPose);
+    if (!is_pose && !channel.ends_with(kBody)) continue;
+    channel.remove_suffix(is_pose ? kPose.size() : kBody.size());
+    if (prefix && channel != *prefix) continue;
+    Daemon& daemon = daemons[std::string(channel)];
+    is_pose ? AddPose(message, daemon) : AddBody(message, daemon);
   }
-  if (result.poses.empty() || !has_body) {
-    throw SetupError(log.string() + ": holds no " +
-                     (result.poses.empty() ? "MOCAP_POSE" : "MOCAP_BODY") +
-                     " message, wanted a log that lcm-logger recorded of mocapd");
+  if (!is_log) {
+    const bool is_empty = reader.damaged_bytes() == 0;
+    throw SetupError(log.string() + (is_empty ? ": is empty" : ": is no LCM log") +
+                     "; one that lcm-logger recorded of mocapd is wanted");
   }
-  return result;
+  const auto chosen = Choose(log, prefix, daemons);
+  const Daemon none;
+  const Daemon& daemon = chosen == daemons.end() ? none : chosen->second;
+  std::vector<std::string> remarks = RemarksOf(log, reader, daemons, daemon);
+  if (daemon.poses.empty() || !daemon.body) {
+    const std::string channel = prefix.value_or(chosen == daemons.end() ? "" : chosen->first) +
+                                std::string(daemon.poses.empty() ? kPose : kBody);
+    throw SetupError(
+        log.string() + ": holds no " + Printable(channel) +
+        " message of this version; a log that lcm-logger recorded of mocapd is wanted");
+  }
+  RequireOneDaemon(log, chosen->first + std::string(kPose), daemon.poses);
+  return {*daemon.body, std::move(chosen->second.poses), std::move(remarks)};
 }
 
 }  // namespace mocap

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "tools/results/result.h"
 
 namespace mocap {
 
-/// Reads MOCAP_POSE and MOCAP_BODY, with any prefix, out of what lcm-logger recorded; the last body
-/// counts.
-/// @throws SetupError  when the log holds none of either or damaged ones.
-Result ReadPoseLog(const std::filesystem::path& log);
+/// Reads MOCAP_POSE and MOCAP_BODY out of what lcm-logger recorded; the last body counts. What is
+/// damaged or of somebody else is passed over, and the result's remarks tell.
+/// @param prefix  before the channels' names. Empty: whatever it is, if it is one.
+/// @throws SetupError  when the log holds none of either, or those of several daemons.
+Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix);
 
 }  // namespace mocap

@@ -1,15 +1,14 @@
-#include <toml++/toml.h>
-
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <fstream>
+#include <algorithm>
 #include <optional>
-#include <sstream>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "config/body_size_fields.h"
+#include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/text_table.h"
 #include "tools/results/pose_log.h"
 #include "tools/results/result.h"
 #include "tools/results/result_columns.h"
@@ -17,59 +16,34 @@
 namespace mocap {
 namespace {
 
-/// Cells of one line, with what an error must say of them.
+constexpr const char* kWanted = "what mocap track writes";
+/// Frames so near to each other have times in another unit: nobody tracks 5000 a second.
+constexpr std::int64_t kNearest_ns = 200'000;
+
+/// Reads the cells of a row one after the other.
 class RowReader {
  public:
-  RowReader(std::string where, const std::string& line, const std::vector<std::string>& columns)
-      : where_(std::move(where)), columns_(columns) {
-    std::string_view rest = line;
-    for (;;) {
-      const std::size_t comma = rest.find(',');
-      cells_.push_back(rest.substr(0, comma));
-      if (comma == std::string_view::npos) break;
-      rest.remove_prefix(comma + 1);
-    }
-    if (cells_.size() != columns.size()) {
-      throw SetupError(where_ + ": has " + std::to_string(cells_.size()) + " columns, wanted " +
-                       std::to_string(columns.size()));
-    }
-  }
+  RowReader(std::string_view line, std::span<const std::string> columns, const TextLines& lines)
+      : row_(line, columns, lines) {}
 
-  std::string_view Text() { return cells_[next_++]; }
-  bool NextIsEmpty() const { return cells_[next_].empty(); }
+  std::string_view Text() const { return row_.Text(next_); }
   void Skip(std::size_t cells) { next_ += cells; }
-
   template <typename Number>
   Number Next() {
-    const std::string_view cell = cells_[next_];
-    Number value{};
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size()) Fail("a number");
-    ++next_;
-    return value;
+    return row_.Number<Number>(next_++);
   }
-
-  [[noreturn]] void Fail(const std::string& wanted) const {
-    throw SetupError(where_ + ": " + columns_[next_] + " is \"" + std::string(cells_[next_]) +
-                     "\", wanted " + wanted);
-  }
+  [[noreturn]] void Fail(const std::string& wanted) const { row_.Fail(next_, wanted); }
 
  private:
-  std::string where_;
-  const std::vector<std::string>& columns_;
-  std::vector<std::string_view> cells_;
+  TableRow row_;
   std::size_t next_ = 0;
 };
 
 CaptureState ReadState(RowReader& row) {
-  for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
-    RowReader ahead = row;
-    if (ahead.Text() == kCaptureStateNames[i]) {
-      row.Skip(1);
-      return static_cast<CaptureState>(i);
-    }
-  }
-  row.Fail("searching, acquiring, tracking or lost");
+  const auto state = std::ranges::find(kCaptureStateNames, row.Text());
+  if (state == kCaptureStateNames.end()) row.Fail("searching, acquiring, tracking or lost");
+  row.Skip(1);
+  return static_cast<CaptureState>(state - kCaptureStateNames.begin());
 }
 
 PoseRow ReadPose(RowReader cells, std::size_t pose_columns) {
@@ -77,7 +51,7 @@ PoseRow ReadPose(RowReader cells, std::size_t pose_columns) {
   row.frame = cells.Next<std::int64_t>();
   row.timestamp_ns = cells.Next<std::int64_t>();
   row.state = ReadState(cells);
-  row.has_pose = !cells.NextIsEmpty();
+  row.has_pose = !cells.Text().empty();
   if (row.has_pose) {
     for (double& value : row.paper.torso_mm) value = cells.Next<double>();
     for (double& value : row.paper.torso_axis) value = cells.Next<double>();
@@ -92,83 +66,80 @@ PoseRow ReadPose(RowReader cells, std::size_t pose_columns) {
   return row;
 }
 
+void CheckOrder(const PoseRow& before, const PoseRow& row, const TextLines& lines) {
+  if (row.timestamp_ns > before.timestamp_ns && row.frame > before.frame) return;
+  const bool is_time = row.frame > before.frame;
+  lines.Fail(is_time ? "timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
+                           std::to_string(before.timestamp_ns) +
+                           "; times in nanoseconds that increase are wanted"
+                     : "frame " + std::to_string(row.frame) + " follows " +
+                           std::to_string(before.frame) + "; frame numbers must increase");
+}
+
+/// Holds times against what tracking can be.
+void CheckTimes(const std::vector<PoseRow>& rows, const std::filesystem::path& file) {
+  if (rows.size() < 3) return;
+  std::vector<std::int64_t> apart_ns;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    apart_ns.push_back(rows[i].timestamp_ns - rows[i - 1].timestamp_ns);
+  }
+  std::ranges::nth_element(apart_ns, apart_ns.begin() + apart_ns.size() / 2);
+  const std::int64_t usual_ns = apart_ns[apart_ns.size() / 2];
+  if (usual_ns >= kNearest_ns) return;
+  throw SetupError(file.string() + ": its frames are " + std::to_string(usual_ns) +
+                   " ns apart: are these microseconds or milliseconds? timestamp_ns in " +
+                   "nanoseconds is wanted");
+}
+
 std::vector<PoseRow> ReadPoses(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw SetupError(file.string() + ": cannot be read, wanted what mocap track writes");
+  TextLines lines(file, kWanted);
   const std::vector<std::string> columns = ResultColumns();
   std::string header;
   for (const std::string& column : columns) header += (header.empty() ? "" : ",") + column;
-  std::string line;
-  if (!std::getline(stream, line) || line != header) {
-    throw SetupError(file.string() +
-                     ":1: has other columns; frame,timestamp_ns,state,… are wanted, as mocap "
-                     "track writes them");
-  }
+  RequireHeader(lines, std::span(&header, 1),
+                "frame,timestamp_ns,state,torso_x_mm,... of " + std::to_string(columns.size()) +
+                    " columns, as mocap track writes it,");
   std::vector<PoseRow> rows;
-  for (int number = 2; std::getline(stream, line); ++number) {
-    RowReader cells(file.string() + ":" + std::to_string(number), line, columns);
-    rows.push_back(ReadPose(std::move(cells), columns.size() - kColumnsBesidePose));
+  std::string_view line;
+  while (lines.NextRow(line)) {
+    const PoseRow row =
+        ReadPose(RowReader(line, columns, lines), columns.size() - kColumnsBesidePose);
+    if (!rows.empty()) CheckOrder(rows.back(), row, lines);
+    rows.push_back(row);
   }
+  CheckTimes(rows, file);
   return rows;
 }
 
 BodyRecord ReadBody(const std::filesystem::path& file) {
-  toml::table table;
-  try {
-    table = toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    throw SetupError(file.string() + (line ? ":" + std::to_string(line) : "") + ": " +
-                     std::string(error.description()));
-  }
-  const auto require = [&](const auto& value, const std::string& key, const char* wanted) {
-    if (!value) throw SetupError(file.string() + ": " + key + ": missing, wanted " + wanted);
-    return *value;
-  };
+  TomlSection root = TomlSection::ReadFile(file);
   BodyRecord body;
-  body.model = require(table["model"].value<std::string>(), "model", "a body table's name");
-  body.stature_mm = require(table["stature_mm"].value<double>(), "stature_mm", "a length");
+  body.model = root.Text("model");
+  body.stature_mm = root.Number("stature_mm");
+  std::optional<TomlSection> sizes = root.Section("sizes");
+  if (!sizes) root.Fail("sizes", "is missing; a table of the person's sizes is wanted");
   for (const BodySizeField& field : kBodySizeFields) {
-    const std::string key = std::string(field.name) + "_mm";
-    body.sizes.*field.value =
-        require(table["sizes"][key].value<double>(), "sizes." + key, "a length");
+    body.sizes.*field.value = sizes->Number(std::string(field.name) + "_mm");
   }
   return body;
 }
 
-/// Both TOML and CSV can spell numbers that are none, and a message can carry them.
-void RejectNonFinite(const Result& result, const std::filesystem::path& folder_or_log) {
-  bool body_is_finite = std::isfinite(result.body.stature_mm);
-  for (const BodySizeField& field : kBodySizeFields) {
-    body_is_finite &= std::isfinite(result.body.sizes.*field.value);
-  }
-  if (!body_is_finite) {
-    throw SetupError(folder_or_log.string() + ": the body has a size that is no finite number");
-  }
-  for (const PoseRow& row : result.poses) {
-    if (!row.has_pose) continue;
-    double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() + row.paper.torso_angle_rad +
-                 row.points_W.sum() + row.residual_mm;
-    for (const double theta_rad : row.paper.theta_rad) sum += theta_rad;
-    if (!std::isfinite(sum)) {
-      throw SetupError(folder_or_log.string() + ": frame " + std::to_string(row.frame) +
-                       " has a number that is not finite");
-    }
-  }
-}
-
 }  // namespace
 
-Result ReadResult(const std::filesystem::path& folder_or_log) {
-  if (!std::filesystem::exists(folder_or_log)) {
-    throw SetupError(folder_or_log.string() + ": is missing, wanted what mocap track leaves");
+Result ReadResult(const std::filesystem::path& folder_or_log,
+                  const std::optional<std::string>& prefix) {
+  if (!IsThere(folder_or_log)) {
+    throw SetupError(folder_or_log.string() + ": is missing; " + kWanted + " is wanted, or a log");
   }
-  const Result result =
-      std::filesystem::is_directory(folder_or_log)
-          ? Result{ReadBody(folder_or_log / "body.toml"), ReadPoses(folder_or_log / "poses.csv")}
-          : ReadPoseLog(folder_or_log);
-  RejectNonFinite(result, folder_or_log);
-  return result;
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder_or_log, error)) {
+    return ReadPoseLog(folder_or_log, prefix);
+  }
+  if (prefix) {
+    throw SetupError(folder_or_log.string() + ": is no log, which alone has a prefix");
+  }
+  std::vector<PoseRow> poses = ReadPoses(folder_or_log / "poses.csv");
+  return {ReadBody(folder_or_log / "body.toml"), std::move(poses)};
 }
 
 }  // namespace mocap

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,17 @@ struct BodyRecord {
 struct Result {
   BodyRecord body;
   std::vector<PoseRow> poses;  ///< In the order of the frames.
+  /// What was read but is not here, as damage of a log, a line each.
+  std::vector<std::string> remarks = {};
 };
 
 /// Makes the record of a body.
 BodyRecord RecordOf(const BodyModel& body);
+
+/// Makes sure, before the work, that WriteResult can keep a result in a folder: makes it, and tells
+/// of files of the same names that are somebody's.
+/// @throws SetupError  naming folder or file.
+void RequireRoomForResult(const std::filesystem::path& folder);
 
 /// Writes RESULT/poses.csv and RESULT/body.toml; the folder is made, files that are there are
 /// replaced, each in one step. The same result gives the same bytes.
@@ -46,8 +54,10 @@ BodyRecord RecordOf(const BodyModel& body);
 void WriteResult(const std::filesystem::path& folder, const Result& result);
 
 /// Reads a folder that WriteResult left, or a log of MOCAP_POSE and MOCAP_BODY messages as
-/// lcm-logger records them (with any prefix before the channels' names).
+/// lcm-logger records them.
+/// @param prefix  of a log: what stands before the channels' names; empty: any, of one daemon.
 /// @throws SetupError  when it is neither, or is damaged; names file and line.
-Result ReadResult(const std::filesystem::path& folder_or_log);
+Result ReadResult(const std::filesystem::path& folder_or_log,
+                  const std::optional<std::string>& prefix = {});
 
 }  // namespace mocap

@@ -1,81 +1,49 @@
 #include "tools/results/take_truth.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <string_view>
 
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_table.h"
 
 namespace mocap {
 namespace {
 
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
 /// truth.csv, one row at a time, columns by name.
 class TruthTable {
  public:
-  explicit TruthTable(const std::filesystem::path& file) : file_(file), in_(file) {
-    if (!in_ || !NextRow()) throw SetupError(file.string() + ": is empty; a header is wanted");
-    columns_ = std::move(cells_);
-  }
-
-  bool NextRow() {
-    std::string line;
-    if (!std::getline(in_, line)) return false;
-    ++line_;
-    cells_ = Split(line);
-    if (!columns_.empty() && cells_.size() != columns_.size()) {
-      Fail(fmt::format("has {} fields; {} are wanted, as in the header", cells_.size(),
-                       columns_.size()));
+  explicit TruthTable(const std::filesystem::path& file) : lines_(file, "a table of joints") {
+    std::string_view header;
+    if (!lines_.Next(header)) lines_.Fail("is empty; a header is wanted");
+    for (std::size_t begin = 0; begin <= header.size();) {
+      const std::size_t end = std::min(header.find(',', begin), header.size());
+      columns_.emplace_back(header.substr(begin, end - begin));
+      begin = end + 1;
     }
-    return true;
   }
 
+  std::optional<TableRow> NextRow() {
+    std::string_view line;
+    if (!lines_.NextRow(line)) return std::nullopt;
+    return TableRow(line, columns_, lines_);
+  }
+
+  /// @pre  no row was read yet.
   std::size_t Column(const std::string& name) const {
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i] == name) return i;
-    }
-    throw SetupError(file_.string() + ":1: has no column " + name);
+    const auto column = std::ranges::find(columns_, name);
+    if (column == columns_.end()) lines_.Fail("has no column " + name + ", separated by commas");
+    return static_cast<std::size_t>(column - columns_.begin());
   }
 
-  template <typename Number>
-  Number Value(std::size_t column) const {
-    const std::string& cell = cells_[column];
-    Number value{};
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() ||
-        !std::isfinite(static_cast<double>(value))) {
-      Fail(fmt::format("{} is \"{}\"; a number is wanted", columns_[column], cell.substr(0, 40)));
-    }
-    return value;
-  }
-
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw SetupError(fmt::format("{}:{}: {}", file_.string(), line_, what));
-  }
+  [[noreturn]] void Fail(const std::string& what) const { lines_.Fail(what); }
 
  private:
-  std::filesystem::path file_;
-  std::ifstream in_;
-  int line_ = 0;
+  TextLines lines_;
   std::vector<std::string> columns_;
-  std::vector<std::string> cells_;
 };
 
 std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm) {
@@ -88,15 +56,17 @@ std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double an
                   table.Column(joint + "_z_mm")};
   }
   std::vector<ScoredFrame> frames;
-  while (table.NextRow()) {
+  while (const std::optional<TableRow> row = table.NextRow()) {
     ScoredFrame frame;
-    frame.timestamp_ns = table.Value<std::int64_t>(time_column);
+    frame.timestamp_ns = row->Number<std::int64_t>(time_column);
     if (!frames.empty() && frame.timestamp_ns <= frames.back().timestamp_ns) {
-      table.Fail("timestamp_ns does not increase");
+      table.Fail("timestamp_ns " + std::to_string(frame.timestamp_ns) + " follows " +
+                 std::to_string(frames.back().timestamp_ns) +
+                 "; times in nanoseconds that increase are wanted");
     }
     for (int i = 0; i < kScoredPointCount; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
-        frame.points_W(axis, i) = table.Value<double>(columns[i][axis]);
+        frame.points_W(axis, i) = row->Number<double>(columns[i][axis]);
       }
     }
     ProlongShanks(ankle_to_sole_mm, frame.points_W);
@@ -123,7 +93,7 @@ void ProlongShanks(double ankle_to_sole_mm, ScoredPoints& points_W) {
 
 std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
   const TakeLayout layout{take};
-  if (!std::filesystem::exists(layout.TruthTable())) return std::nullopt;
+  if (!IsThere(layout.TruthTable())) return std::nullopt;
   TomlSection sizes = TomlSection::ReadFile(layout.TruthSizes());
   TakeTruth truth;
   truth.stature_mm = sizes.PositiveNumber("stature_mm");

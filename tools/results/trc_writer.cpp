@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <ostream>
 
+#include "drivers/printable_text.h"
 #include "tools/results/export_axes.h"
+#include "tools/results/fixed_text.h"
 
 namespace mocap {
 namespace {
@@ -17,7 +20,7 @@ std::string Header(const Result& result, const std::string& file_name) {
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
       "OrigNumFrames\n"
       "{:.6f}\t{:.6f}\t{}\t{}\tmm\t{:.6f}\t1\t{}\n",
-      file_name, rate, rate, frames, kPointCount, rate, frames);
+      Printable(file_name), rate, rate, frames, kPointCount, rate, frames);
   text += "Frame#\tTime";
   for (const std::string_view name : kPointNames) text += fmt::format("\t{}\t\t", name);
   text += "\n\t";
@@ -35,12 +38,11 @@ void WriteTrc(const Result& result, const std::string& file_name, std::ostream& 
     const auto since_first_ns =
         static_cast<double>(row.timestamp_ns - result.poses.front().timestamp_ns);
     std::string line = fmt::format("{}\t{:.6f}", i + 1, 1e-9 * since_first_ns);
-    if (IsTracked(row)) {
-      const BodyPoints points_Y = R_YW * row.points_W;
-      for (const double mm : points_Y.reshaped()) line += fmt::format("\t{:.3f}", mm);
-    } else {
-      line.append(3 * kPointCount, '\t');
-    }
+    // OpenSim drops an empty last field and then refuses the row; "nan" it reads as missing, and
+    // writes itself.
+    const BodyPoints missing = BodyPoints::Constant(std::numeric_limits<double>::quiet_NaN());
+    const BodyPoints points_Y = IsTracked(row) ? BodyPoints(R_YW * row.points_W) : missing;
+    for (const double mm : points_Y.reshaped()) line += '\t' + FixedText(mm, 3);
     out << line << '\n';
   }
 }

@@ -1,8 +1,9 @@
-#include <cinttypes>
-#include <cstdio>
+#include <array>
 
 #include "config/body_size_fields.h"
 #include "drivers/take/text_file.h"
+#include "drivers/take/toml_text.h"
+#include "tools/results/fixed_text.h"
 #include "tools/results/result.h"
 #include "tools/results/result_columns.h"
 
@@ -17,25 +18,17 @@ constexpr std::array<BodySizeField, 6> kLengths = {{{"torso", &BodySizes::torso}
                                                     {"upper_arm", &BodySizes::upper_arm},
                                                     {"lower_arm", &BodySizes::lower_arm}}};
 
-void AppendNumber(std::string& text, const char* format, double value) {
-  char digits[64];
-  std::snprintf(digits, sizeof digits, format, value);
-  // A minus before zero would make equal numbers differ.
-  const bool is_zero = std::string_view(digits).find_first_not_of("-0.") == std::string_view::npos;
-  text += is_zero && digits[0] == '-' ? digits + 1 : digits;
-}
-
 void AppendPose(std::string& line, const PoseRow& row) {
-  for (int axis = 0; axis < 3; ++axis) AppendNumber(line += ',', "%.3f", row.paper.torso_mm[axis]);
+  for (int axis = 0; axis < 3; ++axis) line += ',' + FixedText(row.paper.torso_mm[axis], 3);
   for (int axis = 0; axis < 3; ++axis) {
-    AppendNumber(line += ',', "%.6f", row.paper.torso_axis[axis]);
+    line += ',' + FixedText(row.paper.torso_axis[axis], 6);
   }
-  AppendNumber(line += ',', "%.6f", row.paper.torso_angle_rad);
-  for (const double theta : row.paper.theta_rad) AppendNumber(line += ',', "%.6f", theta);
+  line += ',' + FixedText(row.paper.torso_angle_rad, 6);
+  for (const double theta : row.paper.theta_rad) line += ',' + FixedText(theta, 6);
   for (const double coordinate : row.points_W.reshaped()) {
-    AppendNumber(line += ',', "%.3f", coordinate);
+    line += ',' + FixedText(coordinate, 3);
   }
-  AppendNumber(line += ',', "%.3f", row.residual_mm);
+  line += ',' + FixedText(row.residual_mm, 3);
 }
 
 std::string PosesCsv(const Result& result) {
@@ -58,13 +51,12 @@ std::string PosesCsv(const Result& result) {
 }
 
 std::string BodyToml(const BodyRecord& body) {
-  std::string text = "model = \"" + body.model + "\"\n";
-  AppendNumber(text += "stature_mm = ", "%.1f", body.stature_mm);
+  std::string text = "model = " + TomlText(body.model) + "\n";
+  text += "stature_mm = " + FixedText(body.stature_mm, 1);
   const auto append_table = [&](const char* name, const auto& fields) {
     text += std::string("\n\n[") + name + "]";
     for (const BodySizeField& field : fields) {
-      text += '\n' + std::string(field.name) + "_mm = ";
-      AppendNumber(text, "%.1f", body.sizes.*field.value);
+      text += '\n' + std::string(field.name) + "_mm = " + FixedText(body.sizes.*field.value, 1);
     }
   };
   append_table("lengths", kLengths);
@@ -78,8 +70,17 @@ BodyRecord RecordOf(const BodyModel& body) {
   return {body.table().name, body.sizes().Stature(), body.sizes()};
 }
 
+void RequireRoomForResult(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 1> kPoses = {"frame,timestamp_ns,state,"};
+  constexpr std::array<std::string_view, 1> kBody = {"model = "};
+  MakeFolder(folder);
+  for (const char* name : {"poses.csv", "body.toml"}) RequireWritable(folder / name);
+  RequireOwn(folder / "poses.csv", kPoses, "a table of poses");
+  RequireOwn(folder / "body.toml", kBody, "a measured body");
+}
+
 void WriteResult(const std::filesystem::path& folder, const Result& result) {
-  std::filesystem::create_directories(folder);
+  MakeFolder(folder);
   ReplaceText(folder / "poses.csv", PosesCsv(result));
   ReplaceText(folder / "body.toml", BodyToml(result.body));
 }

@@ -9,17 +9,9 @@ constexpr double kBelowFloor_mm = 50;
 constexpr double kReach_mm = 6000;
 constexpr double kMargin_mm = 1000;
 
-Vector3 CenterOf(const CarvingView& view) { return view.X_CW.Inverse().p; }
-
 Eigen::AlignedBox3d LookedAt(std::span<const CarvingView> views) {
   Eigen::AlignedBox3d room;
-  for (const CarvingView& view : views) {
-    room.extend(CenterOf(view));
-    room.extend(view.X_CW.Inverse() * Vector3(0, 0, kReach_mm));
-  }
-  const Vector3 margin = Vector3::Constant(kMargin_mm);
-  room = Eigen::AlignedBox3d(room.min() - margin, room.max() + margin);
-  room.min().z() = -kBelowFloor_mm;
+  for (const CarvingView& view : views) room.extend(RoomBefore(view.X_CW));
   return room;
 }
 
@@ -46,6 +38,16 @@ void ClipToSilhouette(const CarvingView& view, const PixelBox& box, ConvexVolume
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d RoomBefore(const RigidTransform& X_CW) {
+  Eigen::AlignedBox3d room;
+  room.extend(X_CW.Inverse().p);
+  room.extend(X_CW.Inverse() * Vector3(0, 0, kReach_mm));
+  const Vector3 margin = Vector3::Constant(kMargin_mm);
+  room = Eigen::AlignedBox3d(room.min() - margin, room.max() + margin);
+  room.min().z() = -kBelowFloor_mm;
+  return room;
+}
 
 std::optional<Eigen::AlignedBox3d> VolumeOfInterest::Find(std::span<const CarvingView> views) {
   boxes_.clear();

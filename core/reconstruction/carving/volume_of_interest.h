@@ -11,6 +11,10 @@
 
 namespace mocap {
 
+/// Gives what a camera looks at within a room's length, above the floor, and some of what lies
+/// beside [mm]. Nobody is looked for elsewhere.
+Eigen::AlignedBox3d RoomBefore(const RigidTransform& X_CW);
+
 /// Finds an upright box around the person, in the world frame [mm].
 ///
 /// Each side of a silhouette's bounding box spans a plane with the camera's centre; the box is the

@@ -13,6 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// Two cameras at 25 frames a second, as it should be.
@@ -36,6 +37,21 @@ TEST(ServiceReport, SaysThatAllIsGood) {
   EXPECT_THAT(Complaints(Good()), IsEmpty());
   EXPECT_THAT(ReportText(Good()), StartsWith("all is good\n"));
   EXPECT_THAT(ReportJson(Good()), HasSubstr("\"good\": true"));
+}
+
+TEST(ServiceReport, NamesFromOutsideForgeNoLineAndReachNoTerminal) {
+  ServiceReport report = Good();
+  report.studio = "x\x1b]0;owned\x07\n! forged \xff\xe2\x80\xae";
+  report.recording.state = RecordingStatus::State::kFailed;
+  report.recording.problem = report.studio;
+  report.background.where = report.studio;
+  for (const std::string& text : {ReportText(report), BackgroundText(report)}) {
+    EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+    EXPECT_THAT(text, Not(HasSubstr("\n! forged")));
+    EXPECT_THAT(text, HasSubstr("x\\x1b]0;owned\\x07\\x0a! forged \\xff\\u{202e}"));
+  }
+  EXPECT_THAT(ReportJson(report),
+              HasSubstr("\"studio\": \"x\\u001b]0;owned\\u0007\\u000a! forged \\ufffd\\u202e\""));
 }
 
 TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/errors.h"
 #include "tests/support/temporary_folder.h"
@@ -71,6 +73,21 @@ TEST_F(TextFileTest, FoldersForResultsAreMadeUnlessSomethingElseIsThere) {
   MakeFolder(folder_.path());
   WriteText(file_, "text");
   EXPECT_THROW(MakeFolder(file_), SetupError);
+}
+
+TEST_F(TextFileTest, WhatSomebodyElseWroteIsNotWrittenOver) {
+  constexpr std::array<std::string_view, 2> kOwn = {"# ours", "# also ours"};
+  const auto require = [&] { RequireOwn(file_, kOwn, "a report"); };
+  require();
+  for (const char* text : {"", "# ours, written before", "# also ours"}) {
+    WriteText(file_, text);
+    require();
+  }
+  WriteText(file_, "# a day's work");
+  EXPECT_THAT(require, ThrowsMessage<SetupError>(AllOf(StartsWith(file_.string()),
+                                                       HasSubstr("is not a report of mocap's"))));
+  EXPECT_EQ(ReadText(file_), "# a day's work");
+  RequireOwn("/dev/null", kOwn, "a report");
 }
 
 TEST_F(TextFileTest, ErrorsSayWhyAndWhatIsWanted) {

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <limits>
 #include <mocap/body_t.hpp>
 #include <mocap/pose_t.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,23 +122,70 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
   EXPECT_THAT(Message(read), HasSubstr("poses.csv:4: state is \"hovering\""));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "2.250000", "2.25x");
-  EXPECT_THAT(Message(read), HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\", wanted a number"));
+  EXPECT_THAT(Message(read),
+              HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; a number is wanted"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", ",acquiring", "");
-  EXPECT_THAT(Message(read), HasSubstr("poses.csv:3: has 96 columns, wanted 97"));
+  EXPECT_THAT(Message(read), HasSubstr("poses.csv:3: has 96 fields; 97 are wanted"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "timestamp_ns", "time");
   EXPECT_THAT(Message(read), HasSubstr("poses.csv:1: "));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "body.toml", "neck_mm", "throat_mm");
-  EXPECT_THAT(Message(read), HasSubstr("body.toml: sizes.neck_mm: missing"));
+  EXPECT_THAT(Message(read), HasSubstr("sizes.neck_mm is missing"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "2.250000", "nan");
-  EXPECT_THAT(Message(read), HasSubstr("has a number that is not finite"));
+  EXPECT_THAT(Message(read), HasSubstr("poses.csv:3: theta_16_rad is \"nan\""));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "body.toml", "stature_mm = ", "stature_mm = inf # ");
-  EXPECT_THAT(Message(read), HasSubstr("the body has a size that is no finite number"));
+  EXPECT_THAT(Message(read), HasSubstr("body.toml:2: stature_mm has inf"));
   EXPECT_THAT(Message([&] { ReadResult(folder.path() / "absent"); }), HasSubstr("is missing"));
+}
+
+TEST(Result, IsReadHoweverASpreadsheetSavedIt) {
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "poses.csv";
+  WriteResult(folder.path(), SomeResult());
+  const std::string plain = ReadText(file);
+  std::string saved = "\xef\xbb\xbf" + plain;
+  for (std::size_t end = 0; (end = saved.find('\n', end)) != std::string::npos; end += 2) {
+    saved.insert(end, "\r");
+  }
+  for (const std::string& text : {saved, saved + "\r\n", plain.substr(0, plain.size() - 1)}) {
+    testing::WriteText(file, text);
+    EXPECT_EQ(ReadResult(folder.path()).poses.size(), 3u);
+  }
+}
+
+TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
+  TemporaryFolder folder;
+  Result result = SomeResult();
+  const auto error = [&] {
+    WriteResult(folder.path(), result);
+    return Message([&] { ReadResult(folder.path()); });
+  };
+  for (int i = 0; i < 3; ++i) result.poses[i].timestamp_ns = 1'763'990'000'000'000 + i * 33'333;
+  EXPECT_THAT(error(), HasSubstr("nanoseconds is wanted"));
+  result.poses[1].timestamp_ns = 5;
+  EXPECT_THAT(error(), HasSubstr("poses.csv:3: timestamp_ns 5 follows 1763990000000000"));
+}
+
+TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
+  TemporaryFolder folder;
+  RequireRoomForResult(folder.path() / "new");
+  WriteResult(folder.path(), SomeResult());
+  RequireRoomForResult(folder.path());
+  testing::WriteText(folder.path() / "body.toml", "# my body table\nname = \"mine\"\n");
+  EXPECT_THAT(Message([&] { RequireRoomForResult(folder.path()); }),
+              HasSubstr("body.toml: is there"));
+}
+
+TEST(Result, ABodysNameMayHoldAnything) {
+  TemporaryFolder folder;
+  Result result = SomeResult();
+  result.body.model = "a \"b\"\n\\c";
+  WriteResult(folder.path(), result);
+  EXPECT_EQ(ReadResult(folder.path()).body.model, result.body.model);
 }
 
 /// Writes a message into a log as lcm-logger does.
@@ -188,16 +237,119 @@ TEST(Result, IsReadFromALogOfMessages) {
   EXPECT_FALSE(result.poses[1].has_pose);
 }
 
+/// A log of daemons that see somebody walk.
+class PoseLog : public ::testing::Test {
+ protected:
+  void Body(const std::string& prefix) {
+    body_t message{};
+    FillBody(body_, 0, message);
+    Log(*log_, prefix + "MOCAP_BODY", message);
+  }
+  void Pose(const std::string& prefix, int frame, std::int64_t time_ns, double z_mm = 0) {
+    CaptureResult tracked;
+    tracked.state = CaptureState::kTracking;
+    tracked.pose.theta = JointAngles::Zero(body_.joint_count());
+    tracked.points_W.setConstant(z_mm);
+    tracked.point_std_mm.setConstant(1);
+    const VoxelGrid grid;
+    pose_t message{};
+    FillPose(
+        {.frame = frame, .capture_ns = time_ns, .result = tracked, .body = body_, .grid = grid}, 1,
+        message);
+    Log(*log_, prefix + "MOCAP_POSE", message);
+  }
+  std::string Error(const std::optional<std::string>& prefix = {}) {
+    log_.reset();
+    return Message([&] { ReadResult(file_, prefix); });
+  }
+  Result Read(const std::optional<std::string>& prefix = {}) {
+    log_.reset();
+    return ReadResult(file_, prefix);
+  }
+
+  TemporaryFolder folder_;
+  const std::string file_ = folder_.path() / "lcm.log";
+  const BodyModel body_{LoadBodyTable("mikic2003"), AverageSizes(1700)};
+  std::optional<lcm::LogFile> log_{std::in_place, file_, "w"};
+};
+
+constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000, kPeriod_ns = 40'000'000;
+
+TEST_F(PoseLog, OfTwoDaemonsIsNeverMixed) {
+  for (const char* prefix : {"left.", "right."}) Body(prefix);
+  for (int i = 0; i < 5; ++i) {
+    Pose("left.", i, kStart_ns + i * kPeriod_ns, 1);
+    Pose("right.", 100 + i, kStart_ns + i * kPeriod_ns + 1000, 2);
+  }
+  EXPECT_THAT(Error(), ::testing::AllOf(HasSubstr("\"left.\", \"right.\""), HasSubstr("--prefix")));
+  const Result right = Read("right.");
+  ASSERT_EQ(right.poses.size(), 5u);
+  for (const PoseRow& row : right.poses) EXPECT_EQ(row.points_W(0, 0), 2);
+  EXPECT_THAT(Error("middle."), HasSubstr("holds no middle.MOCAP_POSE"));
+}
+
+TEST_F(PoseLog, OfTwoDaemonsOnOneChannelIsRefused) {
+  Body("");
+  for (int i = 0; i < 20; ++i) {
+    Pose("", i, kStart_ns + i * kPeriod_ns);
+    Pose("", i, kStart_ns + i * kPeriod_ns + 1000);
+  }
+  EXPECT_THAT(Error(), HasSubstr("several daemons in turns on MOCAP_POSE"));
+}
+
+TEST_F(PoseLog, OfADaemonThatWasStartedAgainIsOne) {
+  Body("");
+  for (int i = 0; i < 10; ++i) Pose("", i, kStart_ns + i * kPeriod_ns);
+  for (int i = 0; i < 10; ++i) Pose("", i, kStart_ns + 60'000'000'000 + i * kPeriod_ns);
+  EXPECT_EQ(Read().poses.size(), 20u);
+}
+
+TEST_F(PoseLog, ForeignMessagesOnSuchAChannelBlockNobodyAndAreCounted) {
+  Body("");
+  Pose("", 0, kStart_ns);
+  Log(*log_, "OLD_MOCAP_POSE", body_t{});
+  Log(*log_, "MOCAP_POSE", body_t{});
+  Pose("", 1, kStart_ns + kPeriod_ns);
+  Pose("", 2, kStart_ns + 2 * kPeriod_ns, std::numeric_limits<double>::quiet_NaN());
+  const Result result = Read();
+  EXPECT_EQ(result.poses.size(), 2u);
+  EXPECT_THAT(result.remarks, ::testing::ElementsAre(HasSubstr("2 messages on MOCAP_POSE"),
+                                                     HasSubstr("1 message on OLD_MOCAP_POSE")));
+}
+
+TEST_F(PoseLog, DamageIsPassedOverAndTold) {
+  Body("");
+  for (int i = 0; i < 4; ++i) Pose("", i, kStart_ns + i * kPeriod_ns);
+  log_.reset();
+  std::string log = ReadText(file_);
+  const std::size_t second = log.find("MOCAP_POSE", log.find("MOCAP_POSE") + 1);
+  testing::WriteText(file_,
+                     log.replace(second - 8, 4, "\x7f\xff\xff\xff").substr(0, log.size() - 9));
+  const Result result = Read();
+  EXPECT_EQ(result.poses.size(), 2u);
+  EXPECT_THAT(result.remarks, ::testing::ElementsAre(HasSubstr("is damaged in 2 places")));
+}
+
+TEST_F(PoseLog, AClockThatWasSetBackIsTold) {
+  Body("");
+  for (int i = 0; i < 5; ++i) Pose("", i, kStart_ns + i * kPeriod_ns);
+  for (int i = 5; i < 10; ++i) Pose("", i, kStart_ns - 3'600'000'000'000 + i * kPeriod_ns);
+  EXPECT_THAT(Read().remarks, ::testing::ElementsAre(HasSubstr("go back at frame 5")));
+}
+
 TEST(Result, ALogWithoutPosesIsASetupError) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "lcm.log";
   testing::WriteText(file, "no log at all\n");
-  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("holds no MOCAP_POSE"));
+  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("is no LCM log"));
+  testing::WriteText(file, "");
+  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("is empty"));
   {
     lcm::LogFile log(file, "w");
     Log(log, "MOCAP_POSE", body_t{});
   }
-  EXPECT_THAT(Message([&] { ReadResult(file); }), HasSubstr("MOCAP_POSE is not a message"));
+  EXPECT_THAT(Message([&] { ReadResult(file); }),
+              HasSubstr("holds no MOCAP_POSE message of this version"));
 }
 
 }  // namespace

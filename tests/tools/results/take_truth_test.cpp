@@ -86,19 +86,30 @@ TEST_F(TakeTruthTest, FindsColumnsByName) {
 TEST_F(TakeTruthTest, NamesFileLineAndColumnOfWhatIsWrong) {
   const std::string csv = (take_ / "truth.csv").string();
   Write("truth.csv", "");
-  EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ": is empty"));
+  EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":1: is empty"));
   Write("truth.csv", Header());
   EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ": has no rows"));
   Write("truth.csv", "frame,timestamp_ns\n0,1\n");
-  EXPECT_EQ(ErrorOfReading(), csv + ":1: has no column head_x_mm");
+  EXPECT_EQ(ErrorOfReading(), csv + ":1: has no column head_x_mm, separated by commas");
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 100));
-  EXPECT_EQ(ErrorOfReading(), csv + ":3: timestamp_ns does not increase");
+  EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":3: timestamp_ns 100 follows 100"));
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 200, "word"));
   EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"word\"; a number is wanted");
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 200, "nan"));
   EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"nan\"; a number is wanted");
   Write("truth.csv", Header() + "0,100\n");
   EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":2: has 2 fields; 44 are wanted"));
+}
+
+TEST_F(TakeTruthTest, IsReadHoweverASpreadsheetSavedIt) {
+  std::string saved = "\xef\xbb\xbf" + Header() + Row(0, 100) + Row(1, 200);
+  for (std::size_t end = 0; (end = saved.find('\n', end)) != std::string::npos; end += 2) {
+    saved.insert(end, "\r");
+  }
+  Write("truth.csv", saved + "\r\n");
+  EXPECT_EQ(ReadTakeTruth(take_)->frames.size(), 2u);
+  Write("truth.csv", saved.substr(0, saved.size() - 2));
+  EXPECT_EQ(ReadTakeTruth(take_)->frames.size(), 2u) << "the last line has no end";
 }
 
 TEST_F(TakeTruthTest, WantsTheSizesBesideThePoints) {

@@ -1,0 +1,26 @@
+// Numbers on the command line.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+namespace mocap {
+
+/// Accepts numbers within bounds, and tells of others in plain figures: CLI11's own message spells
+/// out the smallest and largest number there is.
+inline CLI::Validator NumberFrom(double least, double most) {
+  const std::string bounds = fmt::format("from {} to {}", least, most);
+  const auto check = [least, most, bounds](const std::string& text) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(text, value)) return "a number " + bounds + " is wanted";
+    const bool is_within = std::isfinite(value) && value >= least && value <= most;
+    return is_within ? std::string()
+                     : text.substr(0, 40) + " is out of range; a number " + bounds + " is wanted";
+  };
+  return CLI::Validator(check, bounds);
+}
+
+}  // namespace mocap

@@ -1,0 +1,84 @@
+#include "tools/commands.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+#include <string>
+
+#include "daemon/number_option.h"
+#include "daemon/run_program.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// What a command line that is wrong is answered with.
+std::string Refusal(const std::string& arguments) {
+  CLI::App app("", "mocap");
+  AddCommands(app);
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
+  const char* wrong[] = {"0", "-1", "-0", "1e300", "-1e300", "nan", "inf", "abc", "1.5.5"};
+  const char* options[] = {"simulate --out x --seconds",
+                           "simulate --out x --fps",
+                           "simulate --out x --stature",
+                           "simulate --out x --width",
+                           "simulate --out x --cameras",
+                           "track x --out y --voxel-size",
+                           "benchmark --seconds",
+                           "benchmark --seeds",
+                           "benchmark --statures",
+                           "cameras --seconds",
+                           "watch --seconds",
+                           "background learn --config x --seconds"};
+  for (const char* option : options) {
+    for (const char* number : wrong) {
+      const std::string said = Refusal(std::string(option) + " " + number);
+      EXPECT_THAT(said, Not(HasSubstr("accepted"))) << option << ' ' << number;
+      EXPECT_LT(said.size(), 140u) << said;
+    }
+  }
+  EXPECT_EQ(Refusal("watch --seconds 0"),
+            "--seconds: 0 is out of range; a number from 0.001 to 100000000 is wanted");
+}
+
+/// Runs a program that fails and gives what it says on standard error.
+template <typename Body>
+std::pair<int, std::string> Ended(Body body) {
+  CLI::App app("", "mocap");
+  app.callback(body);
+  const char* arguments[] = {"mocap"};
+  ::testing::internal::CaptureStderr();
+  const int status = RunProgram(app, 1, const_cast<char**>(arguments));
+  return {status, ::testing::internal::GetCapturedStderr()};
+}
+
+TEST(RunProgram, WantOfMemoryIsTold) {
+  const auto [status, said] = Ended([] { throw std::bad_alloc(); });
+  EXPECT_EQ(status, 1);
+  EXPECT_THAT(said, AllOf(StartsWith("mocap: there is not enough memory"), HasSubstr("wanted")));
+}
+
+TEST(RunProgram, AnErrorIsOneLineWhateverItQuotes) {
+  const auto [status, said] =
+      Ended([] { throw std::runtime_error("x\x1b[2J\r\nmocap: error: forged"); });
+  EXPECT_EQ(status, 1);
+  EXPECT_THAT(said, AllOf(EndsWith("forged\n"), Not(HasSubstr("\x1b")), Not(HasSubstr("\nmocap"))));
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,41 @@
+#include "tools/gige/own_config.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "config/parse_toml.h"
+#include "core/errors.h"
+#include "drivers/take/input_file.h"
+
+namespace mocap {
+namespace {
+
+/// FNV-1a: against changes by hand, not against forgers.
+std::uint64_t ChecksumOf(std::string_view text) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return sum;
+}
+
+}  // namespace
+
+std::string SignedConfig(const std::string& text) {
+  return fmt::format(
+             "# Written by mocap gige-studio, as {:016x}: rename it before you change it.\n",
+             ChecksumOf(text)) +
+         text;
+}
+
+void RequireOwnConfig(const std::filesystem::path& file) {
+  if (!IsThere(file)) return;
+  const std::string text = ReadTomlText(file);
+  if (text.empty()) return;
+  const std::size_t end = text.find('\n');
+  if (end != std::string::npos && SignedConfig(text.substr(end + 1)) == text) return;
+  throw SetupError(file.string() +
+                   ": is there, and is not as mocap gige-studio wrote it; the name of a new file " +
+                   "is wanted");
+}
+
+}  // namespace mocap
