@@ -12,6 +12,7 @@
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
 namespace {
@@ -128,7 +129,13 @@ Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
 }
 
 Lens CheckLens(const ForeignCamera& found) {
-  if (found.lens) return *found.lens;
+  if (found.lens) {
+    if (const double f = FocalPx(*found.lens); !(f > 0 && f <= kLongestFocal_px))
+      throw SetupError(found.where + fmt::format(": has a focal length of {} px; above 0 and up to "
+                                                 "{} are wanted",
+                                                 f, kLongestFocal_px));
+    return *found.lens;
+  }
   const Matrix3 K = CheckMatrix(found.matrix);
   RequireFinite(found.distortion);
   for (const double k : found.distortion.values) {
@@ -203,6 +210,9 @@ void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::s
           "direction; was it calibrated with views that fill the picture?",
           source, camera.name, std::max(1.0, 100 * folded)));
   }
+}
+
+void DoubtUnit(const std::string& source, const Cameras& cameras, std::vector<std::string>& notes) {
   double widest_mm = 0;
   for (const CameraCalibration& a : cameras) {
     for (const CameraCalibration& b : cameras)
@@ -282,7 +292,8 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     imported.notes.push_back(source + ": has no lens of " + no_lens + "; left out");
   if (!no_pose.empty())
     imported.notes.push_back(source + ": has no pose of " + no_pose + "; left out");
-  if (!options.lenses_alone) Doubt(source, imported.cameras, imported.notes);
+  Doubt(source, imported.cameras, imported.notes);
+  if (!options.lenses_alone) DoubtUnit(source, imported.cameras, imported.notes);
   return imported;
 }
 

@@ -55,8 +55,9 @@ TEST_F(ImportTest, WhatIsMoreThanEightCoefficientsIsRefusedUnlessItIsZero) {
 TEST_F(ImportTest, ALensThatFoldsInsideThePictureIsTold) {
   const fs::path file = Write("c.toml", Replaced("[cam1]\n" + std::string(kLens) + kFive + kPose,
                                                  "-0.1, 0.02", "-1.0, 0.0"));
-  EXPECT_THAT(ImportCameras("pose2sim", file).notes,
-              Contains(AllOf(HasSubstr("cam1"), HasSubstr("folds"))));
+  for (const bool lenses_alone : {false, true})
+    EXPECT_THAT(ImportCameras("pose2sim", file, {.lenses_alone = lenses_alone}).notes,
+                Contains(AllOf(HasSubstr("cam1"), HasSubstr("folds"))));
 }
 
 TEST_F(ImportTest, AFisheyeThatSeesBesideItselfDoesNotFold) {
@@ -263,6 +264,8 @@ TEST_F(ImportTest, WillsonsNumbersAreReadToTheLast) {
   EXPECT_THAT(Why("willson", Write("cam1.cal", numbers + " 0.1 0"), size), HasSubstr("p1"));
   EXPECT_THAT(Why("willson", Write("cam1.cal", Replaced(numbers, " 6 ", " 0 ")), size),
               HasSubstr("above 0"));
+  EXPECT_THAT(Why("willson", Write("cam1.cal", Replaced(numbers, " 6 ", " 1e300 ")), size),
+              HasSubstr("focal length"));
   EXPECT_THAT(Why("willson", Write("cam1.cal", numbers), {.size_px = {{800, 480}}}),
               HasSubstr("640"));
 }
