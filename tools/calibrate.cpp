@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "config/load_config.h"
@@ -13,6 +14,7 @@
 #include "core/errors.h"
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
+#include "drivers/take/input_file.h"
 #include "tools/calibrate_check.h"
 #include "tools/calibrate_convert.h"
 #include "tools/calibrate_live.h"
@@ -173,9 +175,10 @@ struct TsaiArguments {
   bool fixed_center = false;
 };
 
+constexpr std::size_t kLargestTable = 32 << 20;
+
 std::vector<PointSighting> ReadPoints(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw SetupError(file.string() + ": cannot be read");
+  std::istringstream in(ReadWholeFile(file, "a table of xw yw zw Xf Yf", kLargestTable));
   std::vector<PointSighting> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -217,9 +220,10 @@ void RunTsai(const TsaiArguments& a) {
                                          : Vector2(a.center_px[0], a.center_px[1]);
   sensor.sx = a.sx;
   sensor.refine_center = !a.fixed_center;
+  const std::vector<PointSighting> points = ReadPoints(a.points);
   TsaiCalibration result;
   try {
-    result = CalibrateTsai(ReadPoints(a.points), sensor);
+    result = CalibrateTsai(points, sensor);
   } catch (const SetupError& error) {
     throw SetupError(a.points.string() + ": " + error.what());
   }

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "tools/calibration/foreign_camera.h"
 #include "tools/calibration/xml_tags.h"
@@ -18,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestFile = 32 << 20;
+constexpr std::size_t kLargestFile = 32 << 20;
 constexpr std::size_t kDeepestElements = 16, kMostElements = 10'000, kMostWords = 2'000'000;
 
 // Of "<rows>3</rows>": one word is a text, several are a sequence.
@@ -126,21 +124,7 @@ DataFile ReadOpenCvXml(const fs::path& path) {
 }
 
 std::string ReadForeignText(const fs::path& file) {
-  const auto fail = [&](const std::string& what) {
-    throw SetupError(Printable(file.string()) + ": " + what);
-  };
-  std::error_code error;
-  if (fs::is_directory(file, error)) fail("is a folder; a file is wanted");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail("cannot be read: " + std::string(std::strerror(errno == 0 ? EIO : errno)));
-  std::string text;
-  std::vector<char> block(1 << 16);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kLargestFile) fail("is larger than 32 MB; a calibration is wanted");
-  }
-  return text;
+  return ReadWholeFile(file, "a calibration", kLargestFile);
 }
 
 std::vector<fs::path> FilesOf(const fs::path& folder_or_file,

@@ -136,7 +136,10 @@ std::vector<ForeignCamera> ReadEasyMocap(const fs::path& intri_file, const fs::p
     camera.name = node.text;
     camera.size_px = Size(intri, "W_" + camera.name, "H_" + camera.name);
     camera.matrix = Needed(intri, "K_" + camera.name);
-    camera.distortion = Needed(intri, "dist_" + camera.name);
+    // Newer versions have it by another name.
+    const bool is_newer = intri.root.Find("dist_" + camera.name) == nullptr &&
+                          intri.root.Find("D_" + camera.name) != nullptr;
+    camera.distortion = Needed(intri, (is_newer ? "D_" : "dist_") + camera.name);
     camera.rotation = Numbers(extri, "Rot_" + camera.name);
     if (!camera.rotation) camera.rotation = Numbers(extri, "R_" + camera.name);
     camera.translation_mm = Numbers(extri, "T_" + camera.name);

@@ -5,18 +5,19 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "tools/calibration/board_pose.h"
 #include "tools/calibration/bundle_errors.h"
 
 namespace mocap {
 namespace {
 
+constexpr std::size_t kLargestTable = 1 << 20;
 constexpr double kWorstFloorRms_px = 3;
 constexpr const char* kPointNames[3] = {"origin", "x", "y"};
 
@@ -132,8 +133,7 @@ RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
 
 std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
                                         const std::vector<CameraCalibration>& cameras) {
-  std::ifstream in(file);
-  if (!in) throw SetupError(file + ": cannot be read");
+  std::istringstream in(ReadWholeFile(file, "a table of floor points", kLargestTable));
   std::vector<FloorPoint> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

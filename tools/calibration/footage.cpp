@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
@@ -174,9 +175,7 @@ FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::p
 }  // namespace
 
 Footage OpenFootage(const std::filesystem::path& folder) {
-  if (!fs::is_directory(folder))
-    throw SetupError(folder.string() +
-                     ": is no folder; a take or a folder of recordings is wanted");
+  RequireFolder(folder, "a take or a folder of recordings");
   Footage footage;
   footage.folder = folder;
   const std::vector<fs::path> recorded = Sorted(folder, IsVideo);
@@ -187,8 +186,12 @@ Footage OpenFootage(const std::filesystem::path& folder) {
   if (footage.cameras.empty() && !recorded.empty())
     throw SetupError(folder.string() +
                      ": holds no frame of any camera; recordings with frames are wanted");
-  if (!footage.cameras.empty() && fs::exists(folder / "timestamps.csv"))
-    ReadSharedTimes(folder / "timestamps.csv", footage);
+  // Caliscope's, now and before.
+  for (const char* table : {"timestamps.csv", "frame_time_history.csv"}) {
+    if (footage.cameras.empty() || !IsThere(folder / table)) continue;
+    ReadSharedTimes(folder / table, footage);
+    break;
+  }
   if (footage.cameras.empty()) {
     for (const fs::path& inside :
          Sorted(folder, [](const fs::path& p) { return fs::is_directory(p); })) {

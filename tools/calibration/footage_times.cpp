@@ -3,13 +3,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "tools/calibration/footage.h"
 
 namespace mocap {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kUntimedInterval_ns = 1'000'000'000;
 constexpr double kLatest_s = 4e9;
+constexpr std::size_t kLargestTable = 256 << 20;
 
 std::vector<std::string> Fields(const std::string& line) {
   std::vector<std::string> fields(1);
@@ -34,8 +36,8 @@ std::vector<std::string> Fields(const std::string& line) {
 /// Caliscope's table, row by row.
 class SharedTimes {
  public:
-  explicit SharedTimes(const fs::path& file) : file_(file), in_(file, std::ios::binary) {
-    if (!in_) throw SetupError(file.string() + ": cannot be read");
+  explicit SharedTimes(const fs::path& file)
+      : file_(file), in_(ReadWholeFile(file, "a table of cam_id,frame_time", kLargestTable)) {
     std::string line;
     NextLine(line);
     if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
@@ -92,7 +94,7 @@ class SharedTimes {
   }
 
   fs::path file_;
-  std::ifstream in_;
+  std::istringstream in_;
   int line_ = 0, columns_ = 0;
   int camera_ = -1, frame_ = -1, time_ = -1;
   std::map<int, int> counts_;
@@ -145,9 +147,8 @@ void TellMissing(Footage& footage, const std::set<std::string, decltype(&IsKeyLe
       }
     }
     if (missing == 0) continue;
-    footage.notes.push_back(camera.name + ": lacks " + std::to_string(missing) +
-                            " pictures that others have (" + named +
-                            (missing > kMostNamed ? ", ..." : "") +
+    footage.notes.push_back(camera.name + ": lacks " + Counted(missing, "picture") +
+                            " that others have (" + named + (missing > kMostNamed ? ", ..." : "") +
                             "); the rest is paired by the numbers in their names");
   }
 }

@@ -12,6 +12,7 @@
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kNoSkew = 1e-9;
 constexpr double kLongestFocal_px = 1e6, kLargestCoefficient = 1e6;
 // A studio in metres that was taken for millimetres would fit into a hand.
 constexpr double kSmallestStudio_mm = 50;
+// Just within tan of 85 degrees, where lenses end that do not fold.
+constexpr double kWidestField = 11.4;
 constexpr int kColumns = 16, kRows = 12;
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -126,7 +129,13 @@ Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
 }
 
 Lens CheckLens(const ForeignCamera& found) {
-  if (found.lens) return *found.lens;
+  if (found.lens) {
+    if (const double f = FocalPx(*found.lens); !(f > 0 && f <= kLongestFocal_px))
+      throw SetupError(found.where + fmt::format(": has a focal length of {} px; above 0 and up to "
+                                                 "{} are wanted",
+                                                 f, kLongestFocal_px));
+    return *found.lens;
+  }
   const Matrix3 K = CheckMatrix(found.matrix);
   RequireFinite(found.distortion);
   for (const double k : found.distortion.values) {
@@ -168,6 +177,19 @@ Vector3 CheckTranslation(const ForeignNumbers& translation) {
   return t;
 }
 
+// How much of the picture shows no direction.
+double HiddenShare(const CameraCalibration& camera) {
+  int hidden = 0;
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kColumns; ++i) {
+      const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,
+                          (camera.height_px - 1.0) * j / kRows);
+      hidden += !NormalizedFromPixel(camera.lens, pixel).has_value();
+    }
+  }
+  return static_cast<double>(hidden) / ((kColumns + 1) * (kRows + 1));
+}
+
 std::string Lowered(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -188,6 +210,9 @@ void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::s
           "direction; was it calibrated with views that fill the picture?",
           source, camera.name, std::max(1.0, 100 * folded)));
   }
+}
+
+void DoubtUnit(const std::string& source, const Cameras& cameras, std::vector<std::string>& notes) {
   double widest_mm = 0;
   for (const CameraCalibration& a : cameras) {
     for (const CameraCalibration& b : cameras)
@@ -214,15 +239,8 @@ double FiniteNumber(std::string_view text, const std::string& where) {
 }
 
 double FoldedShare(const CameraCalibration& camera) {
-  int folded = 0;
-  for (int j = 0; j <= kRows; ++j) {
-    for (int i = 0; i <= kColumns; ++i) {
-      const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,
-                          (camera.height_px - 1.0) * j / kRows);
-      folded += !NormalizedFromPixel(camera.lens, pixel).has_value();
-    }
-  }
-  return static_cast<double>(folded) / ((kColumns + 1) * (kRows + 1));
+  const double hidden = HiddenShare(camera);
+  return FieldRadius(camera.lens) < kWidestField ? hidden : 0;
 }
 
 Imported CheckForeignCameras(const std::string& source, const std::vector<ForeignCamera>& found,
@@ -246,7 +264,7 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     camera.width_px = width_px;
     camera.height_px = height_px;
     camera.lens = CheckLens(foreign);
-    if (FoldedShare(camera) == 1)
+    if (HiddenShare(camera) == 1)
       throw SetupError(
           foreign.where + ": " + foreign.name +
           ": the lens shows nothing in its picture; a focal length and centre that fit "
@@ -274,7 +292,8 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     imported.notes.push_back(source + ": has no lens of " + no_lens + "; left out");
   if (!no_pose.empty())
     imported.notes.push_back(source + ": has no pose of " + no_pose + "; left out");
-  if (!options.lenses_alone) Doubt(source, imported.cameras, imported.notes);
+  Doubt(source, imported.cameras, imported.notes);
+  if (!options.lenses_alone) DoubtUnit(source, imported.cameras, imported.notes);
   return imported;
 }
 

@@ -60,7 +60,8 @@ double FiniteNumber(std::string_view text, const std::string& where);
 Imported CheckForeignCameras(const std::string& source, const std::vector<ForeignCamera>& found,
                              const ImportOptions& options);
 
-/// Tells how much of the picture a lens shows no direction for, from 0 to 1: its radius folds.
+/// Tells how much of the picture, from 0 to 1, shows no direction because the lens's radius folds;
+/// what a fisheye sees beside itself does not count.
 double FoldedShare(const CameraCalibration& camera);
 
 }  // namespace mocap

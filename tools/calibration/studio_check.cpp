@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "tools/calibration/foreign_camera.h"
 #include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
@@ -17,6 +18,8 @@ namespace {
 
 constexpr double kGood_px = 0.5, kPoor_px = 1.0;
 constexpr double kUncertainFocal = 0.01;
+// The very corners are folded by many fits.
+constexpr double kMuchFolded = 0.05;
 constexpr double kHip_mm = 1000;
 constexpr double kRoom_mm = 8000, kReach_mm = 2200;
 
@@ -39,6 +42,11 @@ void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) 
         fmt::format("its axis meets the picture {:.0f}, {:.0f} px off the middle; views that fill "
                     "the picture and more tilts determine it better",
                     off.x(), off.y()));
+  if (const double folded = FoldedShare(camera); folded > kMuchFolded)
+    warn(
+        fmt::format("its lens folds inside the picture: {:.0f} % of it, at the rim, is not used; "
+                    "calibrate it with views that fill the picture",
+                    100 * folded));
   const double field_deg =
       2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * 180 / std::numbers::pi;
   if (field_deg < 10 || field_deg > 160)

@@ -3,6 +3,7 @@
 #include <opencv2/core/persistence.hpp>
 
 #include "tests/tools/calibration/import_fixture.h"
+#include "tools/calibration/studio_check.h"
 
 namespace mocap {
 namespace {
@@ -54,8 +55,29 @@ TEST_F(ImportTest, WhatIsMoreThanEightCoefficientsIsRefusedUnlessItIsZero) {
 TEST_F(ImportTest, ALensThatFoldsInsideThePictureIsTold) {
   const fs::path file = Write("c.toml", Replaced("[cam1]\n" + std::string(kLens) + kFive + kPose,
                                                  "-0.1, 0.02", "-1.0, 0.0"));
-  EXPECT_THAT(ImportCameras("pose2sim", file).notes,
-              Contains(AllOf(HasSubstr("cam1"), HasSubstr("folds"))));
+  for (const bool lenses_alone : {false, true})
+    EXPECT_THAT(ImportCameras("pose2sim", file, {.lenses_alone = lenses_alone}).notes,
+                Contains(AllOf(HasSubstr("cam1"), HasSubstr("folds"))));
+}
+
+TEST_F(ImportTest, AFisheyeThatSeesBesideItselfDoesNotFold) {
+  const std::string wide =
+      "[cam1]\nfisheye = true\nsize = [1280, 720]\nmatrix = [[320.0, 0.0, 640.0], [0.0, 320.0, "
+      "360.0], [0.0, 0.0, 1.0]]\ndistortions = [0.0, 0.0, 0.0, 0.0]\n";
+  EXPECT_THAT(ImportCameras("pose2sim", Write("c.toml", wide + kPose)).notes, IsEmpty());
+}
+
+TEST_F(ImportTest, ACheckTellsOfLensesThatFoldAndOfLensesWithoutAPose) {
+  Cameras cameras =
+      ImportCameras("pose2sim", Write("c.toml", "[cam1]\n" + std::string(kLens) + kFive),
+                    {.lenses_alone = true})
+          .cameras;
+  EXPECT_THAT(CheckCameras(cameras, true).at(0).text, HasSubstr("no pose yet"));
+  cameras[0].X_CW.p = {0, 1000, 3000};
+  cameras[0].X_CW.R = ExpRotation({1.8, 0, 0});
+  EXPECT_THAT(CheckCameras(cameras, true), IsEmpty());
+  std::get<OpenCvLens>(cameras[0].lens).distortion[0] = -1;
+  EXPECT_THAT(CheckCameras(cameras, true).at(0).text, HasSubstr("folds"));
 }
 
 TEST_F(ImportTest, AStudioInMetresIsToldByItsSize) {
@@ -242,6 +264,8 @@ TEST_F(ImportTest, WillsonsNumbersAreReadToTheLast) {
   EXPECT_THAT(Why("willson", Write("cam1.cal", numbers + " 0.1 0"), size), HasSubstr("p1"));
   EXPECT_THAT(Why("willson", Write("cam1.cal", Replaced(numbers, " 6 ", " 0 ")), size),
               HasSubstr("above 0"));
+  EXPECT_THAT(Why("willson", Write("cam1.cal", Replaced(numbers, " 6 ", " 1e300 ")), size),
+              HasSubstr("focal length"));
   EXPECT_THAT(Why("willson", Write("cam1.cal", numbers), {.size_px = {{800, 480}}}),
               HasSubstr("640"));
 }

@@ -160,7 +160,7 @@ const WrongInput kWrongRecordings[] = {
        b.arguments.footage = b.folder.path() / "missing";
        return b.Intrinsics();
      },
-     {"missing", "is no folder", "a take or a folder of recordings is wanted"}},
+     {"missing: is missing", "a take or a folder of recordings is wanted"}},
     {"NothingInTheFolder", [](Bench& b) { return b.Intrinsics(); }, {"footage", "cam1.mkv"}},
     {"APictureThatIsNone",
      [](Bench& b) {
