@@ -27,8 +27,13 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{200};
-/// What is there after this may be completed by an end; systemd waits for some seconds more.
-constexpr std::chrono::seconds kEndPatience{15};
+/// How long an end may take that waits for cameras alone, and one that has a take to complete;
+/// systemd waits a little longer.
+constexpr std::chrono::seconds kEndPatience{5};
+constexpr std::chrono::seconds kTakePatience{15};
+constexpr std::chrono::seconds kGrace{5};
+/// What the slowest disk that is worth its name takes a second.
+constexpr double kSlowDisk_mb = 20;
 
 /// Large blocks go back to the system when they are freed. By default glibc takes the first of them
 /// for a sign to keep such blocks in the heap, where a small one behind them holds their memory for
@@ -54,6 +59,11 @@ class Outlet : public PoseSink {
   PosePublisher& publisher_;
   LiveView& view_;
 };
+
+/// How long completing a take may take.
+std::chrono::seconds TakePatience(const RecordingConfig& config) {
+  return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
+}
 
 /// Runs until there is nothing more to do.
 void RunUntilStopped(Pipeline& pipeline, Watch& watch, StopSignals& signals,
@@ -100,13 +110,21 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
                    [&control](const ControlRequest& r) { return control.Answer(r); });
   }
   spdlog::info("publishing on {}", config.lcm.url);
-  signals.Allow(kEndPatience);
+  signals.Allow(kEndPatience, false);
   pipeline.Start();
   RunUntilStopped(pipeline, watch, signals, seconds);
-  manager.Stopping();
+  const auto is_recording = [&recorder] {
+    return recorder.Status().state == RecordingStatus::State::kRunning;
+  };
+  const std::chrono::seconds patience = TakePatience(control.config().service.recording);
+  signals.Allow(patience, is_recording());
+  manager.Stopping(patience + kGrace);
   learner.RequestStop();
+  // A recording may be about to begin, or to end.
   server.reset();
-  if (recorder.Status().state == RecordingStatus::State::kRunning) recorder.Stop();
+  signals.Allow(patience, is_recording());
+  if (is_recording()) recorder.Stop();
+  signals.Allow(kEndPatience, false);
   pipeline.RequestStop();
   pipeline.Join();
   watch.Conclude();

@@ -1,6 +1,7 @@
 // What systemd hears of the daemon; nothing where it does not listen.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 namespace mocap {
@@ -18,7 +19,8 @@ class ServiceManager {
   /// Around a reload; before the service is ready, systemd hears of readiness alone.
   void BeginReload();
   void EndReload();
-  void Stopping();
+  /// @param most  how long that may take.
+  void Stopping(std::chrono::microseconds most);
 
  private:
   bool is_ready_ = false;
