@@ -3,9 +3,12 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "daemon/control/live_config.h"
@@ -60,6 +63,41 @@ class Outlet : public PoseSink {
   LiveView& view_;
 };
 
+/// Answers from the beginning on; what is there to be asked comes later.
+class ControlDesk {
+ public:
+  explicit ControlDesk(const std::filesystem::path& socket) {
+    if (socket.empty()) return;
+    server_ = std::make_unique<ControlServer>(
+        socket, [this](const ControlRequest& request) { return Answer(request); });
+  }
+  void Open(ServiceControl& control) { control_.store(&control); }
+  /// Waits for the request that is being answered. @pre  before what Open was given ends.
+  void Close() { server_.reset(); }
+
+ private:
+  ControlReply Answer(const ControlRequest& request) const {
+    ServiceControl* control = control_.load();
+    if (control) return control->Answer(request);
+    throw std::runtime_error("mocapd is starting: it learns what the empty studio looks like");
+  }
+
+  std::atomic<ServiceControl*> control_{nullptr};
+  std::unique_ptr<ControlServer> server_;
+};
+
+/// Closes the desk before what it leads to is gone, also when an error leads there.
+class OpenDesk {
+ public:
+  OpenDesk(ControlDesk& desk, ServiceControl& control) : desk_(desk) { desk_.Open(control); }
+  ~OpenDesk() { desk_.Close(); }
+  OpenDesk(const OpenDesk&) = delete;
+  OpenDesk& operator=(const OpenDesk&) = delete;
+
+ private:
+  ControlDesk& desk_;
+};
+
 /// How long completing a take may take.
 std::chrono::seconds TakePatience(const RecordingConfig& config) {
   return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
@@ -83,6 +121,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   const Config config = live.config();
   PreparedService prepared = PrepareService(config);
   Studio& studio = prepared.studio;
+  ControlDesk desk(prepared.socket);
   ServiceManager manager;
   manager.Say("learning the empty studio");
   spdlog::info("learning the empty studio: {}, {} cameras", studio.name, studio.cameras.size());
@@ -104,11 +143,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   const ServiceParts parts{live, pipeline, publisher, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   Watch watch(parts, {control, manager, channels, log}, about);
-  std::optional<ControlServer> server;
-  if (!prepared.socket.empty()) {
-    server.emplace(prepared.socket,
-                   [&control](const ControlRequest& r) { return control.Answer(r); });
-  }
+  const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
   signals.Allow(kEndPatience, false);
   pipeline.Start();
@@ -121,7 +156,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   manager.Stopping(patience + kGrace);
   learner.RequestStop();
   // A recording may be about to begin, or to end.
-  server.reset();
+  desk.Close();
   signals.Allow(patience, is_recording());
   if (is_recording()) recorder.Stop();
   signals.Allow(kEndPatience, false);
