@@ -152,14 +152,17 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
     return recorder.Status().state == RecordingStatus::State::kRunning;
   };
   const std::chrono::seconds patience = TakePatience(control.config().service.recording);
-  signals.Allow(patience, is_recording());
+  const auto allow = [&](bool has_take) {
+    signals.Allow(has_take ? patience : kEndPatience, has_take);
+  };
+  allow(is_recording());
   manager.Stopping(patience + kGrace);
   learner.RequestStop();
   // A recording may be about to begin, or to end.
   desk.Close();
-  signals.Allow(patience, is_recording());
+  allow(is_recording());
   if (is_recording()) recorder.Stop();
-  signals.Allow(kEndPatience, false);
+  allow(false);
   pipeline.RequestStop();
   pipeline.Join();
   watch.Conclude();
