@@ -62,7 +62,8 @@ int RunProgram(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return FinishOutput(app);
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    const int status = app.exit(help_or_version);
+    return status == 0 ? FinishOutput(app) : status;
   } catch (const CLI::ParseError& error) {
     return Fail(app, std::string(error.what()) + "; see " + CommandOf(app) + " --help",
                 kWrongInput);

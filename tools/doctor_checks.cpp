@@ -105,6 +105,15 @@ Diagnosis CheckMulticastRoute() {
 
 Diagnosis CheckMulticastEcho(const std::string& url) {
   try {
+    const LcmProvider provider = ParseLcmUrl(url).provider;
+    if (provider == LcmProvider::kMemory) {
+      return {Verdict::kBad, "messages on " + url + " reach nobody outside of mocapd",
+              "set lcm.url to one like udpm://239.255.76.67:7667?ttl=0"};
+    }
+    if (provider == LcmProvider::kFile) {
+      CheckLcm(url);
+      return {Verdict::kGood, "the log " + url + " can be written", ""};
+    }
     const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
     const std::unique_ptr<lcm::LCM> receiver = OpenLcm(url);
     bool heard = false;

@@ -29,6 +29,8 @@ constexpr int kWaitingClients = 8;
 constexpr timeval kClientPatience{1, 0};
 /// The background of six cameras is stored before a recording is said to have begun.
 constexpr timeval kReplyPatience{60, 0};
+/// A status is only behind other requests.
+constexpr timeval kStatusPatience{15, 0};
 constexpr mode_t kOwnerAndGroup = 0660;
 
 std::string Why() { return std::strerror(errno); }
@@ -77,10 +79,17 @@ FileDescriptor Listen(const std::filesystem::path& path) {
 
 std::optional<std::string> Receive(int fd, std::size_t longest) {
   std::string message(longest + 1, '\0');
+  errno = 0;
   const ssize_t received = recv(fd, message.data(), message.size(), 0);
   if (received <= 0) return {};
   message.resize(static_cast<std::size_t>(received));
   return message;
+}
+
+[[noreturn]] void FailSilent(const std::filesystem::path& place, const timeval& patience) {
+  throw std::runtime_error(place.string() + ": mocapd has not answered for " +
+                           std::to_string(patience.tv_sec) +
+                           " s: it hangs, or is busy with another request");
 }
 
 std::filesystem::path UsersOwnSocket() {
@@ -174,17 +183,21 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
   if (socket.empty()) places = {kSystemSocket, UsersOwnSocket()};
   for (const std::filesystem::path& place : places) {
     if (place.empty()) continue;
+    const timeval patience = request.starts_with("status") ? kStatusPatience : kReplyPatience;
     const FileDescriptor fd = NewSocket();
+    setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     if (WithAddress(connect, fd.get(), AddressOf(place)) != 0) {
+      if (errno == EAGAIN) FailSilent(place, patience);
       if (errno != EACCES) continue;
       throw SetupError(place.string() +
                        ": may not be used; as root: adduser USER mocap, then log in again");
     }
-    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &kReplyPatience, sizeof kReplyPatience);
     std::optional<std::string> message;
     if (send(fd.get(), request.data(), request.size(), MSG_NOSIGNAL) >= 0) {
       message = Receive(fd.get(), kLongestReply);
     }
+    if (!message && errno == EAGAIN) FailSilent(place, patience);
     const std::optional<ControlReply> reply = message ? DecodeReply(*message) : std::nullopt;
     if (!reply) throw std::runtime_error(place.string() + ": mocapd gave no answer");
     return *reply;

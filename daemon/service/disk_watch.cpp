@@ -48,14 +48,13 @@ DiskWatch::DiskWatch(Run run)
       thread_([shared = shared_, run = std::move(run)] { Work(shared, run); }) {}
 
 DiskWatch::~DiskWatch() {
-  bool is_under_way = false;
-  {
-    const std::scoped_lock lock(shared_->mutex);
-    shared_->is_over = true;
-    is_under_way = shared_->begun_ns != 0;
-  }
+  constexpr std::chrono::milliseconds kUsual{200};
+  std::unique_lock lock(shared_->mutex);
+  shared_->is_over = true;
   shared_->news.notify_all();
-  is_under_way ? thread_.detach() : thread_.join();
+  const bool ends = shared_->news.wait_for(lock, kUsual, [this] { return shared_->begun_ns == 0; });
+  lock.unlock();
+  ends ? thread_.join() : thread_.detach();
 }
 
 void DiskWatch::Send(DiskErrand errand) {

@@ -3,9 +3,12 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "daemon/control/live_config.h"
@@ -28,8 +31,13 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{200};
-/// What is there after this may be completed by an end; systemd waits for some seconds more.
-constexpr std::chrono::seconds kEndPatience{15};
+/// How long an end may take that waits for cameras alone, and one that has a take to complete;
+/// systemd waits a little longer.
+constexpr std::chrono::seconds kEndPatience{5};
+constexpr std::chrono::seconds kTakePatience{15};
+constexpr std::chrono::seconds kGrace{5};
+/// What the slowest disk that is worth its name takes a second.
+constexpr double kSlowDisk_mb = 20;
 
 /// Large blocks go back to the system when they are freed. By default glibc takes the first of them
 /// for a sign to keep such blocks in the heap, where a small one behind them holds their memory for
@@ -56,6 +64,46 @@ class Outlet : public PoseSink {
   LiveView& view_;
 };
 
+/// Answers from the beginning on; what is there to be asked comes later.
+class ControlDesk {
+ public:
+  explicit ControlDesk(const std::filesystem::path& socket) {
+    if (socket.empty()) return;
+    server_ = std::make_unique<ControlServer>(
+        socket, [this](const ControlRequest& request) { return Answer(request); });
+  }
+  void Open(ServiceControl& control) { control_.store(&control); }
+  /// Waits for the request that is being answered. @pre  before what Open was given ends.
+  void Close() { server_.reset(); }
+
+ private:
+  ControlReply Answer(const ControlRequest& request) const {
+    ServiceControl* control = control_.load();
+    if (control) return control->Answer(request);
+    throw std::runtime_error("mocapd is starting: it learns what the empty studio looks like");
+  }
+
+  std::atomic<ServiceControl*> control_{nullptr};
+  std::unique_ptr<ControlServer> server_;
+};
+
+/// Closes the desk before what it leads to is gone, also when an error leads there.
+class OpenDesk {
+ public:
+  OpenDesk(ControlDesk& desk, ServiceControl& control) : desk_(desk) { desk_.Open(control); }
+  ~OpenDesk() { desk_.Close(); }
+  OpenDesk(const OpenDesk&) = delete;
+  OpenDesk& operator=(const OpenDesk&) = delete;
+
+ private:
+  ControlDesk& desk_;
+};
+
+/// How long completing a take may take.
+std::chrono::seconds TakePatience(const RecordingConfig& config) {
+  return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
+}
+
 /// Runs until there is nothing more to do.
 void RunUntilStopped(Pipeline& pipeline, Watch& watch, StopSignals& signals,
                      std::optional<double> seconds) {
@@ -74,6 +122,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   const Config config = live.config();
   PreparedService prepared = PrepareService(config);
   Studio& studio = prepared.studio;
+  ControlDesk desk(prepared.socket);
   ServiceManager manager;
   manager.Say("learning the empty studio");
   spdlog::info("learning the empty studio: {}, {}", studio.name,
@@ -98,19 +147,26 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   const ServiceParts parts{live, pipeline, publisher, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   Watch watch(parts, {control, manager, channels, log}, about);
-  std::optional<ControlServer> server;
-  if (!prepared.socket.empty()) {
-    server.emplace(prepared.socket,
-                   [&control](const ControlRequest& r) { return control.Answer(r); });
-  }
+  const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
-  signals.Allow(kEndPatience);
+  signals.Allow(kEndPatience, false);
   pipeline.Start();
   RunUntilStopped(pipeline, watch, signals, seconds);
-  manager.Stopping();
+  const auto is_recording = [&recorder] {
+    return recorder.Status().state == RecordingStatus::State::kRunning;
+  };
+  const std::chrono::seconds patience = TakePatience(control.config().service.recording);
+  const auto allow = [&](bool has_take) {
+    signals.Allow(has_take ? patience : kEndPatience, has_take);
+  };
+  allow(is_recording());
+  manager.Stopping(patience + kGrace);
   learner.RequestStop();
-  server.reset();
-  if (recorder.Status().state == RecordingStatus::State::kRunning) recorder.Stop();
+  // A recording may be about to begin, or to end.
+  desk.Close();
+  allow(is_recording());
+  if (is_recording()) recorder.Stop();
+  allow(false);
   pipeline.RequestStop();
   pipeline.Join();
   watch.Conclude();

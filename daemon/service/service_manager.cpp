@@ -42,6 +42,8 @@ void ServiceManager::EndReload() {
   if (is_ready_) Notify("READY=1");
 }
 
-void ServiceManager::Stopping() { Notify("STOPPING=1"); }
+void ServiceManager::Stopping(std::chrono::microseconds most) {
+  Notify("STOPPING=1\nEXTEND_TIMEOUT_USEC=" + std::to_string(most.count()));
+}
 
 }  // namespace mocap

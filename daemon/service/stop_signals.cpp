@@ -57,10 +57,7 @@ void StopSignals::Run() {
       news_.notify_all();
     }
     if (!stop_.load() || SteadyNs() - stop_ns_ < patience_ns_.load()) continue;
-    // What was begun while the daemon starts can be begun again.
-    if (is_starting_.load()) EndNow("ended while it was starting", 0);
-    EndNow("did not come to its end in time; a take that was recorded keeps .partial in its name",
-           kFailed);
+    EndNow();
   }
 }
 
@@ -70,20 +67,22 @@ void StopSignals::NoteStop() {
   if (!stop_.exchange(true)) {
     stop_ns_ = SteadyNs();
   } else if (SteadyNs() - stop_ns_ > kSameNs) {
-    EndNow("ended at once; a take that was recorded keeps .partial in its name", kFailed);
+    EndNow();
   }
 }
 
 // Nothing that could hang as well: no destructors, no log.
-void StopSignals::EndNow(const char* why, int status) {
-  char line[160] = "mocapd: ";
-  std::strncat(line, why, sizeof line - std::strlen(line) - 2);
-  std::strcat(line, "\n");
+void StopSignals::EndNow() const {
+  const char* line = "mocapd: ended without waiting for what hangs\n";
+  if (is_starting_.load()) line = "mocapd: ended while it was starting\n";
+  if (has_take_.load()) {
+    line = "mocapd: ended before the recording was complete; it keeps .partial in its name\n";
+  }
   pollfd room{STDERR_FILENO, POLLOUT, 0};
   if (poll(&room, 1, 0) == 1) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, std::strlen(line));
   }
-  _exit(status);
+  _exit(has_take_.load() ? kFailed : 0);
 }
 
 }  // namespace mocap

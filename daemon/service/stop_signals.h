@@ -31,22 +31,24 @@ class StopSignals {
   void Wait(std::chrono::nanoseconds most);
   /// Whether SIGHUP has come since it was last asked.
   bool TakeReload() { return reload_.exchange(false); }
-  /// From now on an end has something to complete: so long it may take.
-  void Allow(std::chrono::nanoseconds patience) {
-    is_starting_.store(false);
+  /// From now on an end may take so long. @param has_take  whether it has a take to complete.
+  void Allow(std::chrono::nanoseconds patience, bool has_take) {
     patience_ns_.store(patience.count());
+    has_take_.store(has_take);
+    is_starting_.store(false);
   }
 
  private:
   void Run();
   void NoteStop();
-  [[noreturn]] static void EndNow(const char* why, int status);
+  [[noreturn]] void EndNow() const;
 
   std::atomic<bool> stop_{false};
   std::atomic<bool> reload_{false};
   std::atomic<bool> is_over_{false};
   std::atomic<std::int64_t> patience_ns_{std::chrono::nanoseconds(kStartPatience).count()};
   std::atomic<bool> is_starting_{true};
+  std::atomic<bool> has_take_{false};
   std::int64_t stop_ns_ = 0;  ///< The thread's: when the first came.
   std::mutex mutex_;
   std::condition_variable news_;

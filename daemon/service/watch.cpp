@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -57,13 +58,18 @@ void Watch::Tick() {
 }
 
 void Watch::Reload() {
-  around_.manager.BeginReload();
-  try {
-    around_.control.Reload();
-  } catch (const SetupError& error) {
-    spdlog::error("the configuration stays as it was: {}", error.what());
-  }
-  around_.manager.EndReload();
+  const bool is_read_already =
+      reload_.valid() && reload_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  if (is_read_already) return;
+  reload_ = std::async(std::launch::async, [this] {
+    around_.manager.BeginReload();
+    try {
+      around_.control.Reload();
+    } catch (const SetupError& error) {
+      spdlog::error("the configuration stays as it was: {}", error.what());
+    }
+    around_.manager.EndReload();
+  });
 }
 
 void Watch::Conclude() {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <string>
 
@@ -37,7 +38,7 @@ class Watch {
   Watch(const ServiceParts& parts, const WatchParts& around, ServiceReport about);
 
   void Tick();
-  /// Reads the configuration again.
+  /// Has the configuration read again, in a thread of its own.
   void Reload();
   /// Says what has come of it all.
   void Conclude();
@@ -64,6 +65,7 @@ class Watch {
   Pacer status_pacer_;
   Pacer metrics_pacer_;
   DiskWatch disk_;
+  std::future<void> reload_;
 };
 
 }  // namespace mocap

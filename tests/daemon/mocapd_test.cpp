@@ -271,6 +271,25 @@ TEST_F(MocapdTest, ASignalEndsItWhileTheEmptyStudioIsLearned) {
   EXPECT_THAT(daemon.Errors(), HasSubstr("ended while it was starting"));
 }
 
+TEST_F(MocapdTest, SaysThatItIsStartingWhileItLearns) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  const std::string config =
+      WriteConfig("driver = \"simulated\"\ncameras = 12\nwidth = 1920\nheight = 1080\n",
+                  "[control]\nsocket = \"control\"\n");
+  Daemon daemon({"--config", config}, log_);
+  ControlReply reply;
+  while (reply.text.empty() && !daemon.HasEnded()) {
+    try {
+      reply = AskDaemon(folder_.path() / "control", "status");
+    } catch (const std::runtime_error&) {
+      std::this_thread::yield();  // It is not there yet.
+    }
+  }
+  EXPECT_EQ(reply.outcome, ControlOutcome::kFailed);
+  EXPECT_THAT(reply.text, HasSubstr("mocapd is starting"));
+}
+
 TEST_F(MocapdTest, AReaderOfItsLogThatGoesAwayDoesNotEndIt) {
   std::string reason;
   if (!Open(reason)) GTEST_SKIP() << reason;

@@ -98,10 +98,15 @@ TEST(LcmSender, AMessageThatCannotBeSentIsCountedWithItsReason) {
 }
 
 TEST(LcmSender, ALostServerIsNotAskedForEachMessage) {
-  lcm::LCM lcm("memq://");
+  // Nobody listens there, which LCM finds out with the first message.
+  lcm::LCM lcm("tcpq://127.0.0.1:9");
   LcmSender sender(lcm, LcmProvider::kTcp);
-  EXPECT_TRUE(sender.Send("X", "x", 1));
-  EXPECT_FALSE(sender.is_down());
+  EXPECT_FALSE(sender.Send("X", "x", 1));
+  EXPECT_TRUE(sender.is_down());
+  ::testing::internal::CaptureStderr();
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(sender.Send("X", "x", 1));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "LCM would have told each time";
+  EXPECT_EQ(sender.Status().failed, 11);
 }
 
 TEST(OpenLcm, AServerThatIsNotThereIsRefusedAtOnceAndInOneLine) {

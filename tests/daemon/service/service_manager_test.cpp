@@ -58,5 +58,10 @@ TEST_F(ServiceManagerTest, AReloadBeforePosesFlowDoesNotMakeReady) {
   EXPECT_THAT(Heard(), ElementsAre("READY=1", StartsWith("RELOADING=1"), "READY=1"));
 }
 
+TEST_F(ServiceManagerTest, AnEndSaysHowLongItMayTake) {
+  manager_.Stopping(std::chrono::seconds(20));
+  EXPECT_THAT(Heard(), ElementsAre("STOPPING=1\nEXTEND_TIMEOUT_USEC=20000000"));
+}
+
 }  // namespace
 }  // namespace mocap
