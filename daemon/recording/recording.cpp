@@ -42,6 +42,11 @@ constexpr const char* NameOf(VideoCodec codec) {
   return "";
 }
 
+double Memory_mb() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) /
+         1e6;
+}
+
 TakeDescription DescriptionOf(const std::filesystem::path& folder, const RecordingConfig& config,
                               const RecordedStudio& studio) {
   TakeDescription description{.name = folder.filename(),
@@ -74,6 +79,10 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
 }
 
 }  // namespace
+
+double BufferFor(const RecordingConfig& config, double memory_mb) {
+  return std::min(config.buffer_mb, memory_mb / 2);
+}
 
 /// One camera's part.
 struct Recording::Line {
@@ -144,7 +153,12 @@ void Recording::Prepare(const std::optional<BodySizes>& subject) {
 void Recording::Begin() {
   begin_ns_ = SteadyNs();
   if (studio_.times == CaptureTimes::kPresent) time_of_day_ahead_ns_ = TheHostClock().OffsetNs();
-  const double buffer_mb = config_.buffer_mb / static_cast<double>(lines_.size());
+  const double all_mb = BufferFor(config_, Memory_mb());
+  if (all_mb < config_.buffer_mb) {
+    spdlog::warn("recording.buffer_mb is {:.0f}, and {:.0f} are used: half of the memory",
+                 config_.buffer_mb, all_mb);
+  }
+  const double buffer_mb = all_mb / static_cast<double>(lines_.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const CameraCalibration& camera = studio_.cameras[i].calibration;
     TappedFrame item;

@@ -62,6 +62,10 @@ struct RecordingStatus {
   std::string problem;             ///< Why it ended by itself.
 };
 
+/// How much of a computer's memory frames may take while they wait: what is configured, but no more
+/// than half of it.
+double BufferFor(const RecordingConfig& config, double memory_mb);
+
 /// Records until Stop, until the disk is nearly full or until something cannot be written.
 ///
 /// One thread a camera codes and writes, when nobody else wants the processor or frames have

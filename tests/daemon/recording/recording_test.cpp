@@ -222,6 +222,13 @@ TEST_F(RecordingTest, NoFrameIsTooOldToBeWritten) {
   EXPECT_EQ(ReadTakeTable(TakeLayout{take}.Table("cam1")).rows.size(), 3u);
 }
 
+TEST_F(RecordingTest, WaitingFramesLeaveHalfOfTheMemory) {
+  config_.buffer_mb = 256;
+  EXPECT_EQ(BufferFor(config_, 8000), 256);
+  config_.buffer_mb = 65'536;
+  EXPECT_EQ(BufferFor(config_, 8000), 4000);
+}
+
 TEST_F(RecordingTest, MemoryHoldsAsManyFramesAsTheBufferIsLarge) {
   config_.buffer_mb = 50 * kFrame_mb * 2;
   recorder_->Start("one", config_, {});
