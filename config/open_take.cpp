@@ -72,7 +72,8 @@ void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesyste
   if (times > kRefusedTimes || times < 1 / kRefusedTimes) {
     const std::string unit = UnitOf(times);
     throw SetupError(text.str() + (unit.empty() ? ";" : ": are these " + unit + "?") +
-                     " timestamp_ns in nanoseconds is wanted");
+                     " timestamp_ns in nanoseconds is wanted" +
+                     (unit.empty() ? ", or another fps_nominal" : ""));
   }
   if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());
 }

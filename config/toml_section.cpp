@@ -261,7 +261,7 @@ std::string TomlSection::Where(const std::string& key) const {
 }
 
 void TomlSection::Fail(const std::string& key, const std::string& what) const {
-  throw SetupError(Where(key) + " " + what);
+  throw SetupError(Where(key) + " " + what + (root_->empty() ? " (the file is empty)" : ""));
 }
 
 const toml::node* TomlSection::Find(const std::string& key) {
@@ -272,8 +272,7 @@ const toml::node* TomlSection::Find(const std::string& key) {
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
   if (!node) {
-    const char* empty = root_->empty() ? ", for the file is empty" : "";
-    Fail(key, std::string("is missing") + empty + "; " + wanted + " is wanted");
+    Fail(key, "is missing; " + wanted + " is wanted");
   }
   return *node;
 }

@@ -17,6 +17,7 @@
 #include "core/errors.h"
 #include "drivers/clock.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -182,7 +183,7 @@ bool AnyEnded(const std::vector<std::future<void>>& threads) {
 
 void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& options,
                  const HintListener& listener) {
-  if (std::filesystem::exists(options.folder))
+  if (IsThere(options.folder))
     throw SetupError(options.folder.string() +
                      ": exists already; another folder to record into is wanted");
   std::filesystem::create_directories(options.folder);

@@ -221,9 +221,8 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
       std::count_if(refined.before.begin(), refined.before.end(),
                     [](const CameraShift& s) { return s.moments >= kFewestMoments; });
   if (seeing < 3)
-    throw SetupError(
-        fmt::format("a whole person who moves is seen by {}; three at least are wanted",
-                    Counted(seeing, "camera")));
+    throw SetupError(fmt::format("{} {} a whole person who moves; three at least are wanted",
+                                 Counted(seeing, "camera"), seeing == 1 ? "sees" : "see"));
   for (std::size_t round = 0; round < 3 * refined.cameras.size(); ++round) {
     const auto worst =
         std::ranges::max_element(refined.after, {}, [](const CameraShift& s) { return Excess(s); });

@@ -10,6 +10,7 @@
 #include "config/load_config.h"
 #include "daemon/recording/recorder.h"
 #include "drivers/printable_text.h"
+#include "drivers/take/input_file.h"
 #include "tools/doctor_checks.h"
 
 namespace mocap {
@@ -39,7 +40,7 @@ const char* MarkOf(Verdict verdict) {
 
 /// Where nothing else is asked for, the daemon is the system's, if that is installed.
 bool IsOfSystem(const DoctorOptions& options) {
-  return options.config.empty() && std::filesystem::exists(kSystemConfig);
+  return options.config.empty() && IsThere(kSystemConfig);
 }
 
 Config ConfigFor(const DoctorOptions& options) {

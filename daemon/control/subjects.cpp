@@ -5,6 +5,7 @@
 
 #include "config/subject_file.h"
 #include "core/errors.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -21,7 +22,7 @@ void Subjects::Save(const std::string& name, const BodySizes& sizes) const {
 }
 
 BodySizes Subjects::Load(const std::string& name) const {
-  if (!std::filesystem::exists(FileOf(name))) {
+  if (!IsThere(FileOf(name))) {
     throw SetupError("there is no subject " + name + "; mocap subject list tells which there are");
   }
   return LoadSubject(FileOf(name));

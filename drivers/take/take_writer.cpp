@@ -233,6 +233,7 @@ class TakeWriter::Impl {
   }
 
   void MakeFolder() const {
+    if (folder_.empty()) throw SetupError("the name of the take's folder is empty; one is wanted");
     for (const std::filesystem::path& path : {folder_, layout_.folder}) {
       if (IsThere(path)) {
         throw SetupError(path.string() + ": exists; the name of a new folder is wanted");

@@ -112,6 +112,7 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text) {
 }
 
 void RequireWritable(const std::filesystem::path& file) {
+  if (file.empty()) throw SetupError("the name of a file to write is empty; a name is wanted");
   const bool is_special = IsSpecial(file);
   const std::filesystem::path tried = is_special ? file : PartOf(Behind(file));
   if (const int fd = open(tried.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAsUsual); fd >= 0) {

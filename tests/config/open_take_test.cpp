@@ -187,6 +187,8 @@ TEST_F(OpenedTake, EveryDamageIsOneLineThatNamesTheFile) {
   const Damage cases[] = {
       {"no take.toml", [](const TakeLayout& t) { remove(t.Description()); }, "take.toml"},
       {"no calibration", [](const TakeLayout& t) { remove(t.Calibration()); }, "calibration.toml"},
+      {"empty calibration", [](const TakeLayout& t) { WriteText(t.Calibration(), ""); },
+       "calibration.toml:1: cameras has none; [cameras.cam1] is wanted (the file is empty)"},
       {"no background", [](const TakeLayout& t) { remove_all(t.folder / "background"); },
        "background/cam1.mkv"},
       {"no table", [](const TakeLayout& t) { remove(t.Table("cam2")); }, "cam2.csv"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "drivers/printable_text.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_style.h"
 #include "tools/report/report_views.h"
@@ -265,9 +266,9 @@ std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
       "{7}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><title>{0} – motion capture "
       "report</title><style>{1}</style></head><body><main>\n<h1>{0}</h1><p class=\"under\">{2} "
-      "frames in {3:.1f} s from {4} cameras · body “{5}”{6}</p>\n",
-      EscapeHtml(evaluation.take), kReportStyle, poses.size(), seconds, samples.cameras.size(),
-      EscapeHtml(evaluation.result.body.model),
+      "in {3:.1f} s from {4} · body “{5}”{6}</p>\n",
+      EscapeHtml(evaluation.take), kReportStyle, Counted(poses.size(), "frame"), seconds,
+      Counted(samples.cameras.size(), "camera"), EscapeHtml(evaluation.result.body.model),
       evaluation.truth ? "" : " · no truth: accuracy cannot be told, precision can",
       kReportBeginnings[0]);
   html += Tiles(evaluation, overlaps) + StateTimeline(evaluation) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "config/body_size_fields.h"
@@ -24,7 +25,6 @@ constexpr std::int64_t kRestart_ns = 1'000'000'000;
 struct Daemon {
   std::vector<PoseRow> poses;
   std::optional<BodyRecord> body;
-  std::int64_t garbled = 0;   ///< Messages on its channels that are none of ours.
   std::int64_t repeated = 0;  ///< Messages that came twice.
 };
 
@@ -68,22 +68,22 @@ std::optional<BodyRecord> RecordOf(const body_t& message) {
   return body;
 }
 
-void AddPose(const LoggedMessage& message, Daemon& daemon) {
+bool AddPose(const LoggedMessage& message, Daemon& daemon) {
   const auto pose = DecodeMessage<pose_t>(message.bytes);
   const std::optional<PoseRow> row = pose ? RowOf(*pose) : std::nullopt;
-  if (!row) {
-    ++daemon.garbled;
-    return;
-  }
+  if (!row) return false;
   const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
                         daemon.poses.back().timestamp_ns == row->timestamp_ns;
   is_again ? void(++daemon.repeated) : daemon.poses.push_back(*row);
+  return true;
 }
 
-void AddBody(const LoggedMessage& message, Daemon& daemon) {
+bool AddBody(const LoggedMessage& message, Daemon& daemon) {
   const auto body = DecodeMessage<body_t>(message.bytes);
-  const std::optional<BodyRecord> record = body ? RecordOf(*body) : std::nullopt;
-  record ? void(daemon.body = *record) : void(++daemon.garbled);
+  std::optional<BodyRecord> record = body ? RecordOf(*body) : std::nullopt;
+  if (!record) return false;
+  daemon.body = std::move(record);
+  return true;
 }
 
 using Daemons = std::map<std::string, Daemon>;
@@ -111,8 +111,9 @@ void RequireOneDaemon(const std::filesystem::path& log, const std::string& chann
                       const std::vector<PoseRow>& poses) {
   std::size_t back = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const bool is_soon = std::abs(poses[i].timestamp_ns - poses[i - 1].timestamp_ns) < kRestart_ns;
-    if (is_soon && poses[i].frame <= poses[i - 1].frame) ++back;
+    const std::int64_t step_ns = poses[i].timestamp_ns - poses[i - 1].timestamp_ns;
+    const bool is_again = poses[i].frame <= poses[i - 1].frame && step_ns < kRestart_ns;
+    if (step_ns <= 0 || is_again) ++back;
   }
   if (back <= 2 + poses.size() / 20) return;
   throw SetupError(log.string() + ": holds poses of several daemons in turns on " +
@@ -130,26 +131,27 @@ void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& p
   }
 }
 
+/// What was passed over.
 std::vector<std::string> RemarksOf(const std::filesystem::path& log, const LogReader& reader,
-                                   const Daemons& daemons, const Daemon& chosen) {
+                                   const std::map<std::string, std::int64_t>& garbled) {
   std::vector<std::string> remarks;
   if (reader.damaged_places() > 0) {
     remarks.push_back(log.string() + ": is damaged in " +
                       Counted(reader.damaged_places(), "place") + "; " +
-                      Counted(reader.damaged_bytes(), "byte") + " were passed over");
+                      Counted(reader.damaged_bytes(), "byte") + " passed over");
   }
-  for (const auto& [name, daemon] : daemons) {
-    if (daemon.garbled == 0) continue;
-    remarks.push_back(log.string() + ": " + Counted(daemon.garbled, "message") + " on " +
-                      Printable(name) + std::string(kPose) + " and " + std::string(kBody) +
-                      " could not be understood by this version, and were left out");
+  for (const auto& [channel, count] : garbled) {
+    remarks.push_back(log.string() + ": " + Counted(count, "message") + " on " +
+                      Printable(channel) + " not understood by this version, and left out");
   }
-  if (chosen.repeated > 0) {
-    remarks.push_back(log.string() + ": " + Counted(chosen.repeated, "pose") +
-                      " came twice, and count once");
-  }
-  TellOfTimes(log, chosen.poses, remarks);
   return remarks;
+}
+
+/// What could be asked for instead.
+std::string PrefixesText(const std::set<std::string>& prefixes) {
+  std::string text;
+  for (const std::string& prefix : prefixes) text += (text.empty() ? "" : ", ") + Quoted(prefix);
+  return text.empty() ? "" : " (there are channels with the prefixes " + text + ")";
 }
 
 }  // namespace
@@ -157,6 +159,8 @@ std::vector<std::string> RemarksOf(const std::filesystem::path& log, const LogRe
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
   LogReader reader(log);
   Daemons daemons;
+  std::set<std::string> prefixes;
+  std::map<std::string, std::int64_t> garbled;
   LoggedMessage message;
   bool is_log = false;
   while (reader.Next(message)) {
@@ -165,9 +169,11 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
     const bool is_pose = channel.ends_with(kPose);
     if (!is_pose && !channel.ends_with(kBody)) continue;
     channel.remove_suffix(is_pose ? kPose.size() : kBody.size());
+    if (is_pose) prefixes.emplace(channel);
     if (prefix && channel != *prefix) continue;
     Daemon& daemon = daemons[std::string(channel)];
-    is_pose ? AddPose(message, daemon) : AddBody(message, daemon);
+    const bool is_ours = is_pose ? AddPose(message, daemon) : AddBody(message, daemon);
+    if (!is_ours) ++garbled[message.channel];
   }
   if (!is_log) {
     const bool is_empty = reader.damaged_bytes() == 0;
@@ -175,18 +181,22 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
                      "; one that lcm-logger recorded of mocapd is wanted");
   }
   const auto chosen = Choose(log, prefix, daemons);
-  const Daemon none;
-  const Daemon& daemon = chosen == daemons.end() ? none : chosen->second;
-  std::vector<std::string> remarks = RemarksOf(log, reader, daemons, daemon);
-  if (daemon.poses.empty() || !daemon.body) {
-    const std::string channel = prefix.value_or(chosen == daemons.end() ? "" : chosen->first) +
-                                std::string(daemon.poses.empty() ? kPose : kBody);
-    throw SetupError(
-        log.string() + ": holds no " + Printable(channel) +
-        " message of this version; a log that lcm-logger recorded of mocapd is wanted");
+  if (chosen == daemons.end() || chosen->second.poses.empty() || !chosen->second.body) {
+    const bool has_poses = chosen != daemons.end() && !chosen->second.poses.empty();
+    throw SetupError(log.string() + ": holds no " + Printable(prefix.value_or("")) +
+                     std::string(has_poses ? kBody : kPose) + " message of this version" +
+                     PrefixesText(prefixes) +
+                     "; a log that lcm-logger recorded of mocapd is wanted");
   }
+  Daemon& daemon = chosen->second;
   RequireOneDaemon(log, chosen->first + std::string(kPose), daemon.poses);
-  return {*daemon.body, std::move(chosen->second.poses), std::move(remarks)};
+  Result result{*daemon.body, std::move(daemon.poses), RemarksOf(log, reader, garbled)};
+  if (daemon.repeated > 0) {
+    result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +
+                             " came twice, and count once");
+  }
+  TellOfTimes(log, result.poses, result.remarks);
+  return result;
 }
 
 }  // namespace mocap

@@ -91,7 +91,8 @@ void CheckTimes(const std::vector<PoseRow>& rows, const std::filesystem::path& f
                    "nanoseconds is wanted");
 }
 
-std::vector<PoseRow> ReadPoses(const std::filesystem::path& file) {
+std::vector<PoseRow> ReadPoses(const std::filesystem::path& file,
+                               std::vector<std::string>& remarks) {
   TextLines lines(file, kWanted);
   const std::vector<std::string> columns = ResultColumns();
   std::string header;
@@ -108,6 +109,9 @@ std::vector<PoseRow> ReadPoses(const std::filesystem::path& file) {
     rows.push_back(row);
   }
   CheckTimes(rows, file);
+  if (!lines.has_end()) {
+    remarks.push_back(file.string() + ": the last line has no end; it is read, but may be cut off");
+  }
   return rows;
 }
 
@@ -138,8 +142,9 @@ Result ReadResult(const std::filesystem::path& folder_or_log,
   if (prefix) {
     throw SetupError(folder_or_log.string() + ": is no log, which alone has a prefix");
   }
-  std::vector<PoseRow> poses = ReadPoses(folder_or_log / "poses.csv");
-  return {ReadBody(folder_or_log / "body.toml"), std::move(poses)};
+  std::vector<std::string> remarks;
+  std::vector<PoseRow> poses = ReadPoses(folder_or_log / "poses.csv", remarks);
+  return {ReadBody(folder_or_log / "body.toml"), std::move(poses), std::move(remarks)};
 }
 
 }  // namespace mocap

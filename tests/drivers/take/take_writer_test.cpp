@@ -43,6 +43,21 @@ TEST_F(WrittenTake, HasItsNameOnlyOnceItIsComplete) {
   EXPECT_FALSE(std::filesystem::exists(partial_.folder));
 }
 
+TEST_F(WrittenTake, LiesInItsFolderHoweverThatIsWritten) {
+  WriteSmallTake(folder_.path() / "." / "absent" / ".." / "take" / "", take_);
+  EXPECT_TRUE(std::filesystem::exists(layout_.Description()));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+  EXPECT_THROW(WriteSmallTake("", take_), SetupError);
+}
+
+TEST_F(WrittenTake, NamesThatAreNoUtf8LeaveADescriptionThatOpens) {
+  TakeDescription description = SmallDescription(take_);
+  description.name = "a\xff\x1b\"b";
+  TakeWriter(layout_.folder, description).Finish();
+  EXPECT_EQ(ReadText(layout_.Description()).substr(0, 27),
+            "name = \"a\xef\xbf\xbd\\U0000001b\\\"b\"\n");
+}
+
 TEST_F(WrittenTake, NeverReplacesAnotherOne) {
   WriteSmallTake(layout_.folder, take_);
   EXPECT_THROW(TakeWriter(layout_.folder, SmallDescription(take_)), SetupError);

@@ -97,6 +97,7 @@ TEST_F(TextFileTest, ErrorsSayWhyAndWhatIsWanted) {
   EXPECT_THAT([&] { WriteText(nowhere, ""); }, ThrowsMessage<std::runtime_error>(says));
   EXPECT_THAT([&] { ReplaceText(nowhere, ""); }, ThrowsMessage<std::runtime_error>(says));
   EXPECT_THAT([&] { RequireWritable(nowhere); }, ThrowsMessage<SetupError>(says));
+  EXPECT_THAT([&] { RequireWritable(""); }, ThrowsMessage<SetupError>(HasSubstr("is empty")));
   EXPECT_THAT([] { WriteText("/dev/full", "x"); },
               ThrowsMessage<std::runtime_error>(
                   "/dev/full: cannot be written: No space left on device; room on its disk is "

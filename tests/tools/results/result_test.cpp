@@ -155,6 +155,8 @@ TEST(Result, IsReadHoweverASpreadsheetSavedIt) {
     testing::WriteText(file, text);
     EXPECT_EQ(ReadResult(folder.path()).poses.size(), 3u);
   }
+  EXPECT_THAT(ReadResult(folder.path()).remarks,
+              ::testing::ElementsAre(HasSubstr("the last line has no end")));
 }
 
 TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
@@ -285,7 +287,8 @@ TEST_F(PoseLog, OfTwoDaemonsIsNeverMixed) {
   const Result right = Read("right.");
   ASSERT_EQ(right.poses.size(), 5u);
   for (const PoseRow& row : right.poses) EXPECT_EQ(row.points_W(0, 0), 2);
-  EXPECT_THAT(Error("middle."), HasSubstr("holds no middle.MOCAP_POSE"));
+  EXPECT_THAT(Error("middle."), ::testing::AllOf(HasSubstr("holds no middle.MOCAP_POSE"),
+                                                 HasSubstr("\"left.\", \"right.\"")));
 }
 
 TEST_F(PoseLog, OfTwoDaemonsOnOneChannelIsRefused) {
