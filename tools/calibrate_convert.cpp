@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/errors.h"
+#include "daemon/number_option.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibration/exchange.h"
@@ -40,6 +41,10 @@ void RunConvert(ConvertArguments a) {
   if (!a.size.empty()) a.options.size_px = ParseSize(a.size);
   const Imported imported = ImportCameras(a.from, a.in, a.options);
   for (const std::string& note : imported.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
+  if (imported.are_lenses_alone && a.to != "mocap")
+    throw SetupError("--to " + a.to +
+                     ": would hold poses that nobody has found; lenses alone go to "
+                     "mocap");
   ExportCameras(a.to, a.out, imported.cameras, a.options);
   if (imported.are_lenses_alone) return;
   for (const Finding& finding : CheckCameras(imported.cameras, a.from != "kalibr"))
@@ -68,7 +73,7 @@ void AddConvert(CLI::App* parent) {
       ->add_option("--unit", a->options.unit_mm,
                    "one unit of a pose2sim file in mm (aniposelib's is its board's)")
       ->capture_default_str()
-      ->check(CLI::Range(1e-6, kLargestUnit_mm));
+      ->check(NumberFrom(1e-6, kLargestUnit_mm));
   command->add_option("--size", a->size,
                       "WIDTHxHEIGHT of the pictures, where IN does not tell [px]");
   command->add_flag("--lenses", a->options.lenses_alone,
