@@ -150,7 +150,7 @@ TEST(CameraHealthTest, SaysSoWhenNobodyIsSeen) {
     RefineFromSilhouettes(empty);
     FAIL() << "accepted";
   } catch (const SetupError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("a whole person who moves is seen by 0 cameras"));
+    EXPECT_THAT(error.what(), HasSubstr("0 cameras see a whole person who moves"));
   }
 }
 

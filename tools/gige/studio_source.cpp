@@ -11,7 +11,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::chrono::milliseconds kHeadStart{300};
+/// Long enough to learn the empty studio in.
+constexpr std::chrono::seconds kHeadStart{5};
 
 }  // namespace
 
@@ -34,7 +35,6 @@ bool StudioSource::HasBegun() {
       return false;
     }
     std::int64_t not_yet = 0;
-    // All cameras shall have seen it by then.
     const std::int64_t soon_ns = TimelineNs() + nanoseconds(kHeadStart).count();
     stage_.begin_ns.compare_exchange_strong(not_yet, soon_ns);
   }

@@ -20,8 +20,9 @@ struct StudioStage {
   std::atomic<std::int64_t> begin_ns{0};
 };
 
-/// Shows the empty studio until every camera streams, then the recording from its beginning, which
-/// is the same moment for all. A camera that comes later, or again, joins where the others are.
+/// Shows the empty studio until every camera has streamed for some seconds, in which it can be
+/// learned, then the recording from its beginning, which is the same moment for all. A camera that
+/// comes later, or again, joins where the others are.
 class StudioSource : public CameraDriver {
  public:
   /// @param recording     begins at the stage's time, once it is started.
