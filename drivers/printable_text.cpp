@@ -87,6 +87,21 @@ std::string PrintableLines(std::string_view text) {
   return printable;
 }
 
+std::string InDoubleQuotes(std::string_view text, std::string (*escaped)(char32_t)) {
+  constexpr char32_t kReplacement = 0xfffd;
+  std::string quoted = "\"";
+  while (!text.empty()) {
+    const TextCharacter character = TakeCharacter(text);
+    if (character.bytes == "\"" || character.bytes == "\\") {
+      quoted += '\\' + std::string(character.bytes);
+    } else {
+      const char32_t code = character.code.value_or(kReplacement);
+      quoted += character.code && IsHarmless(code) ? std::string(character.bytes) : escaped(code);
+    }
+  }
+  return quoted + '"';
+}
+
 std::string Shortened(std::string_view text, std::size_t most_characters) {
   std::string shortened;
   for (std::size_t i = 0; i < most_characters && !text.empty(); ++i) {

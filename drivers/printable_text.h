@@ -31,6 +31,11 @@ std::string PrintableLines(std::string_view text);
 /// Printable, and no longer than so many characters.
 std::string Shortened(std::string_view text, std::size_t most_characters);
 
+/// Puts a text in double quotes, as JSON and TOML have them: quotes and backslashes behind a
+/// backslash, U+FFFD for bytes that are no UTF-8.
+/// @param escaped  spells out a character that is not harmless.
+std::string InDoubleQuotes(std::string_view text, std::string (*escaped)(char32_t));
+
 /// "1 frame", "2 frames".
 std::string Counted(std::integral auto count, std::string_view noun) {
   return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");

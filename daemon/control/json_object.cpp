@@ -10,9 +10,6 @@
 namespace mocap {
 namespace {
 
-/// What is no UTF-8 is none of JSON's: U+FFFD stands for it.
-constexpr std::string_view kReplacement = "\\ufffd";
-
 std::string Escaped(char32_t code) {
   if (code < 0x10000) return fmt::format("\\u{:04x}", static_cast<unsigned>(code));
   const auto rest = static_cast<unsigned>(code - 0x10000);
@@ -20,22 +17,7 @@ std::string Escaped(char32_t code) {
 }
 
 /// What a terminal would obey is spelled out as well.
-std::string InQuotes(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const TextCharacter character = TakeCharacter(text);
-    if (character.bytes == "\"" || character.bytes == "\\") {
-      quoted += '\\' + std::string(character.bytes);
-    } else if (!character.code) {
-      quoted += kReplacement;
-    } else if (IsHarmless(*character.code)) {
-      quoted += character.bytes;
-    } else {
-      quoted += Escaped(*character.code);
-    }
-  }
-  return quoted + '"';
-}
+std::string InQuotes(std::string_view text) { return InDoubleQuotes(text, Escaped); }
 
 }  // namespace
 

@@ -11,30 +11,15 @@
 namespace mocap {
 namespace {
 
-/// Stands for bytes that are no UTF-8, which TOML cannot hold: U+FFFD.
-constexpr std::string_view kReplacement = "\xef\xbf\xbd";
+std::string Escaped(char32_t code) {
+  std::array<char, 16> escape{};
+  std::snprintf(escape.data(), escape.size(), "\\U%08x", static_cast<unsigned>(code));
+  return escape.data();
+}
 
 }  // namespace
 
-std::string TomlText(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const TextCharacter character = TakeCharacter(text);
-    if (character.bytes == "\"" || character.bytes == "\\") {
-      quoted += '\\' + std::string(character.bytes);
-    } else if (!character.code) {
-      quoted += kReplacement;
-    } else if (IsHarmless(*character.code)) {
-      quoted += character.bytes;
-    } else {
-      std::array<char, 16> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\U%08x",
-                    static_cast<unsigned>(*character.code));
-      quoted += escape.data();
-    }
-  }
-  return quoted + '"';
-}
+std::string TomlText(std::string_view text) { return InDoubleQuotes(text, Escaped); }
 
 std::string TomlNumber(double value) {
   MOCAP_CHECK(std::isfinite(value));
