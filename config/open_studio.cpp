@@ -30,10 +30,9 @@ std::vector<CameraCalibration> CalibrationsOf(const Studio& studio) {
 Studio OpenStudio(const Config& config) {
   const SourceConfig& source = config.source;
   if (source.driver == "take") {
-    Studio studio = OpenTake(source.take, {.rate = source.rate,
-                                           .loop = source.loop,
-                                           .in_memory = source.in_memory,
-                                           .cameras = {}});
+    Studio studio = OpenTake(
+        source.take,
+        {.rate = source.rate, .loop = source.loop, .in_memory = source.in_memory, .cameras = {}});
     RequireRoom(CalibrationsOf(studio), config.voxel_mm,
                 TakeLayout{source.take}.Calibration().string());
     return studio;

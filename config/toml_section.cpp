@@ -271,9 +271,7 @@ const toml::node* TomlSection::Find(const std::string& key) {
 
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
-  if (!node) {
-    Fail(key, "is missing; " + wanted + " is wanted");
-  }
+  if (!node) Fail(key, "is missing; " + wanted + " is wanted");
   return *node;
 }
 

@@ -10,7 +10,6 @@
 
 #include "core/errors.h"
 #include "daemon/pipeline/realtime.h"
-#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {

@@ -43,7 +43,8 @@ TEST(Golden, ASimulatedWalkGivesThePosesThatItGaveBefore) {
   const testing::TemporaryFolder folder;
   const fs::path take = folder.path() / "take";
   const fs::path result = folder.path() / "result";
-  RunCommand(AddSimulateCommand, "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
+  RunCommand(AddSimulateCommand,
+             "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
   RunCommand(AddTrackCommand, "track " + take.string() + " --out " + result.string());
   const auto got = Rows(testing::ReadText(result / "poses.csv"));
   const auto golden =

@@ -182,8 +182,7 @@ TEST(ExchangeTest, NamesFileAndLineOfWhatIsMissing) {
   WriteText(file, "[cam]\nmatrix = [[1");
   EXPECT_THAT(ReasonOf([&] { ImportCameras("pose2sim", file, {.unit_mm = 1000}); }),
               HasSubstr("bad.qca.txt:2"));
-  EXPECT_THAT(ReasonOf([&] { ImportCameras("easymocap", folder.path()); }),
-              HasSubstr("intri.yml"));
+  EXPECT_THAT(ReasonOf([&] { ImportCameras("easymocap", folder.path()); }), HasSubstr("intri.yml"));
 }
 
 }  // namespace
