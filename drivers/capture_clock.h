@@ -37,11 +37,11 @@ class CaptureClock {
   void Doubt() { doubted_ = true; }
 
   /// Gives the middle of the exposure, on the timeline of the arrival [ns].
-  /// @param ptp_locked        the camera says that it follows a PTP master.
+  /// @param ptp_locked  the camera says that it follows a PTP master.
   /// @param time_of_day_ahead_ns  the host's time of day less the timeline.
   std::int64_t MiddleOfExposure(std::int64_t stamp_ns, std::int64_t arrival_ns,
                                 std::int64_t exposure_ns, bool ptp_locked,
-                                std::int64_t time_of_day_ahead_ns = 0);
+                                std::int64_t time_of_day_ahead_ns);
 
   TimeSource source() const { return source_; }
   double drift_ppm() const { return fit_.drift_ppm(); }

@@ -13,6 +13,8 @@ constexpr std::int64_t kNoise_ns = 100'000;
 /// A reading that was interrupted is taken again, so many times.
 constexpr int kReadings = 3;
 constexpr std::int64_t kPrompt_ns = 5'000;
+/// No stamp waits longer to be read.
+constexpr std::int64_t kOldestStamp_ns = 10'000'000'000;
 
 std::int64_t BaseOf(const ClockReading& reading) {
   return reading.time_of_day_ns - reading.monotonic_ns;
@@ -36,20 +38,23 @@ ClockReading ReadClocks() {
 HostClock::HostClock(std::function<ClockReading()> read)
     : read_(std::move(read)), base_ns_(BaseOf(read_())) {}
 
-std::int64_t HostClock::OffsetNs() {
-  const ClockReading reading = read_();
-  const std::int64_t now_ns = BaseOf(reading) - base_ns_;
+std::int64_t HostClock::OffsetNs(const ClockReading& now) {
+  const std::int64_t offset_ns = BaseOf(now) - base_ns_;
   const std::int64_t known_ns = offset_ns_.load(std::memory_order_relaxed);
-  if (std::abs(now_ns - known_ns) <= kNoise_ns + reading.width_ns) return known_ns;
+  if (std::abs(offset_ns - known_ns) <= kNoise_ns + now.width_ns) return known_ns;
   offset_before_ns_.store(known_ns, std::memory_order_relaxed);
-  offset_ns_.store(now_ns, std::memory_order_relaxed);
-  return now_ns;
+  step_noticed_ns_.store(now.monotonic_ns, std::memory_order_relaxed);
+  offset_ns_.store(offset_ns, std::memory_order_relaxed);
+  return offset_ns;
 }
 
-std::int64_t HostClock::FromRecentTimeOfDay(std::int64_t stamp_ns) {
-  const std::int64_t after_ns = stamp_ns - OffsetNs();
+std::int64_t HostClock::FromRecentTimeOfDay(std::int64_t stamp_ns, const ClockReading& now) {
+  const std::int64_t now_ns = FromMonotonic(now.monotonic_ns);
+  const std::int64_t after_ns = stamp_ns - OffsetNs(now);
+  const std::int64_t since_step_ns =
+      now.monotonic_ns - step_noticed_ns_.load(std::memory_order_relaxed);
+  if (since_step_ns > kOldestStamp_ns) return std::min(after_ns, now_ns);
   const std::int64_t before_ns = stamp_ns - offset_before_ns_.load(std::memory_order_relaxed);
-  const std::int64_t now_ns = FromMonotonic(read_().monotonic_ns);
   const auto [older_ns, younger_ns] = std::minmax(after_ns, before_ns);
   return younger_ns <= now_ns ? younger_ns : std::min(older_ns, now_ns);
 }

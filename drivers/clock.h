@@ -39,18 +39,21 @@ class HostClock {
   /// The timeline's time of a moment by the monotonic clock.
   std::int64_t FromMonotonic(std::int64_t monotonic_ns) const { return monotonic_ns + base_ns_; }
   /// How far the time of day is ahead of the timeline: 0 until the clock is set.
-  std::int64_t OffsetNs();
+  std::int64_t OffsetNs() { return OffsetNs(read_()); }
+  std::int64_t OffsetNs(const ClockReading& now);
   /// The time of day of a moment on the timeline, as the host's clock is set now.
   std::int64_t ToTimeOfDay(std::int64_t timeline_ns) { return timeline_ns + OffsetNs(); }
-  /// The timeline's time of a stamp that the host has just made by its time of day, before or after
-  /// the last step: whichever makes the stamp younger, and never in the future.
-  std::int64_t FromRecentTimeOfDay(std::int64_t stamp_ns);
+  /// The timeline's time of a stamp that the host has just made by its time of day, and never in
+  /// the future. Soon after a step the stamp may be of before or of after it: whichever makes it
+  /// younger.
+  std::int64_t FromRecentTimeOfDay(std::int64_t stamp_ns, const ClockReading& now);
 
  private:
   const std::function<ClockReading()> read_;
   const std::int64_t base_ns_;
   std::atomic<std::int64_t> offset_ns_{0};
-  std::atomic<std::int64_t> offset_before_ns_{0};  ///< Until the last step.
+  std::atomic<std::int64_t> offset_before_ns_{0};  ///< Until the last step,
+  std::atomic<std::int64_t> step_noticed_ns_{0};   ///< and when that was, by the monotonic clock.
 };
 
 /// The program's clock. Its timeline begins with the first call.

@@ -117,11 +117,12 @@ std::optional<GrabStatus> AravisDriver::Take(ArvBuffer* buffer, Frame& frame) {
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
     // Aravis stamps arrivals with the time of day.
     HostClock& host = TheHostClock();
+    const ClockReading now = host.Read();
     const std::int64_t arrival_ns = host.FromRecentTimeOfDay(
-        static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer)));
+        static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer)), now);
     frame.capture_ns =
         clock_->MiddleOfExposure(stamp_ns, arrival_ns, session_->agreed().exposure_ns,
-                                 keeper_->ptp_locked(), host.OffsetNs());
+                                 keeper_->ptp_locked(), host.OffsetNs(now));
     frame.angles = {};
     if (ReadPixels(buffer, frame)) return GrabStatus::kFrame;
   }

@@ -24,7 +24,7 @@ CaptureTime CaptureTimeOf(std::int64_t stamp_ns, std::uint32_t flags, std::int64
     time.capture_ns = host.FromMonotonic(stamp_ns);
     time.clock = is_named ? V4l2Clock::kMonotonic : V4l2Clock::kGuessed;
   } else if (IsRecent(stamp_ns, now.time_of_day_ns)) {
-    time.capture_ns = host.FromRecentTimeOfDay(stamp_ns);
+    time.capture_ns = host.FromRecentTimeOfDay(stamp_ns, now);
     time.clock = V4l2Clock::kGuessed;
   } else {
     time.capture_ns = host.FromMonotonic(now.monotonic_ns);

@@ -15,7 +15,7 @@ constexpr int kLeapSeconds = 37;
 /// The middle of an exposure that began at kNow_ns, which the network delayed by 2 ms.
 std::int64_t Middle(CaptureClock& clock, std::int64_t stamp_ns, bool ptp_locked) {
   const std::int64_t arrival_ns = kNow_ns + kExposure_ns + 2 * kMillisecond_ns;
-  return clock.MiddleOfExposure(stamp_ns, arrival_ns, kExposure_ns, ptp_locked);
+  return clock.MiddleOfExposure(stamp_ns, arrival_ns, kExposure_ns, ptp_locked, 0);
 }
 
 TEST(CaptureClock, WithoutStampsTheArrivalCounts) {
@@ -78,7 +78,7 @@ TEST(CaptureClock, CameraThatWasAwayKeepsItsClockIfItWentOn) {
   clock.Doubt();
   // Held up by 300 ms more than the frame before.
   const std::int64_t late_ns = kNow_ns + kSecond_ns + kExposure_ns + 302 * kMillisecond_ns;
-  EXPECT_EQ(clock.MiddleOfExposure(6 * kSecond_ns, late_ns, kExposure_ns, false),
+  EXPECT_EQ(clock.MiddleOfExposure(6 * kSecond_ns, late_ns, kExposure_ns, false, 0),
             kNow_ns + kSecond_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
 }
 

@@ -60,13 +60,25 @@ TEST_F(HostClockTest, AStampOfTheTimeOfDayIsUnderstoodAcrossAStep) {
     now_.time_of_day_ns += step_ns;
     const std::int64_t stamp_after_ns = now_.time_of_day_ns;
     Pass(kAge_ns / 2);
-    EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_before_ns), stamped_ns) << step_ns;
-    EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_after_ns), stamped_ns + kAge_ns / 2) << step_ns;
+    EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_before_ns, now_), stamped_ns) << step_ns;
+    EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_after_ns, now_), stamped_ns + kAge_ns / 2)
+        << step_ns;
   }
 }
 
 TEST_F(HostClockTest, AStampOfTheFutureIsOfNow) {
-  EXPECT_EQ(clock_.FromRecentTimeOfDay(now_.time_of_day_ns + kSecond_ns), Now());
+  EXPECT_EQ(clock_.FromRecentTimeOfDay(now_.time_of_day_ns + kSecond_ns, now_), Now());
+}
+
+TEST_F(HostClockTest, AStampThatWasHeldUpLongAfterAStepIsOfItsTime) {
+  for (const std::int64_t step_ns : kSteps_ns) {
+    now_.time_of_day_ns += step_ns;
+    clock_.OffsetNs();
+    Pass(60 * kSecond_ns);
+    const std::int64_t stamp_ns = now_.time_of_day_ns, stamped_ns = Now();
+    Pass(2 * kSecond_ns);
+    EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_ns, now_), stamped_ns) << step_ns;
+  }
 }
 
 TEST(Clock, SleepingUntilATimeThatIsPastReturns) {
