@@ -1,30 +1,15 @@
 #include "drivers/printable_text.h"
 
-#include <algorithm>
+#include <glib.h>
+
 #include <array>
 #include <cstdio>
 
 namespace mocap {
 namespace {
 
-struct Range {
-  char32_t first, last;
-};
-
-constexpr std::array<Range, 12> kHarmful = {{
-    {0x00, 0x1f},        // Control characters: C0,
-    {0x7f, 0x9f},        // delete and C1.
-    {0x061c, 0x061c},    // Marks of direction.
-    {0x200b, 0x200b},    // Nothing to see.
-    {0x200e, 0x200f},    // Marks of direction.
-    {0x2028, 0x202e},    // Ends of lines and paragraphs; embedded and overridden directions.
-    {0x2060, 0x206f},    // Nothing to see; isolated directions.
-    {0xd800, 0xdfff},    // Halves of characters.
-    {0xfeff, 0xfeff},    // A byte order mark.
-    {0xfff9, 0xfffb},    // Notes between lines.
-    {0xfffe, 0xffff},    // No characters.
-    {0xe0000, 0xe007f},  // Tags.
-}};
+// Letters of Persian, Hindi and others are joined or kept apart by them, and parts of emoji.
+constexpr char32_t kNonJoiner = 0x200c, kJoiner = 0x200d;
 
 std::string Escape(const TextCharacter& character) {
   std::array<char, 16> text{};
@@ -43,33 +28,24 @@ std::string Shown(const TextCharacter& character) {
 }  // namespace
 
 TextCharacter TakeCharacter(std::string_view& rest) {
-  constexpr std::array<char32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
-  const auto byte = [&rest](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
-  const unsigned first = byte(0);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xc2 ? 0
-                             : first < 0xe0 ? 2
-                             : first < 0xf0 ? 3
-                             : first < 0xf5 ? 4
-                                            : 0;
-  char32_t code = length == 1 ? first : first & (0x7fu >> length);
-  bool is_whole = length > 0 && length <= rest.size();
-  for (std::size_t i = 1; is_whole && i < length; ++i) {
-    is_whole = (byte(i) & 0xc0) == 0x80;
-    code = code << 6 | (byte(i) & 0x3f);
+  TextCharacter character{rest.substr(0, 1), {}};
+  // GLib takes a zero byte for the end of the text.
+  const gunichar code =
+      rest[0] == '\0' ? 0 : g_utf8_get_char_validated(rest.data(), std::ssize(rest));
+  if (code < static_cast<gunichar>(-2)) {
+    character.code = code;
+    character.bytes = rest.substr(0, static_cast<std::size_t>(g_unichar_to_utf8(code, nullptr)));
   }
-  is_whole = is_whole && code >= kLeast[length] && code <= 0x10ffff;
-  TextCharacter character{rest.substr(0, is_whole ? length : 1), {}};
-  if (is_whole && !(code >= 0xd800 && code <= 0xdfff)) character.code = code;
-  if (!character.code) character.bytes = rest.substr(0, 1);
   rest.remove_prefix(character.bytes.size());
   return character;
 }
 
 bool IsHarmless(char32_t code) {
-  return std::none_of(kHarmful.begin(), kHarmful.end(), [code](const Range& range) {
-    return code >= range.first && code <= range.last;
-  });
+  if (code == kNonJoiner || code == kJoiner) return true;
+  const GUnicodeType type = g_unichar_type(code);
+  const bool ends_a_line =
+      type == G_UNICODE_LINE_SEPARATOR || type == G_UNICODE_PARAGRAPH_SEPARATOR;
+  return g_unichar_isprint(code) && !ends_a_line;
 }
 
 std::string Printable(std::string_view text) {

@@ -8,7 +8,8 @@ namespace mocap {
 namespace {
 
 TEST(PrintableText, LettersOfAllLanguagesStay) {
-  for (const char* text : {"plain", "Jürgen", "カメラ", "кино 😀", "a\\b \"c\""}) {
+  for (const char* text :
+       {"plain", "Jürgen", "カメラ", "кино 😀", "می‌خواهم 👩‍🔬", "a\\b \"c\""}) {
     EXPECT_EQ(Printable(text), text);
   }
 }
@@ -36,6 +37,12 @@ TEST(PrintableText, WhatTurnsTheDirectionOfWritingIsSpelledOut) {
   EXPECT_EQ(Printable("\xe2\x80\xae"
                       "gnp\xe2\x81\xa6"),
             "\\u{202e}gnp\\u{2066}");
+}
+
+TEST(PrintableText, WhatNobodySeesIsSpelledOut) {
+  EXPECT_EQ(Printable("a\xe2\x80\x8b"
+                      "b\xef\xbb\xbf\xf3\xa0\x81\x81"),
+            "a\\u{200b}b\\u{feff}\\u{e0041}");
 }
 
 TEST(PrintableText, BytesThatAreNoUtf8AreSpelledOut) {
