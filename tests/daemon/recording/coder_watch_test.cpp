@@ -95,7 +95,7 @@ TEST(LossCause, CodersThatKeepEachOtherFromTheProcessorAreTooSlow) {
 
 TEST(ThreadTimes, AThreadThatRanHasSpentTime) {
   const auto times = ReadThreadTimes(gettid());
-  if (!times) GTEST_SKIP() << "the kernel does not tell";
+  if (!times) GTEST_SKIP() << "this kernel has no schedstat, which tells how long threads waited";
   EXPECT_GT(times->ran_ns, 0);
   EXPECT_GE(times->queued_ns, 0);
   EXPECT_FALSE(ReadThreadTimes(-1));
