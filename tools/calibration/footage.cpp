@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Without times, frames lie a second apart: only their order counts.
-constexpr std::int64_t kUntimedInterval_ns = 1'000'000'000;
-
 std::string Extension(const fs::path& file) {
   std::string text = file.extension().string();
   std::transform(text.begin(), text.end(), text.begin(),
@@ -101,7 +98,7 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file,
   camera.height_px = video.height_px();
   CountFrames(std::move(video), camera);
   const fs::path table_file = TableOf(file);
-  if (fs::exists(table_file)) {
+  if (IsThere(table_file)) {
     const TakeTable table = ReadTakeTable(table_file);
     camera.timed = true;
     // A recording that was cut off may have lost the end of either.

@@ -13,6 +13,9 @@
 
 namespace mocap {
 
+/// Frames without times lie so far apart: only their order counts.
+constexpr std::int64_t kUntimedInterval_ns = 1'000'000'000;
+
 /// One picture of a recording.
 struct FootageFrame {
   std::int64_t time_ns = 0;

@@ -6,11 +6,11 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
+#include <string_view>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
-#include "drivers/take/input_file.h"
+#include "drivers/take/text_table.h"
 #include "tools/calibration/footage.h"
 
 namespace mocap {
@@ -18,16 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kUntimedInterval_ns = 1'000'000'000;
 constexpr double kLatest_s = 4e9;
-constexpr std::size_t kLargestTable = 256 << 20;
 
-std::vector<std::string> Fields(const std::string& line) {
+// However it was saved: with blanks or quotation marks around the fields, or without.
+std::vector<std::string> Fields(std::string_view line) {
   std::vector<std::string> fields(1);
   for (const char c : line) {
     if (c == ',')
       fields.emplace_back();
-    else if (c != '\r' && c != ' ' && c != '\t' && c != '"')
+    else if (c != ' ' && c != '\t' && c != '"')
       fields.back() += c;
   }
   return fields;
@@ -36,11 +35,9 @@ std::vector<std::string> Fields(const std::string& line) {
 /// Caliscope's table, row by row.
 class SharedTimes {
  public:
-  explicit SharedTimes(const fs::path& file)
-      : file_(file), in_(ReadWholeFile(file, "a table of cam_id,frame_time", kLargestTable)) {
-    std::string line;
-    NextLine(line);
-    if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+  explicit SharedTimes(const fs::path& file) : lines_(file, "a table of cam_id,frame_time") {
+    std::string_view line;
+    lines_.Next(line);
     const std::vector<std::string> names = Fields(line);
     const auto column = [&](const char* name) {
       const auto place = std::find(names.begin(), names.end(), name);
@@ -55,10 +52,10 @@ class SharedTimes {
 
   /// Reads the next row. @return  whether there was one.
   bool Next(int& camera, int& frame, std::int64_t& time_ns) {
-    std::string line;
+    std::string_view line;
     do {
-      if (!NextLine(line)) return false;
-    } while (line.find_first_not_of(" \t\r") == std::string::npos);
+      if (!lines_.Next(line)) return false;
+    } while (line.find_first_not_of(" \t") == std::string_view::npos);
     const std::vector<std::string> fields = Fields(line);
     if (static_cast<int>(fields.size()) != columns_)
       Fail("has another number of fields (" + std::to_string(fields.size()) +
@@ -73,16 +70,9 @@ class SharedTimes {
     return true;
   }
 
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw SetupError(file_.string() + ":" + std::to_string(line_) + ": " + what);
-  }
+  [[noreturn]] void Fail(const std::string& what) const { lines_.Fail(what); }
 
  private:
-  bool NextLine(std::string& line) {
-    ++line_;
-    return static_cast<bool>(std::getline(in_, line));
-  }
-
   template <typename Number>
   Number Parse(const std::vector<std::string>& fields, int column, const char* name) const {
     const std::string& field = fields[static_cast<std::size_t>(column)];
@@ -93,9 +83,8 @@ class SharedTimes {
     return number;
   }
 
-  fs::path file_;
-  std::istringstream in_;
-  int line_ = 0, columns_ = 0;
+  TextLines lines_;
+  int columns_ = 0;
   int camera_ = -1, frame_ = -1, time_ = -1;
   std::map<int, int> counts_;
 };
