@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/acquisition/model_acquirer.h"
 #include "core/acquisition/size_refiner.h"
@@ -27,25 +28,11 @@ constexpr int kFramesToLose = 3;
 // After a look that found nothing better twice as many frames pass before the next, up to this.
 constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
-// Who stands half inside of the room is looked for in vain: the longer, the longer the pauses.
-constexpr double kPauseShare = 0.25;
-constexpr double kShortestPauseS = 0.08;
-constexpr double kLongestPauseS = 0.2;
+// The first look at somebody is a whole search, and what follows costs no more than there is time.
+constexpr double kSearchesPerS = 9;
+constexpr double kLeastEffort = 0.1;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
-// Winter 2009, Fig. 4.1, and de Leva 1996: as AverageSizes, with the spread among adults and
-// children. By the weights of Table 3, which belong to a shorter torso than ours, the lower arms of
-// tall men came out 80 to 100 mm too short.
-constexpr BodyProportions kProportions = {.torso_mean_mm = 560,
-                                          .torso_std_mm = 150,
-                                          .thigh = {0.742, 25},
-                                          .calf = {0.864, 25},
-                                          .upper_arm = {0.49, 20},
-                                          .lower_arm = {0.782, 25},
-                                          .height_std_mm = 15,
-                                          .measurement_std_mm = 40,
-                                          .memory_std_mm = 30};
-
 // Of a point of the body, from what is known of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
                      const Vector3& p_WQ, const PoseCovariance& pose) {
@@ -70,8 +57,7 @@ Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
 
 class MotionCapture::Impl {
  public:
-  explicit Impl(const BodyTable& table)
-      : acquirer_(table, kProportions), nobody_(table, AverageSizes(1750)) {}
+  explicit Impl(const BodyTable& table) : acquirer_(table), nobody_(table, AverageSizes(1750)) {}
 
   const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
                               std::int64_t capture_ns, UpdateObserver* observer) {
@@ -118,7 +104,7 @@ class MotionCapture::Impl {
     known_ = given_;
     refiner_.reset();
     acquirer_.StartOver();
-    LookAtOnce();
+    looks_anew_ = true;
   }
 
   void SomebodyThere(double dt_s) {
@@ -142,22 +128,13 @@ class MotionCapture::Impl {
   }
 
   void Acquire(double dt_s) {
-    looking_s_ += dt_s;
-    if (looking_s_ < next_look_s_) return;
-    if (!acquirer_.Locate(evidence_, known_)) {
-      next_look_s_ =
-          looking_s_ + std::clamp(kPauseShare * looking_s_, kShortestPauseS, kLongestPauseS);
-      return;
-    }
-    LookAtOnce();
+    const bool is_first_look = std::exchange(looks_anew_, false);
+    const double effort = is_first_look ? 1 : std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0);
+    if (!acquirer_.Locate(evidence_, known_, effort)) return;
+    looks_anew_ = true;
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;
     TakeAcquired();
-  }
-
-  void LookAtOnce() {
-    looking_s_ = 0;
-    next_look_s_ = 0;
   }
 
   void TakeAcquired() {
@@ -167,7 +144,7 @@ class MotionCapture::Impl {
     result_.state = CaptureState::kTracking;
     if (!known_) acquisition_frames_ = frames_acquiring_;
     known_ = tracker_->body().sizes();
-    if (!refiner_) refiner_.emplace(tracker_->body());
+    if (!refiner_) refiner_ = acquirer_.sizes();
     bad_frames_ = 0;
   }
 
@@ -201,7 +178,7 @@ class MotionCapture::Impl {
     doubtful_frames_ = 0;
     patience_ = std::min(2 * patience_, kLongestDoubt);
     const bool sizes_are_known = SizesAreKnown();
-    if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt)) return;
+    if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt, 1)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
@@ -211,7 +188,7 @@ class MotionCapture::Impl {
     patience_ = kFramesToLose;
     if (sizes_are_known) return;
     known_ = found.body().sizes();
-    refiner_.emplace(found.body());
+    refiner_ = acquirer_.sizes();
     result_.body_changed = true;
   }
 
@@ -249,8 +226,7 @@ class MotionCapture::Impl {
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;
-  double looking_s_ = 0;    ///< Since the first look in vain.
-  double next_look_s_ = 0;  ///< When the next is due, by the same count.
+  bool looks_anew_ = true;  ///< Nobody was looked for yet.
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;

@@ -4,26 +4,26 @@
 #include <optional>
 #include <vector>
 
-#include "core/acquisition/body_localizer.h"
-#include "core/acquisition/body_size_network.h"
+#include "core/acquisition/pose_contest.h"
+#include "core/acquisition/size_refiner.h"
 #include "core/tracking/tracker.h"
 
 namespace mocap {
 
-/// Acquires one person: locate in the first frame, then follow and refine the sizes until they stop
-/// changing.
+/// Acquires one person: find a pose in the first frame, then follow and refine the sizes until they
+/// stop changing.
 class ModelAcquirer {
  public:
-  ModelAcquirer(const BodyTable& table, const BodyProportions& proportions)
-      : table_(table), network_(proportions) {}
+  explicit ModelAcquirer(const BodyTable& table);
 
-  /// Looks for a body. With `known` sizes they are kept and acquisition is over at once; else each
-  /// call tries some statures, and what none of them explains well is found after a few calls.
-  /// @return whether one was found that explains the voxels.
-  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known);
+  /// Looks for a body.
+  /// @param known   sizes to keep; acquisition is over at once then.
+  /// @param effort  as for PoseContest::Hold. What was found before in vain is tried again.
+  /// @return whether one was found that explains the evidence.
+  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort);
 
   /// Takes whoever is seen next for somebody else.
-  void StartOver() { next_stature_ = 0; }
+  void StartOver();
 
   /// Follows the located body through the next frame and refines its sizes.
   void Refine(const Evidence& evidence, double dt_s);
@@ -32,26 +32,24 @@ class ModelAcquirer {
   bool settled() const { return settled_; }
   /// The likeliest body. @pre Locate has succeeded.
   const Tracker& best() const { return hypotheses_.front().tracker; }
+  /// What the frames so far tell of its sizes. @pre as above.
+  const SizeRefiner& sizes() const { return hypotheses_.front().sizes; }
 
  private:
   struct Hypothesis {
     Tracker tracker;
+    SizeRefiner sizes;
     double cost_sum = 0;
-    BodySizes measured{};  ///< Mean over the frames so far.
   };
-  bool TryStature(const Evidence& evidence);
-  void Begin(const std::vector<Tracker>& found, const Evidence& evidence);
-  double RefineSizes(Hypothesis& hypothesis, bool remember);
+  PoseContest& ContestFor(const std::optional<BodySizes>& known);
+  Hypothesis Begin(const PoseContest& contest, const PoseCandidate& candidate,
+                   const Evidence& evidence, bool measures);
 
   BodyTable table_;
-  BodySizeNetwork network_;
+  PoseContest strangers_;
+  std::optional<PoseContest> acquainted_;  ///< With somebody whose sizes are known.
   std::vector<Hypothesis>
       hypotheses_;  ///< The likeliest first, then the one that faces the other way.
-  double height_mm_ = 0;
-  bool is_upright_ = true;  ///< Then the height tells of the lengths.
-  int next_stature_ = 0;    ///< The next to try.
-  double likely_stature_ = 1;
-  double likely_cost_mm_ = 0;
   int frames_ = 0;
   bool settled_ = false;
 };

@@ -11,28 +11,30 @@ namespace {
 
 struct RefinedSize {
   SizeMember size;
-  double std_share;  // How far it may be from what was acquired.
+  double std_share;  // How far people of a stature and build differ.
 };
 
-// Legs and upper arms differ among people of a stature by some five percent (ANSUR, Gordon et al.
-// 1989). Forearms and the trunk are held closer. The hips stay where they are: they lie so deep
-// within flesh that contours show nothing of them. Lengths move joints, which contours show only
-// together with the pose; widths they show as such.
-constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.02},
-                                                   {&BodySizes::torso_width, 0.10},
-                                                   {&BodySizes::torso_depth, 0.10},
-                                                   {&BodySizes::head, 0.05},
-                                                   {&BodySizes::head_width, 0.10},
-                                                   {&BodySizes::neck, 0.02},
-                                                   {&BodySizes::upper_arm, 0.05},
-                                                   {&BodySizes::lower_arm, 0.03},
-                                                   {&BodySizes::thigh, 0.05},
-                                                   {&BodySizes::calf, 0.05},
-                                                   {&BodySizes::upper_arm_width, 0.15},
-                                                   {&BodySizes::lower_arm_width, 0.15},
-                                                   {&BodySizes::thigh_width, 0.15},
-                                                   {&BodySizes::calf_width, 0.15},
-                                                   {&BodySizes::shoulder_width, 0.05}}};
+// Lengths differ among people of a stature by some five percent, and widths by more (ANSUR, Gordon
+// et al. 1989); clothes and hair come on top. The hips stay where they are: they lie so deep within
+// flesh that contours show nothing of them.
+constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.05},
+                                                   {&BodySizes::torso_width, 0.12},
+                                                   {&BodySizes::torso_depth, 0.15},
+                                                   {&BodySizes::head, 0.1},
+                                                   {&BodySizes::head_width, 0.15},
+                                                   {&BodySizes::neck, 0.05},
+                                                   {&BodySizes::upper_arm, 0.06},
+                                                   {&BodySizes::lower_arm, 0.06},
+                                                   {&BodySizes::thigh, 0.06},
+                                                   {&BodySizes::calf, 0.06},
+                                                   {&BodySizes::upper_arm_width, 0.2},
+                                                   {&BodySizes::lower_arm_width, 0.2},
+                                                   {&BodySizes::thigh_width, 0.2},
+                                                   {&BodySizes::calf_width, 0.2},
+                                                   {&BodySizes::shoulder_width, 0.08}}};
+
+// How far the stature of the body that was found may be off.
+constexpr double kStatureStdShare = 0.04;
 constexpr int kSizes = static_cast<int>(kRefined.size());
 constexpr int kMostUnknowns = kMaxDof + kSizes;
 using Information =
@@ -63,16 +65,23 @@ void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* c
 }
 
 // What is known of the sizes without any frame: the inverse of their covariance.
-Information PriorOf(const BodySizes& acquired) {
+Information PriorOf(const BodySizes& average) {
+  const double stature_mm = average.Stature();
+  const BodySizes taller = AverageSizes(stature_mm + 1);
   Information covariance = Information::Zero(kSizes, kSizes);
   const auto is_stout = [](int i) {
     return std::ranges::find(kStoutWidths, kRefined[i].size) != kStoutWidths.end();
   };
+  const auto by_stature_mm = [&](int i) {
+    const SizeMember size = kRefined[i].size;
+    return kStatureStdShare * stature_mm * (taller.*size - average.*size);
+  };
   for (int i = 0; i < kSizes; ++i) {
     for (int j = 0; j < kSizes; ++j) {
       const double both = i == j ? 1 : is_stout(i) && is_stout(j) ? kWidthCorrelation : 0;
-      covariance(i, j) = both * kRefined[i].std_share * acquired.*kRefined[i].size *
-                         kRefined[j].std_share * acquired.*kRefined[j].size;
+      covariance(i, j) = both * kRefined[i].std_share * average.*kRefined[i].size *
+                             kRefined[j].std_share * average.*kRefined[j].size +
+                         by_stature_mm(i) * by_stature_mm(j);
     }
   }
   return covariance.llt().solve(Information::Identity(kSizes, kSizes));
@@ -80,10 +89,10 @@ Information PriorOf(const BodySizes& acquired) {
 
 }  // namespace
 
-SizeRefiner::SizeRefiner(const BodyModel& acquired)
-    : acquired_(acquired.sizes()),
-      by_size_(acquired, RefinedMembers()),
-      prior_(PriorOf(acquired_)),
+SizeRefiner::SizeRefiner(const BodyModel& body)
+    : average_(body.sizes()),
+      by_size_(body, RefinedMembers()),
+      prior_(PriorOf(average_)),
       information_(Eigen::MatrixXd::Zero(kSizes, kSizes)),
       vector_(Eigen::VectorXd::Zero(kSizes)) {}
 
@@ -112,7 +121,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
       H.bottomRightCorner(kSizes, kSizes) - H.bottomLeftCorner(kSizes, pose_dof) * by_pose;
   InformationVector away(kSizes);
   for (int i = 0; i < kSizes; ++i) {
-    away[i] = body.sizes().*kRefined[i].size - acquired_.*kRefined[i].size;
+    away[i] = body.sizes().*kRefined[i].size - average_.*kRefined[i].size;
   }
   information_ += kIndependent * information;
   vector_ +=
@@ -123,8 +132,9 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
 BodySizes SizeRefiner::Sizes() const {
   const Information information = information_ + prior_;
   const InformationVector away = information.llt().solve(vector_);
-  BodySizes sizes = acquired_;
+  BodySizes sizes = average_;
   for (int i = 0; i < kSizes; ++i) sizes.*kRefined[i].size += away[i];
+  sizes.hip_width = AverageSizes(sizes.Stature()).hip_width;
   return sizes;
 }
 

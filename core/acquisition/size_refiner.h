@@ -9,13 +9,15 @@
 
 namespace mocap {
 
-/// Gathers what frame after frame tells of a person's sizes, while the body is being tracked: each
-/// frame's residuals are linearised by pose and sizes together, the pose is marginalised out, and
-/// what remains adds up.
+/// Gathers what frame after frame tells of a person's sizes: each frame's residuals are linearised
+/// by pose and sizes together, the pose is marginalised out, and what remains adds up.
+///
+/// Without any frame sizes are as among people: how tall somebody is is open, and parts differ from
+/// what is average for the stature as far as they do in a population (ANSUR, Gordon et al. 1989).
 class SizeRefiner {
  public:
-  /// @param acquired  the body to start from.
-  explicit SizeRefiner(const BodyModel& acquired);
+  /// @param body  its stature is where the search for the person's begins.
+  explicit SizeRefiner(const BodyModel& body);
 
   /// Adds a frame that was fitted well.
   /// @param fit  holds the frame's contacts.
@@ -25,7 +27,7 @@ class SizeRefiner {
   int frames() const { return frames_; }
 
  private:
-  BodySizes acquired_;
+  BodySizes average_;
   SizeJacobian by_size_;
   Eigen::MatrixXd prior_;        ///< Information without any frame.
   Eigen::MatrixXd information_;  ///< Of the frames.

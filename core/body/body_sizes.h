@@ -29,6 +29,8 @@ struct BodySizes {
 
   /// Sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
+
+  bool operator==(const BodySizes&) const = default;
 };
 
 using SizeMember = double BodySizes::*;

@@ -21,6 +21,12 @@ class Tracker {
   /// Takes the next frame, `dt_s` after the one before.
   void Update(const Evidence& evidence, double dt_s);
 
+  /// Takes a frame's evidence without drawing the body to it; `evidence` is borrowed until the
+  /// next.
+  void Look(const Evidence& evidence) { surface_fit_.SetEvidence(evidence); }
+  /// Draws the body once more to the evidence of the last frame, as after its sizes have changed.
+  void Draw() { FitSurface(); }
+
   const BodyModel& body() const { return body_; }
   /// Changes the sizes; the pose stays.
   void Resize(const BodySizes& sizes) { body_.Resize(sizes); }

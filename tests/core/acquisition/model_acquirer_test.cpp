@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "config/load_config.h"
 #include "core/body/stance.h"
 #include "tests/support/seen_body.h"
@@ -26,17 +29,11 @@ class Acquisition : public testing::Test {
   double ErrorAfter(int frames, const PoseState& truth) { return ErrorAfter(frames, truth, body_); }
   double ErrorAfter(int frames, const PoseState& truth, const BodyModel& body) {
     const Evidence evidence = studio_.Show(body, truth);
-    ModelAcquirer acquirer(body.table(), {});
-    bool located = false;
-    for (int i = 0; i < frames; ++i) {
-      if (located) {
-        acquirer.Refine(evidence, 0.03);
-      } else {
-        located = acquirer.Locate(evidence, std::nullopt);
-      }
-    }
+    ModelAcquirer acquirer(body.table());
+    const bool located = acquirer.Locate(evidence, std::nullopt, 1);
     EXPECT_TRUE(located);
     if (!located) return 1e9;
+    for (int i = 1; i < frames; ++i) acquirer.Refine(evidence, 0.03);
     const Tracker& best = acquirer.best();
     return (best.body().PointsAt(best.body().PostureAt(best.filter().pose())) -
             body.PointsAt(body.PostureAt(truth)))
@@ -67,25 +64,74 @@ TEST_F(Acquisition, FindsAChildWhoseHeadIsSmall) {
   EXPECT_LT(ErrorAfter(4, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {}), child), 30);
 }
 
+TEST_F(Acquisition, FindsPeopleWhateverTheyWear) {
+  const auto standing = [&](const BodySizes& sizes) {
+    return Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {});
+  };
+  BodySizes round_hair = AverageSizes(1650);
+  round_hair.head = 360, round_hair.head_width = 330;
+  BodySizes coat = AverageSizes(1700);
+  for (const SizeMember width : kStoutWidths) coat.*width *= 1.4;
+  BodySizes pack = AverageSizes(1800);
+  pack.torso_depth *= 1.7;
+  BodySizes wide_trousers = AverageSizes(1600);
+  wide_trousers.thigh_width *= 1.5, wide_trousers.calf_width *= 2;
+  for (const BodySizes& sizes : {round_hair, coat, pack, wide_trousers}) {
+    const BodyModel body(body_.table(), sizes);
+    EXPECT_LT(ErrorAfter(3, standing(sizes), body), 60) << sizes.Stature();
+  }
+}
+
+TEST_F(Acquisition, FindsPeopleHoweverTheyStand) {
+  const BodySizes& sizes = body_.sizes();
+  const double hips_mm = sizes.thigh + sizes.calf;
+  constexpr ArmStance kHandAtFace{.raise = -40, .forward = 70, .elbow = 120};
+  constexpr ArmStance kOverhead{.raise = 85};
+  constexpr LegStance kCrouching{.hip = 100, .spread = 10, .knee = 110};
+  constexpr LegStance kLifted{.hip = 90, .knee = 90};
+  const std::vector<std::pair<double, Stance>> stances = {
+      {hips_mm, {.arm_l = kHandAtFace, .arm_r = kHandAtFace}},
+      {hips_mm, {.arm_l = kOverhead, .arm_r = kOverhead}},
+      {hips_mm, {.arm_r = kOverhead, .leg_l = kLifted}},
+      {0.5 * hips_mm, {.leg_l = kCrouching, .leg_r = kCrouching}}};
+  for (const auto& [height_mm, stance] : stances)
+    EXPECT_LT(ErrorAfter(3, Pose(sizes.torso / 2 + height_mm, stance)), 60) << height_mm;
+}
+
+TEST_F(Acquisition, FindsSomebodyWhoLies) {
+  PoseState lying = Pose(120, {});
+  lying.X_WT.R *= ExpRotation(Vector3(0, -EIGEN_PI / 2, 0));
+  EXPECT_LT(ErrorAfter(3, lying), 60);
+}
+
+TEST_F(Acquisition, FindsSomebodyBitByBitWhereThereIsLittleTime) {
+  const BodySizes& sizes = body_.sizes();
+  const Evidence evidence =
+      studio_.Show(body_, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {}));
+  ModelAcquirer acquirer(body_.table());
+  bool located = false;
+  for (int i = 0; i < 5 && !located; ++i) located = acquirer.Locate(evidence, std::nullopt, 0.1);
+  EXPECT_TRUE(located);
+}
+
 TEST_F(Acquisition, RaisedArmsMakeNobodyTaller) {
   const BodySizes& sizes = body_.sizes();
   constexpr ArmStance kRaised{.raise = 80};
   const Evidence evidence = studio_.Show(body_, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf,
                                                      {.arm_l = kRaised, .arm_r = kRaised}));
-  ModelAcquirer acquirer(body_.table(), {});
-  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt));
+  ModelAcquirer acquirer(body_.table());
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
   EXPECT_NEAR(acquirer.best().body().sizes().Stature(), 1750, 50);
 }
 
-TEST_F(Acquisition, NobodyIsFoundUpsideDown) {
+TEST_F(Acquisition, FindsSomebodyWhoStandsOnTheHands) {
+  constexpr ArmStance kUp{.raise = 85, .elbow = 5};
   for (const double stature_mm : {1150, 1750}) {
     const BodyModel body(body_.table(), AverageSizes(stature_mm));
-    PoseState upside_down = Pose(0.57 * stature_mm, {});
-    upside_down.X_WT.R.col(1) *= -1;
-    upside_down.X_WT.R.col(2) *= -1;
-    const Evidence evidence = studio_.Show(body, upside_down);
-    ModelAcquirer acquirer(body_.table(), {});
-    for (int i = 0; i < 4; ++i) EXPECT_FALSE(acquirer.Locate(evidence, std::nullopt));
+    PoseState handstand = Pose(0.62 * stature_mm, {.arm_l = kUp, .arm_r = kUp});
+    handstand.X_WT.R.col(1) *= -1;
+    handstand.X_WT.R.col(2) *= -1;
+    EXPECT_LT(ErrorAfter(3, handstand, body), 60) << stature_mm;
   }
 }
 

@@ -1,0 +1,149 @@
+#include "core/acquisition/pose_contest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace mocap {
+namespace {
+
+// The bodies of strangers. Clothes and hulls make everybody stouter: bodies that were as wide as
+// people are would be taken for taller ones.
+constexpr double kSmallestMm = 1080;
+constexpr double kLargestMm = 2080;
+constexpr double kStatureStep = 1.06;
+constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
+// Every third stature is tried, of this build; then its neighbours.
+constexpr int kCoarseStep = 3;
+constexpr int kCoarseBuild = 1;
+// How far a pose may be from where it is proposed.
+constexpr double kStartStdMm = 100;
+constexpr double kStartStdRad = 0.5;
+// Poses whose points lie nearer than this to each other in the mean are the same.
+constexpr double kSameMm = 60;
+constexpr std::size_t kKept = 6;
+constexpr std::size_t kWithNeighbours = 3;
+constexpr int kNeighbourhoods = 2;
+
+}  // namespace
+
+// With how many samples poses are drawn to the evidence, how far, and how many go on.
+struct PoseContest::Round {
+  int voxels, edges;
+  Iterations iterations;  ///< Of 0 poses are weighed where they are.
+  double kept;            ///< In a whole search.
+};
+
+PoseContest PoseContest::OfStrangers(const BodyTable& table) {
+  std::vector<BodyModel> bodies;
+  for (double stature_mm = kSmallestMm; stature_mm < kLargestMm; stature_mm *= kStatureStep) {
+    for (const double build : kBuilds) {
+      BodySizes sizes = AverageSizes(stature_mm);
+      for (const SizeMember width : kStoutWidths) sizes.*width *= build;
+      bodies.emplace_back(table, sizes);
+    }
+  }
+  return {std::move(bodies), static_cast<int>(kBuilds.size())};
+}
+
+PoseContest::PoseContest(std::vector<BodyModel> bodies, int builds)
+    : bodies_(std::move(bodies)), builds_(builds) {
+  for (const BodyModel& body : bodies_) libraries_.emplace_back(body);
+}
+
+const std::vector<PoseCandidate>& PoseContest::Hold(const Evidence& evidence, double effort) {
+  constexpr Round kWeighing{40, 80, {0, 0}, 160};
+  constexpr std::array kHeats = {Round{40, 80, {2, 4}, 48}, Round{80, 120, {3, 6}, 12}};
+  constexpr Round kFinal{150, 200, {4, 15}, 20};
+  const std::vector<PoseCandidate> best_before = std::exchange(candidates_, {});
+  Propose(evidence.cloud);
+  Play(evidence, kWeighing, effort);
+  for (const Round& heat : kHeats) Play(evidence, heat, effort);
+  candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
+  Play(evidence, kFinal, 1);
+  KeepDistinct();
+  for (int i = 0; i < kNeighbourhoods && bodies_.size() > 1; ++i) {
+    ProposeNeighbours();
+    Play(evidence, kFinal, 1);
+    KeepDistinct();
+  }
+  return candidates_;
+}
+
+void PoseContest::Remember(const BodySizes& sizes, const PoseState& pose) {
+  const auto nearest = std::ranges::min_element(bodies_, {}, [&](const BodyModel& body) {
+    return std::abs(body.sizes().Stature() - sizes.Stature()) +
+           std::abs(body.sizes().torso_depth - sizes.torso_depth);
+  });
+  candidates_.push_back({static_cast<int>(nearest - bodies_.begin()), pose, 0});
+}
+
+void PoseContest::Propose(const VoxelCloud& cloud) {
+  const Vector3 middle_W = cloud.Centroid();
+  const std::vector<Vector3> axes_W = TrunkAxes(cloud);
+  const int first = builds_ == 1 ? 0 : (kCoarseStep / 2) * builds_ + kCoarseBuild;
+  for (int body = first; body < std::ssize(bodies_); body += kCoarseStep * builds_) {
+    poses_.clear();
+    for (const Vector3& up_W : axes_W) libraries_[body].Propose(middle_W, up_W, poses_);
+    for (const PoseState& pose : poses_) candidates_.push_back({body, pose, 0});
+  }
+}
+
+// Bodies next in size may explain the evidence better from the same pose.
+void PoseContest::ProposeNeighbours() {
+  const std::size_t count = std::min(candidates_.size(), kWithNeighbours);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int body = candidates_[i].body, build = body % builds_;
+    const auto propose = [&](int other) {
+      if (other >= 0 && other < std::ssize(bodies_))
+        candidates_.push_back({other, candidates_[i].pose, 0});
+    };
+    propose(body - builds_);
+    propose(body + builds_);
+    if (build > 0) propose(body - 1);
+    if (build + 1 < builds_) propose(body + 1);
+  }
+}
+
+void PoseContest::Play(const Evidence& evidence, const Round& round, double effort) {
+  SurfaceFitOptions options;
+  options.voxels = round.voxels;
+  options.edges = round.edges;
+  SurfaceFit fit(options);
+  fit.SetEvidence(evidence);
+  for (PoseCandidate& candidate : candidates_) {
+    const BodyModel& body = bodies_[candidate.body];
+    if (round.iterations.most > 0) {
+      PoseFilter filter{MotionNoise{}};
+      filter.Reset(candidate.pose, kStartStdMm, kStartStdRad);
+      filter.Draw(
+          body.table(),
+          [&](const PoseState& pose, UpdateEquations& equations) {
+            fit.Linearize(body, pose, equations);
+          },
+          round.iterations);
+      candidate.pose = filter.pose();
+    }
+    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
+  }
+  std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);
+  const auto kept = static_cast<std::size_t>(std::ceil(effort * round.kept));
+  candidates_.resize(std::min(candidates_.size(), kept));
+}
+
+void PoseContest::KeepDistinct() {
+  std::vector<BodyPoints> kept_W;
+  std::erase_if(candidates_, [&](const PoseCandidate& candidate) {
+    if (kept_W.size() == kKept) return true;
+    const BodyModel& body = bodies_[candidate.body];
+    const BodyPoints points_W = body.PointsAt(body.PostureAt(candidate.pose));
+    const bool is_known = std::ranges::any_of(kept_W, [&](const BodyPoints& other_W) {
+      return (points_W - other_W).colwise().norm().mean() < kSameMm;
+    });
+    if (!is_known) kept_W.push_back(points_W);
+    return is_known;
+  });
+}
+
+}  // namespace mocap
