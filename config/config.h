@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/service_config.h"
+#include "core/make_motion_capture.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "drivers/aravis/aravis_settings.h"
@@ -83,6 +84,7 @@ struct Config {
   SourceConfig source;
   double voxel_mm = 25;
   SegmentationOptions segmentation;
+  TrackerKind tracker = TrackerKind::kSurface;
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;

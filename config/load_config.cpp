@@ -90,6 +90,21 @@ LcmConfig ReadLcm(TomlSection section) {
   return lcm;
 }
 
+// `body` names a table, or is a section that chooses the tracker as well.
+void ReadBody(TomlSection& root, const std::filesystem::path& file, Config& config) {
+  if (root.IsTable("body")) {
+    TomlSection section = *root.Section("body");
+    const NamedTracker& tracker = Trackers()[section.Choice("tracker", TrackerNames(), 0)];
+    config.tracker = tracker.kind;
+    config.body = section.Text("table", tracker.body);
+    section.RejectUnknownKeys();
+  } else {
+    config.body = root.Text("body", config.body);
+  }
+  const bool is_path = config.body.ends_with(".toml") || config.body.find('/') != std::string::npos;
+  if (is_path) config.body = Resolved(file, config.body).string();
+}
+
 void CheckLiveStudio(const Config& config, const TomlSection& root) {
   const std::string& driver = config.source.driver;
   if (!IsLive(config.source)) return;
@@ -101,14 +116,23 @@ void CheckLiveStudio(const Config& config, const TomlSection& root) {
 
 }  // namespace
 
+const std::vector<NamedTracker>& Trackers() {
+  static const std::vector<NamedTracker> trackers = {{"surface", TrackerKind::kSurface, "full"}};
+  return trackers;
+}
+
+std::vector<std::string> TrackerNames() {
+  std::vector<std::string> names;
+  for (const NamedTracker& tracker : Trackers()) names.push_back(tracker.name);
+  return names;
+}
+
 Config LoadConfig(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
   Config config;
   config.calibration = Resolved(file, root.Text("calibration", ""));
   config.background = Resolved(file, root.Text("background", "background"));
-  config.body = root.Text("body", config.body);
-  const bool is_path = config.body.ends_with(".toml") || config.body.find('/') != std::string::npos;
-  if (is_path) config.body = Resolved(file, config.body).string();
+  ReadBody(root, file, config);
   if (auto section = root.Section("source")) config.source = ReadSource(*section, file);
   if (auto section = root.Section("voxels"))
     config.voxel_mm = ReadVoxels(*section, config.voxel_mm);

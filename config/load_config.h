@@ -25,6 +25,17 @@ std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file
 /// Reads what calibration.toml says of itself. @throws SetupError
 CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file);
 
+/// A tracker as users call it.
+struct NamedTracker {
+  std::string name;
+  TrackerKind kind;
+  std::string body;  ///< The table that it runs on unless another is chosen.
+};
+
+/// All trackers, the default first.
+const std::vector<NamedTracker>& Trackers();
+std::vector<std::string> TrackerNames();
+
 /// Finds a body table: one of those built in ("mikic2003", "full") or a TOML file's path.
 BodyTable LoadBodyTable(const std::string& name_or_path);
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,31 +50,27 @@ class UpdateObserver {
 /// for bit.
 class MotionCapture {
  public:
-  explicit MotionCapture(const BodyTable& table);
-  ~MotionCapture();
+  virtual ~MotionCapture() = default;
 
   /// Takes the next frame set.
   /// @param outlines    of the silhouettes that the grid was carved by.
   /// @param capture_ns  time of exposure; must not go back.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
-                              std::int64_t capture_ns, UpdateObserver* observer = nullptr);
+  virtual const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                                      std::int64_t capture_ns,
+                                      UpdateObserver* observer = nullptr) = 0;
 
   /// Forgets the person: whoever is seen next is measured.
-  void Forget();
+  virtual void Forget() = 0;
   /// Takes a person's sizes as known: whoever is seen from now on is followed with them, and
   /// nothing is measured until Forget.
-  void Expect(const BodySizes& sizes);
+  virtual void Expect(const BodySizes& sizes) = 0;
 
   /// The body as it is known now.
-  const BodyModel& body() const;
+  virtual const BodyModel& body() const = 0;
   /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before
   /// that.
-  int acquisition_frames() const;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual int acquisition_frames() const = 0;
 };
 
 }  // namespace mocap

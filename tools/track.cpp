@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -31,7 +32,8 @@ struct TrackOptions {
   std::filesystem::path take;
   std::filesystem::path out;
   double voxel_mm = Config().voxel_mm;
-  std::string body = Config().body;
+  std::string body;  ///< Empty: the tracker's own.
+  std::string tracker = Trackers().front().name;
   std::vector<std::string> cameras;
   bool measure = false;
   bool json = false;
@@ -53,7 +55,13 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
   return json.Text();
 }
 
+// Of a name that was checked.
+const NamedTracker& TrackerOf(const std::string& name) {
+  return *std::ranges::find(Trackers(), name, &NamedTracker::name);
+}
+
 void Track(const TrackOptions& options) {
+  const NamedTracker& tracker = TrackerOf(options.tracker);
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
   RequireRoom(CalibrationsOf(studio), options.voxel_mm,
               TakeLayout{options.take}.Calibration().string());
@@ -65,8 +73,9 @@ void Track(const TrackOptions& options) {
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
                      .overflow = Overflow::kWait,
-                     .latency_origin = LatencyOrigin::kArrival},
-                    LoadBodyTable(options.body), sink);
+                     .latency_origin = LatencyOrigin::kArrival,
+                     .tracker = tracker.kind},
+                    LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
   if (!options.measure && IsThere(subject)) {
     pipeline.ChangeSubject(LoadSubject(subject));
@@ -100,8 +109,11 @@ void AddTrackCommand(CLI::App& app) {
   command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
       ->check(NumberFrom(10, 100))
       ->capture_default_str();
-  command->add_option("--body", options->body, "mikic2003, full, or a body table's file")
+  command->add_option("--tracker", options->tracker, "surface")
+      ->check(CLI::IsMember(TrackerNames()))
       ->capture_default_str();
+  command->add_option("--body", options->body,
+                      "mikic2003, full, or a body table's file; the tracker's own without");
   command->add_option("--cameras", options->cameras, "use these only, as in cam1,cam2")
       ->delimiter(',');
   command->add_flag("--measure", options->measure,

@@ -104,7 +104,8 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
       sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
       grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
-      track_(body, options.latency_origin, sink, recorders_, studio.person) {
+      track_(MakeMotionCapture(options.tracker, body), options.latency_origin, sink, recorders_,
+             studio.person) {
   std::vector<CameraCalibration> calibrations;
   for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),

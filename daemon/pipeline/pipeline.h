@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/make_motion_capture.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/carve_stage.h"
@@ -37,6 +38,7 @@ struct PipelineOptions {
   /// without.
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
+  TrackerKind tracker = TrackerKind::kSurface;
   int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: as everybody.
   std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.

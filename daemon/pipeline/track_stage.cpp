@@ -18,9 +18,9 @@ std::optional<Vector3> MiddleOf(const CaptureResult& result) {
 
 }  // namespace
 
-TrackStage::TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink,
+TrackStage::TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
                        StageRecorders& recorders, std::shared_ptr<Whereabouts> person)
-    : capture_(body),
+    : capture_(std::move(capture)),
       origin_(origin),
       sink_(sink),
       recorders_(recorders),
@@ -35,12 +35,12 @@ void TrackStage::ChangeSubject(const std::optional<BodySizes>& sizes) {
 void TrackStage::Process(const CarvedSet& set) {
   if (next_subject_.load(std::memory_order_relaxed)) {
     const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
-    *subject ? capture_.Expect(**subject) : capture_.Forget();
+    *subject ? capture_->Expect(**subject) : capture_->Forget();
   }
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
   const CaptureResult& result =
-      capture_.Update(set.grid, set.outlines, Onward(set.capture_ns), this);
+      capture_->Update(set.grid, set.outlines, Onward(set.capture_ns), this);
   const std::int64_t update_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kLabel].Record(stage_ns_[0]);
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
@@ -52,9 +52,9 @@ void TrackStage::Process(const CarvedSet& set) {
                .capture_ns = set.capture_ns,
                .complete_ns = set.complete_ns,
                .cameras = set.cameras,
-               .acquisition_frames = capture_.acquisition_frames(),
+               .acquisition_frames = capture_->acquisition_frames(),
                .result = result,
-               .body = capture_.body(),
+               .body = capture_->body(),
                .grid = set.grid});
   recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =

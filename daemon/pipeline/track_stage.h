@@ -25,8 +25,8 @@ enum class LatencyOrigin {
 class TrackStage : private UpdateObserver {
  public:
   /// @param person  told where he is, for heads that follow; may be null.
-  TrackStage(const BodyTable& body, LatencyOrigin origin, PoseSink& sink, StageRecorders& recorders,
-             std::shared_ptr<Whereabouts> person = nullptr);
+  TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
+             StageRecorders& recorders, std::shared_ptr<Whereabouts> person = nullptr);
 
   ~TrackStage();
 
@@ -43,7 +43,7 @@ class TrackStage : private UpdateObserver {
   std::int64_t Onward(std::int64_t capture_ns);
   void OnStageEnd(UpdateStage stage) override;
 
-  MotionCapture capture_;
+  const std::unique_ptr<MotionCapture> capture_;
   LatencyOrigin origin_;
   PoseSink& sink_;
   StageRecorders& recorders_;

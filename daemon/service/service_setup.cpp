@@ -98,6 +98,7 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
           .voxel_mm = config.voxel_mm,
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
+          .tracker = config.tracker,
           .priority = config.service.realtime.priority,
           .processors = config.service.realtime.processors,
           .taps = std::move(taps)};

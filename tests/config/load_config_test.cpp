@@ -52,6 +52,7 @@ void ExpectSame(const Config& a, const Config& b) {
   EXPECT_EQ(a.voxel_mm, b.voxel_mm);
   EXPECT_EQ(a.segmentation.detection_rate, b.segmentation.detection_rate);
   EXPECT_EQ(a.segmentation.smallest_blob_share, b.segmentation.smallest_blob_share);
+  EXPECT_EQ(a.tracker, b.tracker);
   EXPECT_EQ(a.body, b.body);
   EXPECT_EQ(a.lcm.url, b.lcm.url);
   EXPECT_EQ(a.lcm.prefix, b.lcm.prefix);
@@ -110,6 +111,7 @@ TEST_F(ConfigFile, FoldersMayEndWithASlash) {
 TEST_F(ConfigFile, OnlyPathsAreMadeRelativeToTheFile) {
   EXPECT_EQ(Load("body = \"mikic2003\"").body, "mikic2003");
   EXPECT_EQ(Load("body = \"child.toml\"").body, (folder_.path() / "child.toml").string());
+  EXPECT_EQ(Load("[body]\ntable = \"child.toml\"").body, (folder_.path() / "child.toml").string());
   EXPECT_EQ(Load("calibration = \"/etc/calibration.toml\"").calibration, "/etc/calibration.toml");
 }
 
@@ -123,6 +125,7 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
   const WrongConfig cases[] = {
       {"[source\n", 1, "no TOML"},
       {"body = 3\n", 1, "body is 3"},
+      {"[body]\ntracker = \"deep\"\n", 2, "body.tracker is \"deep\""},
       {"bodies = \"full\"\n", 1, "bodies is unknown"},
       {"source = 1\n", 1, "source is 1"},
       {"[source]\ndriver = \"webcam\"\n", 2, "source.driver is \"webcam\""},

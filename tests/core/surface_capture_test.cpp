@@ -1,4 +1,4 @@
-#include "core/motion_capture.h"
+#include "core/surface_capture.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,8 @@ class Capture : public testing::TestWithParam<std::string> {
   std::int64_t NextNs() { return now_ns_ += kFrameNs; }
 
   BodyTable table_ = LoadBodyTable(GetParam());
-  MotionCapture capture_{table_};
+  SurfaceCapture surface_capture_{table_};
+  MotionCapture& capture_ = surface_capture_;
   std::int64_t now_ns_ = 1'000'000'000'000;
 };
 
@@ -92,7 +93,8 @@ TEST_P(Capture, KeepsTheBodyOfAPersonWhoWasGoneForAMoment) {
 
 TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
   const BodyModel person(table_, AverageSizes(1600));
-  MotionCapture again(table_);
+  SurfaceCapture another(table_);
+  MotionCapture& again = another;
   for (int frame = 0; frame < 8; ++frame) {
     const VoxelGrid grid = Voxelize(person, Stroll(person, frame), 25);
     const std::int64_t now_ns = NextNs();
@@ -108,7 +110,8 @@ TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
   const BodyTable table = LoadBodyTable("full");
   const BodyModel adult(table, AverageSizes(1900));
   const RoundStudio studio;
-  MotionCapture capture(table);
+  SurfaceCapture surface_capture(table);
+  MotionCapture& capture = surface_capture;
   capture.Expect(AverageSizes(1600));
   for (int frame = 0; frame < 4; ++frame) {
     const auto [hull, outlines] = studio.Carve(adult, Stroll(adult, frame));
@@ -126,7 +129,8 @@ TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
   for (int frame = 0; frame < 4; ++frame) {
     seen.push_back(studio.Carve(person, Stroll(person, frame)));
   }
-  MotionCapture capture(table);
+  SurfaceCapture surface_capture(table);
+  MotionCapture& capture = surface_capture;
   std::int64_t now_ns = 0;
   const auto walk_to_and_fro = [&] {
     for (const int frame : {0, 1, 2, 3, 2, 1}) {

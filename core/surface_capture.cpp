@@ -1,4 +1,4 @@
-#include "core/motion_capture.h"
+#include "core/surface_capture.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -55,7 +55,7 @@ Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
 
 }  // namespace
 
-class MotionCapture::Impl {
+class SurfaceCapture::Impl {
  public:
   explicit Impl(const BodyTable& table) : acquirer_(table), nobody_(table, AverageSizes(1750)) {}
 
@@ -234,16 +234,17 @@ class MotionCapture::Impl {
   int patience_ = kFramesToLose;  ///< Doubtful frames before the next look.
 };
 
-MotionCapture::MotionCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
-MotionCapture::~MotionCapture() = default;
+SurfaceCapture::SurfaceCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
+SurfaceCapture::~SurfaceCapture() = default;
 
-const CaptureResult& MotionCapture::Update(const VoxelGrid& grid, std::span<const Outline> outlines,
-                                           std::int64_t capture_ns, UpdateObserver* observer) {
+const CaptureResult& SurfaceCapture::Update(const VoxelGrid& grid,
+                                            std::span<const Outline> outlines,
+                                            std::int64_t capture_ns, UpdateObserver* observer) {
   return impl_->Update(grid, outlines, capture_ns, observer);
 }
-void MotionCapture::Forget() { impl_->StartOver({}); }
-void MotionCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
-const BodyModel& MotionCapture::body() const { return impl_->body(); }
-int MotionCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
+void SurfaceCapture::Forget() { impl_->StartOver({}); }
+void SurfaceCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
+const BodyModel& SurfaceCapture::body() const { return impl_->body(); }
+int SurfaceCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
 
 }  // namespace mocap

@@ -1,0 +1,28 @@
+// Beyond the paper: follows a person by the surface of its flesh and the silhouettes' outlines.
+#pragma once
+
+#include <memory>
+
+#include "core/motion_capture.h"
+
+namespace mocap {
+
+/// Acquires a body, draws it to the surface in every frame, loses it and acquires it again.
+class SurfaceCapture : public MotionCapture {
+ public:
+  explicit SurfaceCapture(const BodyTable& table);
+  ~SurfaceCapture() override;
+
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                              std::int64_t capture_ns, UpdateObserver* observer) override;
+  void Forget() override;
+  void Expect(const BodySizes& sizes) override;
+  const BodyModel& body() const override;
+  int acquisition_frames() const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap
