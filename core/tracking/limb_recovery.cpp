@@ -12,7 +12,6 @@ namespace {
 constexpr int kVoxels = 150;
 constexpr int kEdges = 600;
 constexpr double kReachMm = 150;
-constexpr double kUnexplainedMm = 60;
 constexpr double kUnexplainedShare = 0.005;
 constexpr double kBetterMm = 0.5;
 // So many stances of a limb, which end this far apart, are looked at closely.
@@ -82,7 +81,7 @@ double UnexplainedShare(ContactMatcher& matcher, const std::vector<PosedCapsule>
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {
     if (!matcher.contacts()[i].is_edge) continue;
     ++edges;
-    unexplained += distances_mm[i] > kUnexplainedMm;
+    unexplained += distances_mm[i] >= kExplainedMm;
   }
   return edges == 0 ? 0 : static_cast<double>(unexplained) / edges;
 }

@@ -8,8 +8,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kUnexplainedMm = 60;
-
 // Geman's and McClure's weight as a factor of the variance.
 double Inflation(double residual, double outlier) {
   const double scaled = residual / outlier;
@@ -179,10 +177,10 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   const std::vector<float>& distances_mm = matcher_.Distances(posed_, options_.reach_mm);
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {
     const bool is_edge = matcher_.contacts()[i].is_edge;
-    const double distance_mm = distances_mm[i];
+    const double distance_mm = std::min<double>(distances_mm[i], kExplainedMm);
     (is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
     edges += is_edge;
-    quality.unexplained_share += is_edge && distance_mm > kUnexplainedMm;
+    quality.unexplained_share += is_edge && distance_mm >= kExplainedMm;
   }
   const int voxels = static_cast<int>(distances_mm.size()) - edges;
   quality.edge_mm /= std::max(1, edges);

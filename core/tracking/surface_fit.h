@@ -28,13 +28,17 @@ struct SurfaceFitOptions {
   double void_outlier_mm = 60;
 };
 
-/// How well a posed body explains the evidence. Distances are cut at the reach.
+/// What is farther than this from every part is no part's: hair, a bag, a chair, a shadow.
+inline constexpr double kExplainedMm = 60;
+
+/// How well a posed body explains the evidence. Distances are cut at kExplainedMm, so that what
+/// belongs to something else weighs the same wherever it is.
 struct SurfaceFitQuality {
   double edge_mm = 0;            ///< Mean distance of the bounding edges to the model.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface to the model.
   double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
   double overlap_mm = 0;         ///< Mean depth to which limbs stick in other parts.
-  double unexplained_share = 0;  ///< Of the edges that lie far from every part.
+  double unexplained_share = 0;  ///< Of the edges: what is no part's.
 
   /// Weighs the edges most, because hulls lie about surfaces, and fast limbs are carved away.
   double Cost() const { return edge_mm + 0.25 * surface_mm + 0.5 * hollow_mm + overlap_mm; }
