@@ -78,7 +78,6 @@ bool CarriesArm(const BodyTable& table, const JointAxis& joint) {
 BodyTable ReadBodyTable(TomlSection root) {
   BodyTable table;
   table.name = root.Text("name");
-  table.measurement = static_cast<Measurement>(root.Choice("measurement", {"points", "surface"}));
   for (TomlSection& section : root.Sections("joints")) {
     if (table.joints.size() == kMaxJoints) {
       root.Fail("joints", "has more than " + std::to_string(kMaxJoints) + " axes");

@@ -149,7 +149,6 @@ class SurfaceCapture::Impl {
   }
 
   void RefineSizes() {
-    if (!RefinesSizes()) return;
     if (given_ || refiner_->frames() >= kFramesToRefine) return;
     if (tracker_->quality().Cost() > kDoubtCostMm) return;
     refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
@@ -158,13 +157,8 @@ class SurfaceCapture::Impl {
     result_.body_changed = true;
   }
 
-  bool RefinesSizes() const {
-    return tracker_->body().table().measurement == Measurement::kSurface;
-  }
   // Sizes that are still young may be what is wrong.
-  bool SizesAreKnown() const {
-    return given_ || !RefinesSizes() || refiner_->frames() >= kFramesToRefine;
-  }
+  bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
 
   // Sizes that are not known yet are not taken for granted, nor is the way that the person faces.
   void LookAgainInDoubt() {

@@ -11,7 +11,9 @@ namespace {
 
 // A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
 constexpr double kWorstCostMm = 34;
-constexpr double kMostHollowMm = 22;
+constexpr double kMostHollowMm = 15;
+// A person whose sizes are known fits as closely, whatever else there is.
+constexpr double kWorstKnownMm = 15;
 // So many candidates are followed closely, limbs and all: where the whole effort is made, and else.
 constexpr std::size_t kFinalists = 3;
 constexpr std::size_t kFewFinalists = 1;
@@ -73,6 +75,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   const Tracker& best = hypotheses_.front().tracker;
   contest.Remember(best.body().sizes(), best.filter().pose());
   if (CostOf(best) > kWorstCostMm) return false;
+  if (known && best.quality().explained_mm > kWorstKnownMm) return false;
   const auto opposite = std::ranges::find_if(candidates, [&](const PoseCandidate& candidate) {
     return FaceApart(candidate.pose, best.filter().pose());
   });

@@ -48,14 +48,9 @@ enum class Segment {
 };
 inline constexpr int kSegmentCount = 17;
 
-/// What the filter measures: the paper's 23 points of labelled voxels, or the surface of all of
-/// them.
-enum class Measurement { kPoints, kSurface };
-
 /// The chain: what `--body` chooses. Same code for every table.
 struct BodyTable {
   std::string name;
-  Measurement measurement = Measurement::kPoints;
   std::vector<JointAxis> joints;
   std::array<int, kSegmentCount>
       carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.

@@ -3,10 +3,6 @@
 namespace mocap {
 namespace {
 
-using JacobianBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
-
-// Labelled points lie some 40 mm off, and those of neighbouring parts err alike.
-constexpr double kPointStdMm = 70;
 // The person was seen to move so much farther than was foreseen: the fit would not reach.
 constexpr double kLeapMm = 50;
 constexpr double kStartStdMm = 50;
@@ -17,11 +13,9 @@ constexpr double kStartStdRad = 0.3;
 Tracker::Tracker(const BodyModel& body, const PoseState& pose)
     : body_(body),
       filter_(MotionNoise{}),
-      point_filter_(MotionNoise{}),
       surface_fit_(SurfaceFitOptions{}),
       limb_recovery_(body.table()) {
   filter_.Reset(pose, kStartStdMm, kStartStdRad);
-  point_filter_.Reset(pose, kStartStdMm, kStartStdRad);
 }
 
 void Tracker::Update(const Evidence& evidence, double dt_s) {
@@ -30,7 +24,6 @@ void Tracker::Update(const Evidence& evidence, double dt_s) {
   surface_fit_.SetEvidence(evidence);
   FollowLeap(evidence.cloud, filter_.pose().X_WT.p - before_W);
   FollowSurface(evidence, dt_s);
-  if (MeasuresPoints()) FollowPoints(evidence.cloud, dt_s);
 }
 
 void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
@@ -45,25 +38,6 @@ void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
     }
   }
   middle_W_ = middle_W;
-}
-
-void Tracker::FollowPoints(const VoxelCloud& cloud, double dt_s) {
-  if (dt_s > 0) point_filter_.Predict(dt_s);
-  const LabeledVoxels& labeled = labeler_.Label(cloud, body_, filter_.pose());
-  JacobianBlock J(3, body_.dof());
-  point_filter_.Update(
-      body_.table(),
-      [&](const PoseState& pose, UpdateEquations& equations) {
-        const Posture posture = body_.PostureAt(pose);
-        const BodyPoints points_W = body_.PointsAt(posture);
-        for (int i = 0; i < kPointCount; ++i) {
-          if (!labeled.points_W[i]) continue;
-          const Vector3 residual_mm = *labeled.points_W[i] - points_W.col(i);
-          body_.PointJacobian(posture, body_.CarrierOf(static_cast<Point>(i)), points_W.col(i), J);
-          equations.AddPoint(J, residual_mm, kPointStdMm * kPointStdMm);
-        }
-      },
-      Iterations{});
 }
 
 void Tracker::FollowSurface(const Evidence& evidence, double dt_s) {

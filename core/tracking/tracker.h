@@ -8,7 +8,6 @@
 #include "core/tracking/limb_recovery.h"
 #include "core/tracking/pose_filter.h"
 #include "core/tracking/surface_fit.h"
-#include "core/tracking/voxel_labeler.h"
 
 namespace mocap {
 
@@ -30,23 +29,19 @@ class Tracker {
   const BodyModel& body() const { return body_; }
   /// Changes the sizes; the pose stays.
   void Resize(const BodySizes& sizes) { body_.Resize(sizes); }
-  const PoseFilter& filter() const { return MeasuresPoints() ? point_filter_ : filter_; }
+  const PoseFilter& filter() const { return filter_; }
   SurfaceFit& surface_fit() { return surface_fit_; }
   /// How well the body explained the last frame once it was drawn to its surface.
   const SurfaceFitQuality& quality() const { return quality_; }
 
  private:
-  bool MeasuresPoints() const { return body_.table().measurement == Measurement::kPoints; }
   // Goes with the voxels where they went farther than was foreseen, if that explains them better.
   void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
-  void FollowPoints(const VoxelCloud& cloud, double dt_s);
   void FollowSurface(const Evidence& evidence, double dt_s);
   void FitSurface();  // And its quality.
 
   BodyModel body_;
-  PoseFilter filter_;        ///< Of the surface.
-  PoseFilter point_filter_;  ///< Of points of voxels, which are labelled by the other's pose.
-  VoxelLabeler labeler_;
+  PoseFilter filter_;
   SurfaceFit surface_fit_;
   LimbRecovery limb_recovery_;
   std::optional<Vector3> middle_W_;  ///< Of the voxels of the frame before.

@@ -196,7 +196,7 @@ TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
 }
 
 TEST_F(BodyFile, MoreAxesThanTheFilterHoldsAreRefused) {
-  std::string text = "name = \"centipede\"\nmeasurement = \"points\"\n";
+  std::string text = "name = \"centipede\"\n";
   for (int i = 0; i <= kMaxJoints; ++i) {
     text += "[[joints]]\nname = \"j" + std::to_string(i) +
             "\"\nparent = \"\"\naxis = [1, 0, 0]\nat = \"neck\"\nlimits_deg = [0, 1]\n";
