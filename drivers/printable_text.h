@@ -21,8 +21,8 @@ TextCharacter TakeCharacter(std::string_view& rest);
 /// a line or paragraph, none that turns the direction of writing.
 bool IsHarmless(char32_t code);
 
-/// Keeps a text on one line, without control characters, whatever stood in it: those become \x1b or
-/// \u{202e}, and so do bytes that are no UTF-8. Letters of all languages stay.
+/// Keeps a text on one line. Control characters and bytes that are no UTF-8 become `\x1b` or
+/// `\u{202e}`. Letters of all languages stay.
 std::string Printable(std::string_view text);
 
 /// The same for text of several lines, which stay lines.

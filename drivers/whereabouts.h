@@ -29,7 +29,7 @@ class Whereabouts {
 
  private:
   /// One word, so that it is written and read in one piece.
-  struct Place {
+  struct alignas(8) Place {
     std::int16_t is_known = 0;
     std::int16_t x_mm = 0, y_mm = 0, z_mm = 0;
   };

@@ -51,8 +51,8 @@ inline constexpr std::size_t kLongestReply = 65536;
 /// "background status"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
-/// Names become files: letters, digits, `.`, `_` and `-`, not beginning with `.` or `-`, nor
-/// ending in `.partial`, by which takes that are not complete are known.
+/// Names become files: letters, digits, dots, underscores and hyphens. They do not begin with a dot
+/// or hyphen, nor end in ".partial", which marks takes that are not complete.
 bool IsFileName(std::string_view name);
 
 /// A reply as it is sent: "done", "failed" or "wrong", a line's end, the text.
