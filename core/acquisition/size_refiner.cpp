@@ -65,22 +65,22 @@ void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* c
 }
 
 // What is known of the sizes without any frame: the inverse of their covariance.
-Information PriorOf(const BodySizes& average) {
-  const double stature_mm = average.Stature();
-  const BodySizes taller = AverageSizes(stature_mm + 1);
+Information PriorOf(const BodySizes& start) {
+  const double stature_mm = start.Stature();
+  const BodySizes usual = AverageSizes(stature_mm), taller = AverageSizes(stature_mm + 1);
   Information covariance = Information::Zero(kSizes, kSizes);
   const auto is_stout = [](int i) {
     return std::ranges::find(kStoutWidths, kRefined[i].size) != kStoutWidths.end();
   };
   const auto by_stature_mm = [&](int i) {
     const SizeMember size = kRefined[i].size;
-    return kStatureStdShare * stature_mm * (taller.*size - average.*size);
+    return kStatureStdShare * stature_mm * (taller.*size - usual.*size);
   };
   for (int i = 0; i < kSizes; ++i) {
     for (int j = 0; j < kSizes; ++j) {
       const double both = i == j ? 1 : is_stout(i) && is_stout(j) ? kWidthCorrelation : 0;
-      covariance(i, j) = both * kRefined[i].std_share * average.*kRefined[i].size *
-                             kRefined[j].std_share * average.*kRefined[j].size +
+      covariance(i, j) = both * kRefined[i].std_share * start.*kRefined[i].size *
+                             kRefined[j].std_share * start.*kRefined[j].size +
                          by_stature_mm(i) * by_stature_mm(j);
     }
   }
@@ -90,9 +90,9 @@ Information PriorOf(const BodySizes& average) {
 }  // namespace
 
 SizeRefiner::SizeRefiner(const BodyModel& body)
-    : average_(body.sizes()),
+    : start_(body.sizes()),
       by_size_(body, RefinedMembers()),
-      prior_(PriorOf(average_)),
+      prior_(PriorOf(start_)),
       information_(Eigen::MatrixXd::Zero(kSizes, kSizes)),
       vector_(Eigen::VectorXd::Zero(kSizes)) {}
 
@@ -121,7 +121,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
       H.bottomRightCorner(kSizes, kSizes) - H.bottomLeftCorner(kSizes, pose_dof) * by_pose;
   InformationVector away(kSizes);
   for (int i = 0; i < kSizes; ++i) {
-    away[i] = body.sizes().*kRefined[i].size - average_.*kRefined[i].size;
+    away[i] = body.sizes().*kRefined[i].size - start_.*kRefined[i].size;
   }
   information_ += kIndependent * information;
   vector_ +=
@@ -132,7 +132,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
 BodySizes SizeRefiner::Sizes() const {
   const Information information = information_ + prior_;
   const InformationVector away = information.llt().solve(vector_);
-  BodySizes sizes = average_;
+  BodySizes sizes = start_;
   for (int i = 0; i < kSizes; ++i) sizes.*kRefined[i].size += away[i];
   sizes.hip_width = AverageSizes(sizes.Stature()).hip_width;
   return sizes;

@@ -12,11 +12,11 @@ namespace mocap {
 /// Gathers what frame after frame tells of a person's sizes: each frame's residuals are linearised
 /// by pose and sizes together, the pose is marginalised out, and what remains adds up.
 ///
-/// Without any frame sizes are as among people: how tall somebody is is open, and parts differ from
-/// what is average for the stature as far as they do in a population (ANSUR, Gordon et al. 1989).
+/// Its prior is centred on the body that was found. Stature may be off by some percent, and each
+/// part differs as far as it does among people of a stature and build (ANSUR, Gordon et al. 1989).
 class SizeRefiner {
  public:
-  /// @param body  its stature is where the search for the person's begins.
+  /// @param body  that was found: the centre of the prior.
   explicit SizeRefiner(const BodyModel& body);
 
   /// Adds a frame that was fitted well.
@@ -27,7 +27,7 @@ class SizeRefiner {
   int frames() const { return frames_; }
 
  private:
-  BodySizes average_;
+  BodySizes start_;
   SizeJacobian by_size_;
   Eigen::MatrixXd prior_;        ///< Information without any frame.
   Eigen::MatrixXd information_;  ///< Of the frames.
