@@ -28,11 +28,15 @@ constexpr int kFramesToLose = 3;
 // After a look that found nothing better twice as many frames pass before the next, up to this.
 constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
-// The first look at somebody is a whole search, and what follows costs no more than there is time.
+// The first look at somebody is a whole search; what follows, also where a pose is in doubt, takes
+// about the time that there is.
 constexpr double kSearchesPerS = 9;
 constexpr double kLeastEffort = 0.1;
 // Sizes come to rest after so many frames that were fitted well.
 constexpr int kFramesToRefine = 90;
+
+double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
+
 // Of a point of the body, from what is known of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
                      const Vector3& p_WQ, const PoseCovariance& pose) {
@@ -121,7 +125,7 @@ class SurfaceCapture::Impl {
       case CaptureState::kTracking:
         tracker_->Update(evidence_, dt_s);
         RefineSizes();
-        LookAgainInDoubt();
+        LookAgainInDoubt(dt_s);
         NoticeLoss();
         break;
     }
@@ -129,8 +133,7 @@ class SurfaceCapture::Impl {
 
   void Acquire(double dt_s) {
     const bool is_first_look = std::exchange(looks_anew_, false);
-    const double effort = is_first_look ? 1 : std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0);
-    if (!acquirer_.Locate(evidence_, known_, effort)) return;
+    if (!acquirer_.Locate(evidence_, known_, is_first_look ? 1 : EffortWithin(dt_s))) return;
     looks_anew_ = true;
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;
@@ -161,7 +164,7 @@ class SurfaceCapture::Impl {
   bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
 
   // Sizes that are not known yet are not taken for granted, nor is the way that the person faces.
-  void LookAgainInDoubt() {
+  void LookAgainInDoubt(double dt_s) {
     const double cost_mm = tracker_->quality().Cost();
     if (cost_mm <= kDoubtCostMm) {
       doubtful_frames_ = 0;
@@ -172,7 +175,8 @@ class SurfaceCapture::Impl {
     doubtful_frames_ = 0;
     patience_ = std::min(2 * patience_, kLongestDoubt);
     const bool sizes_are_known = SizesAreKnown();
-    if (!acquirer_.Locate(evidence_, sizes_are_known ? known_ : std::nullopt, 1)) return;
+    const std::optional<BodySizes> sizes = sizes_are_known ? known_ : std::nullopt;
+    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s))) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
