@@ -11,7 +11,7 @@ namespace {
 
 // A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
 constexpr double kWorstCostMm = 34;
-constexpr double kMostHollowMm = 15;
+constexpr double kMostHollowMm = 22;
 // A person whose sizes are known fits as closely, whatever else there is.
 constexpr double kWorstKnownMm = 15;
 // So many candidates are followed closely, limbs and all: where the whole effort is made, and else.
