@@ -132,8 +132,9 @@ class SurfaceCapture::Impl {
   }
 
   void Acquire(double dt_s) {
-    const bool is_first_look = std::exchange(looks_anew_, false);
-    if (!acquirer_.Locate(evidence_, known_, is_first_look ? 1 : EffortWithin(dt_s))) return;
+    const double effort = std::exchange(looks_anew_, false) ? 1 : EffortWithin(dt_s);
+    if (!acquirer_.Locate(evidence_, known_, effort)) return;
+    if (known_ && acquirer_.IsStranger(evidence_, effort)) return;
     looks_anew_ = true;
     frames_acquiring_ = 1;
     result_.state = CaptureState::kAcquiring;

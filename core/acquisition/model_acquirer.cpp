@@ -12,8 +12,8 @@ namespace {
 // A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
 constexpr double kWorstCostMm = 34;
 constexpr double kMostHollowMm = 22;
-// A person whose sizes are known fits as closely, whatever else there is.
-constexpr double kWorstKnownMm = 15;
+// Somebody whom other sizes explain so much better is not the person that is known.
+constexpr double kStrangerBetterMm = 6;
 // So many candidates are followed closely, limbs and all: where the whole effort is made, and else.
 constexpr std::size_t kFinalists = 3;
 constexpr std::size_t kFewFinalists = 1;
@@ -75,7 +75,6 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   const Tracker& best = hypotheses_.front().tracker;
   contest.Remember(best.body().sizes(), best.filter().pose());
   if (CostOf(best) > kWorstCostMm) return false;
-  if (known && best.quality().explained_mm > kWorstKnownMm) return false;
   const auto opposite = std::ranges::find_if(candidates, [&](const PoseCandidate& candidate) {
     return FaceApart(candidate.pose, best.filter().pose());
   });
@@ -86,6 +85,13 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   frames_ = 1;
   settled_ = known.has_value();
   return true;
+}
+
+bool ModelAcquirer::IsStranger(const Evidence& evidence, double effort) {
+  const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, effort);
+  if (strangers.empty()) return false;
+  const Hypothesis stranger = Begin(strangers_, strangers.front(), evidence, true);
+  return CostOf(best()) > CostOf(stranger.tracker) + kStrangerBetterMm;
 }
 
 // @param measures  whether the sizes are open.

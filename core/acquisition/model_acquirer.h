@@ -22,6 +22,12 @@ class ModelAcquirer {
   /// @return whether one was found that explains the evidence.
   bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort);
 
+  /// Whether a body of other sizes explains the evidence clearly better than the one that was
+  /// located with known sizes.
+  /// @param effort  as above.
+  /// @pre Locate has succeeded.
+  bool IsStranger(const Evidence& evidence, double effort);
+
   /// Takes whoever is seen next for somebody else.
   void StartOver();
 

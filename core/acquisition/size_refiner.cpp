@@ -14,19 +14,19 @@ struct RefinedSize {
   double std_share;  // How far people of a stature and build differ.
 };
 
-// Lengths differ among people of a stature by some five percent, and widths by more (ANSUR, Gordon
+// Lengths differ among people of a stature by some three percent, and widths by more (ANSUR, Gordon
 // et al. 1989); clothes and hair come on top. The hips stay where they are: they lie so deep within
 // flesh that contours show nothing of them.
-constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.05},
+constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::torso_width, 0.12},
                                                    {&BodySizes::torso_depth, 0.15},
                                                    {&BodySizes::head, 0.1},
                                                    {&BodySizes::head_width, 0.15},
-                                                   {&BodySizes::neck, 0.05},
-                                                   {&BodySizes::upper_arm, 0.06},
-                                                   {&BodySizes::lower_arm, 0.06},
-                                                   {&BodySizes::thigh, 0.06},
-                                                   {&BodySizes::calf, 0.06},
+                                                   {&BodySizes::neck, 0.03},
+                                                   {&BodySizes::upper_arm, 0.035},
+                                                   {&BodySizes::lower_arm, 0.035},
+                                                   {&BodySizes::thigh, 0.035},
+                                                   {&BodySizes::calf, 0.035},
                                                    {&BodySizes::upper_arm_width, 0.2},
                                                    {&BodySizes::lower_arm_width, 0.2},
                                                    {&BodySizes::thigh_width, 0.2},
@@ -40,8 +40,9 @@ constexpr int kMostUnknowns = kMaxDof + kSizes;
 using Information =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
 using InformationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
-// Frames err alike: the model is too simple in the same way in each.
-constexpr double kIndependent = 0.2;
+// Cloth hangs outside of the flesh and never inside: evidence beyond a part's surface tells less of
+// the part than evidence within (asymmetric least squares; Newey and Powell 1987).
+constexpr double kClothVariance = 2.5;
 constexpr double kPoseStdMm = 40;
 constexpr double kPoseStdRad = 0.2;
 
@@ -107,8 +108,10 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
     if (!residual.is_edge) continue;
     row.head(pose_dof) = residual.J_outside_by_step;
     for (int i = 0; i < kSizes; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
-    AddSquare(row.data(), n, 1 / residual.variance, H.data());
-    g += row * (residual.outside_mm / residual.variance);
+    const double variance =
+        residual.outside_mm > 0 ? kClothVariance * residual.variance : residual.variance;
+    AddSquare(row.data(), n, 1 / variance, H.data());
+    g += row * (residual.outside_mm / variance);
   }
   H = Information(H.selfadjointView<Eigen::Lower>());
   for (int i = 0; i < pose_dof; ++i) {
@@ -123,9 +126,8 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
   for (int i = 0; i < kSizes; ++i) {
     away[i] = body.sizes().*kRefined[i].size - start_.*kRefined[i].size;
   }
-  information_ += kIndependent * information;
-  vector_ +=
-      kIndependent * (g.tail(kSizes) - by_pose.transpose() * g.head(pose_dof) + information * away);
+  information_ += information;
+  vector_ += g.tail(kSizes) - by_pose.transpose() * g.head(pose_dof) + information * away;
   ++frames_;
 }
 

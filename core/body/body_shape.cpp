@@ -5,6 +5,10 @@
 namespace mocap {
 namespace {
 
+// People are taller than their bodies by shoes and hair: some 20 and 15 mm.
+constexpr double kSole_mm = 20;
+constexpr double kHair_mm = 15;
+
 class ShapeBuilder {
  public:
   ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPlaces& points_T,
@@ -47,7 +51,7 @@ class ShapeBuilder {
     const double width = s.head_width;
     const Vector3 head = At(Point::kHead);
     const double skull_radius = 0.45 * width;
-    const double skull_z = s.head / 2 - skull_radius;
+    const double skull_z = s.head / 2 + kHair_mm - skull_radius;
     const Vector3 forward(0.12 * width, 0, 0);
     Add(BodyPart::kHead, Segment::kHead, head - forward + Vector3(0, 0, skull_z),
         head + forward + Vector3(0, 0, skull_z), skull_radius, skull_radius);
@@ -85,7 +89,7 @@ class ShapeBuilder {
     const BodySizes& s = sizes_;
     const Vector3 hip = At(hip_point);
     const Vector3 knee = At(knee_point);
-    const Vector3 sole = At(foot_point);
+    const Vector3 sole = At(foot_point) - Vector3(0, 0, kSole_mm);
     const double thigh_radius = s.thigh_width / 2;
     const double calf_radius = s.calf_width / 2;
     const Vector3 front = hip + 0.55 * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);

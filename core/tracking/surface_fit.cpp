@@ -180,13 +180,10 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
     const double distance_mm = std::min<double>(distances_mm[i], kExplainedMm);
     (is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
     edges += is_edge;
-    const bool is_explained = distance_mm < kExplainedMm;
-    quality.unexplained_share += is_edge && !is_explained;
-    if (is_edge && is_explained) quality.explained_mm += distance_mm;
+    quality.unexplained_share += is_edge && distance_mm >= kExplainedMm;
   }
   const int voxels = static_cast<int>(distances_mm.size()) - edges;
   quality.edge_mm /= std::max(1, edges);
-  quality.explained_mm /= std::max(1.0, edges - quality.unexplained_share);
   quality.unexplained_share /= std::max(1, edges);
   quality.surface_mm /= std::max(1, voxels);
   const double places = static_cast<double>(posed_.size() * kCoreShares.size());

@@ -35,7 +35,6 @@ inline constexpr double kExplainedMm = 60;
 /// belongs to something else weighs the same wherever it is.
 struct SurfaceFitQuality {
   double edge_mm = 0;            ///< Mean distance of the bounding edges to the model.
-  double explained_mm = 0;       ///< The same of those edges that are some part's.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface to the model.
   double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
   double overlap_mm = 0;         ///< Mean depth to which limbs stick in other parts.

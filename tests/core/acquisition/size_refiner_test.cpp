@@ -16,16 +16,20 @@ BodySizes SizesOf(double stature_mm, double build) {
   return sizes;
 }
 
+PoseState Upright(const BodyModel& body) {
+  PoseState pose;
+  pose.theta = AnglesOf({}, body.table());
+  pose.X_WT.R.setIdentity();
+  pose.X_WT.p = Vector3(0, 0, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+  return pose;
+}
+
 // Whose stature was taken for 50 mm less, by a body of the right build.
 double StatureMeasured(double stature_mm, double build) {
   const BodyTable table = LoadBodyTable("full");
   const BodyModel person(table, SizesOf(stature_mm, build));
   const BodyModel found(table, SizesOf(stature_mm - 50, build));
-  PoseState pose;
-  pose.theta = AnglesOf({}, table);
-  pose.X_WT.R.setIdentity();
-  pose.X_WT.p =
-      Vector3(0, 0, person.sizes().torso / 2 + person.sizes().thigh + person.sizes().calf);
+  const PoseState pose = Upright(person);
   const RoundStudio studio;
   const Evidence evidence = studio.Show(person, pose);
   Tracker tracker(found, pose);
@@ -48,6 +52,32 @@ TEST(SizeRefiner, WithoutFramesKeepsTheBodyThatWasFound) {
 TEST(SizeRefiner, MeasuresTheStatureOfWhoIsLeanAndOfWhoIsStout) {
   EXPECT_NEAR(StatureMeasured(1750, 1), 1750, 25);
   EXPECT_NEAR(StatureMeasured(1750, 1.4), 1750, 25);
+}
+
+// Half of the cameras see wide trousers, the others the legs.
+TEST(SizeRefiner, ClothCountsLessThanTheLimbWithin) {
+  const BodyTable table = LoadBodyTable("full");
+  const BodySizes legs = AverageSizes(1750);
+  BodySizes trousers = legs;
+  trousers.thigh_width *= 1.4;
+  trousers.calf_width *= 1.4;
+  BodySizes middle = legs;
+  middle.thigh_width *= 1.2;
+  middle.calf_width *= 1.2;
+  const BodyModel found(table, middle);
+  const PoseState pose = Upright(found);
+  const RoundStudio studio;
+  Evidence evidence = studio.Show(BodyModel(table, legs), pose);
+  const Evidence wide = studio.Show(BodyModel(table, trousers), pose);
+  for (std::size_t i = 0; i < evidence.outlines.size(); i += 2)
+    evidence.outlines[i] = wide.outlines[i];
+  FindBoundingEdges(wide.cloud, evidence.outlines, evidence.edges, evidence.missing);
+  SurfaceFit fit(SurfaceFitOptions{});
+  fit.SetEvidence(evidence);
+  SizeRefiner refiner(found);
+  refiner.Add(found, fit, pose);
+  EXPECT_LT(refiner.Sizes().thigh_width, 0.97 * middle.thigh_width);
+  EXPECT_LT(refiner.Sizes().calf_width, 0.97 * middle.calf_width);
 }
 
 }  // namespace
