@@ -1,4 +1,4 @@
-// What differs between two versions of the daemon's configuration.
+// Differences between two versions of the daemon's configuration.
 #pragma once
 
 #include <filesystem>

@@ -21,7 +21,7 @@ std::string Shown(double value) {
   return out.str();
 }
 
-// What a value looks like in a message: short, and on one line.
+// Formats a value for a message: short, and on one line.
 std::string Shown(const toml::node& node) {
   if (const auto* text = node.as_string()) return Quoted(text->get());
   if (const auto* number = node.as_floating_point()) return Shown(number->get());

@@ -37,7 +37,7 @@ constexpr int kFramesToRefine = 90;
 
 double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
 
-// Of a point of the body, from what is known of the joints that move it.
+// Covariance of a point of the body, from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
                      const Vector3& p_WQ, const PoseCovariance& pose) {
   using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;

@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-/// What became of a recording.
+/// Outcome of a recording.
 struct BackgroundRecord {
   int frames = 0;
   /// Share of the picture that differed clearly from the first frame, in the worst one.

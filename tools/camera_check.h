@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// What a camera did while it was watched.
+/// Observations of one camera.
 struct CameraRun {
   std::string name;
   CameraRequest request;
@@ -33,7 +33,7 @@ struct CameraRun {
 /// Watches all cameras at the same time. Nothing is thrown for a camera that does not work.
 std::vector<CameraRun> WatchCameras(std::vector<LiveCamera>& cameras, double seconds);
 
-/// What several cameras share.
+/// Observations that concern several cameras.
 struct BusLoad {
   std::string bus;
   double used_mbit_s = 0;

@@ -46,7 +46,7 @@ struct StandingPerson {
 
 StandingPerson MeasurePerson(const TakeSamples& samples);
 
-/// What refining did.
+/// Outcome of refining.
 struct RefinedStudio {
   std::vector<CameraCalibration> cameras;
   std::vector<CameraShift> before, after;

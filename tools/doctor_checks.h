@@ -1,4 +1,4 @@
-// What `mocap doctor` looks at, one function each.
+// The checks of `mocap doctor`, one function each.
 #pragma once
 
 #include <filesystem>

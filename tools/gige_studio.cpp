@@ -49,7 +49,7 @@ struct StudioOptions {
   std::filesystem::path config;
 };
 
-/// What the parent needs to know.
+/// Report to the parent process.
 struct StudioPlan {
   std::vector<std::string> names, ips;
   double fps = 30;

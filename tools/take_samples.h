@@ -13,7 +13,7 @@
 
 namespace mocap {
 
-/// What one camera saw at a moment.
+/// One camera's picture at a moment.
 struct SampledView {
   RigidTransform X_CW;
   Silhouette silhouette;

@@ -38,7 +38,7 @@ class ModelAcquirer {
   bool settled() const { return settled_; }
   /// The likeliest body. @pre Locate has succeeded.
   const Tracker& best() const { return hypotheses_.front().tracker; }
-  /// What the frames so far tell of its sizes. @pre as above.
+  /// The estimate of its sizes from all frames so far. @pre as above.
   const SizeRefiner& sizes() const { return hypotheses_.front().sizes; }
 
  private:

@@ -21,9 +21,9 @@ struct PoseCandidate {
 /// Holds poses against frame after frame: those of a library, and the best of the frame before.
 class PoseContest {
  public:
-  /// Of people of all statures and builds.
+  /// Makes a contest among people of all statures and builds.
   static PoseContest OfStrangers(const BodyTable& table);
-  /// Of one person.
+  /// Makes a contest among the poses of one person.
   explicit PoseContest(const BodyModel& body) : PoseContest({body}, 1) {}
 
   const BodyModel& body(int index) const { return bodies_[index]; }

@@ -65,7 +65,7 @@ void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* c
   }
 }
 
-// What is known of the sizes without any frame: the inverse of their covariance.
+// The prior's information: the inverse of its covariance.
 Information PriorOf(const BodySizes& start) {
   const double stature_mm = start.Stature();
   const BodySizes usual = AverageSizes(stature_mm), taller = AverageSizes(stature_mm + 1);

@@ -63,7 +63,7 @@ inline constexpr std::array<std::string_view, kPointCount> kPointNames = {
     "lower_arm_l",  "lower_arm_r", "calf_l",      "calf_r",      "neck",    "shoulder_l",
     "shoulder_r",   "hip_l",       "hip_r",       "elbow_l",     "elbow_r", "fingertips_l",
     "fingertips_r", "knee_l",      "knee_r",      "foot_l",      "foot_r"};
-/// Of the joints that follow the 23 points.
+/// Names of the joints that follow the 23 points.
 inline constexpr std::array<std::string_view, kPlaceCount - kPointCount> kMoreJointNames = {
     "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r"};
 

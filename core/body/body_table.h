@@ -21,7 +21,7 @@ struct JointAxis {
   /// Where the joint rests, and how far it strays from there [rad]: a prior for angles that voxels
   /// hardly show. With a spread of 0 there is none.
   double rest_rad = 0, rest_std_rad = 0;
-  /// Of a collar bone: how much farther it rests once the arm that it carries is level; as much
+  /// For a collar bone: how much higher it rests once the arm that it carries is level; as much
   /// again when the arm is overhead.
   double rise_rad = 0;
 };

@@ -237,7 +237,7 @@ Eigen::VectorXd Residuals(const Camera& camera, const std::vector<Vector3>& p_P,
     const Vector3 p_C = camera.X_CP * p_P[i];
     std::optional<Vector2> pixel;
     if (p_C.z() > 0) pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
-    // What such a camera could not show makes it no candidate.
+    // A camera that could not show the points is no candidate.
     const Vector2 error =
         pixel ? Vector2(*pixel - points[i].pixel) : Vector2::Constant(HUGE_VAL).eval();
     r.segment<2>(2 * static_cast<Eigen::Index>(i)) = error;

@@ -16,7 +16,7 @@ struct PointSighting {
   Vector2 pixel;
 };
 
-/// What is known of the sensor before calibration.
+/// The sensor as known before calibration.
 struct TsaiSensor {
   Vector2 pitch_mm = Vector2::Zero();   ///< dx, dy.
   Vector2 center_px = Vector2::Zero();  ///< Where the axis is supposed to meet the picture.

@@ -53,7 +53,7 @@ struct FrameError {
   ScoredAngles angle_rad;  ///< Absolute.
 };
 
-/// What is left of a set of distances [mm].
+/// Summary of a set of distances [mm].
 struct DistanceSummary {
   double mean = 0, median = 0, p95 = 0, worst = 0;
 };

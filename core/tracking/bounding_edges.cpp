@@ -10,7 +10,7 @@ namespace {
 // As shares of a voxel: how far apart a ray is looked at, and how far inside of it.
 constexpr double kStep = 0.8;
 constexpr double kInward = 0.7;
-// Of a camera's rays.
+// Share of a camera's rays.
 constexpr double kMostMissing = 1.0 / 3;
 
 struct Range {

@@ -1,4 +1,4 @@
-// What the body's surface should touch.
+// Contacts: places and rays that the body's surface should touch.
 #pragma once
 
 #include <span>

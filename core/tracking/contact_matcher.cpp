@@ -36,7 +36,7 @@ static_assert(kKeyBits >= 2 + 3 * kCellBits);
 // Blocks that take the same first guess.
 constexpr int kFirstTogether = 8;
 
-// What is found for a block's contacts, while it is looked for.
+// The best matches so far of a block's contacts.
 struct BestLanes {
   Floats mismatch, distance;
   Ints capsule;
@@ -293,7 +293,7 @@ void ContactMatcher::MatchAll(std::span<const PosedCapsule> capsules, double rea
   const int together = std::exchange(has_favourites_, true) ? count : kFirstTogether;
   for (int begin = 0; begin < count; begin += together) {
     const int end = std::min(begin + together, count);
-    // What explains the neighbours is a first guess.
+    // The capsules that explain the neighbours are a first guess.
     for (int b = begin; b < end && begin > 0; ++b)
       if (blocks_[b].favourites == 0) blocks_[b].favourites = blocks_[begin - 1].favourites;
     MatchBlocks(begin, end, static_cast<float>(reach_mm));

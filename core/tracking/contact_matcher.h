@@ -63,7 +63,7 @@ class ContactMatcher {
     Eigen::Vector3f low, high;     ///< The corners of a box around them.
     std::uint32_t favourites = 0;  ///< The capsules that were the best of some, as bits.
   };
-  /// What a block's contacts match best.
+  /// The best matches of a block's contacts.
   struct Best {
     alignas(32) std::array<float, Block::kContacts> mismatch, distance;
     alignas(32) std::array<std::int32_t, Block::kContacts> capsule;

@@ -1,4 +1,4 @@
-// What one frame set shows of the person.
+// The evidence of one frame set: voxels and outlines of the person.
 #pragma once
 
 #include <span>

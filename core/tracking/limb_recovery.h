@@ -64,7 +64,7 @@ class LimbRecovery {
   bool RecoverLost(const BodyModel& body, const Evidence& evidence, SurfaceFit& fit,
                    Candidate& present);
   void StartOver();
-  // What a search in vain left it would leave again, until the body has moved on.
+  // A search that failed would fail again until the body has moved on.
   bool IsWorthSearching(double unexplained_share) const;
   // Hands that cross look as if they had touched and gone back, until they are apart again.
   bool Exchange(const BodyModel& body, const Evidence& evidence,

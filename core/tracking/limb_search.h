@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// What a limb in a certain stance explains.
+/// The evidence that a limb explains in a certain stance.
 struct LimbClaim {
   std::vector<double> distances_mm;  ///< Of each open contact to the limb or the rest of the body.
   double own_cost_mm = 0;            ///< For lying in the void, and running into other parts.
@@ -26,13 +26,13 @@ class LimbSearch {
   void Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
              Segment limb_end, Segment absent, const PoseState& pose);
 
-  /// What the limb costs with the angles that it has in `pose` [mm]; comparable between poses that
+  /// Cost of the limb with the angles that it has in `pose` [mm]; comparable between poses that
   /// differ in this limb alone.
   double CostAt(const PoseState& pose);
   /// The same in parts: what it explains of each contact that is open, and what it costs by itself.
   /// @return  valid until the next call.
   const LimbClaim& ClaimAt(const PoseState& pose);
-  /// What two limbs cost together. @pre each was searched with the other absent.
+  /// Cost of two limbs together. @pre each was searched with the other absent.
   double JointCost(const LimbClaim& limb, const LimbClaim& other) const;
   /// Improves the limb's angles from those in `pose`.
   void Refine(PoseState& pose, int iterations);

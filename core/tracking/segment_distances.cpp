@@ -16,7 +16,7 @@ struct Batch {
 
   Columns a, core, from, along;
   Column radius, taper;
-  // What is found.
+  // Results.
   Columns place, segment_place;
   Column outside, share;
 };

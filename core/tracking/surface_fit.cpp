@@ -14,7 +14,7 @@ double Inflation(double residual, double outlier) {
   return (1 + scaled * scaled) * (1 + scaled * scaled);
 }
 
-// Of feet only the toes are: with heels held as well, feet on steps came out 60 mm off and not 25.
+// Only the toes of a foot are held: with heels, feet on steps came out 60 mm off and not 25.
 // The elbow is the upper arm's, and the wrist the forearm's.
 bool IsHeldByBorders(const Capsule& capsule, double share) {
   switch (capsule.part) {
@@ -29,7 +29,7 @@ bool IsHeldByBorders(const Capsule& capsule, double share) {
   }
 }
 
-// What a tapered capsule's surface comes nearer when the core slides along itself.
+// How much nearer a tapered capsule's surface comes as the core slides along itself.
 Vector3 LeanOf(const PosedCapsule& capsule, double share) {
   if (share <= 0 || share >= 1) return Vector3::Zero();
   const Vector3 core_W = capsule.b_W - capsule.a_W;

@@ -28,7 +28,7 @@ struct SurfaceFitOptions {
   double void_outlier_mm = 60;
 };
 
-/// What is farther than this from every part is no part's: hair, a bag, a chair, a shadow.
+/// Evidence farther than this from every part belongs to none: hair, a bag, a chair, a shadow.
 inline constexpr double kExplainedMm = 60;
 
 /// How well a posed body explains the evidence. Distances are cut at kExplainedMm, so that what

@@ -15,7 +15,7 @@
 
 namespace mocap {
 
-/// What each camera knows of the empty studio, for whoever asks. Thread-safe.
+/// Each camera's knowledge of the empty studio. Thread-safe.
 class KnownBackgrounds {
  public:
   explicit KnownBackgrounds(std::vector<BackgroundSource> sources) : sources_(std::move(sources)) {}

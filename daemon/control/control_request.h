@@ -1,4 +1,4 @@
-// What the running daemon can be asked: one line of words.
+// Requests to the running daemon: one line of words each.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// What came of reading the configuration again.
+/// Outcome of reading the configuration again.
 struct ReloadResult {
   std::vector<std::string> applied;       ///< Keys that changed and now hold.
   std::vector<std::string> need_restart;  ///< Keys that differ from what the daemon runs with.
@@ -22,7 +22,7 @@ class LiveConfig {
   /// @param file  none: the defaults, which cannot be reloaded. @throws SetupError
   explicit LiveConfig(const std::optional<std::filesystem::path>& file);
 
-  /// What holds now.
+  /// The configuration in force.
   const Config& config() const { return config_; }
   /// The file's text as it was read at the start.
   const std::string& text() const { return started_with_; }

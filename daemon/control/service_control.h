@@ -1,4 +1,4 @@
-// What becomes of a request to the running daemon.
+// Carries out requests to the running daemon.
 #pragma once
 
 #include <mutex>

@@ -15,7 +15,7 @@
 
 namespace mocap {
 
-/// What was heard lately.
+/// Messages heard lately.
 struct ChannelStatus {
   bool reaches_nobody = false;  ///< Messages stay in this process.
   bool other_sender = false;    ///< Somebody else sends on the same channels.

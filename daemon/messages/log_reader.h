@@ -30,7 +30,7 @@ class LogReader {
   /// Gives the next message; false at the end. Memory of `message` is reused.
   bool Next(LoggedMessage& message);
 
-  /// What was passed over so far.
+  /// Counts of passed-over parts so far.
   std::int64_t damaged_bytes() const { return damaged_bytes_; }
   std::int64_t damaged_places() const { return damaged_places_; }
 

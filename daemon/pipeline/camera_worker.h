@@ -20,10 +20,10 @@
 
 namespace mocap {
 
-/// Of an outline, at most.
+/// Most rays of an outline.
 inline constexpr int kRaysPerCamera = 100;
 
-/// What leaves a camera's thread: the outline, no pixels.
+/// The output of a camera's thread: silhouette and outline, no pixels.
 struct SegmentedFrame {
   Silhouette silhouette;
   Outline outline;      ///< The silhouette's border.
@@ -84,7 +84,7 @@ class CameraWorker {
   Expectation expectation() const { return expectation_.load(std::memory_order_acquire); }
   /// Time of the newest segmented frame.
   std::int64_t newest_ns() const { return newest_ns_.load(std::memory_order_relaxed); }
-  /// What the worker itself has counted.
+  /// The worker's own counters.
   CameraStatus Status() const;
 
  private:

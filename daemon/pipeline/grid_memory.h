@@ -34,7 +34,7 @@ class GridMemory {
     grid.Release();
     beyond_bytes_.fetch_sub(beyond, std::memory_order_relaxed);
   }
-  /// What grids keep beyond what is usual.
+  /// Memory that grids keep beyond the usual.
   std::size_t beyond_bytes() const { return beyond_bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -58,7 +58,7 @@ class LatencyHistogram {
   }
   double MaxMs() const { return PercentileMs(1); }
 
-  /// What came after an earlier state of the same recorder.
+  /// The samples since an earlier state of the same recorder.
   LatencyHistogram Since(const LatencyHistogram& earlier) const {
     LatencyHistogram later = *this;
     for (std::size_t i = 0; i < counts_.size(); ++i) later.counts_[i] -= earlier.counts_[i];

@@ -65,7 +65,7 @@ class LoadControl {
   std::int64_t impatient_until_ns_ = kAll;
   std::array<std::int64_t, kMostUnderWay> captures_ns_{};  ///< Of the latest sets, in a ring.
   std::int64_t sets_ = 0;
-  /// What lies between capture and arrival when nothing waits: exposure, transfer, another clock.
+  /// Delay from capture to arrival when nothing waits: exposure, transfer, another clock.
   /// The least of the span before and of the present one: a clock that was set is forgotten.
   std::int64_t least_delay_ns_ = kNoDelayYet;
   std::int64_t least_of_span_ns_ = kNoDelayYet;

@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// What happens when a producer finds its queue full.
+/// Policy for a producer that finds its queue full.
 enum class Overflow {
   kWait,       ///< The producer waits: nothing is lost. For takes that are evaluated.
   kDropOldest  ///< The stalest item goes and is counted. For live cameras.
@@ -65,7 +65,7 @@ class SpscQueue {
     for (;;) {
       const std::uint64_t published = published_.load(std::memory_order_acquire);
       if (popped_ == published) return false;
-      // What lies further back than the ring is long has been overwritten.
+      // Items further back than the ring is long have been overwritten.
       if (published - popped_ > cells_.size()) popped_ = published - cells_.size();
       std::atomic<std::uint64_t>& cell = cells_[popped_ % cells_.size()];
       std::uint64_t value = cell.load(std::memory_order_acquire);

@@ -1,4 +1,4 @@
-// What the pipeline measures of itself.
+// The stages whose latency the pipeline measures.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// What is known of a camera that has no front.
+/// State of a camera that has no frame at its front.
 enum class Expectation {
   kNone,      ///< It is lost or has ended: sets go on without it.
   kPossible,  ///< It may deliver: sets wait for it with patience.

@@ -15,7 +15,7 @@
 
 namespace mocap {
 
-/// What latency counts from.
+/// The origin of latency.
 enum class LatencyOrigin {
   kCapture,  ///< The frames' own time: cameras, and recordings in real time.
   kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.

@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// What a thread has spent since it began, as the kernel counts.
+/// Processor time of a thread since it began, as the kernel counts it.
 struct ThreadTimes {
   std::int64_t ran_ns = 0;
   std::int64_t queued_ns = 0;  ///< It could have run, and others did.
@@ -31,7 +31,7 @@ struct CodingTime {
 
 enum class LossCause { kUnknown, kOtherWork, kCodec, kDisk, kPoses };
 
-/// What kept threads from writing what there was.
+/// The reason why threads could not write all that there was.
 /// @param processors  that they may use.
 LossCause CauseOf(const CodingTime& time, int processors);
 

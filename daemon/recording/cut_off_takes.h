@@ -1,4 +1,4 @@
-// What earlier runs of the daemon could not complete.
+// Takes that earlier runs of the daemon could not complete.
 #pragma once
 
 #include <cstdint>

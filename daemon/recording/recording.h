@@ -28,7 +28,7 @@
 
 namespace mocap {
 
-/// What a recording needs to know of a camera.
+/// Facts about a camera that a recording needs.
 struct RecordedCamera {
   CameraCalibration calibration;
   BackgroundSource background;

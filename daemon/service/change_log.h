@@ -1,4 +1,4 @@
-// What the log tells: changes, not the course of things.
+// Logs changes, not the course of things.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What only the disk can tell, asked where nothing waits for it.
+// Asks the disk in a thread that nothing waits for.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct DiskErrand {
   std::string metrics_text;
 };
 
-/// What was found.
+/// Findings.
 struct DiskFindings {
   std::int64_t bytes_free = 0;  ///< For takes.
   std::string takes_problem;    ///< Why none can be written; empty: they can.

@@ -11,7 +11,7 @@
 
 namespace mocap {
 
-/// What a sudden change of light was.
+/// A sudden change of light.
 struct LightChange {
   std::int64_t time_ns = 0;          ///< As it was noticed, by the clock of Add.
   std::vector<std::string> cameras;  ///< That saw it.

@@ -1,4 +1,4 @@
-// What a person at the terminal sees of the running system.
+// The running system as a person at the terminal sees it.
 #pragma once
 
 #include <atomic>

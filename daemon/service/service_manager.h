@@ -1,4 +1,4 @@
-// What systemd hears of the daemon; nothing where it does not listen.
+// Notifies systemd; does nothing where it does not listen.
 #pragma once
 
 #include <atomic>

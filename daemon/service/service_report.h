@@ -27,7 +27,7 @@ struct Made {
   std::int64_t made_s = 0;  ///< Since the Unix epoch; 0: unknown.
 };
 
-/// What becomes of messages.
+/// The fate of messages: sent, failed, not received.
 struct Delivery {
   std::string problem;  ///< Why they cannot be sent at present; empty: they can.
   ChannelStatus channel;

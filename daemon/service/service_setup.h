@@ -19,7 +19,7 @@
 
 namespace mocap {
 
-/// What the daemon has before its first camera is started.
+/// The parts of the daemon that exist before its first camera is started.
 struct PreparedService {
   BodyTable body;
   std::unique_ptr<lcm::LCM> lcm;

@@ -12,7 +12,7 @@ namespace mocap {
 /// What may happen to a camera: it falls silent, a light shines into it, or somebody turns it.
 enum class Mishap { kNone, kLost, kBlinded, kTurned };
 
-/// What goes wrong with a camera's pictures.
+/// A fault of a camera's pictures.
 struct PictureDisturbance {
   /// Share of each picture that squares cover, anew in every frame: every other one shows the empty
   /// studio, a hole in whoever stands there, and the others a grey that is nobody.

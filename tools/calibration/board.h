@@ -1,4 +1,4 @@
-// What is shown to cameras: a flat board whose corners are known, or a wand with two lights.
+// A calibration target: a flat board whose corners are known, or a wand with two lights.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is still missing while a board is shown to live cameras.
+// Tells what is still missing while a board is shown to live cameras.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What YAML, JSON and OpenCV's XML hold: texts in sequences and mappings, each with its line.
+// The content of YAML, JSON and OpenCV's XML: texts in sequences and mappings, each with its line.
 #pragma once
 
 #include <filesystem>

@@ -75,7 +75,7 @@ Cameras ReadAgain(const std::string& format, const fs::path& written, const Came
                   double unit_mm) {
   if (format == "mocap") return LoadCalibration(written);
   std::vector<ForeignCamera> found = ReadForeign(format, written, unit_mm);
-  // What the format does not tell.
+  // Facts that the format does not hold.
   for (ForeignCamera& camera : found) {
     const auto same = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const auto& c) { return c.name == camera.name; });

@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// What became of one camera.
+/// Outcome for one camera.
 struct CameraFit {
   std::string name;
   double lens_rms_px = 0;        ///< Of its lens alone; 0 when the lens was given.

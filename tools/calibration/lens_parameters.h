@@ -7,7 +7,7 @@
 
 namespace mocap {
 
-/// What is refined of a lens. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3 (k4 k5 k6
+/// Refined parameters of a lens. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3 (k4 k5 k6
 /// stay as they are); fisheye: fx fy cx cy k1 k2 k3 k4.
 std::vector<double> LensParameters(const Lens& lens);
 

@@ -1,4 +1,4 @@
-// What all cameras saw of a board, without the pictures.
+// Detections of a board by all cameras, without the pictures.
 #pragma once
 
 #include <functional>

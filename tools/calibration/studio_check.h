@@ -1,4 +1,4 @@
-// What a studio's calibration is worth, beyond reprojection: is it a room that can be?
+// Checks a studio's calibration beyond reprojection: is it a room that can be?
 #pragma once
 
 #include <optional>

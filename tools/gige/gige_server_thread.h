@@ -1,4 +1,4 @@
-// What Aravis's server of a camera lacks, put into its thread.
+// Adds to the thread of Aravis's camera server what it lacks.
 #pragma once
 
 #include <netinet/in.h>

@@ -12,7 +12,7 @@
 
 namespace mocap {
 
-/// What the cameras of a served studio share, each of them a process.
+/// State that the cameras of a served studio share, each of them a process.
 struct StudioStage {
   static constexpr int kMostCameras = 64;
   std::array<std::atomic<bool>, kMostCameras> streams{};

@@ -1,4 +1,4 @@
-// What the exported formats share: their axes and their clock.
+// Axes and clock that the exported formats share.
 #pragma once
 
 #include <cstdint>

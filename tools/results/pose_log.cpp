@@ -131,7 +131,7 @@ void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& p
   }
 }
 
-/// What was passed over.
+/// Passed-over messages.
 std::vector<std::string> RemarksOf(const std::filesystem::path& log, const LogReader& reader,
                                    const std::map<std::string, std::int64_t>& garbled) {
   std::vector<std::string> remarks;

@@ -1,4 +1,4 @@
-// What tracking leaves behind: RESULT/poses.csv and RESULT/body.toml, or the log of its messages.
+// The result of tracking: RESULT/poses.csv and RESULT/body.toml, or the log of its messages.
 #pragma once
 
 #include <cstdint>

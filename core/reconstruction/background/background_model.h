@@ -20,7 +20,7 @@ struct BackgroundFrame {
   PanTiltAngles angles;
 };
 
-/// What a camera knows of its background. Thread-bound.
+/// The learned background of one camera. Thread-bound.
 class BackgroundModel {
  public:
   virtual ~BackgroundModel() = default;

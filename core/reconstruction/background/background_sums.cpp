@@ -73,7 +73,7 @@ void ExpectPixels(const SumsOf& sums, int count, float frames, float shift_px, c
       // acts.
       const float widening = std::max(std::sqrt(cd_sq[x] / frames / 2), 1.0f);
       const float sigma = std::max(std::sqrt(std::max(spread, 0.0f)), kLeastSigma) * widening;
-      // What is left after σ was learned from so few frames shows at contours.
+      // The error of a σ learned from few frames shows at contours.
       const float shift = shift_px * static_cast<float>(slope[x]);
       mean[x] = std::max(middle, ExpectedPicture::kDarkestMean);
       variance[x] = sigma * sigma + shift * shift;

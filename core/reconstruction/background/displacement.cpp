@@ -13,7 +13,7 @@ namespace mocap {
 namespace {
 
 constexpr int kFractionBits = 8;
-// What a displacement explains: so much [grey levels], and so many gradients more.
+// A displacement explains differences up to this [grey levels] plus so many gradients.
 constexpr int kExplained = 4;
 constexpr int kExplainedGradients = 1;
 // The normal equations' lesser eigenvalue [grey levels²]; noise of 2 grey levels then moves the

@@ -13,7 +13,7 @@ namespace mocap {
 /// The variance where nothing is known: anything goes.
 inline constexpr float kUnknownVariance = 1e8f;
 
-/// What pixels are held against, so many side by side: small, and in one place of the memory.
+/// The background model of several adjacent pixels, packed for the cache.
 struct WeighedPixels {
   static constexpr int kPixels = 16;
   using Column = std::array<std::uint16_t, kPixels>;

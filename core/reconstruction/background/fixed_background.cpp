@@ -86,7 +86,7 @@ class FixedBackground final : public BackgroundModel {
     }
   }
 
-  // What the pixels of the half and of the slopes are, from those of the whole.
+  // Computes the half-size picture and its slopes from the full-size one.
   void LearnHalf() {
     const int width = expected_.width;
     Image<Bgr> rounded(width, expected_.height);

@@ -70,7 +70,7 @@ struct PanTiltHead {
   Vector3 tilt_point_W = Vector3::Zero();
   /// True angle over the encoder's.
   double pan_scale = 1, tilt_scale = 1;
-  /// What the encoders read where pan = tilt = 0.
+  /// The encoders' readings at pan = tilt = 0.
   PanTiltAngles zero{};
 };
 

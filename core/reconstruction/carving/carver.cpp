@@ -23,7 +23,7 @@ constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
 constexpr int kMajority = kSamples / 2 + 1;
 
-// Of so many cameras one may be wrong about a gap.
+// With this many cameras, one may be wrong about a gap.
 constexpr int kCamerasPerDoubt = 5;
 
 // Which of eight voxels have a majority of their samples: a byte a sample, a bit a voxel. Halves
@@ -113,7 +113,7 @@ class Carver::Walk {
   std::vector<CarvingView> views_;
   std::vector<WindowMap> windows_;
   std::vector<OctantView> octant_views_;
-  // Of each view, by the level of the block whose octants they are.
+  // One per view, indexed by the level of the block that is split into octants.
   std::vector<std::array<OctantFrames, kLevels>> frames_;
 };
 
@@ -340,7 +340,7 @@ bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleVerdic
   return seeing >= fewest_;
 }
 
-// What the plain definition says of a place; nothing where the camera does not see it.
+// Evaluates the plain definition at a place; empty if the camera does not see it.
 std::optional<WindowMap::Kind> Carver::Walk::Look(int view, const Vector3& p_W) const {
   const CarvingView& eye = views_[view];
   const Vector3 p_C = eye.X_CW * p_W;

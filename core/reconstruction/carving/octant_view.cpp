@@ -82,7 +82,7 @@ MOCAP_INLINE Ints RoundedDown(Floats place_px) {
   return TowardsZero(Clamped(biased, 0.0f, kFarthest_px)) - kBias_px;
 }
 
-// What rectangles hold of the silhouette.
+// How much of the silhouette each rectangle holds.
 MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes& planes) {
   const std::uint32_t* const words = planes.words;
   const int left = planes.left, top = planes.top, right = planes.right, bottom = planes.bottom;

@@ -122,7 +122,7 @@ void WindowMap::CloseGaps() {
     DilateAcross(Column(outside_, 0), count, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
-  // What lies beyond the picture's edge counts as set.
+  // Pixels beyond the picture's edge count as set.
   SetMargins(true, outside_);
   SetMargins(true, scratch_);
   for (const int step : kGapSteps_px) {

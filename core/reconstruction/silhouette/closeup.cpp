@@ -36,7 +36,7 @@ void Closeup::Set(const Silhouette& suspicious, int width, int height) {
 
 void Closeup::MeasureFrame() {
   constexpr int kWord_px = 64;
-  // What is beside a silhouette is looked at farther than it is measured.
+  // The margin that is scanned around a silhouette is wider than the one that is measured.
   constexpr int kBeside_px = kTile_px;
   const PixelBox tiles = tiles_.BoundingBox().value_or(PixelBox{});
   frame_.left = std::max(tiles.left * kTile_px - kBeside_px, 0) / kWord_px * kWord_px;

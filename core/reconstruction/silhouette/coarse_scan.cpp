@@ -22,7 +22,7 @@ constexpr int kSamples = 200;
 // A colour has a ratio to another only away from black [grey levels].
 constexpr float kDarkest = 8;
 constexpr float kLargestGain = 4;
-// What differs more from the middle than by this share is no background.
+// A value that differs from the median by more than this share is not background.
 constexpr float kFlatness = 0.06f;
 // Fewer contours do not tell how far they moved.
 constexpr std::size_t kFewestSteep = 50;
@@ -89,7 +89,7 @@ float Quantile(const std::vector<float>& values, double share) {
 
 float Median(const std::vector<float>& values) { return Quantile(values, 0.5); }
 
-// What a standard deviation has grown by, where it has grown notably.
+// The factor by which a standard deviation has grown, where it has grown notably.
 float Beyond(float value, float usual, float negligible) {
   const float beyond = std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
   return beyond < negligible ? 0 : beyond;

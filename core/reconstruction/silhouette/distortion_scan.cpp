@@ -176,7 +176,7 @@ void DistortionScan::MeasureBand(int y) {
     if (done > whole) MeasureLast(y, rows);
   }
   for (int row = 0; row < rows; ++row) RepeatEnds(y + row);
-  // What is summed beyond the ends is judged nowhere.
+  // Sums beyond the ends are never used.
   for (const PixelRun& run : closeup_->Measured(y)) SumAlong(y, rows, run);
 }
 

@@ -26,7 +26,7 @@ void FindBins(const float* values, int count, float bins_per_unit, int bin_count
 // Three values of each pixel of a row.
 using Line = std::array<std::vector<float>, 3>;
 
-// Of pixels: the length of the colour distance, and brightness distortion both ways.
+// Per pixel: the length of the colour distance, and brightness distortion in both directions.
 MOCAP_VECTORIZED
 void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float* low,
                      float* high) {
@@ -40,7 +40,7 @@ void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float
   }
 }
 
-// Of windows of one size: the same, and their roughness. Whole blocks of pixels are written.
+// Per window of one size: the same, and the roughness. Writes whole blocks of pixels.
 template <std::size_t window>
 MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::RowPair& pair, int blocks,
                                        std::array<Line, 2>& lines) {

@@ -11,7 +11,7 @@
 
 namespace mocap {
 
-/// What background exceeds as seldom as was asked for. All are normalised by their own variation.
+/// Thresholds that background exceeds at the requested rate, each in units of its own variation.
 struct DistortionThresholds {
   struct Window {
     float cd = 0;         ///< Length of the mean colour distance.

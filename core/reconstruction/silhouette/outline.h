@@ -16,7 +16,7 @@ struct GrazingRay {
   Vector3 outward_W;    ///< The surface's normal where the ray touches it; unit length.
 };
 
-/// What one camera saw of the person's border.
+/// The person's border as one camera saw it.
 using Outline = std::vector<GrazingRay>;
 
 /// Traces a silhouette's border, holes included, by rays spread evenly over it. Where the picture

@@ -14,7 +14,7 @@ constexpr float kChannels = 3;
 
 constexpr float Square(float x) { return x * x; }
 
-// What is dark is so in itself and for background.
+// Darkness in itself and in units of the background's variation.
 struct Darkness {
   float shift;  // α − 1.
   float normalized;

@@ -20,7 +20,7 @@ constexpr std::size_t kFewestFrames = 8;
 // refined outline.
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
-// What covers more of the picture may be somebody.
+// A region that covers more of the picture than this may be a person.
 constexpr double kLargestThingShare = 0.02;
 // A camera that moved by less is not worth following, nor one whose contours still do not fit.
 constexpr float kNudge_px = 0.25f;

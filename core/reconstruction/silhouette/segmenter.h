@@ -12,7 +12,7 @@
 
 namespace mocap {
 
-/// What a studio may want to change about segmentation.
+/// Settings of segmentation.
 struct SegmentationOptions {
   /// Share of background pixels that shall be called background; thresholds follow from the
   /// histograms.

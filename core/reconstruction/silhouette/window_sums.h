@@ -41,7 +41,7 @@ struct WindowDistortions {
   Floats roughness_sq;  ///< Variance of α about a plane, divided by a².
 };
 
-/// What lines of a window sum up to.
+/// Sums over the lines of a window.
 struct WindowSums {
   /// Those of one line, so far below the middle.
   MOCAP_INLINE WindowSums(const LineSums& line, float below) {
