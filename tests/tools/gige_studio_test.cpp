@@ -40,7 +40,8 @@ constexpr std::chrono::seconds kPatience{20};
 class ServedStudio {
  public:
   explicit ServedStudio(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {std::string(MOCAP_BIN_DIR) + "/mocap", "gige-studio"});
+    arguments.insert(arguments.begin(), "gige-studio");
+    arguments.insert(arguments.begin(), MOCAP_BIN_DIR "/mocap");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
