@@ -75,9 +75,28 @@ bool CarriesArm(const BodyTable& table, const JointAxis& joint) {
   return table.Carries(row, Segment::kUpperArmL) || table.Carries(row, Segment::kUpperArmR);
 }
 
+JointPlacement ReadPlacement(TomlSection& section) {
+  const auto share = [&section](const std::string& key, double least, double average) {
+    return section.NumberWithin(key, least, 1, average);
+  };
+  const JointPlacement people;
+  const JointPlacement placement = {
+      .neck_behind = share("neck_behind", -1, people.neck_behind),
+      .hip_behind = share("hip_behind", -1, people.hip_behind),
+      .shoulder_behind = share("shoulder_behind", -1, people.shoulder_behind),
+      .shoulder_below_neck = share("shoulder_below_neck", 0, people.shoulder_below_neck),
+      .clavicle_below_neck = share("clavicle_below_neck", 0, people.clavicle_below_neck),
+      .head_forward = share("head_forward", -1, people.head_forward)};
+  section.RejectUnknownKeys();
+  return placement;
+}
+
 BodyTable ReadBodyTable(TomlSection root) {
   BodyTable table;
   table.name = root.Text("name");
+  if (std::optional<TomlSection> section = root.Section("placement")) {
+    table.placement = ReadPlacement(*section);
+  }
   for (TomlSection& section : root.Sections("joints")) {
     if (table.joints.size() == kMaxJoints) {
       root.Fail("joints", "has more than " + std::to_string(kMaxJoints) + " axes");

@@ -117,7 +117,9 @@ void CheckLiveStudio(const Config& config, const TomlSection& root) {
 }  // namespace
 
 const std::vector<NamedTracker>& Trackers() {
-  static const std::vector<NamedTracker> trackers = {{"surface", TrackerKind::kSurface, "full"}};
+  static const std::vector<NamedTracker> trackers = {
+      {"surface", TrackerKind::kSurface, "full"},
+      {"mikic2003", TrackerKind::kMikic2003, "mikic2003"}};
   return trackers;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/load_config.h"
 #include "daemon/number_option.h"
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
@@ -27,8 +28,8 @@ struct BenchmarkOptions {
   std::vector<std::string> motions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
   std::vector<double> statures_mm = {1150, 1550, 1950};
   int seeds = 3;
-  std::vector<std::string> parts = {"grid",    "cameras",     "voxels",
-                                    "covered", "calibration", "mishap"};
+  std::vector<std::string> parts = {"grid",        "cameras", "voxels", "covered",
+                                    "calibration", "mishap",  "tracker"};
 };
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
@@ -94,6 +95,13 @@ std::vector<SweepPlan> PlannedSweeps() {
   const auto happens = [](const char* what, Mishap mishap) {
     return Step{what, [mishap](AccuracyTrial& trial) { trial.mishap = mishap; }};
   };
+  std::vector<Step> trackers;
+  for (const NamedTracker& tracker : Trackers()) {
+    trackers.push_back({tracker.name, [tracker](AccuracyTrial& trial) {
+                          trial.tracker = tracker.kind;
+                          trial.body = tracker.body;
+                        }});
+  }
   return {{"cameras", "cameras", {cameras(4), cameras(5), cameras(6), cameras(8)}},
           {"voxels", "edge of a voxel [mm]", {voxels(10), voxels(25), voxels(50)}},
           {"covered",
@@ -105,7 +113,8 @@ std::vector<SweepPlan> PlannedSweeps() {
           {"mishap",
            "one camera of six, from the middle on",
            {happens("well", Mishap::kNone), happens("lost", Mishap::kLost),
-            happens("blinded", Mishap::kBlinded), happens("turned by 20 px", Mishap::kTurned)}}};
+            happens("blinded", Mishap::kBlinded), happens("turned by 20 px", Mishap::kTurned)}},
+          {"tracker", "tracker", trackers}};
 }
 
 std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {

@@ -109,7 +109,9 @@ void AddTrackCommand(CLI::App& app) {
   command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
       ->check(NumberFrom(10, 100))
       ->capture_default_str();
-  command->add_option("--tracker", options->tracker, "surface")
+  command
+      ->add_option("--tracker", options->tracker,
+                   "what follows the person; mikic2003 is the paper's own")
       ->check(CLI::IsMember(TrackerNames()))
       ->capture_default_str();
   command->add_option("--body", options->body,

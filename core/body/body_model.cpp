@@ -28,7 +28,7 @@ BodyModel::BodyModel(BodyTable table, const BodySizes& sizes) : table_(std::move
 
 void BodyModel::Resize(const BodySizes& sizes) {
   sizes_ = sizes;
-  reference_points_T_ = ReferencePoints(sizes);
+  reference_points_T_ = ReferencePoints(sizes, table_.placement);
   BuildShape(table_, sizes_, reference_points_T_, shape_);
 }
 

@@ -3,18 +3,6 @@
 namespace mocap {
 namespace {
 
-// Where joints lie behind the middle of the trunk's flesh and below the neck, as shares of the
-// torso's length. The spine runs behind the trunk's middle, the hip joints a little behind it. The
-// joint of a shoulder whose arm hangs lies 0.08 of the stature below C7/T1: Winter's (2009, Fig.
-// 4.1) shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The
-// upper end of the breast bone lies 0.05 below C7/T1 (de Leva 1996).
-constexpr double kNeckBehind = 0.06;
-constexpr double kHipBehind = 0.03;
-constexpr double kShoulderBehind = 0.03;
-constexpr double kShoulderBelowNeck = 0.245;
-constexpr double kClavicleBelowNeck = 0.153;
-// The head's centre leans forward of C7/T1 by this share of its height above it.
-constexpr double kHeadForward = 0.35;
 // Joints between the shoulders, as a share of the width between these; in the forearm with the
 // hand, and above the sole (Winter 2009, Fig. 4.1: 0.146 of 0.254, and 0.039 of 0.285).
 constexpr double kClavicleAside = 0.07;
@@ -52,24 +40,24 @@ BodySizes AverageSizes(double stature_mm) {
           .hip_width = 0.110 * h};
 }
 
-BodyPlaces ReferencePoints(const BodySizes& s) {
+BodyPlaces ReferencePoints(const BodySizes& s, const JointPlacement& placement) {
   const double top = s.torso / 2;
   BodyPlaces p;
   const auto at = [&p](Point point) { return p.col(static_cast<int>(point)); };
   at(Point::kTorso).setZero();
-  at(Point::kNeck) << -kNeckBehind * s.torso, 0, top;
+  at(Point::kNeck) << -placement.neck_behind * s.torso, 0, top;
   at(Point::kHead) = at(Point::kNeck);
-  at(Point::kHead) += Eigen::Vector3d(kHeadForward * s.neck, 0, s.neck);
+  at(Point::kHead) += Eigen::Vector3d(placement.head_forward * s.neck, 0, s.neck);
   const auto set_side = [&](double side, Point shoulder, Point upper_arm, Point elbow,
                             Point lower_arm, Point fingertips, Point hip, Point thigh, Point knee,
                             Point calf, Point foot, Point clavicle, Point wrist, Point ankle) {
-    at(shoulder) << -kShoulderBehind * s.torso, side * s.shoulder_width / 2,
-        top - kShoulderBelowNeck * s.torso;
+    at(shoulder) << -placement.shoulder_behind * s.torso, side * s.shoulder_width / 2,
+        top - placement.shoulder_below_neck * s.torso;
     at(elbow) = at(shoulder);
     at(elbow).y() += side * s.upper_arm;
     at(fingertips) = at(elbow);
     at(fingertips).y() += side * s.lower_arm;
-    at(hip) << -kHipBehind * s.torso, side * s.hip_width / 2, -top;
+    at(hip) << -placement.hip_behind * s.torso, side * s.hip_width / 2, -top;
     at(knee) = at(hip);
     at(knee).z() -= s.thigh;
     at(foot) = at(knee);
@@ -79,7 +67,7 @@ BodyPlaces ReferencePoints(const BodySizes& s) {
     at(thigh) = (at(hip) + at(knee)) / 2;
     at(calf) = (at(knee) + at(foot)) / 2;
     at(clavicle) << at(shoulder).x(), side * kClavicleAside * s.shoulder_width,
-        top - kClavicleBelowNeck * s.torso;
+        top - placement.clavicle_below_neck * s.torso;
     at(wrist) = at(elbow) + kWristShare * (at(fingertips) - at(elbow));
     at(ankle) = at(foot);
     at(ankle).z() += kAnkleHeight * s.calf;

@@ -55,8 +55,26 @@ using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
 /// The same with the joints that follow them.
 using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
 
+/// Where joints lie behind the middle of the trunk's flesh and below the neck, as shares of the
+/// torso's length. The default is people's; with zeros joints lie in the middle, as in the paper's
+/// Fig. 3.
+///
+/// The spine runs behind the trunk's middle, the hip joints a little behind it. The joint of a
+/// shoulder whose arm hangs lies 0.08 of the stature below C7/T1: Winter's (2009, Fig. 4.1)
+/// shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The upper
+/// end of the breast bone lies 0.05 below C7/T1 (de Leva 1996).
+struct JointPlacement {
+  double neck_behind = 0.06;
+  double hip_behind = 0.03;
+  double shoulder_behind = 0.03;
+  double shoulder_below_neck = 0.245;
+  double clavicle_below_neck = 0.153;
+  /// The head's centre leans forward of C7/T1 by this share of its height above it.
+  double head_forward = 0.35;
+};
+
 /// Points and joints at the reference configuration in the torso's frame; 3 × 29, column i is p_TQ
 /// of point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
-BodyPlaces ReferencePoints(const BodySizes& sizes);
+BodyPlaces ReferencePoints(const BodySizes& sizes, const JointPlacement& placement);
 
 }  // namespace mocap

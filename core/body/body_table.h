@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body/body_part.h"
+#include "core/body/body_sizes.h"
 #include "core/geometry.h"
 
 namespace mocap {
@@ -52,6 +53,7 @@ inline constexpr int kSegmentCount = 17;
 struct BodyTable {
   std::string name;
   std::vector<JointAxis> joints;
+  JointPlacement placement;
   std::array<int, kSegmentCount>
       carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.
 

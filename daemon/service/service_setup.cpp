@@ -5,6 +5,7 @@
 #include "config/load_config.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "core/make_motion_capture.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/open_lcm.h"
 #include "daemon/pipeline/realtime.h"
@@ -62,6 +63,7 @@ PreparedService Prepare(const Config& config) {
   prepared.socket = ControlSocketOf(config.service.control.socket);
   if (!prepared.socket.empty()) RequireSocketPlace(prepared.socket);
   prepared.body = LoadBodyTable(config.body);
+  RequireBodyOf(config.tracker, prepared.body);
   prepared.studio = OpenStudio(config);
   RequireCameraCount(prepared.studio);
   return prepared;

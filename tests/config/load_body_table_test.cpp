@@ -50,6 +50,17 @@ TEST(BodyTables, PaperHasItsSixteenAnglesInTheOrderOfItsProducts) {
   EXPECT_EQ(PaperAnglesOf(table, Segment::kCalfR), (std::vector<int>{12, 14, 16}));
 }
 
+TEST(BodyTables, ThePapersJointsLieInTheMiddleOfTheTrunkAndPeoplesBehindIt) {
+  const JointPlacement paper = LoadBodyTable("mikic2003").placement;
+  const JointPlacement people = LoadBodyTable("full").placement;
+  EXPECT_EQ(paper.neck_behind, 0);
+  EXPECT_EQ(paper.hip_behind, 0);
+  EXPECT_EQ(paper.shoulder_behind, 0);
+  EXPECT_EQ(paper.head_forward, 0);
+  EXPECT_EQ(paper.shoulder_below_neck, people.shoulder_below_neck);
+  EXPECT_GT(people.neck_behind, 0);
+}
+
 TEST(BodyTables, FullAddsWaistThirdHipAxisAndTheJointsAtTheLimbsEnds) {
   const BodyTable table = LoadBodyTable("full");
   EXPECT_EQ(PaperAnglesOf(table, Segment::kPelvis), (std::vector<int>{0, 0, 0}));
@@ -181,6 +192,8 @@ TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
       {"limits_deg = [-50, 50]", "limit_deg = [-50, 50]", "joints[0].limits_deg is missing"},
       {"at = \"neck\"", "at = \"neck\"\nrest_deg = [5, 0]", "joints[0].rest_deg has no spread"},
       {"at = \"neck\"", "at = \"neck\"\nmass = 3", "joints[0].mass is unknown"},
+      {"neck_behind = 0\n", "neck_behind = 2\n", "placement.neck_behind is 2"},
+      {"neck_behind = 0\n", "nose_behind = 0\n", "placement.nose_behind is unknown"},
       {"[segments]", "[segment]", "segments is missing"},
       {"head = \"neck_y\"", "", "segments.head is missing"},
       {"head = \"neck_y\"", "head = \"neck_z\"", "segments.head is \"neck_z\""},

@@ -28,13 +28,17 @@ AccuracyRow Measure(const AccuracyTrial& trial) {
 AccuracySummary Summarize(const std::vector<AccuracyRow>& rows) {
   AccuracySummary summary;
   summary.takes = static_cast<int>(rows.size());
+  const auto was_tracked = [](const AccuracyRow& row) { return row.tracked_share > 0; };
+  const auto tracked = std::max<std::ptrdiff_t>(1, std::ranges::count_if(rows, was_tracked));
   std::vector<int> acquisition;
   for (const AccuracyRow& row : rows) {
+    // Who was never tracked has no errors.
+    const double error_weight = 1.0 / static_cast<double>(tracked);
+    summary.mpjpe_mm += error_weight * row.mpjpe_mm;
+    summary.p95_mm += error_weight * row.p95_mm;
+    summary.angle_deg += error_weight * row.angle_deg;
+    summary.length_error_mm += error_weight * (was_tracked(row) ? row.length_error_mm : 0);
     const double weight = 1.0 / summary.takes;
-    summary.mpjpe_mm += weight * row.mpjpe_mm;
-    summary.p95_mm += weight * row.p95_mm;
-    summary.angle_deg += weight * row.angle_deg;
-    summary.length_error_mm += weight * row.length_error_mm;
     summary.tracked_share += weight * row.tracked_share;
     summary.head_found_share += weight * row.head_found_share;
     summary.worst_mpjpe_mm = std::max(summary.worst_mpjpe_mm, row.mpjpe_mm);

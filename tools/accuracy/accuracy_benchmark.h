@@ -25,7 +25,7 @@ struct AccuracyRow {
 /// Runs a trial and sums it up.
 AccuracyRow Measure(const AccuracyTrial& trial);
 
-/// Means and extremes over takes.
+/// Means and extremes over takes; errors over those in which somebody was tracked at all.
 struct AccuracySummary {
   int takes = 0, takes_with_loss = 0, takes_with_wrong_stretch = 0;
   double mpjpe_mm = 0, worst_mpjpe_mm = 0, p95_mm = 0, angle_deg = 0, length_error_mm = 0;

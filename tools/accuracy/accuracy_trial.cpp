@@ -82,8 +82,10 @@ TrialOutcome RunTrial(const AccuracyTrial& trial) {
   Studio studio = OpenSimulatedStudio(trial.studio);
   Disturb(trial, studio);
   ResultSink sink(false);
-  Pipeline pipeline(std::move(studio), {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait},
-                    LoadBodyTable(trial.body), sink);
+  Pipeline pipeline(
+      std::move(studio),
+      {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait, .tracker = trial.tracker},
+      LoadBodyTable(trial.body), sink);
   pipeline.Start();
   pipeline.Join();
   TrialOutcome outcome;

@@ -11,6 +11,7 @@ namespace mocap {
 /// What is simulated, and what is made worse than it could be.
 struct AccuracyTrial {
   SimulatedStudioOptions studio = RecordedSimulation();
+  TrackerKind tracker = Config().tracker;
   std::string body = Config().body;
   double voxel_mm = Config().voxel_mm;
   /// Every camera is calibrated wrongly: turned by what moves its picture's middle by this much, in

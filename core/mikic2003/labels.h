@@ -1,0 +1,43 @@
+// §6.2: which body part each voxel belongs to.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/body/body_part.h"
+#include "core/geometry.h"
+#include "core/tracking/voxel_cloud.h"
+
+namespace mocap::mikic2003 {
+
+inline constexpr std::int8_t kUnlabeled = -1;
+
+/// One label a voxel of the cloud: a BodyPart, or kUnlabeled.
+using Labels = std::vector<std::int8_t>;
+
+/// Indices of voxels of a cloud.
+using VoxelIndices = std::vector<int>;
+
+inline std::int8_t LabelOf(BodyPart part) { return static_cast<std::int8_t>(part); }
+
+/// Lists the voxels with a label.
+VoxelIndices VoxelsLabeled(const Labels& labels, std::int8_t label);
+
+/// Gives voxels a label.
+void SetLabel(std::span<const int> voxels, std::int8_t label, Labels& labels);
+
+/// Mean position of voxels; zero of none.
+Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels);
+
+/// Lists those voxels with one of their six neighbours labelled `neighbour`.
+VoxelIndices BorderWith(const VoxelCloud& cloud, const Labels& labels, std::span<const int> voxels,
+                        std::int8_t neighbour);
+
+/// Splits voxels into connected regions (26 neighbours), the largest first.
+std::vector<VoxelIndices> ConnectedRegions(const VoxelCloud& cloud, std::span<const int> voxels);
+
+/// Finds the connected region with the voxel that is nearest to a place; nothing of none.
+VoxelIndices PieceNearest(const VoxelCloud& cloud, std::span<const int> voxels, const Vector3& p_W);
+
+}  // namespace mocap::mikic2003

@@ -1,0 +1,28 @@
+// Fig. 5, Table 2 and Fig. 8 (g): the 23 points that labelled voxels show.
+#pragma once
+
+#include <array>
+
+#include "core/mikic2003/labels.h"
+#include "core/mikic2003/limbs.h"
+#include "core/tracking/voxel_cloud.h"
+
+namespace mocap::mikic2003 {
+
+/// A frame whose voxels are labelled.
+struct LabeledFrame {
+  Labels labels;
+  Vector3 neck_W = Vector3::Zero();
+  /// Direction of each limb's upper arm or thigh away from the torso.
+  std::array<Vector3, kLimbCount> upper_axes_W{};
+};
+
+/// Measures centroids and ends of the labelled parts. Table 2.
+///
+/// The paper does not say how ends are taken: here an end is the mean of the twentieth of a part's
+/// voxels that lies farthest. Shoulders and hips are the near ends of upper arms and thighs along
+/// their axes, elbows and knees the far ends; fingertips and feet lie farthest from elbow and knee.
+/// Parts of less than 0.1 litres are not measured.
+MeasuredPoints MeasurePoints(const VoxelCloud& cloud, const LabeledFrame& frame);
+
+}  // namespace mocap::mikic2003

@@ -1,0 +1,33 @@
+// Figs. 1, 4 and 9: the paper's loop of acquisition and tracking.
+#pragma once
+
+#include <memory>
+
+#include "core/motion_capture.h"
+
+namespace mocap::mikic2003 {
+
+/// Checks that a table has the sixteen axes of the paper's Table 1 and no other. @throws SetupError
+void RequirePaperAxes(const BodyTable& table);
+
+/// Follows a person as Mikić, Trivedi, Hunter and Cosman (2003) do: by labelled voxels alone,
+/// without outlines.
+class MikicCapture : public MotionCapture {
+ public:
+  /// @pre RequirePaperAxes(table) holds.
+  explicit MikicCapture(const BodyTable& table);
+  ~MikicCapture() override;
+
+  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
+                              std::int64_t capture_ns, UpdateObserver* observer) override;
+  void Forget() override;
+  void Expect(const BodySizes& sizes) override;
+  const BodyModel& body() const override;
+  int acquisition_frames() const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap::mikic2003

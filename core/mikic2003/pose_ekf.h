@@ -1,0 +1,64 @@
+// §6.1: the iterated extended Kalman filter over the paper's 23 numbers. Table 1, Eqs. (14)–(21).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/body/body_model.h"
+#include "core/mikic2003/limbs.h"
+
+namespace mocap::mikic2003 {
+
+/// x = [t0 (3), ω0 (3), θ0, θ1 … θ16], Eq. (15); [mm, rad].
+inline constexpr int kStateSize = 23;
+using State = Eigen::Matrix<double, kStateSize, 1>;
+using StateCovariance = Eigen::Matrix<double, kStateSize, kStateSize>;
+using PointJacobian = Eigen::Matrix<double, 3, kStateSize>;
+
+/// Rotation matrix of an axis of any length and an angle. Eq. (9).
+Matrix3 TorsoRotation(const Vector3& axis, double angle_rad);
+
+/// Reads the state of a pose; the torso's axis points up rather than down.
+State StateOf(const BodyModel& body, const PoseState& pose);
+/// Gives the pose of a state.
+PoseState PoseOf(const BodyModel& body, const State& x);
+
+/// Differentiates a point by the state. Eqs. (17)–(21).
+/// @param p_WQ  where the state puts the point.
+PointJacobian DifferentiatePoint(const BodyModel& body, const State& x, const Posture& posture,
+                                 Point point, const Vector3& p_WQ);
+
+/// Follows a body by measured points.
+///
+/// F is the identity. The paper leaves open Q, R and P[0/0]: a coordinate changes from frame to
+/// frame by as much as a fast person's does, and each measured point errs by 50 mm, two voxels of
+/// the paper's. An angle beyond its limit is set to the limit after each iteration.
+///
+/// ω0 is undefined where θ0 is 0. The filter's frame V is therefore the world turned about the
+/// vertical so that θ0 is near π, and is turned anew when the person has turned by 120 degrees.
+class PoseEkf {
+ public:
+  /// Starts at a pose that is hardly known.
+  PoseEkf(const BodyModel& body, const PoseState& pose);
+
+  /// Adds the process noise of a time. Eq. (14).
+  void Predict(double dt_s);
+
+  /// Takes a frame's measurements; the Jacobian is renewed at each of the iterations.
+  void Update(const BodyModel& body, const MeasuredPoints& points_W, int iterations);
+
+  PoseState Pose(const BodyModel& body) const;
+  /// Covariance of a point of the body [mm²].
+  Matrix3 PointCovariance(const BodyModel& body, Point point) const;
+
+ private:
+  void TurnFrame();
+
+  Matrix3 R_WV_ = Matrix3::Identity();
+  State x_;
+  StateCovariance P_;
+};
+
+/// Sums the distances between measured points and those of the body [mm]. §7.3.
+double SumOfDistances(const BodyModel& body, const PoseState& pose, const MeasuredPoints& points_W);
+
+}  // namespace mocap::mikic2003
