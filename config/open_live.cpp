@@ -37,7 +37,7 @@ std::unique_ptr<PanTilt> MakeHead(const CameraConfig& camera) {
 }
 
 /// Puts the camera on its head.
-void Mount(const CameraConfig& camera, const std::shared_ptr<Whereabouts>& person,
+void Mount(const CameraConfig& camera, const std::shared_ptr<SubjectPosition>& person,
            LiveCamera& live) {
   if (camera.head.kind == HeadKind::kNone) return;
   constexpr std::array<double, 2> kAnywhere{-1e3, 1e3};
@@ -116,7 +116,7 @@ std::string MasterOf(const Config& config, const CameraConfig& camera) {
 }  // namespace
 
 std::vector<LiveCamera> OpenLiveCameras(const Config& config,
-                                        const std::shared_ptr<Whereabouts>& person) {
+                                        const std::shared_ptr<SubjectPosition>& person) {
   if (!IsLive(config.source)) {
     throw SetupError("source.driver is \"" + config.source.driver +
                      "\", which has no live cameras; \"v4l2\" or \"aravis\" is wanted");
@@ -147,7 +147,7 @@ Studio OpenLiveStudio(const Config& config) {
   RequireFolder(config.background, "what `mocap background learn` makes while the studio is empty");
   Studio studio{"live studio", 0, {}};
   if (std::ranges::any_of(config.cameras, [](const auto& c) { return c.head.follow; })) {
-    studio.person = std::make_shared<Whereabouts>();
+    studio.person = std::make_shared<SubjectPosition>();
   }
   for (LiveCamera& live : OpenLiveCameras(config, studio.person)) {
     const std::filesystem::path base = config.background / live.name;

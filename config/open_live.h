@@ -12,7 +12,7 @@
 #include "drivers/camera_request.h"
 #include "drivers/pan_tilt.h"
 #include "drivers/studio.h"
-#include "drivers/whereabouts.h"
+#include "drivers/subject_position.h"
 
 namespace mocap {
 
@@ -33,7 +33,7 @@ struct LiveCamera {
 /// @throws SetupError  when source.driver is no live one, the calibration has no camera of a name,
 /// or its pictures another size.
 std::vector<LiveCamera> OpenLiveCameras(const Config& config,
-                                        const std::shared_ptr<Whereabouts>& person = nullptr);
+                                        const std::shared_ptr<SubjectPosition>& person = nullptr);
 
 /// Opens all live cameras with their calibration and their pictures of the empty studio.
 /// @throws SetupError  also when one of these is missing.

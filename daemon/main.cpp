@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "config/load_config.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "daemon/run_program.h"
 #include "daemon/service/service.h"
 #include "daemon/service/service_setup.h"

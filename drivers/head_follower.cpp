@@ -23,7 +23,7 @@ double Drawn(double from_rad, double aim_rad, double least_rad, double most_rad,
 }  // namespace
 
 HeadFollower::HeadFollower(CameraCalibration camera, const PanTiltLimits& range,
-                           std::shared_ptr<const Whereabouts> person)
+                           std::shared_ptr<const SubjectPosition> person)
     : camera_(std::move(camera)), range_(range), person_(std::move(person)) {}
 
 void HeadFollower::Follow(PanTilt& head, const PanTiltAngles& now, std::int64_t now_ns) {

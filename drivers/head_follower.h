@@ -7,7 +7,7 @@
 
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/pan_tilt.h"
-#include "drivers/whereabouts.h"
+#include "drivers/subject_position.h"
 
 namespace mocap {
 
@@ -23,7 +23,7 @@ class HeadFollower {
   /// @param camera  with a head.
   /// @param range   how far the studio lets it turn, beside its own limits.
   HeadFollower(CameraCalibration camera, const PanTiltLimits& range,
-               std::shared_ptr<const Whereabouts> person);
+               std::shared_ptr<const SubjectPosition> person);
 
   /// Takes a step. @param now  where the head points; @param now_ns  at what time: a frame's.
   void Follow(PanTilt& head, const PanTiltAngles& now, std::int64_t now_ns);
@@ -33,7 +33,7 @@ class HeadFollower {
 
   CameraCalibration camera_;
   PanTiltLimits range_;
-  std::shared_ptr<const Whereabouts> person_;
+  std::shared_ptr<const SubjectPosition> person_;
   std::optional<PanTiltAngles> told_;  ///< Where the head was told to turn last.
   std::int64_t last_ns_ = 0;
 };

@@ -8,7 +8,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/background_source.h"
 #include "drivers/camera_driver.h"
-#include "drivers/whereabouts.h"
+#include "drivers/subject_position.h"
 
 namespace mocap {
 
@@ -33,7 +33,7 @@ struct Studio {
   double fps_nominal = 30;
   std::vector<StudioCamera> cameras;
   /// To be told where the person is; null: no head follows.
-  std::shared_ptr<Whereabouts> person = nullptr;
+  std::shared_ptr<SubjectPosition> person = nullptr;
   CaptureTimes times = CaptureTimes::kPresent;
   /// What whoever opened it should know, a line each.
   std::vector<std::string> remarks = {};

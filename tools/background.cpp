@@ -15,7 +15,7 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/printable_text.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "config/load_config.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"

@@ -150,10 +150,10 @@ class Looker {
       seen_.cameras[c].height_px = picture->height();
       auto corners = detector_.Detect(picture->view(), Effort::kQuick);
       if (!corners) continue;
-      BoardSighting& sighting = seen_.sightings.emplace_back();
-      sighting.camera = static_cast<int>(c);
-      sighting.moment = seen_.moments;
-      sighting.corners = std::move(*corners);
+      BoardDetection& detection = seen_.detections.emplace_back();
+      detection.camera = static_cast<int>(c);
+      detection.moment = seen_.moments;
+      detection.corners = std::move(*corners);
     }
     ++seen_.moments;
     return true;
@@ -163,7 +163,7 @@ class Looker {
 
  private:
   BoardDetector detector_;
-  BoardSightings seen_;
+  BoardDetections seen_;
   std::int64_t last_beat_ = -1;
 };
 

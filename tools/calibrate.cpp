@@ -177,13 +177,13 @@ struct TsaiArguments {
 
 constexpr std::size_t kLargestTable = 32 << 20;
 
-std::vector<PointSighting> ReadPoints(const std::filesystem::path& file) {
+std::vector<PointDetection> ReadPoints(const std::filesystem::path& file) {
   std::istringstream in(ReadWholeFile(file, "a table of xw yw zw Xf Yf", kLargestTable));
-  std::vector<PointSighting> points;
+  std::vector<PointDetection> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    PointSighting p;
+    PointDetection p;
     if (std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf", &p.p_W.x(), &p.p_W.y(), &p.p_W.z(),
                     &p.pixel.x(), &p.pixel.y()) != 5)
       throw SetupError(file.string() + ":" + std::to_string(number) +
@@ -220,7 +220,7 @@ void RunTsai(const TsaiArguments& a) {
                                          : Vector2(a.center_px[0], a.center_px[1]);
   sensor.sx = a.sx;
   sensor.refine_center = !a.fixed_center;
-  const std::vector<PointSighting> points = ReadPoints(a.points);
+  const std::vector<PointDetection> points = ReadPoints(a.points);
   TsaiCalibration result;
   try {
     result = CalibrateTsai(points, sensor);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/errors.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibration/exchange.h"

@@ -9,7 +9,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/control/json_object.h"
+#include "daemon/base/json_object.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"
@@ -39,11 +39,11 @@ class Progress {
   bool shown_;
 };
 
-BoardSightings Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
-                       bool all_must_see) {
+BoardDetections Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
+                        bool all_must_see) {
   for (const std::string& note : footage.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
   const Progress progress;
-  SightingOptions options;
+  DetectionOptions options;
   options.still = still;
   options.all_must_see = all_must_see;
   options.most_frames = arguments.most_frames;
@@ -57,7 +57,7 @@ BoardSightings Collect(const Footage& footage, const CalibrateArguments& argumen
     throw SetupError(
         "--floor: a wand shows no floor; set it with mocap calibrate floor, from a "
         "board or --floor-points");
-  return CollectSightings(footage, board, options);
+  return CollectDetections(footage, board, options);
 }
 
 // Two lights tell next to nothing of a lens.
@@ -76,11 +76,11 @@ std::string NamesOf(const std::vector<CameraCalibration>& cameras) {
 }
 
 // Lenses from a file, in the order of the footage.
-std::vector<CameraCalibration> LensesFor(const BoardSightings& sightings,
+std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
                                          const std::filesystem::path& file) {
   const std::vector<CameraCalibration> all = LoadCalibration(file);
   std::vector<CameraCalibration> lenses;
-  for (const SightingCamera& camera : sightings.cameras) {
+  for (const DetectionCamera& camera : detections.cameras) {
     const auto lens = std::find_if(
         all.begin(), all.end(), [&](const CameraCalibration& c) { return c.name == camera.name; });
     if (lens == all.end())
@@ -97,39 +97,39 @@ std::vector<CameraCalibration> LensesFor(const BoardSightings& sightings,
   return lenses;
 }
 
-std::vector<LensFit> FitLenses(const BoardSightings& sightings,
+std::vector<LensFit> FitLenses(const BoardDetections& detections,
                                const CalibrateArguments& arguments) {
   const Progress progress;
   LensFitOptions options;
   options.model = ModelOf(arguments.lens);
   options.pitch_mm = {arguments.pitch_mm[0], arguments.pitch_mm[1]};
   std::vector<LensFit> fits;
-  for (std::size_t c = 0; c < sightings.cameras.size(); ++c) {
-    progress.Show("lens of " + sightings.cameras[c].name);
-    fits.push_back(FitLens(sightings, static_cast<int>(c), options));
+  for (std::size_t c = 0; c < detections.cameras.size(); ++c) {
+    progress.Show("lens of " + detections.cameras[c].name);
+    fits.push_back(FitLens(detections, static_cast<int>(c), options));
   }
   return fits;
 }
 
-std::vector<CameraCalibration> Cameras(const BoardSightings& sightings,
+std::vector<CameraCalibration> Cameras(const BoardDetections& detections,
                                        const std::vector<LensFit>& lenses) {
   std::vector<CameraCalibration> cameras;
   for (std::size_t c = 0; c < lenses.size(); ++c) {
-    const SightingCamera& camera = sightings.cameras[c];
+    const DetectionCamera& camera = detections.cameras[c];
     cameras.push_back({camera.name, camera.width_px, camera.height_px, lenses[c].lens, {}, {}});
   }
   return cameras;
 }
 
-StudioFit FitPoses(const BoardSightings& sightings, const std::vector<CameraCalibration>& lenses,
+StudioFit FitPoses(const BoardDetections& detections, const std::vector<CameraCalibration>& lenses,
                    const CalibrateArguments& arguments) {
   const Progress progress;
   progress.Show("bundle adjustment");
   if (arguments.still)
-    return FitToStillBoard(sightings, lenses, sightings.still_pictures, arguments.thickness_mm);
+    return FitToStillBoard(detections, lenses, detections.still_pictures, arguments.thickness_mm);
   ExtrinsicsOptions options;
-  options.refine_lenses = !arguments.keep_lenses && sightings.board.kind != BoardKind::kWand;
-  return FitExtrinsics(sightings, lenses, options);
+  options.refine_lenses = !arguments.keep_lenses && detections.board.kind != BoardKind::kWand;
+  return FitExtrinsics(detections, lenses, options);
 }
 
 std::string SeverityText(Severity severity) {
@@ -143,10 +143,10 @@ StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
   RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
   StudioFit fit;
-  fit.sightings = Collect(footage, arguments, false, true);
-  const std::vector<LensFit> lenses = FitLenses(fit.sightings, arguments);
-  fit.bundle.cameras = Cameras(fit.sightings, lenses);
-  fit.bundle.X_WB.assign(static_cast<std::size_t>(fit.sightings.moments), std::nullopt);
+  fit.detections = Collect(footage, arguments, false, true);
+  const std::vector<LensFit> lenses = FitLenses(fit.detections, arguments);
+  fit.bundle.cameras = Cameras(fit.detections, lenses);
+  fit.bundle.X_WB.assign(static_cast<std::size_t>(fit.detections.moments), std::nullopt);
   MeasureFit(fit);
   for (std::size_t c = 0; c < lenses.size(); ++c) {
     fit.cameras[c].lens_rms_px = lenses[c].rms_px;
@@ -158,8 +158,8 @@ StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
 
 StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
   const Footage footage = OpenFootage(arguments.footage);
-  const BoardSightings sightings = Collect(footage, arguments, arguments.still, true);
-  StudioFit fit = FitPoses(sightings, LensesFor(sightings, arguments.intrinsics), arguments);
+  const BoardDetections detections = Collect(footage, arguments, arguments.still, true);
+  StudioFit fit = FitPoses(detections, LensesFor(detections, arguments.intrinsics), arguments);
   SetWorld(arguments, fit);
   return fit;
 }
@@ -167,9 +167,9 @@ StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
 StudioFit CalibrateStudio(const CalibrateArguments& arguments) {
   RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
-  const BoardSightings sightings = Collect(footage, arguments, false, true);
-  const std::vector<LensFit> lenses = FitLenses(sightings, arguments);
-  StudioFit fit = FitPoses(sightings, Cameras(sightings, lenses), arguments);
+  const BoardDetections detections = Collect(footage, arguments, false, true);
+  const std::vector<LensFit> lenses = FitLenses(detections, arguments);
+  StudioFit fit = FitPoses(detections, Cameras(detections, lenses), arguments);
   for (std::size_t c = 0; c < lenses.size(); ++c) {
     fit.cameras[c].lens_rms_px = lenses[c].rms_px;
     fit.cameras[c].focal_sigma_share = lenses[c].focal_sigma_share;
@@ -185,9 +185,9 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit) {
   }
   if (!arguments.floor.empty()) {
     const Footage footage = OpenFootage(arguments.floor);
-    BoardSightings still = Collect(footage, arguments, true, false);
+    BoardDetections still = Collect(footage, arguments, true, false);
     // The floor's footage may lack cameras or have them in another order.
-    for (BoardSighting& s : still.sightings) {
+    for (BoardDetection& s : still.detections) {
       const std::string& name = still.cameras[s.camera].name;
       const auto camera = std::find_if(fit.bundle.cameras.begin(), fit.bundle.cameras.end(),
                                        [&](const CameraCalibration& c) { return c.name == name; });
@@ -227,7 +227,7 @@ std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioF
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) {
   const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
   std::string text =
-      fmt::format("board: {}\n{:<10}{:>7}{:>9}{:>9}{:>12}{:>10}\n", fit.sightings.board.Text(),
+      fmt::format("board: {}\n{:<10}{:>7}{:>9}{:>9}{:>12}{:>10}\n", fit.detections.board.Text(),
                   "camera", "views", "lens px", "px", "mm (person)", "covered");
   for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
     const CameraFit& camera = fit.cameras[c];

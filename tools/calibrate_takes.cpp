@@ -10,13 +10,13 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/control/json_object.h"
+#include "daemon/base/json_object.h"
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/calibration/detections.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
-#include "tools/calibration/sightings.h"
 #include "tools/camera_health.h"
 #include "tools/camera_names.h"
 
@@ -38,11 +38,11 @@ struct TakeArguments {
 };
 
 // Views of one camera; each recording is a place of the board.
-std::vector<BoardSighting> ViewsOf(const std::string& camera,
-                                   const std::vector<BoardSightings>& recordings) {
-  std::vector<BoardSighting> views;
+std::vector<BoardDetection> ViewsOf(const std::string& camera,
+                                    const std::vector<BoardDetections>& recordings) {
+  std::vector<BoardDetection> views;
   for (std::size_t place = 0; place < recordings.size(); ++place) {
-    for (BoardSighting view : recordings[place].sightings) {
+    for (BoardDetection view : recordings[place].detections) {
       if (recordings[place].cameras[static_cast<std::size_t>(view.camera)].name != camera) continue;
       view.moment = static_cast<int>(place);
       views.push_back(std::move(view));
@@ -65,15 +65,15 @@ PanTiltAngles PosedAt(const std::string& camera, const Footage& posed_by) {
 void RunPanTilt(const PanTiltArguments& a) {
   const Board board = ParseBoard(a.board);
   std::vector<CameraCalibration> cameras = LoadCalibration(a.calibration);
-  std::vector<BoardSightings> recordings;
-  SightingOptions options;
+  std::vector<BoardDetections> recordings;
+  DetectionOptions options;
   options.all_must_see = false;
   for (const std::filesystem::path& folder : a.footage)
-    recordings.push_back(CollectSightings(OpenFootage(folder), board, options));
+    recordings.push_back(CollectDetections(OpenFootage(folder), board, options));
   const Footage posed_by = a.posed_by.empty() ? Footage{} : OpenFootage(a.posed_by);
   for (CameraCalibration& camera : cameras) {
-    const std::vector<BoardSighting> views = ViewsOf(camera.name, recordings);
-    const bool turns = std::any_of(views.begin(), views.end(), [](const BoardSighting& view) {
+    const std::vector<BoardDetection> views = ViewsOf(camera.name, recordings);
+    const bool turns = std::any_of(views.begin(), views.end(), [](const BoardDetection& view) {
       return view.angles != PanTiltAngles{};
     });
     if (!turns) continue;

@@ -15,7 +15,7 @@
 #include "config/load_config.h"
 #include "config/open_live.h"
 #include "core/errors.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/aravis/aravis_directory.h"
 #include "drivers/camera_listing.h"
 #include "drivers/printable_text.h"

@@ -16,10 +16,10 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "daemon/base/disk_space.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/pose_publisher.h"
-#include "daemon/recording/disk_space.h"
-#include "daemon/service/complaints.h"
+#include "daemon/status/diagnostics.h"
 #include "drivers/clock.h"
 
 namespace mocap {

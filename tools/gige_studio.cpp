@@ -23,7 +23,7 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"

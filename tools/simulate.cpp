@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/simulation/motion.h"
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"

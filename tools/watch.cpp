@@ -23,9 +23,9 @@
 
 #include "config/config.h"
 #include "core/motion_capture.h"
+#include "daemon/base/number_option.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/pose_publisher.h"
-#include "daemon/number_option.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 

@@ -39,11 +39,11 @@ Matrix3 NearestRotation(const Matrix3& M) {
 }
 
 // Principal axes of the points, the thinnest last.
-Matrix3 PrincipalAxes(std::span<const PointSighting> points, Vector3& spread_mm) {
+Matrix3 PrincipalAxes(std::span<const PointDetection> points, Vector3& spread_mm) {
   Vector3 mean = Vector3::Zero();
-  for (const PointSighting& point : points) mean += point.p_W / static_cast<double>(points.size());
+  for (const PointDetection& point : points) mean += point.p_W / static_cast<double>(points.size());
   Matrix3 scatter = Matrix3::Zero();
-  for (const PointSighting& point : points)
+  for (const PointDetection& point : points)
     scatter += (point.p_W - mean) * (point.p_W - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(scatter / static_cast<double>(points.size()));
   spread_mm = solver.eigenvalues().cwiseMax(0).cwiseSqrt().reverse();
@@ -60,9 +60,9 @@ void RefuseTooFew(std::size_t count, bool coplanar) {
                    " are wanted");
 }
 
-Problem Pose(std::span<const PointSighting> points, const TsaiSensor& sensor) {
+Problem Pose(std::span<const PointDetection> points, const TsaiSensor& sensor) {
   RefuseTooFew(points.size(), true);
-  for (const PointSighting& point : points) {
+  for (const PointDetection& point : points) {
     if (!point.p_W.allFinite() || !point.pixel.allFinite())
       throw SetupError("a point is not a number; finite coordinates are wanted");
   }
@@ -85,7 +85,7 @@ Problem Pose(std::span<const PointSighting> points, const TsaiSensor& sensor) {
   // row.
   problem.X_PW.R = axes.transpose();
   problem.X_PW.p = -(axes.transpose() * points[highest].p_W);
-  for (const PointSighting& point : points) {
+  for (const PointDetection& point : points) {
     Vector3 p_P = problem.X_PW * point.p_W;
     if (problem.coplanar) p_P.z() = 0;
     problem.p_P.push_back(p_P);
@@ -231,7 +231,7 @@ Camera Moved(const Camera& camera, const Eigen::VectorXd& change, const std::vec
 }
 
 Eigen::VectorXd Residuals(const Camera& camera, const std::vector<Vector3>& p_P,
-                          std::span<const PointSighting> points) {
+                          std::span<const PointDetection> points) {
   Eigen::VectorXd r(2 * static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3 p_C = camera.X_CP * p_P[i];
@@ -247,7 +247,7 @@ Eigen::VectorXd Residuals(const Camera& camera, const std::vector<Vector3>& p_P,
 
 // Starts again from each result, so that turns stay small.
 Camera Refine(Camera camera, const std::vector<int>& free, const Problem& problem,
-              std::span<const PointSighting> points) {
+              std::span<const PointDetection> points) {
   const double depth = camera.X_CP.p.norm();
   const double f = camera.lens.focal_mm;
   Eigen::VectorXd all(kParameters);
@@ -266,7 +266,7 @@ Camera Refine(Camera camera, const std::vector<int>& free, const Problem& proble
 }
 
 void RefuseBadStart(const Problem& problem, const Camera& camera,
-                    std::span<const PointSighting> points) {
+                    std::span<const PointDetection> points) {
   const double slant_rad = std::acos(std::min(1.0, std::abs(camera.X_CP.R(2, 2))));
   if (problem.coplanar && slant_rad < kLeastSlant_rad)
     throw SetupError(
@@ -280,7 +280,7 @@ void RefuseBadStart(const Problem& problem, const Camera& camera,
         "may be left-handed or the columns swapped");
 }
 
-void Measure(const Camera& camera, const Problem& problem, std::span<const PointSighting> points,
+void Measure(const Camera& camera, const Problem& problem, std::span<const PointDetection> points,
              TsaiCalibration& calibration) {
   const Eigen::VectorXd r = Residuals(camera, problem.p_P, points);
   const auto n = static_cast<double>(points.size());
@@ -294,7 +294,7 @@ void Measure(const Camera& camera, const Problem& problem, std::span<const Point
 
 }  // namespace
 
-TsaiCalibration CalibrateTsai(std::span<const PointSighting> points, const TsaiSensor& sensor) {
+TsaiCalibration CalibrateTsai(std::span<const PointDetection> points, const TsaiSensor& sensor) {
   if (!(sensor.pitch_mm.minCoeff() > 0) || !(sensor.sx > 0))
     throw SetupError("the sensor's pitch or sx is not above 0; the size of a pixel is wanted");
   const Problem problem = Pose(points, sensor);

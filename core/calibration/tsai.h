@@ -11,7 +11,7 @@
 namespace mocap {
 
 /// A known point and where it is seen.
-struct PointSighting {
+struct PointDetection {
   Vector3 p_W;  ///< [mm].
   Vector2 pixel;
 };
@@ -46,6 +46,6 @@ struct TsaiCalibration {
 /// @throws SetupError  with the reason, when the points do not determine a camera: fewer than 8
 /// (coplanar) or 10, all on a line, a plane parallel to the picture (f and Tz cannot be told
 /// apart), or a mirrored set.
-TsaiCalibration CalibrateTsai(std::span<const PointSighting> points, const TsaiSensor& sensor);
+TsaiCalibration CalibrateTsai(std::span<const PointDetection> points, const TsaiSensor& sensor);
 
 }  // namespace mocap

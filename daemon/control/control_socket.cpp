@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "daemon/service/service_folders.h"
+#include "daemon/base/service_folders.h"
 
 namespace mocap {
 namespace {
@@ -98,21 +98,6 @@ std::filesystem::path UsersOwnSocket() {
 }
 
 }  // namespace
-
-FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
-  if (this != &other) {
-    Reset();
-    fd_ = other.Release();
-  }
-  return *this;
-}
-
-void FileDescriptor::Reset() {
-  if (fd_ >= 0) close(fd_);
-  fd_ = -1;
-}
-
-int FileDescriptor::Release() { return std::exchange(fd_, -1); }
 
 std::filesystem::path ControlSocketOf(const std::filesystem::path& configured) {
   if (!configured.empty()) return configured;

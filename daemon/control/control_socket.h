@@ -6,27 +6,10 @@
 #include <string>
 #include <thread>
 
+#include "daemon/base/file_descriptor.h"
 #include "daemon/control/control_request.h"
 
 namespace mocap {
-
-/// Owns a file descriptor.
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd = -1) : fd_(fd) {}
-  ~FileDescriptor() { Reset(); }
-  FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.Release()) {}
-  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
-
-  int get() const { return fd_; }
-  bool valid() const { return fd_ >= 0; }
-  void Reset();
-
- private:
-  int Release();
-
-  int fd_;
-};
 
 /// Where the socket lies: as configured, or `control` in systemd's RUNTIME_DIRECTORY, or in
 /// XDG_RUNTIME_DIR/mocapd; empty where none of these is.

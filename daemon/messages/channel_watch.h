@@ -12,17 +12,9 @@
 
 #include "config/config.h"
 #include "daemon/messages/lcm_sender.h"
+#include "daemon/status/channel_status.h"
 
 namespace mocap {
-
-/// Messages heard lately.
-struct ChannelStatus {
-  bool reaches_nobody = false;  ///< Messages stay in this process.
-  bool other_sender = false;    ///< Somebody else sends on the same channels.
-  /// How long none of the daemon's own messages came back, though it sends them; 0: they do, or
-  /// nothing is known of that.
-  std::int64_t silent_ns = 0;
-};
 
 /// Tells one's own statuses from others' by their times. Thread-safe.
 class StatusRegister {

@@ -6,7 +6,7 @@
 
 #include "config/body_size_fields.h"
 #include "core/tracking/voxel_labels.h"
-#include "daemon/service/complaints.h"
+#include "daemon/status/diagnostics.h"
 
 namespace mocap {
 namespace {
@@ -181,7 +181,7 @@ void FillService(const ServiceReport& report, std::int64_t utime, service_t& mes
   message.studio = report.studio;
   message.up_seconds = report.up_ns / 1'000'000'000;
   message.fps_nominal = report.fps_nominal;
-  message.complaint = Complaints(report);
+  message.complaint = Diagnostics(report);
   message.num_complaints = static_cast<std::int32_t>(message.complaint.size());
   message.calibration = report.calibration.where;
   message.calibration_made_s = report.calibration.made_s;

@@ -9,8 +9,8 @@
 #include <mocap/voxels_t.hpp>
 
 #include "daemon/pipeline/pose_sink.h"
-#include "daemon/service/service_report.h"
-#include "daemon/service/status_window.h"
+#include "daemon/status/service_report.h"
+#include "daemon/status/status_window.h"
 
 namespace mocap {
 

@@ -14,7 +14,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
-#include "daemon/control/control_socket.h"
+#include "daemon/base/file_descriptor.h"
 
 namespace mocap {
 namespace {

@@ -15,7 +15,7 @@
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/tap.h"
-#include "daemon/service/service_report.h"
+#include "daemon/status/service_report.h"
 #include "drivers/studio.h"
 
 namespace mocap {

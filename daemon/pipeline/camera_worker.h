@@ -12,10 +12,10 @@
 #include "core/reconstruction/silhouette/outline.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "core/reconstruction/silhouette/silhouette.h"
+#include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/synchronizer.h"
 #include "daemon/pipeline/tap.h"
-#include "daemon/service/health_watch.h"
 #include "drivers/studio.h"
 
 namespace mocap {

@@ -11,11 +11,11 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "daemon/pipeline/camera_worker.h"
+#include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/synchronizer.h"
-#include "daemon/service/health_watch.h"
 
 namespace mocap {
 

@@ -20,12 +20,12 @@
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/frame_progress.h"
 #include "daemon/pipeline/grid_memory.h"
+#include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/tap.h"
 #include "daemon/pipeline/track_stage.h"
-#include "daemon/service/health_watch.h"
 #include "drivers/studio.h"
 
 namespace mocap {

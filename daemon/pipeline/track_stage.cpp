@@ -19,7 +19,7 @@ std::optional<Vector3> MiddleOf(const CaptureResult& result) {
 }  // namespace
 
 TrackStage::TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
-                       StageRecorders& recorders, std::shared_ptr<Whereabouts> person)
+                       StageRecorders& recorders, std::shared_ptr<SubjectPosition> person)
     : capture_(std::move(capture)),
       origin_(origin),
       sink_(sink),

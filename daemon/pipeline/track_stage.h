@@ -11,7 +11,7 @@
 #include "daemon/pipeline/carve_stage.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/stage.h"
-#include "drivers/whereabouts.h"
+#include "drivers/subject_position.h"
 
 namespace mocap {
 
@@ -26,7 +26,7 @@ class TrackStage : private UpdateObserver {
  public:
   /// @param person  told where he is, for heads that follow; may be null.
   TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
-             StageRecorders& recorders, std::shared_ptr<Whereabouts> person = nullptr);
+             StageRecorders& recorders, std::shared_ptr<SubjectPosition> person = nullptr);
 
   ~TrackStage();
 
@@ -47,7 +47,7 @@ class TrackStage : private UpdateObserver {
   LatencyOrigin origin_;
   PoseSink& sink_;
   StageRecorders& recorders_;
-  const std::shared_ptr<Whereabouts> person_;
+  const std::shared_ptr<SubjectPosition> person_;
   std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
   std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "daemon/service/service_folders.h"
+#include "daemon/base/service_folders.h"
 
 namespace mocap {
 

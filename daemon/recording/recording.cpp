@@ -13,7 +13,7 @@
 
 #include "config/subject_file.h"
 #include "core/errors.h"
-#include "daemon/recording/disk_space.h"
+#include "daemon/base/disk_space.h"
 #include "drivers/clock.h"
 #include "drivers/go_behind.h"
 #include "drivers/take/take_layout.h"

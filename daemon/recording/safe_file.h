@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "daemon/control/control_socket.h"
+#include "daemon/base/file_descriptor.h"
 
 namespace mocap {
 

@@ -10,9 +10,9 @@
 #include <mutex>
 #include <utility>
 
-#include "daemon/recording/disk_space.h"
+#include "daemon/base/disk_space.h"
+#include "daemon/base/service_folders.h"
 #include "daemon/service/metrics_file.h"
-#include "daemon/service/service_folders.h"
 #include "drivers/clock.h"
 
 namespace mocap {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "daemon/service/complaints.h"
+#include "daemon/status/diagnostics.h"
 
 namespace mocap {
 namespace {
@@ -99,7 +99,7 @@ std::string MetricsText(const ServiceReport& report) {
   writer.Sample("outcome=\"partial\"", static_cast<double>(status.sets_partial));
   writer.Sample("outcome=\"dropped\"", static_cast<double>(status.sets_dropped));
   writer.Single("complaints", "gauge", "What is not as it should be.",
-                static_cast<double>(Complaints(report).size()));
+                static_cast<double>(Diagnostics(report).size()));
   WriteStages(report, writer);
   WriteCameras(report, writer);
   WriteHealth(report, writer);

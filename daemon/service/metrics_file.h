@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "daemon/service/service_report.h"
+#include "daemon/status/service_report.h"
 
 namespace mocap {
 

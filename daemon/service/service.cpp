@@ -11,14 +11,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "daemon/control/live_config.h"
-#include "daemon/control/service_control.h"
+#include "daemon/base/service_folders.h"
+#include "daemon/control/control_socket.h"
 #include "daemon/messages/channel_watch.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recorder.h"
+#include "daemon/service/live_config.h"
 #include "daemon/service/live_view.h"
-#include "daemon/service/service_folders.h"
+#include "daemon/service/service_control.h"
 #include "daemon/service/service_log.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/service/service_setup.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/base/service_folders.h"
 #include "daemon/service/printable_log.h"
-#include "daemon/service/service_folders.h"
 #include "drivers/clock.h"
 
 namespace mocap {

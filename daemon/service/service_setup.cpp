@@ -6,10 +6,10 @@
 #include "config/open_studio.h"
 #include "core/errors.h"
 #include "core/make_motion_capture.h"
+#include "daemon/base/service_folders.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/open_lcm.h"
 #include "daemon/pipeline/realtime.h"
-#include "daemon/service/service_folders.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {

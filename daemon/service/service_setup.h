@@ -10,11 +10,11 @@
 
 #include "config/config.h"
 #include "core/body/body_table.h"
-#include "daemon/control/background_learner.h"
 #include "daemon/messages/truth_error.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recording.h"
-#include "daemon/service/service_report.h"
+#include "daemon/service/background_learner.h"
+#include "daemon/status/service_report.h"
 #include "drivers/studio.h"
 
 namespace mocap {

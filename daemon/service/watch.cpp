@@ -10,8 +10,8 @@
 #include "core/errors.h"
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recorder.h"
-#include "daemon/service/complaints.h"
 #include "daemon/service/metrics_file.h"
+#include "daemon/status/diagnostics.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
@@ -96,7 +96,7 @@ void Watch::Report(const PipelineStatus& status) {
   LookAtDisk();
   parts_.publisher.PublishStatus(report_);
   around_.control.SetReport(report_);
-  complaints_.Add(Complaints(report_), SteadyNs());
+  complaints_.Add(Diagnostics(report_), SteadyNs());
   around_.manager.Say(ReportLine(report_));
 }
 

@@ -8,19 +8,19 @@
 #include <optional>
 #include <string>
 
-#include "daemon/control/service_control.h"
 #include "daemon/messages/channel_watch.h"
 #include "daemon/pipeline/frame_progress.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/service/change_log.h"
 #include "daemon/service/clock_watch.h"
-#include "daemon/service/complaint_log.h"
+#include "daemon/service/diagnostic_log.h"
 #include "daemon/service/disk_watch.h"
-#include "daemon/service/light_watch.h"
+#include "daemon/service/service_control.h"
 #include "daemon/service/service_log.h"
 #include "daemon/service/service_manager.h"
-#include "daemon/service/service_report.h"
-#include "daemon/service/status_window.h"
+#include "daemon/status/light_watch.h"
+#include "daemon/status/service_report.h"
+#include "daemon/status/status_window.h"
 
 namespace mocap {
 
@@ -58,7 +58,7 @@ class Watch {
   const bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
   ProgressWatch progress_;
   ChangeLog log_;
-  ComplaintLog complaints_;
+  DiagnosticLog complaints_;
   StatusWindow window_;
   LightWatch light_;
   ClockWatch clock_;

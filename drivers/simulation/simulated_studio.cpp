@@ -156,7 +156,7 @@ std::unique_ptr<SimulatedCamera> SimulatedStudio::OpenCamera(int camera) const {
 }
 
 std::unique_ptr<CameraDriver> SimulatedStudio::OpenFollowing(
-    int camera, std::shared_ptr<const Whereabouts> person) const {
+    int camera, std::shared_ptr<const SubjectPosition> person) const {
   const PanTiltLimits reach = scene_->ReachOf(camera);
   const auto head = std::make_shared<SimulatedHead>(reach);
   return std::make_unique<PanTiltCamera>(
@@ -177,7 +177,7 @@ Studio OpenSimulatedStudio(const SimulatedStudioOptions& options) {
   Studio studio;
   studio.name = "simulated " + options.motion;
   studio.fps_nominal = options.fps;
-  if (options.follow) studio.person = std::make_shared<Whereabouts>();
+  if (options.follow) studio.person = std::make_shared<SubjectPosition>();
   for (int i = 0; i < options.cameras; ++i) {
     std::unique_ptr<CameraDriver> driver = simulated->OpenCamera(i);
     if (options.follow) driver = simulated->OpenFollowing(i, studio.person);

@@ -13,8 +13,8 @@
 #include "drivers/simulation/simulated_head.h"
 #include "drivers/simulation/skeleton.h"
 #include "drivers/studio.h"
+#include "drivers/subject_position.h"
 #include "drivers/take/take_writer.h"
-#include "drivers/whereabouts.h"
 
 namespace mocap {
 
@@ -109,7 +109,7 @@ class SimulatedStudio {
   std::unique_ptr<SimulatedCamera> OpenCamera(int camera) const;
   /// Opens a camera whose head follows.
   std::unique_ptr<CameraDriver> OpenFollowing(int camera,
-                                              std::shared_ptr<const Whereabouts> person) const;
+                                              std::shared_ptr<const SubjectPosition> person) const;
   /// Pictures of the empty studio; for a camera on a head a sweep of its directions.
   std::vector<BackgroundFrame> Background(int camera) const;
   /// Time of a frame without any camera's jitter.

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/complaints.h"
-#include "daemon/service/service_report.h"
+#include "daemon/status/diagnostics.h"
+#include "daemon/status/service_report.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -108,18 +108,18 @@ std::vector<std::string> EveryComplaint() {
     report.recording.state = state;
     report.recording.problem = "ended because the disk has 400 MB left";
     report.recording.dropped = 12;
-    const std::vector<std::string> some = Complaints(report);
+    const std::vector<std::string> some = Diagnostics(report);
     all.insert(some.begin(), some.end());
   }
   report.now.sets_per_second = 0;
   report.now.sets_dropped_lately = 0;
   for (const std::int64_t worked_on : {0, 1}) {
     report.now.status.sets_complete = worked_on;
-    const std::vector<std::string> without_sets = Complaints(report);
+    const std::vector<std::string> without_sets = Diagnostics(report);
     all.insert(without_sets.begin(), without_sets.end());
   }
   for (ServiceReport& silent : SilentReports()) {
-    const std::vector<std::string> some = Complaints(silent);
+    const std::vector<std::string> some = Diagnostics(silent);
     all.insert(some.begin(), some.end());
   }
   return {all.begin(), all.end()};

@@ -44,7 +44,7 @@ class Following : public ::testing::Test {
   double Pan() const { return head_.At(now_ns_).pan_rad; }
 
   CameraCalibration camera_;
-  std::shared_ptr<Whereabouts> person_ = std::make_shared<Whereabouts>();
+  std::shared_ptr<SubjectPosition> person_ = std::make_shared<SubjectPosition>();
   SimulatedHead head_{{{-1, -0.5}, {1, 0.5}}};
   std::int64_t now_ns_ = 1'000'000'000'000;
 };
@@ -109,8 +109,8 @@ TEST(SimulatedHead, TakesItsTimeAndTellsWherePicturesAreTaken) {
   EXPECT_FALSE(head.TurnTo({1.1, 0}));
 }
 
-TEST(Whereabouts, TellsWhatItWasTold) {
-  Whereabouts person;
+TEST(SubjectPosition, TellsWhatItWasTold) {
+  SubjectPosition person;
   EXPECT_FALSE(person.Told());
   person.Tell(Vector3(1200.4, -3000, 50000));
   EXPECT_EQ(*person.Told(), Vector3(1200, -3000, 32000));

@@ -86,7 +86,7 @@ TEST_F(BoardRecordingTest, LeavesFootageOfTheSameMomentsOfAllCameras) {
   // 30 frames of 30 a second are 1 s, of which 5 are kept.
   EXPECT_EQ(moments.size(), 5u);
   for (const FootageMoment& moment : moments) EXPECT_EQ(moment.frames[0], moment.frames[1]);
-  EXPECT_EQ(CollectSightings(footage, options_.board, {}).CountOf(1), 5);
+  EXPECT_EQ(CollectDetections(footage, options_.board, {}).CountOf(1), 5);
 }
 
 TEST_F(BoardRecordingTest, EndsWhenNothingIsMissing) {
@@ -120,8 +120,8 @@ TEST(BoardHintsTest, NothingIsMissingAfterALongWalk) {
 }
 
 TEST(BoardHintsTest, NamesWhatEachCameraHasNotSeen) {
-  BoardSightings sightings = testing::WalkBoard(Rig(), {});
-  std::erase_if(sightings.sightings, [](const BoardSighting& s) {
+  BoardDetections detections = testing::WalkBoard(Rig(), {});
+  std::erase_if(detections.detections, [](const BoardDetection& s) {
     return s.camera == 0 ||
            (s.camera == 3 && std::ranges::any_of(s.corners.pixels,
                                                  [](const Vector2& pixel) {
@@ -129,20 +129,20 @@ TEST(BoardHintsTest, NamesWhatEachCameraHasNotSeen) {
                                                  })) ||
            (s.camera == 4 && s.moment > 20);
   });
-  const std::vector<CameraHint> hints = HintsFor(sightings);
+  const std::vector<CameraHint> hints = HintsFor(detections);
   EXPECT_EQ(hints[0].missing, "has not seen the board");
   EXPECT_EQ(hints[3].missing, "nothing in the upper left");
   EXPECT_THAT(hints[4].missing, ::testing::AnyOf(HasSubstr("more views"), HasSubstr("nothing in")));
 }
 
 TEST(BoardHintsTest, NamesWithWhomACameraHasToShareViews) {
-  BoardSightings sightings = testing::WalkBoard(Rig(), {});
+  BoardDetections detections = testing::WalkBoard(Rig(), {});
   // Camera 6 was shown the board alone.
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera == 5) s.moment += sightings.moments;
+  for (BoardDetection& s : detections.detections) {
+    if (s.camera == 5) s.moment += detections.moments;
   }
-  sightings.moments *= 2;
-  const std::vector<CameraHint> hints = HintsFor(sightings);
+  detections.moments *= 2;
+  const std::vector<CameraHint> hints = HintsFor(detections);
   EXPECT_THAT(hints[5].missing, HasSubstr("at the same time (0 of 8 views)"));
   EXPECT_THAT(hints[0].missing, IsEmpty());
   EXPECT_THAT(HintText(hints), HasSubstr("cam6"));

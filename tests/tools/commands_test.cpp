@@ -7,7 +7,7 @@
 #include <new>
 #include <string>
 
-#include "daemon/number_option.h"
+#include "daemon/base/number_option.h"
 #include "daemon/run_program.h"
 
 namespace mocap {

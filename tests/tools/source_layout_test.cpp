@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -20,6 +21,33 @@ const std::map<std::string, std::set<std::string>> kDoors = {
     {"config", {"core", "drivers", "config"}},
     {"daemon", {"core", "drivers", "config", "daemon"}},
     {"tools", {"core", "drivers", "config", "daemon", "tools"}}};
+
+// Inside a folder: the rooms that a room may include from, besides itself. A folder's own files
+// serve as its front ("."), or lie below its rooms.
+const std::map<std::string, std::map<std::string, std::set<std::string>>> kInnerDoors = {
+    {"core",
+     {{"body", {}},
+      {"reconstruction", {}},
+      {"calibration", {"reconstruction"}},
+      {"tracking", {"body", "reconstruction"}},
+      {"acquisition", {"body", "tracking"}},
+      {"mikic2003", {"body", "reconstruction", "tracking"}},
+      {"evaluation", {"body"}}}},
+    {"drivers",
+     {{"pixels", {}},
+      {"usb", {}},
+      {"take", {}},
+      {"simulation", {"take"}},
+      {"v4l2", {"pixels"}},
+      {"aravis", {"pixels", "usb"}}}},
+    {"daemon",
+     {{"base", {}},
+      {"pipeline", {}},
+      {"control", {"base"}},
+      {"recording", {"base", "pipeline"}},
+      {"status", {"base", "pipeline", "recording"}},
+      {"messages", {"base", "pipeline", "status"}},
+      {"service", {"base", "control", "messages", "pipeline", "recording", "status"}}}}};
 
 struct Include {
   fs::path file;
@@ -73,6 +101,23 @@ TEST(SourceLayout, FoldersIncludeOnlyThroughTheirDoors) {
       if (!include.in_quotes) continue;
       const std::string from = include.header.substr(0, include.header.find('/'));
       EXPECT_TRUE(doors.contains(from)) << include.file << " includes " << include.header;
+    }
+  }
+}
+
+TEST(SourceLayout, RoomsIncludeOnlyWhatLiesBelowThem) {
+  for (const auto& [folder, rooms] : kInnerDoors) {
+    for (const auto& [room, doors] : rooms) {
+      const std::vector<Include> includes = IncludesUnder(folder + "/" + room);
+      ASSERT_FALSE(includes.empty()) << folder << "/" << room;
+      for (const Include& include : includes) {
+        const fs::path header = include.header;
+        const auto depth = std::distance(header.begin(), header.end());
+        if (!include.in_quotes || *header.begin() != folder || depth < 3) continue;
+        const std::string from = *std::next(header.begin());
+        EXPECT_TRUE(from == room || doors.contains(from))
+            << include.file << " includes " << include.header;
+      }
     }
   }
 }

@@ -13,10 +13,10 @@ constexpr int kEnoughShared = 8;
 
 using SharedViews = std::vector<std::vector<int>>;  // [camera][camera]
 
-SharedViews CountShared(const BoardSightings& sightings) {
-  const std::size_t n = sightings.cameras.size();
-  std::vector<std::vector<int>> seen_by(static_cast<std::size_t>(sightings.moments));
-  for (const BoardSighting& s : sightings.sightings) seen_by[s.moment].push_back(s.camera);
+SharedViews CountShared(const BoardDetections& detections) {
+  const std::size_t n = detections.cameras.size();
+  std::vector<std::vector<int>> seen_by(static_cast<std::size_t>(detections.moments));
+  for (const BoardDetection& s : detections.detections) seen_by[s.moment].push_back(s.camera);
   SharedViews shared(n, std::vector<int>(n, 0));
   for (const std::vector<int>& cameras : seen_by) {
     for (const int a : cameras) {
@@ -44,26 +44,26 @@ std::vector<bool> LinkedToFirst(const SharedViews& shared) {
 }
 
 // Where to show the board so that a camera hangs together with the others.
-std::string LinkHint(const BoardSightings& sightings, const SharedViews& shared,
+std::string LinkHint(const BoardDetections& detections, const SharedViews& shared,
                      const std::vector<bool>& linked, std::size_t camera) {
   std::size_t nearest = 0;
   for (std::size_t other = 0; other < linked.size(); ++other) {
     if (linked[other] && shared[camera][other] >= shared[camera][nearest]) nearest = other;
   }
   return fmt::format("show it to {} at the same time ({} of {} views)",
-                     sightings.cameras[nearest].name, shared[camera][nearest], kEnoughShared);
+                     detections.cameras[nearest].name, shared[camera][nearest], kEnoughShared);
 }
 
 }  // namespace
 
-std::vector<CameraHint> HintsFor(const BoardSightings& sightings) {
-  const SharedViews shared = CountShared(sightings);
+std::vector<CameraHint> HintsFor(const BoardDetections& detections) {
+  const SharedViews shared = CountShared(detections);
   const std::vector<bool> linked = LinkedToFirst(shared);
   std::vector<CameraHint> hints;
-  for (std::size_t c = 0; c < sightings.cameras.size(); ++c) {
+  for (std::size_t c = 0; c < detections.cameras.size(); ++c) {
     const int camera = static_cast<int>(c);
-    const Coverage coverage = CoverageOf(sightings, camera);
-    CameraHint hint{sightings.cameras[c].name, sightings.CountOf(camera), coverage.share, ""};
+    const Coverage coverage = CoverageOf(detections, camera);
+    CameraHint hint{detections.cameras[c].name, detections.CountOf(camera), coverage.share, ""};
     if (hint.views == 0) {
       hint.missing = "has not seen the board";
     } else if (const std::string parts = coverage.Hint(); !parts.empty()) {
@@ -71,7 +71,7 @@ std::vector<CameraHint> HintsFor(const BoardSightings& sightings) {
     } else if (hint.views < kEnoughViews) {
       hint.missing = fmt::format("more views ({} of {}), tilted", hint.views, kEnoughViews);
     } else if (!linked[c]) {
-      hint.missing = LinkHint(sightings, shared, linked, c);
+      hint.missing = LinkHint(detections, shared, linked, c);
     }
     hints.push_back(std::move(hint));
   }

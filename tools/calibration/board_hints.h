@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap {
 
@@ -18,6 +18,6 @@ struct CameraHint {
 
 /// Tells for each camera what it has not seen yet: views, parts of the picture, and views that it
 /// shares with the other cameras.
-std::vector<CameraHint> HintsFor(const BoardSightings& sightings);
+std::vector<CameraHint> HintsFor(const BoardDetections& detections);
 
 }  // namespace mocap

@@ -29,9 +29,9 @@ RigidTransform TransformFrom(const double* pose) {
 // One view of the board: blocks are lens, camera, board, lateness.
 class ViewCost : public ceres::CostFunction {
  public:
-  ViewCost(const Lens& lens, const Board& board, const BoardSighting& sighting)
-      : lens_(lens), sighting_(sighting), pixels_(sighting.corners.pixels) {
-    for (const int id : sighting.corners.ids) points_B_.push_back(board.Corner(id));
+  ViewCost(const Lens& lens, const Board& board, const BoardDetection& detection)
+      : lens_(lens), detection_(detection), pixels_(detection.corners.pixels) {
+    for (const int id : detection.corners.ids) points_B_.push_back(board.Corner(id));
     set_num_residuals(2 * static_cast<int>(pixels_.size()));
     *mutable_parameter_block_sizes() = {static_cast<int>(LensParameters(lens).size()), 6, 6, 1};
   }
@@ -55,13 +55,13 @@ class ViewCost : public ceres::CostFunction {
       const Vector3 p_C = X_CB * points_B_[i];
       const auto pixel = Project(lens, p_C);
       Eigen::Map<Vector2>(residuals + 2 * i) =
-          pixel ? Vector2(*pixel - pixels_[i] + sighting_.MovedSince(i, *blocks[3]))
+          pixel ? Vector2(*pixel - pixels_[i] + detection_.MovedSince(i, *blocks[3]))
                 : Vector2::Constant(kUnseen_px).eval();
       if (jacobians == nullptr || !pixel) continue;
-      if (jacobians[3] != nullptr && !sighting_.motions.empty()) {
-        const CornerMotion& m = sighting_.motions[i];
+      if (jacobians[3] != nullptr && !detection_.motions.empty()) {
+        const CornerMotion& m = detection_.motions[i];
         Eigen::Map<Vector2>(jacobians[3] + 2 * i) =
-            m.velocity - m.acceleration * (sighting_.late_s + *blocks[3]);
+            m.velocity - m.acceleration * (detection_.late_s + *blocks[3]);
       }
       if (jacobians[0] != nullptr) LensColumns(blocks[0], p_C, i, jacobians[0]);
       for (int b = 0; b < 2; ++b) {
@@ -135,7 +135,7 @@ class ViewCost : public ceres::CostFunction {
   }
 
   Lens lens_;
-  BoardSighting sighting_;
+  BoardDetection detection_;
   std::vector<Vector3> points_B_;
   std::vector<Vector2> pixels_;
 };
@@ -198,19 +198,19 @@ struct Blocks {
   std::vector<double> lateness_s;
 };
 
-void AddViews(const BoardSightings& sightings, const BundleOptions& options, const Bundle& bundle,
+void AddViews(const BoardDetections& detections, const BundleOptions& options, const Bundle& bundle,
               Blocks& blocks, ceres::Problem& problem) {
-  for (const BoardSighting& sighting : sightings.sightings) {
-    if (!bundle.X_WB[sighting.moment]) continue;
-    const auto corners = static_cast<double>(sighting.corners.ids.size());
+  for (const BoardDetection& detection : detections.detections) {
+    if (!bundle.X_WB[detection.moment]) continue;
+    const auto corners = static_cast<double>(detection.corners.ids.size());
     // A loss owned by the problem; the whole view is in or out.
     ceres::LossFunction* loss = options.robust_px > 0
                                     ? new ceres::CauchyLoss(options.robust_px * std::sqrt(corners))
                                     : nullptr;
     problem.AddResidualBlock(
-        new ViewCost(bundle.cameras[sighting.camera].lens, sightings.board, sighting), loss,
-        blocks.lenses[sighting.camera].data(), blocks.cameras[sighting.camera].data(),
-        blocks.boards[sighting.moment].data(), &blocks.lateness_s[sighting.camera]);
+        new ViewCost(bundle.cameras[detection.camera].lens, detections.board, detection), loss,
+        blocks.lenses[detection.camera].data(), blocks.cameras[detection.camera].data(),
+        blocks.boards[detection.moment].data(), &blocks.lateness_s[detection.camera]);
   }
 }
 
@@ -246,7 +246,7 @@ void HoldConstant(const BundleOptions& options, Blocks& blocks, ceres::Problem& 
 
 }  // namespace
 
-bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options, Bundle& bundle) {
+bool RefineBundle(const BoardDetections& detections, const BundleOptions& options, Bundle& bundle) {
   Blocks blocks;
   for (const CameraCalibration& camera : bundle.cameras) {
     blocks.lenses.push_back(LensParameters(camera.lens));
@@ -257,9 +257,9 @@ bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options,
   blocks.lateness_s = bundle.lateness_s;
   blocks.lateness_s.resize(bundle.cameras.size(), 0);
   ceres::Problem problem;
-  AddViews(sightings, options, bundle, blocks, problem);
+  AddViews(detections, options, bundle, blocks, problem);
   if (problem.NumResidualBlocks() == 0) return false;
-  if (sightings.board.kind == BoardKind::kWand) HoldRolls(blocks, problem);
+  if (detections.board.kind == BoardKind::kWand) HoldRolls(blocks, problem);
   for (std::size_t c = 0; options.refine_lenses && c < bundle.cameras.size(); ++c) {
     if (problem.HasParameterBlock(blocks.lenses[c].data()))
       problem.AddResidualBlock(new LensPrior(bundle.cameras[c]), nullptr, blocks.lenses[c].data());

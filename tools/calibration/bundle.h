@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap {
 
@@ -29,8 +29,8 @@ struct BundleOptions {
   int most_steps = 60;
 };
 
-/// Refines in place with Ceres. Sightings of unknown boards are passed over. Deterministic.
+/// Refines in place with Ceres. Detections of unknown boards are passed over. Deterministic.
 /// @return  false when it did not settle.
-bool RefineBundle(const BoardSightings& sightings, const BundleOptions& options, Bundle& bundle);
+bool RefineBundle(const BoardDetections& detections, const BundleOptions& options, Bundle& bundle);
 
 }  // namespace mocap

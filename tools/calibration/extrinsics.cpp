@@ -31,13 +31,13 @@ double Apart(const RigidTransform& a, const RigidTransform& b) {
 /// Poses of the board in each camera at each moment.
 using PoseTable = std::vector<std::vector<std::vector<BoardPose>>>;  // [camera][moment]
 
-PoseTable FindPoses(const BoardSightings& sightings,
+PoseTable FindPoses(const BoardDetections& detections,
                     const std::vector<CameraCalibration>& cameras) {
-  PoseTable table(cameras.size(),
-                  std::vector<std::vector<BoardPose>>(static_cast<std::size_t>(sightings.moments)));
-  for (const BoardSighting& s : sightings.sightings) {
+  PoseTable table(cameras.size(), std::vector<std::vector<BoardPose>>(
+                                      static_cast<std::size_t>(detections.moments)));
+  for (const BoardDetection& s : detections.detections) {
     std::vector<BoardPose> poses =
-        FindBoardPoses(cameras[s.camera].lens, sightings.board, s.corners);
+        FindBoardPoses(cameras[s.camera].lens, detections.board, s.corners);
     std::erase_if(poses, [](const BoardPose& pose) { return pose.rms_px > kWorstView_px; });
     table[s.camera][s.moment] = std::move(poses);
   }
@@ -109,21 +109,21 @@ void PlaceCameras(const std::function<CameraLink(int, int)>& link_of,
 }
 
 // Of the poses that single cameras give a board, the one that suits all best.
-void PlaceBoards(const BoardSightings& sightings, const PoseTable& poses, Bundle& bundle) {
-  std::vector<std::vector<const BoardSighting*>> of_moment(
-      static_cast<std::size_t>(sightings.moments));
-  for (const BoardSighting& s : sightings.sightings) of_moment[s.moment].push_back(&s);
-  bundle.X_WB.assign(static_cast<std::size_t>(sightings.moments), std::nullopt);
+void PlaceBoards(const BoardDetections& detections, const PoseTable& poses, Bundle& bundle) {
+  std::vector<std::vector<const BoardDetection*>> of_moment(
+      static_cast<std::size_t>(detections.moments));
+  for (const BoardDetection& s : detections.detections) of_moment[s.moment].push_back(&s);
+  bundle.X_WB.assign(static_cast<std::size_t>(detections.moments), std::nullopt);
   for (std::size_t m = 0; m < of_moment.size(); ++m) {
     double least = std::numeric_limits<double>::infinity();
-    for (const BoardSighting* from : of_moment[m]) {
+    for (const BoardDetection* from : of_moment[m]) {
       for (const BoardPose& pose : poses[from->camera][m]) {
         const RigidTransform X_WB = bundle.cameras[from->camera].X_CW.Inverse() * pose.X_CB;
         double sum = 0;
-        for (const BoardSighting* to : of_moment[m]) {
+        for (const BoardDetection* to : of_moment[m]) {
           const CameraCalibration& camera = bundle.cameras[to->camera];
-          sum += std::min(100.0,
-                          PoseRmsPx(camera.lens, sightings.board, to->corners, camera.X_CW * X_WB));
+          sum += std::min(
+              100.0, PoseRmsPx(camera.lens, detections.board, to->corners, camera.X_CW * X_WB));
         }
         if (sum >= least) continue;
         least = sum;
@@ -133,20 +133,21 @@ void PlaceBoards(const BoardSightings& sightings, const PoseTable& poses, Bundle
   }
 }
 
-void PlaceShown(BoardSightings& sightings, Bundle& bundle) {
-  if (sightings.board.kind == BoardKind::kWand) return PlaceWands(sightings, bundle);
-  PlaceBoards(sightings, FindPoses(sightings, bundle.cameras), bundle);
+void PlaceShown(BoardDetections& detections, Bundle& bundle) {
+  if (detections.board.kind == BoardKind::kWand) return PlaceWands(detections, bundle);
+  PlaceBoards(detections, FindPoses(detections, bundle.cameras), bundle);
 }
 
-void PlaceAll(BoardSightings& sightings, Bundle& bundle) {
+void PlaceAll(BoardDetections& detections, Bundle& bundle) {
   const std::vector<CameraCalibration> lenses = bundle.cameras;
-  if (sightings.board.kind == BoardKind::kWand) {
-    PlaceCameras([&](int a, int b) { return LinkByWand(sightings, lenses, a, b); }, bundle.cameras);
+  if (detections.board.kind == BoardKind::kWand) {
+    PlaceCameras([&](int a, int b) { return LinkByWand(detections, lenses, a, b); },
+                 bundle.cameras);
   } else {
-    const PoseTable poses = FindPoses(sightings, lenses);
+    const PoseTable poses = FindPoses(detections, lenses);
     PlaceCameras([&](int a, int b) { return LinkPair(poses, a, b); }, bundle.cameras);
   }
-  PlaceShown(sightings, bundle);
+  PlaceShown(detections, bundle);
 }
 
 // A moment that only one camera saw tells nothing of where cameras are, but still of its lens.
@@ -154,41 +155,41 @@ void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
   BundleOptions refine;
   refine.refine_lenses = false;
   refine.robust_px = 1;
-  RefineBundle(fit.sightings, refine, fit.bundle);
+  RefineBundle(fit.detections, refine, fit.bundle);
   refine.refine_lenses = options.refine_lenses;
-  refine.refine_lateness = fit.sightings.timed;
-  RefineBundle(fit.sightings, refine, fit.bundle);
-  fit.dropped_corners = DropOutliers(fit.bundle, fit.sightings);
+  refine.refine_lateness = fit.detections.timed;
+  RefineBundle(fit.detections, refine, fit.bundle);
+  fit.dropped_corners = DropOutliers(fit.bundle, fit.detections);
   refine.robust_px = 0;
-  RefineBundle(fit.sightings, refine, fit.bundle);
+  RefineBundle(fit.detections, refine, fit.bundle);
 }
 
 // Corners of each camera at moments that another camera saw, too.
-std::vector<int> SharedCorners(const BoardSightings& sightings) {
-  std::vector<int> cameras_at(static_cast<std::size_t>(sightings.moments), 0);
-  for (const BoardSighting& s : sightings.sightings) ++cameras_at[s.moment];
-  std::vector<int> shared(sightings.cameras.size(), 0);
-  for (const BoardSighting& s : sightings.sightings) {
+std::vector<int> SharedCorners(const BoardDetections& detections) {
+  std::vector<int> cameras_at(static_cast<std::size_t>(detections.moments), 0);
+  for (const BoardDetection& s : detections.detections) ++cameras_at[s.moment];
+  std::vector<int> shared(detections.cameras.size(), 0);
+  for (const BoardDetection& s : detections.detections) {
     if (cameras_at[s.moment] > 1) shared[s.camera] += static_cast<int>(s.corners.ids.size());
   }
   return shared;
 }
 
 // The first view of a camera that was dropped; where none was, the worst.
-std::string MisfitFrame(const BoardSightings& before, const StudioFit& fit, int camera) {
-  for (const BoardSighting& s : before.sightings) {
-    const bool kept = std::ranges::any_of(fit.sightings.sightings, [&](const BoardSighting& k) {
+std::string MisfitFrame(const BoardDetections& before, const StudioFit& fit, int camera) {
+  for (const BoardDetection& s : before.detections) {
+    const bool kept = std::ranges::any_of(fit.detections.detections, [&](const BoardDetection& k) {
       return k.camera == camera && k.name == s.name;
     });
     if (s.camera == camera && !kept) return s.name;
   }
-  return WorstView(BundleErrors(fit.sightings, fit.bundle), fit.sightings, camera).frame;
+  return WorstView(BundleErrors(fit.detections, fit.bundle), fit.detections, camera).frame;
 }
 
 // Alone with the board, any camera is right: what counts is what it shares with others. The one
 // that fits worst is named, since it drags the others along.
-void RefuseContradiction(const BoardSightings& before, const StudioFit& fit) {
-  const std::vector<int> seen = SharedCorners(before), kept = SharedCorners(fit.sightings);
+void RefuseContradiction(const BoardDetections& before, const StudioFit& fit) {
+  const std::vector<int> seen = SharedCorners(before), kept = SharedCorners(fit.detections);
   const auto share = [&](std::size_t c) {
     return static_cast<double>(kept[c]) / std::max(1, seen[c]);
   };
@@ -219,45 +220,45 @@ void MoveWorld(const RigidTransform& X_NW, Bundle& bundle) {
 }
 
 void MeasureFit(StudioFit& fit) {
-  const std::vector<CornerError> errors = BundleErrors(fit.sightings, fit.bundle);
-  fit.rms_px = RmsPx(errors, fit.sightings, -1);
+  const std::vector<CornerError> errors = BundleErrors(fit.detections, fit.bundle);
+  fit.rms_px = RmsPx(errors, fit.detections, -1);
   fit.cameras.resize(fit.bundle.cameras.size());
   for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
     CameraFit& camera = fit.cameras[c];
     const int id = static_cast<int>(c);
     camera.name = fit.bundle.cameras[c].name;
-    camera.rms_px = RmsPx(errors, fit.sightings, id);
-    camera.views = fit.sightings.CountOf(id);
+    camera.rms_px = RmsPx(errors, fit.detections, id);
+    camera.views = fit.detections.CountOf(id);
     camera.corners =
         static_cast<int>(std::count_if(errors.begin(), errors.end(), [&](const CornerError& error) {
-          return fit.sightings.sightings[error.sighting].camera == id;
+          return fit.detections.detections[error.detection].camera == id;
         }));
-    camera.coverage = CoverageOf(fit.sightings, id);
+    camera.coverage = CoverageOf(fit.detections, id);
   }
 }
 
-StudioFit FitExtrinsics(const BoardSightings& sightings,
+StudioFit FitExtrinsics(const BoardDetections& detections,
                         const std::vector<CameraCalibration>& lenses,
                         const ExtrinsicsOptions& options) {
-  if (sightings.board.LooksSameTurned() && sightings.cameras.size() > 1)
+  if (detections.board.LooksSameTurned() && detections.cameras.size() > 1)
     throw SetupError(
-        "--board: a " + sightings.board.Text() +
+        "--board: a " + detections.board.Text() +
         " looks the same when it is turned by half a turn, so that cameras cannot agree "
         "which end is which; one side odd and the other even, or a ChArUco board, is wanted");
   StudioFit fit;
-  fit.sightings = sightings;
+  fit.detections = detections;
   fit.bundle.cameras = lenses;
-  PlaceAll(fit.sightings, fit.bundle);
+  PlaceAll(fit.detections, fit.bundle);
   Adjust(options, fit);
-  if (sightings.timed) {
+  if (detections.timed) {
     // Boards of one moment may have been taken of different ones as long as cameras lagged.
-    fit.sightings = sightings;
-    MatchAgain(fit.bundle.lateness_s, fit.sightings);
-    PlaceShown(fit.sightings, fit.bundle);
+    fit.detections = detections;
+    MatchAgain(fit.bundle.lateness_s, fit.detections);
+    PlaceShown(fit.detections, fit.bundle);
     Adjust(options, fit);
   }
   MeasureFit(fit);
-  RefuseContradiction(sightings, fit);
+  RefuseContradiction(detections, fit);
   return fit;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tools/calibration/bundle.h"
+#include "tools/calibration/detections.h"
 #include "tools/calibration/lens_fit.h"
-#include "tools/calibration/sightings.h"
 
 namespace mocap {
 
@@ -24,7 +24,7 @@ struct CameraFit {
 /// All cameras in the frame of the first, or in the world once a floor is set.
 struct StudioFit {
   Bundle bundle;
-  BoardSightings sightings;  ///< Those that were kept.
+  BoardDetections detections;  ///< Those that were kept.
   std::vector<CameraFit> cameras;
   double rms_px = 0;
   int dropped_corners = 0;
@@ -37,10 +37,10 @@ struct ExtrinsicsOptions {
 
 /// Puts all cameras into one frame: pairs from shared views, then a bundle adjustment.
 ///
-/// @param lenses  one a camera of the sightings; X_CW is ignored.
+/// @param lenses  one a camera of the detections; X_CW is ignored.
 /// @throws SetupError  naming camera and remedy: a board that looks the same turned, cameras that
 /// share no views, cameras that contradict each other.
-StudioFit FitExtrinsics(const BoardSightings& sightings,
+StudioFit FitExtrinsics(const BoardDetections& detections,
                         const std::vector<CameraCalibration>& lenses,
                         const ExtrinsicsOptions& options);
 

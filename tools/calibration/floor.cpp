@@ -49,17 +49,17 @@ RigidTransform WorldOnBoard(const RigidTransform& X_WB,
   return WorldOn(X_WB.p - thickness_mm * up, X_WB.R.col(0), up);
 }
 
-RigidTransform FindStillBoard(const BoardSightings& still,
+RigidTransform FindStillBoard(const BoardDetections& still,
                               const std::vector<CameraCalibration>& cameras) {
   Bundle bundle;
   bundle.cameras = cameras;
   double least = std::numeric_limits<double>::infinity();
-  for (const BoardSighting& from : still.sightings) {
+  for (const BoardDetection& from : still.detections) {
     for (const BoardPose& pose :
          FindBoardPoses(cameras[from.camera].lens, still.board, from.corners)) {
       const RigidTransform X_WB = cameras[from.camera].X_CW.Inverse() * pose.X_CB;
       double sum = 0;
-      for (const BoardSighting& to : still.sightings)
+      for (const BoardDetection& to : still.detections)
         sum += std::min(1e6, PoseRmsPx(cameras[to.camera].lens, still.board, to.corners,
                                        cameras[to.camera].X_CW * X_WB));
       if (sum >= least) continue;
@@ -71,8 +71,8 @@ RigidTransform FindStillBoard(const BoardSightings& still,
   BundleOptions refine;
   refine.refine_lenses = refine.refine_poses = false;
   refine.robust_px = 1;
-  BoardSightings one = still;
-  for (BoardSighting& s : one.sightings) s.moment = 0;
+  BoardDetections one = still;
+  for (BoardDetection& s : one.detections) s.moment = 0;
   one.moments = 1;
   RefineBundle(one, refine, bundle);
   const std::vector<CornerError> errors = BundleErrors(one, bundle);

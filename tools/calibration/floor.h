@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/calibration/bundle.h"
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap {
 
@@ -17,7 +17,7 @@ RigidTransform WorldOnBoard(const RigidTransform& X_WB,
 
 /// Finds where a board that lies still is, by the cameras that see it.
 /// @throws SetupError  naming the camera that contradicts the others, when the error exceeds 3 px.
-RigidTransform FindStillBoard(const BoardSightings& still,
+RigidTransform FindStillBoard(const BoardDetections& still,
                               const std::vector<CameraCalibration>& cameras);
 
 /// Three points on the floor as cameras see them: the origin, one on the x axis, one on the side of

@@ -60,9 +60,9 @@ RigidTransform PoseAt(CameraCalibration camera, const PanTiltFit& fit,
 }
 
 Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
-                          const std::vector<BoardSighting>& views, const Model& model) {
+                          const std::vector<BoardDetection>& views, const Model& model) {
   std::vector<double> r;
-  for (const BoardSighting& view : views) {
+  for (const BoardDetection& view : views) {
     const RigidTransform X_CB =
         PoseAt(camera, model.fit, view.angles) * model.X_WB[static_cast<std::size_t>(view.moment)];
     for (std::size_t i = 0; i < view.corners.ids.size(); ++i) {
@@ -78,7 +78,7 @@ Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
   return Eigen::Map<Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
 }
 
-void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardSighting>& views) {
+void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardDetection>& views) {
   if (static_cast<int>(views.size()) < kFewestViews)
     throw SetupError(
         fmt::format("{}: {} views do not determine a head; at least {} at different "
@@ -86,7 +86,7 @@ void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardSigh
                     name, views.size(), kFewestViews));
   const auto span = [&](double PanTiltAngles::*angle) {
     const auto [low, high] = std::minmax_element(
-        views.begin(), views.end(), [&](const BoardSighting& a, const BoardSighting& b) {
+        views.begin(), views.end(), [&](const BoardDetection& a, const BoardDetection& b) {
           return a.angles.*angle < b.angles.*angle;
         });
     return high->angles.*angle - low->angles.*angle;
@@ -103,10 +103,10 @@ void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardSigh
 }
 
 // Places get numbers from 0 on.
-std::vector<BoardSighting> NumberPlaces(std::span<const BoardSighting> sightings, int& places) {
+std::vector<BoardDetection> NumberPlaces(std::span<const BoardDetection> detections, int& places) {
   std::map<int, int> numbers;
-  std::vector<BoardSighting> views(sightings.begin(), sightings.end());
-  for (BoardSighting& view : views)
+  std::vector<BoardDetection> views(detections.begin(), detections.end());
+  for (BoardDetection& view : views)
     view.moment = numbers.try_emplace(view.moment, static_cast<int>(numbers.size())).first->second;
   places = static_cast<int>(numbers.size());
   return views;
@@ -114,11 +114,11 @@ std::vector<BoardSighting> NumberPlaces(std::span<const BoardSighting> sightings
 
 // Boards where the views that are turned least put them.
 std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const Board& board,
-                                        const std::vector<BoardSighting>& views, int places,
+                                        const std::vector<BoardDetection>& views, int places,
                                         const PanTiltFit& fit) {
   std::vector<RigidTransform> X_WB(static_cast<std::size_t>(places));
   std::vector<double> nearest(X_WB.size(), HUGE_VAL);
-  for (const BoardSighting& view : views) {
+  for (const BoardDetection& view : views) {
     const double turned = std::hypot(view.angles.pan_rad - fit.head.zero.pan_rad,
                                      view.angles.tilt_rad - fit.head.zero.tilt_rad);
     const auto place = static_cast<std::size_t>(view.moment);
@@ -134,7 +134,7 @@ std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const B
 // Heads stand upright and tilt about the picture's rows, through the lens, more or less; either way
 // round.
 Model FirstGuess(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
-                 const std::vector<BoardSighting>& views, int places) {
+                 const std::vector<BoardDetection>& views, int places) {
   const Vector3 p_WC = camera.X_CW.Inverse().p;
   const Vector3 right_W = camera.X_CW.R.row(0);
   Model best;
@@ -168,9 +168,9 @@ PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltA
 }
 
 PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at,
-                   const Board& board, std::span<const BoardSighting> sightings) {
+                   const Board& board, std::span<const BoardDetection> detections) {
   int places = 0;
-  const std::vector<BoardSighting> views = NumberPlaces(sightings, places);
+  const std::vector<BoardDetection> views = NumberPlaces(detections, places);
   RefuseTooLittleTurning(camera.name, views);
   Model model = FirstGuess(camera, posed_at, board, views, places);
   Eigen::VectorXd scale = Eigen::VectorXd::Constant(kHeadParameters + 6 * places, 1);

@@ -24,7 +24,7 @@ constexpr double kLeastTilts_rad = 0.25;
 
 using Cells = std::array<int, Coverage::kColumns * Coverage::kRows>;
 
-Cells CellsOf(const SightingCamera& camera, const BoardCorners& corners) {
+Cells CellsOf(const DetectionCamera& camera, const BoardCorners& corners) {
   Cells cells{};
   for (const Vector2& pixel : corners.pixels) {
     const int x = std::clamp(static_cast<int>(pixel.x() * Coverage::kColumns / camera.width_px), 0,
@@ -37,17 +37,18 @@ Cells CellsOf(const SightingCamera& camera, const BoardCorners& corners) {
 }
 
 // Again and again the view that shows most of what was shown least.
-std::vector<int> ChooseViews(const BoardSightings& sightings, int camera, int most) {
+std::vector<int> ChooseViews(const BoardDetections& detections, int camera, int most) {
   std::vector<int> left, chosen;
-  for (std::size_t s = 0; s < sightings.sightings.size(); ++s) {
-    if (sightings.sightings[s].camera == camera) left.push_back(static_cast<int>(s));
+  for (std::size_t s = 0; s < detections.detections.size(); ++s) {
+    if (detections.detections[s].camera == camera) left.push_back(static_cast<int>(s));
   }
   Cells shown{};
   while (!left.empty() && static_cast<int>(chosen.size()) < most) {
     double best_gain = -1;
     std::size_t best = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      const Cells cells = CellsOf(sightings.cameras[camera], sightings.sightings[left[i]].corners);
+      const Cells cells =
+          CellsOf(detections.cameras[camera], detections.detections[left[i]].corners);
       double gain = 0;
       for (std::size_t k = 0; k < cells.size(); ++k) gain += cells[k] / (1.0 + shown[k]);
       if (gain > best_gain) {
@@ -55,7 +56,8 @@ std::vector<int> ChooseViews(const BoardSightings& sightings, int camera, int mo
         best = i;
       }
     }
-    const Cells cells = CellsOf(sightings.cameras[camera], sightings.sightings[left[best]].corners);
+    const Cells cells =
+        CellsOf(detections.cameras[camera], detections.detections[left[best]].corners);
     for (std::size_t k = 0; k < cells.size(); ++k) shown[k] += cells[k];
     chosen.push_back(left[best]);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
@@ -70,21 +72,21 @@ struct Zhang {
   double focal_sigma_share = 0;
 };
 
-Zhang FirstLens(const BoardSightings& sightings, int camera, const std::vector<int>& views) {
+Zhang FirstLens(const BoardDetections& detections, int camera, const std::vector<int>& views) {
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;
   for (const int s : views) {
-    const BoardCorners& corners = sightings.sightings[s].corners;
+    const BoardCorners& corners = detections.detections[s].corners;
     points.emplace_back();
     pixels.emplace_back();
     for (std::size_t i = 0; i < corners.ids.size(); ++i) {
-      const Vector3 p_B = sightings.board.Corner(corners.ids[i]);
+      const Vector3 p_B = detections.board.Corner(corners.ids[i]);
       points.back().emplace_back(static_cast<float>(p_B.x()), static_cast<float>(p_B.y()), 0.f);
       pixels.back().emplace_back(static_cast<float>(corners.pixels[i].x()),
                                  static_cast<float>(corners.pixels[i].y()));
     }
   }
-  const SightingCamera& c = sightings.cameras[camera];
+  const DetectionCamera& c = detections.cameras[camera];
   cv::Mat K, distortion, sigma, pose_sigma, view_errors;
   std::vector<cv::Mat> rotations, translations;
   cv::calibrateCamera(points, pixels, {c.width_px, c.height_px}, K, distortion, rotations,
@@ -115,36 +117,36 @@ Lens MakeLens(const Zhang& zhang, const LensFitOptions& options) {
 
 // The camera alone, each view a moment of its own.
 struct LensProblem {
-  BoardSightings sightings;
+  BoardDetections detections;
   Bundle bundle;
 };
 
-LensProblem MakeProblem(const BoardSightings& all, int camera, const std::vector<int>& views,
+LensProblem MakeProblem(const BoardDetections& all, int camera, const std::vector<int>& views,
                         const Lens& lens) {
   LensProblem problem;
-  const SightingCamera& c = all.cameras[camera];
-  problem.sightings.board = all.board;
-  problem.sightings.cameras = {c};
+  const DetectionCamera& c = all.cameras[camera];
+  problem.detections.board = all.board;
+  problem.detections.cameras = {c};
   problem.bundle.cameras.push_back({c.name, c.width_px, c.height_px, lens, {}, {}});
   for (const int s : views) {
-    const std::vector<BoardPose> poses = FindBoardPoses(lens, all.board, all.sightings[s].corners);
+    const std::vector<BoardPose> poses = FindBoardPoses(lens, all.board, all.detections[s].corners);
     if (poses.empty()) continue;
-    BoardSighting sighting = all.sightings[s];
-    sighting.camera = 0;
-    sighting.late_s = 0;
-    sighting.motions.clear();
-    sighting.moment = problem.sightings.moments++;
-    problem.sightings.sightings.push_back(sighting);
+    BoardDetection detection = all.detections[s];
+    detection.camera = 0;
+    detection.late_s = 0;
+    detection.motions.clear();
+    detection.moment = problem.detections.moments++;
+    problem.detections.detections.push_back(detection);
     problem.bundle.X_WB.push_back(poses.front().X_CB);
   }
   return problem;
 }
 
 // "frame 3 to frame 41", in the order in which they were looked at.
-std::string FramesText(const BoardSightings& sightings, const std::vector<int>& views) {
+std::string FramesText(const BoardDetections& detections, const std::vector<int>& views) {
   if (views.empty()) return "no frame";
-  const std::string &first = sightings.sightings[views.front()].name,
-                    &last = sightings.sightings[views.back()].name;
+  const std::string &first = detections.detections[views.front()].name,
+                    &last = detections.detections[views.back()].name;
   return first == last ? first : first + " to " + last;
 }
 
@@ -165,33 +167,33 @@ void RefuseOneTilt(const std::string& name, const std::string& frames, const Bun
 
 }  // namespace
 
-LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOptions& options) {
-  const SightingCamera& c = sightings.cameras[camera];
-  const std::vector<int> views = ChooseViews(sightings, camera, options.most_views);
+LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOptions& options) {
+  const DetectionCamera& c = detections.cameras[camera];
+  const std::vector<int> views = ChooseViews(detections, camera, options.most_views);
   if (static_cast<int>(views.size()) < kFewestViews)
     throw SetupError(
         fmt::format("{}: {} views of the board ({}) do not determine a lens; show it in at least "
                     "{}, tilted this way and that and in all parts of the picture",
-                    c.name, views.size(), FramesText(sightings, views), kFewestViews));
-  const Zhang zhang = FirstLens(sightings, camera, views);
+                    c.name, views.size(), FramesText(detections, views), kFewestViews));
+  const Zhang zhang = FirstLens(detections, camera, views);
   if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())
     throw SetupError(
         fmt::format("{}: its {} views ({}) leave the focal length uncertain by {:.0f} %; tilt the "
                     "board by 30 degrees and more, in all directions",
-                    c.name, views.size(), FramesText(sightings, views),
+                    c.name, views.size(), FramesText(detections, views),
                     std::min(999.0, 100 * zhang.focal_sigma_share)));
-  LensProblem problem = MakeProblem(sightings, camera, views, MakeLens(zhang, options));
-  RefuseOneTilt(c.name, FramesText(sightings, views), problem.bundle);
+  LensProblem problem = MakeProblem(detections, camera, views, MakeLens(zhang, options));
+  RefuseOneTilt(c.name, FramesText(detections, views), problem.bundle);
   BundleOptions refine;
   refine.robust_px = 1;
-  RefineBundle(problem.sightings, refine, problem.bundle);
+  RefineBundle(problem.detections, refine, problem.bundle);
   refine.robust_px = 0;
-  DropOutliers(problem.bundle, problem.sightings);
-  const bool settled = RefineBundle(problem.sightings, refine, problem.bundle);
+  DropOutliers(problem.bundle, problem.detections);
+  const bool settled = RefineBundle(problem.detections, refine, problem.bundle);
   LensFit fit;
   fit.lens = problem.bundle.cameras[0].lens;
-  fit.rms_px = RmsPx(BundleErrors(problem.sightings, problem.bundle), problem.sightings, 0);
-  fit.views = static_cast<int>(problem.sightings.sightings.size());
+  fit.rms_px = RmsPx(BundleErrors(problem.detections, problem.bundle), problem.detections, 0);
+  fit.views = static_cast<int>(problem.detections.detections.size());
   fit.focal_sigma_share = zhang.focal_sigma_share;
   fit.used = views;
   if (!settled || !(fit.rms_px < kWorstRms_px))
@@ -200,7 +202,7 @@ LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOption
         "the board may be bent, its columns and rows swapped, or the focus or zoom "
         "changed while it was shown",
         c.name, fit.rms_px, fit.views,
-        WorstView(BundleErrors(problem.sightings, problem.bundle), problem.sightings, 0).frame));
+        WorstView(BundleErrors(problem.detections, problem.bundle), problem.detections, 0).frame));
   return fit;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap {
 
@@ -22,12 +22,12 @@ struct LensFit {
   double rms_px = 0;
   int views = 0;
   double focal_sigma_share = 0;  ///< Standard deviation of the focal length over itself.
-  std::vector<int> used;         ///< Sightings, by number.
+  std::vector<int> used;         ///< Detections, by number.
 };
 
 /// Fits a camera's lens.
 /// @throws SetupError  naming camera and remedy: too few views, boards all in the same tilt,
 /// corners that fit no lens.
-LensFit FitLens(const BoardSightings& sightings, int camera, const LensFitOptions& options);
+LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOptions& options);
 
 }  // namespace mocap

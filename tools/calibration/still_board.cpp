@@ -18,9 +18,9 @@ constexpr double kLeastAgreement = 0.15, kLeastLead = 0.05;
 void Turn(BoardCorners& corners) { std::reverse(corners.pixels.begin(), corners.pixels.end()); }
 
 void SettleTurns(const std::vector<CameraCalibration>& lenses,
-                 const std::vector<Image<Bgr>>& pictures, BoardSightings& still) {
+                 const std::vector<Image<Bgr>>& pictures, BoardDetections& still) {
   std::vector<FloorView> views;
-  for (const BoardSighting& s : still.sightings) {
+  for (const BoardDetection& s : still.detections) {
     const std::vector<BoardPose> poses =
         FindBoardPoses(lenses[s.camera].lens, still.board, s.corners);
     if (poses.empty())
@@ -37,20 +37,21 @@ void SettleTurns(const std::vector<CameraCalibration>& lenses,
         "ChArUco board, is wanted",
         still.board.Text(), turns.agreement, turns.runner_up));
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (turns.turned[i]) Turn(still.sightings[i].corners);
+    if (turns.turned[i]) Turn(still.detections[i].corners);
   }
 }
 
 }  // namespace
 
-StudioFit FitToStillBoard(const BoardSightings& still, const std::vector<CameraCalibration>& lenses,
+StudioFit FitToStillBoard(const BoardDetections& still,
+                          const std::vector<CameraCalibration>& lenses,
                           const std::vector<Image<Bgr>>& pictures, double thickness_mm) {
   StudioFit fit;
-  fit.sightings = still;
-  if (still.board.LooksSameTurned()) SettleTurns(lenses, pictures, fit.sightings);
+  fit.detections = still;
+  if (still.board.LooksSameTurned()) SettleTurns(lenses, pictures, fit.detections);
   fit.bundle.cameras = lenses;
   fit.bundle.X_WB = {RigidTransform{}};
-  for (const BoardSighting& s : fit.sightings.sightings) {
+  for (const BoardDetection& s : fit.detections.detections) {
     const std::vector<BoardPose> poses =
         FindBoardPoses(lenses[s.camera].lens, still.board, s.corners);
     if (poses.empty())

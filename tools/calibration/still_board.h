@@ -15,7 +15,8 @@ namespace mocap {
 /// @param pictures  one a camera, for that.
 /// @throws SetupError  naming the camera that sees no board, or when the turns cannot be told
 /// apart.
-StudioFit FitToStillBoard(const BoardSightings& still, const std::vector<CameraCalibration>& lenses,
+StudioFit FitToStillBoard(const BoardDetections& still,
+                          const std::vector<CameraCalibration>& lenses,
                           const std::vector<Image<Bgr>>& pictures, double thickness_mm);
 
 }  // namespace mocap

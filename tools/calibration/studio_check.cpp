@@ -112,8 +112,8 @@ void CheckBoardsAboveFloor(const StudioFit& fit, std::vector<Finding>& findings)
     if (!X_WB) continue;
     ++all;
     const Vector3 middle =
-        *X_WB * ((fit.sightings.board.Corner(0) +
-                  fit.sightings.board.Corner(fit.sightings.board.corners() - 1)) /
+        *X_WB * ((fit.detections.board.Corner(0) +
+                  fit.detections.board.Corner(fit.detections.board.corners() - 1)) /
                  2);
     under += middle.z() < -50;
   }

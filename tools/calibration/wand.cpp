@@ -40,11 +40,11 @@ double Off(const Matrix3& E, const WandPair& pair) {
   return std::min(kFarOff, Off(E, pair.a[0], pair.b[0]) + Off(E, pair.a[1], pair.b[1]));
 }
 
-std::vector<WandPair> SharedWands(const BoardSightings& sightings,
+std::vector<WandPair> SharedWands(const BoardDetections& detections,
                                   const std::vector<CameraCalibration>& cameras, int a, int b) {
-  std::vector<std::array<const BoardSighting*, 2>> at(static_cast<std::size_t>(sightings.moments),
-                                                      {nullptr, nullptr});
-  for (const BoardSighting& s : sightings.sightings) {
+  std::vector<std::array<const BoardDetection*, 2>> at(static_cast<std::size_t>(detections.moments),
+                                                       {nullptr, nullptr});
+  for (const BoardDetection& s : detections.detections) {
     if (s.camera == a) at[s.moment][0] = &s;
     if (s.camera == b) at[s.moment][1] = &s;
   }
@@ -173,13 +173,13 @@ double MedianLength(const RigidTransform& X_BA, const std::vector<WandPair>& pai
   return *middle;
 }
 
-using Seen = std::vector<BoardSighting*>;
+using Seen = std::vector<BoardDetection*>;
 
-Vector2 Pixel(const BoardSighting& s, int end, bool turned) {
+Vector2 Pixel(const BoardDetection& s, int end, bool turned) {
   return s.corners.pixels[turned ? 1 - end : end];
 }
 
-double OffPx(const CameraCalibration& camera, const BoardSighting& s,
+double OffPx(const CameraCalibration& camera, const BoardDetection& s,
              const std::array<Vector3, 2>& ends_W, bool turned) {
   double sum = 0;
   for (int end = 0; end < 2; ++end) {
@@ -211,7 +211,7 @@ PlacedWand Place(const Seen& seen, const std::vector<CameraCalibration>& cameras
       const double length = (wand.ends_W[0] - wand.ends_W[1]).norm();
       if (!(std::abs(length / length_mm - 1) < kLengthTolerance)) continue;
       double sum = 0;
-      for (const BoardSighting* s : seen) {
+      for (const BoardDetection* s : seen) {
         const CameraCalibration& camera = cameras[s->camera];
         const double straight = OffPx(camera, *s, wand.ends_W, false);
         const double round = OffPx(camera, *s, wand.ends_W, true);
@@ -235,30 +235,30 @@ RigidTransform PoseOf(const std::array<Vector3, 2>& ends_W) {
   return X_WB;
 }
 
-void Turn(BoardSighting& s) {
+void Turn(BoardDetection& s) {
   std::swap(s.corners.pixels[0], s.corners.pixels[1]);
   if (!s.motions.empty()) std::swap(s.motions[0], s.motions[1]);
 }
 
 }  // namespace
 
-CameraLink LinkByWand(const BoardSightings& sightings,
+CameraLink LinkByWand(const BoardDetections& detections,
                       const std::vector<CameraCalibration>& cameras, int a, int b) {
-  std::vector<WandPair> pairs = SharedWands(sightings, cameras, a, b);
+  std::vector<WandPair> pairs = SharedWands(detections, cameras, a, b);
   if (static_cast<int>(pairs.size()) < kFewestShared) return {};
   RigidTransform X_BA = RelativePose(BestEssential(pairs), pairs);
   const double length = MedianLength(X_BA, pairs);
   if (!(length > 0)) return {};
-  X_BA.p *= sightings.board.square_mm / length;
+  X_BA.p *= detections.board.square_mm / length;
   return {static_cast<int>(pairs.size()), X_BA.Inverse()};
 }
 
-void PlaceWands(BoardSightings& sightings, Bundle& bundle) {
-  std::vector<Seen> at(static_cast<std::size_t>(sightings.moments));
-  for (BoardSighting& s : sightings.sightings) at[s.moment].push_back(&s);
+void PlaceWands(BoardDetections& detections, Bundle& bundle) {
+  std::vector<Seen> at(static_cast<std::size_t>(detections.moments));
+  for (BoardDetection& s : detections.detections) at[s.moment].push_back(&s);
   bundle.X_WB.assign(at.size(), std::nullopt);
   for (std::size_t m = 0; m < at.size(); ++m) {
-    const PlacedWand wand = Place(at[m], bundle.cameras, sightings.board.square_mm);
+    const PlacedWand wand = Place(at[m], bundle.cameras, detections.board.square_mm);
     if (wand.turned.empty()) continue;
     bundle.X_WB[m] = PoseOf(wand.ends_W);
     for (std::size_t i = 0; i < at[m].size(); ++i) {

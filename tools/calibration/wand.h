@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 #include "tools/calibration/bundle.h"
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap {
 
@@ -15,7 +15,7 @@ std::vector<Vector2> FindSpots(ImageView<const Bgr> image);
 /// Leaves those of one camera's frames, in the order of time, in which two spots move: lamps stay
 /// where they are. The two are named 0 and 1, the same from frame to frame; which end of the wand
 /// that is, is not known.
-void KeepWands(std::vector<BoardSighting>& of_camera);
+void KeepWands(std::vector<BoardDetection>& of_camera);
 
 /// How camera B's points come to camera A.
 struct CameraLink {
@@ -26,11 +26,11 @@ struct CameraLink {
 /// Tells from wands that two cameras saw at the same moments how the cameras stand to each other
 /// (five-point algorithm, over both ways in which the ends may belong together); the wand's length
 /// gives the scale. Deterministic.
-CameraLink LinkByWand(const BoardSightings& sightings,
+CameraLink LinkByWand(const BoardDetections& detections,
                       const std::vector<CameraCalibration>& cameras, int a, int b);
 
 /// Places the wand at each moment that two placed cameras saw, and names its ends alike in all of
 /// them.
-void PlaceWands(BoardSightings& sightings, Bundle& bundle);
+void PlaceWands(BoardDetections& detections, Bundle& bundle);
 
 }  // namespace mocap

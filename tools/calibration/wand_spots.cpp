@@ -77,8 +77,8 @@ std::vector<Vector2> FindSpots(ImageView<const Bgr> image) {
   return spots;
 }
 
-void KeepWands(std::vector<BoardSighting>& of_camera) {
-  const std::vector<BoardSighting> all = of_camera;
+void KeepWands(std::vector<BoardDetection>& of_camera) {
+  const std::vector<BoardDetection> all = of_camera;
   const std::size_t step = std::max<std::size_t>(1, all.size() / kLampSamples);
   const auto is_lamp = [&](const Vector2& spot) {
     int frames = 0, lit = 0;
@@ -89,11 +89,11 @@ void KeepWands(std::vector<BoardSighting>& of_camera) {
     }
     return lit > std::max(2.0, kLampShare * frames);
   };
-  for (BoardSighting& s : of_camera) {
+  for (BoardDetection& s : of_camera) {
     std::erase_if(s.corners.pixels, is_lamp);
     s.corners.ids = {0, 1};
   }
-  std::erase_if(of_camera, [](const BoardSighting& s) { return s.corners.pixels.size() != 2; });
+  std::erase_if(of_camera, [](const BoardDetection& s) { return s.corners.pixels.size() != 2; });
   for (std::size_t i = 1; i < of_camera.size(); ++i) {
     BoardCorners turned = of_camera[i].corners;
     std::swap(turned.pixels[0], turned.pixels[1]);

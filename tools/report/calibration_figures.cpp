@@ -37,7 +37,7 @@ std::string CameraMark(const CameraCalibration& camera, const XOf& x_of, const Y
 }  // namespace
 
 std::string CoverageSvg(const StudioFit& fit, int camera, const std::vector<CornerError>& errors) {
-  const SightingCamera& size = fit.sightings.cameras[camera];
+  const DetectionCamera& size = fit.detections.cameras[camera];
   const Coverage& coverage = fit.cameras[camera].coverage;
   std::string svg =
       fmt::format("<svg class=\"cells-of\" viewBox=\"0 0 {} {}\">", size.width_px, size.height_px);
@@ -57,7 +57,7 @@ std::string CoverageSvg(const StudioFit& fit, int camera, const std::vector<Corn
   }
   const double line = size.width_px / 500.0;
   for (const CornerError& error : errors) {
-    if (fit.sightings.sightings[error.sighting].camera != camera) continue;
+    if (fit.detections.detections[error.detection].camera != camera) continue;
     const Vector2 end = error.pixel + kErrorScale * error.error_px;
     if (!end.allFinite()) continue;
     svg += fmt::format(

@@ -56,7 +56,7 @@ std::string Tiles(const StudioFit& fit, const SeenVolume& volume) {
   tiles += Tile("At the person", fmt::format("{:.1f}", worst_mm), " mm",
                 "the worst camera, " + EscapeHtml(fit.cameras[worst].name));
   tiles += Tile("Cameras", std::to_string(n), "",
-                fmt::format("{} views of the board", fit.sightings.sightings.size()));
+                fmt::format("{} views of the board", fit.detections.detections.size()));
   if (n >= 3 && fit.has_floor)
     tiles += Tile("Seen by three", fmt::format("{:.0f}", volume.cubic_m[3]), " m³",
                   "up to 2.2 m above the floor");
@@ -113,17 +113,17 @@ std::string VolumeTable(const SeenVolume& volume) {
 
 std::string WorstViews(const StudioFit& fit, const std::vector<CornerError>& errors) {
   struct View {
-    int sighting;
+    int detection;
     double sum = 0;
     int count = 0;
     double rms() const { return std::sqrt(sum / std::max(1, count)); }
   };
   std::vector<View> views;
-  for (std::size_t s = 0; s < fit.sightings.sightings.size(); ++s)
+  for (std::size_t s = 0; s < fit.detections.detections.size(); ++s)
     views.push_back({static_cast<int>(s)});
   for (const CornerError& error : errors) {
-    views[error.sighting].sum += error.error_px.squaredNorm();
-    ++views[error.sighting].count;
+    views[error.detection].sum += error.error_px.squaredNorm();
+    ++views[error.detection].count;
   }
   std::sort(views.begin(), views.end(),
             [](const View& a, const View& b) { return a.rms() > b.rms(); });
@@ -132,7 +132,7 @@ std::string WorstViews(const StudioFit& fit, const std::vector<CornerError>& err
       "<table><tr><th>camera</th><th>frame</th><th class=\"n\">px</th><th "
       "class=\"n\">corners</th></tr>";
   for (const View& view : views) {
-    const BoardSighting& s = fit.sightings.sightings[view.sighting];
+    const BoardDetection& s = fit.detections.detections[view.detection];
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=\"n\">{:.2f}</td><td class=\"n\">{}</td></tr>",
         EscapeHtml(fit.cameras[s.camera].name), EscapeHtml(s.name), view.rms(), view.count);
@@ -144,7 +144,7 @@ std::string WorstViews(const StudioFit& fit, const std::vector<CornerError>& err
 
 std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
                                   const StudioFit& fit, const std::vector<Finding>& findings) {
-  const std::vector<CornerError> errors = BundleErrors(fit.sightings, fit.bundle);
+  const std::vector<CornerError> errors = BundleErrors(fit.detections, fit.bundle);
   const SeenVolume volume = MeasureSeenVolume(fit.bundle.cameras);
   const char* mood = findings.empty() || findings[0].severity == Severity::kNote ? "good"
                      : findings[0].severity == Severity::kWrong                  ? "wrong"
@@ -154,7 +154,7 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
       "content=\"width=device-width\"><title>{0}</title><style>{1}{2}</style><main><h1>{0}</h1>"
       "<p class=\"under\">{7}; {3}; {4}</p>"
       "<p class=\"verdict {5}\">{6}</p>\n",
-      EscapeHtml(title), kReportStyle, kStyle, EscapeHtml(fit.sightings.board.Text()),
+      EscapeHtml(title), kReportStyle, kStyle, EscapeHtml(fit.detections.board.Text()),
       fit.has_floor ? "world right-handed, z up, floor at z = 0, millimetres"
                     : "world of the first camera (x right, y down, z forward), millimetres",
       mood, EscapeHtml(Verdict(findings)), UtcText(made_s));

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "daemon/control/json_object.h"
+#include "daemon/base/json_object.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {

@@ -9,8 +9,8 @@
 #include "core/reconstruction/background/expected_picture.h"
 #include "core/reconstruction/background/half_picture.h"
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/closeup.h"
 #include "core/reconstruction/silhouette/distortion_thresholds.h"
+#include "core/reconstruction/silhouette/region_of_interest.h"
 
 namespace mocap {
 
@@ -28,12 +28,13 @@ class BackgroundModel {
   /// Turns to where the head points, and gives what the camera would see there of the empty studio,
   /// at half the resolution. Holds until the next call.
   /// @param displacement  of the camera's picture from where the calibration and the head say.
-  virtual const ExpectedHalf& Glance(const PanTiltAngles& angles,
-                                     const Displacement& displacement) = 0;
+  virtual const ExpectedHalf& CoarsePass(const PanTiltAngles& angles,
+                                         const Displacement& displacement) = 0;
 
   /// Gives what the camera would see of it at full resolution, weighed, for the pixels that are
   /// measured. Holds until the next call.
-  virtual const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) = 0;
+  virtual const ExpectedPicture& Expect(const RegionOfInterest& roi,
+                                        const Conditions& conditions) = 0;
 
   /// Thresholds that a share of the training pixels stays within.
   const DistortionThresholds& thresholds() const { return thresholds_; }

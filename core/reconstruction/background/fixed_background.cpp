@@ -38,7 +38,7 @@ class FixedBackground final : public BackgroundModel {
     sums_ = BackgroundSums(0), conditions_ = {};
   }
 
-  const ExpectedHalf& Glance(const PanTiltAngles&, const Displacement& displacement) override {
+  const ExpectedHalf& CoarsePass(const PanTiltAngles&, const Displacement& displacement) override {
     if (displacement == Displacement{}) return half_;
     if (displaced_half_.variance.empty())
       displaced_half_ = ExpectedHalf(expected_.width, expected_.height);
@@ -47,7 +47,8 @@ class FixedBackground final : public BackgroundModel {
     return displaced_half_;
   }
 
-  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
+  const ExpectedPicture& Expect(const RegionOfInterest& roi,
+                                const Conditions& conditions) override {
     const bool is_displaced = !(conditions.displacement == Displacement{});
     const bool is_plain = !is_displaced && conditions.shift_px == 0;
     if (is_plain && is_weighed_plainly_) return expected_;
@@ -55,7 +56,7 @@ class FixedBackground final : public BackgroundModel {
       displaced_ = ExpectedPicture(expected_.width, expected_.height);
     ExpectedPicture& picture = is_displaced ? displaced_ : expected_;
     for (int y = 0; y < expected_.height; ++y) {
-      for (const PixelRun& run : closeup.Measured(y)) {
+      for (const PixelRun& run : roi.Measured(y)) {
         if (is_displaced)
           picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
         picture.Weigh(conditions.shift_px, y, run.begin, run.end);

@@ -84,15 +84,16 @@ class PanTiltBackground final : public BackgroundModel {
     LearnThresholds(detection_rate);
   }
 
-  const ExpectedHalf& Glance(const PanTiltAngles& angles,
-                             const Displacement& displacement) override {
+  const ExpectedHalf& CoarsePass(const PanTiltAngles& angles,
+                                 const Displacement& displacement) override {
     TurnTo(angles, displacement, std::nullopt);
     return half_;
   }
 
-  const ExpectedPicture& Expect(const Closeup& closeup, const Conditions& conditions) override {
+  const ExpectedPicture& Expect(const RegionOfInterest& roi,
+                                const Conditions& conditions) override {
     for (int y = 0; y < camera_.height_px; ++y)
-      for (const PixelRun& run : closeup.Measured(y)) DrawRun(y, run, conditions);
+      for (const PixelRun& run : roi.Measured(y)) DrawRun(y, run, conditions);
     return expected_;
   }
 
@@ -149,7 +150,7 @@ class PanTiltBackground final : public BackgroundModel {
   void LookFrom(std::size_t v, CoarseScan& scan) {
     TurnTo(views_[v].angles, {}, v);
     scan.Compare(half_, images_[v].view());
-    Closeup everything;
+    RegionOfInterest everything;
     everything.SetAll(camera_.width_px, camera_.height_px);
     Expect(everything, {});
   }

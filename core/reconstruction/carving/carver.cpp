@@ -83,14 +83,14 @@ class Carver::Walk {
   void Visit(const Block& block);
   bool VisitSamples(const Block& block);
   void VisitVoxel(const Block& voxel);
-  void Decide(const Block& block, std::span<const SampleVerdicts> verdicts, std::uint8_t asked,
+  void Decide(const Block& block, std::span<const SampleDecisions> decisions, std::uint8_t asked,
               std::uint64_t alive);
-  OctantVerdicts Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
+  OctantDecisions Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
   std::uint8_t OctantsInGrid(const Block& block) const;
   void Fill(const Block& block);
-  bool AskSamples(const Block& block, std::span<const SampleVerdicts> verdicts, int voxel,
+  bool AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                   unsigned agrees, unsigned unknown) const;
-  bool SampleAgrees(const Block& block, std::span<const SampleVerdicts> verdicts, int voxel,
+  bool SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                     int sample) const;
   std::optional<WindowMap::Kind> Look(int view, const Vector3& p_W) const;
 
@@ -164,14 +164,14 @@ bool Carver::Walk::Prepare(std::span<const CarvingView> views) {
 }
 
 // Asks the view at place `i` of a block's about the octants.
-OctantVerdicts Carver::Walk::Judge(const Block& block, int i, float spread, float half,
-                                   std::uint8_t& framed) {
+OctantDecisions Carver::Walk::Judge(const Block& block, int i, float spread, float half,
+                                    std::uint8_t& framed) {
   const std::uint8_t view = block.views[i];
   const OctantView& eye = octant_views_[view];
   framed = 0;
   if (block.frames[i] != kNoFrame)
-    return eye.Glance(FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, MiddleOf(block),
-                      spread, half);
+    return eye.CoarsePass(FramesOf(block, i), block.frames[i] % OctantFrames::kLanes,
+                          MiddleOf(block), spread, half);
   return eye.Project(MiddleOf(block), spread, half, frames_[view][block.level], framed);
 }
 
@@ -194,11 +194,11 @@ void Carver::Walk::Visit(const Block& block) {
   std::uint8_t alive = OctantsInGrid(block);
   std::array<std::uint8_t, kMostViews> inside, decided, framed;
   for (int i = 0; i < block.undecided; ++i) {
-    const OctantVerdicts verdicts = Judge(block, i, spread, half, framed[i]);
-    alive &= static_cast<std::uint8_t>(~verdicts.outside);
+    const OctantDecisions decisions = Judge(block, i, spread, half, framed[i]);
+    alive &= static_cast<std::uint8_t>(~decisions.outside);
     if (alive == 0) return;
-    inside[i] = verdicts.inside;
-    decided[i] = verdicts.inside | verdicts.unseen;
+    inside[i] = decisions.inside;
+    decided[i] = decisions.inside | decisions.unseen;
   }
   Block octant;
   octant.side = side;
@@ -239,38 +239,38 @@ bool Carver::Walk::VisitSamples(const Block& block) {
     if (block.frames[i] == kNoFrame) return false;
   std::uint8_t asked = OctantsInGrid(block);
   std::uint64_t alive = ~std::uint64_t{0};
-  std::array<SampleVerdicts, kMostViews> verdicts;
+  std::array<SampleDecisions, kMostViews> decisions;
   const Eigen::Vector3f middle = MiddleOf(block);
   for (int i = 0; i < block.undecided; ++i) {
-    verdicts[i] = octant_views_[block.views[i]].GlanceSamples(
+    decisions[i] = octant_views_[block.views[i]].CoarsePassSamples(
         FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, middle, VoxelMm() / 2,
         VoxelMm() / kSamplesPerSide / 2, asked);
-    alive &= ~verdicts[i].outside;
+    alive &= ~decisions[i].outside;
     asked &= Majorities(alive);
     if (asked == 0) return true;
   }
-  Decide(block, {verdicts.data(), static_cast<std::size_t>(block.undecided)}, asked, alive);
+  Decide(block, {decisions.data(), static_cast<std::size_t>(block.undecided)}, asked, alive);
   return true;
 }
 
 // Its octants are the samples.
 void Carver::Walk::VisitVoxel(const Block& voxel) {
   std::uint64_t alive = SpreadBits(0xff);
-  std::array<SampleVerdicts, kMostViews> verdicts;
+  std::array<SampleDecisions, kMostViews> decisions;
   for (int i = 0; i < voxel.undecided; ++i) {
     std::uint8_t framed;
-    const OctantVerdicts samples = Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed);
-    verdicts[i] = {SpreadBits(samples.inside), SpreadBits(samples.outside),
-                   SpreadBits(samples.unseen), SpreadBits(samples.gap)};
-    alive &= ~verdicts[i].outside;
+    const OctantDecisions samples = Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed);
+    decisions[i] = {SpreadBits(samples.inside), SpreadBits(samples.outside),
+                    SpreadBits(samples.unseen), SpreadBits(samples.gap)};
+    alive &= ~decisions[i].outside;
     if (alive == 0) return;
   }
-  Decide(voxel, {verdicts.data(), static_cast<std::size_t>(voxel.undecided)}, 1, alive);
+  Decide(voxel, {decisions.data(), static_cast<std::size_t>(voxel.undecided)}, 1, alive);
 }
 
 // Decides the voxels that are asked for, one or up to eight, by what each of the undecided views
 // knows of the samples.
-void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> verdicts,
+void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> decisions,
                           std::uint8_t asked, std::uint64_t alive) {
   // Samples that at least so many more cameras see, and those that so many miss.
   std::array<std::uint64_t, kMostViews + 1> seen, missed;
@@ -280,7 +280,7 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> ve
   std::fill_n(seen.begin() + 1, needed, 0);
   std::fill_n(missed.begin() + 1, too_many, 0);
   std::uint64_t unknown = 0;
-  for (const SampleVerdicts& v : verdicts) {
+  for (const SampleDecisions& v : decisions) {
     for (int n = needed; n > 0; --n) seen[n] |= seen[n - 1] & v.inside;
     for (int n = too_many; n > 0; --n) missed[n] |= missed[n - 1] & v.gap;
     unknown |= ~(v.inside | v.outside | v.unseen | v.gap);
@@ -293,7 +293,7 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> ve
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
     const int voxel = std::countr_zero(asked);
     if (~agreed >> voxel & 1 &&
-        !AskSamples(block, verdicts, voxel, SamplesOf(agrees, voxel), SamplesOf(unknown, voxel)))
+        !AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel), SamplesOf(unknown, voxel)))
       continue;
     const Eigen::Vector3i at = VoxelAt(block, voxel);
     grid_->Set(at.x(), at.y(), at.z());
@@ -301,11 +301,11 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleVerdicts> ve
 }
 
 // Asks the cameras exactly about unknown samples of a voxel, as long as it depends on them.
-bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleVerdicts> verdicts,
+bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleDecisions> decisions,
                               int voxel, unsigned agrees, unsigned unknown) const {
   for (; unknown != 0; unknown &= unknown - 1) {
     const int sample = std::countr_zero(unknown);
-    if (SampleAgrees(block, verdicts, voxel, sample)) agrees |= 1u << sample;
+    if (SampleAgrees(block, decisions, voxel, sample)) agrees |= 1u << sample;
     if (std::popcount(agrees) >= kMajority) return true;
     if (std::popcount(agrees | (unknown & (unknown - 1))) < kMajority) return false;
   }
@@ -313,7 +313,7 @@ bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleVerdicts
 }
 
 // Asks those cameras that do not know it yet.
-bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleVerdicts> verdicts,
+bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions,
                                 int voxel, int sample) const {
   const Vector3 corner_W =
       (grid_->first_voxel() + VoxelAt(block, voxel)).cast<double>() * voxel_mm_;
@@ -323,8 +323,8 @@ bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleVerdic
   const int bit = 8 * sample + voxel;
   int seeing = block.seeing;
   int gaps = 0;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const SampleVerdicts& known = verdicts[i];
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    const SampleDecisions& known = decisions[i];
     if (known.unseen >> bit & 1) continue;
     std::optional<WindowMap::Kind> kind;
     if (known.inside >> bit & 1)

@@ -27,7 +27,7 @@ constexpr Lanes kSignY = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr Lanes kSignZ = {-1, -1, -1, -1, 1, 1, 1, 1};
 
 // Four bytes of bits: inside, outside, unseen, gap.
-OctantVerdicts Unpack(std::uint32_t bits) {
+OctantDecisions Unpack(std::uint32_t bits) {
   return {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
           static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 24)};
 }
@@ -258,8 +258,8 @@ struct Slope {
 };
 
 MOCAP_VECTORIZED
-std::uint32_t GlanceAll(const Eye& eye, const OctantFrames& frames, int lane,
-                        const std::array<float, 3>& middle, float spread, float half) {
+std::uint32_t CoarsePassAll(const Eye& eye, const OctantFrames& frames, int lane,
+                            const std::array<float, 3>& middle, float spread, float half) {
   const Frame f(frames, lane, middle);
   const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
   const float reach_x = half * f.reach_x + f.error;
@@ -298,9 +298,9 @@ MOCAP_INLINE void SortBytes(Ints words, std::array<std::uint64_t, 4>& bytes) {
 // The samples of eight voxels, by windows of one pixel or two. Returns whether all of them lie in
 // the region that the planes cover; otherwise nothing is told.
 MOCAP_VECTORIZED
-bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
-                      const std::array<float, 3>& middle, float voxel_spread, float sample_spread,
-                      unsigned asked, SampleVerdicts& verdicts) {
+bool CoarsePassSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
+                          const std::array<float, 3>& middle, float voxel_spread,
+                          float sample_spread, unsigned asked, SampleDecisions& decisions) {
   const Frame f(frames, lane, middle);
   const Slope x(f.along_x, 0, f.offset), y(f.along_y, 0, f.offset), z(f.depth, 1, f.offset);
   if (!IsInRegion(planes, f, f.x + x.middle / z.middle, f.y + y.middle / z.middle,
@@ -335,7 +335,7 @@ bool GlanceSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frame
   std::array<std::uint64_t, 4> bytes;
   SortBytes(collected, bytes);
   const auto [inside, undecided, outside, none] = bytes;
-  verdicts = {inside, outside, 0, kEach * asked & ~(inside | undecided | outside)};
+  decisions = {inside, outside, 0, kEach * asked & ~(inside | undecided | outside)};
   return true;
 }
 
@@ -352,8 +352,8 @@ void OctantView::Set(const CarvingView& view, const Vector3& origin_W, const Win
   eye_.planes = windows.planes();
 }
 
-OctantVerdicts OctantView::Project(const Eigen::Vector3f& middle, float spread, float half,
-                                   OctantFrames& frames, std::uint8_t& framed) const {
+OctantDecisions OctantView::Project(const Eigen::Vector3f& middle, float spread, float half,
+                                    OctantFrames& frames, std::uint8_t& framed) const {
   const std::uint32_t bits =
       ProjectAll(eye_, {middle.x(), middle.y(), middle.z()}, spread, half, frames);
   framed = 0;
@@ -362,35 +362,38 @@ OctantVerdicts OctantView::Project(const Eigen::Vector3f& middle, float spread, 
   return Unpack(bits);
 }
 
-OctantVerdicts OctantView::Glance(const OctantFrames& frames, int lane,
-                                  const Eigen::Vector3f& middle, float spread, float half) const {
-  return Unpack(GlanceAll(eye_, frames, lane, {middle.x(), middle.y(), middle.z()}, spread, half));
+OctantDecisions OctantView::CoarsePass(const OctantFrames& frames, int lane,
+                                       const Eigen::Vector3f& middle, float spread,
+                                       float half) const {
+  return Unpack(
+      CoarsePassAll(eye_, frames, lane, {middle.x(), middle.y(), middle.z()}, spread, half));
 }
 
-SampleVerdicts OctantView::GlanceSamples(const OctantFrames& frames, int lane,
-                                         const Eigen::Vector3f& middle, float voxel_spread,
-                                         float sample_spread, std::uint8_t asked) const {
+SampleDecisions OctantView::CoarsePassSamples(const OctantFrames& frames, int lane,
+                                              const Eigen::Vector3f& middle, float voxel_spread,
+                                              float sample_spread, std::uint8_t asked) const {
   const std::array<float, 3> p = {middle.x(), middle.y(), middle.z()};
-  SampleVerdicts verdicts;
-  if (GlanceSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked, verdicts))
-    return verdicts;
-  const OctantVerdicts voxels =
-      Unpack(GlanceAll(eye_, frames, lane, p, voxel_spread, sample_spread));
-  verdicts = {kEach * voxels.inside, kEach * voxels.outside, kEach * voxels.unseen, 0};
+  SampleDecisions decisions;
+  if (CoarsePassSamplesAll(eye_.planes, frames, lane, p, voxel_spread, sample_spread, asked,
+                           decisions))
+    return decisions;
+  const OctantDecisions voxels =
+      Unpack(CoarsePassAll(eye_, frames, lane, p, voxel_spread, sample_spread));
+  decisions = {kEach * voxels.inside, kEach * voxels.outside, kEach * voxels.unseen, 0};
   unsigned open = asked & ~(voxels.inside | voxels.outside | voxels.unseen);
   for (; open != 0; open &= open - 1) {
     const int voxel = std::countr_zero(open);
-    const OctantVerdicts samples =
-        Unpack(GlanceAll(eye_, frames, lane,
-                         {p[0] + kSignX[voxel] * voxel_spread, p[1] + kSignY[voxel] * voxel_spread,
-                          p[2] + kSignZ[voxel] * voxel_spread},
-                         sample_spread, 0));
-    verdicts.inside |= SpreadBits(samples.inside) << voxel;
-    verdicts.outside |= SpreadBits(samples.outside) << voxel;
-    verdicts.unseen |= SpreadBits(samples.unseen) << voxel;
-    verdicts.gap |= SpreadBits(samples.gap) << voxel;
+    const OctantDecisions samples = Unpack(
+        CoarsePassAll(eye_, frames, lane,
+                      {p[0] + kSignX[voxel] * voxel_spread, p[1] + kSignY[voxel] * voxel_spread,
+                       p[2] + kSignZ[voxel] * voxel_spread},
+                      sample_spread, 0));
+    decisions.inside |= SpreadBits(samples.inside) << voxel;
+    decisions.outside |= SpreadBits(samples.outside) << voxel;
+    decisions.unseen |= SpreadBits(samples.unseen) << voxel;
+    decisions.gap |= SpreadBits(samples.gap) << voxel;
   }
-  return verdicts;
+  return decisions;
 }
 
 }  // namespace mocap

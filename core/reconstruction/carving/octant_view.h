@@ -11,16 +11,16 @@ namespace mocap {
 
 /// What a camera knows of each octant, one bit an octant: bit 0 is nearest to the origin, x grows
 /// with the lowest bit, then y, then z.
-struct OctantVerdicts {
+struct OctantDecisions {
   std::uint8_t inside;   ///< All of it is in the silhouette.
   std::uint8_t outside;  ///< All of it is outside the silhouette with its gaps closed.
   std::uint8_t unseen;   ///< All of it is outside the picture.
   std::uint8_t gap;      ///< All of it is in a gap; told of single pixels alone.
 };
 
-/// What a camera knows of the samples of eight voxels, each as OctantVerdicts: a byte a sample, and
-/// in it a bit a voxel.
-struct SampleVerdicts {
+/// What a camera knows of the samples of eight voxels, each as OctantDecisions: a byte a sample,
+/// and in it a bit a voxel.
+struct SampleDecisions {
   std::uint64_t inside, outside, unseen, gap;
 };
 
@@ -59,18 +59,19 @@ class OctantView {
   /// @param middle  of the block, from the origin [mm].
   /// @param spread  from there to the middles of the octants, along each axis [mm].
   /// @param half    half the side of the cubes to judge there [mm].
-  /// @return the verdicts; and in `framed` the octants that got good frames.
-  OctantVerdicts Project(const Eigen::Vector3f& middle, float spread, float half,
-                         OctantFrames& frames, std::uint8_t& framed) const;
+  /// @return the decisions; and in `framed` the octants that got good frames.
+  OctantDecisions Project(const Eigen::Vector3f& middle, float spread, float half,
+                          OctantFrames& frames, std::uint8_t& framed) const;
 
   /// Looks at octants by the frame of one that holds them all.
-  OctantVerdicts Glance(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
-                        float spread, float half) const;
+  OctantDecisions CoarsePass(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
+                             float spread, float half) const;
 
   /// Looks at the samples of the eight voxels of a block, likewise.
   /// @param asked  the voxels whose samples matter; of others nothing may be told.
-  SampleVerdicts GlanceSamples(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
-                               float voxel_spread, float sample_spread, std::uint8_t asked) const;
+  SampleDecisions CoarsePassSamples(const OctantFrames& frames, int lane,
+                                    const Eigen::Vector3f& middle, float voxel_spread,
+                                    float sample_spread, std::uint8_t asked) const;
 
   struct Eye {
     std::array<std::array<float, 3>, 3> R;

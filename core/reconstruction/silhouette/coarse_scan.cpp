@@ -46,8 +46,8 @@ constexpr float kLargestDrift = 8;
 // nearly too dark for a shadow. So much distance and shift are part of the variance.
 constexpr float kHarmlessGlare = 1.5f;
 constexpr float kHarmlessTint = 1.5f;
-constexpr float kHarmlessMisfit = 6;
-constexpr float kLeastMisfit = 0.05f;
+constexpr float kHarmlessChiSquare = 6;
+constexpr float kLeastChiSquare = 0.05f;
 constexpr float kDarkMargin = 0.02f;
 constexpr float kDistanceMargin = 2;
 constexpr float kContourMargin = 2;
@@ -164,7 +164,7 @@ void CoarseScan::CompareTiles(const ExpectedHalf& expected, ImageView<const Bgr>
     FetchTiles(expected, looks_[i]);
     if (i >= whole_rows_) Take(image, i);
     MeasureTints(expected, looks_[i]);
-    MeasureMisfit(expected, looks_[i]);
+    MeasureChiSquare(expected, looks_[i]);
   }
   Judge(expected);
 }
@@ -203,7 +203,7 @@ void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image
     full_height_ = image.height();
     knows_region_ = false;
     live_ = HalfPicture(full_width_, full_height_);
-    for (auto* values : {&tiles_.alpha, &tiles_.tint, &tiles_.glare, &tiles_.misfit})
+    for (auto* values : {&tiles_.alpha, &tiles_.tint, &tiles_.glare, &tiles_.chi_square})
       values->resize(live_.tiles());
   }
   MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
@@ -284,10 +284,10 @@ TilePixels CoarseScan::PixelsOf(const ExpectedHalf& expected, const TileRun& run
   return tiles;
 }
 
-void CoarseScan::MeasureMisfit(const ExpectedHalf& expected, const TileRun& run) {
+void CoarseScan::MeasureChiSquare(const ExpectedHalf& expected, const TileRun& run) {
   const std::size_t first = live_.FirstTileOf(run);
-  MeasureMisfits(PixelsOf(expected, run), run.end - run.begin, allowance_, &tiles_.alpha[first],
-                 &tiles_.misfit[first]);
+  MeasureChiSquares(PixelsOf(expected, run), run.end - run.begin, allowance_, &tiles_.alpha[first],
+                    &tiles_.chi_square[first]);
 }
 
 void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {
@@ -304,9 +304,9 @@ void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) 
 void CoarseScan::Judge(const ExpectedHalf& expected) {
   values_.clear();
   for (const std::size_t i : samples_)
-    if (IsKnown(expected, i)) values_.push_back(tiles_.misfit[i]);
+    if (IsKnown(expected, i)) values_.push_back(tiles_.chi_square[i]);
   const float harmless =
-      kHarmlessMisfit * std::max(values_.empty() ? 0 : Median(values_), kLeastMisfit);
+      kHarmlessChiSquare * std::max(values_.empty() ? 0 : Median(values_), kLeastChiSquare);
   suspicious_.Reset(live_.tile_columns(), live_.tile_rows());
   for (const TileRun& look : looks_) {
     for (int column = look.begin; column < look.end; ++column) {
@@ -314,8 +314,8 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
       if (!IsKnown(expected, i)) continue;
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||
-          (tiles_.misfit[i] > harmless &&
-           MisfitBesideSlope(PixelsOf(expected, {look.row, column, column + 1}), allowance_) >
+          (tiles_.chi_square[i] > harmless &&
+           ChiSquareBesideSlope(PixelsOf(expected, {look.row, column, column + 1}), allowance_) >
                harmless))
         suspicious_.Set(column, look.row);
     }

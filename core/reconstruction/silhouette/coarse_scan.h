@@ -47,7 +47,7 @@ class CoarseScan {
  private:
   struct Tiles {
     // Brightness distortion, and what else differs: all in variances.
-    std::vector<float> alpha, tint, glare, misfit;
+    std::vector<float> alpha, tint, glare, chi_square;
   };
   void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
   void LookAtAll();
@@ -64,7 +64,7 @@ class CoarseScan {
   void FetchTiles(const ExpectedHalf& expected, const TileRun& run);
   void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
   TilePixels PixelsOf(const ExpectedHalf& expected, const TileRun& run) const;
-  void MeasureMisfit(const ExpectedHalf& expected, const TileRun& run);
+  void MeasureChiSquare(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);
 
   float darkest_shadow_;

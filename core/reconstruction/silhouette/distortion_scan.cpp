@@ -128,14 +128,14 @@ void SumBlocks(const float* alpha_shift, const std::array<const float*, 3>& cd, 
 }  // namespace
 
 void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                           const std::array<float, 3>& gain, const Closeup& closeup) {
+                           const std::array<float, 3>& gain, const RegionOfInterest& roi) {
   MOCAP_CHECK(image.width() == expected.width && image.height() == expected.height);
-  MOCAP_CHECK(closeup.width() == expected.width && closeup.height() == expected.height);
+  MOCAP_CHECK(roi.width() == expected.width && roi.height() == expected.height);
   expected_ = &expected;
-  closeup_ = &closeup;
+  roi_ = &roi;
   image_ = image;
   gain_ = gain;
-  next_ = measured_ = closeup.frame().top;
+  next_ = measured_ = roi.frame().top;
   const int width = expected.width + kBeside;
   if (alpha_shift_.width() == width && alpha_shift_.height() == expected.height) return;
   alpha_shift_ = Image<float>(width, expected.height);
@@ -166,7 +166,7 @@ void DistortionScan::MeasureBand(int y) {
   const int rows = std::min(kBand_px, expected_->height - y);
   const int whole = expected_->width / kPixels;
   int done = 0;
-  for (const PixelRun& run : closeup_->Measured(y)) {
+  for (const PixelRun& run : roi_->Measured(y)) {
     for (int row = 0; row < rows; ++row)
       FetchPixels(image_, y + kBand_px + row, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
@@ -177,7 +177,7 @@ void DistortionScan::MeasureBand(int y) {
   }
   for (int row = 0; row < rows; ++row) RepeatEnds(y + row);
   // Sums beyond the ends are never used.
-  for (const PixelRun& run : closeup_->Measured(y)) SumAlong(y, rows, run);
+  for (const PixelRun& run : roi_->Measured(y)) SumAlong(y, rows, run);
 }
 
 // The picture ends within the last group.
@@ -202,7 +202,7 @@ void DistortionScan::Measure(ImageView<const Bgr> pixels, int y, int group) {
 }
 
 void DistortionScan::RepeatEnds(int y) {
-  const std::span<const PixelRun> runs = closeup_->Measured(y);
+  const std::span<const PixelRun> runs = roi_->Measured(y);
   if (runs.empty() || (runs.front().begin > 0 && runs.back().end < expected_->width)) return;
   const int line = y % kSumLines;
   for (float* const values : {alpha_shift_.row(y), lines_.cd[0].row(line), lines_.cd[1].row(line),

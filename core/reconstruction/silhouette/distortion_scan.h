@@ -9,7 +9,7 @@
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
-#include "core/reconstruction/silhouette/closeup.h"
+#include "core/reconstruction/silhouette/region_of_interest.h"
 #include "core/reconstruction/silhouette/window_sums.h"
 
 namespace mocap {
@@ -39,11 +39,12 @@ class DistortionScan {
     WindowLines sums{};  ///< For JoinLines().
   };
 
-  /// Starts at the top of a closeup's frame. All but `gain` are borrowed until the last rows.
+  /// Starts at the top of a region of interest's frame. All but `gain` are borrowed until the last
+  /// rows.
   /// @param expected  weighed for the pixels that are measured.
   /// @param gain      what each of the picture's channels is multiplied by.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
-             const std::array<float, 3>& gain, const Closeup& closeup);
+             const std::array<float, 3>& gain, const RegionOfInterest& roi);
 
   /// Measures the next two rows. Beyond the picture's edge its outermost pixels are repeated.
   const RowPair& Next();
@@ -57,9 +58,9 @@ class DistortionScan {
  private:
   static constexpr int kPad = kFloats;  // On both sides of the picture.
   static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
-  static_assert(kLargestRadius_px <= Closeup::kMargin_px && kLargestRadius_px <= kPad);
+  static_assert(kLargestRadius_px <= RegionOfInterest::kMargin_px && kLargestRadius_px <= kPad);
   // Rows are measured so many at a time: they have the same runs.
-  static constexpr int kBand_px = Closeup::kMargin_px;
+  static constexpr int kBand_px = RegionOfInterest::kMargin_px;
   static_assert(kSumLines % kBand_px == 0 && kSumLines >= kPairLines + kBand_px - 1);
 
   // Of the last lines, padded by kPad.
@@ -74,7 +75,7 @@ class DistortionScan {
   void SumAlong(int y, int rows, const PixelRun& run);
 
   const ExpectedPicture* expected_ = nullptr;
-  const Closeup* closeup_ = nullptr;
+  const RegionOfInterest* roi_ = nullptr;
   ImageView<const Bgr> image_;
   std::array<float, 3> gain_ = {1, 1, 1};
   int next_ = 0;

@@ -62,7 +62,7 @@ class DistortionHistograms {
 
   Histogram cd_, alpha_low_, alpha_high_;
   std::array<WindowHistograms, kWindows> windows_;
-  Closeup everything_;
+  RegionOfInterest everything_;
   DistortionScan scan_;
 };
 

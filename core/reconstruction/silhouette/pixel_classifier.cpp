@@ -44,14 +44,14 @@ struct Criteria {
 };
 
 // Of the windows around eight pixels, as bits.
-struct Verdict {
+struct Decision {
   unsigned doubtful, clear;
 };
 
 // Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
 template <std::size_t window>
-MOCAP_INLINE Verdict JudgeWindows(const WindowDistortions& d, const Floats& alpha_weight,
-                                  const Floats& drift_sq, const WindowCriteria& criteria) {
+MOCAP_INLINE Decision JudgeWindows(const WindowDistortions& d, const Floats& alpha_weight,
+                                   const Floats& drift_sq, const WindowCriteria& criteria) {
   const Floats normalized = d.alpha_shift * alpha_weight;
   const Floats bright = normalized > 0 ? normalized : Floats{};
   Floats excess_sq = (d.cd_sq - drift_sq) * criteria.per_cd;
@@ -66,7 +66,7 @@ MOCAP_INLINE Verdict JudgeWindows(const WindowDistortions& d, const Floats& alph
 struct Judgement {
   Floats alpha_weight, drift_sq;
   unsigned clear;
-  std::array<Verdict, kWindows> windows;
+  std::array<Decision, kWindows> windows;
 };
 
 MOCAP_INLINE void JudgePixels(const DistortionScan::Row& row, int x, const Criteria& criteria,
@@ -99,8 +99,8 @@ std::uint8_t* BytesOf(std::uint64_t* words) {
   return reinterpret_cast<std::uint8_t*>(words);
 }
 
-// Where verdicts on the pixels of a row go, eight a byte.
-struct VerdictBytes {
+// Where decisions on the pixels of a row go, eight a byte.
+struct DecisionBytes {
   std::uint8_t* clear_pixels;
   std::array<std::uint8_t*, kWindows> doubtful, clear;
 
@@ -117,7 +117,7 @@ struct VerdictBytes {
 // Judges the pixels of a run in two rows, or in the first of them.
 MOCAP_VECTORIZED
 void JudgeRun(const DistortionScan::RowPair& pair, const PixelRun& run, const Criteria& criteria,
-              const std::array<VerdictBytes, 2>& to, int rows) {
+              const std::array<DecisionBytes, 2>& to, int rows) {
   for (int block = run.begin / kFloats; block * kFloats < run.end; ++block) {
     std::array<Judgement, 2> judgements;
 #pragma GCC unroll 2
@@ -137,10 +137,10 @@ PixelClassifier::PixelClassifier(const DistortionThresholds& thresholds, float d
     : thresholds_(thresholds), darkest_shadow_(darkest_shadow) {}
 
 void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                               const Conditions& conditions, const Closeup& closeup) {
+                               const Conditions& conditions, const RegionOfInterest& roi) {
   expected_ = &expected;
-  Resize(closeup);
-  scan_.Begin(expected, image, conditions.gain, closeup);
+  Resize(roi);
+  scan_.Begin(expected, image, conditions.gain, roi);
   const float darkest = darkest_shadow_ - 1;
   const Criteria criteria{
       {{darkest, kPixelMargin * thresholds_.alpha_low}, Square(kPixelMargin * thresholds_.cd)},
@@ -152,7 +152,7 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
     const auto row_of = [this, y](Silhouette& s) {
       return BytesOf(s.row(y - frame_.top)) - frame_.left / kFloats;
     };
-    VerdictBytes bytes{row_of(clear_pixels_), {}, {}};
+    DecisionBytes bytes{row_of(clear_pixels_), {}, {}};
     for (std::size_t k = 0; k < kWindows; ++k) {
       bytes.doubtful[k] = row_of(doubtful_windows_[k]);
       bytes.clear[k] = row_of(clear_windows_[k]);
@@ -162,8 +162,8 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   for (int y = frame_.top; y <= frame_.bottom; y += 2) {
     const DistortionScan::RowPair& pair = scan_.Next();
     const int rows = std::min(2, frame_.bottom + 1 - y);
-    const std::array<VerdictBytes, 2> to = {bytes_of(y), bytes_of(y + rows - 1)};
-    for (const PixelRun& run : closeup.Judged(y)) JudgeRun(pair, run, criteria, to, rows);
+    const std::array<DecisionBytes, 2> to = {bytes_of(y), bytes_of(y + rows - 1)};
+    for (const PixelRun& run : roi.Judged(y)) JudgeRun(pair, run, criteria, to, rows);
   }
   // A pixel is background when any of the windows with it is, and may well be foreground when no
   // window of one size at least is.
@@ -178,12 +178,12 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
   Unite(eroded_[0], foreground_);
 }
 
-void PixelClassifier::Resize(const Closeup& closeup) {
-  frame_ = closeup.frame();
+void PixelClassifier::Resize(const RegionOfInterest& roi) {
+  frame_ = roi.frame();
   for (auto* windows : {&clear_windows_, &doubtful_windows_, &eroded_})
-    for (Silhouette& s : *windows) s.Reserve(closeup.width(), closeup.height());
+    for (Silhouette& s : *windows) s.Reserve(roi.width(), roi.height());
   for (Silhouette* s : {&clear_pixels_, &foreground_, &doubtful_})
-    s->Reserve(closeup.width(), closeup.height());
+    s->Reserve(roi.width(), roi.height());
   const int width = frame_.right - frame_.left + 1, height = frame_.bottom - frame_.top + 1;
   clear_pixels_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})

@@ -8,9 +8,9 @@
 
 #include "core/image.h"
 #include "core/reconstruction/background/expected_picture.h"
-#include "core/reconstruction/silhouette/closeup.h"
 #include "core/reconstruction/silhouette/distortion_scan.h"
 #include "core/reconstruction/silhouette/distortion_thresholds.h"
+#include "core/reconstruction/silhouette/region_of_interest.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
@@ -39,20 +39,20 @@ class PixelClassifier {
   /// Classifies a picture; the results hold until the next one, as long as `expected` does.
   /// @param expected  weighed under these conditions for the pixels that are measured.
   void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
-                const Conditions& conditions, const Closeup& closeup);
+                const Conditions& conditions, const RegionOfInterest& roi);
 
   /// Gives the class of a pixel that was measured.
   PixelClass ClassOf(int x, int y) const;
-  /// Where the class is foreground, within the closeup's frame.
+  /// Where the class is foreground, within the region of interest's frame.
   const Silhouette& foreground() const { return foreground_; }
   /// Where background would be as rare as the training frames allow, but not clearly beyond that:
-  /// within the closeup's frame.
+  /// within the region of interest's frame.
   const Silhouette& doubtful() const { return doubtful_; }
   /// α − 1 of every pixel that is measured.
   ImageView<const float> alpha_shift() const { return scan_.alpha_shift(); }
 
  private:
-  void Resize(const Closeup& closeup);
+  void Resize(const RegionOfInterest& roi);
 
   DistortionThresholds thresholds_;
   float darkest_shadow_;

@@ -6,10 +6,10 @@
 #include "core/errors.h"
 #include "core/reconstruction/background/displacement.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
-#include "core/reconstruction/silhouette/closeup.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 #include "core/reconstruction/silhouette/outline_refiner.h"
 #include "core/reconstruction/silhouette/pixel_classifier.h"
+#include "core/reconstruction/silhouette/region_of_interest.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
 
 namespace mocap {
@@ -65,18 +65,18 @@ class Segmenter::Impl {
             static_cast<int>(kLargestThingShare * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
-    conditions_ = Glance(image, angles);
-    closeup_.Set(coarse_.suspicious(), image.width(), image.height());
-    const ExpectedPicture& expected = background_->Expect(closeup_, conditions_);
-    classifier_.Classify(expected, image, conditions_, closeup_);
+    conditions_ = CoarsePass(image, angles);
+    roi_.Set(coarse_.suspicious(), image.width(), image.height());
+    const ExpectedPicture& expected = background_->Expect(roi_, conditions_);
+    classifier_.Classify(expected, image, conditions_, roi_);
     person_.Reserve(image.width(), image.height());
     person_ = classifier_.foreground();
     cleaner_.Clean(kSmallestGap_px, classifier_.doubtful(), smallest_blob_px_, person_);
-    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), closeup_.frame(),
+    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), roi_.frame(),
                     person_);
     cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, person_);
     silhouette.Reset(image.width(), image.height());
-    Paste(person_, closeup_.frame().left, closeup_.frame().top, silhouette);
+    Paste(person_, roi_.frame().left, roi_.frame().top, silhouette);
     silhouette.KeepBox();
   }
 
@@ -84,8 +84,8 @@ class Segmenter::Impl {
 
  private:
   // Compares the picture as a whole, and follows a camera that was nudged.
-  Conditions Glance(ImageView<const Bgr> image, const PanTiltAngles& angles) {
-    const ExpectedHalf& expected = background_->Glance(angles, {});
+  Conditions CoarsePass(ImageView<const Bgr> image, const PanTiltAngles& angles) {
+    const ExpectedHalf& expected = background_->CoarsePass(angles, {});
     // Where a head turns, the person's place in the last picture says little.
     if (has_head_)
       coarse_.Compare(expected, image);
@@ -97,13 +97,13 @@ class Segmenter::Impl {
     if (!displacement || std::hypot(displacement->x_px, displacement->y_px) < kNudge_px)
       return conditions;
     const float shift_before_px = coarse_.shift_px();
-    coarse_.Compare(background_->Glance(angles, *displacement), image);
+    coarse_.Compare(background_->CoarsePass(angles, *displacement), image);
     if (coarse_.shift_px() < kMuchLess * shift_before_px) {
       Conditions displaced = coarse_.conditions();
       displaced.displacement = *displacement;
       return displaced;
     }
-    coarse_.Compare(background_->Glance(angles, {}), image);
+    coarse_.Compare(background_->CoarsePass(angles, {}), image);
     return conditions;
   }
 
@@ -111,11 +111,11 @@ class Segmenter::Impl {
   std::unique_ptr<BackgroundModel> background_;
   CoarseScan coarse_;
   Conditions conditions_;
-  Closeup closeup_;
+  RegionOfInterest roi_;
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
-  Silhouette person_;  // Within the closeup's frame.
+  Silhouette person_;  // Within the region of interest's frame.
   int smallest_blob_px_, largest_thing_px_;
 };
 

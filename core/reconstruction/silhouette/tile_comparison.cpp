@@ -41,8 +41,9 @@ MOCAP_INLINE float SumOf(Floats rows) {
 }
 
 // How two rows, from such a pixel on, differ.
-MOCAP_INLINE Floats MisfitsOfRows(const TilePixels& tiles, std::ptrdiff_t begin,
-                                  std::ptrdiff_t step, const Allowance& allowance, Floats alphas) {
+MOCAP_INLINE Floats ChiSquaresOfRows(const TilePixels& tiles, std::ptrdiff_t begin,
+                                     std::ptrdiff_t step, const Allowance& allowance,
+                                     Floats alphas) {
   Floats squares{};
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
@@ -71,8 +72,8 @@ MOCAP_INLINE Floats AlphasOfRows(const TilePixels& tile, std::ptrdiff_t begin,
 }  // namespace
 
 MOCAP_VECTORIZED
-void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
-                    const float* alphas, float* misfits) {
+void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
+                       const float* alphas, float* chi_squares) {
   const Allowance allowed = allowance;  // As far as the compiler knows, the results may lie there.
   for (int i = 0; i < count; i += 2) {
     const bool is_last = i + 1 == count;
@@ -81,12 +82,12 @@ void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowan
     Floats sums{};
 #pragma GCC unroll 4
     for (int y = 0; y < kTile; ++y)
-      sums += MisfitsOfRows(tiles, i * kTile + y * tiles.stride, kTile, allowed, both);
+      sums += ChiSquaresOfRows(tiles, i * kTile + y * tiles.stride, kTile, allowed, both);
     std::array<float, kFloats> columns;
     StoreLanes(sums, columns.data());
-    misfits[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
+    chi_squares[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
     if (is_last) break;
-    misfits[i + 1] = (columns[4] + columns[5] + columns[6] + columns[7]) / kArea;
+    chi_squares[i + 1] = (columns[4] + columns[5] + columns[6] + columns[7]) / kArea;
   }
 }
 
@@ -113,7 +114,7 @@ void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
 }
 
 MOCAP_VECTORIZED
-float MisfitBesideSlope(const TilePixels& tile, const Allowance& allowance) {
+float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance) {
   // Where the pixels of the upper two rows are, from the tile's middle.
   const Floats right = {-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f};
   const Floats down = {-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f};
@@ -126,8 +127,8 @@ float MisfitBesideSlope(const TilePixels& tile, const Allowance& allowance) {
   const float to_right = SumOf(columns * right) / kSpread;
   const float to_bottom = SumOf(upper_alphas * down + lower_alphas * (down + 2)) / kSpread;
   const Floats upper_plane = middle + to_right * right + to_bottom * down;
-  return SumOf(MisfitsOfRows(tile, 0, tile.stride, allowance, upper_plane) +
-               MisfitsOfRows(tile, lower, tile.stride, allowance, upper_plane + 2 * to_bottom)) /
+  return SumOf(ChiSquaresOfRows(tile, 0, tile.stride, allowance, upper_plane) +
+               ChiSquaresOfRows(tile, lower, tile.stride, allowance, upper_plane + 2 * to_bottom)) /
          kArea;
 }
 

@@ -27,8 +27,8 @@ struct TilePixels {
 /// Measures by how many variances the pixels of tiles differ from what is expected in the mean, but
 /// for their tile's brightness.
 /// @param alphas  the tiles' brightness distortion.
-void MeasureMisfits(const TilePixels& tiles, int count, const Allowance& allowance,
-                    const float* alphas, float* misfits);
+void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
+                       const float* alphas, float* chi_squares);
 
 /// Means of tiles, channel by channel.
 struct TileMeans {
@@ -41,8 +41,8 @@ struct TileMeans {
 void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance, float* alphas,
                   float* tints, float* glares);
 
-/// Measures the mean misfit of a tile's pixels where brightness may change evenly across it, as at
-/// the soft edge of a shadow [variances].
-float MisfitBesideSlope(const TilePixels& tile, const Allowance& allowance);
+/// Measures the mean chi-square of a tile's pixels where brightness may change evenly across it, as
+/// at the soft edge of a shadow [variances].
+float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance);
 
 }  // namespace mocap

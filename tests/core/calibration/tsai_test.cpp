@@ -17,10 +17,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Lt;
 
-std::vector<PointSighting> ReadWillson(const std::filesystem::path& file) {
-  std::vector<PointSighting> points;
+std::vector<PointDetection> ReadWillson(const std::filesystem::path& file) {
+  std::vector<PointDetection> points;
   std::ifstream in(file);
-  PointSighting p;
+  PointDetection p;
   while (in >> p.p_W.x() >> p.p_W.y() >> p.p_W.z() >> p.pixel.x() >> p.pixel.y())
     points.push_back(p);
   return points;
@@ -40,10 +40,10 @@ struct Truth {
   TsaiLens lens{6.0, 0.004, 1.0, {325, 236}, {0.01, 0.0099}};
   RigidTransform X_CW{ExpRotation({0.5, -0.4, 0.3}), {-200, 150, 3000}};
 
-  std::vector<PointSighting> See(const std::vector<Vector3>& points, double noise_px = 0) const {
+  std::vector<PointDetection> See(const std::vector<Vector3>& points, double noise_px = 0) const {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0, 1);
-    std::vector<PointSighting> seen;
+    std::vector<PointDetection> seen;
     for (const Vector3& p_W : points) {
       const Vector3 p_C = X_CW * p_W;
       const auto pixel = PixelFromNormalized(lens, p_C.head<2>() / p_C.z());
@@ -68,7 +68,7 @@ TsaiSensor SensorOf(const Truth& truth) {
   return sensor;
 }
 
-std::string ReasonOf(const std::vector<PointSighting>& points, const TsaiSensor& sensor) {
+std::string ReasonOf(const std::vector<PointDetection>& points, const TsaiSensor& sensor) {
   try {
     CalibrateTsai(points, sensor);
   } catch (const SetupError& error) {
@@ -161,8 +161,8 @@ TEST(TsaiTest, RefusesAPlaneParallelToThePicture) {
 
 TEST(TsaiTest, RefusesAMirroredWorld) {
   const Truth truth;
-  std::vector<PointSighting> mirrored = truth.See(Grid(3));
-  for (PointSighting& point : mirrored) point.p_W.x() = -point.p_W.x();
+  std::vector<PointDetection> mirrored = truth.See(Grid(3));
+  for (PointDetection& point : mirrored) point.p_W.x() = -point.p_W.x();
   EXPECT_THAT(ReasonOf(mirrored, SensorOf(truth)), HasSubstr("left-handed"));
 }
 

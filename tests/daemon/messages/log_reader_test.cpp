@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "daemon/messages/message_log.h"
+#include "daemon/recording/message_log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {

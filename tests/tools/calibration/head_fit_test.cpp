@@ -28,10 +28,10 @@ std::vector<CameraCalibration> Rig(unsigned seed) {
 }
 
 /// A head that looks about while the board lies at four places one after the other.
-std::vector<BoardSighting> LookAbout(const CameraCalibration& camera, const HeadWalk& walk) {
+std::vector<BoardDetection> LookAbout(const CameraCalibration& camera, const HeadWalk& walk) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(-1, 1);
-  std::vector<BoardSighting> views;
+  std::vector<BoardDetection> views;
   for (int place = 0; place < 4; ++place) {
     const Vector3 p_C(300 * u(random), 200 * u(random), 2600 + 500 * u(random));
     const Matrix3 tilt = ExpRotation(Vector3(0.5 * u(random), 0.5 * u(random), u(random)));
@@ -42,7 +42,7 @@ std::vector<BoardSighting> LookAbout(const CameraCalibration& camera, const Head
       auto corners =
           testing::SeeBoard(camera, camera.PoseAt(truly), X_WB, walk.board, walk.noise_px, random);
       if (!corners) continue;
-      BoardSighting s;
+      BoardDetection s;
       s.moment = 10 * place;
       s.corners = *corners;
       s.angles = {truly.pan_rad / walk.pan_scale + walk.zero.pan_rad,
@@ -58,7 +58,7 @@ CameraCalibration WithoutHead(CameraCalibration camera) {
   return camera;
 }
 
-std::string ReasonOf(const CameraCalibration& camera, const std::vector<BoardSighting>& views) {
+std::string ReasonOf(const CameraCalibration& camera, const std::vector<BoardDetection>& views) {
   try {
     FitHead(camera, {}, testing::BoardWalk{}.board, views);
   } catch (const SetupError& error) {
@@ -142,13 +142,13 @@ TEST(HeadFitTest, HeadsThatTurnedWhileTheyWerePosedAreRefused) {
 
 TEST(HeadFitTest, RefusesWhatDoesNotDetermineAHead) {
   const CameraCalibration camera = Rig(5)[0];
-  std::vector<BoardSighting> views = LookAbout(camera, {});
+  std::vector<BoardDetection> views = LookAbout(camera, {});
   EXPECT_THAT(ReasonOf(WithoutHead(camera), {views.begin(), views.begin() + 5}),
               HasSubstr("cam1: 5 views"));
-  std::vector<BoardSighting> unturned = views;
-  for (BoardSighting& view : unturned) view.angles.tilt_rad = 0.01;
+  std::vector<BoardDetection> unturned = views;
+  for (BoardDetection& view : unturned) view.angles.tilt_rad = 0.01;
   EXPECT_THAT(ReasonOf(WithoutHead(camera), unturned), HasSubstr("of tilt only"));
-  for (BoardSighting& view : views) std::swap(view.angles.pan_rad, view.angles.tilt_rad);
+  for (BoardDetection& view : views) std::swap(view.angles.pan_rad, view.angles.tilt_rad);
   EXPECT_THAT(ReasonOf(WithoutHead(camera), views), HasSubstr("no head explains"));
 }
 

@@ -27,11 +27,11 @@ const fs::path kBoard = kShared / "data/board";
 const fs::path kSeated = kShared / "takes/real_seated";
 
 /// The camera centres [mm] that some moments' views give.
-std::vector<Vector3> CentersFrom(BoardSightings sightings,
+std::vector<Vector3> CentersFrom(BoardDetections detections,
                                  const std::vector<CameraCalibration>& lenses,
                                  const std::function<bool(int moment)>& is_used) {
-  std::erase_if(sightings.sightings, [&](const BoardSighting& s) { return !is_used(s.moment); });
-  const StudioFit fit = FitExtrinsics(sightings, lenses, {.refine_lenses = false});
+  std::erase_if(detections.detections, [&](const BoardDetection& s) { return !is_used(s.moment); });
+  const StudioFit fit = FitExtrinsics(detections, lenses, {.refine_lenses = false});
   std::vector<Vector3> centers;
   for (const CameraCalibration& camera : fit.bundle.cameras)
     centers.push_back(camera.X_CW.Inverse().p);
@@ -40,20 +40,20 @@ std::vector<Vector3> CentersFrom(BoardSightings sightings,
 
 TEST(RealStudioTest, PosesFourCamerasFromClipsOfACharucoBoard) {
   if (!fs::exists(kCharuco)) GTEST_SKIP() << "no clips in " << kCharuco;
-  const BoardSightings sightings = CollectSightings(
+  const BoardDetections detections = CollectDetections(
       OpenFootage(kCharuco), ParseBoard("charuco:4x5:54:DICT_4X4_1000:inverted"), {});
   std::vector<CameraCalibration> lenses;
   for (int c = 0; c < 4; ++c) {
-    const LensFit fit = FitLens(sightings, c, {});
-    EXPECT_LE(fit.rms_px, 0.30) << sightings.cameras[c].name;
-    lenses.push_back({sightings.cameras[c].name, 1280, 720, fit.lens, {}, {}});
+    const LensFit fit = FitLens(detections, c, {});
+    EXPECT_LE(fit.rms_px, 0.30) << detections.cameras[c].name;
+    lenses.push_back({detections.cameras[c].name, 1280, 720, fit.lens, {}, {}});
   }
-  const StudioFit fit = FitExtrinsics(sightings, lenses, {});
+  const StudioFit fit = FitExtrinsics(detections, lenses, {});
   EXPECT_LE(fit.rms_px, 0.45);
   // Two halves of the frames, eight of one after eight of the other: cameras run up to a frame
   // apart. The lenses are those of all frames.
   const auto half = [&](int which) {
-    return CentersFrom(sightings, fit.bundle.cameras,
+    return CentersFrom(detections, fit.bundle.cameras,
                        [which](int moment) { return moment / 8 % 2 == which; });
   };
   const std::vector<Vector3> one = half(0), other = half(1);
@@ -80,10 +80,10 @@ void ExpectAllPosedTheSameWay(const StudioFit& fit) {
 TEST(RealStudioTest, PosesAllCamerasFromOneBoardOnTheFloorAndCarvesAPersonAsWellAsTheTakes) {
   if (!fs::exists(kBoard) || !fs::exists(kSeated))
     GTEST_SKIP() << "not both of " << kBoard << " and " << kSeated;
-  SightingOptions options;
+  DetectionOptions options;
   options.still = true;
-  const BoardSightings still =
-      CollectSightings(OpenFootage(kBoard), ParseBoard("chess:8x6:115"), options);
+  const BoardDetections still =
+      CollectDetections(OpenFootage(kBoard), ParseBoard("chess:8x6:115"), options);
   const StudioFit fit = FitToStillBoard(still, LoadCalibration(kSeated / "calibration.toml"),
                                         still.still_pictures, 0);
   ExpectAllPosedTheSameWay(fit);

@@ -1,4 +1,4 @@
-// Sightings of a board carried through a simulated studio, with truth.
+// Detections of a board carried through a simulated studio, with truth.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/simulation/camera_rig.h"
-#include "tools/calibration/sightings.h"
+#include "tools/calibration/detections.h"
 
 namespace mocap::testing {
 
@@ -64,21 +64,21 @@ inline RigidTransform CarriedBoard(const BoardWalk& walk, std::mt19937& random) 
   return {R_WB, middle - R_WB * corner};
 }
 
-inline BoardSightings SightingsFor(const std::vector<CameraCalibration>& cameras,
-                                   const Board& board) {
-  BoardSightings sightings;
-  sightings.board = board;
+inline BoardDetections DetectionsFor(const std::vector<CameraCalibration>& cameras,
+                                     const Board& board) {
+  BoardDetections detections;
+  detections.board = board;
   for (const CameraCalibration& camera : cameras)
-    sightings.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
-  return sightings;
+    detections.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
+  return detections;
 }
 
 /// Carries the board about. A third of the moments is spent near each camera in turn, as a person
 /// does who fills the picture.
-inline BoardSightings WalkBoard(const std::vector<CameraCalibration>& cameras,
-                                const BoardWalk& walk) {
+inline BoardDetections WalkBoard(const std::vector<CameraCalibration>& cameras,
+                                 const BoardWalk& walk) {
   std::mt19937 random(walk.seed);
-  BoardSightings sightings = SightingsFor(cameras, walk.board);
+  BoardDetections detections = DetectionsFor(cameras, walk.board);
   for (int moment = 0; moment < walk.moments; ++moment) {
     RigidTransform X_WB = CarriedBoard(walk, random);
     if (moment % 3 == 0) {
@@ -92,33 +92,33 @@ inline BoardSightings WalkBoard(const std::vector<CameraCalibration>& cameras,
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       auto corners = SeeBoard(cameras[c], cameras[c].X_CW, X_WB, walk.board, walk.noise_px, random);
       if (!corners) continue;
-      BoardSighting s;
+      BoardDetection s;
       s.camera = static_cast<int>(c);
       s.moment = moment;
       s.corners = *corners;
       s.name = "frame " + std::to_string(moment);
-      sightings.sightings.push_back(s);
+      detections.detections.push_back(s);
     }
   }
-  sightings.moments = walk.moments;
-  return sightings;
+  detections.moments = walk.moments;
+  return detections;
 }
 
-inline BoardSightings SeeStillBoard(const std::vector<CameraCalibration>& cameras,
-                                    const Board& board, const RigidTransform& X_WB,
-                                    double noise_px) {
+inline BoardDetections SeeStillBoard(const std::vector<CameraCalibration>& cameras,
+                                     const Board& board, const RigidTransform& X_WB,
+                                     double noise_px) {
   std::mt19937 random(99);
-  BoardSightings sightings = SightingsFor(cameras, board);
-  sightings.moments = 1;
+  BoardDetections detections = DetectionsFor(cameras, board);
+  detections.moments = 1;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     auto corners = SeeBoard(cameras[c], cameras[c].X_CW, X_WB, board, noise_px, random);
     if (!corners) continue;
-    BoardSighting s;
+    BoardDetection s;
     s.camera = static_cast<int>(c);
     s.corners = *corners;
-    sightings.sightings.push_back(s);
+    detections.detections.push_back(s);
   }
-  return sightings;
+  return detections;
 }
 
 }  // namespace mocap::testing

@@ -25,17 +25,17 @@ std::vector<CameraCalibration> Rig(unsigned seed) {
   return simulation::HangCameras(options);
 }
 
-std::vector<CameraCalibration> FitAllLenses(const BoardSightings& sightings, LensModel model) {
+std::vector<CameraCalibration> FitAllLenses(const BoardDetections& detections, LensModel model) {
   LensFitOptions options;
   options.model = model;
   options.most_views = 30;
   std::vector<CameraCalibration> cameras;
-  for (std::size_t c = 0; c < sightings.cameras.size(); ++c) {
-    const SightingCamera& camera = sightings.cameras[c];
+  for (std::size_t c = 0; c < detections.cameras.size(); ++c) {
+    const DetectionCamera& camera = detections.cameras[c];
     cameras.push_back({camera.name,
                        camera.width_px,
                        camera.height_px,
-                       FitLens(sightings, static_cast<int>(c), options).lens,
+                       FitLens(detections, static_cast<int>(c), options).lens,
                        {},
                        {}});
   }
@@ -44,10 +44,10 @@ std::vector<CameraCalibration> FitAllLenses(const BoardSightings& sightings, Len
 
 StudioFit Calibrate(const std::vector<CameraCalibration>& truth, const BoardWalk& walk,
                     LensModel model) {
-  const BoardSightings sightings = WalkBoard(truth, walk);
-  StudioFit fit = FitExtrinsics(sightings, FitAllLenses(sightings, model), {});
+  const BoardDetections detections = WalkBoard(truth, walk);
+  StudioFit fit = FitExtrinsics(detections, FitAllLenses(detections, model), {});
   // Pictures of a board that lies still are averaged.
-  const BoardSightings floor = SeeStillBoard(truth, walk.board, BoardOnFloor(), walk.noise_px / 2);
+  const BoardDetections floor = SeeStillBoard(truth, walk.board, BoardOnFloor(), walk.noise_px / 2);
   const RigidTransform X_WB = FindStillBoard(floor, fit.bundle.cameras);
   MoveWorld(WorldOnBoard(X_WB, fit.bundle.cameras, 0), fit.bundle);
   fit.has_floor = true;
@@ -112,13 +112,13 @@ TEST(StudioFitTest, FindsACameraThatRunsLate) {
         tilt * R,
         {900 * std::sin(0.5 * t) - 300, 900 * std::cos(0.37 * t), 1000 + 400 * std::sin(0.9 * t)}};
   };
-  BoardSightings sightings = testing::SightingsFor(truth, walk.board);
-  sightings.timed = true;
-  sightings.interval_s = 0.1;
-  sightings.moments = 120;
+  BoardDetections detections = testing::DetectionsFor(truth, walk.board);
+  detections.timed = true;
+  detections.interval_s = 0.1;
+  detections.moments = 120;
   constexpr double kLate_s = 0.02;
   for (std::size_t c = 0; c < truth.size(); ++c) {
-    for (int m = 0; m < sightings.moments; ++m) {
+    for (int m = 0; m < detections.moments; ++m) {
       const double t = 0.1 * m;
       const double exposed = c == 2 ? t + kLate_s : t;
       const auto see = [&](double at) {
@@ -127,7 +127,7 @@ TEST(StudioFitTest, FindsACameraThatRunsLate) {
       };
       const auto now = see(exposed), before = see(exposed - 0.1), after = see(exposed + 0.1);
       if (!now || !before || !after) continue;
-      BoardSighting s;
+      BoardDetection s;
       s.camera = static_cast<int>(c);
       s.moment = m;
       s.corners = *now;
@@ -136,10 +136,10 @@ TEST(StudioFitTest, FindsACameraThatRunsLate) {
         s.motions.push_back({(after->pixels[k] - before->pixels[k]) / 0.2,
                              (after->pixels[k] - 2 * now->pixels[k] + before->pixels[k]) / 0.01});
       }
-      sightings.sightings.push_back(s);
+      detections.detections.push_back(s);
     }
   }
-  const StudioFit fit = FitExtrinsics(sightings, truth, {});
+  const StudioFit fit = FitExtrinsics(detections, truth, {});
   EXPECT_NEAR(fit.bundle.lateness_s[2], kLate_s, 0.001);
   EXPECT_NEAR(fit.bundle.lateness_s[1], 0, 0.001);
   EXPECT_LT(fit.rms_px, 0.1);
@@ -147,25 +147,25 @@ TEST(StudioFitTest, FindsACameraThatRunsLate) {
 
 TEST(StudioFitTest, NamesTheCameraThatSharesNoViews) {
   const std::vector<CameraCalibration> truth = Rig(6);
-  BoardSightings sightings = WalkBoard(truth, {});
+  BoardDetections detections = WalkBoard(truth, {});
   // Camera 4 was recorded on another day.
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera == 3) s.moment += sightings.moments;
+  for (BoardDetection& s : detections.detections) {
+    if (s.camera == 3) s.moment += detections.moments;
   }
-  sightings.moments *= 2;
-  const std::string reason = ReasonOf([&] { FitExtrinsics(sightings, truth, {}); });
+  detections.moments *= 2;
+  const std::string reason = ReasonOf([&] { FitExtrinsics(detections, truth, {}); });
   EXPECT_THAT(reason, HasSubstr("cam4"));
   EXPECT_THAT(reason, HasSubstr("carry the board"));
 }
 
 TEST(StudioFitTest, NamesACameraWhoseRecordingIsAnothers) {
   const std::vector<CameraCalibration> truth = Rig(7);
-  BoardSightings sightings = WalkBoard(truth, {});
+  BoardDetections detections = WalkBoard(truth, {});
   // Camera 5's pictures come a few moments late.
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera == 4) s.moment = (s.moment + 5) % sightings.moments;
+  for (BoardDetection& s : detections.detections) {
+    if (s.camera == 4) s.moment = (s.moment + 5) % detections.moments;
   }
-  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(sightings, truth, {}); }), HasSubstr("cam5"));
+  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(detections, truth, {}); }), HasSubstr("cam5"));
 }
 
 TEST(StudioFitTest, RefusesABoardThatLooksTheSameTurned) {
@@ -179,8 +179,8 @@ TEST(StudioFitTest, RefusesABoardThatLooksTheSameTurned) {
 TEST(StudioFitTest, RefusesTooFewViewsForALens) {
   BoardWalk walk;
   walk.moments = 6;
-  const BoardSightings sightings = WalkBoard(Rig(9), walk);
-  EXPECT_THAT(ReasonOf([&] { FitLens(sightings, 0, {}); }), HasSubstr("cam1"));
+  const BoardDetections detections = WalkBoard(Rig(9), walk);
+  EXPECT_THAT(ReasonOf([&] { FitLens(detections, 0, {}); }), HasSubstr("cam1"));
 }
 
 TEST(StudioFitTest, TellsAWrongBoardSizeByATape) {
@@ -198,7 +198,7 @@ TEST(StudioCheckTest, SeesAFloorThatIsUpsideDown) {
   BoardWalk walk;
   walk.moments = 60;
   StudioFit fit;
-  fit.sightings = WalkBoard(truth, walk);
+  fit.detections = WalkBoard(truth, walk);
   fit.bundle.cameras = truth;
   fit.has_floor = true;
   fit.bundle.X_WB.assign(60, RigidTransform{Matrix3::Identity(), {0, 0, 900}});

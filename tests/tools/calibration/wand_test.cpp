@@ -29,29 +29,29 @@ std::optional<Vector2> PixelOf(const CameraCalibration& camera, const Vector3& p
 }
 
 /// A wand that is waved through the room; its ends come in either order.
-BoardSightings WaveWand(const std::vector<CameraCalibration>& cameras, unsigned seed) {
+BoardDetections WaveWand(const std::vector<CameraCalibration>& cameras, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-1, 1);
   std::normal_distribution<double> noise(0, 0.2);
-  BoardSightings sightings =
-      testing::SightingsFor(cameras, {BoardKind::kWand, 2, 1, kLength_mm, "", 0, false});
-  sightings.moments = 150;
-  for (int m = 0; m < sightings.moments; ++m) {
+  BoardDetections detections =
+      testing::DetectionsFor(cameras, {BoardKind::kWand, 2, 1, kLength_mm, "", 0, false});
+  detections.moments = 150;
+  for (int m = 0; m < detections.moments; ++m) {
     const Vector3 middle(1500 * u(random), 1500 * u(random), 1100 + 900 * u(random));
     const Vector3 half = kLength_mm / 2 * Vector3(u(random), u(random), u(random)).normalized();
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       const auto p = PixelOf(cameras[c], middle - half), q = PixelOf(cameras[c], middle + half);
       if (!p || !q) continue;
-      BoardSighting s;
+      BoardDetection s;
       s.camera = static_cast<int>(c);
       s.moment = m;
       s.corners = {{0, 1}, {*p, *q}};
       for (Vector2& pixel : s.corners.pixels) pixel += Vector2(noise(random), noise(random));
       if (u(random) > 0) std::swap(s.corners.pixels[0], s.corners.pixels[1]);
-      sightings.sightings.push_back(s);
+      detections.detections.push_back(s);
     }
   }
-  return sightings;
+  return detections;
 }
 
 TEST(WandTest, PosesAllCamerasWhoeverEndIsWhich) {
@@ -71,13 +71,13 @@ TEST(WandTest, PosesAllCamerasWhoeverEndIsWhich) {
 
 TEST(WandTest, NamesTheCameraThatSharesNoViews) {
   const std::vector<CameraCalibration> truth = Rig(4);
-  BoardSightings sightings = WaveWand(truth, 4);
-  for (BoardSighting& s : sightings.sightings) {
-    if (s.camera == 2) s.moment += sightings.moments;
+  BoardDetections detections = WaveWand(truth, 4);
+  for (BoardDetection& s : detections.detections) {
+    if (s.camera == 2) s.moment += detections.moments;
   }
-  sightings.moments *= 2;
+  detections.moments *= 2;
   try {
-    FitExtrinsics(sightings, truth, {.refine_lenses = false});
+    FitExtrinsics(detections, truth, {.refine_lenses = false});
     FAIL() << "accepted";
   } catch (const SetupError& error) {
     EXPECT_THAT(error.what(), HasSubstr("cam3"));
@@ -96,7 +96,7 @@ void Light(Image<Bgr>& image, const Vector2& at) {
 
 TEST(WandTest, FindsLightsToAFractionOfAPixelAndLeavesLampsOut) {
   const Vector2 lamp(50, 40);
-  std::vector<BoardSighting> sightings;
+  std::vector<BoardDetection> detections;
   std::vector<Vector2> truth;
   for (int i = 0; i < 20; ++i) {
     Image<Bgr> image(320, 240, Bgr{30, 30, 30});
@@ -105,16 +105,16 @@ TEST(WandTest, FindsLightsToAFractionOfAPixelAndLeavesLampsOut) {
     truth.push_back({60.3 + 7.1 * i, 120.7 + 2.2 * i});
     for (const Vector2& at : {lamp, truth.back(), Vector2(truth.back() + Vector2(50, -20))})
       Light(image, at);
-    BoardSighting& s = sightings.emplace_back();
+    BoardDetection& s = detections.emplace_back();
     s.moment = i;
     s.corners.pixels = FindSpots(image.view());
     if (i % 2 == 0) std::reverse(s.corners.pixels.begin(), s.corners.pixels.end());
   }
-  KeepWands(sightings);
-  ASSERT_EQ(sightings.size(), 20u);
+  KeepWands(detections);
+  ASSERT_EQ(detections.size(), 20u);
   // From frame to frame the same end has the same name, whichever it is.
-  const bool turned = (sightings[0].corners.pixels[0] - truth[0]).norm() > 5;
-  for (const BoardSighting& s : sightings)
+  const bool turned = (detections[0].corners.pixels[0] - truth[0]).norm() > 5;
+  for (const BoardDetection& s : detections)
     EXPECT_LT((s.corners.pixels[turned ? 1 : 0] - truth[s.moment]).norm(), 0.2) << s.moment;
 }
 

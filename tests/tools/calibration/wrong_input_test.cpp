@@ -262,27 +262,27 @@ const WrongInput kWrongRecordings[] = {
      {"\"cam9\" that is not calibrated", "cam1"}},
 };
 
-const WrongInput kWrongSightings[] = {
+const WrongInput kWrongDetections[] = {
     {"AMirroredCamera",
      [](Bench&) {
-       BoardSightings sightings = WalkBoard(Rig(), {});
-       for (BoardSighting& s : sightings.sightings) {
+       BoardDetections detections = WalkBoard(Rig(), {});
+       for (BoardDetection& s : detections.detections) {
          if (s.camera != 2) continue;
          // As the detector names the corners of a mirrored picture.
          for (Vector2& pixel : s.corners.pixels) pixel.x() = 639 - pixel.x();
          for (int row = 0; row < 5; ++row)
            std::reverse(s.corners.pixels.begin() + 8 * row, s.corners.pixels.begin() + 8 * row + 8);
        }
-       return ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); });
+       return ReasonOf([&] { FitExtrinsics(detections, Rig(), {}); });
      },
      {"cam3: contradicts", "not frame", "mirrored"}},
     {"ARecordingOfAnotherTime",
      [](Bench&) {
-       BoardSightings sightings = WalkBoard(Rig(), {});
-       for (BoardSighting& s : sightings.sightings) {
-         if (s.camera == 1) s.moment = (s.moment + 40) % sightings.moments;
+       BoardDetections detections = WalkBoard(Rig(), {});
+       for (BoardDetection& s : detections.detections) {
+         if (s.camera == 1) s.moment = (s.moment + 40) % detections.moments;
        }
-       return ReasonOf([&] { FitExtrinsics(sightings, Rig(), {}); });
+       return ReasonOf([&] { FitExtrinsics(detections, Rig(), {}); });
      },
      {"cam2: contradicts", "not frame", "record all cameras at once"}},
     {"ABoardThatLooksTheSameTurned",
@@ -294,19 +294,19 @@ const WrongInput kWrongSightings[] = {
      {"8 x 6", "half a turn", "one side odd and the other even"}},
     {"RowsAndColumnsThatFitNoLens",
      [](Bench&) {
-       BoardSightings sightings = WalkBoard(Rig(), {});
-       sightings.board.columns = 5;
-       sightings.board.rows = 8;
-       return ReasonOf([&] { FitLens(sightings, 3, {}); });
+       BoardDetections detections = WalkBoard(Rig(), {});
+       detections.board.columns = 5;
+       detections.board.rows = 8;
+       return ReasonOf([&] { FitLens(detections, 3, {}); });
      },
      {"cam4: ", "most in frame", "columns and rows swapped"}},
     {"AFloorBoardThatWasMoved",
      [](Bench&) {
        const BoardWalk walk;
-       BoardSightings still =
+       BoardDetections still =
            testing::SeeStillBoard(Rig(), walk.board, simulation::BoardOnFloor(), walk.noise_px);
-       still.sightings[1].camera = 1;
-       for (Vector2& pixel : still.sightings[1].corners.pixels) pixel.x() += 25;
+       still.detections[1].camera = 1;
+       for (Vector2& pixel : still.detections[1].corners.pixels) pixel.x() += 25;
        return ReasonOf([&] { FindStillBoard(still, Rig()); });
      },
      {"cam2: sees the floor's board", "was it moved", "Record it again"}},
@@ -388,7 +388,8 @@ constexpr auto kNameOf = [](const ::testing::TestParamInfo<WrongInput>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Recordings, WrongInputTest, ::testing::ValuesIn(kWrongRecordings),
                          kNameOf);
-INSTANTIATE_TEST_SUITE_P(Sightings, WrongInputTest, ::testing::ValuesIn(kWrongSightings), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Detections, WrongInputTest, ::testing::ValuesIn(kWrongDetections),
+                         kNameOf);
 INSTANTIATE_TEST_SUITE_P(Worlds, WrongInputTest, ::testing::ValuesIn(kWrongWorlds), kNameOf);
 
 }  // namespace

@@ -36,7 +36,7 @@ class DisplacementTest : public ::testing::Test {
   std::optional<Displacement> Measure(const ExactPicture& picture) {
     HalfPicture live(kWidth, kHeight);
     Halve(sensor_.Take(picture).view(), live);
-    return MeasureDisplacement(live, 1, background_->Glance({}, {}));
+    return MeasureDisplacement(live, 1, background_->CoarsePass({}, {}));
   }
 
   NoisySensor sensor_;
@@ -69,9 +69,9 @@ TEST_F(DisplacementTest, IsUnknownWithoutContours) {
 
 TEST_F(DisplacementTest, WhatIsExpectedFollowsIt) {
   const Displacement d{1.25f, -0.5f};
-  Closeup everything;
+  RegionOfInterest everything;
   everything.SetAll(kWidth, kHeight);
-  const ExpectedHalf half = background_->Glance({}, d);
+  const ExpectedHalf half = background_->CoarsePass({}, d);
   const ExpectedPicture& full = background_->Expect(everything, {.displacement = d});
   const ExactPicture wall = Wall(d);
   HalfPicture exact(kWidth, kHeight);

@@ -21,13 +21,13 @@ class OctantViewTest : public testing::Test {
     }
   }
 
-  // Holds an octant's verdicts against random places within.
-  void Check(std::size_t camera, const OctantVerdicts& verdicts, int octant,
+  // Holds an octant's decisions against random places within.
+  void Check(std::size_t camera, const OctantDecisions& decisions, int octant,
              const Vector3& middle_W, double half) {
     const CarvingView view = studio_.Views()[camera];
     std::uniform_real_distribution<double> within(-half, half);
-    const bool inside = verdicts.inside >> octant & 1, outside = verdicts.outside >> octant & 1;
-    const bool unseen = verdicts.unseen >> octant & 1, gap = verdicts.gap >> octant & 1;
+    const bool inside = decisions.inside >> octant & 1, outside = decisions.outside >> octant & 1;
+    const bool unseen = decisions.unseen >> octant & 1, gap = decisions.gap >> octant & 1;
     inside_ += inside, outside_ += outside, unseen_ += unseen, gap_ += gap;
     if (!inside && !outside && !unseen && !gap) return;
     EXPECT_EQ(inside + outside + unseen + gap, 1);
@@ -57,7 +57,7 @@ class OctantViewTest : public testing::Test {
   int inside_ = 0, outside_ = 0, unseen_ = 0, gap_ = 0;
 };
 
-TEST_F(OctantViewTest, AVerdictHoldsForEveryPlaceInTheOctant) {
+TEST_F(OctantViewTest, ADecisionHoldsForEveryPlaceInTheOctant) {
   std::uniform_real_distribution<double> across(-4000, 4000), up(-200, 2600);
   for (int i = 0; i < 6000; ++i) {
     const std::size_t camera = i % eyes_.size();
@@ -68,11 +68,11 @@ TEST_F(OctantViewTest, AVerdictHoldsForEveryPlaceInTheOctant) {
     const double spread = i % 3 == 0 ? 100 : i % 3 == 1 ? 25 : 6;
     OctantFrames frames;
     std::uint8_t framed;
-    const OctantVerdicts verdicts =
+    const OctantDecisions decisions =
         eyes_[camera].Project((middle_W - kOrigin_W).cast<float>(), static_cast<float>(spread),
                               static_cast<float>(half), frames, framed);
     for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
-      Check(camera, verdicts, octant, MiddleOf(middle_W, spread, octant), half);
+      Check(camera, decisions, octant, MiddleOf(middle_W, spread, octant), half);
   }
   for (const int count : {inside_, outside_, unseen_}) EXPECT_GT(count, 500);
 }
@@ -92,10 +92,10 @@ TEST_F(OctantViewTest, WhatReachesBeyondTheSilhouettesBoxIsNotInside) {
     OctantFrames frames;
     std::uint8_t framed;
     const double half = i % 5;
-    const OctantVerdicts verdicts = eyes_[0].Project((middle_W - kOrigin_W).cast<float>(), 6,
-                                                     static_cast<float>(half), frames, framed);
+    const OctantDecisions decisions = eyes_[0].Project((middle_W - kOrigin_W).cast<float>(), 6,
+                                                       static_cast<float>(half), frames, framed);
     for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
-      Check(0, verdicts, octant, MiddleOf(middle_W, 6, octant), half);
+      Check(0, decisions, octant, MiddleOf(middle_W, 6, octant), half);
   }
   for (const int count : {inside_, outside_}) EXPECT_GT(count, 500);
 }
@@ -118,11 +118,11 @@ TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
         std::uniform_real_distribution<double> shift(side - half + small_half / 2 - side / 2,
                                                      half - side / 2 - small_half / 2);
         const Vector3 offset(0, 0, side < 50 ? shift(random_) / 2 : 0);
-        const OctantVerdicts verdicts = eyes_[camera].Glance(
+        const OctantDecisions decisions = eyes_[camera].CoarsePass(
             frames, lane, (frame_W + offset - kOrigin_W).cast<float>(),
             static_cast<float>(side / 2), static_cast<float>(std::max(small_half, 0.0)));
         for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
-          Check(camera, verdicts, octant, MiddleOf(frame_W + offset, side / 2, octant),
+          Check(camera, decisions, octant, MiddleOf(frame_W + offset, side / 2, octant),
                 std::max(small_half, 0.0));
       }
     }
@@ -142,7 +142,7 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
       if (~framed >> lane & 1) continue;
       const Vector3 frame_W = MiddleOf(middle_W, 25, lane);
       const std::uint8_t asked = i % 2 == 0 ? 0xff : 0x36;
-      const SampleVerdicts samples = eyes_[camera].GlanceSamples(
+      const SampleDecisions samples = eyes_[camera].CoarsePassSamples(
           frames, lane, (frame_W - kOrigin_W).cast<float>(), 12.5f, 6.25f, asked);
       for (int voxel = 0; voxel < OctantFrames::kLanes; ++voxel) {
         if (~asked >> voxel & 1) continue;
@@ -153,11 +153,11 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
                 static_cast<std::uint8_t>((bits >> (8 * sample + voxel) & 1) << sample);
           return samples_of_it;
         };
-        const OctantVerdicts verdicts{of_voxel(samples.inside), of_voxel(samples.outside),
-                                      of_voxel(samples.unseen), of_voxel(samples.gap)};
+        const OctantDecisions decisions{of_voxel(samples.inside), of_voxel(samples.outside),
+                                        of_voxel(samples.unseen), of_voxel(samples.gap)};
         const Vector3 voxel_W = MiddleOf(frame_W, 12.5, voxel);
         for (int sample = 0; sample < OctantFrames::kLanes; ++sample)
-          Check(camera, verdicts, sample, MiddleOf(voxel_W, 6.25, sample), 0);
+          Check(camera, decisions, sample, MiddleOf(voxel_W, 6.25, sample), 0);
       }
     }
   }
@@ -171,10 +171,10 @@ TEST_F(OctantViewTest, OfSinglePixelsItTellsGaps) {
     const Vector3 middle_W(across(random_), across(random_), up(random_));
     OctantFrames frames;
     std::uint8_t framed;
-    const OctantVerdicts verdicts =
+    const OctantDecisions decisions =
         eyes_[camera].Project((middle_W - kOrigin_W).cast<float>(), 6.25f, 0, frames, framed);
     for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
-      Check(camera, verdicts, octant, MiddleOf(middle_W, 6.25, octant), 0);
+      Check(camera, decisions, octant, MiddleOf(middle_W, 6.25, octant), 0);
   }
   EXPECT_GT(gap_, 50);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/reconstruction/background/background_model.h"
-#include "core/reconstruction/silhouette/closeup.h"
+#include "core/reconstruction/silhouette/region_of_interest.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
 namespace mocap {
@@ -26,7 +26,7 @@ class CoarseScanTest : public ::testing::Test {
         background_(LearnFixedBackground(TakeBackground(studio_, 30, sensor_), 0.999)) {}
 
   const Conditions& Compare(const Image<Bgr>& image) {
-    scan_.Compare(background_->Glance({}, {}), image.view());
+    scan_.Compare(background_->CoarsePass({}, {}), image.view());
     return scan_.conditions();
   }
 
@@ -131,8 +131,8 @@ class WatchTest : public CoarseScanTest {
  protected:
   void Show(const ExactPicture& picture) {
     const Image<Bgr> image = sensor_.Take(picture);
-    scan_.Watch(background_->Glance({}, {}), image.view());
-    plain_.Compare(background_->Glance({}, {}), image.view());
+    scan_.Watch(background_->CoarsePass({}, {}), image.view());
+    plain_.Compare(background_->CoarsePass({}, {}), image.view());
   }
   ExactPicture PersonAt(const PixelBox& box) const {
     ExactPicture picture = studio_;
@@ -191,25 +191,25 @@ TEST_F(WatchTest, FlickerIsMeasuredWhateverIsLookedAt) {
   }
 }
 
-TEST(Closeup, TakesInTheNeighboursOfSuspiciousTilesAndMeasuresBeyondThem) {
+TEST(RegionOfInterest, TakesInTheNeighboursOfSuspiciousTilesAndMeasuresBeyondThem) {
   Silhouette suspicious(9, 5);  // Of 67 × 35 pixels.
   suspicious.Set(4, 2);
   suspicious.Set(8, 2);
-  Closeup closeup;
-  closeup.Set(suspicious, 67, 35);
-  EXPECT_TRUE(closeup.Judged(7).empty());
-  ASSERT_EQ(closeup.Judged(8).size(), 2u);
-  EXPECT_EQ(closeup.Judged(8)[0].begin, 24);
-  EXPECT_EQ(closeup.Judged(8)[0].end, 48);
-  EXPECT_EQ(closeup.Judged(8)[1].begin, 56);
-  EXPECT_EQ(closeup.Judged(8)[1].end, 67);
-  EXPECT_EQ(closeup.Judged(31).size(), 2u);
-  EXPECT_TRUE(closeup.Judged(32).empty());
-  EXPECT_TRUE(closeup.Measured(3).empty());
+  RegionOfInterest roi;
+  roi.Set(suspicious, 67, 35);
+  EXPECT_TRUE(roi.Judged(7).empty());
+  ASSERT_EQ(roi.Judged(8).size(), 2u);
+  EXPECT_EQ(roi.Judged(8)[0].begin, 24);
+  EXPECT_EQ(roi.Judged(8)[0].end, 48);
+  EXPECT_EQ(roi.Judged(8)[1].begin, 56);
+  EXPECT_EQ(roi.Judged(8)[1].end, 67);
+  EXPECT_EQ(roi.Judged(31).size(), 2u);
+  EXPECT_TRUE(roi.Judged(32).empty());
+  EXPECT_TRUE(roi.Measured(3).empty());
   for (const int y : {4, 16, 34}) {
-    ASSERT_EQ(closeup.Measured(y).size(), 1u) << y;
-    EXPECT_EQ(closeup.Measured(y)[0].begin, 20);
-    EXPECT_EQ(closeup.Measured(y)[0].end, 67);
+    ASSERT_EQ(roi.Measured(y).size(), 1u) << y;
+    EXPECT_EQ(roi.Measured(y)[0].begin, 20);
+    EXPECT_EQ(roi.Measured(y)[0].end, 67);
   }
 }
 

@@ -37,7 +37,7 @@ TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
   expected.Weigh(0, 0, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
-  Closeup everything;
+  RegionOfInterest everything;
   everything.SetAll(image.width(), image.height());
   DistortionScan scan;
   scan.Begin(expected, image.view(), {1, 1, 1}, everything);
@@ -69,7 +69,7 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
   }
   for (int y = 0; y < 30; ++y) expected.Weigh(0, y, 0, 40);
   image(30, 20) = {255, 255, 255};
-  Closeup everything;
+  RegionOfInterest everything;
   everything.SetAll(image.width(), image.height());
   DistortionScan scan;
   scan.Begin(expected, image.view(), {1, 1, 1}, everything);

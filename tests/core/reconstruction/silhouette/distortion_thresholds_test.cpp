@@ -18,14 +18,14 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
     SCOPED_TRACE(rate);
     const auto background = LearnFixedBackground(TakeBackground(studio, 30, sensor), rate);
     const DistortionThresholds& t = background->thresholds();
-    Closeup everything;
+    RegionOfInterest everything;
     everything.SetAll(kWidth, kHeight);
     DistortionScan scan;
     CoarseScan coarse;
     int cd = 0, low = 0, high = 0, all = 0;
     for (int i = 0; i < 10; ++i) {
       const Image<Bgr> image = sensor.Take(studio);
-      coarse.Compare(background->Glance({}, {}), image.view());
+      coarse.Compare(background->CoarsePass({}, {}), image.view());
       scan.Begin(background->Expect(everything, {}), image.view(), coarse.conditions().gain,
                  everything);
       static_assert(kHeight % 2 == 0);

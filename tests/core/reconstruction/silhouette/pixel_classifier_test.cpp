@@ -25,7 +25,7 @@ class PixelClassifierTest : public ::testing::Test {
         classifier_(background_->thresholds(), 0.7f) {}
 
   void Classify(const ExactPicture& picture) {
-    Closeup everything;
+    RegionOfInterest everything;
     everything.SetAll(kWidth, kHeight);
     classifier_.Classify(background_->Expect(everything, {}), sensor_.Take(picture).view(), {},
                          everything);
@@ -51,13 +51,13 @@ class PixelClassifierTest : public ::testing::Test {
 };
 
 // Pixels are judged eight at a time, two rows at once.
-TEST(PixelClassifier, VerdictsEndWhereThePictureDoes) {
+TEST(PixelClassifier, DecisionsEndWhereThePictureDoes) {
   NoisySensor sensor(2.0f, 11);
   for (const auto& [width, height] : {std::pair{150, 45}, {161, 32}, {67, 9}}) {
     const ExactPicture studio = EmptyStudio(width, height);
     const auto background = LearnFixedBackground(TakeBackground(studio, 30, sensor), 0.999);
     PixelClassifier classifier(background->thresholds(), 0.7f);
-    Closeup everything;
+    RegionOfInterest everything;
     everything.SetAll(width, height);
     ExactPicture picture = studio;
     Paint(picture, {0, 0, width - 1, height - 1}, {20, 25, 30});
@@ -249,7 +249,7 @@ TEST_F(PixelClassifierTest, AgreesWithItsDefinitionPixelByPixel) {
   for (int y = 60; y < 100; ++y)
     for (int x = 20; x < 90; ++x) picture(x, y)[0] += static_cast<float>(y - 60) / 6;
   const Image<Bgr> image = sensor_.Take(picture);
-  Closeup everything;
+  RegionOfInterest everything;
   everything.SetAll(kWidth, kHeight);
   const ExpectedPicture& expected = background_->Expect(everything, {});
   classifier_.Classify(expected, image.view(), {}, everything);
@@ -265,12 +265,12 @@ TEST_F(PixelClassifierTest, AgreesWithItsDefinitionPixelByPixel) {
   EXPECT_LT(foreground, kWidth * kHeight / 2);
 }
 
-TEST_F(PixelClassifierTest, ACloseupShowsWhatTheWholePictureShows) {
+TEST_F(PixelClassifierTest, ARegionOfInterestShowsWhatTheWholePictureShows) {
   ExactPicture picture = studio_;
   Paint(picture, kPatch, {90, 100, 160});
   Paint(picture, {120, 0, kWidth - 1, 20}, {60, 60, 90});
   const Image<Bgr> image = sensor_.Take(picture);
-  Closeup everything, part;
+  RegionOfInterest everything, part;
   everything.SetAll(kWidth, kHeight);
   Silhouette suspicious(kWidth / 8, kHeight / 8);
   for (int y = 3; y <= 7; ++y)

@@ -309,18 +309,18 @@ TEST_F(PanTiltSegmenterTest, APersonIsFoundInAnyDirection) {
 TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClosely) {
   const auto background = LearnPanTiltBackground(camera_, background_, 0.999);
   const PanTiltAngles angles{0.17, -0.04};
-  Closeup everything, part;
+  RegionOfInterest everything, part;
   everything.SetAll(kWidth, kHeight);
-  background->Glance(angles, {});
+  background->CoarsePass(angles, {});
   const ExpectedPicture whole = background->Expect(everything, {});
   Silhouette suspicious((kWidth + 7) / 8, (kHeight + 7) / 8);
   suspicious.Set(3, 0);
   suspicious.Set(12, 9);
   suspicious.Set(24, 18);
   part.Set(suspicious, kWidth, kHeight);
-  background->Glance({0.1, 0}, {});
+  background->CoarsePass({0.1, 0}, {});
   background->Expect(everything, {});
-  background->Glance(angles, {});
+  background->CoarsePass(angles, {});
   const ExpectedPicture& partly = background->Expect(part, {});
   for (int y = 0; y < kHeight; ++y) {
     for (const PixelRun& run : part.Measured(y)) {

@@ -66,8 +66,8 @@ struct SomeTiles {
     }
     return plane;
   }
-  double MisfitOf(int tile, const Plane& brightness) const {
-    double misfit = 0;
+  double ChiSquareOf(int tile, const Plane& brightness) const {
+    double chi_square = 0;
     for (int y = 0; y < kTile; ++y) {
       for (int x = 0; x < kTile; ++x) {
         const int i = y * kStride + tile * kTile + x;
@@ -76,11 +76,11 @@ struct SomeTiles {
           const double d = kAllowance.gain[c] * live[c][i] - brightness.At(x, y) * expected[c][i];
           squares += d * d;
         }
-        misfit += squares /
-                  (variance[i] + kAllowance.drift_sq + kAllowance.shift_sq * slope[i] * slope[i]);
+        chi_square += squares / (variance[i] + kAllowance.drift_sq +
+                                 kAllowance.shift_sq * slope[i] * slope[i]);
       }
     }
-    return misfit / (kTile * kTile);
+    return chi_square / (kTile * kTile);
   }
 
   std::array<std::vector<std::uint8_t>, 3> live, expected;
@@ -88,31 +88,31 @@ struct SomeTiles {
   std::vector<std::uint8_t> slope;
 };
 
-TEST(TileComparison, MisfitsAreThoseOfThePlainDefinition) {
+TEST(TileComparison, ChiSquaresAreThoseOfThePlainDefinition) {
   const SomeTiles tiles;
   const std::array<float, kTiles> alphas = {1, 0.5f, 1.3f, 0.9f, 0.7f};
   for (int begin = 0; begin < kTiles; ++begin) {
     for (int count = 0; begin + count <= kTiles; ++count) {
       constexpr float kUntouched = -1;
-      std::array<float, kTiles + 1> misfits;
-      misfits.fill(kUntouched);
-      MeasureMisfits(tiles.From(begin), count, kAllowance, &alphas[begin], misfits.data());
+      std::array<float, kTiles + 1> chi_squares;
+      chi_squares.fill(kUntouched);
+      MeasureChiSquares(tiles.From(begin), count, kAllowance, &alphas[begin], chi_squares.data());
       for (int i = 0; i < count; ++i) {
-        const double wanted = tiles.MisfitOf(begin + i, {alphas[begin + i]});
-        EXPECT_NEAR(misfits[i], wanted, 1e-4 * wanted) << begin << " " << i;
+        const double wanted = tiles.ChiSquareOf(begin + i, {alphas[begin + i]});
+        EXPECT_NEAR(chi_squares[i], wanted, 1e-4 * wanted) << begin << " " << i;
       }
-      EXPECT_EQ(misfits[count], kUntouched);
+      EXPECT_EQ(chi_squares[count], kUntouched);
     }
   }
 }
 
-TEST(TileComparison, MisfitBesideSlopeIsThatOfThePlainDefinition) {
+TEST(TileComparison, ChiSquareBesideSlopeIsThatOfThePlainDefinition) {
   const SomeTiles tiles;
   for (int tile = 0; tile < kTiles; ++tile) {
     const Plane plane = tiles.BrightnessOf(tile);
-    const double wanted = tiles.MisfitOf(tile, plane);
-    EXPECT_GT(std::abs(tiles.MisfitOf(tile, {plane.middle}) - wanted), 1e-3 * wanted);
-    EXPECT_NEAR(MisfitBesideSlope(tiles.From(tile), kAllowance), wanted, 1e-4 * wanted) << tile;
+    const double wanted = tiles.ChiSquareOf(tile, plane);
+    EXPECT_GT(std::abs(tiles.ChiSquareOf(tile, {plane.middle}) - wanted), 1e-3 * wanted);
+    EXPECT_NEAR(ChiSquareBesideSlope(tiles.From(tile), kAllowance), wanted, 1e-4 * wanted) << tile;
   }
 }
 

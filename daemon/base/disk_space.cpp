@@ -1,0 +1,23 @@
+#include "daemon/base/disk_space.h"
+
+#include <sys/statvfs.h>
+
+namespace mocap {
+
+std::filesystem::path NearestFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path place = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(place, error) && place.has_relative_path()) {
+    place = place.parent_path();
+  }
+  return place;
+}
+
+std::int64_t BytesFree(const std::filesystem::path& folder) {
+  const std::filesystem::path place = NearestFolder(folder);
+  struct statvfs space {};
+  if (statvfs(place.c_str(), &space) != 0) return 0;
+  return static_cast<std::int64_t>(space.f_bavail) * static_cast<std::int64_t>(space.f_frsize);
+}
+
+}  // namespace mocap

@@ -1,0 +1,88 @@
+#include "daemon/pipeline/health_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "drivers/go_behind.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kSetsQueued = 1;
+constexpr std::size_t kMoments = 12;
+/// Who stands still is seen once: a stance may mislead, several do not.
+constexpr double kAnotherPlace_mm = 150;
+
+double Median(const std::deque<SilhouetteShift>& shifts, int axis) {
+  std::vector<double> values;
+  for (const SilhouetteShift& shift : shifts) values.push_back(shift.shift_px[axis]);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+CameraHealth HealthOf(const std::deque<SilhouetteShift>& shifts) {
+  CameraHealth health{.moments = static_cast<int>(shifts.size())};
+  if (shifts.empty()) return health;
+  health.shift_px = {Median(shifts, 0), Median(shifts, 1)};
+  for (const SilhouetteShift& shift : shifts) health.overlap += shift.overlap;
+  health.overlap /= static_cast<double>(shifts.size());
+  return health;
+}
+
+}  // namespace
+
+HealthWatch::HealthWatch(const std::vector<CameraCalibration>& cameras)
+    : tables_(cameras.begin(), cameras.end()), shifts_(cameras.size()) {
+  tap_.Open(kSetsQueued, {}, bell_);
+  thread_ = std::thread([this] { Run(); });
+}
+
+HealthWatch::~HealthWatch() {
+  tap_.Close();
+  thread_.join();
+}
+
+void HealthWatch::Run() {
+  GoBehind("health");
+  SetTap::Queue& queue = tap_.queue();
+  for (;;) {
+    const int seen = bell_.count();
+    const bool is_closed = queue.closed();
+    if (is_closed) return;
+    if (queue.TryPop()) {
+      Add(queue.front());
+    } else {
+      bell_.WaitPast(seen);
+    }
+  }
+}
+
+void HealthWatch::Add(const SeenSet& set) {
+  std::vector<CarvingView> views;
+  for (std::size_t i = 0; i < set.cameras.size(); ++i) {
+    const auto camera = static_cast<std::size_t>(set.cameras[i]);
+    views.push_back({&tables_[camera], &set.silhouettes[i], set.X_CW[i]});
+  }
+  const std::optional<Vector3> place_W = agreement_.PlaceOf(views);
+  if (!place_W) return;
+  if (last_place_W_ && (*place_W - *last_place_W_).norm() < kAnotherPlace_mm) return;
+  last_place_W_ = place_W;
+  const auto& measured = agreement_.Measure(views);
+  const std::scoped_lock lock(mutex_);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (!measured[i]) continue;
+    std::deque<SilhouetteShift>& shifts = shifts_[static_cast<std::size_t>(set.cameras[i])];
+    shifts.push_back(*measured[i]);
+    if (shifts.size() > kMoments) shifts.pop_front();
+  }
+}
+
+std::vector<CameraHealth> HealthWatch::Health() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<CameraHealth> health;
+  for (const auto& shifts : shifts_) health.push_back(HealthOf(shifts));
+  return health;
+}
+
+}  // namespace mocap

@@ -1,0 +1,126 @@
+#include "daemon/service/service_control.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <stdexcept>
+
+#include "core/errors.h"
+#include "drivers/clock.h"
+#include "drivers/printable_text.h"
+
+namespace mocap {
+
+ControlReply ServiceControl::Answer(const ControlRequest& request) {
+  return {ControlOutcome::kDone,
+          std::visit([this](const auto& of_its_kind) { return Do(of_its_kind); }, request)};
+}
+
+void ServiceControl::SetReport(const ServiceReport& report) {
+  const std::scoped_lock lock(report_mutex_);
+  report_ = report;
+  report_ns_ = SteadyNs();
+}
+
+std::string ServiceControl::Reload() {
+  const std::scoped_lock lock(reload_mutex_);
+  const std::string text = ReloadText(parts_.config.Reload());
+  {
+    const std::scoped_lock config_lock(config_mutex_);
+    config_ = parts_.config.config();
+  }
+  parts_.publisher.SetVoxelsHz(parts_.config.config().lcm.voxels_hz);
+  spdlog::info("configuration read again: {}", text);
+  return text;
+}
+
+Config ServiceControl::config() {
+  const std::scoped_lock lock(config_mutex_);
+  return config_;
+}
+
+std::string ServiceControl::Do(const StatusRequest& request) {
+  const std::scoped_lock lock(report_mutex_);
+  // Who has just begun or ended a recording wants to see that.
+  report_.recording = parts_.recorder.Status();
+  report_.age_ns = SteadyNs() - report_ns_;
+  return request.as_json ? ReportJson(report_) : ReportText(report_);
+}
+
+std::string ServiceControl::Do(const ReloadRequest&) { return Reload() + '\n'; }
+
+std::string ServiceControl::Do(const RecordStartRequest& request) {
+  const auto folder =
+      parts_.recorder.Start(request.name, config().service.recording, parts_.view.sizes());
+  spdlog::info("recording {}", folder.c_str());
+  return fmt::format("recording {}\n", folder.string());
+}
+
+std::string ServiceControl::Do(const RecordStopRequest&) {
+  const RecordingStatus status = parts_.recorder.Stop();
+  if (status.state != RecordingStatus::State::kComplete) {
+    throw std::runtime_error("the recording failed: " + status.problem + "; what there is, is in " +
+                             status.folder.string());
+  }
+  std::string why = status.problem.empty() ? "" : "; it " + status.problem;
+  if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
+  const std::string text =
+      fmt::format("{}: {:.1f} s, {}, {} dropped while recording{}",
+                  Printable(status.folder.string()), static_cast<double>(status.duration_ns) / 1e9,
+                  Counted(status.frames, "frame"), status.dropped, why);
+  spdlog::info("recorded {}", text);
+  return text + '\n';
+}
+
+std::string ServiceControl::Do(const SubjectNewRequest&) {
+  parts_.pipeline.ChangeSubject({});
+  spdlog::info("whoever is there is measured anew");
+  return "whoever is there is measured anew\n";
+}
+
+std::string ServiceControl::Do(const SubjectSaveRequest& request) {
+  const std::optional<BodySizes> sizes = parts_.view.sizes();
+  if (!sizes) throw std::runtime_error("nobody is tracked whose sizes could be kept");
+  subjects_.Save(request.name, *sizes);
+  spdlog::info("subject {} is kept", request.name);
+  return fmt::format("{} is kept: stature {:.0f} mm\n", request.name, sizes->Stature());
+}
+
+std::string ServiceControl::Do(const SubjectLoadRequest& request) {
+  const BodySizes sizes = subjects_.Load(request.name);
+  parts_.pipeline.ChangeSubject(sizes);
+  spdlog::info("subject {} is followed", request.name);
+  return fmt::format("{} is followed from now on: stature {:.0f} mm\n", request.name,
+                     sizes.Stature());
+}
+
+std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
+  if (parts_.recorder.Status().state == RecordingStatus::State::kRunning) {
+    throw std::runtime_error(
+        "a take is being recorded, which has one background; "
+        "mocap record stop comes first");
+  }
+  const std::string text = parts_.background.Learn(request.anyway);
+  spdlog::info("the empty studio was learned anew");
+  return text;
+}
+
+std::string ServiceControl::Do(const BackgroundStatusRequest&) {
+  const std::scoped_lock lock(report_mutex_);
+  return BackgroundText(report_);
+}
+
+std::string ServiceControl::Do(const SubjectListRequest&) {
+  std::string text;
+  for (const std::string& name : subjects_.Names()) {
+    try {
+      text +=
+          fmt::format("{:<24}stature {:.0f} mm\n", Printable(name), subjects_.Load(name).Stature());
+    } catch (const SetupError& error) {
+      text += fmt::format("{:<24}{}\n", Printable(name), Printable(error.what()));
+    }
+  }
+  return text.empty() ? "no subject is kept yet\n" : text;
+}
+
+}  // namespace mocap

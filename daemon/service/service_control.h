@@ -1,0 +1,65 @@
+// Carries out requests to the running daemon.
+#pragma once
+
+#include <mutex>
+
+#include "daemon/control/control_request.h"
+#include "daemon/messages/pose_publisher.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/recording/recorder.h"
+#include "daemon/service/background_learner.h"
+#include "daemon/service/live_config.h"
+#include "daemon/service/live_view.h"
+#include "daemon/service/subjects.h"
+#include "daemon/status/service_report.h"
+
+namespace mocap {
+
+/// The parts of the running daemon that requests reach. Borrowed.
+struct ServiceParts {
+  LiveConfig& config;
+  Pipeline& pipeline;
+  PosePublisher& publisher;
+  LiveView& view;
+  Recorder& recorder;
+  BackgroundLearner& background;
+};
+
+/// Answers requests. Thread-safe.
+class ServiceControl {
+ public:
+  ServiceControl(const ServiceParts& parts, Subjects subjects)
+      : parts_(parts), subjects_(std::move(subjects)), config_(parts.config.config()) {}
+
+  /// @throws SetupError for what was asked wrongly, std::runtime_error for what failed.
+  ControlReply Answer(const ControlRequest& request);
+  /// Takes the report that is given until the next one.
+  void SetReport(const ServiceReport& report);
+  /// Reads the configuration again. @throws SetupError
+  std::string Reload();
+  /// What holds at present. Waits for no file.
+  Config config();
+
+ private:
+  std::string Do(const StatusRequest& request);
+  std::string Do(const ReloadRequest&);
+  std::string Do(const RecordStartRequest& request);
+  std::string Do(const RecordStopRequest&);
+  std::string Do(const SubjectNewRequest&);
+  std::string Do(const SubjectSaveRequest& request);
+  std::string Do(const SubjectLoadRequest& request);
+  std::string Do(const SubjectListRequest&);
+  std::string Do(const BackgroundLearnRequest& request);
+  std::string Do(const BackgroundStatusRequest&);
+
+  const ServiceParts parts_;
+  const Subjects subjects_;
+  std::mutex report_mutex_;
+  ServiceReport report_;
+  std::int64_t report_ns_ = 0;  ///< When it was given, by the steady clock.
+  std::mutex reload_mutex_;     ///< Held while a file is read.
+  std::mutex config_mutex_;
+  Config config_;
+};
+
+}  // namespace mocap

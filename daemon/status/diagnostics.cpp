@@ -1,0 +1,345 @@
+#include "daemon/status/diagnostics.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "drivers/printable_text.h"
+
+namespace mocap {
+namespace {
+
+/// A camera that gives less than this share of its frames is named.
+constexpr double kGoodRate = 0.9;
+/// Cameras further apart than this share of a period blur whoever moves.
+constexpr double kWideSpread = 0.25;
+/// Silhouettes that lie farther off were not made by the stance of a person.
+constexpr double kMoved_px = 2;
+/// A tripod that was touched.
+constexpr double kNudged_px = 0.75;
+/// Beyond this, colours are no longer those that were learned.
+constexpr double kDarkest = 0.6, kBrightest = 1.5;
+
+/// A report that nobody renewed for so long is none.
+constexpr std::int64_t kOld = 5'000'000'000;
+/// So long a disk may take.
+constexpr std::int64_t kDiskStall = 5'000'000'000;
+/// So long nothing may come before that is told.
+constexpr std::int64_t kSilence = 2'500'000'000;
+/// A camera whose frames find no set more often than this is named.
+constexpr double kMostLate = 0.2;
+
+using List = std::vector<std::string>;
+
+/// What makes all else that is told doubtful.
+void ComplainOfReport(const ServiceReport& report, List& list) {
+  if (report.age_ns > kOld) {
+    list.push_back(
+        fmt::format("nothing has been heard of mocapd's main thread for {}: what stands "
+                    "here is as old; restart it",
+                    Duration(report.age_ns)));
+  }
+  if (report.now.status.cameras.empty()) {
+    list.push_back("nothing is known yet: mocapd has just begun");
+  }
+}
+
+void ComplainOfDelivery(const ServiceReport& report, List& list) {
+  const Delivery& delivery = report.delivery;
+  if (!delivery.problem.empty()) {
+    list.push_back(
+        fmt::format("poses cannot be sent to {}: {}: look at the network, its multicast "
+                    "route or the server there; mocap doctor helps",
+                    report.lcm_url, delivery.problem));
+  } else if (delivery.channel.silent_ns > 0) {
+    list.push_back(
+        fmt::format("no message on {} has come back for {}, though they are sent: look "
+                    "at the firewall, and whether the network changed",
+                    report.lcm_url, Duration(delivery.channel.silent_ns)));
+  }
+  if (delivery.channel.other_sender) {
+    list.push_back(
+        fmt::format("another mocapd, or a log that is played, sends on {} as well: "
+                    "listeners get both in turns; another lcm.prefix or port is wanted",
+                    report.lcm_url));
+  }
+  if (delivery.channel.reaches_nobody) {
+    list.push_back(
+        fmt::format("poses reach nobody outside of this process: lcm.url is {}; one "
+                    "like udpm://239.255.76.67:7667?ttl=0 is wanted",
+                    report.lcm_url));
+  }
+}
+
+void ComplainOfDisk(const ServiceReport& report, List& list) {
+  if (report.disk_stall_ns > kDiskStall) {
+    list.push_back(fmt::format("the disk has not answered for {}: look at {}",
+                               Duration(report.disk_stall_ns), report.takes.string()));
+  }
+  if (!report.takes_problem.empty()) {
+    list.push_back(fmt::format("takes cannot be written to {}: {}", report.takes.string(),
+                               report.takes_problem));
+  }
+  if (!report.metrics_problem.empty()) {
+    list.push_back("the figures cannot be written to " + report.metrics_problem);
+  }
+  if (report.log_fails) {
+    list.push_back("the log cannot be written: look at the room on its disk");
+  }
+}
+
+void ComplainOfRecording(const ServiceReport& report, List& list) {
+  const RecordingStatus& recording = report.recording;
+  if (recording.state == RecordingStatus::State::kFailed) {
+    list.push_back("the recording failed: " + recording.problem);
+  }
+  if (recording.state == RecordingStatus::State::kComplete && !recording.problem.empty()) {
+    list.push_back("the recording " + recording.problem);
+  }
+  if (recording.state == RecordingStatus::State::kRunning && recording.dropped > 0) {
+    list.push_back(fmt::format("{} had no room in the recording: {}",
+                               Counted(recording.dropped, "frame"),
+                               TextOf(recording.cause.value_or(LossCause::kUnknown))));
+  }
+  for (const CutOffTake& take : report.cut_off) {
+    list.push_back(
+        fmt::format("the recording {} was cut off at {:%H:%M:%S} UTC after {:.1f} s: it "
+                    "opens as it is; rename {} to keep it",
+                    take.folder.stem().string(),
+                    fmt::gmtime(static_cast<std::time_t>(take.last_ns / 1'000'000'000)),
+                    static_cast<double>(take.duration_ns) / 1e9, take.folder.string()));
+  }
+  if (static_cast<double>(report.bytes_free) < 1e6 * report.keep_free_mb) {
+    list.push_back(
+        fmt::format("the disk for takes has {:.0f} MB left: nothing can be recorded; "
+                    "make room in {}",
+                    static_cast<double>(report.bytes_free) / 1e6, report.takes.string()));
+  }
+}
+
+/// What a camera shall give a second.
+double FpsOf(const ServiceReport& report, std::size_t camera) {
+  const bool has_its_own = camera < report.camera_fps.size() && report.camera_fps[camera] > 0;
+  return has_its_own ? report.camera_fps[camera] : report.fps_nominal;
+}
+
+/// Such a camera is told with the one that triggers it.
+bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
+  const CameraStatus& camera = report.now.status.cameras[i];
+  return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
+         report.now.frames_per_second[i] == 0;
+}
+
+/// Cameras that are there and give nothing, all of them: what they share is to blame.
+void ComplainOfSilence(const ServiceReport& report, List& list) {
+  if (report.now.window_ns < kSilence) return;
+  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
+    const bool is_there = report.now.status.cameras[i].state == CameraState::kStreaming;
+    if (!is_there || WaitsForTrigger(report, i)) continue;
+    list.push_back(
+        "no camera delivers frames: look at what triggers them, a pulse generator or PTP, and at "
+        "their power and network; nothing is tracked meanwhile");
+    return;
+  }
+}
+
+/// Nobody is carved from one camera's pictures, sets or not.
+void ComplainOfOneAlone(const ServiceReport& report, List& list) {
+  const auto& rates = report.now.frames_per_second;
+  const auto gives = [](double rate) { return rate > 0; };
+  if (std::ranges::count_if(rates, gives) != 1) return;
+  const auto only = std::ranges::find_if(rates, gives) - rates.begin();
+  list.push_back(
+      fmt::format("only {} delivers frames: a person is carved from two cameras at "
+                  "least, and well from four; nothing is tracked meanwhile",
+                  report.now.status.cameras[static_cast<std::size_t>(only)].name));
+}
+
+void ComplainOfSets(const ServiceReport& report, List& list) {
+  // Sets that are left out have come about; ComplainOfTime tells of them.
+  if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
+  const PipelineStatus& status = report.now.status;
+  if (status.sets_complete + status.sets_partial > status.sets_tracked) {
+    list.push_back(
+        "a frame set has been worked on for seconds: the processor is too slow for this "
+        "voxel size, or has other work");
+    return;
+  }
+  const auto& rates = report.now.frames_per_second;
+  const auto delivering = std::ranges::count_if(rates, [](double rate) { return rate > 0; });
+  if (delivering == 0) return ComplainOfSilence(report, list);
+  if (delivering == 1) return;
+  list.push_back(
+      fmt::format("no frame sets come about, though {} of {} cameras deliver frames: look at their "
+                  "trigger and their clocks; nothing is tracked meanwhile",
+                  delivering, rates.size()));
+}
+
+void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
+  if (WaitsForTrigger(report, i)) return;
+  const CameraStatus& camera = report.now.status.cameras[i];
+  if (camera.state == CameraState::kLost) {
+    list.push_back(camera.name + " is lost: look at its cable and power");
+  } else if (camera.state == CameraState::kStarting) {
+    list.push_back(camera.name + " has not delivered a frame yet");
+  }
+  const double rate = report.now.frames_per_second[i];
+  const double wanted = FpsOf(report, i);
+  const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * wanted;
+  if (camera.state == CameraState::kStreaming && is_slow) {
+    list.push_back(
+        fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
+                    "bus or network, and the processor's load",
+                    camera.name, rate, wanted));
+  }
+}
+
+/// Every camera delivers, and yet sets lack some.
+void ComplainOfMatching(const ServiceReport& report, List& list) {
+  const StatusReport& now = report.now;
+  if (now.late_per_second.size() != now.status.cameras.size()) return;
+  List late;
+  bool all_deliver = true;
+  bool some_is_blind = false;
+  for (std::size_t i = 0; i < now.status.cameras.size(); ++i) {
+    const double rate = now.frames_per_second[i];
+    all_deliver &= rate > kGoodRate * FpsOf(report, i);
+    some_is_blind |= now.status.cameras[i].is_blind;
+    if (rate > 0 && now.late_per_second[i] > kMostLate * rate) {
+      late.push_back(now.status.cameras[i].name);
+    }
+  }
+  if (!late.empty()) {
+    list.push_back(
+        fmt::format("frames come too late for their sets: {}: look at their clocks, "
+                    "their trigger, and their bus or network",
+                    fmt::join(late, ", ")));
+  } else if (all_deliver && !some_is_blind && now.sets_complete_lately == 0 &&
+             now.sets_partial_lately > 0) {
+    list.push_back(
+        "no frame set is complete, though every camera delivers frames: look at their trigger and "
+        "their clocks");
+  }
+}
+
+/// Cameras fall silent with the one that triggers them: one line tells of them all.
+void ComplainOfTriggers(const ServiceReport& report, List& list) {
+  const auto& cameras = report.now.status.cameras;
+  for (std::size_t m = 0; m < cameras.size(); ++m) {
+    const CameraStatus& master = cameras[m];
+    List silent;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const bool is_its = cameras[i].waits_for == master.name;
+      if (is_its && WaitsForTrigger(report, i)) silent.push_back(cameras[i].name);
+    }
+    if (silent.empty()) continue;
+    if (master.state == CameraState::kLost || master.state == CameraState::kStarting) {
+      const bool is_lost = master.state == CameraState::kLost;
+      list.push_back(fmt::format("waiting for the trigger of {}, which {}: {}", master.name,
+                                 is_lost ? "is lost" : "has not delivered a frame yet",
+                                 fmt::join(silent, ", ")));
+    } else if (report.now.frames_per_second[m] > 0) {
+      list.push_back(fmt::format(
+          "no trigger of {} reaches {}: look at the wire, at {}'s strobe and at their trigger",
+          master.name, fmt::join(silent, ", "), master.name));
+    }
+  }
+}
+
+void ComplainOfPicture(const CameraStatus& camera, List& list) {
+  if (camera.state != CameraState::kStreaming) return;
+  if (camera.is_blind) {
+    list.push_back(
+        camera.name +
+        " sees hardly anything as it was learned, and is gone on without: was it turned, "
+        "does a light shine into it, is something before it, was its exposure changed? "
+        "Else mocap background learn");
+    return;
+  }
+  if (camera.light < kDarkest || camera.light > kBrightest) {
+    list.push_back(
+        fmt::format("{} sees {:.0f} % of the light in which the empty studio was "
+                    "learned: mocap background learn",
+                    camera.name, 100 * camera.light));
+  }
+  if (camera.nudged_px > kNudged_px) {
+    list.push_back(
+        fmt::format("{} looks {:.1f} px past where the empty studio was learned: was it "
+                    "touched?",
+                    camera.name, camera.nudged_px));
+  }
+}
+
+/// Names the camera that disagrees most: one that was bumped makes the others disagree a little.
+void ComplainOfPlace(const PipelineStatus& status, List& list) {
+  const auto off_px = [](const CameraStatus& camera) {
+    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
+    return is_known ? camera.health.shift_px.norm() : 0.0;
+  };
+  const auto worst = std::ranges::max_element(status.cameras, {}, off_px);
+  if (worst == status.cameras.end() || off_px(*worst) < kMoved_px) return;
+  list.push_back(fmt::format(
+      "{} sees the person {:.1f} px beside where the other cameras do: it was bumped since it was "
+      "calibrated; record a take of somebody who walks, and mocap calibrate refine it",
+      worst->name, off_px(*worst)));
+}
+
+void ComplainOfLight(const ServiceReport& report, List& list) {
+  if (!report.light_change) return;
+  const LightChange& change = *report.light_change;
+  list.push_back(
+      fmt::format("the light changed all of a sudden, by {:+.0f} % in {}: it is followed, "
+                  "but look whether the poses are still good",
+                  100 * (change.factor - 1), fmt::join(change.cameras, ", ")));
+}
+
+void ComplainOfTime(const ServiceReport& report, List& list) {
+  if (report.now.sets_dropped_lately > 0) {
+    list.push_back(
+        fmt::format("{} frame sets were left out lately: the processor is too slow for this rate "
+                    "and voxel size, or has other work",
+                    report.now.sets_dropped_lately));
+  }
+  const double spread_ms = report.now.recent[Stage::kSpread].PercentileMs(0.99);
+  if (report.fps_nominal > 0 && spread_ms > kWideSpread * 1000 / report.fps_nominal) {
+    list.push_back(
+        fmt::format("the cameras' exposures are {:.1f} ms apart: look at the trigger or the clocks",
+                    spread_ms));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> Diagnostics(const ServiceReport& report) {
+  List list;
+  ComplainOfReport(report, list);
+  ComplainOfDelivery(report, list);
+  ComplainOfRecording(report, list);
+  ComplainOfDisk(report, list);
+  ComplainOfSets(report, list);
+  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
+    ComplainOfFlow(report, i, list);
+    ComplainOfPicture(report.now.status.cameras[i], list);
+  }
+  ComplainOfOneAlone(report, list);
+  ComplainOfTriggers(report, list);
+  ComplainOfMatching(report, list);
+  ComplainOfPlace(report.now.status, list);
+  ComplainOfLight(report, list);
+  ComplainOfTime(report, list);
+  return list;
+}
+
+std::string Duration(std::int64_t ns) {
+  const std::int64_t seconds = ns / 1'000'000'000;
+  if (seconds < 120) return fmt::format("{} s", seconds);
+  if (seconds < 7200) return fmt::format("{} min", seconds / 60);
+  if (seconds < 172'800) return fmt::format("{} h", seconds / 3600);
+  return fmt::format("{} days", seconds / 86'400);
+}
+
+}  // namespace mocap

@@ -1,0 +1,71 @@
+#include "daemon/pipeline/health_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/walking_silhouettes.h"
+
+namespace mocap {
+namespace {
+
+using testing::WalkOfTenSeconds;
+
+SeenSet SetAt(std::size_t moment) {
+  SeenSet set;
+  set.silhouettes = WalkOfTenSeconds().moments[moment];
+  for (std::size_t c = 0; c < WalkOfTenSeconds().cameras.size(); ++c) {
+    set.cameras.push_back(static_cast<int>(c));
+    set.X_CW.push_back(WalkOfTenSeconds().cameras[c].X_CW);
+  }
+  return set;
+}
+
+TEST(HealthWatch, KnowsTheCamerasOnceSomebodyHasWalkedAbout) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  for (std::size_t moment = 0; moment < 10; ++moment) watch.Add(SetAt(moment));
+  int known = 0;
+  for (const CameraHealth& health : watch.Health()) {
+    if (health.moments < HealthWatch::kFewestMoments) continue;
+    ++known;
+    EXPECT_LT(health.shift_px.norm(), 1.5);
+    EXPECT_GT(health.overlap, 0.75);
+  }
+  EXPECT_GE(known, 4);
+}
+
+TEST(HealthWatch, NamesTheCameraThatWasTurnedAsTheOneFarthestOff) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  const Matrix3 turn = ExpRotation(Vector3(0.005, 0.01, 0));
+  for (std::size_t moment = 0; moment < 10; ++moment) {
+    SeenSet set = SetAt(moment);
+    set.X_CW[3] = {turn * set.X_CW[3].R, turn * set.X_CW[3].p};
+    watch.Add(set);
+  }
+  const std::vector<CameraHealth> health = watch.Health();
+  EXPECT_GT(health[3].shift_px.norm(), 3);
+  for (std::size_t c = 0; c < health.size(); ++c) {
+    if (c == 3) continue;
+    EXPECT_LT(health[c].shift_px.norm(), health[3].shift_px.norm()) << c;
+  }
+}
+
+TEST(HealthWatch, WhoStandsStillCountsOnce) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  for (int i = 0; i < 8; ++i) watch.Add(SetAt(0));
+  for (const CameraHealth& health : watch.Health()) EXPECT_LE(health.moments, 1);
+}
+
+TEST(HealthWatch, AMissingCameraLeavesTheOthersTheirPlaces) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  for (std::size_t moment = 0; moment < 10; ++moment) {
+    SeenSet set = SetAt(moment);
+    set.cameras.erase(set.cameras.begin());
+    set.silhouettes.erase(set.silhouettes.begin());
+    set.X_CW.erase(set.X_CW.begin());
+    watch.Add(set);
+  }
+  EXPECT_EQ(watch.Health()[0].moments, 0);
+  for (const CameraHealth& health : watch.Health()) EXPECT_LT(health.shift_px.norm(), 2);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,267 @@
+#include "daemon/status/service_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "daemon/service/metrics_file.h"
+#include "daemon/status/diagnostics.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// Two cameras at 25 frames a second, as it should be.
+ServiceReport Good() {
+  ServiceReport report;
+  report.fps_nominal = 25;
+  report.studio = "small";
+  report.now.sets_per_second = 25;
+  for (const char* name : {"cam1", "cam2"}) {
+    CameraStatus camera;
+    camera.name = name;
+    camera.state = CameraState::kStreaming;
+    camera.frames = 1000;
+    report.now.status.cameras.push_back(camera);
+    report.now.frames_per_second.push_back(25);
+  }
+  return report;
+}
+
+TEST(ServiceReport, SaysThatAllIsGood) {
+  EXPECT_THAT(Diagnostics(Good()), IsEmpty());
+  EXPECT_THAT(ReportText(Good()), StartsWith("all is good\n"));
+  EXPECT_THAT(ReportJson(Good()), HasSubstr("\"good\": true"));
+}
+
+TEST(ServiceReport, NamesFromOutsideForgeNoLineAndReachNoTerminal) {
+  ServiceReport report = Good();
+  report.studio = "x\x1b]0;owned\x07\n! forged \xff\xe2\x80\xae";
+  report.recording.state = RecordingStatus::State::kFailed;
+  report.recording.problem = report.studio;
+  report.background.where = report.studio;
+  for (const std::string& text : {ReportText(report), BackgroundText(report)}) {
+    EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+    EXPECT_THAT(text, Not(HasSubstr("\n! forged")));
+    EXPECT_THAT(text, HasSubstr("x\\x1b]0;owned\\x07\\x0a! forged \\xff\\u{202e}"));
+  }
+  EXPECT_THAT(ReportJson(report),
+              HasSubstr("\"studio\": \"x\\u001b]0;owned\\u0007\\u000a! forged \\ufffd\\u202e\""));
+}
+
+TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
+  ServiceReport report = Good();
+  report.now.status.cameras[0].state = CameraState::kLost;
+  report.now.frames_per_second[0] = 0;
+  report.now.frames_per_second[1] = 20;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 gives 20.0 of 25.0"),
+                          StartsWith("only cam2 delivers frames")));
+  EXPECT_THAT(ReportText(report), StartsWith("! cam1 is lost"));
+  EXPECT_THAT(ReportLine(report), HasSubstr("1 of 2 cameras; cam1 is lost"));
+}
+
+TEST(ServiceReport, SaysOnceOfWhomCamerasWaitForTheTrigger) {
+  ServiceReport report = Good();
+  CameraStatus third = report.now.status.cameras[1];
+  third.name = "cam3";
+  third.state = CameraState::kStarting;
+  report.now.status.cameras.push_back(third);
+  for (const std::size_t i : {1, 2}) report.now.status.cameras[i].waits_for = "cam1";
+  report.now.frames_per_second = {25, 25, 0};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no trigger of cam1 reaches cam3: ")));
+  report.now.status.cameras[0].state = CameraState::kLost;
+  report.now.frames_per_second = {0, 0, 0};
+  report.now.sets_per_second = 0;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("cam1 is lost"),
+                          "waiting for the trigger of cam1, which is lost: cam2, cam3"));
+}
+
+TEST(ServiceReport, ACameraIsHeldAgainstItsOwnRate) {
+  ServiceReport report = Good();
+  report.camera_fps = {0, 10};
+  report.now.frames_per_second[1] = 10;
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+  report.now.frames_per_second[1] = 5;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 gives 5.0 of 10.0")));
+}
+
+TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("no frame sets come about, though 2 of 2")));
+  report.now.frames_per_second = {0, 0};
+  EXPECT_THAT(Diagnostics(report), IsEmpty()) << "nothing was counted yet";
+}
+
+TEST(ServiceReport, CamerasThatAllFallSilentAreNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.frames_per_second = {0, 0};
+  report.now.window_ns = 4'000'000'000;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no camera delivers frames")));
+  for (CameraStatus& camera : report.now.status.cameras) camera.state = CameraState::kLost;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 is lost")))
+      << "each is told by itself";
+}
+
+TEST(ServiceReport, OneCameraAloneIsNotGood) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.frames_per_second = {25, 0};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("only cam1 delivers frames")));
+  report.now.status.cameras.pop_back();
+  report.now.frames_per_second = {25};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("only cam1 delivers frames")));
+  report.now.sets_per_second = 25;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("only cam1 delivers frames")))
+      << "sets of one picture carve nobody";
+}
+
+TEST(ServiceReport, SetsThatNeverAreCompleteAreNotGood) {
+  ServiceReport report = Good();
+  report.now.late_per_second = {0, 0};
+  report.now.sets_partial_lately = 100;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no frame set is complete")));
+  report.now.late_per_second = {0, 25};
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("frames come too late for their sets: cam2: ")));
+  report.now.sets_complete_lately = 100;
+  report.now.late_per_second = {0, 1};
+  EXPECT_THAT(Diagnostics(report), IsEmpty()) << "now and then is no matter";
+}
+
+TEST(ServiceReport, PosesThatReachNobodyAreNotGood) {
+  ServiceReport report = Good();
+  report.lcm_url = "udpm://x";
+  report.delivery.problem = "Network is unreachable";
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("poses cannot be sent to udpm://x: Network is unreachable")));
+  report.delivery = {};
+  report.delivery.channel.silent_ns = 9'000'000'000;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no message on udpm://x has come back")));
+  report.delivery = {};
+  report.delivery.channel.other_sender = true;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("another mocapd, or a log")));
+  report.delivery = {};
+  report.delivery.channel.reaches_nobody = true;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("poses reach nobody outside")));
+}
+
+TEST(ServiceReport, WhatNobodyRenewedIsNotGood) {
+  ServiceReport report = Good();
+  report.age_ns = 3'000'000'000;
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+  report.age_ns = 12'000'000'000;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("nothing has been heard of mocapd")));
+  EXPECT_THAT(Diagnostics(ServiceReport{}), ElementsAre(StartsWith("nothing is known yet")));
+}
+
+TEST(ServiceReport, ADiskThatFailsOrStallsIsNotGood) {
+  ServiceReport report = Good();
+  report.takes = "/takes";
+  report.disk_stall_ns = 12'000'000'000;
+  report.takes_problem = "Read-only file system";
+  report.metrics_problem = "/m.prom";
+  report.log_fails = true;
+  EXPECT_THAT(
+      Diagnostics(report),
+      ElementsAre(StartsWith("the disk has not answered for 12 s"),
+                  StartsWith("takes cannot be written to /takes: Read-only file system"),
+                  "the figures cannot be written to /m.prom", StartsWith("the log cannot be")));
+}
+
+TEST(ServiceReport, WhatARecordingLostIsToldWithItsCause) {
+  ServiceReport report = Good();
+  report.recording.state = RecordingStatus::State::kRunning;
+  report.recording.dropped = 12;
+  report.recording.cause = LossCause::kOtherWork;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("12 frames had no room in the recording: the processor had "
+                                     "other work")));
+}
+
+TEST(ServiceReport, DoesNotBlameCamerasForASetThatTakesLong) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  ++report.now.status.sets_complete;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("a frame set has been worked on")));
+}
+
+TEST(ServiceReport, DoesNotBlameCamerasForSetsThatTheProcessorLeftOut) {
+  ServiceReport report = Good();
+  report.now.sets_per_second = 0;
+  report.now.sets_dropped_lately = 3;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("3 frame sets were left out lately")));
+}
+
+TEST(ServiceReport, NamesSetsLeftOutAndCamerasOutOfStep) {
+  ServiceReport report = Good();
+  report.now.sets_dropped_lately = 3;
+  StageRecorders recorders;
+  recorders[Stage::kSpread].Record(15'000'000);
+  report.now.recent = StageHistograms(recorders);
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("3 frame sets were left out"), HasSubstr("ms apart")));
+}
+
+TEST(ServiceReport, AFailedRecordingComesFirst) {
+  ServiceReport report = Good();
+  report.now.sets_dropped_lately = 3;
+  report.recording.state = RecordingStatus::State::kFailed;
+  report.recording.problem = "the disk is gone";
+  EXPECT_EQ(Diagnostics(report).front(), "the recording failed: the disk is gone");
+}
+
+TEST(ServiceReport, NamesOnlyTheCameraThatIsFarthestFromTheOthers) {
+  ServiceReport report = Good();
+  report.now.status.cameras[0].health = {.moments = 9, .shift_px = {2.5, 0}, .overlap = 0.8};
+  report.now.status.cameras[1].health = {.moments = 9, .shift_px = {0, -6}, .overlap = 0.7};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 sees the person 6.0 px beside")));
+  report.now.status.cameras[1].health.moments = HealthWatch::kFewestMoments - 1;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam1 sees the person 2.5 px beside")))
+      << "what was hardly compared says nothing";
+}
+
+TEST(ServiceReport, TellsAgesInWords) {
+  ServiceReport report = Good();
+  report.epoch_s = 2'000'000;
+  report.calibration = {"/etc/c.toml", report.epoch_s - 9 * 86'400};
+  report.background = {"/var/b", report.epoch_s - 3 * 3600};
+  EXPECT_THAT(ReportText(report), HasSubstr("calibration  9 days old, /etc/c.toml"));
+  EXPECT_THAT(BackgroundText(report), StartsWith("3 h old, /var/b\n"));
+}
+
+TEST(ServiceReport, ATakeThatWasCutOffIsToldWithWhatItHolds) {
+  ServiceReport report = Good();
+  report.cut_off = {{"/takes/walk.partial", 12'300'000'000, 45'296'000'000'000}};
+  EXPECT_THAT(
+      Diagnostics(report),
+      ElementsAre(StartsWith("the recording walk was cut off at 12:34:56 UTC after 12.3 s")));
+}
+
+TEST(MetricsFile, HasOneHeadForEachFamilyAndOneSampleForEachCamera) {
+  const std::string text = MetricsText(Good());
+  EXPECT_THAT(text, HasSubstr("# TYPE mocapd_camera_frames_total counter\n"
+                              "mocapd_camera_frames_total{camera=\"cam1\"} 1000\n"
+                              "mocapd_camera_frames_total{camera=\"cam2\"} 1000\n"));
+  EXPECT_THAT(text, HasSubstr("mocapd_state{state=\"searching\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("mocapd_complaints 0\n"));
+}
+
+TEST(MetricsFile, APlaceThatCannotBeWrittenIsWeather) {
+  const testing::TemporaryFolder folder;
+  EXPECT_TRUE(WriteMetrics(folder.path() / "mocapd.prom", MetricsText(Good())));
+  EXPECT_FALSE(WriteMetrics(folder.path() / "nowhere" / "mocapd.prom", MetricsText(Good())));
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,269 @@
+#include "tools/calibration/detections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "core/errors.h"
+#include "tools/calibration/wand.h"
+
+namespace mocap {
+namespace {
+
+// Frames farther apart than this many intervals tell nothing of the motion between them.
+constexpr double kLongestGaps = 1.8;
+constexpr int kFramesToDiagnose = 10;
+
+class MeanPicture {
+ public:
+  void Add(ImageView<const Bgr> view) {
+    if (sums_.empty()) {
+      width_ = view.width();
+      sums_.assign(3u * view.width() * view.height(), 0);
+    }
+    std::size_t i = 0;
+    for (int y = 0; y < view.height(); ++y) {
+      for (int x = 0; x < view.width(); ++x) {
+        const Bgr pixel = view(x, y);
+        for (const std::uint8_t value : {pixel.b, pixel.g, pixel.r}) sums_[i++] += value;
+      }
+    }
+    ++count_;
+  }
+
+  Image<Bgr> Get() const {
+    Image<Bgr> mean(width_, static_cast<int>(sums_.size()) / 3 / width_);
+    std::size_t i = 0;
+    const auto next = [&] { return static_cast<std::uint8_t>((sums_[i++] + count_ / 2) / count_); };
+    for (Bgr& pixel : mean.pixels()) {
+      pixel.b = next();
+      pixel.g = next();
+      pixel.r = next();
+    }
+    return mean;
+  }
+
+  bool empty() const { return count_ == 0; }
+
+ private:
+  int width_ = 0;
+  std::uint32_t count_ = 0;
+  std::vector<std::uint32_t> sums_;
+};
+
+const Vector2* Find(const BoardCorners& corners, int id) {
+  const auto place = std::find(corners.ids.begin(), corners.ids.end(), id);
+  return place == corners.ids.end()
+             ? nullptr
+             : &corners.pixels[static_cast<std::size_t>(place - corners.ids.begin())];
+}
+
+// A parabola through the places at times -before_s, 0 and after_s; a line where one is not known.
+CornerMotion MotionThrough(const Vector2* before, double before_s, const Vector2& now,
+                           const Vector2* after, double after_s) {
+  CornerMotion motion;
+  if (before != nullptr) motion.velocity = (now - *before) / before_s;
+  if (after == nullptr) return motion;
+  const Vector2 ahead = (*after - now) / after_s;
+  if (before == nullptr) return {ahead, Vector2::Zero()};
+  motion.acceleration = 2 * (ahead - motion.velocity) / (before_s + after_s);
+  motion.velocity = (motion.velocity * after_s + ahead * before_s) / (before_s + after_s);
+  return motion;
+}
+
+// Detections of one camera from `first` on, in the order of time; times of their capture.
+void MeasureMotions(std::vector<BoardDetection>& detections, std::size_t first,
+                    const std::vector<double>& times_s, double longest_gap_s) {
+  for (std::size_t i = first; i < detections.size(); ++i) {
+    BoardDetection& now = detections[i];
+    const double before_s = i > first ? times_s[i - first] - times_s[i - first - 1] : HUGE_VAL;
+    const double after_s =
+        i + 1 < detections.size() ? times_s[i - first + 1] - times_s[i - first] : HUGE_VAL;
+    for (std::size_t k = 0; k < now.corners.ids.size(); ++k) {
+      const int id = now.corners.ids[k];
+      now.motions.push_back(MotionThrough(
+          before_s < longest_gap_s ? Find(detections[i - 1].corners, id) : nullptr, before_s,
+          now.corners.pixels[k],
+          after_s < longest_gap_s ? Find(detections[i + 1].corners, id) : nullptr, after_s));
+    }
+  }
+}
+
+// Looks at some of the frames once more for what was wrong with them.
+[[noreturn]] void RefuseUnseen(const Footage& footage, const FootageCamera& camera,
+                               const Board& board, const BoardDetector& detector) {
+  std::string reason;
+  const int step = std::max(1, static_cast<int>(camera.frames.size()) / kFramesToDiagnose);
+  camera.ForEach([&](int frame, ImageView<const Bgr> view) {
+    if (!reason.empty() || frame % step != 0) return;
+    if (const std::string why = detector.WhyNot(view); !why.empty())
+      reason = camera.frames[frame].name + " " + why;
+  });
+  if (!reason.empty())
+    throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason);
+  throw SetupError(footage.folder.string() + ": " + camera.name + " sees no board in its " +
+                   std::to_string(camera.frames.size()) + " frames; looked for was a " +
+                   board.Text() +
+                   ": compare that with the board, show all of it, sharp and evenly lit");
+}
+
+std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std::size_t camera,
+                                 std::size_t frames) {
+  std::vector<int> moment_of(frames, -1);
+  for (std::size_t m = 0; m < moments.size(); ++m) {
+    if (moments[m].frames[camera] >= 0) moment_of[moments[m].frames[camera]] = static_cast<int>(m);
+  }
+  return moment_of;
+}
+
+// Of a wand's camera, all lights were taken for detections. @return  how many are left.
+int KeepWandsFrom(std::size_t first, BoardDetections& detections, std::vector<double>& times_s) {
+  const auto begin = detections.detections.begin() + static_cast<std::ptrdiff_t>(first);
+  std::vector<BoardDetection> of_camera(begin, detections.detections.end());
+  KeepWands(of_camera);
+  detections.detections.erase(begin, detections.detections.end());
+  times_s.clear();
+  for (BoardDetection& s : of_camera) {
+    times_s.push_back(s.time_s);
+    detections.detections.push_back(std::move(s));
+  }
+  return static_cast<int>(of_camera.size());
+}
+
+double MeanInterval(const FootageCamera& camera) {
+  return 1e-9 * static_cast<double>(camera.frames.back().time_ns - camera.frames.front().time_ns) /
+         std::max<double>(1, static_cast<double>(camera.frames.size()) - 1);
+}
+
+}  // namespace
+
+int BoardDetections::CountOf(int camera) const {
+  return static_cast<int>(
+      std::count_if(detections.begin(), detections.end(),
+                    [camera](const BoardDetection& s) { return s.camera == camera; }));
+}
+
+BoardDetections CollectDetections(const Footage& footage, const Board& board,
+                                  const DetectionOptions& options) {
+  const BoardDetector detector(board);
+  const std::vector<FootageMoment> moments = MatchMoments(footage);
+  BoardDetections result;
+  result.board = board;
+  result.moments = options.still ? 1 : static_cast<int>(moments.size());
+  result.timed = std::all_of(footage.cameras.begin(), footage.cameras.end(),
+                             [](const FootageCamera& camera) { return camera.timed; });
+  for (std::size_t c = 0; c < footage.cameras.size(); ++c) {
+    const FootageCamera& camera = footage.cameras[c];
+    const int id = static_cast<int>(c);
+    const std::vector<int> moment_of = MomentsOfFrames(moments, c, camera.frames.size());
+    const double interval_s = MeanInterval(camera);
+    result.interval_s = c == 0 ? interval_s : std::min(result.interval_s, interval_s);
+    const int total = static_cast<int>(moments.size());
+    const int stride = std::max(1, (total + options.most_frames - 1) / options.most_frames);
+    result.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
+    MeanPicture mean;
+    int found = 0;
+    const std::size_t first = result.detections.size();
+    std::vector<double> times_s;
+    const auto keep = [&](std::optional<BoardCorners> corners, int frame, int moment) {
+      if (!corners) return;
+      ++found;
+      const FootageFrame& f = camera.frames[frame];
+      const double late_s =
+          result.timed ? 1e-9 * static_cast<double>(f.time_ns - moments[moment].time_ns) : 0;
+      times_s.push_back(1e-9 * static_cast<double>(f.time_ns - moments[0].time_ns));
+      result.detections.push_back(
+          {id, moment, std::move(*corners), f.angles, f.name, times_s.back(), late_s, {}});
+    };
+    int looked_at = 0;
+    camera.ForEach([&](int frame, ImageView<const Bgr> view) {
+      if (options.still) {
+        mean.Add(view);
+        return;
+      }
+      // The same moments for all cameras.
+      if (moment_of[frame] % stride != 0) return;
+      ++looked_at;
+      keep(detector.Detect(view, options.effort), frame, moment_of[frame]);
+      if (options.progress)
+        options.progress(camera.name, moment_of[frame] + 1, total, found,
+                         CoverageOf(result, id).Hint());
+    });
+    if (!mean.empty()) {
+      looked_at = 1;
+      result.still_pictures.push_back(mean.Get());
+      keep(detector.Detect(result.still_pictures.back().view(), Effort::kThorough), 0, 0);
+    }
+    result.cameras.back().frames = looked_at;
+    if (board.kind == BoardKind::kWand) found = KeepWandsFrom(first, result, times_s);
+    if (!options.still && result.timed)
+      MeasureMotions(result.detections, first, times_s, kLongestGaps * stride * interval_s);
+    if (found == 0 && options.all_must_see) RefuseUnseen(footage, camera, board, detector);
+  }
+  return result;
+}
+
+void MatchAgain(const std::vector<double>& lateness_s, BoardDetections& detections) {
+  MOCAP_CHECK(detections.timed && lateness_s.size() == detections.cameras.size());
+  const auto time_of = [&](const BoardDetection& s) { return s.time_s + lateness_s[s.camera]; };
+  std::vector<BoardDetection*> order;
+  for (BoardDetection& s : detections.detections) order.push_back(&s);
+  std::stable_sort(
+      order.begin(), order.end(),
+      [&](const BoardDetection* a, const BoardDetection* b) { return time_of(*a) < time_of(*b); });
+  int moment = -1;
+  double moment_s = 0;
+  std::vector<bool> seen;
+  for (BoardDetection* s : order) {
+    if (moment < 0 || time_of(*s) - moment_s > detections.interval_s / 2 || seen[s->camera]) {
+      ++moment;
+      moment_s = time_of(*s);
+      seen.assign(detections.cameras.size(), false);
+    }
+    seen[s->camera] = true;
+    s->moment = moment;
+    s->late_s = s->time_s - moment_s;
+  }
+  detections.moments = moment + 1;
+}
+
+Coverage CoverageOf(const BoardDetections& detections, int camera) {
+  Coverage coverage;
+  const DetectionCamera& c = detections.cameras[camera];
+  for (const BoardDetection& detection : detections.detections) {
+    if (detection.camera != camera) continue;
+    for (const Vector2& pixel : detection.corners.pixels) {
+      const int x = static_cast<int>(pixel.x() * Coverage::kColumns / c.width_px);
+      const int y = static_cast<int>(pixel.y() * Coverage::kRows / c.height_px);
+      ++coverage.counts[std::clamp(y, 0, Coverage::kRows - 1)]
+                       [std::clamp(x, 0, Coverage::kColumns - 1)];
+    }
+  }
+  int covered = 0;
+  for (const auto& row : coverage.counts) {
+    for (const int count : row) covered += count > 0;
+  }
+  coverage.share = static_cast<double>(covered) / (Coverage::kColumns * Coverage::kRows);
+  return coverage;
+}
+
+std::string Coverage::Hint() const {
+  std::string hint;
+  for (int third_row = 0; third_row < 2; ++third_row) {
+    for (int third = 0; third < 3; ++third) {
+      int seen = 0;
+      for (int y = 0; y < kRows / 2; ++y) {
+        for (int x = 0; x < kColumns / 3; ++x)
+          seen += counts[third_row * kRows / 2 + y][third * kColumns / 3 + x];
+      }
+      if (seen > 0) continue;
+      static constexpr const char* kPlaces[2][3] = {{"upper left", "upper middle", "upper right"},
+                                                    {"lower left", "lower middle", "lower right"}};
+      hint += (hint.empty() ? "nothing in the " : ", ") + std::string(kPlaces[third_row][third]);
+    }
+  }
+  return hint;
+}
+
+}  // namespace mocap
