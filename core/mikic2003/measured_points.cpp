@@ -9,6 +9,8 @@ namespace {
 constexpr double kFewestLitres = 0.1;
 constexpr std::size_t kEndShare = 20;
 
+using PartVoxels = std::array<VoxelIndices, kBodyPartCount>;
+
 bool IsEnough(const VoxelCloud& cloud, const VoxelIndices& voxels) {
   return static_cast<double>(voxels.size()) * std::pow(cloud.voxel_mm(), 3) * 1e-6 >= kFewestLitres;
 }
@@ -34,13 +36,11 @@ Vector3 EndFrom(const VoxelCloud& cloud, const VoxelIndices& voxels, const Vecto
   return FarthestBy(cloud, voxels, [&](const Vector3& p_W) { return (p_W - from_W).norm(); });
 }
 
-void MeasureLimb(const VoxelCloud& cloud, const LabeledFrame& frame, int limb,
-                 MeasuredPoints& points) {
-  const Limb& parts = kLimbs[limb];
-  const VoxelIndices upper = VoxelsLabeled(frame.labels, LabelOf(parts.upper));
-  const VoxelIndices lower = VoxelsLabeled(frame.labels, LabelOf(parts.lower));
+void MeasureLimb(const VoxelCloud& cloud, const PartVoxels& voxels, const Limb& parts,
+                 const Vector3& axis_W, MeasuredPoints& points) {
+  const VoxelIndices& upper = voxels[static_cast<int>(parts.upper)];
+  const VoxelIndices& lower = voxels[static_cast<int>(parts.lower)];
   if (!IsEnough(cloud, upper)) return;
-  const Vector3& axis_W = frame.upper_axes_W[limb];
   const Vector3 joint_W = EndAlong(cloud, upper, axis_W);
   At(points, parts.root) = EndAlong(cloud, upper, -axis_W);
   At(points, parts.joint) = joint_W;
@@ -50,14 +50,17 @@ void MeasureLimb(const VoxelCloud& cloud, const LabeledFrame& frame, int limb,
 }  // namespace
 
 MeasuredPoints MeasurePoints(const VoxelCloud& cloud, const LabeledFrame& frame) {
+  PartVoxels voxels;
   MeasuredPoints points;
   for (int part = 0; part < kBodyPartCount; ++part) {
-    const VoxelIndices voxels = VoxelsLabeled(frame.labels, static_cast<std::int8_t>(part));
+    voxels[part] = VoxelsLabeled(frame.labels, static_cast<std::int8_t>(part));
     // The first ten points are the parts' centroids.
-    if (IsEnough(cloud, voxels)) points[part] = CentroidOf(cloud, voxels);
+    if (IsEnough(cloud, voxels[part])) points[part] = CentroidOf(cloud, voxels[part]);
   }
   if (At(points, Point::kHead)) At(points, Point::kNeck) = frame.neck_W;
-  for (int limb = 0; limb < kLimbCount; ++limb) MeasureLimb(cloud, frame, limb, points);
+  for (int limb = 0; limb < kLimbCount; ++limb) {
+    MeasureLimb(cloud, voxels, kLimbs[limb], frame.upper_axes_W[limb], points);
+  }
   return points;
 }
 

@@ -142,7 +142,7 @@ class MikicCapture::Impl {
     if (bad_s_ >= kLostAfterS) {
       ForgetPerson();
     } else if (result_.state != CaptureState::kAcquiring) {
-      result_.state = is_labeled ? CaptureState::kTracking : CaptureState::kLost;
+      result_.state = is_bad ? CaptureState::kLost : CaptureState::kTracking;
     }
   }
 

@@ -45,6 +45,13 @@ struct PaperPerson {
     return body.PointsAt(body.PostureAt(pose)).col(static_cast<int>(point));
   }
 
+  /// All 23 points, as a measurement without error.
+  MeasuredPoints Points(const PoseState& pose) const {
+    MeasuredPoints points;
+    for (int i = 0; i < kPointCount; ++i) points[i] = Place(pose, static_cast<Point>(i));
+    return points;
+  }
+
   VoxelGrid Grid(const PoseState& pose) const {
     const Posture posture = body.PostureAt(pose);
     const BodyPoints points_W = body.PointsAt(posture);

@@ -9,12 +9,6 @@
 namespace mocap::mikic2003 {
 namespace {
 
-MeasuredPoints PointsOf(const PaperPerson& person, const PoseState& pose) {
-  MeasuredPoints points;
-  for (int i = 0; i < kPointCount; ++i) points[i] = person.Place(pose, static_cast<Point>(i));
-  return points;
-}
-
 TEST(Equation9, OnlyTheAxisDirectionCounts) {
   const Vector3 axis(0.3, -0.5, 0.8);
   EXPECT_LT((TorsoRotation(axis, 1.2) - TorsoRotation(3 * axis, 1.2)).norm(), 1e-12);
@@ -58,9 +52,9 @@ TEST(PaperFilter, ComesToThePoseThatThePointsShow) {
   PoseState start = person.Pose({});
   start.X_WT.p += Vector3(80, -60, 40);
   PoseEkf filter(person.body, start);
-  filter.Update(person.body, PointsOf(person, truth), 20);
+  filter.Update(person.body, person.Points(truth), 20);
   EXPECT_LT(
-      SumOfDistances(person.body, filter.Pose(person.body), PointsOf(person, truth)) / kPointCount,
+      SumOfDistances(person.body, filter.Pose(person.body), person.Points(truth)) / kPointCount,
       15);
 }
 
@@ -70,10 +64,9 @@ TEST(PaperFilter, FollowsAPersonWhoTurnsRoundAndRound) {
   for (int frame = 1; frame < 80; ++frame) {
     const PoseState truth = person.Pose(kSpread, 0.2 * frame);
     filter.Predict(0.1);
-    filter.Update(person.body, PointsOf(person, truth), 5);
+    filter.Update(person.body, person.Points(truth), 5);
     const double mean_mm =
-        SumOfDistances(person.body, filter.Pose(person.body), PointsOf(person, truth)) /
-        kPointCount;
+        SumOfDistances(person.body, filter.Pose(person.body), person.Points(truth)) / kPointCount;
     ASSERT_LT(mean_mm, 20) << "frame " << frame;
   }
 }
@@ -83,7 +76,7 @@ TEST(PaperFilter, HoldsTheLimitsOfJoints) {
   Stance stance = kSpread;
   stance.leg_l.knee = -60;
   PoseEkf filter(person.body, person.Pose(kSpread));
-  filter.Update(person.body, PointsOf(person, person.Pose(stance)), 20);
+  filter.Update(person.body, person.Points(person.Pose(stance)), 20);
   const PoseState pose = filter.Pose(person.body);
   for (int i = 0; i < person.body.joint_count(); ++i) {
     EXPECT_GE(pose.theta[i], person.body.table().joints[i].min_rad);
@@ -94,7 +87,7 @@ TEST(PaperFilter, HoldsTheLimitsOfJoints) {
 TEST(PaperFilter, KnowsLessOfWhatIsNotMeasured) {
   const PaperPerson person;
   const PoseState truth = person.Pose(kSpread);
-  MeasuredPoints points = PointsOf(person, truth);
+  MeasuredPoints points = person.Points(truth);
   for (const Point point : {Point::kFingertipsL, Point::kElbowL, Point::kLowerArmL}) {
     At(points, point).reset();
   }
