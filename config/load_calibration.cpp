@@ -148,15 +148,7 @@ CalibrationRecord ReadRecord(TomlSection& root) {
   return record;
 }
 
-}  // namespace
-
-CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file) {
-  TomlSection root = TomlSection::ReadFile(file);
-  return ReadRecord(root);
-}
-
-std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file) {
-  TomlSection root = TomlSection::ReadFile(file);
+std::vector<CameraCalibration> ReadCalibration(TomlSection root) {
   std::optional<TomlSection> section = root.Section("cameras");
   std::vector<CameraCalibration> cameras;
   if (section) {
@@ -171,6 +163,21 @@ std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file
   root.RejectUnknownKeys();
   if (cameras.empty()) root.Fail("cameras", "has none; [cameras.cam1] is wanted");
   return cameras;
+}
+
+}  // namespace
+
+CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file) {
+  TomlSection root = TomlSection::ReadFile(file);
+  return ReadRecord(root);
+}
+
+std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file) {
+  return ReadCalibration(TomlSection::ReadFile(file));
+}
+
+std::vector<CameraCalibration> ParseCalibration(std::string_view text, const std::string& name) {
+  return ReadCalibration(TomlSection::ReadText(text, name));
 }
 
 }  // namespace mocap

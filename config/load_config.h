@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/config.h"
@@ -21,6 +22,8 @@ Config LoadConfig(const std::filesystem::path& file);
 /// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without
 /// size.
 std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file);
+/// The same of its text. @param name  what messages call it.
+std::vector<CameraCalibration> ParseCalibration(std::string_view text, const std::string& name);
 
 /// Reads what calibration.toml says of itself. @throws SetupError
 CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file);

@@ -11,6 +11,7 @@
 #include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
+#include "tools/view.h"
 #include "tools/watch.h"
 
 namespace mocap {
@@ -26,6 +27,7 @@ void AddCommands(CLI::App& app) {
   AddCamerasCommand(app);
   AddGigeStudioCommand(app);
   AddControlCommands(app);
+  AddViewCommand(app);
   AddWatchCommand(app);
   AddDoctorCommand(app);
 }

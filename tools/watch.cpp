@@ -24,6 +24,7 @@
 #include "config/config.h"
 #include "core/motion_capture.h"
 #include "daemon/base/number_option.h"
+#include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/pose_publisher.h"
 #include "drivers/clock.h"
@@ -53,21 +54,11 @@ std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
 }
 
-/// LCM takes channels for regular expressions: a dot would stand for anything.
-std::string Literally(const std::string& name) {
-  std::string pattern;
-  for (const char c : name) {
-    if (std::string_view("\\^$.|?*+()[]{}").find(c) != std::string_view::npos) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
-}
-
 /// The latest of what was heard.
 class Hearing {
  public:
   Hearing(lcm::LCM& lcm, const std::string& named) {
-    const std::string prefix = Literally(named);
+    const std::string prefix = ChannelPattern(named);
     lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
     lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);

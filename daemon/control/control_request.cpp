@@ -55,6 +55,7 @@ std::optional<ControlRequest> ParseControlRequest(std::string_view line) {
   const std::vector<std::string_view> words = Words(line);
   if (words.size() == 1 && words[0] == "status") return StatusRequest{};
   if (words.size() == 1 && words[0] == "reload") return ReloadRequest{};
+  if (words.size() == 1 && words[0] == "look") return LookRequest{};
   if (words.size() == 2) return WithoutName(words[0], words[1]);
   if (words.size() != 3) return {};
   if (words[0] == "background" && words[1] == "learn" && words[2] == "anyway") {

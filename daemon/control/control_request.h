@@ -28,11 +28,13 @@ struct BackgroundLearnRequest {
   bool anyway = false;  ///< Also where somebody is believed to be in the room.
 };
 struct BackgroundStatusRequest {};
+/// Somebody looks: pictures and voxels are wanted for the next seconds.
+struct LookRequest {};
 
 using ControlRequest =
     std::variant<StatusRequest, ReloadRequest, RecordStartRequest, RecordStopRequest,
                  SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest,
-                 BackgroundLearnRequest, BackgroundStatusRequest>;
+                 BackgroundLearnRequest, BackgroundStatusRequest, LookRequest>;
 
 /// How it went, with the exit status of a program that asked.
 enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
@@ -47,8 +49,8 @@ inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
 /// Understands "status [json]", "reload", "record start NAME", "record stop", "subject new",
-/// "subject save NAME", "subject load NAME", "subject list", "background learn [anyway]" and
-/// "background status"; empty for anything else.
+/// "subject save NAME", "subject load NAME", "subject list", "background learn [anyway]",
+/// "background status" and "look"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
 /// Names become files: letters, digits, dots, underscores and hyphens. They do not begin with a dot

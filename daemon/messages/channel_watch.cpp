@@ -3,9 +3,9 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 
+#include "daemon/messages/channel_name.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
 
@@ -22,16 +22,6 @@ constexpr std::int64_t kReopenNs = 10'000'000'000;
 constexpr int kTickMs = 100;
 constexpr std::int64_t kFirstPauseNs = 1'000'000'000;
 constexpr std::int64_t kLongestPauseNs = 60'000'000'000;
-
-/// LCM takes a channel's name for a regular expression.
-std::string Quoted(const std::string& channel) {
-  std::string quoted;
-  for (const char c : channel) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') quoted += '\\';
-    quoted += c;
-  }
-  return quoted;
-}
 
 /// A status' time stands behind the type's fingerprint.
 std::int64_t TimeIn(const lcm::ReceiveBuffer& message) {
@@ -109,7 +99,8 @@ void ChannelWatch::Listen() {
     std::unique_ptr<lcm::LCM> lcm;
     if (HasMulticastRoute()) lcm = std::make_unique<lcm::LCM>(config_.url);
     if (lcm && lcm->good()) {
-      lcm->subscribeFunction(Quoted(config_.prefix + "MOCAP_STATUS"), &NoteMessage, &register_);
+      lcm->subscribeFunction(ChannelPattern(config_.prefix + "MOCAP_STATUS"), &NoteMessage,
+                             &register_);
     }
     std::int64_t good_ns = SteadyNs();
     while (!stop_.load() && SteadyNs() - good_ns < kReopenNs) {

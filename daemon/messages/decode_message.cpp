@@ -109,4 +109,31 @@ bool HasSoundCounts(const service_t&, std::span<const std::uint8_t> bytes) {
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const studio_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Texts(2);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const preview_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Text();
+  // Where the camera stands, and three sizes.
+  skimmer.Skip(4 * kPoint + 3 * 4);
+  skimmer.Skip(skimmer.Count(1));
+  skimmer.Skip(4 * skimmer.Count(4));
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const voxels_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Times, origin, edge, sizes.
+  skimmer.Skip(kHash + 2 * kNumber + kPoint + kNumber + 3 * 4);
+  skimmer.Skip(4 * skimmer.Count(4));
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
 }  // namespace mocap

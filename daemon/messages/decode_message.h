@@ -5,8 +5,11 @@
 #include <limits>
 #include <mocap/body_t.hpp>
 #include <mocap/pose_t.hpp>
+#include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
+#include <mocap/studio_t.hpp>
+#include <mocap/voxels_t.hpp>
 #include <optional>
 #include <span>
 
@@ -18,6 +21,9 @@ bool HasSoundCounts(const pose_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const body_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const studio_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const preview_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
 
 /// Decodes a message; empty for what is none of its type.
 template <typename Message>

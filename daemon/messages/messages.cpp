@@ -128,15 +128,21 @@ void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {
   }
 }
 
-void FillVoxels(const TrackedSet& set, voxels_t& message) {
-  message.utime = set.capture_ns / kNsPerUs;
-  message.frame = set.frame;
-  CopyVector(set.grid.origin_W(), message.origin_mm);
-  message.voxel_mm = set.grid.voxel_mm();
-  for (int axis = 0; axis < 3; ++axis) message.size[axis] = set.grid.size()[axis];
-  WriteRuns(set.grid, message.run);
+void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
+                   voxels_t& message) {
+  message.utime = capture_ns / kNsPerUs;
+  message.frame = frame;
+  CopyVector(grid.origin_W(), message.origin_mm);
+  message.voxel_mm = grid.voxel_mm();
+  for (int axis = 0; axis < 3; ++axis) message.size[axis] = grid.size()[axis];
+  WriteRuns(grid, message.run);
   message.num_runs = static_cast<std::int32_t>(message.run.size());
   message.label.clear();
+  message.num_labels = 0;
+}
+
+void FillVoxels(const TrackedSet& set, voxels_t& message) {
+  FillVoxelGrid(set.grid, set.capture_ns, set.frame, message);
   if (set.result.state != CaptureState::kSearching) {
     LabelVoxels(set.grid, set.body, set.result.pose, message.label);
   }

@@ -20,6 +20,9 @@ void FillPose(const TrackedSet& set, int cameras, pose_t& message);
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 
+/// Fills everything but the labels.
+void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
+                   voxels_t& message);
 void FillVoxels(const TrackedSet& set, voxels_t& message);
 
 void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);

@@ -1,6 +1,7 @@
 #include "daemon/messages/pose_publisher.h"
 
 #include "drivers/clock.h"
+#include "drivers/take/calibration_file.h"
 
 namespace mocap {
 
@@ -12,6 +13,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + "MOCAP_STATUS"),
       service_channel_(config.prefix + "MOCAP_SERVICE"),
+      studio_channel_(config.prefix + "MOCAP_STUDIO"),
       cameras_(cameras),
       times_(times),
       body_pacer_(1),
@@ -68,6 +70,15 @@ void PosePublisher::PublishStatus(const ServiceReport& report) {
   sender_.Send(status_channel_, status_, status_bytes_);
   FillService(report, utime, service_);
   sender_.Send(service_channel_, service_, status_bytes_);
+  if (studio_.calibration.empty()) return;
+  studio_.utime = utime;
+  sender_.Send(studio_channel_, studio_, status_bytes_);
+}
+
+void PosePublisher::Describe(const std::string& studio,
+                             std::span<const CameraCalibration> cameras) {
+  studio_.name = studio;
+  studio_.calibration = CalibrationText("the studio's calibration", cameras);
 }
 
 }  // namespace mocap

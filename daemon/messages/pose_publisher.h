@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <lcm/lcm-cpp.hpp>
+#include <mocap/studio_t.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,8 @@ class PosePublisher : public PoseSink {
   /// life. Before the first OnSet.
   void Tap(MessageTap& tap) { tap_ = &tap; }
   void PublishStatus(const ServiceReport& report);
+  /// From now on, each status is followed by what the studio is. Before the first PublishStatus.
+  void Describe(const std::string& studio, std::span<const CameraCalibration> cameras);
   /// From now on, the watch knows the statuses that are this daemon's own; borrowed. Before the
   /// first PublishStatus.
   void Watch(ChannelWatch& watch) { watch_ = &watch; }
@@ -53,7 +57,7 @@ class PosePublisher : public PoseSink {
   std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
   std::vector<std::uint8_t> status_bytes_;
   const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
-      service_channel_;
+      service_channel_, studio_channel_;
   const int cameras_;
   const CaptureTimes times_;
   Pacer body_pacer_;
@@ -66,6 +70,7 @@ class PosePublisher : public PoseSink {
   voxels_t voxels_;
   status_t status_;
   service_t service_;
+  studio_t studio_;
 };
 
 }  // namespace mocap

@@ -33,11 +33,12 @@ constexpr float kMostShift_px = 0.5;
 }  // namespace
 
 CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-                           std::vector<FrameTap*> taps)
+                           std::vector<FrameTap*> taps, PreviewTap* preview)
     : camera_(std::move(camera)),
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
       taps_(std::move(taps)),
+      preview_(preview),
       newest_ns_(kNoneYet) {}
 
 void CameraWorker::Stop() {
@@ -91,7 +92,19 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.is_blind = NoteConditions(out.silhouette);
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
+  OfferPreview(frame, out);
   return Outcome::kFrame;
+}
+
+void CameraWorker::OfferPreview(const Frame& frame, const SegmentedFrame& segmented) {
+  if (!preview_) return;
+  preview_->Offer([&](SeenFrame& copy) {
+    if (!preview_pacer_.IsDue(SteadyNs()) || !CopyPixels(frame.image, copy.image)) return false;
+    copy.silhouette = segmented.silhouette;
+    copy.X_CW = segmented.X_CW;
+    copy.capture_ns = segmented.capture_ns;
+    return true;
+  });
 }
 
 bool CameraWorker::Replace(Segmenter segmenter) {

@@ -13,6 +13,7 @@
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 #include "daemon/pipeline/health_watch.h"
+#include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/synchronizer.h"
 #include "daemon/pipeline/tap.h"
@@ -62,8 +63,9 @@ class CameraWorker {
  public:
   /// @param recorders  borrowed for the worker's life.
   /// @param taps       get every frame, likewise.
+  /// @param preview    gets some frames a second with their silhouettes, likewise; may be null.
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-               std::vector<FrameTap*> taps = {});
+               std::vector<FrameTap*> taps = {}, PreviewTap* preview = nullptr);
 
   void Start() { camera_.driver->Start(); }
   void Stop();
@@ -89,6 +91,7 @@ class CameraWorker {
 
  private:
   void TakeReplacement();
+  void OfferPreview(const Frame& frame, const SegmentedFrame& segmented);
   /// @return  whether the camera is blind.
   bool NoteConditions(const Silhouette& silhouette);
   void CountFrame(std::uint64_t sequence);
@@ -98,6 +101,8 @@ class CameraWorker {
   Segmenter segmenter_;
   StageRecorders& recorders_;
   const std::vector<FrameTap*> taps_;
+  PreviewTap* const preview_;
+  Pacer preview_pacer_{kPreviewHz};
   std::mutex replacement_mutex_;  ///< Tried, never waited for, by the worker.
   std::optional<Segmenter> replacement_;
   std::atomic<bool> replacement_waits_{false};

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "config/open_studio.h"
 #include "core/errors.h"
 #include "daemon/pipeline/realtime.h"
 
@@ -87,8 +88,9 @@ std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras
 /// One camera's thread and the queue it fills.
 struct Pipeline::CameraLine {
   CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-             std::vector<FrameTap*> taps, Overflow overflow, Doorbell& carve_bell)
-      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps)),
+             std::vector<FrameTap*> taps, PreviewTap* preview, Overflow overflow,
+             Doorbell& carve_bell)
+      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps), preview),
         queue(SizesFor(overflow).frames, overflow, carve_bell) {}
 
   CameraWorker worker;
@@ -106,8 +108,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
       grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
       track_(MakeMotionCapture(options.tracker, body), options.latency_origin, sink, recorders_,
              studio.person) {
-  std::vector<CameraCalibration> calibrations;
-  for (const StudioCamera& camera : studio.cameras) calibrations.push_back(camera.calibration);
+  const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
   carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
                                         CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
   if (options.overflow == Overflow::kDropOldest) {
@@ -120,9 +121,10 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
     std::vector<FrameTap*> taps;
     for (std::deque<FrameTap>* of_all : options.taps) taps.push_back(&of_all->at(i));
-    lines_.push_back(std::make_unique<CameraLine>(std::move(studio.cameras[i]),
-                                                  std::move(segmenters[i]), recorders_,
-                                                  std::move(taps), options.overflow, carve_bell_));
+    PreviewTap* preview = options.previews ? &options.previews->at(i) : nullptr;
+    lines_.push_back(std::make_unique<CameraLine>(
+        std::move(studio.cameras[i]), std::move(segmenters[i]), recorders_, std::move(taps),
+        preview, options.overflow, carve_bell_));
   }
 }
 

@@ -43,6 +43,8 @@ struct PipelineOptions {
   std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.
   std::vector<std::deque<FrameTap>*> taps = {};
+  /// Whoever gets previews, likewise; null: nobody.
+  std::deque<PreviewTap>* previews = nullptr;
   /// Learning gives up when this becomes true. Borrowed; null: it does not.
   const std::atomic<bool>* stop = nullptr;
 };

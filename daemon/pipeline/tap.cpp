@@ -6,13 +6,14 @@
 
 namespace mocap {
 
+bool CopyPixels(ImageView<const Bgr> from, Image<Bgr>& to) {
+  if (from.width() != to.width() || from.height() != to.height()) return false;
+  for (int y = 0; y < from.height(); ++y) std::copy_n(from.row(y), from.width(), to.row(y));
+  return true;
+}
+
 bool CopyFrame(const Frame& from, TappedFrame& to) {
-  const bool fits =
-      from.image.width() == to.image.width() && from.image.height() == to.image.height();
-  if (!fits) return false;
-  for (int y = 0; y < from.image.height(); ++y) {
-    std::copy_n(from.image.row(y), from.image.width(), to.image.row(y));
-  }
+  if (!CopyPixels(from.image, to.image)) return false;
   to.capture_ns = from.capture_ns;
   to.offered_ns = SteadyNs();
   to.sequence = from.sequence;

@@ -1,4 +1,5 @@
-// Where a recording takes things out of the pipeline's threads, without ever holding them up.
+// Where recordings and previews take things out of the pipeline's threads, without ever holding
+// them up.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "drivers/camera_driver.h"
 
@@ -80,6 +82,19 @@ using FrameTap = Tap<TappedFrame>;
 
 /// Copies a frame; one of another size than the items' is none of this camera's.
 bool CopyFrame(const Frame& from, TappedFrame& to);
+/// Copies pixels between pictures of one size. @return  false where they are not.
+bool CopyPixels(ImageView<const Bgr> from, Image<Bgr>& to);
+
+/// A picture and what was segmented in it, on their way to be looked at.
+struct SeenFrame {
+  Image<Bgr> image;
+  Silhouette silhouette;
+  RigidTransform X_CW;
+  std::int64_t capture_ns = 0;
+};
+using PreviewTap = Tap<SeenFrame>;
+/// More pictures a second are not looked at.
+inline constexpr double kPreviewHz = 5;
 
 /// A message as it was published.
 struct TappedMessage {

@@ -11,10 +11,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "config/open_studio.h"
 #include "daemon/base/service_folders.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/channel_watch.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/messages/preview_publisher.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recorder.h"
 #include "daemon/service/live_config.h"
@@ -54,15 +56,18 @@ void ReturnLargeBlocks() {
 /// Everything that becomes of a tracked set.
 class Outlet : public PoseSink {
  public:
-  Outlet(PosePublisher& publisher, LiveView& view) : publisher_(publisher), view_(view) {}
+  Outlet(PosePublisher& publisher, LiveView& view, PreviewPublisher& preview)
+      : publisher_(publisher), view_(view), preview_(preview) {}
   void OnSet(const TrackedSet& set) override {
     publisher_.OnSet(set);
     view_.OnSet(set);
+    preview_.OnSet(set);
   }
 
  private:
   PosePublisher& publisher_;
   LiveView& view_;
+  PreviewPublisher& preview_;
 };
 
 /// Answers from the beginning on; what is there to be asked comes later.
@@ -139,13 +144,17 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   Recorder recorder(RecordedStudioOf(studio, known, live.text()));
   publisher.Tap(recorder.taps().messages);
   LiveView view(TruthFor(config.source));
-  Outlet outlet(publisher, view);
+  const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
+  publisher.Describe(studio.name, cameras);
+  PreviewPublisher preview(publisher.sender(), config.lcm, cameras, studio.times);
+  Outlet outlet(publisher, view, preview);
   std::deque<FrameTap> learning_taps(studio.cameras.size());
   PipelineOptions options = PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps});
+  options.previews = &preview.taps();
   options.stop = &signals.stop();
   Pipeline pipeline(std::move(studio), options, prepared.body, outlet);
   BackgroundLearner learner(pipeline, learning_taps, known, learning);
-  const ServiceParts parts{live, pipeline, publisher, view, recorder, learner};
+  const ServiceParts parts{live, pipeline, publisher, preview, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   Watch watch(parts, {control, manager, channels, log}, about);
   const OpenDesk open_desk(desk, control);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <stdexcept>
 
 #include "core/errors.h"
@@ -10,6 +11,12 @@
 #include "drivers/printable_text.h"
 
 namespace mocap {
+namespace {
+
+/// Whoever goes on looking asks again within it.
+constexpr std::chrono::seconds kLook{10};
+
+}  // namespace
 
 ControlReply ServiceControl::Answer(const ControlRequest& request) {
   return {ControlOutcome::kDone,
@@ -108,6 +115,11 @@ std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
 std::string ServiceControl::Do(const BackgroundStatusRequest&) {
   const std::scoped_lock lock(report_mutex_);
   return BackgroundText(report_);
+}
+
+std::string ServiceControl::Do(const LookRequest&) {
+  parts_.preview.Look(kLook);
+  return fmt::format("pictures and voxels are published for {} s\n", kLook.count());
 }
 
 std::string ServiceControl::Do(const SubjectListRequest&) {

@@ -5,6 +5,7 @@
 
 #include "daemon/control/control_request.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/messages/preview_publisher.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recorder.h"
 #include "daemon/service/background_learner.h"
@@ -20,6 +21,7 @@ struct ServiceParts {
   LiveConfig& config;
   Pipeline& pipeline;
   PosePublisher& publisher;
+  PreviewPublisher& preview;
   LiveView& view;
   Recorder& recorder;
   BackgroundLearner& background;
@@ -51,6 +53,7 @@ class ServiceControl {
   std::string Do(const SubjectListRequest&);
   std::string Do(const BackgroundLearnRequest& request);
   std::string Do(const BackgroundStatusRequest&);
+  std::string Do(const LookRequest&);
 
   const ServiceParts parts_;
   const Subjects subjects_;

@@ -23,6 +23,7 @@ TEST(ControlRequest, UnderstandsWhatMocapSends) {
   EXPECT_TRUE(std::holds_alternative<StatusRequest>(*ParseControlRequest("status")));
   EXPECT_TRUE(std::get<StatusRequest>(*ParseControlRequest("status json\n")).as_json);
   EXPECT_TRUE(std::holds_alternative<ReloadRequest>(*ParseControlRequest("reload")));
+  EXPECT_TRUE(std::holds_alternative<LookRequest>(*ParseControlRequest("look")));
   EXPECT_EQ(std::get<RecordStartRequest>(*ParseControlRequest("record start a.b_c-1")).name,
             "a.b_c-1");
   EXPECT_TRUE(std::holds_alternative<RecordStopRequest>(*ParseControlRequest("record stop")));

@@ -6,5 +6,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::body_t>(bytes);
   mocap::DecodeMessage<mocap::status_t>(bytes);
   mocap::DecodeMessage<mocap::service_t>(bytes);
+  mocap::DecodeMessage<mocap::studio_t>(bytes);
+  mocap::DecodeMessage<mocap::preview_t>(bytes);
+  mocap::DecodeMessage<mocap::voxels_t>(bytes);
   return 0;
 }

@@ -35,42 +35,9 @@ bool IsFinite(const PoseRow& row) {
   return std::isfinite(sum);
 }
 
-std::optional<PoseRow> RowOf(const pose_t& message) {
-  if (message.utime < 0 || message.utime > kLatest_us) return {};
-  PoseRow row;
-  row.frame = message.frame;
-  row.timestamp_ns = message.utime * 1000;
-  row.state = static_cast<CaptureState>(std::clamp<int>(message.state, 0, 3));
-  row.has_pose = row.state != CaptureState::kSearching;
-  row.paper.torso_mm = Vector3(message.torso_mm);
-  row.paper.torso_axis = Vector3(message.torso_axis);
-  row.paper.torso_angle_rad = message.torso_angle_rad;
-  std::copy_n(message.theta_rad, kPaperAngleCount, row.paper.theta_rad.begin());
-  for (int i = 0; i < kPointCount; ++i) row.points_W.col(i) = Vector3(message.point_mm[i]);
-  row.residual_mm = message.residual_mm;
-  row.voxels = message.voxels;
-  if (!IsFinite(row)) return {};
-  return row;
-}
-
-std::optional<BodyRecord> RecordOf(const body_t& message) {
-  BodyRecord body;
-  body.model = message.model;
-  body.stature_mm = message.stature_mm;
-  double sum = body.stature_mm;
-  for (const BodySizeField& field : kBodySizeFields) {
-    const auto name = std::ranges::find(message.size_name, field.name);
-    if (name == message.size_name.end()) continue;
-    body.sizes.*field.value = message.size_mm[name - message.size_name.begin()];
-    sum += body.sizes.*field.value;
-  }
-  if (!std::isfinite(sum)) return {};
-  return body;
-}
-
 bool AddPose(const LoggedMessage& message, Daemon& daemon) {
   const auto pose = DecodeMessage<pose_t>(message.bytes);
-  const std::optional<PoseRow> row = pose ? RowOf(*pose) : std::nullopt;
+  const std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
   if (!row) return false;
   const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
                         daemon.poses.back().timestamp_ns == row->timestamp_ns;
@@ -80,7 +47,7 @@ bool AddPose(const LoggedMessage& message, Daemon& daemon) {
 
 bool AddBody(const LoggedMessage& message, Daemon& daemon) {
   const auto body = DecodeMessage<body_t>(message.bytes);
-  std::optional<BodyRecord> record = body ? RecordOf(*body) : std::nullopt;
+  std::optional<BodyRecord> record = body ? BodyRecordOf(*body) : std::nullopt;
   if (!record) return false;
   daemon.body = std::move(record);
   return true;
@@ -155,6 +122,39 @@ std::string PrefixesText(const std::set<std::string>& prefixes) {
 }
 
 }  // namespace
+
+std::optional<PoseRow> PoseRowOf(const pose_t& message) {
+  if (message.utime < 0 || message.utime > kLatest_us) return {};
+  PoseRow row;
+  row.frame = message.frame;
+  row.timestamp_ns = message.utime * 1000;
+  row.state = static_cast<CaptureState>(std::clamp<int>(message.state, 0, 3));
+  row.has_pose = row.state != CaptureState::kSearching;
+  row.paper.torso_mm = Vector3(message.torso_mm);
+  row.paper.torso_axis = Vector3(message.torso_axis);
+  row.paper.torso_angle_rad = message.torso_angle_rad;
+  std::copy_n(message.theta_rad, kPaperAngleCount, row.paper.theta_rad.begin());
+  for (int i = 0; i < kPointCount; ++i) row.points_W.col(i) = Vector3(message.point_mm[i]);
+  row.residual_mm = message.residual_mm;
+  row.voxels = message.voxels;
+  if (!IsFinite(row)) return {};
+  return row;
+}
+
+std::optional<BodyRecord> BodyRecordOf(const body_t& message) {
+  BodyRecord body;
+  body.model = message.model;
+  body.stature_mm = message.stature_mm;
+  double sum = body.stature_mm;
+  for (const BodySizeField& field : kBodySizeFields) {
+    const auto name = std::ranges::find(message.size_name, field.name);
+    if (name == message.size_name.end()) continue;
+    body.sizes.*field.value = message.size_mm[name - message.size_name.begin()];
+    sum += body.sizes.*field.value;
+  }
+  if (!std::isfinite(sum)) return {};
+  return body;
+}
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
   LogReader reader(log);

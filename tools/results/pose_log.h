@@ -2,12 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <mocap/body_t.hpp>
+#include <mocap/pose_t.hpp>
 #include <optional>
 #include <string>
 
 #include "tools/results/result.h"
 
 namespace mocap {
+
+/// What a message says of a pose; empty where a number is none.
+std::optional<PoseRow> PoseRowOf(const pose_t& message);
+/// What it says of a body, likewise.
+std::optional<BodyRecord> BodyRecordOf(const body_t& message);
 
 /// Reads MOCAP_POSE and MOCAP_BODY out of what lcm-logger recorded; the last body counts. What is
 /// damaged or of somebody else is passed over, and the result's remarks tell.

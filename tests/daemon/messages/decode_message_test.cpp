@@ -64,6 +64,32 @@ service_t SomeService() {
   return service;
 }
 
+studio_t SomeStudio() {
+  studio_t studio{};
+  studio.name = "small";
+  studio.calibration = "[cameras.cam1]";
+  return studio;
+}
+
+preview_t SomePreview() {
+  preview_t preview{};
+  preview.camera = "cam1";
+  preview.num_bytes = 3;
+  preview.jpeg = {0xff, 0xd8, 0xff};
+  preview.num_runs = 2;
+  preview.run = {5, 7};
+  return preview;
+}
+
+voxels_t SomeVoxels() {
+  voxels_t voxels{};
+  voxels.num_runs = 2;
+  voxels.run = {1, 2};
+  voxels.num_labels = 2;
+  voxels.label = {0, -1};
+  return voxels;
+}
+
 /// Whole messages come back; none of their beginnings is taken for one.
 template <typename Message>
 void ExpectWholeOrNothing(const Message& message) {
@@ -81,6 +107,9 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomeBody());
   ExpectWholeOrNothing(SomeStatus());
   ExpectWholeOrNothing(SomeService());
+  ExpectWholeOrNothing(SomeStudio());
+  ExpectWholeOrNothing(SomePreview());
+  ExpectWholeOrNothing(SomeVoxels());
 }
 
 TEST(DecodeMessage, AForgedCountTakesNoMemory) {

@@ -1,0 +1,25 @@
+// Pictures for people: small, and quickly made.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/image.h"
+
+namespace mocap {
+
+/// Makes JPEGs with libjpeg-turbo. One thread at a time.
+class JpegEncoder {
+ public:
+  JpegEncoder();
+
+  /// @param quality  1 to 100.
+  /// @param jpeg     overwritten; its memory is used again.
+  void Encode(ImageView<const Bgr> image, int quality, std::vector<std::uint8_t>& jpeg);
+
+ private:
+  std::unique_ptr<void, int (*)(void*)> encoder_;
+};
+
+}  // namespace mocap

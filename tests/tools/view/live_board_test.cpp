@@ -1,0 +1,62 @@
+#include "tools/view/live_board.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace mocap {
+namespace {
+
+LiveMessage Message(const std::string& text) {
+  return {true, std::make_shared<const std::string>(text)};
+}
+
+std::string NextOf(LiveBoard::Reader& reader) {
+  const std::optional<LiveMessage> message = reader.Next();
+  return message ? *message->bytes : "-";
+}
+
+TEST(LiveBoard, WhoComesLaterHearsTheLatestOfEachSlot) {
+  LiveBoard board;
+  board.Put(0, Message("old studio"));
+  board.Put(0, Message("studio"));
+  board.Put(3, Message("pose"));
+  LiveBoard::Reader reader(board);
+  EXPECT_EQ(NextOf(reader), "pose");
+  EXPECT_EQ(NextOf(reader), "studio");
+  EXPECT_EQ(NextOf(reader), "-");
+}
+
+TEST(LiveBoard, ASlowReaderGetsTheNewestAndNoQueue) {
+  LiveBoard board;
+  LiveBoard::Reader reader(board);
+  for (int i = 0; i < 1000; ++i) board.Put(0, Message("pose " + std::to_string(i)));
+  EXPECT_EQ(NextOf(reader), "pose 999");
+  EXPECT_EQ(NextOf(reader), "-");
+}
+
+TEST(LiveBoard, ABusySlotDoesNotStarveTheOthers) {
+  LiveBoard board;
+  LiveBoard::Reader reader(board);
+  board.Put(1, Message("status"));
+  board.Put(0, Message("pose"));
+  EXPECT_EQ(NextOf(reader), "status");
+  board.Put(1, Message("status"));
+  EXPECT_EQ(NextOf(reader), "pose");
+}
+
+TEST(LiveBoard, EachReaderHearsForItself) {
+  LiveBoard board;
+  LiveBoard::Reader first(board);
+  {
+    LiveBoard::Reader second(board);
+    board.Put(0, Message("pose"));
+    EXPECT_EQ(board.readers(), 2u);
+    EXPECT_EQ(NextOf(second), "pose");
+  }
+  EXPECT_EQ(board.readers(), 1u);
+  EXPECT_EQ(NextOf(first), "pose");
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,169 @@
+#include "tools/view/live_feed.h"
+
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "config/load_config.h"
+#include "core/body/body_sizes.h"
+#include "daemon/messages/messages.h"
+#include "drivers/take/calibration_file.h"
+
+namespace mocap {
+namespace {
+
+CameraCalibration Camera() {
+  CameraCalibration camera;
+  camera.name = "cam1";
+  camera.width_px = 40;
+  camera.height_px = 30;
+  OpenCvLens lens;
+  lens.K << 30, 0, 20, 0, 30, 15, 0, 0, 1;
+  camera.lens = lens;
+  camera.X_CW.p = Vector3(0, 0, 3000);
+  return camera;
+}
+
+/// A feed that hears what the test publishes, and what it put on the board.
+class LiveFeedTest : public ::testing::Test {
+ protected:
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message) {
+    lcm_.publish(channel, &message);
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+  nlohmann::json Json(std::size_t slot) { return nlohmann::json::parse(board_.at(slot)); }
+  static studio_t Studio() {
+    studio_t studio{};
+    studio.name = "small";
+    studio.calibration = CalibrationText("calibration.toml", std::vector{Camera()});
+    return studio;
+  }
+  static preview_t Preview() {
+    preview_t preview{};
+    preview.camera = "cam1";
+    preview.utime = 5000;
+    for (int i = 0; i < 3; ++i) preview.rotation[i][i] = 1;
+    preview.width_px = 40;
+    preview.height_px = 30;
+    preview.reduction = 2;
+    preview.jpeg = {0xff, 0xd8};
+    preview.num_bytes = 2;
+    preview.run = {20 * 5, 20 * 5};
+    preview.num_runs = 2;
+    return preview;
+  }
+  pose_t Pose() {
+    CaptureResult result;
+    result.state = CaptureState::kTracking;
+    result.pose.theta = JointAngles::Zero(body_.joint_count());
+    result.pose.X_WT.p = Vector3(0, 0, 1000);
+    result.points_W = body_.PointsAt(body_.PostureAt(result.pose));
+    result.point_std_mm.setConstant(1);
+    const VoxelGrid grid;
+    pose_t pose{};
+    FillPose({.frame = 3, .capture_ns = 5'000'000, .result = result, .body = body_, .grid = grid},
+             1, pose);
+    return pose;
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  std::map<std::size_t, std::string> board_;
+  BodyModel body_{LoadBodyTable("full"), AverageSizes(1700)};
+  LiveFeed feed_{lcm_, "left.", "memq://",
+                 [this](std::size_t slot, LiveMessage message) { board_[slot] = *message.bytes; }};
+};
+
+TEST_F(LiveFeedTest, AStudioIsDrawnFromItsCalibration) {
+  Publish("left.MOCAP_STUDIO", Studio());
+  const nlohmann::json camera = Json(LiveFeed::kStudio)["cameras"][0];
+  EXPECT_EQ(camera["name"], "cam1");
+  EXPECT_NEAR(camera["position_mm"][2], -3000.0, 1e-9);
+  EXPECT_NEAR(camera["corners_mm"][2][0], 1000.0 * 19 / 30, 1e-6);
+  EXPECT_NEAR(camera["corners_mm"][2][2], -2000.0, 1e-9);
+}
+
+TEST_F(LiveFeedTest, OtherDaemonsAreNotHeard) {
+  Publish("left_MOCAP_STUDIO", Studio());
+  Publish("MOCAP_STUDIO", Studio());
+  EXPECT_FALSE(board_.contains(LiveFeed::kStudio));
+}
+
+TEST_F(LiveFeedTest, APoseHasTheCapsulesOfTheTracker) {
+  body_t body{};
+  FillBody(body_, 0, body);
+  Publish("left.MOCAP_BODY", body);
+  EXPECT_EQ(Json(LiveFeed::kBody)["capsule_parts"].size(), body_.shape().size());
+  Publish("left.MOCAP_POSE", Pose());
+  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320 + 32 * body_.shape().size());
+}
+
+TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
+  body_t body{};
+  FillBody(body_, 0, body);
+  body.model = "/etc/passwd";
+  Publish("left.MOCAP_BODY", body);
+  Publish("left.MOCAP_POSE", Pose());
+  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320u + 32 * 13);
+}
+
+TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
+  body_t body{};
+  FillBody(body_, 0, body);
+  body.size_mm[0] = -1;
+  Publish("left.MOCAP_BODY", body);
+  Publish("left.MOCAP_POSE", Pose());
+  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320u);
+}
+
+TEST_F(LiveFeedTest, APoseThatIsNoNumberIsNotPassedOn) {
+  pose_t pose = Pose();
+  pose.point_mm[4][1] = std::numeric_limits<double>::quiet_NaN();
+  Publish("left.MOCAP_POSE", pose);
+  EXPECT_FALSE(board_.contains(LiveFeed::kPose));
+}
+
+TEST_F(LiveFeedTest, APictureOfAKnownCameraIsPassedOnWithItsLines) {
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_FALSE(board_.contains(LiveFeed::kPictures)) << "no studio is known";
+  Publish("left.MOCAP_STUDIO", Studio());
+  Publish("left.MOCAP_PREVIEW", Preview());
+  ASSERT_TRUE(board_.contains(LiveFeed::kPictures));
+  EXPECT_GT(board_.at(LiveFeed::kPictures)[16], 0) << "the silhouette's line";
+}
+
+TEST_F(LiveFeedTest, ForgedPicturesAreLeftOut) {
+  Publish("left.MOCAP_STUDIO", Studio());
+  preview_t preview = Preview();
+  preview.reduction = 0;
+  Publish("left.MOCAP_PREVIEW", preview);
+  preview = Preview();
+  preview.width_px = 2'000'000'000;
+  Publish("left.MOCAP_PREVIEW", preview);
+  preview = Preview();
+  preview.camera = "cam2";
+  Publish("left.MOCAP_PREVIEW", preview);
+  EXPECT_FALSE(board_.contains(LiveFeed::kPictures));
+}
+
+TEST_F(LiveFeedTest, WhyThereAreNoPicturesIsTold) {
+  feed_.NotePictures("no mocapd runs here");
+  EXPECT_EQ(Json(LiveFeed::kNotice)["pictures"], "no mocapd runs here");
+}
+
+TEST_F(LiveFeedTest, WordsThatAreNoUtf8DoNoHarm) {
+  service_t service{};
+  service.studio = "\xff\xfe<script>";
+  service.num_complaints = 1;
+  service.complaint = {"\xc3"};
+  Publish("left.MOCAP_SERVICE", service);
+  EXPECT_EQ(Json(LiveFeed::kService)["complaints"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,143 @@
+#include "tools/view/take_site.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "tests/support/box_take.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using ::mocap::testing::kFrames;
+
+template <typename T>
+T At(const std::string& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(T));
+  return value;
+}
+
+/// Where each message of /pictures.bin begins.
+std::vector<std::size_t> PicturesIn(const std::string& bytes) {
+  std::vector<std::size_t> begins;
+  for (std::size_t at = 0; at + 32 <= bytes.size() && bytes[at] == 3;) {
+    begins.push_back(at);
+    const std::size_t floats =
+        At<std::uint32_t>(bytes, at + 16) + At<std::uint32_t>(bytes, at + 20);
+    at += (32 + 4 * floats + At<std::uint32_t>(bytes, at + 24) + 7) / 8 * 8;
+  }
+  return begins;
+}
+
+class TakeSiteTest : public ::testing::Test {
+ protected:
+  TakeSiteTest() {
+    testing::WriteBoxTake(take_);
+    testing::WriteBoxResult(result_);
+  }
+  static std::string Get(TakeSite& site, const std::string& path,
+                         std::map<std::string, std::string> query = {}) {
+    const ViewReply reply = site.Answer({.method = "GET",
+                                         .path = path,
+                                         .query = std::move(query),
+                                         .authorization = {},
+                                         .body = {}});
+    EXPECT_EQ(reply.status, 200) << path;
+    return reply.body;
+  }
+
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path take_ = folder_.path() / "take", result_ = folder_.path() / "result";
+};
+
+TEST_F(TakeSiteTest, TellsFramesStatesAndErrors) {
+  TakeSite site(take_, {result_});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  EXPECT_EQ(json["name"], "<box>");
+  EXPECT_EQ(json["times_ms"].size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(json["studio"]["cameras"].size(), 3u);
+  const auto& result = json["results"][0];
+  EXPECT_EQ(result["name"], "result");
+  EXPECT_EQ(result["states"][1], 1);
+  EXPECT_TRUE(result["error_mm"][1].is_null()) << "it was not tracked yet";
+  EXPECT_NEAR(result["error_mm"][5], 12, 1e-6);
+  EXPECT_NEAR(result["joint_error_mm"][3][5], 12, 1e-6);
+}
+
+TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
+  TakeSite site(take_, {result_});
+  const std::string poses =
+      Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
+  // A result without all sizes has no capsules.
+  ASSERT_EQ(poses.size(), 3u * 320);
+  EXPECT_EQ(At<double>(poses, 320 + 24), 5);
+  const std::string truth =
+      Get(site, "/poses.bin", {{"result", "truth"}, {"from", "4"}, {"count", "1"}});
+  ASSERT_EQ(truth.size(), 320u);
+  const std::size_t head_z = 40 + 1 * 12 + 8;
+  EXPECT_NEAR(At<float>(poses, head_z) - At<float>(truth, head_z), 12, 1e-3);
+}
+
+TEST_F(TakeSiteTest, GivesThePictureOfEachCameraThatHasTheFrame) {
+  TakeSite site(take_, {result_});
+  const std::string all = Get(site, "/pictures.bin", {{"frame", "3"}});
+  ASSERT_EQ(PicturesIn(all).size(), 3u);
+  EXPECT_EQ(At<double>(all, 8), (testing::kFirstNs + 3 * testing::kPeriodNs) / 1e6);
+  const std::string late = Get(site, "/pictures.bin", {{"frame", "15"}});
+  EXPECT_EQ(PicturesIn(late).size(), 2u) << "the camera in the west missed it";
+  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "3"}}), 8), At<double>(all, 8))
+      << "going back";
+}
+
+TEST_F(TakeSiteTest, SilhouettesAndVoxelsComeOnceTheEmptyStudioIsLearned) {
+  TakeSite site(take_, {});
+  // It is learned in threads of their own, and no answer waits for them.
+  const auto has_voxels = [](const std::string& bytes) {
+    const std::size_t last = PicturesIn(bytes).back();
+    const std::size_t floats =
+        At<std::uint32_t>(bytes, last + 16) + At<std::uint32_t>(bytes, last + 20);
+    const std::size_t end =
+        last + (32 + 4 * floats + At<std::uint32_t>(bytes, last + 24) + 7) / 8 * 8;
+    return end < bytes.size() && bytes[end] == 2;
+  };
+  std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}});
+  while (!has_voxels(bytes)) bytes = Get(site, "/pictures.bin", {{"frame", "3"}});
+  EXPECT_GT(At<std::uint32_t>(bytes, 16), 0u) << "the silhouette's line";
+}
+
+TEST_F(TakeSiteTest, NumbersThatAreNoneAskForTheBeginning) {
+  TakeSite site(take_, {result_});
+  EXPECT_EQ(Get(site, "/poses.bin", {{"from", "-3"}, {"count", "x"}}), "");
+  EXPECT_EQ(Get(site, "/poses.bin", {{"result", "99"}, {"count", "5"}}), "");
+  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "99999999999999999999"}}), 8),
+            testing::kFirstNs / 1e6);
+}
+
+TEST_F(TakeSiteTest, WithoutAResultTheTakeIsShown) {
+  TakeSite site(take_, {});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  EXPECT_EQ(json["times_ms"].size(), static_cast<std::size_t>(kFrames));
+  EXPECT_TRUE(json["results"].empty());
+}
+
+TEST_F(TakeSiteTest, PeopleOfOneResultCountOneByOne) {
+  for (const char* person : {"person-1", "person-2"}) {
+    testing::WriteBoxResult(folder_.path() / "many" / person);
+  }
+  TakeSite site(take_, {folder_.path() / "many"});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  ASSERT_EQ(json["results"].size(), 2u);
+  EXPECT_EQ(json["results"][1]["name"], "many/person-2");
+}
+
+TEST_F(TakeSiteTest, ATakeThatIsNotThereIsRefused) {
+  EXPECT_THROW(TakeSite(folder_.path() / "absent", {}), SetupError);
+  EXPECT_THROW(TakeSite(take_, {folder_.path() / "absent"}), SetupError);
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,108 @@
+#include "tools/view/wire.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace mocap {
+namespace {
+
+template <typename T>
+T At(const std::string& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(T));
+  return value;
+}
+
+TEST(Wire, APoseLiesWhereThePageReadsIt) {
+  DrawnPose pose;
+  pose.person = 2;
+  pose.publish_ms = 1234.5;
+  pose.cameras_used = 0b101;
+  pose.row.state = CaptureState::kTracking;
+  pose.row.has_pose = true;
+  pose.row.frame = 77;
+  pose.row.timestamp_ns = 1'500'250'000;
+  pose.row.residual_mm = 12.5;
+  pose.row.voxels = 3000;
+  pose.row.points_W.col(22) = Vector3(1, 2, 3);
+  pose.capsules.emplace_back(Vector3(4, 5, 6), Vector3(7, 8, 9), 50, 40);
+  const std::string bytes = PoseBytes(pose);
+  ASSERT_EQ(bytes.size(), 352u);
+  EXPECT_EQ(bytes.substr(0, 4), std::string("\1\2\2\1", 4));
+  EXPECT_EQ(At<std::uint16_t>(bytes, 4), 23);
+  EXPECT_EQ(At<std::uint16_t>(bytes, 6), 1);
+  EXPECT_EQ(At<double>(bytes, 8), 1500.25);
+  EXPECT_EQ(At<double>(bytes, 16), 1234.5);
+  EXPECT_EQ(At<double>(bytes, 24), 77);
+  EXPECT_EQ(At<float>(bytes, 32), 12.5f);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 36), 3000u);
+  EXPECT_EQ(At<float>(bytes, 40 + 22 * 12 + 8), 3);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 316), 5u);
+  EXPECT_EQ(At<float>(bytes, 320 + 12), 50);
+  EXPECT_EQ(At<float>(bytes, 320 + 16), 7);
+}
+
+voxels_t Cube(int side) {
+  voxels_t voxels{};
+  voxels.utime = 2000;
+  voxels.voxel_mm = 25;
+  voxels.origin_mm[2] = -50;
+  for (std::int32_t& size : voxels.size) size = side;
+  voxels.run = {0, side * side * side};
+  voxels.num_runs = 2;
+  voxels.label.assign(static_cast<std::size_t>(side * side * side), 4);
+  voxels.num_labels = side * side * side;
+  return voxels;
+}
+
+TEST(Wire, OnlyVoxelsAtTheSurfaceGoOut) {
+  const std::string bytes = VoxelBytes(Cube(5), 1);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 4), 125u - 27u);
+  EXPECT_EQ(bytes.size(), 32u + 8 * (125 - 27));
+  EXPECT_EQ(At<double>(bytes, 8), 2);
+  EXPECT_EQ(At<float>(bytes, 16), 25);
+  EXPECT_EQ(At<float>(bytes, 28), -50);
+  EXPECT_EQ(At<std::int16_t>(bytes, 38), 4);
+}
+
+TEST(Wire, VoxelsWithoutLabelsHaveNone) {
+  voxels_t voxels = Cube(1);
+  voxels.label.clear();
+  EXPECT_EQ(At<std::int16_t>(VoxelBytes(voxels, 0), 38), -1);
+}
+
+TEST(Wire, AForgedGridIsNotBelieved) {
+  voxels_t voxels = Cube(2);
+  voxels.size[0] = 2'000'000'000;
+  EXPECT_EQ(VoxelBytes(voxels, 0), "");
+  voxels.size[0] = -1;
+  EXPECT_EQ(VoxelBytes(voxels, 0), "");
+  voxels = Cube(2);
+  voxels.run = {0, 2'000'000'000, -5, 3};
+  EXPECT_EQ(At<std::uint32_t>(VoxelBytes(voxels, 0), 4), 8u);
+}
+
+TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
+  const std::vector<std::uint8_t> jpeg = {1, 2, 3};
+  DrawnPicture picture;
+  picture.camera = 3;
+  picture.width_px = 640;
+  picture.height_px = 480;
+  picture.silhouette = {{{1, 2}, {3, 4}, {5, 6}}};
+  picture.body = {{BodySide::kRight, {{7, 8}, {9, 10}}}};
+  picture.jpeg = jpeg;
+  const std::string bytes = PictureBytes(picture);
+  EXPECT_EQ(bytes.size() % 8, 0u);
+  EXPECT_EQ(bytes[1], 3);
+  EXPECT_EQ(At<std::uint16_t>(bytes, 2), 640);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 16), 8u);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 20), 6u);
+  EXPECT_EQ(At<std::uint32_t>(bytes, 24), 3u);
+  EXPECT_EQ(At<float>(bytes, 32), 3);
+  EXPECT_EQ(At<float>(bytes, 32 + 8 * 4 + 4), 2);
+  EXPECT_EQ(bytes.substr(32 + 14 * 4, 3), "\1\2\3");
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,221 @@
+#include "tools/view/live_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <utility>
+
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "daemon/messages/channel_name.h"
+#include "daemon/messages/decode_message.h"
+#include "daemon/messages/reduced_picture.h"
+#include "drivers/clock.h"
+#include "drivers/printable_text.h"
+#include "tools/report/body_outline.h"
+#include "tools/results/pose_log.h"
+#include "tools/view/camera_json.h"
+#include "tools/view/json_text.h"
+#include "tools/view/picture_lines.h"
+#include "tools/view/status_json.h"
+#include "tools/view/wire.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+/// Pictures come later than poses, by no more than so many.
+constexpr std::size_t kPosesKept = 300;
+/// A pose so far from a picture in time is not the picture's.
+constexpr std::int64_t kSameMomentUs = 60'000;
+constexpr std::size_t kMostCameras = 64;
+constexpr int kLargestPreview_px = 2048;
+
+LiveMessage Text(std::string json) {
+  return {true, std::make_shared<const std::string>(std::move(json))};
+}
+LiveMessage Binary(std::string bytes) {
+  return {false, std::make_shared<const std::string>(std::move(bytes))};
+}
+
+template <typename Message>
+std::optional<Message> Decoded(const lcm::ReceiveBuffer& buffer) {
+  return DecodeMessage<Message>(
+      {static_cast<const std::uint8_t*>(buffer.data), static_cast<std::size_t>(buffer.data_size)});
+}
+
+bool IsSound(const preview_t& preview) {
+  const auto is_side = [](int px) { return px > 0 && px <= 16384; };
+  return is_side(preview.width_px) && is_side(preview.height_px) && preview.reduction > 0 &&
+         preview.width_px / preview.reduction <= kLargestPreview_px &&
+         preview.height_px / preview.reduction <= kLargestPreview_px;
+}
+
+RigidTransform PoseOf(const preview_t& preview) {
+  RigidTransform X_CW;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) X_CW.R(i, j) = preview.rotation[i][j];
+  }
+  X_CW.p = Vector3(preview.translation_mm);
+  return X_CW;
+}
+
+}  // namespace
+
+LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put)
+    : url_(std::move(url)), put_(std::move(put)), heard_ns_(SteadyNs()) {
+  const std::string named = ChannelPattern(prefix);
+  lcm.subscribe(named + "MOCAP_POSE", &LiveFeed::OnPose, this);
+  lcm.subscribe(named + "MOCAP_BODY", &LiveFeed::OnBody, this);
+  lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
+  lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
+  lcm.subscribe(named + "MOCAP_SERVICE", &LiveFeed::OnService, this);
+  lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
+  lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
+  PutNotice();
+}
+
+void LiveFeed::NotePictures(const std::string& why) {
+  pictures_ = why;
+  PutNotice();
+}
+
+void LiveFeed::NoteControl(const std::string& why) {
+  control_ = why;
+  PutNotice();
+}
+
+void LiveFeed::Tick() {
+  const bool is_silent = SteadyNs() - heard_ns_ > kSilenceNs;
+  silence_ = is_silent ? "nothing is heard on " + Printable(url_) +
+                             ": does mocapd run? mocap doctor looks at the network"
+                       : "";
+  PutNotice();
+}
+
+void LiveFeed::PutNotice() {
+  std::string notice = JsonText(
+      {{"type", "notice"}, {"pictures", pictures_}, {"silence", silence_}, {"control", control_}});
+  if (notice == notice_) return;
+  notice_ = notice;
+  put_(kNotice, Text(std::move(notice)));
+}
+
+void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
+  const std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
+  if (!row) return;
+  heard_ns_ = SteadyNs();
+  poses_.push_back(*row);
+  if (poses_.size() > kPosesKept) poses_.pop_front();
+  DrawnPose drawn;
+  drawn.row = *row;
+  drawn.publish_ms = static_cast<double>(pose->publish_utime) / 1000;
+  for (std::size_t i = 0; i < std::min<std::size_t>(32, pose->camera_used.size()); ++i) {
+    drawn.cameras_used |= pose->camera_used[i] ? std::uint32_t{1} << i : 0;
+  }
+  if (body_) drawn.capsules = body_->Pose(*pose, *row);
+  put_(kPose, Binary(PoseBytes(drawn)));
+}
+
+void LiveFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<body_t> body = Decoded<body_t>(*buffer);
+  const std::optional<BodyRecord> record = body ? BodyRecordOf(*body) : std::nullopt;
+  if (!record) return;
+  const bool is_same =
+      body_ && body_->record().model == record->model && body_->record().sizes == record->sizes;
+  if (is_same) return;
+  body_.emplace(*record);
+  put_(kBody, Text(BodyJson(*record, body_->parts())));
+}
+
+void LiveFeed::OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<voxels_t> voxels = Decoded<voxels_t>(*buffer);
+  std::string bytes = voxels ? VoxelBytes(*voxels, 0) : std::string();
+  if (!bytes.empty()) put_(kVoxels, Binary(std::move(bytes)));
+}
+
+void LiveFeed::OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<status_t> status = Decoded<status_t>(*buffer);
+  if (!status) return;
+  heard_ns_ = SteadyNs();
+  put_(kStatus, Text(StatusJson(*status, service_)));
+}
+
+void LiveFeed::OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  std::optional<service_t> service = Decoded<service_t>(*buffer);
+  if (!service) return;
+  service_ = std::move(service);
+  put_(kService, Text(ServiceJson(*service_)));
+}
+
+void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  std::optional<studio_t> studio = Decoded<studio_t>(*buffer);
+  if (!studio || (studio->calibration == studio_.calibration && studio->name == studio_.name)) {
+    return;
+  }
+  try {
+    std::vector<CameraCalibration> cameras =
+        ParseCalibration(studio->calibration, "the calibration in MOCAP_STUDIO");
+    if (cameras.size() > kMostCameras) return;
+    cameras_ = std::move(cameras);
+  } catch (const SetupError&) {
+    // Whoever sent it is no mocapd of this version: the page goes on with what it has.
+    return;
+  }
+  studio_ = std::move(*studio);
+  X_CW_.clear();
+  for (const CameraCalibration& camera : cameras_) X_CW_.push_back(camera.X_CW);
+  PutStudio();
+}
+
+void LiveFeed::PutStudio() { put_(kStudio, Text(StudioJson(studio_.name, cameras_, X_CW_))); }
+
+/// The pose nearest to a moment, if it is that moment's.
+const PoseRow* LiveFeed::PoseAt(std::int64_t utime) const {
+  const PoseRow* nearest = nullptr;
+  std::int64_t least_us = kSameMomentUs;
+  for (const PoseRow& row : poses_) {
+    const std::int64_t apart_us = std::abs(row.timestamp_ns / 1000 - utime);
+    if (apart_us > least_us) continue;
+    least_us = apart_us;
+    nearest = &row;
+  }
+  return nearest;
+}
+
+void LiveFeed::MoveCamera(std::size_t camera, const preview_t& preview) {
+  const RigidTransform X_CW = PoseOf(preview);
+  const bool has_moved = cameras_[camera].head && X_CW.R.allFinite() && X_CW.p.allFinite() &&
+                         !(X_CW.R == X_CW_[camera].R && X_CW.p == X_CW_[camera].p);
+  if (!has_moved) return;
+  X_CW_[camera] = X_CW;
+  PutStudio();
+}
+
+void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<preview_t> preview = Decoded<preview_t>(*buffer);
+  if (!preview || !IsSound(*preview)) return;
+  const auto found = std::ranges::find(cameras_, preview->camera, &CameraCalibration::name);
+  if (found == cameras_.end()) return;
+  const auto camera = static_cast<std::size_t>(found - cameras_.begin());
+  MoveCamera(camera, *preview);
+  const int factor = preview->reduction;
+  const Silhouette silhouette =
+      SilhouetteFromRuns(preview->run, preview->width_px / factor, preview->height_px / factor);
+  DrawnPicture picture{.camera = static_cast<int>(camera),
+                       .width_px = preview->width_px,
+                       .height_px = preview->height_px,
+                       .capture_ms = static_cast<double>(preview->utime) / 1000,
+                       .silhouette = SilhouetteLines(silhouette, factor),
+                       .body = {},
+                       .jpeg = preview->jpeg};
+  const PoseRow* row = PoseAt(preview->utime);
+  if (row && row->state == CaptureState::kTracking && body_ && AreSizes(body_->record().sizes)) {
+    picture.body = PartOutlines(*row, body_->record().sizes, *found, X_CW_[camera]);
+  }
+  put_(kPictures + camera, Binary(PictureBytes(picture)));
+}
+
+}  // namespace mocap

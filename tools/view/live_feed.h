@@ -1,0 +1,65 @@
+// From the daemon's messages to what pages are told.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <mocap/preview_t.hpp>
+#include <mocap/service_t.hpp>
+#include <mocap/studio_t.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/reconstruction/camera/camera_model.h"
+#include "tools/view/drawn_body.h"
+#include "tools/view/live_board.h"
+
+namespace mocap {
+
+/// Hears LCM and puts what is new on the board. One thread.
+class LiveFeed {
+ public:
+  /// Slots of the board; each camera's picture has one from kPictures on.
+  enum Slot : std::size_t { kStudio, kBody, kStatus, kService, kNotice, kPose, kVoxels, kPictures };
+  using Put = std::function<void(std::size_t slot, LiveMessage message)>;
+
+  /// @param lcm     borrowed for the feed's life.
+  /// @param prefix  before the channels' names.
+  /// @param url     of LCM, for people.
+  LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put);
+
+  /// Why the daemon gives no pictures; empty: it does, or nobody has asked.
+  void NotePictures(const std::string& why);
+  /// Why nothing may be done; empty: it may.
+  void NoteControl(const std::string& why);
+  /// Looks whether the daemon has fallen silent. Some times a second.
+  void Tick();
+
+ private:
+  void OnPose(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void PutStudio();
+  void PutNotice();
+  void MoveCamera(std::size_t camera, const preview_t& preview);
+  const PoseRow* PoseAt(std::int64_t utime) const;
+
+  const std::string url_;
+  const Put put_;
+  std::int64_t heard_ns_;  ///< By the steady clock.
+  std::string silence_, pictures_, control_, notice_;
+  std::optional<DrawnBody> body_;
+  std::optional<service_t> service_;
+  studio_t studio_;
+  std::vector<CameraCalibration> cameras_;
+  std::vector<RigidTransform> X_CW_;  ///< Where each camera stands now.
+  std::deque<PoseRow> poses_;         ///< The latest, for pictures that come later.
+};
+
+}  // namespace mocap

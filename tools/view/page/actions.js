@@ -1,0 +1,169 @@
+// What may be done from the page: only with the token of the address that `mocap view` printed.
+
+import {byId, make, setText} from './dom.js';
+
+const KEY = 'mocapd-view-token';
+const NAME = /^[A-Za-z0-9._-]{1,64}$/;
+const NO_TOKEN = 'This page only looks. To record and control, open the address that ' +
+    'mocap view printed, with its #token=…';
+
+/** Takes the token out of the address bar, where it could be read on the wall. */
+export function takeToken() {
+  const found = new URLSearchParams(location.hash.slice(1)).get('token');
+  if (found) {
+    sessionStorage.setItem(KEY, found);
+    history.replaceState(null, '', location.pathname + location.search);
+  }
+  return sessionStorage.getItem(KEY);
+}
+
+/** @return names of a `subject list`: the lines that tell a stature. */
+export function subjectNames(text) {
+  return text.split('\n').map((line) => /^(\S+)\s+stature\b/.exec(line)?.[1]).filter(Boolean);
+}
+
+export class Actions {
+  constructor() {
+    this.token = takeToken();
+    this.isAllowed = false;
+    this.why = '';     // what the server says against it
+    this.isBusy = false;
+    this.bind();
+    this.check();
+    window.addEventListener('hashchange', () => {
+      this.token = takeToken();
+      this.check();
+    });
+  }
+
+  /** Takes the server's reason why nothing may be done; '' if there is none. */
+  setNotice(why) {
+    this.why = why;
+    this.show();
+  }
+
+  /** Shows the button that fits: start or stop. */
+  setRecording(state) {
+    byId('record-form').dataset.state = state;
+    byId('record-start').hidden = state === 'running';
+    byId('record-name').hidden = state === 'running';
+    byId('record-stop').hidden = state !== 'running';
+  }
+
+  /** Asks whether the token holds; wanted after each connection. */
+  async check() {
+    this.isAllowed = false;
+    if (this.token) {
+      try {
+        const answer = await fetch('/control', {headers: {Authorization: `Bearer ${this.token}`}});
+        this.isAllowed = answer.status === 204;
+      } catch {
+        // Without a server there is nothing to be done; the connection's state says so.
+      }
+    }
+    this.show();
+    if (this.isAllowed && this.why === '') this.list();
+  }
+
+  show() {
+    const isOn = this.isAllowed && this.why === '';
+    byId('action-forms').hidden = !isOn;
+    byId('no-actions').hidden = isOn;
+    const wrong = this.token && !this.isAllowed ?
+        'The token of this page does not hold (any more). ' + NO_TOKEN : NO_TOKEN;
+    setText(byId('no-actions'), this.why !== '' ? this.why : wrong);
+  }
+
+  bind() {
+    const onSubmit = (id, request) => byId(id).addEventListener('submit', (event) => {
+      event.preventDefault();
+      request();
+    });
+    const onClick = (id, request) => byId(id).addEventListener('click', request);
+    onSubmit('record-form', () => this.withName('record start', byId('record-name')));
+    onClick('record-stop', () => this.ask('record stop'));
+    onSubmit('save-form', async () => {
+      await this.withName('subject save', byId('subject-name'));
+      this.list();
+    });
+    onSubmit('load-form', () => this.withName('subject load', byId('subject-list')));
+    onClick('subject-new', () => this.ask('subject new'));
+    onClick('reload', () => this.ask('reload'));
+    onClick('background-learn', () => this.learn());
+    byId('subject-list').addEventListener('pointerdown', () => this.list());
+  }
+
+  withName(request, field) {
+    const name = field.value.trim();
+    if (NAME.test(name)) return this.ask(`${request} ${name}`);
+    field.focus();
+    return this.answer('wrong', 'A name has letters, digits, ".", "_" and "-", at most 64.');
+  }
+
+  async learn() {
+    const isSure = await this.confirm('Learn the background?',
+        'Nobody may be in the cameras’ view. It takes some seconds.', 'Learn');
+    if (!isSure) return;
+    const {outcome, text} = await this.ask('background learn');
+    if (outcome !== 'failed' || !text.includes('--anyway')) return;
+    if (await this.confirm('Learn it anyway?', text, 'Learn anyway')) this.ask('background learn anyway');
+  }
+
+  confirm(title, text, button) {
+    const dialog = byId('confirm');
+    setText(byId('confirm-title'), title);
+    setText(byId('confirm-text'), text);
+    setText(byId('confirm-yes'), button);
+    dialog.returnValue = '';
+    dialog.showModal();
+    return new Promise((resolve) => {
+      dialog.addEventListener('close', () => resolve(dialog.returnValue === 'yes'), {once: true});
+    });
+  }
+
+  async list() {
+    const {outcome, text} = await this.post('subject list');
+    if (outcome !== 'done') return;
+    const names = subjectNames(text);
+    const chosen = byId('subject-list').value;
+    byId('subject-list').replaceChildren(...names.map((name) =>
+        make('option', {text: name, value: name, selected: name === chosen})));
+    byId('load-form').hidden = names.length === 0;
+  }
+
+  async ask(request) {
+    if (this.isBusy) return {outcome: 'wrong', text: ''};
+    this.setBusy(true);
+    this.answer('', `${request} …`);
+    const answer = await this.post(request);
+    this.answer(answer.outcome, answer.text);
+    this.setBusy(false);
+    return answer;
+  }
+
+  async post(request) {
+    try {
+      const answer = await fetch('/control', {
+        method: 'POST',
+        headers: {'Authorization': `Bearer ${this.token}`, 'Content-Type': 'application/json'},
+        body: JSON.stringify({request}),
+      });
+      if (answer.ok) return await answer.json();
+      if (answer.status === 401) this.check();
+      return {outcome: 'failed', text: `mocap view refuses: ${answer.status} ${answer.statusText}`};
+    } catch (error) {
+      return {outcome: 'failed', text: `mocap view does not answer: ${error.message}`};
+    }
+  }
+
+  setBusy(isBusy) {
+    this.isBusy = isBusy;
+    for (const button of byId('action-forms').querySelectorAll('button')) button.disabled = isBusy;
+  }
+
+  answer(outcome, text) {
+    byId('answer').dataset.outcome = outcome;
+    setText(byId('answer'), text.trimEnd());
+    return {outcome, text};
+  }
+}

@@ -1,0 +1,53 @@
+// Poses of a take, fetched in chunks ahead of where it is played; the least used are let go.
+
+const FRAMES = 128;
+const MOST_CHUNKS = 40;
+const MOST_REQUESTS = 2;
+const RETRY_MS = 2000;
+
+export class Chunks {
+  /** @param fetchChunk (from, count) → Promise of as many poses. */
+  constructor(frameCount, fetchChunk) {
+    this.frameCount = frameCount;
+    this.fetchChunk = fetchChunk;
+    this.chunks = new Map();   // number → poses; the order is that of use
+    this.waiting = new Set();
+    this.failedAt = new Map(); // number → when
+  }
+
+  /** @return the pose of a frame, or null if it is not there yet. */
+  get(frame) {
+    const number = Math.floor(frame / FRAMES);
+    const chunk = this.chunks.get(number);
+    return chunk ? chunk[frame - number * FRAMES] ?? null : null;
+  }
+
+  /** Tells which frame is shown: fetches around it what is missing. */
+  want(frame, nowMs = Date.now()) {
+    const number = Math.floor(frame / FRAMES);
+    const chunk = this.chunks.get(number);
+    if (chunk) {
+      this.chunks.delete(number);
+      this.chunks.set(number, chunk);
+    }
+    for (const next of [number, number + 1, number - 1]) this.request(next, nowMs);
+  }
+
+  request(number, nowMs) {
+    const from = number * FRAMES;
+    if (from < 0 || from >= this.frameCount || this.chunks.has(number)) return;
+    if (this.waiting.has(number) || this.waiting.size >= MOST_REQUESTS) return;
+    if (nowMs - (this.failedAt.get(number) ?? -Infinity) < RETRY_MS) return;
+    this.waiting.add(number);
+    this.fetchChunk(from, Math.min(FRAMES, this.frameCount - from))
+        .then((poses) => this.keep(number, poses))
+        .catch(() => this.failedAt.set(number, nowMs))
+        .finally(() => this.waiting.delete(number));
+  }
+
+  keep(number, poses) {
+    this.failedAt.delete(number);
+    this.chunks.set(number, poses);
+    if (this.chunks.size > MOST_CHUNKS) this.chunks.delete(this.chunks.keys().next().value);
+  }
+}

@@ -1,0 +1,46 @@
+// How finely the scene is drawn: as finely as the machine can draw it smoothly.
+
+const WINDOW = 30;           // intervals that are looked at together
+const SLOW_MS = 45;
+const PAUSE_MS = 1000;       // a longer interval is a hidden page, not a slow one
+const STEP = 0.75;
+const LEAST = 0.5;
+const SOFTWARE_START = 0.6;
+
+/** @return whether WebGL is drawn by the processor: then each pixel counts. */
+export function drawsInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl');
+  if (!gl) return false;
+  const info = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
+
+export class Detail {
+  /** @param isFixed draws every pixel, whatever it costs: for a picture of the page. */
+  constructor({isSoftware, isFixed}) {
+    this.isFixed = isFixed;
+    this.scale = isSoftware && !isFixed ? SOFTWARE_START : 1;
+    this.intervals = [];
+    this.lastMs = null;
+  }
+
+  /** Pixels drawn for each CSS pixel, along an edge. */
+  ratio(devicePixelRatio) {
+    return this.scale * Math.min(2, devicePixelRatio || 1);
+  }
+
+  /** Takes the time at which a frame is drawn. @return whether the scale has changed. */
+  tick(nowMs) {
+    const interval = nowMs - (this.lastMs ?? nowMs);
+    this.lastMs = nowMs;
+    if (interval > 0 && interval < PAUSE_MS) this.intervals.push(interval);
+    if (this.intervals.length < WINDOW) return false;
+    const mean = this.intervals.reduce((sum, value) => sum + value, 0) / this.intervals.length;
+    this.intervals = [];
+    if (this.isFixed || mean < SLOW_MS || this.scale <= LEAST) return false;
+    this.scale = Math.max(LEAST, STEP * this.scale);
+    return true;
+  }
+}

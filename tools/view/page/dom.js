@@ -1,0 +1,39 @@
+// The few things that the page does with elements. What messages and takes say goes into text alone.
+
+/** @return the element of index.html with an id. */
+export function byId(id) {
+  return document.getElementById(id);
+}
+
+/** Makes an element; `text` is its text, other entries are attributes. */
+export function make(tag, {text, ...attributes} = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== undefined && value !== false) element.setAttribute(name, value);
+  }
+  if (text !== undefined) element.textContent = text;
+  element.append(...children);
+  return element;
+}
+
+/** Sets a text only when it changes: selections and screen readers are left alone. */
+export function setText(element, text) {
+  const value = String(text);
+  if (element.textContent !== value) element.textContent = value;
+}
+
+/** Fits a canvas to its place on the screen. @return its context, scaled to CSS pixels. */
+export function fitCanvas(canvas) {
+  const ratio = Math.min(2, window.devicePixelRatio || 1);
+  const width = Math.round(canvas.clientWidth * ratio);
+  const height = Math.round(canvas.clientHeight * ratio);
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  // Small pictures that change often: the processor draws them faster than they reach a graphics card.
+  const context = canvas.getContext('2d', {willReadFrequently: true});
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+  return context;
+}

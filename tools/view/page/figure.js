@@ -1,0 +1,138 @@
+// One person, or one result of a take: body, joints and sticks, trails, voxels, shadow.
+
+import * as THREE from './three.js';
+import {CapsuleMesh} from './capsule_mesh.js';
+import {VoxelMesh} from './voxel_mesh.js';
+import {rgb} from './theme.js';
+
+const TRAIL_MS = 1500;
+const TRAIL_STEP_MS = 25;
+const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
+const PARTS = 10;
+
+export class Figure extends THREE.Group {
+  /** @param options color: name of a colour of the theme; onlySticks: no body, as for truth. */
+  constructor({color, onlySticks = false}) {
+    super();
+    this.color = color;
+    this.onlySticks = onlySticks;
+    this.body = new CapsuleMesh(64, {transparent: true});
+    this.sticks = new CapsuleMesh(128, {
+      thin: true, transparent: true, depthTest: onlySticks, depthWrite: onlySticks, glow: 0.7});
+    this.trails = new CapsuleMesh(4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
+        {thin: true, transparent: true, depthWrite: false, glow: 0.8});
+    this.voxels = new VoxelMesh();
+    this.shadow = (onlySticks ? this.sticks : this.body).makeShadow();
+    this.shadow.renderOrder = -1;
+    // Sticks lie inside the body: they are drawn over it.
+    this.sticks.renderOrder = 2;
+    this.shownLayers = {body: true, joints: true, trails: true, voxels: true};
+    this.add(this.shadow, this.body, this.sticks, this.trails);
+    this.castsShadow = true;
+    this.setModel({point_names: [], bones: []});
+    this.recolor();
+  }
+
+  /** Takes the body's description: names of points, and which are joined. */
+  setModel({point_names: names, bones}) {
+    this.bones = bones;
+    this.trailPoints = TRAIL_POINTS.map((name) => names.indexOf(name)).filter((i) => i >= 0);
+  }
+
+  recolor() {
+    this.tint = rgb(this.color);
+    this.stickTint = rgb(this.onlySticks ? this.color : 'stick');
+    this.shadow.material.uniforms.flatColor.value.setRGB(...rgb('shadow'));
+    this.voxels.setPalette(Array.from({length: PARTS + 1}, (_, i) =>
+        rgb(i < PARTS ? `part-${i}` : 'part-none')));
+  }
+
+  /** Shows or hides a layer: body, joints, trails or voxels. */
+  setLayer(name, isOn) {
+    this.shownLayers[name] = isOn;
+  }
+
+  /** Over a camera's picture the floor is not seen, and no shadow on it. */
+  setShadow(isOn) {
+    this.castsShadow = isOn;
+  }
+
+  /** Shows a pose; null: nobody. A faded one is one that is known to be old. */
+  show(pose, {faded = false} = {}) {
+    this.visible = pose !== null && pose.hasPose;
+    this.shown = this.visible ? pose : null;
+    if (!this.visible) return;
+    this.showBody(pose, faded ? 0.3 : 1);
+    this.showSticks(pose, faded ? 0.35 : 1);
+    const source = this.onlySticks ? this.sticks : this.body;
+    this.shadow.visible = this.castsShadow && source.visible;
+  }
+
+  showBody({capsules}, opacity) {
+    this.body.clear();
+    if (capsules.length / 8 > this.body.capacity) this.body.reserve(capsules.length / 8);
+    for (let i = 0; i + 8 <= capsules.length; i += 8) {
+      this.body.add(...capsules.subarray(i, i + 8), this.tint);
+    }
+    this.body.commit();
+    this.body.visible = this.shownLayers.body && this.body.count > 0;
+    this.body.material.uniforms.opacity.value = opacity;
+    this.body.material.depthWrite = opacity === 1;
+  }
+
+  showSticks({points}, opacity) {
+    this.sticks.clear();
+    const at = (i) => points.subarray(3 * i, 3 * i + 3);
+    const radius = this.onlySticks ? 13 : 7;
+    for (const [i, j] of this.bones) {
+      this.sticks.add(...at(i), radius, ...at(j), radius, this.stickTint);
+    }
+    for (let i = 0; 3 * i < points.length; ++i) {
+      const size = radius * (i < PARTS && !this.onlySticks ? 1.3 : 2);
+      this.sticks.add(...at(i), size, ...at(i), size, this.stickTint);
+    }
+    this.sticks.commit();
+    this.sticks.visible = this.shownLayers.joints && this.sticks.count > 0;
+    this.sticks.material.uniforms.opacity.value = opacity;
+  }
+
+  /** Draws the way of hands and feet. @param poseAt time of capture [ms] → pose or null. */
+  showTrails(timeMs, poseAt) {
+    this.trails.clear();
+    if (this.visible && this.shownLayers.trails) {
+      // Steps at fixed times: the trail stands still while its head moves on.
+      const first = Math.ceil((timeMs - TRAIL_MS) / TRAIL_STEP_MS) * TRAIL_STEP_MS;
+      let before = poseAt(first);
+      for (let t = first + TRAIL_STEP_MS; before; t += TRAIL_STEP_MS) {
+        const here = poseAt(Math.min(t, timeMs));
+        this.addTrail(before, here, 1 - (timeMs - t) / TRAIL_MS);
+        if (t >= timeMs) break;
+        before = here;
+      }
+    }
+    this.trails.commit();
+  }
+
+  /** Places the voxels, which outlast a pose: they are shown while somebody is being measured. */
+  showVoxels(timeMs, poseAt) {
+    const then = this.voxels.message ? poseAt(this.voxels.message.timeMs) : null;
+    this.voxels.place(timeMs, then, poseAt(timeMs));
+    this.voxels.visible = this.voxels.visible && this.shownLayers.voxels;
+  }
+
+  addTrail(before, here, youth) {
+    if (!here || !before.hasPose || !here.hasPose) return;
+    const share = Math.max(0.05, Math.min(1, youth));
+    for (const i of this.trailPoints) {
+      this.trails.add(...before.points.subarray(3 * i, 3 * i + 3), 9 * share,
+          ...here.points.subarray(3 * i, 3 * i + 3), 9 * share, this.tint, 0.75 * share);
+    }
+  }
+
+  dispose() {
+    for (const mesh of [this.body, this.sticks, this.trails, this.voxels, this.shadow]) {
+      mesh.geometry.dispose();
+      mesh.material.dispose();
+    }
+  }
+}

@@ -1,0 +1,80 @@
+// Which time of capture to show now. The browser's clock and the server's may differ by anything:
+// the offset is the smallest difference between a pose's arrival and its publication.
+
+const OFFSET_BUCKET_MS = 10000;
+const OFFSET_BUCKETS = 6;
+const LAGS = 200;
+const LAG_WINDOW_MS = 3000;
+const LARGEST_AGE_MS = 240;
+const JUMP_MS = 150;
+const SLEW = 0.1;
+
+function quantile(sorted, share) {
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+}
+
+export class LiveClock {
+  constructor() {
+    this.reset();
+  }
+
+  /** Forgets all, as after a new connection: the server may be another one. */
+  reset() {
+    this.buckets = [];  // {number, offset}: smallest offset of each ten seconds
+    this.arrivals = []; // {nowMs, lag, timeMs}
+    this.delay = null;  // browser's now minus the time of capture that is shown
+    this.lastMs = null;
+  }
+
+  get isKnown() {
+    return this.buckets.length > 0;
+  }
+
+  /** Takes the arrival of a message with its times of capture and publication. */
+  arrived(nowMs, timeMs, publishMs) {
+    const number = Math.floor(nowMs / OFFSET_BUCKET_MS);
+    const offset = nowMs - publishMs;
+    const last = this.buckets[this.buckets.length - 1];
+    if (last && last.number === number) last.offset = Math.min(last.offset, offset);
+    else this.buckets.push({number, offset});
+    while (this.buckets[0].number <= number - OFFSET_BUCKETS) this.buckets.shift();
+
+    this.arrivals.push({nowMs, lag: nowMs - timeMs, timeMs});
+    while (this.arrivals.length > LAGS || this.arrivals[0].nowMs < nowMs - LAG_WINDOW_MS) {
+      this.arrivals.shift();
+    }
+  }
+
+  /** @return the server's time at the browser's. */
+  serverNow(nowMs) {
+    return nowMs - Math.min(...this.buckets.map((bucket) => bucket.offset));
+  }
+
+  /** How far behind now to play so that the next pose has nearly always arrived. */
+  wantedDelay() {
+    const lags = this.arrivals.map((arrival) => arrival.lag).sort((a, b) => a - b);
+    const gaps = [];
+    for (let i = 1; i < this.arrivals.length; ++i) {
+      const gap = this.arrivals[i].timeMs - this.arrivals[i - 1].timeMs;
+      if (gap > 0) gaps.push(gap);
+    }
+    gaps.sort((a, b) => a - b);
+    const wanted = quantile(lags, 0.95) + (gaps.length > 0 ? quantile(gaps, 0.5) : 0);
+    const offset = Math.min(...this.buckets.map((bucket) => bucket.offset));
+    return Math.max(lags[0], Math.min(wanted, offset + LARGEST_AGE_MS));
+  }
+
+  /** @return the time of capture to show; it runs smoothly, at most a tenth faster or slower. */
+  showTime(nowMs) {
+    if (this.arrivals.length === 0) return null;
+    const wanted = this.wantedDelay();
+    if (this.delay === null || Math.abs(wanted - this.delay) > JUMP_MS) {
+      this.delay = wanted;
+    } else {
+      const most = SLEW * Math.max(0, nowMs - this.lastMs);
+      this.delay += Math.max(-most, Math.min(most, wanted - this.delay));
+    }
+    this.lastMs = nowMs;
+    return nowMs - this.delay;
+  }
+}

@@ -1,0 +1,158 @@
+// The strip of cameras: each one's picture with silhouette and body drawn over it, and how it does.
+
+import {fitCanvas, make, setText} from './dom.js';
+import {CAMERA_LOOKS} from './camera_models.js';
+import {color, onTheme} from './theme.js';
+
+const SIDES = ['side-middle', 'side-left', 'side-right'];
+
+function path(context, points, isClosed) {
+  context.beginPath();
+  for (let i = 0; i + 1 < points.length; i += 2) {
+    // Pixel centres are at whole numbers, a canvas counts from the corner.
+    context.lineTo(points[i] + 0.5, points[i + 1] + 0.5);
+  }
+  if (isClosed) context.closePath();
+}
+
+/** Draws lines of the camera's picture over a canvas of any size. */
+function drawLines(context, picture, width, height) {
+  const scale = width / picture.widthPx;
+  context.save();
+  context.scale(scale, height / picture.heightPx);
+  context.lineJoin = 'round';
+  context.lineCap = 'round';
+  const stroke = (line, isClosed, style, widthPx) => {
+    path(context, line.points, isClosed);
+    context.strokeStyle = style;
+    context.lineWidth = widthPx / scale;
+    context.stroke();
+  };
+  for (const line of picture.silhouette) stroke(line, true, color('silhouette'), 1.3);
+  for (const line of picture.body) stroke(line, line.points.length > 4, 'rgba(0, 0, 0, 0.55)', 3.4);
+  for (const line of picture.body) {
+    stroke(line, line.points.length > 4, color(SIDES[line.side] ?? SIDES[0]), 1.8);
+  }
+  context.restore();
+}
+
+/** One camera of the strip. */
+class CameraCard {
+  constructor(camera, number, onChoose) {
+    this.name = camera.name;
+    this.picture = null; // the last one that was drawn, decoded
+    this.bitmap = null;
+    this.next = null;    // the newest that waits while one is being decoded
+    this.isDecoding = false;
+    this.canvas = make('canvas', {role: 'img', 'aria-label': `Picture of ${camera.name}`});
+    this.canvas.style.aspectRatio = `${camera.size_px[0]} / ${camera.size_px[1]}`;
+    this.veil = make('span', {class: 'veil'});
+    this.button = make('button', {class: 'picture', type: 'button', 'aria-pressed': 'false',
+      'aria-label': `View through ${camera.name}`}, this.canvas, this.veil);
+    this.button.addEventListener('click', () => onChoose(camera.name));
+    this.mark = make('span', {class: 'mark', 'aria-hidden': 'true'});
+    this.look = make('span', {class: 'look'});
+    this.facts = make('p', {class: 'facts'});
+    const key = number <= 9 ? make('kbd', {text: number, 'aria-hidden': 'true'}) : '';
+    this.element = make('li', {class: 'camera'}, this.button,
+        make('p', {class: 'camera-name'}, this.mark, make('strong', {text: camera.name}), this.look, key),
+        this.facts);
+  }
+
+  take(picture) {
+    this.next = picture;
+    if (!this.isDecoding) this.decode();
+  }
+
+  async decode() {
+    this.isDecoding = true;
+    while (this.next) {
+      const picture = this.next;
+      this.next = null;
+      try {
+        const bitmap = await createImageBitmap(new Blob([picture.jpeg], {type: 'image/jpeg'}));
+        this.bitmap?.close();
+        this.bitmap = bitmap;
+        this.picture = {...picture, jpeg: null};
+        this.draw();
+      } catch {
+        // A damaged picture is as good as none: the card tells how old the last one is.
+      }
+    }
+    this.isDecoding = false;
+  }
+
+  draw() {
+    if (!this.bitmap || this.canvas.clientWidth === 0) return;
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    const context = fitCanvas(this.canvas);
+    context.drawImage(this.bitmap, 0, 0, width, height);
+    drawLines(context, this.picture, width, height);
+  }
+
+  clear() {
+    this.next = null;
+    this.picture = null;
+    this.bitmap?.close();
+    this.bitmap = null;
+    fitCanvas(this.canvas);
+  }
+
+  /** @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or ''. */
+  tell({look, facts, veil}) {
+    const {mark, color: name} = CAMERA_LOOKS[look] ?? CAMERA_LOOKS['not known'];
+    setText(this.mark, mark);
+    this.element.dataset.tone = name;
+    setText(this.look, look === 'in the take' ? '' : look);
+    setText(this.facts, facts);
+    setText(this.veil, veil);
+    this.element.classList.toggle('old', veil !== '');
+  }
+}
+
+export class Pictures {
+  /** @param list the list's element; @param onChoose called with a camera's name. */
+  constructor(list, onChoose) {
+    this.list = list;
+    this.onChoose = onChoose;
+    this.cards = [];
+    const redraw = () => this.cards.forEach((card) => card.draw());
+    onTheme(redraw);
+    new ResizeObserver(redraw).observe(list);
+  }
+
+  setCameras(cameras) {
+    const names = cameras.map((camera) => camera.name).join('\n');
+    if (names === this.names) return;
+    this.names = names;
+    for (const card of this.cards) card.clear();
+    this.cards = cameras.map((camera, i) => new CameraCard(camera, i + 1, this.onChoose));
+    this.list.replaceChildren(...this.cards.map((card) => card.element));
+    this.list.style.setProperty('--cameras', cameras.length);
+  }
+
+  /** Takes a decoded picture. */
+  take(picture) {
+    this.cards[picture.camera]?.take(picture);
+  }
+
+  card(name) {
+    return this.cards.find((card) => card.name === name);
+  }
+
+  /** Marks the camera through which the studio is seen. */
+  choose(name) {
+    for (const card of this.cards) {
+      card.button.setAttribute('aria-pressed', String(card.name === name));
+    }
+  }
+
+  /** Draws a camera's picture into a canvas behind the scene. @return whether there is one. */
+  drawBehind(name, canvas, box) {
+    const card = this.card(name);
+    canvas.hidden = !box || !card?.bitmap;
+    if (canvas.hidden) return false;
+    fitCanvas(canvas).drawImage(card.bitmap, box.left, box.top, box.width, box.height);
+    return true;
+  }
+}

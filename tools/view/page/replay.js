@@ -1,0 +1,179 @@
+// A recorded take with its results: played, stepped, and compared with the truth.
+
+import {byId, setText} from './dom.js';
+import {Chunks} from './chunks.js';
+import {bindKeys} from './keys.js';
+import {interpolate} from './pose_history.js';
+import {ResultPanel} from './result_panel.js';
+import {figureColor} from './theme.js';
+import {frameAt, PlayHead} from './timeline.js';
+import {TimelineView} from './timeline_view.js';
+import {decodeAll, decodePicture, decodePose, STATES} from './wire.js';
+
+const RETRY_MS = 1000;
+
+async function fetchBytes(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url}: ${answer.status}`);
+  return answer.arrayBuffer();
+}
+
+/** Pictures of the newest wanted frame: one request at a time, never a queue. */
+class PictureFetcher {
+  constructor(onPictures) {
+    this.onPictures = onPictures;
+    this.wanted = '';
+    this.loaded = '';
+    this.isBusy = false;
+    this.failedMs = -Infinity;
+  }
+
+  async want(frame, result) {
+    this.wanted = `frame=${frame}&result=${result}`;
+    const isTooSoon = performance.now() < this.failedMs + RETRY_MS;
+    if (this.isBusy || this.wanted === this.loaded || isTooSoon) return;
+    this.isBusy = true;
+    const query = this.wanted;
+    try {
+      const buffer = await fetchBytes(`/pictures.bin?${query}`);
+      this.loaded = query;
+      this.onPictures(decodeAll(buffer, decodePicture), frame);
+    } catch {
+      this.failedMs = performance.now();
+    }
+    this.isBusy = false;
+  }
+}
+
+export class Replay {
+  constructor(scene, pictures, tools) {
+    Object.assign(this, {scene, pictures, tools});
+    this.shown = null;
+    this.over = 0;
+    this.hidden = new Set();
+    this.pictureTimes = new Map();
+    this.lastMs = null;
+  }
+
+  async start() {
+    const take = await (await fetch('/take.json')).json();
+    this.take = take;
+    this.head = new PlayHead(take.times_ms);
+    this.tools.setCameras(take.studio.cameras);
+    this.scene?.cameraModels.setLooks(new Map(Object.entries(this.cameraStates())));
+    this.tracks = take.results.map((result, k) => this.makeTrack(k, String(k), result.body,
+        {color: figureColor(k)}));
+    if (take.truth) {
+      this.tracks.push(this.makeTrack('truth', 'truth', take.results[0]?.body ??
+          {point_names: [], bones: []}, {color: 'truth', onlySticks: true}));
+    }
+    this.timeline = new TimelineView(take, this.head);
+    this.panel = new ResultPanel(take, {
+      onShow: (key, isOn) => isOn ? this.hidden.delete(key) : this.hidden.add(key),
+      onOver: (k) => this.over = k,
+    });
+    this.fetcher = new PictureFetcher((pictures, frame) => this.takePictures(pictures, frame));
+    this.bind();
+  }
+
+  makeTrack(key, query, body, options) {
+    const figure = this.scene?.figure(key, options);
+    figure?.setModel(body);
+    const chunks = new Chunks(this.take.times_ms.length, async (from, count) =>
+        decodeAll(await fetchBytes(`/poses.bin?result=${query}&from=${from}&count=${count}`), decodePose));
+    return {key, figure, chunks};
+  }
+
+  bind() {
+    const {head} = this;
+    bindKeys([' '], ['Space'], 'play or pause', () => head.toggle());
+    bindKeys(['ArrowLeft', 'ArrowRight'], ['←', '→'], 'frame back or on; with Shift ten',
+        (key, event) => head.step((key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)));
+    bindKeys(['Home', 'End'], ['Home', 'End'], 'first or last frame',
+        (key) => head.seek(key === 'Home' ? 0 : head.last));
+    bindKeys([',', '.'], [',', '.'], 'slower or faster', (key) => head.changeSpeed(key === ',' ? -1 : 1));
+  }
+
+  takePictures(pictures, frame) {
+    this.pictureTimes.clear();
+    this.pictureFrame = frame;
+    for (const picture of pictures) {
+      const camera = this.take.studio.cameras[picture.camera];
+      if (!camera) continue;
+      this.pictureTimes.set(camera.name, picture.timeMs);
+      this.pictures.take(picture);
+    }
+    this.tellCameras();
+  }
+
+  tellCameras() {
+    for (const card of this.pictures.cards) {
+      const timeMs = this.pictureTimes.get(card.name);
+      const facts = timeMs === undefined ? '' :
+          `${((timeMs - this.take.times_ms[0]) / 1000).toFixed(3)} s`;
+      const veil = timeMs === undefined ? `no picture at frame ${this.pictureFrame}` : '';
+      card.tell({look: 'in the take', facts, veil});
+    }
+  }
+
+  /** @return the pose of a track at a time within the take, null where it is not there. */
+  poseAt({chunks}, timeMs) {
+    const {timesMs} = this.head;
+    const frame = frameAt(timesMs, timeMs);
+    const pose = chunks.get(frame);
+    const next = chunks.get(frame + 1);
+    if (!pose || !next || timesMs[frame] >= timeMs) return pose;
+    return interpolate(pose, next, (timeMs - timesMs[frame]) / (timesMs[frame + 1] - timesMs[frame]));
+  }
+
+  draw(nowMs) {
+    this.head.advance(nowMs - (this.lastMs ?? nowMs));
+    this.lastMs = nowMs;
+    const {frame, timeMs} = this.head;
+    let isLoading = false;
+    this.tracks.forEach((track) => {
+      track.chunks.want(frame);
+      const pose = this.poseAt(track, timeMs);
+      isLoading ||= pose === null;
+      this.drawTrack(track, pose, timeMs);
+    });
+    const first = this.tracks[0] && this.poseAt(this.tracks[0], timeMs);
+    this.shown = first?.hasPose ? first : null;
+    byId('old').hidden = !isLoading;
+    if (isLoading) setText(byId('old'), 'poses are being loaded');
+    this.fetcher.want(frame, this.over);
+    this.timeline.draw();
+    this.panel.show(frame, this.head.last);
+  }
+
+  drawTrack({key, figure, chunks}, pose, timeMs) {
+    if (!figure) return;
+    figure.show(this.hidden.has(key) ? null : pose);
+    figure.showTrails(timeMs, (t) => t < this.head.timesMs[0] ? null : this.poseAt({chunks}, t));
+  }
+
+  state() {
+    return STATES[this.take?.results[0]?.states[this.head.frame]] ?? '';
+  }
+
+  shownPose() {
+    return this.shown;
+  }
+
+  poseOf(frame) {
+    return this.tracks?.[0]?.chunks.get(frame) ?? null;
+  }
+
+  shownFrame() {
+    return this.head?.frame ?? null;
+  }
+
+  pictureFrames() {
+    return Object.fromEntries(this.pictureTimes);
+  }
+
+  cameraStates() {
+    return Object.fromEntries((this.take?.studio.cameras ?? []).map((camera) =>
+        [camera.name, 'in the take']));
+  }
+}

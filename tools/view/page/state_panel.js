@@ -1,0 +1,118 @@
+// State at a glance: the state's word, whether all is good, complaints word for word, and the figures.
+
+import {byId, make, setText} from './dom.js';
+import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
+
+const LEAST_DISK_BYTES = 5e9;
+
+/** What to say first: {tone: 'ok' | 'warn' | 'bad' | 'muted', text, lines}. Pure, for tests. */
+export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
+  if (!isOpen) {
+    const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
+    return {tone: 'bad', text: `No connection to mocap view${since}. It is tried again.`, lines: []};
+  }
+  if (silence) return {tone: 'bad', text: silence, lines: []};
+  if (serviceAgeS === null) return {tone: 'muted', text: 'Waiting for mocapd.', lines: []};
+  if (serviceAgeS > 3.5) {
+    return {tone: 'bad', text: `mocapd has told nothing for ${ageText(serviceAgeS)}.`, lines: complaints};
+  }
+  if (complaints.length > 0) return {tone: 'warn', text: '', lines: complaints};
+  if (poseAgeS === null || poseAgeS > 1) {
+    return {tone: 'bad', lines: [], text: poseAgeS === null ? 'No pose has come yet.' :
+        `No pose has come for ${ageText(poseAgeS)}.`};
+  }
+  return {tone: 'ok', text: 'all is good', lines: []};
+}
+
+export class StatePanel {
+  constructor() {
+    this.said = '';
+    this.word = '';
+  }
+
+  /** Shows the state's word. */
+  setState(state) {
+    if (this.word === state) return;
+    this.word = state;
+    setText(byId('state-word'), state);
+    byId('state').dataset.state = state;
+  }
+
+  setVerdict({tone, text, lines}) {
+    const block = byId('verdict');
+    block.dataset.tone = tone;
+    setText(byId('verdict-text'), text);
+    byId('verdict-text').hidden = text === '';
+    const list = byId('complaints');
+    while (list.children.length > lines.length) list.lastChild.remove();
+    lines.forEach((line, i) => {
+      if (!list.children[i]) list.append(make('li'));
+      setText(list.children[i], line);
+    });
+    this.say([text, ...lines]);
+  }
+
+  /** Tells screen readers what is new, but not that a number in it has changed. */
+  say(lines) {
+    const said = withoutNumbers(lines.join('\n'));
+    if (said === this.said) return;
+    this.said = said;
+    setText(byId('announce'), lines.filter((line) => line !== '').join('. '));
+  }
+
+  /** Shows notices that are no complaints, such as why there are no pictures. */
+  setNotice({pictures}) {
+    setText(byId('no-pictures'), pictures);
+    byId('no-pictures').hidden = pictures === '';
+  }
+
+  setStatus(status) {
+    setText(byId('rate'), fixed(status.sets_per_second, 1));
+    setText(byId('dropped'), status.sets_dropped);
+    setText(byId('partial'), status.sets_partial);
+    setText(byId('spread'), `${fixed(status.spread_p50_ms, 2)} ms`);
+    const streaming = status.cameras.filter((camera) => camera.state === 'streaming').length;
+    setText(byId('camera-count'), `${streaming} of ${status.cameras.length}`);
+  }
+
+  /** @param pose the newest pose; null where nobody is there. */
+  setFit(pose) {
+    setText(byId('fit'), pose ? fixed(pose.residualMm, 1) : '–');
+    setText(byId('voxel-count'), pose ? pose.voxels : '–');
+  }
+
+  setService(service, serverNowS) {
+    const age = (madeS) => madeS > 0 ? ageText(serverNowS - madeS) : 'not known';
+    setText(byId('nominal'), `of ${fixed(service.fps_nominal, 0)}`);
+    setText(byId('disk'), bytesText(service.bytes_free));
+    byId('disk').dataset.tone = service.bytes_free < LEAST_DISK_BYTES ? 'warn' : '';
+    setText(byId('calibration'), age(service.calibration_made_s));
+    byId('calibration').title = service.calibration;
+    setText(byId('background'), age(service.background_made_s));
+    byId('background').title = service.background;
+    setText(byId('up'), ageText(service.up_seconds));
+    setText(byId('version'), `mocapd ${service.version}`);
+    this.setRecording(service.recording);
+  }
+
+  setRecording({state, folder, seconds, dropped}) {
+    const block = byId('recording');
+    block.hidden = state === 'none';
+    block.dataset.state = state;
+    const name = folder.split('/').filter((part) => part !== '').at(-1) ?? '';
+    const words = {running: 'recording', complete: 'recorded', failed: 'recording failed'}[state];
+    const lost = dropped > 0 ? `, ${dropped} frames had no room` : '';
+    setText(byId('recording-text'), `${words ?? ''} ${name} · ${clockText(seconds)}${lost}`);
+  }
+
+  setBody(body) {
+    byId('sizes').hidden = false;
+    setText(byId('stature'), `${fixed(body.stature_mm)} mm`);
+    const rows = Object.entries(body.sizes).map(([name, value]) =>
+        [make('dt', {text: partText(name)}), make('dd', {text: `${fixed(value)} mm`})]);
+    byId('size-list').replaceChildren(...rows.flat());
+    const legend = body.part_names.map((name, i) =>
+        make('li', {}, make('span', {class: `swatch part-${i}`}), partText(name)));
+    byId('part-legend').replaceChildren(...legend);
+  }
+}

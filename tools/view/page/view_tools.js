@@ -1,0 +1,81 @@
+// What is shown in the scene, and from where: checkboxes, the list of cameras, keys.
+
+import {byId, make} from './dom.js';
+import {bindKeys} from './keys.js';
+import {color} from './theme.js';
+
+const LAYER_KEYS = {b: 'body', j: 'joints', v: 'voxels', t: 'trails', c: 'cameras'};
+
+export class ViewTools {
+  /** @param scene the 3-D scene, or null where there is no WebGL. */
+  constructor(scene, pictures) {
+    this.scene = scene;
+    this.pictures = pictures;
+    this.names = [];
+    for (const box of byId('layers').querySelectorAll('input')) {
+      box.addEventListener('change', () => scene?.setLayer(box.dataset.layer, box.checked));
+    }
+    byId('view-from').addEventListener('change', ({target}) => this.seeThrough(target.value || null));
+    this.bind();
+  }
+
+  bind() {
+    for (const [key, layer] of Object.entries(LAYER_KEYS)) {
+      bindKeys([key], [key.toUpperCase()], `${layer} shown or hidden`, () => this.toggleLayer(layer));
+    }
+    bindKeys([...'123456789'], ['1', '…', '9'], 'view through a camera',
+        (key) => this.seeThrough(this.names[key - 1] ?? null));
+    bindKeys(['0', 'Escape'], ['0', 'Esc'], 'free view', () => this.seeThrough(null));
+    bindKeys([...'wasd'], ['W', 'A', 'S', 'D'], 'turn the view', (key) => this.scene?.orbit.key(key));
+    bindKeys([...'WASD'], ['Shift', 'W', 'A', 'S', 'D'], 'move the view',
+        (key) => this.scene?.orbit.key(key));
+    bindKeys(['+', '=', '-'], ['+', '−'], 'zoom', (key) => this.scene?.orbit.key(key));
+    bindKeys(['r'], ['R'], 'view of the whole studio', () => {
+      this.seeThrough(null);
+      this.scene?.orbit.reset();
+    });
+    bindKeys(['f'], ['F'], 'look at the person', () => this.lookAtPerson());
+  }
+
+  toggleLayer(layer) {
+    byId('layers').querySelector(`[data-layer=${layer}]`).click();
+  }
+
+  setCameras(cameras) {
+    this.names = cameras.map((camera) => camera.name);
+    this.scene?.setCameras(cameras);
+    this.pictures.setCameras(cameras);
+    const list = byId('view-from');
+    list.replaceChildren(make('option', {text: 'Free view', value: ''}),
+        ...this.names.map((name) => make('option', {text: `From ${name}`, value: name})));
+    list.value = this.scene?.through ?? '';
+  }
+
+  /** Sees through a camera, or freely; a second time the same camera: freely again. */
+  seeThrough(name) {
+    const next = name === this.scene?.through ? null : name;
+    this.scene?.seeThrough(next);
+    this.pictures.choose(next);
+    byId('view-from').value = next ?? '';
+    byId('stage').classList.toggle('through', next !== null);
+  }
+
+  lookAtPerson() {
+    const shown = [...this.scene?.figures.values() ?? []].find((figure) => figure.visible);
+    if (!shown) return;
+    this.seeThrough(null);
+    this.scene.orbit.target = [...shown.shown.points.slice(0, 3)];
+    this.scene.orbit.zoom(2800 / this.scene.orbit.distance);
+  }
+
+  /** @return the colour in which a camera stands in the scene. */
+  cameraColor(name) {
+    return this.scene ? color(this.scene.cameraModels.lookOf(name).color) : null;
+  }
+
+  draw(nowMs) {
+    if (!this.scene) return;
+    this.scene.render(nowMs);
+    this.pictures.drawBehind(this.scene.through, byId('behind'), this.scene.pictureBox());
+  }
+}

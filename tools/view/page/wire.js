@@ -1,0 +1,115 @@
+// Decodes the binary messages of `mocap view`. Little-endian, as every machine that runs a browser.
+
+/** Names of the states by their number in a pose message. */
+export const STATES = ['searching', 'acquiring', 'tracking', 'lost'];
+
+export const POSE = 1;
+export const VOXELS = 2;
+export const PICTURE = 3;
+
+const POSE_HEADER_BYTES = 320;
+const CAPSULE_FLOATS = 8;
+const VOXELS_HEADER_BYTES = 32;
+const PICTURE_HEADER_BYTES = 32;
+const POINT_COUNT = 23;
+
+function require(buffer, end) {
+  if (end > buffer.byteLength) {
+    throw new RangeError(`message ends at ${buffer.byteLength}, wants ${end} bytes`);
+  }
+}
+
+function floats(buffer, begin, count) {
+  return new Float32Array(buffer.slice(begin, begin + 4 * count));
+}
+
+/** @return {number} the kind of a binary message, 0 if there is none. */
+export function kindOf(buffer) {
+  return buffer.byteLength > 0 ? new Uint8Array(buffer, 0, 1)[0] : 0;
+}
+
+/** Decodes the pose at `begin`; `end` tells where the next message begins. */
+export function decodePose(buffer, begin = 0) {
+  require(buffer, begin + POSE_HEADER_BYTES);
+  const view = new DataView(buffer, begin);
+  const capsuleCount = view.getUint16(6, true);
+  const end = begin + POSE_HEADER_BYTES + 4 * CAPSULE_FLOATS * capsuleCount;
+  require(buffer, end);
+  return {
+    person: view.getUint8(1),
+    state: STATES[view.getUint8(2)] ?? 'searching',
+    hasPose: view.getUint8(3) !== 0,
+    timeMs: view.getFloat64(8, true),
+    publishMs: view.getFloat64(16, true),
+    frame: view.getFloat64(24, true),
+    residualMm: view.getFloat32(32, true),
+    voxels: view.getUint32(36, true),
+    points: floats(buffer, begin + 40, 3 * POINT_COUNT),
+    camerasUsed: view.getUint32(316, true),
+    capsules: floats(buffer, begin + POSE_HEADER_BYTES, CAPSULE_FLOATS * capsuleCount),
+    end,
+  };
+}
+
+/** Decodes surface voxels: `cells` has x, y, z and part of each; part 65535 is none. */
+export function decodeVoxels(buffer) {
+  require(buffer, VOXELS_HEADER_BYTES);
+  const view = new DataView(buffer);
+  const count = view.getUint32(4, true);
+  require(buffer, VOXELS_HEADER_BYTES + 8 * count);
+  return {
+    person: view.getUint8(1),
+    count,
+    timeMs: view.getFloat64(8, true),
+    sizeMm: view.getFloat32(16, true),
+    originMm: [20, 24, 28].map((at) => view.getFloat32(at, true)),
+    cells: new Uint16Array(buffer, VOXELS_HEADER_BYTES, 4 * count),
+  };
+}
+
+/** Splits `{n, class, x0, y0, …}` sequences into lines; what is cut off is left out. */
+export function splitLines(values) {
+  const lines = [];
+  for (let at = 0; at + 2 <= values.length;) {
+    const count = values[at];
+    const end = at + 2 + 2 * count;
+    if (!(count >= 1) || end > values.length) break;
+    lines.push({side: values[at + 1], points: values.subarray(at + 2, end)});
+    at = end;
+  }
+  return lines;
+}
+
+/** Decodes the picture at `begin`; `end` tells where the next message begins. */
+export function decodePicture(buffer, begin = 0) {
+  require(buffer, begin + PICTURE_HEADER_BYTES);
+  const view = new DataView(buffer, begin);
+  const silhouetteFloats = view.getUint32(16, true);
+  const bodyFloats = view.getUint32(20, true);
+  const jpegBytes = view.getUint32(24, true);
+  const silhouette = begin + PICTURE_HEADER_BYTES;
+  const body = silhouette + 4 * silhouetteFloats;
+  const jpeg = body + 4 * bodyFloats;
+  require(buffer, jpeg + jpegBytes);
+  return {
+    camera: view.getUint8(1),
+    widthPx: view.getUint16(2, true),
+    heightPx: view.getUint16(4, true),
+    timeMs: view.getFloat64(8, true),
+    silhouette: splitLines(floats(buffer, silhouette, silhouetteFloats)),
+    body: splitLines(floats(buffer, body, bodyFloats)),
+    jpeg: new Uint8Array(buffer, jpeg, jpegBytes),
+    end: begin + 8 * Math.ceil((jpeg + jpegBytes - begin) / 8),
+  };
+}
+
+/** Decodes messages that stand one after the other. */
+export function decodeAll(buffer, decode) {
+  const messages = [];
+  for (let at = 0; at < buffer.byteLength;) {
+    const message = decode(buffer, at);
+    messages.push(message);
+    at = message.end;
+  }
+  return messages;
+}

@@ -1,0 +1,16 @@
+// The page of mocap view, put into the program when it is built.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace mocap {
+
+struct BuiltinPageFile {
+  std::string_view name;
+  std::string_view text;
+};
+
+std::span<const BuiltinPageFile> BuiltinPageFiles();
+
+}  // namespace mocap

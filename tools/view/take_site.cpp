@@ -1,0 +1,271 @@
+#include "tools/view/take_site.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "daemon/messages/messages.h"
+#include "daemon/messages/reduced_picture.h"
+#include "drivers/take/input_file.h"
+#include "tools/report/body_outline.h"
+#include "tools/results/export_axes.h"
+#include "tools/view/camera_json.h"
+#include "tools/view/drawn_body.h"
+#include "tools/view/json_text.h"
+#include "tools/view/picture_lines.h"
+#include "tools/view/wire.h"
+
+namespace mocap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNsPerMs = 1e6;
+constexpr std::size_t kMostPosesAtOnce = 2000;
+constexpr int kWidest_px = 800;
+constexpr int kJpegQuality = 85;
+constexpr int kTruthPerson = 255;
+
+/// A number of a request, no greater than `most`; 0 where there is none.
+std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::size_t most) {
+  const auto found = request.query.find(name);
+  std::size_t number = 0;
+  if (found == request.query.end()) return 0;
+  const std::string& text = found->second;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return std::min(number, most);
+}
+
+/// Folders of a result: itself, or one a person.
+std::vector<std::filesystem::path> FoldersOf(const std::filesystem::path& result) {
+  std::vector<std::filesystem::path> people;
+  std::error_code error;
+  for (int person = 1;; ++person) {
+    const std::filesystem::path folder = result / ("person-" + std::to_string(person));
+    if (!std::filesystem::is_directory(folder, error)) break;
+    people.push_back(folder);
+  }
+  return people.empty() ? std::vector{result} : people;
+}
+
+std::string NameOf(const std::filesystem::path& folder) {
+  const std::string name = folder.filename().string();
+  return name.starts_with("person-") ? folder.parent_path().filename().string() + '/' + name : name;
+}
+
+/// The place nearest to each of `times` within a tolerance; -1: there is none.
+template <typename Rows>
+std::vector<int> NearestRows(const std::vector<std::int64_t>& times, const Rows& rows,
+                             std::int64_t tolerance_ns) {
+  std::vector<int> nearest;
+  std::size_t row = 0;
+  const auto apart_ns = [&](std::size_t of, std::int64_t time_ns) {
+    return std::abs(rows[of].timestamp_ns - time_ns);
+  };
+  for (const std::int64_t time_ns : times) {
+    while (row + 1 < rows.size() && apart_ns(row + 1, time_ns) <= apart_ns(row, time_ns)) ++row;
+    const bool is_near = row < rows.size() && apart_ns(row, time_ns) <= tolerance_ns;
+    nearest.push_back(is_near ? static_cast<int>(row) : -1);
+  }
+  return nearest;
+}
+
+Json ScoredJoints() {
+  Json joints = Json::array();
+  for (const Point point : kScoredPoints) {
+    joints.push_back(kPointNames[static_cast<std::size_t>(point)]);
+  }
+  return joints;
+}
+
+/// Errors of each frame; what is not known is none.
+struct FrameErrors {
+  explicit FrameErrors(std::size_t frames)
+      : mean_mm(frames, kUnknown),
+        joint_mm(kScoredPoints.size(), std::vector<double>(frames, kUnknown)) {}
+
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> mean_mm;
+  std::vector<std::vector<double>> joint_mm;  ///< Of each scored joint.
+};
+
+FrameErrors ErrorsOf(const Accuracy& accuracy, const std::vector<int>& rows) {
+  FrameErrors errors(rows.size());
+  std::map<int, std::size_t> frame_of_row;
+  for (std::size_t frame = 0; frame < rows.size(); ++frame) frame_of_row[rows[frame]] = frame;
+  for (const FrameError& error : accuracy.frames) {
+    const auto found = frame_of_row.find(error.pose);
+    if (found == frame_of_row.end()) continue;
+    errors.mean_mm[found->second] = error.point_mm.mean();
+    for (std::size_t joint = 0; joint < kScoredPoints.size(); ++joint) {
+      errors.joint_mm[joint][found->second] = error.point_mm[static_cast<int>(joint)];
+    }
+  }
+  return errors;
+}
+
+Json ResultJson(const std::string& name, const Evaluation& evaluation,
+                const std::vector<int>& rows) {
+  Json states = Json::array(), residuals = Json::array();
+  for (const int at : rows) {
+    const PoseRow* row = at < 0 ? nullptr : &evaluation.result.poses[static_cast<std::size_t>(at)];
+    states.push_back(row ? Json(static_cast<int>(row->state)) : Json());
+    residuals.push_back(row && row->has_pose ? Json(row->residual_mm) : Json());
+  }
+  Json json{{"name", name},
+            {"body", Json::parse(BodyJson(evaluation.result.body, PartsFromPoints()))},
+            {"states", std::move(states)},
+            {"residual_mm", std::move(residuals)},
+            {"error_mm", Json::array()},
+            {"joints", Json::array()},
+            {"joint_error_mm", Json::array()}};
+  if (!evaluation.accuracy) return json;
+  const FrameErrors errors = ErrorsOf(*evaluation.accuracy, rows);
+  json["error_mm"] = errors.mean_mm;
+  json["joints"] = ScoredJoints();
+  json["joint_error_mm"] = errors.joint_mm;
+  return json;
+}
+
+}  // namespace
+
+TakeSite::TakeSite(const std::filesystem::path& take,
+                   const std::vector<std::filesystem::path>& results)
+    : pictures_(take), times_ns_(pictures_.Times()), truth_(ReadTakeTruth(take)) {
+  for (const std::filesystem::path& result : results) {
+    for (const std::filesystem::path& folder : FoldersOf(PlainFolder(result))) {
+      results_.push_back({NameOf(folder), Evaluate(ReadResult(folder), truth_), {}});
+    }
+  }
+  if (!results_.empty()) {
+    times_ns_.clear();
+    for (const PoseRow& row : results_.front().evaluation.result.poses) {
+      times_ns_.push_back(row.timestamp_ns);
+    }
+  }
+  const std::int64_t tolerance_ns = std::llround(0.5e9 / pictures_.fps_nominal());
+  for (ShownResult& result : results_) {
+    result.rows = NearestRows(times_ns_, result.evaluation.result.poses, tolerance_ns);
+  }
+}
+
+ViewReply TakeSite::Answer(const ViewRequest& request) {
+  if (request.method != "GET") return {404, "", ""};
+  if (request.path == "/take.json") return {200, "application/json", TakeJson()};
+  if (request.path == "/poses.bin") return {200, "application/octet-stream", Poses(request)};
+  if (request.path == "/pictures.bin") return {200, "application/octet-stream", Pictures(request)};
+  return {404, "", ""};
+}
+
+const PoseRow* TakeSite::RowOf(const ShownResult& result, std::size_t frame) const {
+  const int row = result.rows[frame];
+  return row < 0 ? nullptr : &result.evaluation.result.poses[static_cast<std::size_t>(row)];
+}
+
+std::string TakeSite::TakeJson() const {
+  Json times = Json::array();
+  for (const std::int64_t time_ns : times_ns_) {
+    times.push_back(static_cast<double>(time_ns) / kNsPerMs);
+  }
+  Json json{{"name", pictures_.name()},
+            {"fps", pictures_.fps_nominal()},
+            {"studio", Json::parse(StudioJson(pictures_.name(), pictures_.cameras(),
+                                              pictures_.FirstPoses()))},
+            {"times_ms", std::move(times)},
+            {"results", Json::array()},
+            {"truth", nullptr}};
+  if (truth_) json["truth"] = {{"joints", ScoredJoints()}};
+  for (const ShownResult& result : results_) {
+    json["results"].push_back(ResultJson(result.name, result.evaluation, result.rows));
+  }
+  return JsonText(json);
+}
+
+std::string TakeSite::Poses(const ViewRequest& request) const {
+  const std::size_t from = NumberOf(request, "from", times_ns_.size());
+  const std::size_t count = NumberOf(request, "count", kMostPosesAtOnce);
+  const auto which = request.query.find("result");
+  const bool is_truth = which != request.query.end() && which->second == "truth";
+  const std::size_t result = NumberOf(request, "result", results_.size());
+  std::string bytes;
+  for (std::size_t frame = from; frame < std::min(from + count, times_ns_.size()); ++frame) {
+    if (is_truth) bytes += TruthOf(frame);
+    if (!is_truth && result < results_.size()) bytes += PoseOf(results_[result], frame);
+  }
+  return bytes;
+}
+
+std::string TakeSite::PoseOf(const ShownResult& result, std::size_t frame) const {
+  DrawnPose drawn;
+  if (const PoseRow* row = RowOf(result, frame)) {
+    drawn.row = *row;
+    drawn.capsules = CapsulesFromPoints(*row, result.evaluation.result.body.sizes);
+  }
+  drawn.row.frame = static_cast<std::int64_t>(frame);
+  drawn.row.timestamp_ns = times_ns_[frame];
+  return PoseBytes(drawn);
+}
+
+std::string TakeSite::TruthOf(std::size_t frame) const {
+  DrawnPose drawn;
+  drawn.person = kTruthPerson;
+  drawn.row.frame = static_cast<std::int64_t>(frame);
+  drawn.row.timestamp_ns = times_ns_[frame];
+  drawn.row.points_W.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!truth_) return PoseBytes(drawn);
+  const std::int64_t tolerance_ns = std::llround(0.5e9 / pictures_.fps_nominal());
+  const int nearest = NearestRows({times_ns_[frame]}, truth_->frames, tolerance_ns).front();
+  if (nearest < 0) return PoseBytes(drawn);
+  drawn.row.state = CaptureState::kTracking;
+  drawn.row.has_pose = true;
+  const ScoredFrame& truth = truth_->frames[static_cast<std::size_t>(nearest)];
+  for (int i = 0; i < kScoredPointCount; ++i) {
+    drawn.row.points_W.col(static_cast<int>(kScoredPoints[static_cast<std::size_t>(i)])) =
+        truth.points_W.col(i);
+  }
+  return PoseBytes(drawn);
+}
+
+std::string TakeSite::Pictures(const ViewRequest& request) {
+  if (times_ns_.empty()) return {};
+  const std::size_t frame = NumberOf(request, "frame", times_ns_.size() - 1);
+  const std::size_t result = NumberOf(request, "result", results_.size());
+  const PoseRow* row = result < results_.size() ? RowOf(results_[result], frame) : nullptr;
+  const BodySizes* sizes =
+      row && IsTracked(*row) ? &results_[result].evaluation.result.body.sizes : nullptr;
+  const std::scoped_lock lock(mutex_);
+  const std::vector<TakePicture> pictures = pictures_.At(times_ns_[frame]);
+  std::string bytes;
+  for (const TakePicture& picture : pictures) {
+    const CameraCalibration& camera = pictures_.cameras()[static_cast<std::size_t>(picture.camera)];
+    std::vector<BodyLine> body;
+    if (sizes && AreSizes(*sizes)) body = PartOutlines(*row, *sizes, camera, picture.X_CW);
+    bytes += DrawnOver(picture, std::move(body));
+  }
+  const VoxelGrid grid = pictures_.Carve(pictures);
+  if (grid.size().isZero()) return bytes;
+  voxels_t voxels;
+  FillVoxelGrid(grid, times_ns_[frame], static_cast<std::int64_t>(frame), voxels);
+  return bytes + VoxelBytes(voxels, 0);
+}
+
+std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<BodyLine> body) {
+  ReducePicture(picture.image, ReductionFor(picture.image.width(), kWidest_px), reduced_);
+  encoder_.Encode(reduced_.view(), kJpegQuality, jpeg_);
+  DrawnPicture drawn{.camera = picture.camera,
+                     .width_px = picture.image.width(),
+                     .height_px = picture.image.height(),
+                     .capture_ms = static_cast<double>(picture.capture_ns) / kNsPerMs,
+                     .silhouette = {},
+                     .body = std::move(body),
+                     .jpeg = jpeg_};
+  if (picture.silhouette) drawn.silhouette = SilhouetteLines(*picture.silhouette, 1);
+  return PictureBytes(drawn);
+}
+
+}  // namespace mocap

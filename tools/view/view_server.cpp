@@ -1,0 +1,394 @@
+#include "tools/view/view_server.h"
+
+// clang-format off
+#include <utility>  // Boost 1.74 needs it and does not say so.
+// clang-format on
+
+#include <systemd/sd-daemon.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <csignal>
+#include <cstdio>
+#include <list>
+#include <set>
+#include <vector>
+
+#include "core/errors.h"
+#include "drivers/clock.h"
+#include "drivers/printable_text.h"
+#include "tools/view/access.h"
+#include "tools/view/refusals.h"
+
+namespace mocap {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+using Request = http::request<http::string_body>;
+using Response = http::response<http::string_body>;
+using Stream = websocket::stream<beast::tcp_stream>;
+template <typename T>
+using Task = asio::awaitable<T>;
+
+/// Connections at a time; a browser holds some six. Beyond it, the one that has waited longest for
+/// its request goes.
+constexpr std::size_t kMostConnections = 128;
+constexpr std::size_t kMostPages = 64;
+/// Who says nothing for so long is left.
+constexpr std::chrono::seconds kPatience{10};
+/// A page that is gone without a word is noticed by its missing pongs.
+constexpr std::chrono::seconds kPagePatience{20};
+constexpr std::uint32_t kMostHeaderBytes = 8192;
+constexpr std::uint64_t kMostBodyBytes = 4096;
+constexpr std::size_t kMostPageMessageBytes = 1024;
+constexpr std::size_t kAnswerThreads = 3;
+constexpr int kWaitingConnections = 128;
+constexpr std::chrono::milliseconds kTellPeriod{500};
+
+/// Nothing but what this address serves may run in the page or be reached by it.
+constexpr const char* kContentPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+int HexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string PercentDecoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_code = text[i] == '%' && i + 2 < text.size() && HexDigit(text[i + 1]) >= 0 &&
+                         HexDigit(text[i + 2]) >= 0;
+    decoded +=
+        is_code ? static_cast<char>(HexDigit(text[i + 1]) * 16 + HexDigit(text[i + 2])) : text[i];
+    if (is_code) i += 2;
+  }
+  return decoded;
+}
+
+/// Path and query of a target.
+void SplitTarget(std::string_view target, ViewRequest& request) {
+  const std::size_t mark = std::min(target.find('?'), target.size());
+  request.path = target.substr(0, mark);
+  std::string_view rest = target.substr(std::min(mark + 1, target.size()));
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::string_view pair = rest.substr(0, end);
+    const std::size_t equals = std::min(pair.find('='), pair.size());
+    request.query[PercentDecoded(pair.substr(0, equals))] =
+        PercentDecoded(pair.substr(std::min(equals + 1, pair.size())));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+Response Respond(const Request& request, int status, const std::string& type, std::string body) {
+  Response response(static_cast<http::status>(status), request.version());
+  response.set("Content-Security-Policy", kContentPolicy);
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  response.set("Cross-Origin-Opener-Policy", "same-origin");
+  response.set(http::field::cache_control, "no-store");
+  if (!type.empty()) response.set(http::field::content_type, type);
+  response.keep_alive(request.keep_alive());
+  response.body() = std::move(body);
+  response.prepare_payload();
+  return response;
+}
+
+Response Refuse(const Request& request, int status, const std::string& why) {
+  return Respond(request, status, "text/plain; charset=utf-8", why + "\n");
+}
+
+tcp::acceptor OpenPort(asio::io_context& io, std::uint16_t port) {
+  if (sd_listen_fds(0) >= 1) return tcp::acceptor(io, tcp::v4(), SD_LISTEN_FDS_START);
+  tcp::acceptor acceptor(io, tcp::v4());
+  acceptor.set_option(tcp::acceptor::reuse_address(true));
+  ErrorCode error;
+  acceptor.bind({asio::ip::address_v4::loopback(), port}, error);
+  if (!error) acceptor.listen(kWaitingConnections, error);
+  if (error) {
+    throw SetupError("127.0.0.1:" + std::to_string(port) + ": cannot be listened on: " +
+                     error.message() + "; --port with another one is wanted, or 0 for any");
+  }
+  return acceptor;
+}
+
+}  // namespace
+
+class ViewServer::Impl {
+ public:
+  explicit Impl(Options options)
+      : options_(std::move(options)), acceptor_(OpenPort(io_, options_.port)) {}
+
+  void Run() {
+    asio::signal_set signals(io_, SIGINT, SIGTERM);
+    signals.async_wait([this](ErrorCode, int) { io_.stop(); });
+    asio::co_spawn(io_, Accept(), asio::detached);
+    Every(kTellPeriod, [this] {
+      const std::string line = refusals_.Line(SteadyNs());
+      if (!line.empty()) std::fprintf(stderr, "mocap view: %s\n", Printable(line).c_str());
+    });
+    io_.run();
+    pool_.stop();
+  }
+
+  void Every(std::chrono::milliseconds period, std::function<void()> call) {
+    asio::co_spawn(io_, Repeat(period, std::move(call)), asio::detached);
+  }
+
+  void OnReadable(int descriptor, std::function<void()> call) {
+    asio::co_spawn(io_, Read(dup(descriptor), std::move(call)), asio::detached);
+  }
+
+  void Aside(std::function<void()> work, std::function<void()> then) {
+    asio::post(pool_, [this, work = std::move(work), then = std::move(then)]() mutable {
+      work();
+      asio::post(io_, std::move(then));
+    });
+  }
+
+  void Put(std::size_t slot, LiveMessage message) {
+    board_.Put(slot, std::move(message));
+    for (asio::steady_timer* waiting : waiting_) waiting->cancel();
+  }
+  void Clear(std::size_t slot) { board_.Clear(slot); }
+  std::size_t live_pages() const { return board_.readers(); }
+  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+ private:
+  /// A connection whose request is awaited or answered.
+  struct Connection {
+    explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
+    beast::tcp_stream stream;
+  };
+  using Place = std::list<std::shared_ptr<Connection>>::iterator;
+
+  static Task<void> Repeat(std::chrono::milliseconds period, std::function<void()> call) {
+    asio::steady_timer timer(co_await asio::this_coro::executor);
+    for (;;) {
+      timer.expires_after(period);
+      co_await timer.async_wait(asio::use_awaitable);
+      call();
+    }
+  }
+
+  static Task<void> Read(int descriptor, std::function<void()> call) {
+    asio::posix::stream_descriptor readable(co_await asio::this_coro::executor, descriptor);
+    for (;;) {
+      co_await readable.async_wait(asio::posix::descriptor_base::wait_read, asio::use_awaitable);
+      call();
+    }
+  }
+
+  Task<void> Accept() {
+    for (;;) {
+      ErrorCode error;
+      tcp::socket socket =
+          co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
+      if (error) {
+        // No descriptor is left: those that wait make room.
+        refusals_.Add(error.message());
+        MakeRoom();
+        asio::steady_timer pause(io_, kTellPeriod);
+        co_await pause.async_wait(asio::use_awaitable);
+        continue;
+      }
+      if (connections_.size() >= kMostConnections) MakeRoom();
+      const auto place =
+          connections_.insert(connections_.end(), std::make_shared<Connection>(std::move(socket)));
+      asio::co_spawn(io_, Attend(place), asio::detached);
+    }
+  }
+
+  void MakeRoom() {
+    if (connections_.empty()) return;
+    refusals_.Add("a connection that waited longest, of too many");
+    ErrorCode ignored;
+    connections_.front()->stream.socket().close(ignored);
+  }
+
+  Task<void> Attend(Place place) {
+    const std::shared_ptr<Connection> connection = *place;
+    std::optional<Request> upgrade;
+    try {
+      upgrade = co_await ServeRequests(*connection);
+    } catch (const boost::system::system_error& error) {
+      NoteEnd(error.code());
+    }
+    connections_.erase(place);
+    if (upgrade) co_await ServePage(std::move(connection->stream), std::move(*upgrade));
+  }
+
+  void NoteEnd(ErrorCode error) {
+    if (error == beast::error::timeout) refusals_.Add("a connection without a request");
+    const bool is_malformed =
+        error != http::error::end_of_stream &&
+        error.category() == http::make_error_code(http::error::end_of_stream).category();
+    if (is_malformed) refusals_.Add("a request: " + error.message());
+  }
+
+  /// @return  a request to become a WebSocket.
+  Task<std::optional<Request>> ServeRequests(Connection& connection) {
+    beast::flat_buffer buffer;
+    for (;;) {
+      http::request_parser<http::string_body> parser;
+      parser.header_limit(kMostHeaderBytes);
+      parser.body_limit(kMostBodyBytes);
+      connection.stream.expires_after(kPatience);
+      co_await http::async_read(connection.stream, buffer, parser, asio::use_awaitable);
+      Request request = parser.release();
+      const bool is_page = options_.files.contains(std::string(View(request.target())));
+      Response response;
+      if (std::optional<Response> refusal = RefusalOf(request, is_page)) {
+        refusals_.Add("a request that is not the page's own");
+        response = std::move(*refusal);
+      } else if (websocket::is_upgrade(request)) {
+        if (options_.is_live && request.target() == "/live" && live_pages() < kMostPages) {
+          co_return request;
+        }
+        response = Refuse(request, 404, "no WebSocket is served here, or too many are");
+      } else {
+        response = co_await Answer(request);
+      }
+      connection.stream.expires_after(kPatience);
+      co_await http::async_write(connection.stream, response, asio::use_awaitable);
+      if (!response.keep_alive()) co_return std::nullopt;
+    }
+  }
+
+  static std::optional<Response> RefusalOf(const Request& request, bool is_page) {
+    const RequestSource source{View(request[http::field::host]), View(request[http::field::origin]),
+                               View(request["Sec-Fetch-Site"]), View(request["Sec-Fetch-Mode"])};
+    if (!IsOwnHost(source.host)) return Refuse(request, 421, "the address is 127.0.0.1");
+    if (!IsFromOwnPage(source, is_page)) {
+      return Refuse(request, 403, "this is for the page of mocap view alone");
+    }
+    return {};
+  }
+
+  Task<Response> Answer(const Request& request) {
+    ViewRequest asked;
+    SplitTarget(View(request.target()), asked);
+    const bool is_get = request.method() == http::verb::get;
+    if (!is_get && request.method() != http::verb::post) {
+      co_return Refuse(request, 405, "GET or POST is wanted");
+    }
+    const auto file = options_.files.find(asked.path);
+    if (is_get && file != options_.files.end()) {
+      co_return Respond(request, 200, file->second.type, file->second.body);
+    }
+    asked.method = is_get ? "GET" : "POST";
+    asked.authorization = View(request[http::field::authorization]);
+    asked.body = request.body();
+    ViewReply reply =
+        co_await asio::co_spawn(pool_, AnswerAside(std::move(asked)), asio::use_awaitable);
+    if (reply.status == 404) co_return Refuse(request, 404, "nothing is here");
+    co_return Respond(request, reply.status, reply.type, std::move(reply.body));
+  }
+
+  Task<ViewReply> AnswerAside(ViewRequest asked) {
+    try {
+      co_return options_.answer(asked);
+    } catch (const std::exception& error) {
+      co_return ViewReply{500, "text/plain; charset=utf-8", Printable(error.what())};
+    }
+  }
+
+  Task<void> ServePage(beast::tcp_stream stream, Request request) {
+    const auto page = std::make_shared<Stream>(std::move(stream));
+    beast::get_lowest_layer(*page).expires_never();
+    page->set_option(websocket::stream_base::timeout{kPatience, kPagePatience, true});
+    page->read_message_max(kMostPageMessageBytes);
+  page->auto_fragment(false);
+    try {
+      co_await page->async_accept(request, asio::use_awaitable);
+    } catch (const boost::system::system_error&) {
+      co_return;
+    }
+    const auto wake = std::make_shared<asio::steady_timer>(io_);
+    asio::co_spawn(io_, Hear(page, wake), asio::detached);
+    waiting_.insert(wake.get());
+    try {
+      co_await Tell(*page, *wake);
+    } catch (const boost::system::system_error& error) {
+      if (error.code() == beast::error::timeout) refusals_.Add("a page that took nothing");
+    }
+    waiting_.erase(wake.get());
+    ErrorCode ignored;
+    beast::get_lowest_layer(*page).socket().close(ignored);
+  }
+
+  /// Hears pings and the end; what a page says is not wanted.
+  Task<void> Hear(std::shared_ptr<Stream> page, std::shared_ptr<asio::steady_timer> wake) {
+    beast::flat_buffer said;
+    ErrorCode error;
+    while (!error) {
+      co_await page->async_read(said, asio::redirect_error(asio::use_awaitable, error));
+      said.clear();
+    }
+    const bool is_violation =
+        error != websocket::error::closed &&
+        error.category() == websocket::make_error_code(websocket::error::closed).category();
+    if (is_violation) refusals_.Add("a WebSocket: " + error.message());
+    ErrorCode ignored;
+    beast::get_lowest_layer(*page).socket().close(ignored);
+    wake->cancel();
+  }
+
+  Task<void> Tell(Stream& page, asio::steady_timer& wake) {
+    LiveBoard::Reader reader(board_);
+    while (beast::get_lowest_layer(page).socket().is_open()) {
+      if (const std::optional<LiveMessage> message = reader.Next()) {
+        page.text(message->is_text);
+        co_await page.async_write(asio::buffer(*message->bytes), asio::use_awaitable);
+        continue;
+      }
+      ErrorCode woken;
+      wake.expires_at(asio::steady_timer::time_point::max());
+      co_await wake.async_wait(asio::redirect_error(asio::use_awaitable, woken));
+    }
+  }
+
+  const Options options_;
+  LiveBoard board_;
+  std::set<asio::steady_timer*> waiting_;  ///< Of pages that may wait for something new.
+  std::list<std::shared_ptr<Connection>> connections_;
+  Refusals refusals_;
+  asio::io_context io_{1};  ///< After what its coroutines hold on to.
+  tcp::acceptor acceptor_;
+  asio::thread_pool pool_{kAnswerThreads};
+};
+
+ViewServer::ViewServer(Options options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+ViewServer::~ViewServer() = default;
+std::uint16_t ViewServer::port() const { return impl_->port(); }
+std::size_t ViewServer::live_pages() const { return impl_->live_pages(); }
+void ViewServer::OnReadable(int descriptor, std::function<void()> call) {
+  impl_->OnReadable(descriptor, std::move(call));
+}
+void ViewServer::Every(std::chrono::milliseconds period, std::function<void()> call) {
+  impl_->Every(period, std::move(call));
+}
+void ViewServer::Aside(std::function<void()> work, std::function<void()> then) {
+  impl_->Aside(std::move(work), std::move(then));
+}
+void ViewServer::Put(std::size_t slot, LiveMessage message) {
+  impl_->Put(slot, std::move(message));
+}
+void ViewServer::Clear(std::size_t slot) { impl_->Clear(slot); }
+void ViewServer::Run() { impl_->Run(); }
+
+}  // namespace mocap

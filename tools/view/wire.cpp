@@ -1,0 +1,170 @@
+#include "tools/view/wire.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace mocap {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "messages are written as they lie");
+
+constexpr double kNsPerMs = 1e6;
+/// More voxels than any room has; what is said of a larger one is not believed.
+constexpr std::int64_t kMostVoxels = std::int64_t{1} << 26;
+
+/// Appends numbers one after the other.
+class Writer {
+ public:
+  template <typename T>
+  void Add(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    text_.append(bytes, sizeof(T));
+  }
+  template <typename Vector>
+  void AddFloats(const Vector& vector) {
+    for (const double value : vector) Add(static_cast<float>(value));
+  }
+  std::string Take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+/// A grid's occupied voxels, by place in a scan along x, then y, then z.
+struct OccupiedVoxels {
+  static constexpr std::int32_t kEmpty = -1;
+
+  std::int64_t width, depth, height;
+  std::vector<std::int32_t> number;  ///< Of each place; kEmpty: nothing is there.
+
+  bool IsOccupied(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    const bool is_inside = x >= 0 && y >= 0 && z >= 0 && x < width && y < depth && z < height;
+    return is_inside && number[static_cast<std::size_t>((z * depth + y) * width + x)] != kEmpty;
+  }
+  bool IsInside(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return IsOccupied(x - 1, y, z) && IsOccupied(x + 1, y, z) && IsOccupied(x, y - 1, z) &&
+           IsOccupied(x, y + 1, z) && IsOccupied(x, y, z - 1) && IsOccupied(x, y, z + 1);
+  }
+};
+
+bool IsSound(const voxels_t& voxels) {
+  std::int64_t count = 1;
+  for (const std::int32_t size : voxels.size) {
+    if (size < 0 || size > std::numeric_limits<std::uint16_t>::max()) return false;
+    count *= size;
+    if (count > kMostVoxels) return false;
+  }
+  return true;
+}
+
+OccupiedVoxels Unpack(const voxels_t& voxels) {
+  OccupiedVoxels grid{voxels.size[0], voxels.size[1], voxels.size[2], {}};
+  grid.number.assign(static_cast<std::size_t>(grid.width * grid.depth * grid.height),
+                     OccupiedVoxels::kEmpty);
+  const auto end = static_cast<std::int64_t>(grid.number.size());
+  std::int64_t at = 0;
+  std::int32_t number = 0;
+  bool is_occupied = false;
+  for (const std::int32_t run : voxels.run) {
+    const std::int64_t until = std::min(end, at + std::max(0, run));
+    for (; is_occupied && at < until; ++at) grid.number[static_cast<std::size_t>(at)] = number++;
+    at = until;
+    is_occupied = !is_occupied;
+  }
+  return grid;
+}
+
+template <typename Points>
+void AddLine(int side, const Points& points, Writer& writer) {
+  writer.Add(static_cast<float>(points.size()));
+  writer.Add(static_cast<float>(side));
+  for (const Vector2& p : points) writer.AddFloats(p);
+}
+
+}  // namespace
+
+std::string PoseBytes(const DrawnPose& pose) {
+  Writer writer;
+  const PoseRow& row = pose.row;
+  writer.Add(std::uint8_t{1});
+  writer.Add(static_cast<std::uint8_t>(pose.person));
+  writer.Add(static_cast<std::uint8_t>(row.state));
+  writer.Add(static_cast<std::uint8_t>(row.has_pose));
+  writer.Add(static_cast<std::uint16_t>(kPointCount));
+  writer.Add(static_cast<std::uint16_t>(pose.capsules.size()));
+  writer.Add(static_cast<double>(row.timestamp_ns) / kNsPerMs);
+  writer.Add(pose.publish_ms);
+  writer.Add(static_cast<double>(row.frame));
+  writer.Add(static_cast<float>(row.residual_mm));
+  writer.Add(static_cast<std::uint32_t>(std::max(0, row.voxels)));
+  for (int i = 0; i < kPointCount; ++i) writer.AddFloats(row.points_W.col(i));
+  writer.Add(pose.cameras_used);
+  for (const PosedCapsule& capsule : pose.capsules) {
+    writer.AddFloats(capsule.a_W);
+    writer.Add(static_cast<float>(capsule.radius_a_mm));
+    writer.AddFloats(capsule.b_W);
+    writer.Add(static_cast<float>(capsule.radius_b_mm));
+  }
+  return writer.Take();
+}
+
+std::string VoxelBytes(const voxels_t& voxels, int person) {
+  if (!IsSound(voxels)) return {};
+  const OccupiedVoxels grid = Unpack(voxels);
+  Writer cells;
+  std::uint32_t count = 0;
+  for (std::int64_t z = 0, at = 0; z < grid.height; ++z) {
+    for (std::int64_t y = 0; y < grid.depth; ++y) {
+      for (std::int64_t x = 0; x < grid.width; ++x, ++at) {
+        const std::int32_t number = grid.number[static_cast<std::size_t>(at)];
+        if (number == OccupiedVoxels::kEmpty || grid.IsInside(x, y, z)) continue;
+        const auto label = static_cast<std::size_t>(number);
+        cells.Add(static_cast<std::uint16_t>(x));
+        cells.Add(static_cast<std::uint16_t>(y));
+        cells.Add(static_cast<std::uint16_t>(z));
+        cells.Add(static_cast<std::int16_t>(label < voxels.label.size() ? voxels.label[label]
+                                                                        : std::int16_t{-1}));
+        ++count;
+      }
+    }
+  }
+  Writer writer;
+  writer.Add(std::uint8_t{2});
+  writer.Add(static_cast<std::uint8_t>(person));
+  writer.Add(std::uint16_t{0});
+  writer.Add(count);
+  writer.Add(static_cast<double>(voxels.utime) / 1000);
+  writer.Add(static_cast<float>(voxels.voxel_mm));
+  for (const double origin : voxels.origin_mm) writer.Add(static_cast<float>(origin));
+  return writer.Take() + cells.Take();
+}
+
+std::string PictureBytes(const DrawnPicture& picture) {
+  Writer silhouette, body;
+  for (const std::vector<Vector2>& line : picture.silhouette) AddLine(0, line, silhouette);
+  for (const BodyLine& line : picture.body) {
+    AddLine(static_cast<int>(line.side), line.pixels, body);
+  }
+  const std::string lines = silhouette.Take(), body_lines = body.Take();
+  Writer writer;
+  writer.Add(std::uint8_t{3});
+  writer.Add(static_cast<std::uint8_t>(picture.camera));
+  writer.Add(static_cast<std::uint16_t>(picture.width_px));
+  writer.Add(static_cast<std::uint16_t>(picture.height_px));
+  writer.Add(std::uint16_t{0});
+  writer.Add(picture.capture_ms);
+  writer.Add(static_cast<std::uint32_t>(lines.size() / sizeof(float)));
+  writer.Add(static_cast<std::uint32_t>(body_lines.size() / sizeof(float)));
+  writer.Add(static_cast<std::uint32_t>(picture.jpeg.size()));
+  writer.Add(std::uint32_t{0});
+  std::string bytes = writer.Take() + lines + body_lines;
+  bytes.append(picture.jpeg.begin(), picture.jpeg.end());
+  bytes.resize((bytes.size() + 7) / 8 * 8, '\0');
+  return bytes;
+}
+
+}  // namespace mocap
