@@ -21,6 +21,7 @@
 #include "drivers/printable_text.h"
 #include "tools/view/access.h"
 #include "tools/view/refusals.h"
+#include "tools/view/request_target.h"
 
 namespace mocap {
 namespace {
@@ -48,6 +49,8 @@ constexpr std::chrono::seconds kPagePatience{20};
 constexpr std::uint32_t kMostHeaderBytes = 8192;
 constexpr std::uint64_t kMostBodyBytes = 4096;
 constexpr std::size_t kMostPageMessageBytes = 1024;
+/// What lies in the system's buffers is no longer the newest.
+constexpr int kPageBufferBytes = 64 << 10;
 constexpr std::size_t kAnswerThreads = 3;
 constexpr int kWaitingConnections = 128;
 constexpr std::chrono::milliseconds kTellPeriod{500};
@@ -58,40 +61,6 @@ constexpr const char* kContentPolicy =
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
-
-int HexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::string PercentDecoded(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool is_code = text[i] == '%' && i + 2 < text.size() && HexDigit(text[i + 1]) >= 0 &&
-                         HexDigit(text[i + 2]) >= 0;
-    decoded +=
-        is_code ? static_cast<char>(HexDigit(text[i + 1]) * 16 + HexDigit(text[i + 2])) : text[i];
-    if (is_code) i += 2;
-  }
-  return decoded;
-}
-
-/// Path and query of a target.
-void SplitTarget(std::string_view target, ViewRequest& request) {
-  const std::size_t mark = std::min(target.find('?'), target.size());
-  request.path = target.substr(0, mark);
-  std::string_view rest = target.substr(std::min(mark + 1, target.size()));
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('&'), rest.size());
-    const std::string_view pair = rest.substr(0, end);
-    const std::size_t equals = std::min(pair.find('='), pair.size());
-    request.query[PercentDecoded(pair.substr(0, equals))] =
-        PercentDecoded(pair.substr(std::min(equals + 1, pair.size())));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-}
 
 Response Respond(const Request& request, int status, const std::string& type, std::string body) {
   Response response(static_cast<http::status>(status), request.version());
@@ -173,6 +142,7 @@ class ViewServer::Impl {
   struct Connection {
     explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
     beast::tcp_stream stream;
+    beast::flat_buffer buffer;  ///< What has come of a request.
   };
   using Place = std::list<std::shared_ptr<Connection>>::iterator;
 
@@ -226,14 +196,15 @@ class ViewServer::Impl {
     try {
       upgrade = co_await ServeRequests(*connection);
     } catch (const boost::system::system_error& error) {
-      NoteEnd(error.code());
+      NoteEnd(error.code(), connection->buffer.size() > 0);
     }
     connections_.erase(place);
     if (upgrade) co_await ServePage(std::move(connection->stream), std::move(*upgrade));
   }
 
-  void NoteEnd(ErrorCode error) {
-    if (error == beast::error::timeout) refusals_.Add("a connection without a request");
+  /// A browser keeps connections open that it may need later; they are closed without a word.
+  void NoteEnd(ErrorCode error, bool has_begun) {
+    if (error == beast::error::timeout && has_begun) refusals_.Add("half a request");
     const bool is_malformed =
         error != http::error::end_of_stream &&
         error.category() == http::make_error_code(http::error::end_of_stream).category();
@@ -242,13 +213,12 @@ class ViewServer::Impl {
 
   /// @return  a request to become a WebSocket.
   Task<std::optional<Request>> ServeRequests(Connection& connection) {
-    beast::flat_buffer buffer;
     for (;;) {
       http::request_parser<http::string_body> parser;
       parser.header_limit(kMostHeaderBytes);
       parser.body_limit(kMostBodyBytes);
       connection.stream.expires_after(kPatience);
-      co_await http::async_read(connection.stream, buffer, parser, asio::use_awaitable);
+      co_await http::async_read(connection.stream, connection.buffer, parser, asio::use_awaitable);
       Request request = parser.release();
       const bool is_page = options_.files.contains(std::string(View(request.target())));
       Response response;
@@ -280,8 +250,10 @@ class ViewServer::Impl {
   }
 
   Task<Response> Answer(const Request& request) {
+    RequestTarget target = ParseRequestTarget(View(request.target()));
     ViewRequest asked;
-    SplitTarget(View(request.target()), asked);
+    asked.path = std::move(target.path);
+    asked.query = std::move(target.query);
     const bool is_get = request.method() == http::verb::get;
     if (!is_get && request.method() != http::verb::post) {
       co_return Refuse(request, 405, "GET or POST is wanted");
@@ -308,11 +280,13 @@ class ViewServer::Impl {
   }
 
   Task<void> ServePage(beast::tcp_stream stream, Request request) {
+    ErrorCode ignored;
+    stream.socket().set_option(asio::socket_base::send_buffer_size(kPageBufferBytes), ignored);
     const auto page = std::make_shared<Stream>(std::move(stream));
     beast::get_lowest_layer(*page).expires_never();
     page->set_option(websocket::stream_base::timeout{kPatience, kPagePatience, true});
     page->read_message_max(kMostPageMessageBytes);
-  page->auto_fragment(false);
+    page->auto_fragment(false);
     try {
       co_await page->async_accept(request, asio::use_awaitable);
     } catch (const boost::system::system_error&) {
@@ -327,7 +301,6 @@ class ViewServer::Impl {
       if (error.code() == beast::error::timeout) refusals_.Add("a page that took nothing");
     }
     waiting_.erase(wake.get());
-    ErrorCode ignored;
     beast::get_lowest_layer(*page).socket().close(ignored);
   }
 

@@ -26,7 +26,7 @@ export class Actions {
   constructor() {
     this.token = takeToken();
     this.isAllowed = false;
-    this.why = '';     // what the server says against it
+    this.why = '';  // what the server says against it
     this.isBusy = false;
     this.bind();
     this.check();
@@ -70,7 +70,8 @@ export class Actions {
     byId('action-forms').hidden = !isOn;
     byId('no-actions').hidden = isOn;
     const wrong = this.token && !this.isAllowed ?
-        'The token of this page does not hold (any more). ' + NO_TOKEN : NO_TOKEN;
+        'The token of this page does not hold (any more). ' + NO_TOKEN :
+        NO_TOKEN;
     setText(byId('no-actions'), this.why !== '' ? this.why : wrong);
   }
 
@@ -101,12 +102,14 @@ export class Actions {
   }
 
   async learn() {
-    const isSure = await this.confirm('Learn the background?',
-        'Nobody may be in the cameras’ view. It takes some seconds.', 'Learn');
+    const isSure = await this.confirm(
+        'Learn the background?', 'Nobody may be in the cameras’ view. It takes some seconds.',
+        'Learn');
     if (!isSure) return;
     const {outcome, text} = await this.ask('background learn');
     if (outcome !== 'failed' || !text.includes('--anyway')) return;
-    if (await this.confirm('Learn it anyway?', text, 'Learn anyway')) this.ask('background learn anyway');
+    if (await this.confirm('Learn it anyway?', text, 'Learn anyway'))
+      this.ask('background learn anyway');
   }
 
   confirm(title, text, button) {
@@ -126,8 +129,9 @@ export class Actions {
     if (outcome !== 'done') return;
     const names = subjectNames(text);
     const chosen = byId('subject-list').value;
-    byId('subject-list').replaceChildren(...names.map((name) =>
-        make('option', {text: name, value: name, selected: name === chosen})));
+    byId('subject-list')
+        .replaceChildren(...names.map(
+            (name) => make('option', {text: name, value: name, selected: name === chosen})));
     byId('load-form').hidden = names.length === 0;
   }
 

@@ -1,10 +1,10 @@
 // The cameras where they stand: a small body and the frustum of each, in the colour of its state.
 
-import * as THREE from './three.js';
 import {CapsuleMesh} from './capsule_mesh.js';
 import {rgb} from './theme.js';
+import * as THREE from './three.js';
 
-const DEPTH = 0.45; // Of the frustum that is drawn, in metres.
+const DEPTH = 0.45;  // Of the frustum that is drawn, in metres.
 const MOST_CAMERAS = 64;
 
 /** What is said of a camera, and its colour: by state, then by trust. */
@@ -19,8 +19,8 @@ export const CAMERA_LOOKS = {
 };
 
 function corner(camera, i) {
-  return camera.corners_mm[i].map((value, axis) =>
-      camera.position_mm[axis] + DEPTH * (value - camera.position_mm[axis]));
+  return camera.corners_mm[i].map(
+      (value, axis) => camera.position_mm[axis] + DEPTH * (value - camera.position_mm[axis]));
 }
 
 export class CameraModels extends THREE.Group {

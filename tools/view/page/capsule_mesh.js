@@ -1,5 +1,5 @@
-// Many tapered capsules in one draw call. The template knows angles alone; the shader puts each of its
-// points onto the hull of the two spheres, exactly, whatever their radii.
+// Many tapered capsules in one draw call. The template knows angles alone; the shader puts each of
+// its points onto the hull of the two spheres, exactly, whatever their radii.
 
 import * as THREE from './three.js';
 
@@ -96,7 +96,10 @@ function makeMaterial(options) {
 }
 
 export class CapsuleMesh extends THREE.Mesh {
-  /** @param options thin (few triangles each), transparent, depthTest, depthWrite, glow (0: lit … 1: unlit). */
+  /**
+   * @param options thin (few triangles each), transparent, depthTest, depthWrite, glow (0: lit …
+   *     1: unlit).
+   */
   constructor(capacity, options = {}) {
     super(new THREE.InstancedBufferGeometry(), makeMaterial(options));
     const template = options.thin ? coarseTemplate : fineTemplate;

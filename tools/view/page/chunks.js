@@ -10,9 +10,9 @@ export class Chunks {
   constructor(frameCount, fetchChunk) {
     this.frameCount = frameCount;
     this.fetchChunk = fetchChunk;
-    this.chunks = new Map();   // number → poses; the order is that of use
+    this.chunks = new Map();  // number → poses; the order is that of use
     this.waiting = new Set();
-    this.failedAt = new Map(); // number → when
+    this.failedAt = new Map();  // number → when
   }
 
   /** @return the pose of a frame, or null if it is not there yet. */

@@ -1,10 +1,12 @@
 // How finely the scene is drawn: as finely as the machine can draw it smoothly.
 
-const WINDOW = 30;           // intervals that are looked at together
+const WINDOW = 30;  // intervals that are looked at together
 const SLOW_MS = 45;
-const PAUSE_MS = 1000;       // a longer interval is a hidden page, not a slow one
+const PAUSE_MS = 1000;  // a longer interval is a hidden page, not a slow one
+const FAST_MS = 25;
 const STEP = 0.75;
 const LEAST = 0.5;
+const FIRST_PATIENCE_MS = 60000;  // before it is tried more finely again; twice as long each time
 const SOFTWARE_START = 0.6;
 
 /** @return whether WebGL is drawn by the processor: then each pixel counts. */
@@ -22,8 +24,11 @@ export class Detail {
   constructor({isSoftware, isFixed}) {
     this.isFixed = isFixed;
     this.scale = isSoftware && !isFixed ? SOFTWARE_START : 1;
+    this.finest = this.scale;
     this.intervals = [];
     this.lastMs = null;
+    this.coarserMs = null;
+    this.patienceMs = FIRST_PATIENCE_MS;
   }
 
   /** Pixels drawn for each CSS pixel, along an edge. */
@@ -39,8 +44,23 @@ export class Detail {
     if (this.intervals.length < WINDOW) return false;
     const mean = this.intervals.reduce((sum, value) => sum + value, 0) / this.intervals.length;
     this.intervals = [];
-    if (this.isFixed || mean < SLOW_MS || this.scale <= LEAST) return false;
+    return !this.isFixed && (this.goCoarser(mean, nowMs) || this.goFiner(mean, nowMs));
+  }
+
+  goCoarser(meanMs, nowMs) {
+    if (meanMs < SLOW_MS || this.scale <= LEAST) return false;
     this.scale = Math.max(LEAST, STEP * this.scale);
+    this.coarserMs = nowMs;
+    return true;
+  }
+
+  // What was slow may have been another program's fault, for a while.
+  goFiner(meanMs, nowMs) {
+    if (meanMs > FAST_MS || this.scale >= this.finest) return false;
+    if (nowMs - this.coarserMs < this.patienceMs) return false;
+    this.scale = Math.min(this.finest, this.scale / STEP);
+    this.coarserMs = nowMs;
+    this.patienceMs *= 2;
     return true;
   }
 }

@@ -1,4 +1,5 @@
-// The few things that the page does with elements. What messages and takes say goes into text alone.
+// The few things that the page does with elements. What messages and takes say goes into text
+// alone.
 
 /** @return the element of index.html with an id. */
 export function byId(id) {
@@ -31,7 +32,8 @@ export function fitCanvas(canvas) {
     canvas.width = width;
     canvas.height = height;
   }
-  // Small pictures that change often: the processor draws them faster than they reach a graphics card.
+  // Small pictures that change often: the processor draws them faster than they reach a graphics
+  // card.
   const context = canvas.getContext('2d', {willReadFrequently: true});
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);

@@ -1,9 +1,9 @@
 // One person, or one result of a take: body, joints and sticks, trails, voxels, shadow.
 
-import * as THREE from './three.js';
 import {CapsuleMesh} from './capsule_mesh.js';
-import {VoxelMesh} from './voxel_mesh.js';
 import {rgb} from './theme.js';
+import * as THREE from './three.js';
+import {VoxelMesh} from './voxel_mesh.js';
 
 const TRAIL_MS = 1500;
 const TRAIL_STEP_MS = 25;
@@ -11,21 +11,26 @@ const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
 const PARTS = 10;
 
 export class Figure extends THREE.Group {
-  /** @param options color: name of a colour of the theme; onlySticks: no body, as for truth. */
-  constructor({color, onlySticks = false}) {
+  /**
+   * @param options color: name of a colour of the theme; ownSticks: sticks in a shade of it, where
+   * several are compared; onlySticks: no body, as for truth.
+   */
+  constructor({color, ownSticks = false, onlySticks = false}) {
     super();
     this.color = color;
+    this.ownSticks = ownSticks;
     this.onlySticks = onlySticks;
     this.body = new CapsuleMesh(64, {transparent: true});
-    this.sticks = new CapsuleMesh(128, {
-      thin: true, transparent: true, depthTest: onlySticks, depthWrite: onlySticks, glow: 0.7});
-    this.trails = new CapsuleMesh(4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
+    this.sticks = new CapsuleMesh(
+        128, {thin: true, transparent: true, depthTest: false, depthWrite: false, glow: 0.7});
+    this.trails = new CapsuleMesh(
+        4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
         {thin: true, transparent: true, depthWrite: false, glow: 0.8});
     this.voxels = new VoxelMesh();
     this.shadow = (onlySticks ? this.sticks : this.body).makeShadow();
     this.shadow.renderOrder = -1;
-    // Sticks lie inside the body: they are drawn over it.
-    this.sticks.renderOrder = 2;
+    // Sticks lie inside the body: they are drawn over it, and the truth over all.
+    this.sticks.renderOrder = onlySticks ? 3 : 2;
     this.shownLayers = {body: true, joints: true, trails: true, voxels: true};
     this.add(this.shadow, this.body, this.sticks, this.trails);
     this.castsShadow = true;
@@ -41,10 +46,12 @@ export class Figure extends THREE.Group {
 
   recolor() {
     this.tint = rgb(this.color);
-    this.stickTint = rgb(this.onlySticks ? this.color : 'stick');
+    this.stickTint = this.onlySticks ? this.tint :
+        this.ownSticks               ? this.tint.map((value) => 0.45 * value) :
+                                       rgb('stick');
     this.shadow.material.uniforms.flatColor.value.setRGB(...rgb('shadow'));
-    this.voxels.setPalette(Array.from({length: PARTS + 1}, (_, i) =>
-        rgb(i < PARTS ? `part-${i}` : 'part-none')));
+    this.voxels.setPalette(
+        Array.from({length: PARTS + 1}, (_, i) => rgb(i < PARTS ? `part-${i}` : 'part-none')));
   }
 
   /** Shows or hides a layer: body, joints, trails or voxels. */
@@ -124,7 +131,8 @@ export class Figure extends THREE.Group {
     if (!here || !before.hasPose || !here.hasPose) return;
     const share = Math.max(0.05, Math.min(1, youth));
     for (const i of this.trailPoints) {
-      this.trails.add(...before.points.subarray(3 * i, 3 * i + 3), 9 * share,
+      this.trails.add(
+          ...before.points.subarray(3 * i, 3 * i + 3), 9 * share,
           ...here.points.subarray(3 * i, 3 * i + 3), 9 * share, this.tint, 0.75 * share);
     }
   }

@@ -1,8 +1,8 @@
 // The floor: a grid of metres that fades out, and the axes of the world.
 
-import * as THREE from './three.js';
 import {CapsuleMesh} from './capsule_mesh.js';
 import {rgb} from './theme.js';
+import * as THREE from './three.js';
 
 const HALF_MM = 12000;
 
@@ -36,8 +36,7 @@ export class Floor extends THREE.Group {
   constructor() {
     super();
     this.plane = new THREE.Mesh(
-        new THREE.PlaneBufferGeometry(2 * HALF_MM, 2 * HALF_MM),
-        new THREE.ShaderMaterial({
+        new THREE.PlaneBufferGeometry(2 * HALF_MM, 2 * HALF_MM), new THREE.ShaderMaterial({
           vertexShader,
           fragmentShader,
           extensions: {derivatives: true},

@@ -4,11 +4,14 @@ import {byId, make} from './dom.js';
 
 const bindings = new Map();
 
-/** Binds keys to what they do. @param keys as in KeyboardEvent.key; @param shown how the list names them. */
+/**
+ * Binds keys to what they do. @param keys as in KeyboardEvent.key; @param shown how the list names
+ * them.
+ */
 export function bindKeys(keys, shown, text, action) {
   for (const key of keys) bindings.set(key, action);
-  byId('key-list').append(make('dt', {}, ...shown.map((key) => make('kbd', {text: key}))),
-      make('dd', {text}));
+  byId('key-list')
+      .append(make('dt', {}, ...shown.map((key) => make('kbd', {text: key}))), make('dd', {text}));
 }
 
 // Keys that belong to the element in focus: typing, choosing, pressing.

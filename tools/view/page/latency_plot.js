@@ -11,7 +11,7 @@ const STAGES = ['segment', 'carve', 'label', 'filter', 'total', 'publish'];
 
 export class LatencyPlot {
   constructor() {
-    this.series = new Map(); // stage → [{p50, p99}], one a second
+    this.series = new Map();  // stage → [{p50, p99}], one a second
     this.canvas = byId('latency-plot');
     this.rows = new Map();
     onTheme(() => this.draw());
@@ -45,9 +45,14 @@ export class LatencyPlot {
 
   row(name) {
     if (!this.rows.has(name)) {
-      const row = {canvas: make('canvas', {'aria-hidden': 'true'}), p50: make('td'), p99: make('td')};
-      byId('stages').append(make('tr', {}, make('th', {scope: 'row', text: name}),
-          make('td', {}, row.canvas), row.p50, row.p99));
+      const row = {
+        canvas: make('canvas', {'aria-hidden': 'true'}),
+        p50: make('td'),
+        p99: make('td')
+      };
+      byId('stages').append(make(
+          'tr', {}, make('th', {scope: 'row', text: name}), make('td', {}, row.canvas), row.p50,
+          row.p99));
       this.rows.set(name, row);
     }
     return this.rows.get(name);
@@ -66,8 +71,11 @@ export class LatencyPlot {
   drawSeries(context, series, width, height, top, left) {
     const x = (i) => left + (width - left) * (SECONDS - series.length + i) / (SECONDS - 1);
     const y = (value) => height - (height - 2) * Math.min(1, value / top);
-    drawCurve(context, series.map((value) => value.p99), {x, y, color: color('muted'), dash: [2, 2], width: 1});
-    drawCurve(context, series.map((value) => value.p50), {x, y, color: color('accent'), width: 1.75});
+    drawCurve(
+        context, series.map((value) => value.p99),
+        {x, y, color: color('muted'), dash: [2, 2], width: 1});
+    drawCurve(
+        context, series.map((value) => value.p50), {x, y, color: color('accent'), width: 1.75});
   }
 
   drawWhole() {
@@ -83,7 +91,9 @@ export class LatencyPlot {
     const plotted = series.length;
     const x = (i) => 34 + (width - 34) * (SECONDS - plotted + i) / (SECONDS - 1);
     const y = (value) => bottom - (bottom - 8) * Math.min(1, value / top);
-    drawCurve(context, series.map((value) => value.p99), {x, y, color: color('muted'), dash: [3, 2], width: 1.25});
+    drawCurve(
+        context, series.map((value) => value.p99),
+        {x, y, color: color('muted'), dash: [3, 2], width: 1.25});
     drawCurve(context, series.map((value) => value.p50), {x, y, color: color('accent'), width: 2});
     drawLabel(context, '2 min ago', 34, height - 5, color('muted'));
     drawLabel(context, 'now', width, height - 5, color('muted'), 'right');

@@ -1,53 +1,27 @@
 // The studio as it is now: messages in, scene and panel out.
 
-import {byId, setText} from './dom.js';
 import {Actions} from './actions.js';
+import {factsOf, lookOfCamera} from './camera_text.js';
+import {byId, setText} from './dom.js';
 import {LatencyPlot} from './latency_plot.js';
-import {LiveClock} from './live_clock.js';
-import {PoseHistory} from './pose_history.js';
+import {OLD_MS, People} from './people.js';
 import {Socket} from './socket.js';
 import {StatePanel, verdictOf} from './state_panel.js';
-import {fixed, percent} from './text.js';
-import {figureColor} from './theme.js';
+import {ageText, fixed} from './text.js';
 import {decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
 
-const OLD_MS = 250;           // An older pose is never shown without saying so.
-const HIDE_BODY_MS = 10000;   // What is older helps nobody.
 const OLD_PICTURE_MS = 2000;
-const TELL_MS = 250;          // Words and numbers change four times a second at most.
+const TELL_MS = 250;  // Words and numbers change four times a second at most.
 const STATE_HOLDS_MS = 1500;
-const MOST_PEOPLE = 8;
-const LEAST_TRUST = 0.5;
-const MOST_OFF_PX = 2;
-// By how much a state says: with several people the best one is the studio's.
-const RANK = ['searching', 'lost', 'acquiring', 'tracking'];
-
-/** What is said of a camera: its state, or that its silhouettes do not fit the others'. */
-export function lookOfCamera({state, trust, off_px: offPx}) {
-  if (state !== 'streaming') return state;
-  const isOff = trust !== null && (trust < LEAST_TRUST || Math.abs(offPx ?? 0) > MOST_OFF_PX);
-  return isOff ? 'not trusted' : 'streaming';
-}
-
-function factsOf(camera) {
-  const parts = [`${fixed(camera.frames_per_second, 1)} /s`];
-  if (camera.trust !== null) parts.push(`trust ${percent(camera.trust)}`);
-  if (camera.off_px !== null && camera.trust !== null) parts.push(`off ${fixed(camera.off_px, 1)} px`);
-  if (camera.light !== null) parts.push(`light ${percent(camera.light)}`);
-  for (const name of ['dropped', 'late', 'torn']) {
-    if (camera[name] > 0) parts.push(`${name} ${camera[name]}`);
-  }
-  return parts.join(' · ');
-}
+const STATUS_HOLDS_S = 3.5;
 
 export class Live {
   constructor(scene, pictures, tools) {
     Object.assign(this, {scene, pictures, tools});
-    this.clock = new LiveClock();
-    this.people = new Map(); // person → PoseHistory
-    this.shown = null;
-    this.body = null;
+    this.people = new People(scene);
+    this.cameras = [];
     this.status = null;
+    this.statusMs = null;
     this.service = null;
     this.serviceMs = null;
     this.poseMs = null;
@@ -69,7 +43,7 @@ export class Live {
   }
 
   opened() {
-    this.clock.reset();
+    this.people.clock.reset();
     this.actions.check();
   }
 
@@ -91,25 +65,26 @@ export class Live {
   }
 
   takeBody(body) {
-    const isNew = JSON.stringify(body) !== this.bodyText;
-    if (!isNew) return;
-    this.bodyText = JSON.stringify(body);
-    this.body = body;
-    for (const figure of this.scene?.figures.values() ?? []) figure.setModel(body);
+    // It comes every second, and seldom says anything new.
+    const text = JSON.stringify(body);
+    if (text === this.bodyText) return;
+    this.bodyText = text;
+    this.people.takeBody(body);
     this.panel.setBody(body);
   }
 
   takeStatus(status) {
     this.status = status;
+    this.statusMs = performance.now();
     this.panel.setStatus(status);
     this.latency.take(status.stages);
-    this.scene?.cameraModels.setLooks(new Map(Object.entries(this.cameraStates())));
   }
 
   takeService(service) {
     this.service = service;
     this.serviceMs = performance.now();
-    const serverNowMs = this.clock.isKnown ? this.clock.serverNow(this.serviceMs) : Date.now();
+    const {clock} = this.people;
+    const serverNowMs = clock.isKnown ? clock.serverNow(this.serviceMs) : Date.now();
     this.panel.setService(service, serverNowMs / 1000);
     this.actions.setRecording(service.recording.state);
   }
@@ -123,9 +98,12 @@ export class Live {
   takeBinary(buffer) {
     try {
       const kind = kindOf(buffer);
-      if (kind === POSE) this.takePose(decodePose(buffer));
-      else if (kind === VOXELS) this.takeVoxels(decodeVoxels(buffer));
-      else if (kind === PICTURE) this.takePicture(decodePicture(buffer));
+      if (kind === POSE)
+        this.takePose(decodePose(buffer));
+      else if (kind === VOXELS)
+        this.people.takeVoxels(decodeVoxels(buffer));
+      else if (kind === PICTURE)
+        this.takePicture(decodePicture(buffer));
     } catch (error) {
       // A message that is cut off; the next one comes soon.
       if (!(error instanceof RangeError)) throw error;
@@ -133,99 +111,54 @@ export class Live {
   }
 
   takePose(pose) {
-    const nowMs = performance.now();
-    this.poseMs = nowMs;
-    this.clock.arrived(nowMs, pose.timeMs, pose.publishMs);
-    if (!this.people.has(pose.person)) {
-      if (this.people.size >= MOST_PEOPLE) return;
-      this.people.set(pose.person, new PoseHistory());
-    }
-    this.people.get(pose.person).add(pose);
-  }
-
-  takeVoxels(voxels) {
-    if (this.people.has(voxels.person)) this.figure(voxels.person)?.voxels.take(voxels);
+    this.poseMs = performance.now();
+    this.people.takePose(pose, this.poseMs);
   }
 
   takePicture(picture) {
-    const camera = this.cameras?.[picture.camera];
+    const camera = this.cameras[picture.camera];
     if (!camera) return;
     this.pictureTimes.set(camera.name, picture.timeMs);
     this.pictures.take(picture);
   }
 
-  figure(person) {
-    const figure = this.scene?.figure(person, {color: figureColor(person)});
-    if (figure && this.body && figure.bones !== this.body.bones) figure.setModel(this.body);
-    return figure;
-  }
-
   draw(nowMs, fps) {
-    const timeMs = this.clock.showTime(nowMs);
-    this.shown = null;
-    let shownAgeMs = null;
-    this.forgetWhoLeft();
-    for (const [person, history] of this.people) {
-      const ageMs = this.drawPerson(person, history, timeMs, nowMs);
-      if (ageMs !== null) shownAgeMs = Math.max(shownAgeMs ?? 0, ageMs);
-    }
-    this.tellAge(shownAgeMs);
+    this.tellAge(this.people.draw(nowMs));
     if (nowMs - this.toldMs < TELL_MS) return;
     this.toldMs = nowMs;
     this.tell(nowMs, fps);
   }
 
-  /** Forgets people of whom others' poses have long outlived the last. */
-  forgetWhoLeft() {
-    const newestMs = Math.max(...[...this.people.values()].map((history) => history.newest.timeMs));
-    for (const [person, history] of this.people) {
-      if (history.newest.timeMs > newestMs - HIDE_BODY_MS) continue;
-      this.people.delete(person);
-      this.scene?.removeFigure(person);
-    }
-  }
-
-  /** @return the age of the body that is shown [ms], null if none is. */
-  drawPerson(person, history, timeMs, nowMs) {
-    const serverNowMs = this.clock.isKnown ? this.clock.serverNow(nowMs) : history.newest.timeMs;
-    const showMs = timeMs ?? history.newest.timeMs;
-    let pose = history.at(showMs);
-    // Whoever is lost stays where last seen, faded; whoever has left is gone.
-    if (pose && !pose.hasPose && pose.state === 'lost') pose = history.lastBody(showMs);
-    const ageMs = pose ? serverNowMs - pose.timeMs : Infinity;
-    if (!pose?.hasPose || ageMs > HIDE_BODY_MS) pose = null;
-    const figure = this.figure(person);
-    figure?.show(pose, {faded: ageMs > OLD_MS});
-    if (figure) figure.label = this.people.size > 1 ? `person ${person + 1}` : '';
-    figure?.showTrails(pose ? pose.timeMs : 0, (t) => history.at(t));
-    figure?.showVoxels(showMs, (t) => history.at(t));
-    if (pose && this.shown === null) this.shown = pose;
-    return pose ? ageMs : null;
-  }
-
   tellAge(ageMs) {
-    const banner = byId('old');
     const isOld = ageMs !== null && ageMs > OLD_MS;
-    banner.hidden = !isOld;
-    if (isOld) setText(banner, `last pose ${fixed(ageMs / 1000, 1)} s ago`);
+    byId('old').hidden = !isOld;
+    if (isOld) setText(byId('old'), `last pose ${fixed(ageMs / 1000, 1)} s ago`);
   }
 
   tell(nowMs, fps) {
     const since = (ms) => ms === null ? null : (nowMs - ms) / 1000;
-    const newest = [...this.people.values()].map((history) => history.newest).filter(Boolean);
     this.panel.setVerdict(verdictOf({
       isOpen: this.socket.isOpen,
-      sinceClosedS: (nowMs - this.socket.closedMs) / 1000,
+      sinceClosedS: since(this.socket.closedMs),
       silence: this.notice.silence,
       serviceAgeS: since(this.serviceMs),
       poseAgeS: since(this.poseMs),
       complaints: this.service?.complaints ?? [],
     }));
     this.panel.setState(this.state() || (this.poseMs === null ? 'waiting' : 'not known'));
-    this.panel.setFit(newest.find((pose) => pose.hasPose) ?? null);
+    this.panel.setFit(this.people.newestBody());
     setText(byId('page-fps'), fixed(fps, 0));
     setText(byId('connection'), this.socket.isOpen ? '' : 'not connected');
+    this.tellStatusAge(since(this.statusMs));
     this.tellCameras(nowMs);
+  }
+
+  /** Says when the panel's figures are old; cameras are then not known, also in the scene. */
+  tellStatusAge(ageS) {
+    const isOld = ageS > STATUS_HOLDS_S;
+    setText(byId('figures-title'), isOld ? `As of ${ageText(ageS)} ago` : 'Now');
+    for (const id of ['figures', 'latency']) byId(id).classList.toggle('stale', isOld);
+    this.scene?.cameraModels.setLooks(new Map(Object.entries(this.cameraStates())));
   }
 
   tellCameras(nowMs) {
@@ -234,34 +167,33 @@ export class Live {
       const camera = this.status?.cameras.find((one) => one.name === card.name);
       const look = looks[card.name];
       const timeMs = this.pictureTimes.get(card.name);
-      const ageMs = timeMs && this.clock.isKnown ? this.clock.serverNow(nowMs) - timeMs : null;
+      const ageMs = timeMs === undefined ? null : this.people.ageMs(timeMs, nowMs);
       let veil = '';
-      if (look === 'lost' || look === 'ended') veil = look;
-      else if (ageMs === null || ageMs > OLD_PICTURE_MS) {
-        veil = card.picture ? `${fixed(ageMs / 1000, 0)} s old` : 'no picture';
-      }
-      card.tell({look, facts: camera ? factsOf(camera) : '', veil});
+      if (look === 'lost' || look === 'ended')
+        veil = look;
+      else if (!card.picture || ageMs === null)
+        veil = 'no picture';
+      else if (ageMs > OLD_PICTURE_MS)
+        veil = ageMs < 100000 ? `${fixed(ageMs / 1000)} s old` : `${ageText(ageMs / 1000)} old`;
+      card.tell({look: look ?? 'not known', facts: camera ? factsOf(camera) : '', veil});
     }
   }
 
+  /** @return the state; '' when nothing has been heard of it lately. */
   state() {
-    // A state of which nothing has been heard is none.
-    if (!(performance.now() - this.poseMs < STATE_HOLDS_MS)) return '';
-    const states = [...this.people.values()].map((history) => history.newest?.state ?? 'searching');
-    states.sort((a, b) => RANK.indexOf(b) - RANK.indexOf(a));
-    return states[0] ?? '';
+    return performance.now() - this.poseMs < STATE_HOLDS_MS ? this.people.state() : '';
   }
 
   shownPose() {
-    return this.shown;
+    return this.people.shown;
   }
 
   poseOf(frame) {
-    return this.people.get(0)?.ofFrame(frame) ?? null;
+    return this.people.histories.get(0)?.ofFrame(frame) ?? null;
   }
 
   shownFrame() {
-    return this.shown?.frame ?? null;
+    return this.shownPose()?.frame ?? null;
   }
 
   pictureFrames() {
@@ -269,7 +201,9 @@ export class Live {
   }
 
   cameraStates() {
-    return Object.fromEntries((this.status?.cameras ?? []).map((camera) =>
-        [camera.name, lookOfCamera(camera)]));
+    const isOld = performance.now() - this.statusMs > 1000 * STATUS_HOLDS_S;
+    return Object.fromEntries(
+        (this.status?.cameras ??
+         []).map((camera) => [camera.name, isOld ? 'not known' : lookOfCamera(camera)]));
   }
 }

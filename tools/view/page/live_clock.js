@@ -20,9 +20,9 @@ export class LiveClock {
 
   /** Forgets all, as after a new connection: the server may be another one. */
   reset() {
-    this.buckets = [];  // {number, offset}: smallest offset of each ten seconds
-    this.arrivals = []; // {nowMs, lag, timeMs}
-    this.delay = null;  // browser's now minus the time of capture that is shown
+    this.buckets = [];   // {number, offset}: smallest offset of each ten seconds
+    this.arrivals = [];  // {nowMs, lag, timeMs}
+    this.delay = null;   // browser's now minus the time of capture that is shown
     this.lastMs = null;
   }
 
@@ -35,8 +35,10 @@ export class LiveClock {
     const number = Math.floor(nowMs / OFFSET_BUCKET_MS);
     const offset = nowMs - publishMs;
     const last = this.buckets[this.buckets.length - 1];
-    if (last && last.number === number) last.offset = Math.min(last.offset, offset);
-    else this.buckets.push({number, offset});
+    if (last && last.number === number)
+      last.offset = Math.min(last.offset, offset);
+    else
+      this.buckets.push({number, offset});
     while (this.buckets[0].number <= number - OFFSET_BUCKETS) this.buckets.shift();
 
     this.arrivals.push({nowMs, lag: nowMs - timeMs, timeMs});

@@ -3,9 +3,9 @@
 import {byId, setText} from './dom.js';
 import {bindKeys, startKeys} from './keys.js';
 import {Live} from './live.js';
+import {Pictures} from './pictures.js';
 import {Replay} from './replay.js';
 import {StudioScene} from './scene.js';
-import {Pictures} from './pictures.js';
 import {startTheme, toggleTheme} from './theme.js';
 import {ViewTools} from './view_tools.js';
 
@@ -44,7 +44,8 @@ async function askWhatToShow() {
 
 function makeScene() {
   try {
-    // #detail=full, for the script that takes a picture of the page on a machine without a graphics card.
+    // #detail=full, for the script that takes a picture of the page on a machine without a graphics
+    // card.
     const isFine = new URLSearchParams(location.hash.slice(1)).get('detail') === 'full';
     return new StudioScene(byId('scene'), byId('labels'), isFine);
   } catch (error) {
@@ -69,15 +70,15 @@ function startPageKeys() {
 /** What tests, and curious people, read: nothing of it changes the page. */
 function expose(mode, show, tools, counter) {
   window.mocapView = Object.freeze({
-    mode,                                     // 'live' or 'replay'
-    state: () => show.state(),                // 'searching', 'acquiring', 'tracking', 'lost', ''
-    shownPose: () => show.shownPose(),        // {timeMs, frame, points: Float32Array(69)} in the scene
-    poseOf: (frame) => show.poseOf(frame),    // the same as received, or null
-    shownFrame: () => show.shownFrame(),      // replay: index of the frame; live: its number, or null
-    pictureFrames: () => show.pictureFrames(),   // camera → capture time [ms] of its picture
-    cameraStates: () => show.cameraStates(),     // camera → what is said of it
+    mode,                               // 'live' or 'replay'
+    state: () => show.state(),          // 'searching', 'acquiring', 'tracking', 'lost', ''
+    shownPose: () => show.shownPose(),  // {timeMs, frame, points: Float32Array(69)} in the scene
+    poseOf: (frame) => show.poseOf(frame),  // the same as received, or null
+    shownFrame: () => show.shownFrame(),    // replay: index of the frame; live: its number, or null
+    pictureFrames: () => show.pictureFrames(),       // camera → capture time [ms] of its picture
+    cameraStates: () => show.cameraStates(),         // camera → what is said of it
     cameraColor: (name) => tools.cameraColor(name),  // '#rrggbb' in the scene
-    fps: () => counter.rate,                  // of this page, frames drawn a second
+    fps: () => counter.rate,                         // of this page, frames drawn a second
   });
 }
 
@@ -92,7 +93,8 @@ async function start() {
   const pictures = new Pictures(byId('pictures'), (name) => tools.seeThrough(name));
   const tools = new ViewTools(scene, pictures);
   const counter = new FrameCounter();
-  const show = mode === 'replay' ? new Replay(scene, pictures, tools) : new Live(scene, pictures, tools);
+  const show =
+      mode === 'replay' ? new Replay(scene, pictures, tools) : new Live(scene, pictures, tools);
   startPageKeys();
   expose(mode, show, tools, counter);
   await show.start();

@@ -79,9 +79,12 @@ export class Orbit {
     const here = [event.clientX, event.clientY];
     const height = this.element.clientHeight;
     const [dx, dy] = [(here[0] - before[0]) / height, (here[1] - before[1]) / height];
-    if (this.pointers.size === 2) this.pinch(event.pointerId, before, here);
-    else if (event.shiftKey || event.buttons & 6) this.pan(-dx, dy);
-    else this.rotate(-3 * dx, 3 * dy);
+    if (this.pointers.size === 2)
+      this.pinch(event.pointerId, before, here);
+    else if (event.shiftKey || event.buttons & 6)
+      this.pan(-dx, dy);
+    else
+      this.rotate(-3 * dx, 3 * dy);
     this.pointers.set(event.pointerId, here);
   }
 
@@ -103,11 +106,16 @@ export class Orbit {
     const small = key.toLowerCase();
     const isShift = key !== small;
     const [x, y] = {a: [-1, 0], d: [1, 0], w: [0, 1], s: [0, -1]}[small] ?? [0, 0];
-    if (x || y) isShift ? this.pan(KEY_MOVE * x, KEY_MOVE * y) : this.rotate(KEY_TURN * x, KEY_TURN * y);
-    else if (key === '+' || key === '=') this.zoom(0.9);
-    else if (key === '-') this.zoom(1 / 0.9);
-    else if (key === 'r') this.reset();
-    else return false;
+    if (x || y)
+      isShift ? this.pan(KEY_MOVE * x, KEY_MOVE * y) : this.rotate(KEY_TURN * x, KEY_TURN * y);
+    else if (key === '+' || key === '=')
+      this.zoom(0.9);
+    else if (key === '-')
+      this.zoom(1 / 0.9);
+    else if (key === 'r')
+      this.reset();
+    else
+      return false;
     return true;
   }
 }

@@ -1,7 +1,7 @@
 // The strip of cameras: each one's picture with silhouette and body drawn over it, and how it does.
 
-import {fitCanvas, make, setText} from './dom.js';
 import {CAMERA_LOOKS} from './camera_models.js';
+import {fitCanvas, make, setText} from './dom.js';
 import {color, onTheme} from './theme.js';
 
 const SIDES = ['side-middle', 'side-left', 'side-right'];
@@ -40,22 +40,31 @@ function drawLines(context, picture, width, height) {
 class CameraCard {
   constructor(camera, number, onChoose) {
     this.name = camera.name;
-    this.picture = null; // the last one that was drawn, decoded
+    this.picture = null;  // the last one that was drawn, decoded
     this.bitmap = null;
-    this.next = null;    // the newest that waits while one is being decoded
+    this.next = null;  // the newest that waits while one is being decoded
     this.isDecoding = false;
     this.canvas = make('canvas', {role: 'img', 'aria-label': `Picture of ${camera.name}`});
     this.canvas.style.aspectRatio = `${camera.size_px[0]} / ${camera.size_px[1]}`;
     this.veil = make('span', {class: 'veil'});
-    this.button = make('button', {class: 'picture', type: 'button', 'aria-pressed': 'false',
-      'aria-label': `View through ${camera.name}`}, this.canvas, this.veil);
+    this.button = make(
+        'button', {
+          class: 'picture',
+          type: 'button',
+          'aria-pressed': 'false',
+          'aria-label': `View through ${camera.name}`
+        },
+        this.canvas, this.veil);
     this.button.addEventListener('click', () => onChoose(camera.name));
     this.mark = make('span', {class: 'mark', 'aria-hidden': 'true'});
     this.look = make('span', {class: 'look'});
     this.facts = make('p', {class: 'facts'});
     const key = number <= 9 ? make('kbd', {text: number, 'aria-hidden': 'true'}) : '';
-    this.element = make('li', {class: 'camera'}, this.button,
-        make('p', {class: 'camera-name'}, this.mark, make('strong', {text: camera.name}), this.look, key),
+    this.element = make(
+        'li', {class: 'camera'}, this.button,
+        make(
+            'p', {class: 'camera-name'}, this.mark, make('strong', {text: camera.name}), this.look,
+            key),
         this.facts);
   }
 
@@ -98,7 +107,10 @@ class CameraCard {
     fitCanvas(this.canvas);
   }
 
-  /** @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or ''. */
+  /**
+   * @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or
+   *     ''.
+   */
   tell({look, facts, veil}) {
     const {mark, color: name} = CAMERA_LOOKS[look] ?? CAMERA_LOOKS['not known'];
     setText(this.mark, mark);

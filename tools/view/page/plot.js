@@ -11,8 +11,10 @@ export function drawCurve(context, values, {x, y, color, width = 1.5, dash = []}
       isDown = false;
       return;
     }
-    if (isDown) context.lineTo(x(i), y(value));
-    else context.moveTo(x(i), y(value));
+    if (isDown)
+      context.lineTo(x(i), y(value));
+    else
+      context.moveTo(x(i), y(value));
     isDown = true;
   });
   context.strokeStyle = color;

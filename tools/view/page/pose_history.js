@@ -54,8 +54,10 @@ export class PoseHistory {
     let high = this.poses.length;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.poses[middle].timeMs <= timeMs) low = middle + 1;
-      else high = middle;
+      if (this.poses[middle].timeMs <= timeMs)
+        low = middle + 1;
+      else
+        high = middle;
     }
     return low - 1;
   }

@@ -1,16 +1,17 @@
 // A recorded take with its results: played, stepped, and compared with the truth.
 
-import {byId, setText} from './dom.js';
 import {Chunks} from './chunks.js';
+import {byId, setText} from './dom.js';
 import {bindKeys} from './keys.js';
 import {interpolate} from './pose_history.js';
 import {ResultPanel} from './result_panel.js';
 import {figureColor} from './theme.js';
 import {frameAt, PlayHead} from './timeline.js';
 import {TimelineView} from './timeline_view.js';
-import {decodeAll, decodePicture, decodePose, STATES} from './wire.js';
+import {decodeAll, decodePose, decodeSeen, PICTURE, STATES, VOXELS} from './wire.js';
 
 const RETRY_MS = 1000;
+const APART_MM = 1200;
 
 async function fetchBytes(url) {
   const answer = await fetch(url);
@@ -18,10 +19,10 @@ async function fetchBytes(url) {
   return answer.arrayBuffer();
 }
 
-/** Pictures of the newest wanted frame: one request at a time, never a queue. */
-class PictureFetcher {
-  constructor(onPictures) {
-    this.onPictures = onPictures;
+/** What was seen in the newest wanted frame: one request at a time, never a queue. */
+class SeenFetcher {
+  constructor(onSeen) {
+    this.onSeen = onSeen;
     this.wanted = '';
     this.loaded = '';
     this.isBusy = false;
@@ -37,7 +38,7 @@ class PictureFetcher {
     try {
       const buffer = await fetchBytes(`/pictures.bin?${query}`);
       this.loaded = query;
-      this.onPictures(decodeAll(buffer, decodePicture), frame);
+      this.onSeen(decodeAll(buffer, decodeSeen));
     } catch {
       this.failedMs = performance.now();
     }
@@ -61,43 +62,66 @@ export class Replay {
     this.head = new PlayHead(take.times_ms);
     this.tools.setCameras(take.studio.cameras);
     this.scene?.cameraModels.setLooks(new Map(Object.entries(this.cameraStates())));
-    this.tracks = take.results.map((result, k) => this.makeTrack(k, String(k), result.body,
-        {color: figureColor(k)}));
+    this.tracks = take.results.map(
+        (result, k) => this.makeTrack(
+            k, String(k), result.body,
+            {color: figureColor(k), ownSticks: take.results.length > 1}));
     if (take.truth) {
-      this.tracks.push(this.makeTrack('truth', 'truth', take.results[0]?.body ??
-          {point_names: [], bones: []}, {color: 'truth', onlySticks: true}));
+      this.tracks.push(this.makeTrack(
+          'truth', 'truth', take.results[0]?.body ?? {point_names: [], bones: []},
+          {color: 'truth', onlySticks: true}));
     }
     this.timeline = new TimelineView(take, this.head);
     this.panel = new ResultPanel(take, {
       onShow: (key, isOn) => isOn ? this.hidden.delete(key) : this.hidden.add(key),
       onOver: (k) => this.over = k,
+      onApart: (isApart) => this.setApart(isApart),
     });
-    this.fetcher = new PictureFetcher((pictures, frame) => this.takePictures(pictures, frame));
+    this.hull = this.scene?.figure('hull', {color: 'stick'});
+    this.hull?.show(null);
+    this.fetcher = new SeenFetcher((seen) => this.takeSeen(seen));
     this.bind();
   }
 
   makeTrack(key, query, body, options) {
     const figure = this.scene?.figure(key, options);
     figure?.setModel(body);
-    const chunks = new Chunks(this.take.times_ms.length, async (from, count) =>
-        decodeAll(await fetchBytes(`/poses.bin?result=${query}&from=${from}&count=${count}`), decodePose));
+    const chunks = new Chunks(
+        this.take.times_ms.length,
+        async (from, count) => decodeAll(
+            await fetchBytes(`/poses.bin?result=${query}&from=${from}&count=${count}`),
+            decodePose));
     return {key, figure, chunks};
   }
 
   bind() {
     const {head} = this;
     bindKeys([' '], ['Space'], 'play or pause', () => head.toggle());
-    bindKeys(['ArrowLeft', 'ArrowRight'], ['←', '→'], 'frame back or on; with Shift ten',
+    bindKeys(
+        ['ArrowLeft', 'ArrowRight'], ['←', '→'], 'frame back or on; with Shift ten',
         (key, event) => head.step((key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)));
-    bindKeys(['Home', 'End'], ['Home', 'End'], 'first or last frame',
+    bindKeys(
+        ['Home', 'End'], ['Home', 'End'], 'first or last frame',
         (key) => head.seek(key === 'Home' ? 0 : head.last));
-    bindKeys([',', '.'], [',', '.'], 'slower or faster', (key) => head.changeSpeed(key === ',' ? -1 : 1));
+    bindKeys(
+        [',', '.'], [',', '.'], 'slower or faster',
+        (key) => head.changeSpeed(key === ',' ? -1 : 1));
   }
 
-  takePictures(pictures, frame) {
+  /** Sets results beside each other, for bodies that would hide one another. */
+  setApart(isApart) {
+    this.take.results.forEach((result, k) => {
+      const {figure} = this.tracks[k];
+      if (!figure) return;
+      figure.position.set(isApart ? APART_MM * k : 0, 0, 0);
+      figure.label = isApart ? result.name : '';
+    });
+  }
+
+  takeSeen(seen) {
     this.pictureTimes.clear();
-    this.pictureFrame = frame;
-    for (const picture of pictures) {
+    for (const voxels of seen.filter(({kind}) => kind === VOXELS)) this.hull?.voxels.take(voxels);
+    for (const picture of seen.filter(({kind}) => kind === PICTURE)) {
       const camera = this.take.studio.cameras[picture.camera];
       if (!camera) continue;
       this.pictureTimes.set(camera.name, picture.timeMs);
@@ -109,9 +133,10 @@ export class Replay {
   tellCameras() {
     for (const card of this.pictures.cards) {
       const timeMs = this.pictureTimes.get(card.name);
-      const facts = timeMs === undefined ? '' :
-          `${((timeMs - this.take.times_ms[0]) / 1000).toFixed(3)} s`;
-      const veil = timeMs === undefined ? `no picture at frame ${this.pictureFrame}` : '';
+      // Adding zero turns -0 into 0.
+      const sinceS = Math.round(timeMs - this.take.times_ms[0]) / 1000 + 0;
+      const facts = timeMs === undefined ? '' : `${sinceS.toFixed(3)} s`;
+      const veil = timeMs === undefined ? 'no picture' : '';
       card.tell({look: 'in the take', facts, veil});
     }
   }
@@ -123,7 +148,8 @@ export class Replay {
     const pose = chunks.get(frame);
     const next = chunks.get(frame + 1);
     if (!pose || !next || timesMs[frame] >= timeMs) return pose;
-    return interpolate(pose, next, (timeMs - timesMs[frame]) / (timesMs[frame + 1] - timesMs[frame]));
+    return interpolate(
+        pose, next, (timeMs - timesMs[frame]) / (timesMs[frame + 1] - timesMs[frame]));
   }
 
   draw(nowMs) {
@@ -141,6 +167,7 @@ export class Replay {
     this.shown = first?.hasPose ? first : null;
     byId('old').hidden = !isLoading;
     if (isLoading) setText(byId('old'), 'poses are being loaded');
+    this.hull?.showVoxels(this.head.timesMs[frame], () => null);
     this.fetcher.want(frame, this.over);
     this.timeline.draw();
     this.panel.show(frame, this.head.last);
@@ -173,7 +200,7 @@ export class Replay {
   }
 
   cameraStates() {
-    return Object.fromEntries((this.take?.studio.cameras ?? []).map((camera) =>
-        [camera.name, 'in the take']));
+    return Object.fromEntries(
+        (this.take?.studio.cameras ?? []).map((camera) => [camera.name, 'in the take']));
   }
 }

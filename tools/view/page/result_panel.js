@@ -4,8 +4,8 @@ import {byId, make, setText} from './dom.js';
 import {beginPlot, drawLabel, drawLevel} from './plot.js';
 import {fixed, partText} from './text.js';
 import {color, figureColor, onTheme} from './theme.js';
-import {drawEnvelope} from './timeline_view.js';
 import {meanOf, niceTop, quantileOf} from './timeline.js';
+import {drawEnvelope} from './timeline_view.js';
 import {STATES} from './wire.js';
 
 function swatch(k) {
@@ -13,12 +13,18 @@ function swatch(k) {
 }
 
 export class ResultPanel {
-  /** @param onShow (key, isOn): shows or hides; @param onOver (k): whose body is drawn over pictures. */
-  constructor(take, {onShow, onOver}) {
+  /**
+   * @param onShow (key, isOn): shows or hides; @param onOver (k): whose body is drawn over
+   *     pictures;
+   * @param onApart (isOn): sets results beside each other.
+   */
+  constructor(take, {onShow, onOver, onApart}) {
     this.take = take;
     this.rows = take.results.map((result, k) => this.makeRow(result, k, onShow, onOver));
-    byId('replay-panel').append(make('h2', {text: 'Results'}), ...this.rows.map((row) => row.element));
+    byId('replay-panel')
+        .append(make('h2', {text: 'Results'}), ...this.rows.map((row) => row.element));
     if (take.truth) byId('replay-panel').append(this.makeTruth(onShow));
+    if (take.results.length > 1) byId('replay-panel').append(this.makeApart(onApart));
     this.tellLegend();
     this.joints = take.results[0]?.joints ?? [];
     if (this.joints.length > 0) this.makeJoints();
@@ -41,12 +47,19 @@ export class ResultPanel {
     over.addEventListener('change', () => onOver(k));
     const row = {state: make('dd'), error: make('dd'), residual: make('dd'), mean: make('dd')};
     const hasError = result.error_mm.length > 0;
-    row.element = make('div', {class: 'result'},
-        make('label', {class: 'result-name'}, shown, swatch(k), make('strong', {text: result.name})),
+    row.element = make(
+        'div', {class: 'result'},
+        make(
+            'label', {class: 'result-name'}, shown, swatch(k), make('strong', {text: result.name})),
         make('label', {class: 'over'}, over, 'over the pictures'),
-        make('dl', {class: 'pairs'}, make('dt', {text: 'State'}), row.state,
-            ...hasError ? [make('dt', {text: 'Error now'}), row.error,
-              make('dt', {text: 'Mean error'}), row.mean] : [],
+        make(
+            'dl', {class: 'pairs'}, make('dt', {text: 'State'}), row.state,
+            ...hasError ?
+                [
+                  make('dt', {text: 'Error now'}), row.error, make('dt', {text: 'Mean error'}),
+                  row.mean
+                ] :
+                [],
             make('dt', {text: 'Residual'}), row.residual));
     setText(row.mean, `${fixed(meanOf(result.error_mm), 1)} mm`);
     return row;
@@ -55,16 +68,29 @@ export class ResultPanel {
   makeTruth(onShow) {
     const shown = make('input', {type: 'checkbox', checked: ''});
     shown.addEventListener('change', () => onShow('truth', shown.checked));
-    return make('div', {class: 'result'}, make('label', {class: 'result-name'}, shown,
-        make('span', {class: 'swatch truth'}), make('strong', {text: 'truth'})));
+    return make(
+        'div', {class: 'result'},
+        make(
+            'label', {class: 'result-name'}, shown, make('span', {class: 'swatch truth'}),
+            make('strong', {text: 'truth'})));
+  }
+
+  makeApart(onApart) {
+    const apart = make('input', {type: 'checkbox'});
+    apart.addEventListener('change', () => onApart(apart.checked));
+    return make(
+        'div', {class: 'result'},
+        make('label', {}, apart, 'Side by side; the truth stays with the first'));
   }
 
   makeJoints() {
     this.joint = this.joints[0];
     this.canvas = make('canvas', {id: 'joint-plot', role: 'img'});
     this.jointTitle = make('p', {class: 'plot-legend'});
-    const heads = this.take.results.map((result, k) =>
-        make('th', {scope: 'col', title: result.name}, swatch(k), make('span', {class: 'unseen', text: result.name})));
+    const heads = this.take.results.map(
+        (result, k) => make(
+            'th', {scope: 'col', title: result.name}, swatch(k),
+            make('span', {class: 'unseen', text: result.name})));
     const body = make('tbody');
     this.buttons = this.joints.map((joint) => {
       const button = make('button', {type: 'button', class: 'joint', text: partText(joint)});
@@ -76,17 +102,23 @@ export class ResultPanel {
       body.append(make('tr', {}, make('th', {scope: 'row'}, button), ...means));
       return button;
     });
-    byId('replay-panel').append(make('h2', {text: 'Error by joint'}), this.jointTitle, this.canvas,
-        make('table', {class: 'joints'}, make('thead', {}, make('tr', {},
-            make('th', {scope: 'col', text: 'Mean error [mm]'}), ...heads)), body));
+    byId('replay-panel')
+        .append(
+            make('h2', {text: 'Error by joint'}), this.jointTitle, this.canvas,
+            make(
+                'table', {class: 'joints'},
+                make(
+                    'thead', {},
+                    make('tr', {}, make('th', {scope: 'col', text: 'Mean error [mm]'}), ...heads)),
+                body));
     new ResizeObserver(() => this.drawJoint()).observe(this.canvas);
     this.choose(this.joint);
   }
 
   choose(joint) {
     this.joint = joint;
-    this.buttons.forEach((button, i) =>
-        button.setAttribute('aria-pressed', String(this.joints[i] === joint)));
+    this.buttons.forEach(
+        (button, i) => button.setAttribute('aria-pressed', String(this.joints[i] === joint)));
     setText(this.jointTitle, `${partText(joint)}: error along the take [mm]`);
     this.canvas.setAttribute('aria-label', this.jointTitle.textContent);
     this.drawJoint();
@@ -95,16 +127,17 @@ export class ResultPanel {
   drawJoint() {
     if (!this.canvas || this.canvas.clientWidth === 0) return;
     const {context, width, height} = beginPlot(this.canvas);
-    const curves = this.take.results.map((result) =>
-        result.joint_error_mm[result.joints.indexOf(this.joint)] ?? []);
+    const curves = this.take.results.map(
+        (result) => result.joint_error_mm[result.joints.indexOf(this.joint)] ?? []);
     const top = niceTop(Math.max(1, ...curves.map((values) => quantileOf(values, 0.99) ?? 0)));
     const y = (value) => height - 3 - (height - 12) * Math.min(1.04, value / top);
     for (const share of [0, 0.5, 1]) {
       drawLevel(context, y(share * top), width, color('line'), 32);
       drawLabel(context, `${share * top}`, 26, y(share * top), color('muted'), 'right');
     }
-    curves.forEach((values, k) => drawEnvelope(context, values,
-        {left: 32, width: width - 33, y, color: color(figureColor(k))}));
+    curves.forEach(
+        (values, k) => drawEnvelope(
+            context, values, {left: 32, width: width - 33, y, color: color(figureColor(k))}));
     if (this.progress === undefined) return;
     context.fillStyle = color('text');
     context.fillRect(32 + (width - 33) * this.progress - 0.75, 0, 1.5, height);

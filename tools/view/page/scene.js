@@ -1,13 +1,13 @@
 // The studio in 3-D: floor, cameras, figures, and from where it is seen.
 
-import * as THREE from './three.js';
-import {make, setText} from './dom.js';
 import {CameraModels} from './camera_models.js';
 import {Detail, drawsInSoftware} from './detail.js';
+import {make, setText} from './dom.js';
 import {Figure} from './figure.js';
 import {Floor} from './floor.js';
 import {Orbit} from './orbit.js';
 import {onTheme} from './theme.js';
+import * as THREE from './three.js';
 
 const NEAR_MM = 50;
 const FAR_MM = 60000;
@@ -17,7 +17,7 @@ function picturesTangents(camera) {
   const local = camera.corners_mm.map((corner) => {
     const ray = corner.map((value, axis) => value - camera.position_mm[axis]);
     const row = (i) => camera.rotation.slice(3 * i, 3 * i + 3)
-        .reduce((sum, value, axis) => sum + value * ray[axis], 0);
+                           .reduce((sum, value, axis) => sum + value * ray[axis], 0);
     return [row(0) / row(2), row(1) / row(2)];
   });
   const mean = (axis, i, j) => (local[i][axis] + local[j][axis]) / 2;
@@ -74,7 +74,8 @@ export class StudioScene {
     const radius = Math.max(2000, ...cameras.map((camera) => Math.hypot(...camera.position_mm)));
     this.floor.setReach(1.9 * radius);
     if (isFirst && cameras.length > 0) this.orbit.setHome([0, 0, 750], radius);
-    if (this.through && !cameras.some((camera) => camera.name === this.through)) this.seeThrough(null);
+    if (this.through && !cameras.some((camera) => camera.name === this.through))
+      this.seeThrough(null);
   }
 
   get cameras() {
@@ -147,8 +148,8 @@ export class StudioScene {
     this.eye.position.set(...camera.position_mm);
     this.eye.quaternion.setFromRotationMatrix(axes);
     this.eye.projectionMatrix.makePerspective(
-        NEAR_MM * (left - growX), NEAR_MM * (right + growX),
-        -NEAR_MM * (top - growY), -NEAR_MM * (bottom + growY), NEAR_MM, FAR_MM);
+        NEAR_MM * (left - growX), NEAR_MM * (right + growX), -NEAR_MM * (top - growY),
+        -NEAR_MM * (bottom + growY), NEAR_MM, FAR_MM);
     this.eye.projectionMatrixInverse.getInverse(this.eye.projectionMatrix);
   }
 
@@ -167,7 +168,8 @@ export class StudioScene {
         if (camera.name === this.through) continue;
         const look = this.cameraModels.lookOf(camera.name);
         const state = this.cameraModels.looks.get(camera.name);
-        const text = ['streaming', 'in the take'].includes(state) ? camera.name :
+        const text = ['streaming', 'in the take'].includes(state) ?
+            camera.name :
             `${look.mark} ${camera.name} ${state ?? ''}`;
         wanted.set(`camera ${camera.name}`, {text, place: camera.position_mm, lift: 170});
       }
@@ -177,7 +179,9 @@ export class StudioScene {
     }
     for (const [key, figure] of this.figures) {
       if (!figure.visible || !figure.label) continue;
-      wanted.set(`figure ${key}`, {text: figure.label, place: figure.shown.points.slice(3, 6), lift: 260});
+      const place = [0, 1, 2].map(
+          (axis) => figure.shown.points[3 + axis] + figure.position.getComponent(axis));
+      wanted.set(`figure ${key}`, {text: figure.label, place, lift: 260});
     }
     this.showLabels(wanted);
   }
@@ -198,7 +202,8 @@ export class StudioScene {
       setText(element, text);
       const [x, y] = [(at.x + 1) / 2 * this.width, (1 - at.y) / 2 * this.height];
       if (!element.hidden) {
-        element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+        element.style.transform =
+            `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
       }
     }
   }

@@ -32,7 +32,7 @@ export class Socket {
     try {
       message = JSON.parse(data);
     } catch {
-      return undefined; // Not a message of this protocol.
+      return undefined;  // Not a message of this protocol.
     }
     return this.handlers.text(message);
   }

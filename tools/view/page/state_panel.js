@@ -1,4 +1,5 @@
-// State at a glance: the state's word, whether all is good, complaints word for word, and the figures.
+// State at a glance: the state's word, whether all is good, complaints word for word, and the
+// figures.
 
 import {byId, make, setText} from './dom.js';
 import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
@@ -9,17 +10,29 @@ const LEAST_DISK_BYTES = 5e9;
 export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
   if (!isOpen) {
     const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
-    return {tone: 'bad', text: `No connection to mocap view${since}. It is tried again.`, lines: []};
+    return {
+      tone: 'bad',
+      text: `No connection to mocap view${since}. It is tried again.`,
+      lines: []
+    };
   }
   if (silence) return {tone: 'bad', text: silence, lines: []};
   if (serviceAgeS === null) return {tone: 'muted', text: 'Waiting for mocapd.', lines: []};
   if (serviceAgeS > 3.5) {
-    return {tone: 'bad', text: `mocapd has told nothing for ${ageText(serviceAgeS)}.`, lines: complaints};
+    return {
+      tone: 'bad',
+      text: `mocapd has told nothing for ${ageText(serviceAgeS)}.`,
+      lines: complaints
+    };
   }
   if (complaints.length > 0) return {tone: 'warn', text: '', lines: complaints};
   if (poseAgeS === null || poseAgeS > 1) {
-    return {tone: 'bad', lines: [], text: poseAgeS === null ? 'No pose has come yet.' :
-        `No pose has come for ${ageText(poseAgeS)}.`};
+    return {
+      tone: 'bad',
+      lines: [],
+      text: poseAgeS === null ? 'No pose has come yet.' :
+                                `No pose has come for ${ageText(poseAgeS)}.`
+    };
   }
   return {tone: 'ok', text: 'all is good', lines: []};
 }
@@ -82,7 +95,7 @@ export class StatePanel {
   }
 
   setService(service, serverNowS) {
-    const age = (madeS) => madeS > 0 ? ageText(serverNowS - madeS) : 'not known';
+    const age = (madeS) => madeS > 0 ? `${ageText(serverNowS - madeS)} old` : 'age not known';
     setText(byId('nominal'), `of ${fixed(service.fps_nominal, 0)}`);
     setText(byId('disk'), bytesText(service.bytes_free));
     byId('disk').dataset.tone = service.bytes_free < LEAST_DISK_BYTES ? 'warn' : '';
@@ -108,11 +121,13 @@ export class StatePanel {
   setBody(body) {
     byId('sizes').hidden = false;
     setText(byId('stature'), `${fixed(body.stature_mm)} mm`);
-    const rows = Object.entries(body.sizes).map(([name, value]) =>
-        [make('dt', {text: partText(name)}), make('dd', {text: `${fixed(value)} mm`})]);
+    const rows = Object.entries(body.sizes)
+                     .map(([name, value]) => [make('dt', {text: partText(name)}), make('dd', {
+                                                text: `${fixed(value)} mm`
+                                              })]);
     byId('size-list').replaceChildren(...rows.flat());
-    const legend = body.part_names.map((name, i) =>
-        make('li', {}, make('span', {class: `swatch part-${i}`}), partText(name)));
+    const legend = body.part_names.map(
+        (name, i) => make('li', {}, make('span', {class: `swatch part-${i}`}), partText(name)));
     byId('part-legend').replaceChildren(...legend);
   }
 }

@@ -36,8 +36,8 @@ export function bytesText(bytes) {
   if (!Number.isFinite(bytes)) return '–';
   let value = bytes;
   for (const unit of ['bytes', 'kB', 'MB', 'GB']) {
-    if (value < 1000) return `${unit === 'bytes' || value >= 100 ? Math.round(value) :
-        value.toFixed(1)} ${unit}`;
+    if (value < 1000)
+      return `${unit === 'bytes' || value >= 100 ? Math.round(value) : value.toFixed(1)} ${unit}`;
     value /= 1000;
   }
   return `${value.toFixed(1)} TB`;

@@ -6,8 +6,10 @@ export function frameAt(timesMs, timeMs) {
   let high = timesMs.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (timesMs[middle] <= timeMs) low = middle + 1;
-    else high = middle;
+    if (timesMs[middle] <= timeMs)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return Math.max(0, low - 1);
 }
@@ -40,10 +42,11 @@ export class PlayHead {
     return Math.max(0, (this.timeMs - begin) / (this.timesMs[frame + 1] - begin));
   }
 
-  /** Starts or stops; at the end it starts from the beginning. */
+  /** Starts, at the end from the beginning; or stops, at a whole frame. */
   toggle() {
-    if (!this.playing && this.frame >= this.last) this.seek(0);
-    this.playing = !this.playing && this.last > 0;
+    const isStart = !this.playing && this.last > 0;
+    this.seek(isStart && this.frame >= this.last ? 0 : this.frame);
+    this.playing = isStart;
   }
 
   seek(frame) {
@@ -77,8 +80,10 @@ export function runsOf(values) {
   const runs = [];
   values.forEach((value, i) => {
     const last = runs[runs.length - 1];
-    if (last && last.value === value) last.to = i + 1;
-    else runs.push({value, from: i, to: i + 1});
+    if (last && last.value === value)
+      last.to = i + 1;
+    else
+      runs.push({value, from: i, to: i + 1});
   });
   return runs;
 }
@@ -90,8 +95,10 @@ export function columnsOf(values, columns) {
     if (!Number.isFinite(value)) return;
     const column = Math.min(columns - 1, Math.floor(i * columns / values.length));
     const seen = out[column];
-    if (!seen) out[column] = {low: value, high: value};
-    else out[column] = {low: Math.min(seen.low, value), high: Math.max(seen.high, value)};
+    if (!seen)
+      out[column] = {low: value, high: value};
+    else
+      out[column] = {low: Math.min(seen.low, value), high: Math.max(seen.high, value)};
   });
   return out;
 }
@@ -106,7 +113,8 @@ export function niceTop(value) {
 /** @return the mean of the numbers among the values, or null. */
 export function meanOf(values) {
   const numbers = values.filter((value) => Number.isFinite(value));
-  return numbers.length > 0 ? numbers.reduce((sum, value) => sum + value, 0) / numbers.length : null;
+  return numbers.length > 0 ? numbers.reduce((sum, value) => sum + value, 0) / numbers.length :
+                              null;
 }
 
 /** @return a quantile of the numbers among the values, or null. */

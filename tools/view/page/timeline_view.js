@@ -44,8 +44,10 @@ export function drawEnvelope(context, values, {left, width, y, color: style, lin
       return;
     }
     const x = left + (columns === 1 ? 0 : i * width / (columns - 1));
-    if (isDown) context.lineTo(x, y(column.low));
-    else context.moveTo(x, y(column.low));
+    if (isDown)
+      context.lineTo(x, y(column.low));
+    else
+      context.moveTo(x, y(column.low));
     context.lineTo(x, y(column.high));
     isDown = true;
   });
@@ -62,8 +64,8 @@ export class TimelineView {
     this.head = head;
     this.canvas = byId('track');
     this.still = null;
-    this.curves = take.results.map(({error_mm: error, residual_mm: residual}) =>
-        error.length > 0 ? error : residual);
+    this.curves = take.results.map(
+        ({error_mm: error, residual_mm: residual}) => error.length > 0 ? error : residual);
     this.hasTruth = take.results.some((result) => result.error_mm.length > 0);
     const tops = this.curves.map((values) => quantileOf(values, 0.99) ?? 0);
     this.top = niceTop(Math.max(1, ...tops));
@@ -77,10 +79,13 @@ export class TimelineView {
   }
 
   tellLegend() {
-    setText(byId('track-legend'), this.hasTruth ? 'Mean error over the joints [mm]. ' :
-        'Residual [mm]. ');
+    setText(
+        byId('track-legend'),
+        this.hasTruth ? 'Mean error over the joints [mm]. ' : 'Residual [mm]. ');
     for (const state of STATES) {
-      byId('track-legend').append(make('span', {class: `state-key ${state}`}), `${state} `);
+      byId('track-legend')
+          .append(make(
+              'span', {class: 'state-entry'}, make('span', {class: `state-key ${state}`}), state));
     }
   }
 
@@ -92,8 +97,9 @@ export class TimelineView {
     onClick('step-on', () => head.step(1));
     onClick('to-begin', () => head.seek(0));
     onClick('to-end', () => head.seek(head.last));
-    byId('speed').replaceChildren(...SPEEDS.map((speed) =>
-        make('option', {text: `${speed}×`, value: speed, selected: speed === head.speed})));
+    byId('speed').replaceChildren(...SPEEDS.map(
+        (speed) =>
+            make('option', {text: `${speed}×`, value: speed, selected: speed === head.speed})));
     byId('speed').addEventListener('change', ({target}) => head.speed = Number(target.value));
     this.canvas.addEventListener('pointerdown', (event) => {
       this.canvas.setPointerCapture(event.pointerId);
@@ -130,10 +136,13 @@ export class TimelineView {
     const y = (value) => height - 4 - (height - top - 8) * Math.min(1.04, value / this.top);
     for (const share of [0, 0.5, 1]) {
       drawLevel(context, y(share * this.top), width, color('line'), LEFT);
-      drawLabel(context, `${share * this.top}`, LEFT - 8, y(share * this.top), color('muted'), 'right');
+      drawLabel(
+          context, `${share * this.top}`, LEFT - 8, y(share * this.top), color('muted'), 'right');
     }
-    this.curves.forEach((values, k) => drawEnvelope(context, values,
-        {left: LEFT, width: width - LEFT - 1, y, color: color(figureColor(k))}));
+    this.curves.forEach(
+        (values, k) => drawEnvelope(
+            context, values,
+            {left: LEFT, width: width - LEFT - 1, y, color: color(figureColor(k))}));
     this.still = make('canvas');
     this.still.width = this.canvas.width;
     this.still.height = this.canvas.height;

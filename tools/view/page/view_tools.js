@@ -4,7 +4,13 @@ import {byId, make} from './dom.js';
 import {bindKeys} from './keys.js';
 import {color} from './theme.js';
 
-const LAYER_KEYS = {b: 'body', j: 'joints', v: 'voxels', t: 'trails', c: 'cameras'};
+const LAYER_KEYS = {
+  b: 'body',
+  j: 'joints',
+  v: 'voxels',
+  t: 'trails',
+  c: 'cameras'
+};
 
 export class ViewTools {
   /** @param scene the 3-D scene, or null where there is no WebGL. */
@@ -15,19 +21,24 @@ export class ViewTools {
     for (const box of byId('layers').querySelectorAll('input')) {
       box.addEventListener('change', () => scene?.setLayer(box.dataset.layer, box.checked));
     }
-    byId('view-from').addEventListener('change', ({target}) => this.seeThrough(target.value || null));
+    byId('view-from')
+        .addEventListener('change', ({target}) => this.seeThrough(target.value || null));
     this.bind();
   }
 
   bind() {
     for (const [key, layer] of Object.entries(LAYER_KEYS)) {
-      bindKeys([key], [key.toUpperCase()], `${layer} shown or hidden`, () => this.toggleLayer(layer));
+      bindKeys(
+          [key], [key.toUpperCase()], `${layer} shown or hidden`, () => this.toggleLayer(layer));
     }
-    bindKeys([...'123456789'], ['1', '…', '9'], 'view through a camera',
+    bindKeys(
+        [...'123456789'], ['1', '…', '9'], 'view through a camera',
         (key) => this.seeThrough(this.names[key - 1] ?? null));
     bindKeys(['0', 'Escape'], ['0', 'Esc'], 'free view', () => this.seeThrough(null));
-    bindKeys([...'wasd'], ['W', 'A', 'S', 'D'], 'turn the view', (key) => this.scene?.orbit.key(key));
-    bindKeys([...'WASD'], ['Shift', 'W', 'A', 'S', 'D'], 'move the view',
+    bindKeys(
+        [...'wasd'], ['W', 'A', 'S', 'D'], 'turn the view', (key) => this.scene?.orbit.key(key));
+    bindKeys(
+        [...'WASD'], ['Shift', 'W', 'A', 'S', 'D'], 'move the view',
         (key) => this.scene?.orbit.key(key));
     bindKeys(['+', '=', '-'], ['+', '−'], 'zoom', (key) => this.scene?.orbit.key(key));
     bindKeys(['r'], ['R'], 'view of the whole studio', () => {
@@ -46,7 +57,8 @@ export class ViewTools {
     this.scene?.setCameras(cameras);
     this.pictures.setCameras(cameras);
     const list = byId('view-from');
-    list.replaceChildren(make('option', {text: 'Free view', value: ''}),
+    list.replaceChildren(
+        make('option', {text: 'Free view', value: ''}),
         ...this.names.map((name) => make('option', {text: `From ${name}`, value: name})));
     list.value = this.scene?.through ?? '';
   }

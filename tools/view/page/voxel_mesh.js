@@ -1,11 +1,13 @@
-// Surface voxels in the colours of their parts. The cells of a message go to the graphics card as they are.
+// Surface voxels in the colours of their parts. The cells of a message go to the graphics card as
+// they are.
 
 import * as THREE from './three.js';
 
 const PARTS = 10;
 const drawn = new THREE.Vector2();
-// Voxels come a few times a second. Between, each goes with its part of the body, so that what is seen
-// is how the body fitted when the voxels were made. Its parts' centroids are the first ten points.
+// Voxels come a few times a second. Between, each goes with its part of the body, so that what is
+// seen is how the body fitted when the voxels were made. Its parts' centroids are the first ten
+// points.
 const LONGEST_CARRY_MS = 1000;
 
 // Each voxel is one point of the size of its cube, shaded as a ball: a cube has 36 corners.

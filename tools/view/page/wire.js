@@ -23,9 +23,9 @@ function floats(buffer, begin, count) {
   return new Float32Array(buffer.slice(begin, begin + 4 * count));
 }
 
-/** @return {number} the kind of a binary message, 0 if there is none. */
-export function kindOf(buffer) {
-  return buffer.byteLength > 0 ? new Uint8Array(buffer, 0, 1)[0] : 0;
+/** @return {number} the kind of the message at `begin`, 0 if there is none. */
+export function kindOf(buffer, begin = 0) {
+  return buffer.byteLength > begin ? new Uint8Array(buffer, begin, 1)[0] : 0;
 }
 
 /** Decodes the pose at `begin`; `end` tells where the next message begins. */
@@ -52,18 +52,20 @@ export function decodePose(buffer, begin = 0) {
 }
 
 /** Decodes surface voxels: `cells` has x, y, z and part of each; part 65535 is none. */
-export function decodeVoxels(buffer) {
-  require(buffer, VOXELS_HEADER_BYTES);
-  const view = new DataView(buffer);
+export function decodeVoxels(buffer, begin = 0) {
+  require(buffer, begin + VOXELS_HEADER_BYTES);
+  const view = new DataView(buffer, begin);
   const count = view.getUint32(4, true);
-  require(buffer, VOXELS_HEADER_BYTES + 8 * count);
+  const end = begin + VOXELS_HEADER_BYTES + 8 * count;
+  require(buffer, end);
   return {
     person: view.getUint8(1),
     count,
     timeMs: view.getFloat64(8, true),
     sizeMm: view.getFloat32(16, true),
     originMm: [20, 24, 28].map((at) => view.getFloat32(at, true)),
-    cells: new Uint16Array(buffer, VOXELS_HEADER_BYTES, 4 * count),
+    cells: new Uint16Array(buffer, begin + VOXELS_HEADER_BYTES, 4 * count),
+    end,
   };
 }
 
@@ -101,6 +103,13 @@ export function decodePicture(buffer, begin = 0) {
     jpeg: new Uint8Array(buffer, jpeg, jpegBytes),
     end: begin + 8 * Math.ceil((jpeg + jpegBytes - begin) / 8),
   };
+}
+
+/** Decodes what is seen at a moment of a take: a picture or voxels, as `kind` tells. */
+export function decodeSeen(buffer, begin = 0) {
+  const kind = kindOf(buffer, begin);
+  const decode = kind === VOXELS ? decodeVoxels : decodePicture;
+  return {kind, ...decode(buffer, begin)};
 }
 
 /** Decodes messages that stand one after the other. */

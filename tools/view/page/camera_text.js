@@ -1,0 +1,27 @@
+// What is said of a camera, in words.
+
+import {fixed, percent} from './text.js';
+
+const LEAST_TRUST = 0.5;
+const MOST_OFF_PX = 2;
+
+/** @return a camera's state, or that its silhouettes do not fit the other cameras'. */
+export function lookOfCamera({state, trust, off_px: offPx}) {
+  if (state !== 'streaming') return state;
+  const isOff = trust !== null && (trust < LEAST_TRUST || Math.abs(offPx ?? 0) > MOST_OFF_PX);
+  return isOff ? 'not trusted' : 'streaming';
+}
+
+/** @return the figures of a camera's line in `mocap status`. */
+export function factsOf(camera) {
+  const parts = [`${fixed(camera.frames_per_second, 1)} /s`];
+  if (camera.trust !== null) {
+    parts.push(`trust ${percent(camera.trust)}`);
+    if (camera.off_px !== null) parts.push(`off ${fixed(camera.off_px, 1)} px`);
+  }
+  if (camera.light !== null) parts.push(`light ${percent(camera.light)}`);
+  for (const name of ['dropped', 'late', 'torn']) {
+    if (camera[name] > 0) parts.push(`${name} ${camera[name]}`);
+  }
+  return parts.join(' · ');
+}
