@@ -28,10 +28,11 @@ class Pose:
 
 
 class Listener(threading.Thread):
-    """Hears the poses on a port."""
+    """Hears the poses on a port; `read` makes of each what is wanted of it."""
 
-    def __init__(self, port):
+    def __init__(self, port, read=Pose):
         super().__init__(daemon=True)
+        self.read = read
         self.poses = []
         self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -47,7 +48,7 @@ class Listener(threading.Thread):
                 continue
             channel, _, data = packet[8:].partition(b"\0")
             if channel == b"MOCAP_POSE":
-                self.poses.append(Pose(data))
+                self.poses.append(self.read(data))
 
 
 class Daemon:
