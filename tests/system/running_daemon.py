@@ -68,9 +68,10 @@ class Daemon:
                       % (self.lcm_url, self.socket))
 
     def __enter__(self):
-        self.log = open(self.log_file, "ab")
-        self.process = subprocess.Popen([*self.wrapper, os.path.join(BIN, "mocapd"), "--config", self.config],
-                                        stdout=subprocess.DEVNULL, stderr=self.log)
+        with open(self.log_file, "ab") as log:
+            self.process = subprocess.Popen([*self.wrapper, os.path.join(BIN, "mocapd"), "--config", self.config],
+                                            stdout=subprocess.DEVNULL, stderr=log,
+                                            env={**os.environ, "XDG_STATE_HOME": self.folder})
         self.wait_until(lambda: self.status()["sets_complete"] > 0, 120, "no frames flow")
         return self
 

@@ -118,7 +118,7 @@ def processor_s(process):
 
 def upgrade_request(view, host=None, origin=None):
     """What a browser says to open /live; None stands for what is right."""
-    host = host or "127.0.0.1:%d" % view.port
+    host = "127.0.0.1:%d" % view.port if host is None else host
     return ("GET /live HTTP/1.1\r\nHost: %s\r\nOrigin: %s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
             "Sec-WebSocket-Key: %s\r\nSec-WebSocket-Version: 13\r\n\r\n"
             % (host, origin or "http://" + host, base64.b64encode(os.urandom(16)).decode())).encode()
