@@ -50,12 +50,17 @@ TEST_F(AravisTriggersTest, ScheduledExposuresComeAtMultiplesOfThePeriodByPtp) {
   while (driver.Facts().time_source != "PTP, TAI" && std::chrono::steady_clock::now() < deadline) {
     ASSERT_TRUE(GrabFrame(driver, frame));
   }
-  for (int i = 0; i < 20; ++i) {
+  // On a busy host a request may come too late, and its exposure then comes when it can.
+  constexpr int kInARow = 20;
+  int in_a_row = 0;
+  while (in_a_row < kInARow && std::chrono::steady_clock::now() < deadline) {
     ASSERT_TRUE(GrabFrame(driver, frame));
     // TAI is a whole number of seconds ahead.
-    EXPECT_LE((frame.capture_ns + 1000) % (2 * kPeriod_ns), 2000);
+    const bool is_multiple = (frame.capture_ns + 1000) % (2 * kPeriod_ns) <= 2000;
+    in_a_row = is_multiple ? in_a_row + 1 : 0;
     EXPECT_TRUE(IsOfItsTime(frame));
   }
+  EXPECT_EQ(in_a_row, kInARow);
   EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("PTP"))));
   EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("ahead"))));
 }
