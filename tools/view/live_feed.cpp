@@ -117,6 +117,7 @@ void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   }
   if (body_) drawn.capsules = body_->Pose(*pose, *row);
   put_(kPose, Binary(PoseBytes(drawn)));
+  PutPicturesOf(pose->utime);
 }
 
 void LiveFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
@@ -165,6 +166,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
     return;
   }
   studio_ = std::move(*studio);
+  waiting_.clear();
   X_CW_.clear();
   for (const CameraCalibration& camera : cameras_) X_CW_.push_back(camera.X_CW);
   PutStudio();
@@ -195,25 +197,47 @@ void LiveFeed::MoveCamera(std::size_t camera, const preview_t& preview) {
 }
 
 void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
-  const std::optional<preview_t> preview = Decoded<preview_t>(*buffer);
+  std::optional<preview_t> preview = Decoded<preview_t>(*buffer);
   if (!preview || !IsSound(*preview)) return;
   const auto found = std::ranges::find(cameras_, preview->camera, &CameraCalibration::name);
   if (found == cameras_.end()) return;
   const auto camera = static_cast<std::size_t>(found - cameras_.begin());
   MoveCamera(camera, *preview);
-  const int factor = preview->reduction;
+  // A picture is quicker than the pose of its moment, if one comes at all.
+  const bool has_pose = !poses_.empty() && poses_.back().timestamp_ns / 1000 >= preview->utime;
+  if (const auto before = waiting_.find(camera); before != waiting_.end()) {
+    PutPicture(camera, before->second);
+    waiting_.erase(before);
+  }
+  if (has_pose) {
+    PutPicture(camera, *preview);
+  } else {
+    waiting_.emplace(camera, std::move(*preview));
+  }
+}
+
+void LiveFeed::PutPicturesOf(std::int64_t utime) {
+  std::erase_if(waiting_, [&](const auto& waiting) {
+    const bool is_due = waiting.second.utime <= utime;
+    if (is_due) PutPicture(waiting.first, waiting.second);
+    return is_due;
+  });
+}
+
+void LiveFeed::PutPicture(std::size_t camera, const preview_t& preview) {
+  const int factor = preview.reduction;
   const Silhouette silhouette =
-      SilhouetteFromRuns(preview->run, preview->width_px / factor, preview->height_px / factor);
+      SilhouetteFromRuns(preview.run, preview.width_px / factor, preview.height_px / factor);
   DrawnPicture picture{.camera = static_cast<int>(camera),
-                       .width_px = preview->width_px,
-                       .height_px = preview->height_px,
-                       .capture_ms = static_cast<double>(preview->utime) / 1000,
+                       .width_px = preview.width_px,
+                       .height_px = preview.height_px,
+                       .capture_ms = static_cast<double>(preview.utime) / 1000,
                        .silhouette = SilhouetteLines(silhouette, factor),
                        .body = {},
-                       .jpeg = preview->jpeg};
-  const PoseRow* row = PoseAt(preview->utime);
+                       .jpeg = preview.jpeg};
+  const PoseRow* row = PoseAt(preview.utime);
   if (row && row->state == CaptureState::kTracking && body_ && AreSizes(body_->record().sizes)) {
-    picture.body = PartOutlines(*row, body_->record().sizes, *found, X_CW_[camera]);
+    picture.body = PartOutlines(*row, body_->record().sizes, cameras_[camera], X_CW_[camera]);
   }
   put_(kPictures + camera, Binary(PictureBytes(picture)));
 }

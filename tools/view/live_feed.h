@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <map>
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/studio_t.hpp>
@@ -48,6 +49,8 @@ class LiveFeed {
   void PutStudio();
   void PutNotice();
   void MoveCamera(std::size_t camera, const preview_t& preview);
+  void PutPicturesOf(std::int64_t utime);
+  void PutPicture(std::size_t camera, const preview_t& preview);
   const PoseRow* PoseAt(std::int64_t utime) const;
 
   const std::string url_;
@@ -59,7 +62,9 @@ class LiveFeed {
   studio_t studio_;
   std::vector<CameraCalibration> cameras_;
   std::vector<RigidTransform> X_CW_;  ///< Where each camera stands now.
-  std::deque<PoseRow> poses_;         ///< The latest, for pictures that come later.
+  std::deque<PoseRow> poses_;         ///< The latest, for pictures that come later,
+  /// and pictures whose pose is still to come, by camera.
+  std::map<std::size_t, preview_t> waiting_;
 };
 
 }  // namespace mocap

@@ -11,6 +11,7 @@
 
 #include "daemon/messages/messages.h"
 #include "daemon/messages/reduced_picture.h"
+#include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"
@@ -31,14 +32,21 @@ constexpr int kWidest_px = 800;
 constexpr int kJpegQuality = 85;
 constexpr int kTruthPerson = 255;
 
-/// A number of a request, no greater than `most`; 0 where there is none.
+/// What is wrong with a request, for whoever asked.
+struct WrongRequest {
+  std::string why;
+};
+
+/// A number of a request from 0 to `most`. @throws WrongRequest
 std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::size_t most) {
   const auto found = request.query.find(name);
+  const std::string text = found == request.query.end() ? "" : found->second;
   std::size_t number = 0;
-  if (found == request.query.end()) return 0;
-  const std::string& text = found->second;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return std::min(number, most);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (is_number && number <= most) return number;
+  throw WrongRequest{name + " is " + Quoted(text) + "; 0 to " + std::to_string(most) +
+                     " is wanted"};
 }
 
 /// Folders of a result: itself, or one a person.
@@ -155,10 +163,15 @@ TakeSite::TakeSite(const std::filesystem::path& take,
 }
 
 ViewReply TakeSite::Answer(const ViewRequest& request) {
+  constexpr const char* kBinary = "application/octet-stream";
   if (request.method != "GET") return {404, "", ""};
-  if (request.path == "/take.json") return {200, "application/json", TakeJson()};
-  if (request.path == "/poses.bin") return {200, "application/octet-stream", Poses(request)};
-  if (request.path == "/pictures.bin") return {200, "application/octet-stream", Pictures(request)};
+  try {
+    if (request.path == "/take.json") return {200, "application/json", TakeJson()};
+    if (request.path == "/poses.bin") return {200, kBinary, Poses(request)};
+    if (request.path == "/pictures.bin") return {200, kBinary, Pictures(request)};
+  } catch (const WrongRequest& wrong) {
+    return {400, "text/plain; charset=utf-8", wrong.why + '\n'};
+  }
   return {404, "", ""};
 }
 
@@ -186,16 +199,22 @@ std::string TakeSite::TakeJson() const {
   return JsonText(json);
 }
 
+const TakeSite::ShownResult* TakeSite::ResultOf(const ViewRequest& request) const {
+  // A take without results has pictures and truth.
+  if (results_.empty()) return nullptr;
+  return &results_[NumberOf(request, "result", results_.size() - 1)];
+}
+
 std::string TakeSite::Poses(const ViewRequest& request) const {
   const std::size_t from = NumberOf(request, "from", times_ns_.size());
   const std::size_t count = NumberOf(request, "count", kMostPosesAtOnce);
   const auto which = request.query.find("result");
   const bool is_truth = which != request.query.end() && which->second == "truth";
-  const std::size_t result = NumberOf(request, "result", results_.size());
+  const ShownResult* result = is_truth ? nullptr : ResultOf(request);
   std::string bytes;
   for (std::size_t frame = from; frame < std::min(from + count, times_ns_.size()); ++frame) {
     if (is_truth) bytes += TruthOf(frame);
-    if (!is_truth && result < results_.size()) bytes += PoseOf(results_[result], frame);
+    if (result) bytes += PoseOf(*result, frame);
   }
   return bytes;
 }
@@ -234,10 +253,9 @@ std::string TakeSite::TruthOf(std::size_t frame) const {
 std::string TakeSite::Pictures(const ViewRequest& request) {
   if (times_ns_.empty()) return {};
   const std::size_t frame = NumberOf(request, "frame", times_ns_.size() - 1);
-  const std::size_t result = NumberOf(request, "result", results_.size());
-  const PoseRow* row = result < results_.size() ? RowOf(results_[result], frame) : nullptr;
-  const BodySizes* sizes =
-      row && IsTracked(*row) ? &results_[result].evaluation.result.body.sizes : nullptr;
+  const ShownResult* result = ResultOf(request);
+  const PoseRow* row = result ? RowOf(*result, frame) : nullptr;
+  const BodySizes* sizes = row && IsTracked(*row) ? &result->evaluation.result.body.sizes : nullptr;
   const std::scoped_lock lock(mutex_);
   const std::vector<TakePicture> pictures = pictures_.At(times_ns_[frame]);
   std::string bytes;

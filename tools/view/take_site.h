@@ -24,7 +24,7 @@ class TakeSite {
   TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results);
 
   const std::string& name() const { return pictures_.name(); }
-  /// Status 404 for what is none of its.
+  /// Status 404 for what is none of its, 400 for numbers of nothing.
   ViewReply Answer(const ViewRequest& request);
 
  private:
@@ -36,6 +36,8 @@ class TakeSite {
   };
 
   std::string TakeJson() const;
+  /// The result that is asked for; null where the take has none.
+  const ShownResult* ResultOf(const ViewRequest& request) const;
   std::string Poses(const ViewRequest& request) const;
   std::string Pictures(const ViewRequest& request);
   std::string DrawnOver(const TakePicture& picture, std::vector<BodyLine> body);

@@ -81,6 +81,17 @@ Response Refuse(const Request& request, int status, const std::string& why) {
   return Respond(request, status, "text/plain; charset=utf-8", why + "\n");
 }
 
+/// Whether what came is no request, rather than none.
+bool IsMalformed(ErrorCode error) {
+  return error.category() == http::make_error_code(http::error::end_of_stream).category() &&
+         error != http::error::end_of_stream;
+}
+
+int StatusOf(ErrorCode malformed) {
+  if (malformed == http::error::header_limit) return 431;
+  return malformed == http::error::body_limit ? 413 : 400;
+}
+
 tcp::acceptor OpenPort(asio::io_context& io, std::uint16_t port) {
   if (sd_listen_fds(0) >= 1) return tcp::acceptor(io, tcp::v4(), SD_LISTEN_FDS_START);
   tcp::acceptor acceptor(io, tcp::v4());
@@ -195,20 +206,26 @@ class ViewServer::Impl {
     std::optional<Request> upgrade;
     try {
       upgrade = co_await ServeRequests(*connection);
-    } catch (const boost::system::system_error& error) {
-      NoteEnd(error.code(), connection->buffer.size() > 0);
+    } catch (const boost::system::system_error&) {
+      // Whoever asked has gone before the answer.
     }
     connections_.erase(place);
     if (upgrade) co_await ServePage(std::move(connection->stream), std::move(*upgrade));
   }
 
-  /// A browser keeps connections open that it may need later; they are closed without a word.
-  void NoteEnd(ErrorCode error, bool has_begun) {
-    if (error == beast::error::timeout && has_begun) refusals_.Add("half a request");
-    const bool is_malformed =
-        error != http::error::end_of_stream &&
-        error.category() == http::make_error_code(http::error::end_of_stream).category();
-    if (is_malformed) refusals_.Add("a request: " + error.message());
+  /// Ends a connection from which no whole request came. A browser keeps connections open that it
+  /// may need later; they are closed without a word.
+  Task<void> EndWithoutRequest(Connection& connection, ErrorCode error) {
+    if (error == beast::error::timeout && connection.buffer.size() > 0) {
+      refusals_.Add("half a request");
+    }
+    if (!IsMalformed(error)) co_return;
+    refusals_.Add("a request: " + error.message());
+    Request unread;
+    unread.keep_alive(false);
+    const Response response = Refuse(unread, StatusOf(error), error.message());
+    connection.stream.expires_after(kPatience);
+    co_await http::async_write(connection.stream, response, asio::use_awaitable);
   }
 
   /// @return  a request to become a WebSocket.
@@ -218,7 +235,13 @@ class ViewServer::Impl {
       parser.header_limit(kMostHeaderBytes);
       parser.body_limit(kMostBodyBytes);
       connection.stream.expires_after(kPatience);
-      co_await http::async_read(connection.stream, connection.buffer, parser, asio::use_awaitable);
+      ErrorCode error;
+      co_await http::async_read(connection.stream, connection.buffer, parser,
+                                asio::redirect_error(asio::use_awaitable, error));
+      if (error) {
+        co_await EndWithoutRequest(connection, error);
+        co_return std::nullopt;
+      }
       Request request = parser.release();
       const bool is_page = options_.files.contains(std::string(View(request.target())));
       Response response;

@@ -16,6 +16,9 @@
 namespace mocap {
 namespace {
 
+/// A count of 0 in a message.
+const std::string kNothing(4, '\0');
+
 CameraCalibration Camera() {
   CameraCalibration camera;
   camera.name = "cam1";
@@ -129,12 +132,32 @@ TEST_F(LiveFeedTest, APoseThatIsNoNumberIsNotPassedOn) {
 }
 
 TEST_F(LiveFeedTest, APictureOfAKnownCameraIsPassedOnWithItsLines) {
+  Publish("left.MOCAP_POSE", Pose());
   Publish("left.MOCAP_PREVIEW", Preview());
   EXPECT_FALSE(board_.contains(LiveFeed::kPictures)) << "no studio is known";
   Publish("left.MOCAP_STUDIO", Studio());
   Publish("left.MOCAP_PREVIEW", Preview());
   ASSERT_TRUE(board_.contains(LiveFeed::kPictures));
-  EXPECT_GT(board_.at(LiveFeed::kPictures)[16], 0) << "the silhouette's line";
+  EXPECT_NE(board_.at(LiveFeed::kPictures).substr(16, 4), kNothing) << "the silhouette's line";
+}
+
+TEST_F(LiveFeedTest, APictureWaitsForThePoseOfItsMoment) {
+  body_t body{};
+  FillBody(body_, 0, body);
+  Publish("left.MOCAP_BODY", body);
+  Publish("left.MOCAP_STUDIO", Studio());
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_FALSE(board_.contains(LiveFeed::kPictures));
+  Publish("left.MOCAP_POSE", Pose());
+  ASSERT_TRUE(board_.contains(LiveFeed::kPictures));
+  EXPECT_NE(board_.at(LiveFeed::kPictures).substr(20, 4), kNothing) << "the body's lines";
+}
+
+TEST_F(LiveFeedTest, WithoutPosesAPictureWaitsForTheNextOne) {
+  Publish("left.MOCAP_STUDIO", Studio());
+  Publish("left.MOCAP_PREVIEW", Preview());
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_TRUE(board_.contains(LiveFeed::kPictures));
 }
 
 TEST_F(LiveFeedTest, ForgedPicturesAreLeftOut) {

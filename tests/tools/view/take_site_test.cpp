@@ -84,12 +84,13 @@ TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
 
 TEST_F(TakeSiteTest, GivesThePictureOfEachCameraThatHasTheFrame) {
   TakeSite site(take_, {result_});
-  const std::string all = Get(site, "/pictures.bin", {{"frame", "3"}});
+  const std::string all = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   ASSERT_EQ(PicturesIn(all).size(), 3u);
   EXPECT_EQ(At<double>(all, 8), (testing::kFirstNs + 3 * testing::kPeriodNs) / 1e6);
-  const std::string late = Get(site, "/pictures.bin", {{"frame", "15"}});
+  const std::string late = Get(site, "/pictures.bin", {{"frame", "15"}, {"result", "0"}});
   EXPECT_EQ(PicturesIn(late).size(), 2u) << "the camera in the west missed it";
-  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "3"}}), 8), At<double>(all, 8))
+  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}}), 8),
+            At<double>(all, 8))
       << "going back";
 }
 
@@ -104,17 +105,28 @@ TEST_F(TakeSiteTest, SilhouettesAndVoxelsComeOnceTheEmptyStudioIsLearned) {
         last + (32 + 4 * floats + At<std::uint32_t>(bytes, last + 24) + 7) / 8 * 8;
     return end < bytes.size() && bytes[end] == 2;
   };
-  std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}});
-  while (!has_voxels(bytes)) bytes = Get(site, "/pictures.bin", {{"frame", "3"}});
+  std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
+  while (!has_voxels(bytes)) bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   EXPECT_GT(At<std::uint32_t>(bytes, 16), 0u) << "the silhouette's line";
 }
 
-TEST_F(TakeSiteTest, NumbersThatAreNoneAskForTheBeginning) {
+TEST_F(TakeSiteTest, NumbersOfNothingAreRefused) {
   TakeSite site(take_, {result_});
-  EXPECT_EQ(Get(site, "/poses.bin", {{"from", "-3"}, {"count", "x"}}), "");
-  EXPECT_EQ(Get(site, "/poses.bin", {{"result", "99"}, {"count", "5"}}), "");
-  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "99999999999999999999"}}), 8),
-            testing::kFirstNs / 1e6);
+  const auto status = [&site](const std::string& path, std::map<std::string, std::string> query) {
+    return site
+        .Answer({.method = "GET",
+                 .path = path,
+                 .query = std::move(query),
+                 .authorization = {},
+                 .body = {}})
+        .status;
+  };
+  for (const char* frame : {"", "x", "-1", "3x", "20", "99999999999999999999"}) {
+    EXPECT_EQ(status("/pictures.bin", {{"frame", frame}, {"result", "0"}}), 400) << frame;
+  }
+  EXPECT_EQ(status("/poses.bin", {{"from", "0"}, {"count", "1"}, {"result", "1"}}), 400);
+  EXPECT_EQ(status("/poses.bin", {{"from", "0"}, {"count", "1"}, {"result", "../x"}}), 400);
+  EXPECT_EQ(status("/poses.bin", {{"from", "0"}, {"result", "0"}}), 400);
 }
 
 TEST_F(TakeSiteTest, WithoutAResultTheTakeIsShown) {
