@@ -125,6 +125,8 @@ class ViewServer::Impl {
     pool_.stop();
   }
 
+  void Stop() { io_.stop(); }
+
   void Every(std::chrono::milliseconds period, std::function<void()> call) {
     asio::co_spawn(io_, Repeat(period, std::move(call)), asio::detached);
   }
@@ -386,5 +388,6 @@ void ViewServer::Put(std::size_t slot, LiveMessage message) {
 }
 void ViewServer::Clear(std::size_t slot) { impl_->Clear(slot); }
 void ViewServer::Run() { impl_->Run(); }
+void ViewServer::Stop() { impl_->Stop(); }
 
 }  // namespace mocap

@@ -64,8 +64,10 @@ class ViewServer {
   void Put(std::size_t slot, LiveMessage message);
   void Clear(std::size_t slot);
 
-  /// Serves until SIGINT or SIGTERM.
+  /// Serves until Stop, SIGINT or SIGTERM.
   void Run();
+  /// Any thread.
+  void Stop();
 
  private:
   class Impl;
