@@ -363,9 +363,10 @@ class ViewServer::Impl {
   const Options options_;
   LiveBoard board_;
   std::set<asio::steady_timer*> waiting_;  ///< Of pages that may wait for something new.
-  std::list<std::shared_ptr<Connection>> connections_;
   Refusals refusals_;
-  asio::io_context io_{1};  ///< After what its coroutines hold on to.
+  // What coroutines hold on to comes before the loop, what holds on to the loop after it.
+  asio::io_context io_{1};
+  std::list<std::shared_ptr<Connection>> connections_;
   tcp::acceptor acceptor_;
   asio::thread_pool pool_{kAnswerThreads};
 };
