@@ -15,7 +15,7 @@ std::int64_t Allocations() { return allocations; }
 }  // namespace mocap
 
 // The C library's own under their other names; operator new calls the former.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef MOCAP_HAS_SANITIZER
 extern "C" {
 
 void* __libc_malloc(std::size_t size);

@@ -5,7 +5,16 @@
 
 namespace mocap {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// GCC says it by macros, Clang by features.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define MOCAP_HAS_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define MOCAP_HAS_SANITIZER
+#endif
+
+#ifdef MOCAP_HAS_SANITIZER
 constexpr bool kCountsAllocations = false;
 #else
 constexpr bool kCountsAllocations = true;
