@@ -61,11 +61,11 @@ SyntheticStudio::SyntheticStudio() : table_(HalfSizeCamera()) {
       directions_.push_back(NormalizedFromPixel(cameras[0].lens, Vector2(x, y)));
 }
 
-void SyntheticStudio::Show(const std::vector<Capsule>& capsules) {
+void SyntheticStudio::Show(const std::vector<DrawnCapsule>& capsules) {
   silhouettes.assign(cameras.size(), Silhouette(kWidth_px, kHeight_px));
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const RigidTransform& X_CW = cameras[c].X_CW;
-    for (const Capsule& capsule : capsules) {
+    for (const DrawnCapsule& capsule : capsules) {
       const Vector3 a = X_CW * capsule.a_W;
       const Vector3 b = X_CW * capsule.b_W;
       const Vector3 middle = (a + b) / 2;
@@ -90,7 +90,7 @@ std::vector<CarvingView> SyntheticStudio::Views() const {
   return views;
 }
 
-std::vector<Capsule> StandingPerson(double x, double y) {
+std::vector<DrawnCapsule> StandingPerson(double x, double y) {
   const auto at = [&](double dx, double dy, double z) { return Vector3(x + dx, y + dy, z); };
   return {{at(0, 0, 950), at(0, 0, 1350), 130},      {at(0, 0, 1640), at(0, 0, 1680), 95},
           {at(150, 0, 1400), at(700, 50, 1400), 45}, {at(-150, 0, 1400), at(-700, -50, 1200), 45},

@@ -11,7 +11,7 @@
 namespace mocap {
 
 /// All points within a radius of a line segment; a sphere where both ends are the same.
-struct Capsule {
+struct DrawnCapsule {
   Vector3 a_W;
   Vector3 b_W;
   double radius_mm = 0;
@@ -30,7 +30,7 @@ class SyntheticStudio {
   std::vector<Silhouette> silhouettes;
 
   /// Draws what each camera sees of the capsules.
-  void Show(const std::vector<Capsule>& capsules);
+  void Show(const std::vector<DrawnCapsule>& capsules);
   std::vector<CarvingView> Views() const;
 
  private:
@@ -39,6 +39,6 @@ class SyntheticStudio {
 };
 
 /// A person of about 1.75 m, standing at (x, y) with the arms out.
-std::vector<Capsule> StandingPerson(double x, double y);
+std::vector<DrawnCapsule> StandingPerson(double x, double y);
 
 }  // namespace mocap

@@ -8,9 +8,9 @@
 namespace mocap {
 namespace {
 
-Eigen::AlignedBox3d BoxOf(const std::vector<Capsule>& capsules) {
+Eigen::AlignedBox3d BoxOf(const std::vector<DrawnCapsule>& capsules) {
   Eigen::AlignedBox3d box;
-  for (const Capsule& c : capsules) {
+  for (const DrawnCapsule& c : capsules) {
     for (const Vector3& end : {c.a_W, c.b_W}) {
       box.extend(end + Vector3::Constant(c.radius_mm));
       box.extend(end - Vector3::Constant(c.radius_mm));
@@ -42,7 +42,7 @@ TEST(ConvexVolume, CutsBeyondItChangeNothingAndCutsBeforeItLeaveNothing) {
 TEST(VolumeOfInterest, HoldsThePersonAndLittleMore) {
   SyntheticStudio studio;
   for (const Vector2& at : {Vector2(0, 0), Vector2(900, -600)}) {
-    const std::vector<Capsule> person = StandingPerson(at.x(), at.y());
+    const std::vector<DrawnCapsule> person = StandingPerson(at.x(), at.y());
     studio.Show(person);
     const std::optional<Eigen::AlignedBox3d> volume = VolumeOfInterest().Find(studio.Views());
     ASSERT_TRUE(volume.has_value());
@@ -59,7 +59,7 @@ TEST(VolumeOfInterest, HoldsThePersonAndLittleMore) {
 
 TEST(VolumeOfInterest, ASideThatRunsOutOfThePictureBoundsNothing) {
   SyntheticStudio studio;
-  const std::vector<Capsule> person = StandingPerson(0, 0);
+  const std::vector<DrawnCapsule> person = StandingPerson(0, 0);
   // One camera sees the legs only, one the left arm only, one a shoulder from close by.
   studio.cameras[1].X_CW = LookAt({100, -2900, 2000}, {0, 0, -600});
   studio.cameras[3].X_CW = LookAt({2900, 2700, 2200}, {3000, -2500, 900});
