@@ -115,7 +115,7 @@ void ViewLive(const ViewOptions& options) {
   server.Every(ControlDesk::kLookPeriod, [&] {
     if (server.live_pages() == 0) return;
     const auto why = std::make_shared<std::string>();
-    server.Aside([&desk, why] { *why = desk.Look(); }, [&feed, why] { feed.NotePictures(*why); });
+    server.Aside([&desk, why] { *why = desk.Look(); }, [&feed, why] { feed.NoteControl(*why); });
   });
   Announce(server, token);
   server.Run();

@@ -32,10 +32,4 @@ void LiveBoard::Put(std::size_t slot, LiveMessage message) {
   }
 }
 
-void LiveBoard::Clear(std::size_t slot) {
-  if (slot >= latest_.size()) return;
-  latest_[slot] = {};
-  for (Reader* reader : readers_) reader->is_due_[slot] = false;
-}
-
 }  // namespace mocap

@@ -39,8 +39,6 @@ class LiveBoard {
   };
 
   void Put(std::size_t slot, LiveMessage message);
-  /// What was put there is no longer true.
-  void Clear(std::size_t slot);
   std::size_t readers() const { return readers_.size(); }
 
  private:

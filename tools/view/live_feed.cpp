@@ -46,7 +46,7 @@ std::optional<Message> Decoded(const lcm::ReceiveBuffer& buffer) {
 }
 
 bool IsSound(const preview_t& preview) {
-  const auto is_side = [](int px) { return px > 0 && px <= 16384; };
+  const auto is_side = [](int px) { return px > 0 && px <= kLargestPicture_px; };
   return is_side(preview.width_px) && is_side(preview.height_px) && preview.reduction > 0 &&
          preview.width_px / preview.reduction <= kLargestPreview_px &&
          preview.height_px / preview.reduction <= kLargestPreview_px;
@@ -76,11 +76,6 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   PutNotice();
 }
 
-void LiveFeed::NotePictures(const std::string& why) {
-  pictures_ = why;
-  PutNotice();
-}
-
 void LiveFeed::NoteControl(const std::string& why) {
   control_ = why;
   PutNotice();
@@ -96,7 +91,7 @@ void LiveFeed::Tick() {
 
 void LiveFeed::PutNotice() {
   std::string notice = JsonText(
-      {{"type", "notice"}, {"pictures", pictures_}, {"silence", silence_}, {"control", control_}});
+      {{"type", "notice"}, {"pictures", control_}, {"silence", silence_}, {"control", control_}});
   if (notice == notice_) return;
   notice_ = notice;
   put_(kNotice, Text(std::move(notice)));

@@ -31,9 +31,7 @@ class LiveFeed {
   /// @param url     of LCM, for people.
   LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put);
 
-  /// Why the daemon gives no pictures; empty: it does, or nobody has asked.
-  void NotePictures(const std::string& why);
-  /// Why nothing may be done; empty: it may.
+  /// Why the daemon cannot be asked, for pictures or anything else; empty: it can, or nobody has.
   void NoteControl(const std::string& why);
   /// Looks whether the daemon has fallen silent. Some times a second.
   void Tick();
@@ -56,7 +54,7 @@ class LiveFeed {
   const std::string url_;
   const Put put_;
   std::int64_t heard_ns_;  ///< By the steady clock.
-  std::string silence_, pictures_, control_, notice_;
+  std::string silence_, control_, notice_;
   std::optional<DrawnBody> body_;
   std::optional<service_t> service_;
   studio_t studio_;

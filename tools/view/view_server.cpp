@@ -146,7 +146,6 @@ class ViewServer::Impl {
     board_.Put(slot, std::move(message));
     for (asio::steady_timer* waiting : waiting_) waiting->cancel();
   }
-  void Clear(std::size_t slot) { board_.Clear(slot); }
   std::size_t live_pages() const { return board_.readers(); }
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
@@ -387,7 +386,6 @@ void ViewServer::Aside(std::function<void()> work, std::function<void()> then) {
 void ViewServer::Put(std::size_t slot, LiveMessage message) {
   impl_->Put(slot, std::move(message));
 }
-void ViewServer::Clear(std::size_t slot) { impl_->Clear(slot); }
 void ViewServer::Run() { impl_->Run(); }
 void ViewServer::Stop() { impl_->Stop(); }
 

@@ -62,7 +62,6 @@ class ViewServer {
   void Aside(std::function<void()> work, std::function<void()> then);
   /// Tells all pages. From Run.
   void Put(std::size_t slot, LiveMessage message);
-  void Clear(std::size_t slot);
 
   /// Serves until Stop, SIGINT or SIGTERM.
   void Run();

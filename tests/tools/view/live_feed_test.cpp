@@ -175,8 +175,9 @@ TEST_F(LiveFeedTest, ForgedPicturesAreLeftOut) {
 }
 
 TEST_F(LiveFeedTest, WhyThereAreNoPicturesIsTold) {
-  feed_.NotePictures("no mocapd runs here");
+  feed_.NoteControl("no mocapd runs here");
   EXPECT_EQ(Json(LiveFeed::kNotice)["pictures"], "no mocapd runs here");
+  EXPECT_EQ(Json(LiveFeed::kNotice)["control"], "no mocapd runs here");
 }
 
 TEST_F(LiveFeedTest, WordsThatAreNoUtf8DoNoHarm) {
