@@ -8,6 +8,7 @@
 #include "config/read_cameras.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "core/people/people_capture.h"
 
 namespace mocap {
 namespace {
@@ -105,6 +106,12 @@ void ReadBody(TomlSection& root, const std::filesystem::path& file, Config& conf
   if (is_path) config.body = Resolved(file, config.body).string();
 }
 
+int ReadPeople(TomlSection section, int people) {
+  people = static_cast<int>(section.IntegerWithin("most", 1, kMostPeople, people));
+  section.RejectUnknownKeys();
+  return people;
+}
+
 void CheckLiveStudio(const Config& config, const TomlSection& root) {
   const std::string& driver = config.source.driver;
   if (!IsLive(config.source)) return;
@@ -139,6 +146,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   if (auto section = root.Section("voxels"))
     config.voxel_mm = ReadVoxels(*section, config.voxel_mm);
   if (auto section = root.Section("segmentation")) config.segmentation = ReadSegmentation(*section);
+  if (auto section = root.Section("people")) config.people = ReadPeople(*section, config.people);
   if (auto section = root.Section("lcm")) config.lcm = ReadLcm(*section);
   config.cameras = ReadCameras(root, config.source.driver);
   config.service = ReadServiceConfig(root, file);

@@ -1,6 +1,7 @@
 // The paper's Fig. 1 from voxels on: acquire the body, track it, lose it, acquire again.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,25 @@ enum class CaptureState { kSearching = 0, kAcquiring = 1, kTracking = 2, kLost =
 
 inline constexpr std::array<std::string_view, 4> kCaptureStateNames = {"searching", "acquiring",
                                                                        "tracking", "lost"};
+
+/// What one frame set shows of a person, and of all who are with him. Borrowed.
+struct Sighting {
+  /// Of a person who is alone, and may be anywhere in the grid.
+  Sighting(const VoxelGrid& grid, std::span<const Outline> rays)
+      : Sighting(grid, rays, {grid.origin_W(), grid.end_W()}) {}
+  /// Of a person who is alone, and is within a box.
+  Sighting(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box)
+      : Sighting(grid, rays, box, grid, rays) {}
+  Sighting(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box,
+           const VoxelGrid& everybody, std::span<const Outline> all_rays)
+      : flesh(grid), outlines(rays), box_W(box), room(everybody), borders(all_rays) {}
+
+  const VoxelGrid& flesh;             ///< The person's voxels.
+  std::span<const Outline> outlines;  ///< The rays that graze the person; one outline a camera.
+  Eigen::AlignedBox3d box_W;          ///< The person is in it, flesh that was carved away too [mm].
+  const VoxelGrid& room;              ///< Everybody's voxels in the same block of cells.
+  std::span<const Outline> borders;   ///< The rays that graze anybody near the person.
+};
 
 /// The outcome of one frame set.
 struct CaptureResult {
@@ -53,11 +73,9 @@ class MotionCapture {
   virtual ~MotionCapture() = default;
 
   /// Takes the next frame set.
-  /// @param outlines    of the silhouettes that the grid was carved by.
   /// @param capture_ns  time of exposure; must not go back.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  virtual const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
-                                      std::int64_t capture_ns,
+  virtual const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                                       UpdateObserver* observer = nullptr) = 0;
 
   /// Forgets the person: whoever is seen next is measured.
@@ -66,6 +84,11 @@ class MotionCapture {
   /// nothing is measured until Forget.
   virtual void Expect(const BodySizes& sizes) = 0;
 
+  /// What the last update came to.
+  virtual const CaptureResult& result() const = 0;
+  /// Where the person will be at a later time if nothing unforeseen happens.
+  /// @pre  the last state was not searching.
+  virtual PoseState PredictedPose(std::int64_t capture_ns) const = 0;
   /// The body as it is known now.
   virtual const BodyModel& body() const = 0;
   /// Frames that acquisition took from the person's appearance until the sizes settled; 0 before

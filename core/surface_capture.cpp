@@ -63,13 +63,13 @@ class SurfaceCapture::Impl {
  public:
   explicit Impl(const BodyTable& table) : acquirer_(table), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
-                              std::int64_t capture_ns, UpdateObserver* observer) {
+  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+                              UpdateObserver* observer) {
     // A clock may be put back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
-    evidence_.Gather(grid, outlines);
+    evidence_.Gather(sighting);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
@@ -91,6 +91,12 @@ class SurfaceCapture::Impl {
   }
 
   const CaptureResult& result() const { return result_; }
+  PoseState PredictedPose(std::int64_t capture_ns) const {
+    // Of somebody who was lost before the sizes were known nothing is left but the last pose.
+    if (!tracker_) return result_.pose;
+    const std::int64_t ahead_ns = std::max<std::int64_t>(0, capture_ns - last_ns_.value());
+    return tracker_->filter().PredictedPose(static_cast<double>(ahead_ns) * 1e-9);
+  }
   const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
   int acquisition_frames() const { return acquisition_frames_; }
 
@@ -236,13 +242,16 @@ class SurfaceCapture::Impl {
 SurfaceCapture::SurfaceCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 SurfaceCapture::~SurfaceCapture() = default;
 
-const CaptureResult& SurfaceCapture::Update(const VoxelGrid& grid,
-                                            std::span<const Outline> outlines,
-                                            std::int64_t capture_ns, UpdateObserver* observer) {
-  return impl_->Update(grid, outlines, capture_ns, observer);
+const CaptureResult& SurfaceCapture::Update(const Sighting& sighting, std::int64_t capture_ns,
+                                            UpdateObserver* observer) {
+  return impl_->Update(sighting, capture_ns, observer);
 }
 void SurfaceCapture::Forget() { impl_->StartOver({}); }
 void SurfaceCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
+const CaptureResult& SurfaceCapture::result() const { return impl_->result(); }
+PoseState SurfaceCapture::PredictedPose(std::int64_t capture_ns) const {
+  return impl_->PredictedPose(capture_ns);
+}
 const BodyModel& SurfaceCapture::body() const { return impl_->body(); }
 int SurfaceCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
 

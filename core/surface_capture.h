@@ -13,10 +13,12 @@ class SurfaceCapture : public MotionCapture {
   explicit SurfaceCapture(const BodyTable& table);
   ~SurfaceCapture() override;
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::span<const Outline> outlines,
-                              std::int64_t capture_ns, UpdateObserver* observer) override;
+  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+                              UpdateObserver* observer) override;
   void Forget() override;
   void Expect(const BodySizes& sizes) override;
+  const CaptureResult& result() const override;
+  PoseState PredictedPose(std::int64_t capture_ns) const override;
   const BodyModel& body() const override;
   int acquisition_frames() const override;
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct TrackOptions {
   std::string body;  ///< Empty: the tracker's own.
   std::string tracker = Trackers().front().name;
   std::vector<std::string> cameras;
+  std::optional<int> people;  ///< Without: one, whose result is the take's.
   bool measure = false;
   bool json = false;
 };
@@ -44,6 +46,7 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
   json.Add("frames", static_cast<int>(sink.frames()));
   json.Add("tracked_frames", static_cast<int>(sink.tracked_frames()));
   json.Add("acquisition_frames", sink.acquisition_frames());
+  if (!sink.people().empty()) json.Add("people", static_cast<int>(sink.people().size()));
   for (const Stage stage :
        {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter, Stage::kTotal}) {
     JsonObject timing;
@@ -68,13 +71,15 @@ void Track(const TrackOptions& options) {
   for (const std::string& remark : studio.remarks) {
     std::fprintf(stderr, "mocap track: %s\n", Printable(remark).c_str());
   }
-  RequireRoomForResult(options.out);
-  ResultSink sink(isatty(STDERR_FILENO) == 1);
+  options.people ? RequireRoomForPeople(options.out) : RequireRoomForResult(options.out);
+  ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
+                  isatty(STDERR_FILENO) == 1);
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
                      .overflow = Overflow::kWait,
                      .latency_origin = LatencyOrigin::kArrival,
-                     .tracker = tracker.kind},
+                     .tracker = tracker.kind,
+                     .people = options.people.value_or(1)},
                     LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
   if (!options.measure && IsThere(subject)) {
@@ -88,12 +93,17 @@ void Track(const TrackOptions& options) {
   if (sink.frames() == 0) {
     throw SetupError(options.take.string() + ": no frames of two cameras belong together");
   }
-  WriteResult(options.out, sink.result());
+  if (options.people)
+    WritePeople(options.out, sink.people());
+  else
+    WriteResult(options.out, sink.result());
   if (options.json) {
     std::puts(JsonOf(sink, pipeline.Status().stages, seconds).c_str());
   } else {
-    std::printf("%s, %zu tracked, at %.1f a second: %s\n",
-                Counted(sink.frames(), "frame set").c_str(), sink.tracked_frames(),
+    const std::string people =
+        options.people ? ", people: " + std::to_string(sink.people().size()) : "";
+    std::printf("%s, %zu tracked%s, at %.1f a second: %s\n",
+                Counted(sink.frames(), "frame set").c_str(), sink.tracked_frames(), people.c_str(),
                 static_cast<double>(sink.frames()) / seconds,
                 Printable(options.out.string()).c_str());
   }
@@ -103,7 +113,7 @@ void Track(const TrackOptions& options) {
 
 void AddTrackCommand(CLI::App& app) {
   auto options = std::make_shared<TrackOptions>();
-  CLI::App* command = app.add_subcommand("track", "Tracks the person in a take");
+  CLI::App* command = app.add_subcommand("track", "Tracks the people in a take");
   command->add_option("TAKE", options->take, "the take's folder")->required();
   command->add_option("--out", options->out, "folder for poses.csv and body.toml")->required();
   command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
@@ -118,6 +128,10 @@ void AddTrackCommand(CLI::App& app) {
                       "mikic2003, full, or a body table's file; the tracker's own without");
   command->add_option("--cameras", options->cameras, "use these only, as in cam1,cam2")
       ->delimiter(',');
+  command
+      ->add_option("--people", options->people,
+                   "follow up to so many; the result has a folder for each, person-1 and so on")
+      ->check(NumberFrom(1, kMostPeople));
   command->add_flag("--measure", options->measure,
                     "measure the person even where the take has the sizes");
   command->add_flag("--json", options->json, "print one JSON object");

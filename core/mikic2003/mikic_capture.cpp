@@ -45,14 +45,14 @@ class MikicCapture::Impl {
     result_.point_std_mm.setZero();
   }
 
-  const CaptureResult& Update(const VoxelGrid& grid, std::int64_t capture_ns,
+  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                               UpdateObserver* observer) {
     // A clock may be put back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     last_ns_ = capture_ns;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     result_.body_changed = false;
-    cloud_.Build(grid);
+    cloud_.Build(sighting.flesh, sighting.room);
     result_.voxels = cloud_.size();
     const bool somebody = cloud_.volume_litres() >= kLeastLitres;
     if (!tracked_) {
@@ -175,12 +175,15 @@ class MikicCapture::Impl {
 MikicCapture::MikicCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MikicCapture::~MikicCapture() = default;
 
-const CaptureResult& MikicCapture::Update(const VoxelGrid& grid, std::span<const Outline>,
-                                          std::int64_t capture_ns, UpdateObserver* observer) {
-  return impl_->Update(grid, capture_ns, observer);
+const CaptureResult& MikicCapture::Update(const Sighting& sighting, std::int64_t capture_ns,
+                                          UpdateObserver* observer) {
+  return impl_->Update(sighting, capture_ns, observer);
 }
 void MikicCapture::Forget() { impl_->StartOver({}); }
 void MikicCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
+const CaptureResult& MikicCapture::result() const { return impl_->result(); }
+// The filter's own prediction is Fig. 12's, of points; between frames a person stays near.
+PoseState MikicCapture::PredictedPose(std::int64_t) const { return impl_->result().pose; }
 const BodyModel& MikicCapture::body() const { return impl_->body(); }
 int MikicCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
 

@@ -10,7 +10,7 @@ namespace {
 // As shares of a voxel: how far apart a ray is looked at, and how far inside of it.
 constexpr double kStep = 0.8;
 constexpr double kInward = 0.7;
-// Share of a camera's rays.
+// Share of a camera's rays, beyond the usual one.
 constexpr double kMostMissing = 1.0 / 3;
 
 struct Range {
@@ -49,30 +49,54 @@ BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {
           ray.outward_W};
 }
 
-void AddEdges(const VoxelCloud& cloud, const Outline& outline, std::vector<BoundingEdge>& edges,
-              std::vector<BoundingEdge>& missing) {
-  missing.clear();
-  for (const GrazingRay& ray : outline) {
-    const std::optional<Range> in_box = Within(cloud.box_W(), ray.eye_W, ray.direction_W);
-    if (!in_box) continue;
-    if (const std::optional<Range> stretch = AlongVoxels(cloud, ray, *in_box)) {
-      edges.push_back(EdgeOf(ray, *stretch));
-    } else {
-      missing.push_back(EdgeOf(ray, *in_box));
-    }
-  }
-  if (static_cast<double>(missing.size()) > kMostMissing * static_cast<double>(outline.size())) {
-    return;
-  }
-  edges.insert(edges.end(), missing.begin(), missing.end());
-}
+double ShareOf(int part, int all) { return static_cast<double>(part) / std::max(1, all); }
 
 }  // namespace
 
-void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
-                       std::vector<BoundingEdge>& edges, std::vector<BoundingEdge>& missing) {
+void BoundingEdgeFinder::Find(const VoxelCloud& cloud, std::span<const Outline> outlines,
+                              const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges) {
   edges.clear();
-  for (const Outline& outline : outlines) AddEdges(cloud, outline, edges, missing);
+  cuts_.clear();
+  cameras_.clear();
+  for (const Outline& outline : outlines) cameras_.push_back(CutRays(cloud, outline, box_W));
+  const double usual_share = UsualMissingShare();
+  std::size_t i = 0;
+  for (const Camera& camera : cameras_) {
+    const bool errs = ShareOf(camera.missing, camera.rays) > usual_share + kMostMissing;
+    const std::size_t end = i + camera.cuts;
+    for (std::size_t cut = i; cut < end; ++cut)
+      if (!cuts_[cut].misses) edges.push_back(cuts_[cut].edge);
+    for (std::size_t cut = i; cut < end && !errs; ++cut)
+      if (cuts_[cut].misses) edges.push_back(cuts_[cut].edge);
+    i = end;
+  }
+}
+
+BoundingEdgeFinder::Camera BoundingEdgeFinder::CutRays(const VoxelCloud& cloud,
+                                                       const Outline& outline,
+                                                       const Eigen::AlignedBox3d& box_W) {
+  Camera camera;
+  camera.rays = static_cast<int>(outline.size());
+  for (const GrazingRay& ray : outline) {
+    const std::optional<Range> in_box = Within(box_W, ray.eye_W, ray.direction_W);
+    if (!in_box) continue;
+    const std::optional<Range> stretch = AlongVoxels(cloud, ray, *in_box);
+    cuts_.push_back({EdgeOf(ray, stretch.value_or(*in_box)), !stretch});
+    camera.missing += !stretch;
+    ++camera.cuts;
+  }
+  return camera;
+}
+
+// Of the better half of the cameras that see the person; what most of them miss was carved away.
+double BoundingEdgeFinder::UsualMissingShare() {
+  shares_.clear();
+  for (const Camera& camera : cameras_)
+    if (camera.rays > 0) shares_.push_back(ShareOf(camera.missing, camera.rays));
+  if (shares_.empty()) return 0;
+  const auto middle = shares_.begin() + static_cast<std::ptrdiff_t>((shares_.size() - 1) / 2);
+  std::ranges::nth_element(shares_, middle);
+  return *middle;
 }
 
 }  // namespace mocap

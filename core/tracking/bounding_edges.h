@@ -17,11 +17,32 @@ struct BoundingEdge {
   Vector3 outward_W;  ///< The person's normal where it is touched; unit length.
 };
 
-/// Cuts each ray to its stretch along the voxels. A ray that misses them keeps its whole way
-/// through their box, because a limb may have been carved away that another camera did not see; but
-/// not if a third of its camera's rays miss, for then it is the camera that errs.
-/// @param missing  memory to work with.
-void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
-                       std::vector<BoundingEdge>& edges, std::vector<BoundingEdge>& missing);
+/// Cuts rays to bounding edges. Reuses its memory.
+class BoundingEdgeFinder {
+ public:
+  /// Cuts each ray to its stretch along the voxels. A ray that misses them keeps its whole way
+  /// through the person's box, because a limb may have been carved away that another camera did not
+  /// see; but not where many more of its camera's rays miss than of the others', for then it is the
+  /// camera that errs.
+  void Find(const VoxelCloud& cloud, std::span<const Outline> outlines,
+            const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges);
+
+ private:
+  struct Cut {
+    BoundingEdge edge;
+    bool misses;
+  };
+  struct Camera {
+    int rays = 0, missing = 0;
+    std::size_t cuts = 0;
+  };
+
+  Camera CutRays(const VoxelCloud& cloud, const Outline& outline, const Eigen::AlignedBox3d& box_W);
+  double UsualMissingShare();
+
+  std::vector<Cut> cuts_;
+  std::vector<Camera> cameras_;
+  std::vector<double> shares_;
+};
 
 }  // namespace mocap

@@ -4,22 +4,27 @@
 #include <span>
 #include <vector>
 
+#include "core/motion_capture.h"
 #include "core/tracking/bounding_edges.h"
 #include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 
-/// The person as voxels and as the outlines that they were carved by. Reuses its memory.
+/// The person as voxels and bounding edges, and the borders beyond which there is no flesh. Reuses
+/// its memory.
 struct Evidence {
   VoxelCloud cloud;
-  std::vector<Outline> outlines;  ///< One a camera; empty of those that are not in.
+  std::vector<Outline> borders;  ///< One a camera; empty of those that are not in.
   std::vector<BoundingEdge> edges;
-  std::vector<BoundingEdge> missing;  ///< Memory for FindBoundingEdges.
+  BoundingEdgeFinder edge_finder;
 
-  void Gather(const VoxelGrid& grid, std::span<const Outline> seen) {
-    cloud.Build(grid);
-    outlines.assign(seen.begin(), seen.end());
-    FindBoundingEdges(cloud, outlines, edges, missing);
+  bool is_alone = true;  ///< Nobody else was near.
+
+  void Gather(const Sighting& sighting) {
+    is_alone = &sighting.flesh == &sighting.room;
+    cloud.Build(sighting.flesh, sighting.room);
+    borders.assign(sighting.borders.begin(), sighting.borders.end());
+    edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);
   }
 };
 

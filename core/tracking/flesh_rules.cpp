@@ -74,7 +74,7 @@ Vector3 PlaceColumns::NearestTo(const Vector3& p_W) const {
 
 std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& surface_W,
                                   const Vector3& p_W) {
-  if (surface_W.size() == 0 || cloud.Holds(p_W)) return std::nullopt;
+  if (surface_W.size() == 0 || cloud.IsFlesh(p_W)) return std::nullopt;
   return surface_W.NearestTo(p_W) - p_W;
 }
 

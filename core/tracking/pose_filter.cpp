@@ -125,6 +125,12 @@ void PoseFilter::ForgetVelocity() {
   P_vv_ = VelocityVariance().asDiagonal();
 }
 
+PoseState PoseFilter::PredictedPose(double dt_s) const {
+  PoseState pose = pose_;
+  pose.Add(velocity_ * (noise_.velocity_decay_s * (1 - std::exp(-dt_s / noise_.velocity_decay_s))));
+  return pose;
+}
+
 void PoseFilter::Predict(double dt_s) {
   const double tau_s = noise_.velocity_decay_s;
   const double decay = std::exp(-dt_s / tau_s);

@@ -69,6 +69,8 @@ class PoseFilter {
   /// Starts at a pose of which this much is known.
   void Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad);
 
+  /// Where the pose will be a time `dt_s` later; the filter stays as it is.
+  PoseState PredictedPose(double dt_s) const;
   /// Takes pose and covariance to a time `dt_s` later.
   void Predict(double dt_s);
 

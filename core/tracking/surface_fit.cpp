@@ -42,8 +42,8 @@ void SurfaceFit::SetEvidence(const Evidence& evidence) {
   evidence_ = &evidence;
   ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
   matcher_.SetContacts(contacts_);
-  borders_.resize(evidence.outlines.size());
-  for (std::size_t i = 0; i < borders_.size(); ++i) borders_[i].SetOutline(evidence.outlines[i]);
+  borders_.resize(evidence.borders.size());
+  for (std::size_t i = 0; i < borders_.size(); ++i) borders_[i].SetOutline(evidence.borders[i]);
 }
 
 void SurfaceFit::PoseCapsules(const BodyModel& body, const PoseState& pose) {

@@ -84,7 +84,7 @@ Vector3 VoxelCloud::Centroid() const {
 }
 
 int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
-  if (!HoldsCell(cell)) return -1;
+  if (!HoldsCell(bits_, cell)) return -1;
   const Word* const row = RowOf(cell.y(), cell.z());
   const int word = cell.x() >> 6;
   int index = first_of_row_[static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()];
@@ -92,115 +92,59 @@ int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
   return index + std::popcount(row[word] & ((Word{1} << (cell.x() & 63)) - 1));
 }
 
-void VoxelCloud::Build(const VoxelGrid& grid) {
+void VoxelCloud::Build(const VoxelGrid& grid, const VoxelGrid& room) {
   size_ = grid.size();
   origin_W_ = grid.origin_W();
   voxel_mm_ = grid.voxel_mm();
-  CopyBits(grid);
-  DropIslands();
-  ListVoxels(grid);
-}
-
-void VoxelCloud::CopyBits(const VoxelGrid& grid) {
   words_per_row_ = grid.words_per_row() + 1;
   const std::ptrdiff_t rows = std::ptrdiff_t{size_.y() + 2 * kMargin} * (size_.z() + 2 * kMargin);
   bits_.assign(1 + rows * words_per_row_, 0);
-  for (int k = 0; k < size_.z(); ++k)
-    for (int j = 0; j < size_.y(); ++j)
-      std::copy_n(grid.row(j, k), grid.words_per_row(), &bits_[WordOf(j, k)]);
+  CopyPerson(grid);
+  is_alone_ = &grid == &room;
+  if (!is_alone_) AddOthers(grid, room);
+  ListVoxels(grid);
 }
 
-void VoxelCloud::FindRuns() {
-  runs_.clear();
-  row_begins_.clear();
-  for (int k = 0; k < size_.z(); ++k) {
-    for (int j = 0; j < size_.y(); ++j) {
-      const Word* const row = RowOf(j, k);
-      row_begins_.push_back(static_cast<int>(runs_.size()));
-      for (int i = 0; i + 1 < words_per_row_; ++i) {
-        for (Word bits = row[i]; bits != 0;) {
-          const int first = std::countr_zero(bits);
-          const int length = std::countr_one(bits >> first);
-          const int begin = i * 64 + first, end = begin + length;
-          if (static_cast<int>(runs_.size()) > row_begins_.back() && runs_.back().end == begin)
-            runs_.back().end = end;
-          else
-            runs_.push_back({k * size_.y() + j, begin, end, static_cast<int>(runs_.size())});
-          bits &= ~MaskOf(0, first, first + length);
-        }
-      }
-    }
-  }
-  row_begins_.push_back(static_cast<int>(runs_.size()));
-}
-
-int VoxelCloud::RootOf(int run) {
-  while (runs_[run].parent != run) {
-    runs_[run].parent = runs_[runs_[run].parent].parent;
-    run = runs_[run].parent;
-  }
-  return run;
-}
-
-// Runs hang together over corners too.
-void VoxelCloud::JoinRuns(int row, int other_row) {
-  int other = row_begins_[other_row];
-  for (int run = row_begins_[row]; run < row_begins_[row + 1]; ++run) {
-    while (other < row_begins_[other_row + 1] && runs_[other].end < runs_[run].begin) ++other;
-    for (int i = other; i < row_begins_[other_row + 1] && runs_[i].begin <= runs_[run].end; ++i) {
-      int a = RootOf(run), b = RootOf(i);
-      if (a < b) std::swap(a, b);
-      runs_[a].parent = b;
-    }
-  }
-}
-
-bool VoxelCloud::IsNearBody(const Run& run, int body, int reach) {
-  const int j = run.row % size_.y(), k = run.row / size_.y();
-  for (int z = std::max(k - reach, 0); z <= std::min(k + reach, size_.z() - 1); ++z) {
-    const int first = z * size_.y() + std::max(j - reach, 0);
-    const int last = z * size_.y() + std::min(j + reach, size_.y() - 1);
-    for (int i = row_begins_[first]; i < row_begins_[last + 1]; ++i) {
-      const Run& other = runs_[i];
+bool VoxelCloud::IsNearPiece(const VoxelPieces::Run& run, int piece, int reach) const {
+  const int first_j = std::max(run.j - reach, 0);
+  const int last_j = std::min(run.j + reach, size_.y() - 1);
+  for (int k = std::max(run.k - reach, 0); k <= std::min(run.k + reach, size_.z() - 1); ++k) {
+    for (const VoxelPieces::Run& other : pieces_.RunsOf(first_j, last_j, k)) {
       const int gap = std::max(other.begin - run.end, run.begin - other.end) + 1;
-      if (gap <= reach && RootOf(i) == body) return true;
+      if (gap <= reach && other.piece == piece) return true;
     }
   }
   return false;
 }
 
-void VoxelCloud::DropIslands() {
-  FindRuns();
-  if (runs_.empty()) return;
+void VoxelCloud::CopyPerson(const VoxelGrid& grid) {
+  pieces_.Find(grid);
+  const std::vector<int>& sizes = pieces_.sizes();
+  if (sizes.empty()) return;
+  const int body = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
+  is_kept_.assign(sizes.size(), false);
+  is_kept_[body] = true;
+  const int reach = static_cast<int>(kPieceReachMm / voxel_mm_);
+  for (const VoxelPieces::Run& run : pieces_.runs()) {
+    if (is_kept_[run.piece] || sizes[run.piece] < kPieceShare * sizes[body]) continue;
+    is_kept_[run.piece] = IsNearPiece(run, body, reach);
+  }
+  for (const VoxelPieces::Run& run : pieces_.runs()) {
+    if (!is_kept_[run.piece]) continue;
+    Word* const row = &bits_[WordOf(run.j, run.k)];
+    for (int word = run.begin / 64; word <= (run.end - 1) / 64; ++word)
+      row[word] |= MaskOf(word, run.begin, run.end);
+  }
+}
+
+void VoxelCloud::AddOthers(const VoxelGrid& grid, const VoxelGrid& room) {
+  solid_bits_ = bits_;
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
-      const int row = k * size_.y() + j;
-      if (row_begins_[row] == row_begins_[row + 1]) continue;
-      if (j > 0) JoinRuns(row, row - 1);
-      if (k == 0) continue;
-      for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size_.y() - 1); ++y)
-        JoinRuns(row, (k - 1) * size_.y() + y);
+      Word* const solid = &solid_bits_[WordOf(j, k)];
+      for (int i = 0; i < grid.words_per_row(); ++i)
+        solid[i] |= room.row(j, k)[i] & ~grid.row(j, k)[i];
     }
-  }
-  sizes_.assign(runs_.size(), 0);
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
-    sizes_[RootOf(i)] += runs_[i].end - runs_[i].begin;
-  const int body = static_cast<int>(std::ranges::max_element(sizes_) - sizes_.begin());
-
-  near_body_.assign(runs_.size(), false);
-  near_body_[body] = true;
-  const int reach = static_cast<int>(kPieceReachMm / voxel_mm_);
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
-    const int root = RootOf(i);
-    if (near_body_[root] || sizes_[root] < kPieceShare * sizes_[body]) continue;
-    near_body_[root] = IsNearBody(runs_[i], body, reach);
-  }
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
-    if (near_body_[RootOf(i)]) continue;
-    const Run& run = runs_[i];
-    Word* const row = &bits_[WordOf(run.row % size_.y(), run.row / size_.y())];
-    for (int word = run.begin / 64; word <= (run.end - 1) / 64; ++word)
-      row[word] &= ~MaskOf(word, run.begin, run.end);
   }
 }
 
@@ -213,13 +157,14 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
       const Word* const row = RowOf(j, k);
+      const Word* const solid = SolidRowOf(j, k);
       first_of_row_.push_back(size());
       for (int i = 0; i + 1 < words_per_row_; ++i) {
-        const Word* const here = row + i;
+        const Word* const here = solid + i;
         const Word within = (here[0] << 1 | here[-1] >> 63) & (here[0] >> 1 | here[1] << 63) &
                             here[words_per_row_] & here[-words_per_row_] & here[above] &
                             here[-above];
-        for (Word bits = here[0]; bits != 0; bits &= bits - 1) {
+        for (Word bits = row[i]; bits != 0; bits &= bits - 1) {
           const int bit = std::countr_zero(bits);
           const int x = i * 64 + bit;
           const bool is_surface = (within >> bit & 1) == 0;
@@ -284,7 +229,7 @@ Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {
   Eigen::Vector3i inward = Eigen::Vector3i::Zero();
   for (int dz = -radius; dz <= radius; ++dz) {
     for (int dy = -radius; dy <= radius; ++dy) {
-      const Word* const row = RowOf(voxel.cell.y() + dy, voxel.cell.z() + dz);
+      const Word* const row = SolidRowOf(voxel.cell.y() + dy, voxel.cell.z() + dz);
       const unsigned bits = BitsOf(row, voxel.cell.x() - radius, 2 * radius + 1);
       const auto [count, places] = kBitSums[bits];
       inward += Eigen::Vector3i(places - radius * count, dy * count, dz * count);

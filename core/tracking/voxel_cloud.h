@@ -7,6 +7,7 @@
 
 #include "core/geometry.h"
 #include "core/reconstruction/carving/voxel_grid.h"
+#include "core/reconstruction/carving/voxel_pieces.h"
 
 namespace mocap {
 
@@ -23,7 +24,11 @@ class VoxelCloud {
  public:
   /// Takes the largest connected body and whatever large piece lies near it, such as a hand cut off
   /// at the wrist.
-  void Build(const VoxelGrid& grid);
+  /// @param room  the flesh of everybody in the same block of cells. Where the person touches
+  /// others there is no surface.
+  void Build(const VoxelGrid& grid, const VoxelGrid& room);
+  /// Takes somebody who is alone.
+  void Build(const VoxelGrid& grid) { Build(grid, grid); }
 
   const std::vector<Voxel>& voxels() const { return voxels_; }
   int size() const { return static_cast<int>(voxels_.size()); }
@@ -42,8 +47,8 @@ class VoxelCloud {
   int IndexAt(const Eigen::Vector3i& cell) const;
   /// Index of the voxel at a place; -1 where it is empty.
   int IndexAt(const Vector3& p_W) const { return IndexAt(CellAt(p_W)); }
-  /// Whether there is a voxel at a place.
-  bool Holds(const Vector3& p_W) const { return HoldsCell(CellAt(p_W)); }
+  /// Whether there is flesh at a place, the person's or anybody's.
+  bool IsFlesh(const Vector3& p_W) const { return HoldsCell(solid_bits(), CellAt(p_W)); }
   /// Places on a line, a step apart; [cells].
   struct Places {
     Vector3 first, step;
@@ -70,20 +75,14 @@ class VoxelCloud {
  private:
   // The grid is kept with empty cells around it, so that neighbours need no check.
   static constexpr int kMargin = 3;
-  // Voxels of one row without a gap: [begin, end) along x.
-  struct Run {
-    int row;  // j + k · size_.y().
-    int begin, end;
-    int parent;
-  };
 
-  bool HoldsCell(const Eigen::Vector3i& cell) const {
+  bool HoldsCell(const std::vector<std::uint64_t>& bits, const Eigen::Vector3i& cell) const {
     // A negative number is a large one without its sign.
     const auto is_inside = [&](int axis) {
       return static_cast<unsigned>(cell[axis]) < static_cast<unsigned>(size_[axis]);
     };
     return is_inside(0) && is_inside(1) && is_inside(2) &&
-           (RowOf(cell.y(), cell.z())[cell.x() >> 6] >> (cell.x() & 63) & 1) != 0;
+           (bits[WordOf(cell.y(), cell.z()) + (cell.x() >> 6)] >> (cell.x() & 63) & 1) != 0;
   }
   Eigen::Vector3i CellAt(const Vector3& p_W) const {
     const Vector3 place = (p_W - origin_W_) / voxel_mm_;
@@ -97,15 +96,15 @@ class VoxelCloud {
     return 1 + ((k + kMargin) * rows + j + kMargin) * words_per_row_;
   }
   const std::uint64_t* RowOf(int j, int k) const { return &bits_[WordOf(j, k)]; }
+  // The same of everybody's flesh.
+  const std::vector<std::uint64_t>& solid_bits() const { return is_alone_ ? bits_ : solid_bits_; }
+  const std::uint64_t* SolidRowOf(int j, int k) const { return &solid_bits()[WordOf(j, k)]; }
 
   // Of kPlaces places from the i-th on, those before `end` that are held, as bits.
   unsigned HeldFrom(const Places& places, int i, int end) const;
-  void CopyBits(const VoxelGrid& grid);
-  void DropIslands();
-  void FindRuns();
-  void JoinRuns(int row, int other_row);
-  int RootOf(int run);
-  bool IsNearBody(const Run& run, int body, int reach);
+  void CopyPerson(const VoxelGrid& grid);
+  bool IsNearPiece(const VoxelPieces::Run& run, int piece, int reach) const;
+  void AddOthers(const VoxelGrid& grid, const VoxelGrid& room);
   void ListVoxels(const VoxelGrid& grid);
 
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
@@ -113,15 +112,15 @@ class VoxelCloud {
   double voxel_mm_ = 25;
   std::ptrdiff_t words_per_row_ = 1;
   std::vector<std::uint64_t> bits_;
-  std::vector<int> first_of_row_;  // How many voxels the rows before have.
+  bool is_alone_ = true;
+  std::vector<std::uint64_t> solid_bits_;  // Unless alone.
+  std::vector<int> first_of_row_;          // How many voxels the rows before have.
   std::vector<Voxel> voxels_;
   std::vector<int> surface_;
   Eigen::AlignedBox3i held_cells_;
   // While islands are dropped.
-  std::vector<Run> runs_;
-  std::vector<int> row_begins_;
-  std::vector<int> sizes_;  // Of the runs that hang together, at their root.
-  std::vector<char> near_body_;
+  VoxelPieces pieces_;
+  std::vector<char> is_kept_;
 };
 
 }  // namespace mocap

@@ -64,21 +64,28 @@ stage_timing_t TimingOf(Stage stage, const LatencyHistogram& histogram) {
   return timing;
 }
 
-}  // namespace
-
-void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
-  const CaptureResult& result = set.result;
-  const bool has_pose = result.state != CaptureState::kSearching;
-  const PaperState paper = has_pose ? set.body.PaperStateOf(result.pose) : PaperState();
+/// What pose_t and people_t tell of a set.
+template <typename Message>
+void FillSet(const TrackedSet& set, int cameras, Message& message) {
   message.utime = set.capture_ns / kNsPerUs;
   message.complete_utime = set.complete_ns / kNsPerUs;
   message.frame = set.frame;
+  message.num_cameras = cameras;
+  message.camera_used.resize(cameras);
+  for (int i = 0; i < cameras; ++i) message.camera_used[i] = set.cameras >> i & 1;
+}
+
+/// What pose_t and person_t tell of a person.
+template <typename Message>
+void FillPerson(const CaptureResult& result, const BodyModel& body, Message& message) {
+  const bool has_pose = result.state != CaptureState::kSearching;
+  const PaperState paper = has_pose ? body.PaperStateOf(result.pose) : PaperState();
   message.state = static_cast<std::int8_t>(result.state);
   CopyVector(paper.torso_mm, message.torso_mm);
   CopyVector(paper.torso_axis, message.torso_axis);
   message.torso_angle_rad = paper.torso_angle_rad;
   std::ranges::copy(paper.theta_rad, message.theta_rad);
-  message.num_joints = set.body.joint_count();
+  message.num_joints = body.joint_count();
   message.joint_rad.assign(message.num_joints, 0);
   if (has_pose) std::ranges::copy(result.pose.theta, message.joint_rad.begin());
   for (int i = 0; i < kPointCount; ++i) {
@@ -88,9 +95,23 @@ void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
   }
   message.residual_mm = has_pose ? result.residual_mm : 0;
   message.voxels = result.voxels;
-  message.num_cameras = cameras;
-  message.camera_used.resize(cameras);
-  for (int i = 0; i < cameras; ++i) message.camera_used[i] = set.cameras >> i & 1;
+}
+
+}  // namespace
+
+void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
+  FillSet(set, cameras, message);
+  FillPerson(set.result, set.body, message);
+}
+
+void FillPeople(const TrackedSet& set, int cameras, people_t& message) {
+  FillSet(set, cameras, message);
+  message.num_people = static_cast<std::int32_t>(set.people.size());
+  message.people.resize(set.people.size());
+  for (std::size_t i = 0; i < set.people.size(); ++i) {
+    message.people[i].id = set.people[i].id;
+    FillPerson(set.people[i].capture->result(), set.people[i].capture->body(), message.people[i]);
+  }
 }
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {

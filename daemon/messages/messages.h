@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <mocap/body_t.hpp>
+#include <mocap/people_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
@@ -17,6 +18,9 @@ namespace mocap {
 /// Fills everything but publish_utime. While searching there is no pose, and its numbers are 0.
 /// @param cameras  of the studio. The message's memory is reused.
 void FillPose(const TrackedSet& set, int cameras, pose_t& message);
+
+/// The same of everybody.
+void FillPeople(const TrackedSet& set, int cameras, people_t& message);
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 

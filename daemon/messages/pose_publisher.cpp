@@ -10,6 +10,8 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
     : sender_(lcm, ParseLcmUrl(config.url).provider),
       pose_channel_(config.prefix + "MOCAP_POSE"),
       body_channel_(config.prefix + "MOCAP_BODY"),
+      people_channel_(config.prefix + "MOCAP_PEOPLE"),
+      bodies_channel_(config.prefix + "MOCAP_BODIES"),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + "MOCAP_STATUS"),
       service_channel_(config.prefix + "MOCAP_SERVICE"),
@@ -52,6 +54,7 @@ void PosePublisher::OnSet(const TrackedSet& timeline_set) {
     FillBody(set.body, set.capture_ns / 1000, body_);
     Publish(body_channel_, body_);
   }
+  PublishPeople(set, body_is_due);
   const double voxels_hz = voxels_hz_.load(std::memory_order_relaxed);
   if (voxels_hz != paced_voxels_hz_) {
     paced_voxels_hz_ = voxels_hz;
@@ -60,6 +63,18 @@ void PosePublisher::OnSet(const TrackedSet& timeline_set) {
   if (voxels_pacer_.IsDue(now_ns)) {
     FillVoxels(set, voxels_);
     Publish(voxels_channel_, voxels_);
+  }
+}
+
+void PosePublisher::PublishPeople(const TrackedSet& set, bool body_is_due) {
+  FillPeople(set, cameras_, people_);
+  people_.publish_utime = TimeOfDayNs() / 1000;
+  Publish(people_channel_, people_);
+  for (const PersonView& person : set.people) {
+    if (!person.capture->result().body_changed && !body_is_due) continue;
+    person_body_.id = person.id;
+    FillBody(person.capture->body(), set.capture_ns / 1000, person_body_.body);
+    Publish(bodies_channel_, person_body_);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <lcm/lcm-cpp.hpp>
+#include <mocap/person_body_t.hpp>
 #include <mocap/studio_t.hpp>
 #include <span>
 #include <string>
@@ -50,14 +51,15 @@ class PosePublisher : public PoseSink {
   template <typename Message>
   void Publish(const std::string& channel, const Message& message);
   TrackedSet InTimeOfDay(const TrackedSet& set) const;
+  void PublishPeople(const TrackedSet& set, bool body_is_due);
 
   LcmSender sender_;
   ChannelWatch* watch_ = nullptr;
   MessageTap* tap_ = nullptr;
   std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
   std::vector<std::uint8_t> status_bytes_;
-  const std::string pose_channel_, body_channel_, voxels_channel_, status_channel_,
-      service_channel_, studio_channel_;
+  const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_, voxels_channel_,
+      status_channel_, service_channel_, studio_channel_;
   const int cameras_;
   const CaptureTimes times_;
   Pacer body_pacer_;
@@ -67,6 +69,8 @@ class PosePublisher : public PoseSink {
   // Kept so that their memory is reused.
   pose_t pose_;
   body_t body_;
+  people_t people_;
+  person_body_t person_body_;
   voxels_t voxels_;
   status_t status_;
   service_t service_;

@@ -33,12 +33,13 @@ constexpr float kMostShift_px = 0.5;
 }  // namespace
 
 CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-                           std::vector<FrameTap*> taps, PreviewTap* preview)
+                           std::vector<FrameTap*> taps, PreviewTap* preview, int rays)
     : camera_(std::move(camera)),
       segmenter_(std::move(segmenter)),
       recorders_(recorders),
       taps_(std::move(taps)),
       preview_(preview),
+      rays_(rays),
       newest_ns_(kNoneYet) {}
 
 void CameraWorker::Stop() {
@@ -87,7 +88,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
-  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, kRaysPerCamera, out.outline);
+  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   out.is_blind = NoteConditions(out.silhouette);
   recorders_[Stage::kSegment].Record(out.segment_ns);

@@ -21,8 +21,9 @@
 
 namespace mocap {
 
-/// Most rays of an outline.
-inline constexpr int kRaysPerCamera = 100;
+/// Most rays of an outline that one person needs; of several, outlines have more.
+inline constexpr int kRaysPerPerson = 100;
+inline constexpr int kMostRays = 2 * kRaysPerPerson;
 
 /// The output of a camera's thread: silhouette and outline, no pixels.
 struct SegmentedFrame {
@@ -64,8 +65,10 @@ class CameraWorker {
   /// @param recorders  borrowed for the worker's life.
   /// @param taps       get every frame, likewise.
   /// @param preview    gets some frames a second with their silhouettes, likewise; may be null.
+  /// @param rays  of an outline, at the most.
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-               std::vector<FrameTap*> taps = {}, PreviewTap* preview = nullptr);
+               std::vector<FrameTap*> taps = {}, PreviewTap* preview = nullptr,
+               int rays = kRaysPerPerson);
 
   void Start() { camera_.driver->Start(); }
   void Stop();
@@ -102,6 +105,7 @@ class CameraWorker {
   StageRecorders& recorders_;
   const std::vector<FrameTap*> taps_;
   PreviewTap* const preview_;
+  const int rays_;
   Pacer preview_pacer_{kPreviewHz};
   std::mutex replacement_mutex_;  ///< Tried, never waited for, by the worker.
   std::optional<Segmenter> replacement_;

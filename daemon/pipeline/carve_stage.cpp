@@ -18,7 +18,8 @@ CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
   const Vector3 voxels =
       Vector3(kLongest_mm, kLongest_mm, kHandsUp_mm) / std::max(voxel_mm, kFinest_mm);
   set.grid.Reset(Eigen::Vector3i::Zero(), voxels.cast<int>(), voxel_mm);
-  set.outlines.assign(cameras, Outline(kRaysPerCamera));
+  set.outlines.assign(cameras, Outline(kMostRays));
+  set.eyes.reserve(cameras);
   return set;
 }
 
@@ -60,6 +61,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
     PublishLoad();
   }
   carver_.Carve(views_, set.grid);
+  set.person_box_W = volume_.Find(views_).value_or(Eigen::AlignedBox3d());
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
   set.work_ns += carve_ns;
   recorders_[Stage::kCarve].Record(carve_ns);
@@ -117,6 +119,8 @@ void CarveStage::Gather(CarvedSet& set) {
     views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
     set.cameras |= std::uint64_t{1} << i;
   }
+  set.eyes.clear();
+  for (const CarvingView& view : views_) set.eyes.push_back({view.table, view.X_CW});
   set.outlines.resize(cameras_.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (set.cameras >> i & 1) {

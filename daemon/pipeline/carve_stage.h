@@ -10,6 +10,7 @@
 
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/carving/volume_of_interest.h"
 #include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
@@ -26,11 +27,14 @@ static_assert(kMaxCameras <= 64, "a set of cameras is one word");
 struct CarvedSet {
   VoxelGrid grid;
   std::vector<Outline> outlines;  ///< One a camera; empty of those that are not in.
-  std::int64_t frame = 0;         ///< Counts sets from 0.
-  std::int64_t capture_ns = 0;    ///< The middle one of the members' times.
-  std::int64_t complete_ns = 0;   ///< When the last member had arrived, on the timeline.
-  std::int64_t work_ns = 0;       ///< The slowest member's segmentation, and carving.
-  std::uint64_t cameras = 0;      ///< Bit i: camera i is in.
+  std::vector<CameraEye> eyes;    ///< Of the cameras that are in.
+  /// Where a person who is alone can be [mm, world]; empty without anybody.
+  Eigen::AlignedBox3d person_box_W;
+  std::int64_t frame = 0;        ///< Counts sets from 0.
+  std::int64_t capture_ns = 0;   ///< The middle one of the members' times.
+  std::int64_t complete_ns = 0;  ///< When the last member had arrived, on the timeline.
+  std::int64_t work_ns = 0;      ///< The slowest member's segmentation, and carving.
+  std::uint64_t cameras = 0;     ///< Bit i: camera i is in.
 };
 
 /// A set with the memory that a person needs, so that later ones need none.
@@ -93,6 +97,7 @@ class CarveStage {
   Synchronizer synchronizer_;
   std::optional<LoadControl> load_control_;
   Carver carver_;
+  VolumeOfInterest volume_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
   SetTap* seen_ = nullptr;

@@ -39,6 +39,8 @@ constexpr std::int64_t kKeepsUpNs = 50'000'000;
 /// Of all grids that go round together, beyond what a person needs: some dozens of a whole room.
 constexpr std::size_t kMostGridBytes = 256 << 20;
 constexpr std::size_t kLongestThreadName = 15;
+/// Where several people may be, a small blob may be one whom others hide; share of the picture.
+constexpr double kLargestThingAmongPeople = 0.003;
 
 std::size_t CountCameras(const Studio& studio) {
   RequireCameraCount(studio);
@@ -54,6 +56,15 @@ BackgroundSource UntilStopped(const BackgroundSource& source, const std::atomic<
       visit(frame);
     });
   });
+}
+
+/// Rays of outlines, as a multiple of those that one person needs.
+int FinenessFor(int people) { return people > 1 ? kMostRays / kRaysPerPerson : 1; }
+
+SegmentationOptions SegmentationOf(const PipelineOptions& options) {
+  SegmentationOptions segmentation = options.segmentation;
+  if (options.people > 1) segmentation.largest_thing_share = kLargestThingAmongPeople;
+  return segmentation;
 }
 
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
@@ -88,9 +99,9 @@ std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras
 /// One camera's thread and the queue it fills.
 struct Pipeline::CameraLine {
   CameraLine(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
-             std::vector<FrameTap*> taps, PreviewTap* preview, Overflow overflow,
+             std::vector<FrameTap*> taps, PreviewTap* preview, int rays, Overflow overflow,
              Doorbell& carve_bell)
-      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps), preview),
+      : worker(std::move(camera), std::move(segmenter), recorders, std::move(taps), preview, rays),
         queue(SizesFor(overflow).frames, overflow, carve_bell) {}
 
   CameraWorker worker;
@@ -106,25 +117,28 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
       sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
       grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
-      track_(MakeMotionCapture(options.tracker, body), options.latency_origin, sink, recorders_,
-             studio.person) {
+      track_(PeopleCapture([kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
+                           options.people, FinenessFor(options.people)),
+             options.latency_origin, sink, recorders_, studio.person) {
   const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
-  carve_ = std::make_unique<CarveStage>(calibrations, MakeSynchronizer(studio, options.overflow),
-                                        CarvingOptions{.voxel_mm = options.voxel_mm}, recorders_);
+  carve_ = std::make_unique<CarveStage>(
+      calibrations, MakeSynchronizer(studio, options.overflow),
+      CarvingOptions{.voxel_mm = options.voxel_mm, .several_people = options.people > 1},
+      recorders_);
   if (options.overflow == Overflow::kDropOldest) {
     carve_->ControlLoad();
     health_ = std::make_unique<HealthWatch>(calibrations);
     carve_->Show(health_->tap());
   }
   std::vector<Segmenter> segmenters =
-      LearnBackgrounds(studio.cameras, options.segmentation, options.stop);
+      LearnBackgrounds(studio.cameras, SegmentationOf(options), options.stop);
   for (std::size_t i = 0; i < segmenters.size(); ++i) {
     std::vector<FrameTap*> taps;
     for (std::deque<FrameTap>* of_all : options.taps) taps.push_back(&of_all->at(i));
     PreviewTap* preview = options.previews ? &options.previews->at(i) : nullptr;
     lines_.push_back(std::make_unique<CameraLine>(
         std::move(studio.cameras[i]), std::move(segmenters[i]), recorders_, std::move(taps),
-        preview, options.overflow, carve_bell_));
+        preview, kRaysPerPerson * FinenessFor(options.people), options.overflow, carve_bell_));
   }
 }
 
@@ -297,7 +311,7 @@ void Pipeline::RunSerially() {
 
 void Pipeline::ReplaceBackground(int camera, std::span<const BackgroundFrame> background) {
   CameraWorker& worker = lines_.at(static_cast<std::size_t>(camera))->worker;
-  if (!worker.Replace(Segmenter(worker.calibration(), background, options_.segmentation))) {
+  if (!worker.Replace(Segmenter(worker.calibration(), background, SegmentationOf(options_)))) {
     throw std::runtime_error(worker.calibration().name + " did not take over what was learned");
   }
 }

@@ -39,6 +39,7 @@ struct PipelineOptions {
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
   TrackerKind tracker = TrackerKind::kSurface;
+  int people = 1;                 ///< Followed at most.
   int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: as everybody.
   std::vector<int> processors{};  ///< That the threads keep to; empty: all.
   /// Whoever gets frames: one tap a camera. Borrowed for the pipeline's life.

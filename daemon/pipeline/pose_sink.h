@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/motion_capture.h"
+#include "core/people/people_capture.h"
 
 namespace mocap {
 
@@ -14,8 +16,9 @@ struct TrackedSet {
   std::int64_t complete_ns = 0;  ///< When its last frame had arrived, on the timeline.
   std::uint64_t cameras = 0;     ///< Bit i: camera i was used.
   int acquisition_frames = 0;
-  const CaptureResult& result;
-  const BodyModel& body;
+  const CaptureResult& result;              ///< Of whoever has been followed the longest.
+  const BodyModel& body;                    ///< His.
+  std::span<const PersonView> people = {};  ///< Everybody.
   const VoxelGrid& grid;
 };
 

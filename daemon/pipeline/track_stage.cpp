@@ -18,9 +18,9 @@ std::optional<Vector3> MiddleOf(const CaptureResult& result) {
 
 }  // namespace
 
-TrackStage::TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
+TrackStage::TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sink,
                        StageRecorders& recorders, std::shared_ptr<SubjectPosition> person)
-    : capture_(std::move(capture)),
+    : people_(std::move(people)),
       origin_(origin),
       sink_(sink),
       recorders_(recorders),
@@ -35,26 +35,28 @@ void TrackStage::ChangeSubject(const std::optional<BodySizes>& sizes) {
 void TrackStage::Process(const CarvedSet& set) {
   if (next_subject_.load(std::memory_order_relaxed)) {
     const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
-    *subject ? capture_->Expect(**subject) : capture_->Forget();
+    *subject ? people_.Expect(**subject) : people_.Forget();
   }
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
-  const CaptureResult& result =
-      capture_->Update(set.grid, set.outlines, Onward(set.capture_ns), this);
+  people_.Update({set.grid, set.outlines, set.person_box_W}, set.eyes, Onward(set.capture_ns),
+                 this);
+  const MotionCapture& first = people_.first();
   const std::int64_t update_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kLabel].Record(stage_ns_[0]);
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
   recorders_[Stage::kTotal].Record(set.work_ns + update_ns);
-  state_.store(result.state, std::memory_order_relaxed);
-  if (person_) person_->Tell(MiddleOf(result));
+  state_.store(first.result().state, std::memory_order_relaxed);
+  if (person_) person_->Tell(MiddleOf(first.result()));
   const std::int64_t publish_ns = SteadyNs();
   sink_.OnSet({.frame = set.frame,
                .capture_ns = set.capture_ns,
                .complete_ns = set.complete_ns,
                .cameras = set.cameras,
-               .acquisition_frames = capture_->acquisition_frames(),
-               .result = result,
-               .body = capture_->body(),
+               .acquisition_frames = first.acquisition_frames(),
+               .result = first.result(),
+               .body = first.body(),
+               .people = people_.people(),
                .grid = set.grid});
   recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/motion_capture.h"
+#include "core/people/people_capture.h"
 #include "daemon/pipeline/carve_stage.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/stage.h"
@@ -25,8 +25,8 @@ enum class LatencyOrigin {
 class TrackStage : private UpdateObserver {
  public:
   /// @param person  told where he is, for heads that follow; may be null.
-  TrackStage(std::unique_ptr<MotionCapture> capture, LatencyOrigin origin, PoseSink& sink,
-             StageRecorders& recorders, std::shared_ptr<SubjectPosition> person = nullptr);
+  TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sink, StageRecorders& recorders,
+             std::shared_ptr<SubjectPosition> person = nullptr);
 
   ~TrackStage();
 
@@ -43,7 +43,7 @@ class TrackStage : private UpdateObserver {
   std::int64_t Onward(std::int64_t capture_ns);
   void OnStageEnd(UpdateStage stage) override;
 
-  const std::unique_ptr<MotionCapture> capture_;
+  PeopleCapture people_;
   LatencyOrigin origin_;
   PoseSink& sink_;
   StageRecorders& recorders_;

@@ -101,6 +101,7 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
           .overflow = can_wait ? Overflow::kWait : Overflow::kDropOldest,
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
           .tracker = config.tracker,
+          .people = config.people,
           .priority = config.service.realtime.priority,
           .processors = config.service.realtime.processors,
           .taps = std::move(taps)};

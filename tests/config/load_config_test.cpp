@@ -54,6 +54,7 @@ void ExpectSame(const Config& a, const Config& b) {
   EXPECT_EQ(a.segmentation.smallest_blob_share, b.segmentation.smallest_blob_share);
   EXPECT_EQ(a.tracker, b.tracker);
   EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(a.people, b.people);
   EXPECT_EQ(a.lcm.url, b.lcm.url);
   EXPECT_EQ(a.lcm.prefix, b.lcm.prefix);
   EXPECT_EQ(a.lcm.voxels_hz, b.lcm.voxels_hz);
@@ -76,6 +77,8 @@ loop = true
 in_memory = true
 [voxels]
 size_mm = 50
+[people]
+most = 4
 [lcm]
 url = "udpm://239.255.76.67:7700?ttl=1"
 prefix = "STAGE_"
@@ -92,6 +95,7 @@ device = "192.168.0.7"
   EXPECT_TRUE(config.source.loop);
   EXPECT_TRUE(config.source.in_memory);
   EXPECT_EQ(config.voxel_mm, 50);
+  EXPECT_EQ(config.people, 4);
   EXPECT_EQ(config.lcm.url, "udpm://239.255.76.67:7700?ttl=1");
   EXPECT_EQ(config.lcm.prefix, "STAGE_");
   EXPECT_EQ(config.background, folder_.path() / "background");
@@ -144,6 +148,8 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"\"x\\u001b]0;owned\\u0007\" = 1\n", 1, "x\\x1b]0;owned\\x07 is unknown"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
       {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},
+      {"[people]\nmost = 9\n", 2, "people.most is 9; a whole number from 1 to 8"},
+      {"[people]\nmost = 0\n", 2, "people.most is 0"},
       {"[voxels]\nsize_mm = 9.9\n", 2, "voxels.size_mm is 9.9"},
       {"[voxels]\nsize_mm = 101\n", 2, "voxels.size_mm is 101"},
       {"[voxels]\nsize_mm = inf\n", 2, "voxels.size_mm"},

@@ -41,12 +41,12 @@ double MeanError(const BodyModel& truth, const PoseState& pose, const CaptureRes
 class Capture : public testing::TestWithParam<std::string> {
  protected:
   const CaptureResult& See(const BodyModel& person, int frame) {
-    return capture_.Update(Voxelize(person, Stroll(person, frame), 25), {}, NextNs());
+    return capture_.Update({Voxelize(person, Stroll(person, frame), 25), {}}, NextNs());
   }
   const CaptureResult& SeeNobody() {
     VoxelGrid empty;
     empty.Reset({0, 0, 0}, {0, 0, 0}, 25);
-    return capture_.Update(empty, {}, NextNs());
+    return capture_.Update({empty, {}}, NextNs());
   }
   std::int64_t NextNs() { return now_ns_ += kFrameNs; }
 
@@ -98,8 +98,8 @@ TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
   for (int frame = 0; frame < 8; ++frame) {
     const VoxelGrid grid = Voxelize(person, Stroll(person, frame), 25);
     const std::int64_t now_ns = NextNs();
-    const CaptureResult first = capture_.Update(grid, {}, now_ns);
-    const CaptureResult second = again.Update(grid, {}, now_ns);
+    const CaptureResult first = capture_.Update({grid, {}}, now_ns);
+    const CaptureResult second = again.Update({grid, {}}, now_ns);
     ASSERT_EQ(first.state, second.state);
     ASSERT_EQ(first.points_W, second.points_W);
     ASSERT_EQ(first.point_std_mm, second.point_std_mm);
@@ -115,7 +115,7 @@ TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
   capture.Expect(AverageSizes(1600));
   for (int frame = 0; frame < 4; ++frame) {
     const auto [hull, outlines] = studio.Carve(adult, Stroll(adult, frame));
-    EXPECT_NE(capture.Update(hull, outlines, frame * kFrameNs).state, CaptureState::kTracking);
+    EXPECT_NE(capture.Update({hull, outlines}, frame * kFrameNs).state, CaptureState::kTracking);
   }
 }
 
@@ -134,7 +134,7 @@ TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
   std::int64_t now_ns = 0;
   const auto walk_to_and_fro = [&] {
     for (const int frame : {0, 1, 2, 3, 2, 1}) {
-      capture.Update(seen[frame].hull, seen[frame].outlines, now_ns += kFrameNs);
+      capture.Update({seen[frame].hull, seen[frame].outlines}, now_ns += kFrameNs);
     }
   };
   for (int i = 0; i < 4; ++i) walk_to_and_fro();

@@ -33,11 +33,15 @@ class RoundStudio {
   }
 
   const std::vector<CameraCalibration>& cameras() const { return cameras_; }
+  std::vector<CameraEye> Eyes() const {
+    std::vector<CameraEye> eyes;
+    for (std::size_t i = 0; i < cameras_.size(); ++i)
+      eyes.push_back({&tables_[i], cameras_[i].X_CW});
+    return eyes;
+  }
 
-  /// What camera `index` sees of a person.
-  Silhouette See(std::size_t index, const BodyModel& body, const PoseState& pose) const {
-    std::vector<PosedCapsule> flesh;
-    body.PoseShape(body.PostureAt(pose), flesh);
+  /// What camera `index` sees of flesh.
+  Silhouette See(std::size_t index, const std::vector<PosedCapsule>& flesh) const {
     const CameraCalibration& camera = cameras_[index];
     const RigidTransform X_WC = camera.X_CW.Inverse();
     Silhouette silhouette(camera.width_px, camera.height_px);
@@ -63,11 +67,18 @@ class RoundStudio {
   };
 
   CarvedBody Carve(const BodyModel& body, const PoseState& pose) const {
+    std::vector<PosedCapsule> flesh;
+    body.PoseShape(body.PostureAt(pose), flesh);
+    return Carve(flesh, 100);
+  }
+
+  /// What it gets of flesh, with so many rays a camera.
+  CarvedBody Carve(const std::vector<PosedCapsule>& flesh, int rays) const {
     std::vector<Silhouette> silhouettes;
     CarvedBody carved{{}, std::vector<Outline>(cameras_.size())};
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      silhouettes.push_back(See(i, body, pose));
-      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], 100, carved.outlines[i]);
+      silhouettes.push_back(See(i, flesh));
+      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], rays, carved.outlines[i]);
     }
     std::vector<CarvingView> views;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
@@ -80,7 +91,7 @@ class RoundStudio {
   Evidence Show(const BodyModel& body, const PoseState& pose) const {
     const CarvedBody carved = Carve(body, pose);
     Evidence evidence;
-    evidence.Gather(carved.hull, carved.outlines);
+    evidence.Gather({carved.hull, carved.outlines});
     return evidence;
   }
 

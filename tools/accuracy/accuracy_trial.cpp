@@ -81,7 +81,7 @@ int LongestWrongStretch(const Accuracy& accuracy) {
 TrialOutcome RunTrial(const AccuracyTrial& trial) {
   Studio studio = OpenSimulatedStudio(trial.studio);
   Disturb(trial, studio);
-  ResultSink sink(false);
+  ResultSink sink(KeptPeople::kFirst, false);
   Pipeline pipeline(
       std::move(studio),
       {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait, .tracker = trial.tracker},

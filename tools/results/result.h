@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct Result {
   std::vector<std::string> remarks = {};
 };
 
+/// Makes the row of what a set came to.
+PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResult& result,
+                  const BodyModel& body);
 /// Makes the record of a body.
 BodyRecord RecordOf(const BodyModel& body);
 
@@ -52,6 +56,13 @@ void RequireRoomForResult(const std::filesystem::path& folder);
 /// replaced, each in one step. The same result gives the same bytes.
 /// @throws std::runtime_error  when the folder cannot be written.
 void WriteResult(const std::filesystem::path& folder, const Result& result);
+
+/// RESULT/person-1 and so on, in the order of their names. @pre the folder is there.
+std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& folder);
+/// The same for several people: RESULT/person-K is the result of person K. What an earlier run left
+/// of others, or of one person, goes.
+void RequireRoomForPeople(const std::filesystem::path& folder);
+void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people);
 
 /// Reads a folder that WriteResult left, or a log of MOCAP_POSE and MOCAP_BODY messages as
 /// lcm-logger records them.

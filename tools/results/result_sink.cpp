@@ -1,30 +1,40 @@
 #include "tools/results/result_sink.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
 namespace mocap {
+namespace {
+
+void Keep(const TrackedSet& set, const CaptureResult& captured, const BodyModel& body,
+          Result& result) {
+  result.poses.push_back(PoseRowOf(set.frame, set.capture_ns, captured, body));
+  result.body = RecordOf(body);
+}
+
+}  // namespace
 
 void ResultSink::OnSet(const TrackedSet& set) {
-  PoseRow& row = result_.poses.emplace_back();
-  row.frame = set.frame;
-  row.timestamp_ns = set.capture_ns;
-  row.state = set.result.state;
-  row.has_pose = row.state != CaptureState::kSearching;
-  if (row.has_pose) {
-    row.paper = set.body.PaperStateOf(set.result.pose);
-    row.points_W = set.result.points_W;
-    row.residual_mm = set.result.residual_mm;
-  }
-  row.voxels = set.result.voxels;
-  result_.body = RecordOf(set.body);
+  const auto is_tracked = [](const PersonView& person) {
+    return person.capture->result().state == CaptureState::kTracking;
+  };
+  ++frames_;
+  tracked_frames_ += std::ranges::any_of(set.people, is_tracked);
   acquisition_frames_ = set.acquisition_frames;
-  tracked_frames_ += row.state == CaptureState::kTracking;
-  if (shows_progress_) {
-    const std::string state(kCaptureStateNames[static_cast<std::size_t>(row.state)]);
-    std::fprintf(stderr, "\r\x1b[Kframe %lld  %s", static_cast<long long>(row.frame),
-                 state.c_str());
+  if (kept_ == KeptPeople::kFirst) {
+    Keep(set, set.result, set.body, result_);
+  } else {
+    for (const PersonView& person : set.people)
+      Keep(set, person.capture->result(), person.capture->body(), people_[person.id]);
   }
+  if (shows_progress_) ShowProgress(set);
+}
+
+void ResultSink::ShowProgress(const TrackedSet& set) const {
+  const std::string state(kCaptureStateNames[static_cast<std::size_t>(set.result.state)]);
+  std::fprintf(stderr, "\r\x1b[Kframe %lld  %s", static_cast<long long>(set.frame), state.c_str());
+  if (set.people.size() > 1) std::fprintf(stderr, "  %zu people", set.people.size());
 }
 
 void ResultSink::EndProgress() const {

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <system_error>
 
 #include "config/body_size_fields.h"
 #include "drivers/take/text_file.h"
@@ -64,10 +66,46 @@ std::string BodyToml(const BodyRecord& body) {
   return text + '\n';
 }
 
+const std::string kPersonPrefix = "person-";
+
+void RemoveResult(const std::filesystem::path& folder) {
+  for (const char* name : {"poses.csv", "body.toml"}) std::filesystem::remove(folder / name);
+}
+
 }  // namespace
+
+PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResult& result,
+                  const BodyModel& body) {
+  PoseRow row;
+  row.frame = frame;
+  row.timestamp_ns = capture_ns;
+  row.state = result.state;
+  row.has_pose = row.state != CaptureState::kSearching;
+  if (row.has_pose) {
+    row.paper = body.PaperStateOf(result.pose);
+    row.points_W = result.points_W;
+    row.residual_mm = result.residual_mm;
+  }
+  row.voxels = result.voxels;
+  return row;
+}
 
 BodyRecord RecordOf(const BodyModel& body) {
   return {body.table().name, body.sizes().Stature(), body.sizes()};
+}
+
+std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> people;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::string number =
+        name.starts_with(kPersonPrefix) ? name.substr(kPersonPrefix.size()) : std::string();
+    const bool is_number =
+        !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+    if (is_number && entry.is_directory()) people.push_back(entry.path());
+  }
+  std::ranges::sort(people);
+  return people;
 }
 
 void RequireRoomForResult(const std::filesystem::path& folder) {
@@ -83,6 +121,23 @@ void WriteResult(const std::filesystem::path& folder, const Result& result) {
   MakeFolder(folder);
   ReplaceText(folder / "poses.csv", PosesCsv(result));
   ReplaceText(folder / "body.toml", BodyToml(result.body));
+}
+
+void RequireRoomForPeople(const std::filesystem::path& folder) {
+  RequireRoomForResult(folder);
+  for (const std::filesystem::path& person : PersonFolders(folder)) RequireRoomForResult(person);
+}
+
+void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people) {
+  MakeFolder(folder);
+  RemoveResult(folder);
+  for (const std::filesystem::path& person : PersonFolders(folder)) {
+    RemoveResult(person);
+    std::error_code not_empty;
+    std::filesystem::remove(person, not_empty);
+  }
+  for (const auto& [id, result] : people)
+    WriteResult(folder / (kPersonPrefix + std::to_string(id)), result);
 }
 
 }  // namespace mocap

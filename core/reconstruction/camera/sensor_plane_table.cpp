@@ -151,6 +151,26 @@ void SensorPlaneTable::MeasureBends() {
   }
 }
 
+SensorPlaneTable::Window SensorPlaneTable::InnerWindow() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Window nothing{Vector2::Constant(kInfinity), Vector2::Constant(-kInfinity)};
+  Window window{nothing.high, nothing.low};
+  // The last directions may lie beyond the picture.
+  const int right = (width_px_ - 1) / kDirectionStep_px;
+  const int bottom = (height_px_ - 1) / kDirectionStep_px;
+  for (int row = 0; row <= bottom; ++row) {
+    for (int column = 0; column <= right; ++column) {
+      const Vector2& n = directions_[static_cast<std::size_t>(row) * direction_columns_ + column];
+      if (!n.allFinite()) return nothing;
+      if (column == 0) window.low.x() = std::max(window.low.x(), n.x());
+      if (column == right) window.high.x() = std::min(window.high.x(), n.x());
+      if (row == 0) window.low.y() = std::max(window.low.y(), n.y());
+      if (row == bottom) window.high.y() = std::min(window.high.y(), n.y());
+    }
+  }
+  return window;
+}
+
 SensorPlaneTable::Window SensorPlaneTable::WindowOf(int left, int top, int right,
                                                     int bottom) const {
   const int first_column = left / kDirectionStep_px;

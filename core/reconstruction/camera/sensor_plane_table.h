@@ -112,6 +112,9 @@ class SensorPlaneTable {
   /// pixels too wide at most.
   /// @param left, top, right, bottom  the rectangle's outermost pixels, inclusive.
   Window WindowOf(int left, int top, int right, int bottom) const;
+  /// Finds a window that holds nothing but directions in the picture; it is empty, its low side
+  /// above its high one, where the picture shows the lens's rim.
+  Window InnerWindow() const;
 
  private:
   bool FillNodes(const Lens& lens, double cell);

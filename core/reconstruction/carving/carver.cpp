@@ -9,14 +9,14 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/carving/octant_view.h"
-#include "core/reconstruction/carving/volume_of_interest.h"
+#include "core/reconstruction/carving/room_blocks.h"
 #include "core/reconstruction/carving/window_map.h"
 
 namespace mocap {
 namespace {
 
 constexpr int kMostViews = Carver::kMostViews;
-constexpr int kLargestBlock_voxels = 16;
+constexpr int kLargestBlock_voxels = RoomBlocks::kBlock_voxels;
 constexpr int kLevels = 5;  // From the largest block to a voxel.
 static_assert(1 << (kLevels - 1) == kLargestBlock_voxels);
 constexpr int kSamplesPerSide = 2;
@@ -61,7 +61,8 @@ int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1)
 // that of asking every camera about every sample of every voxel.
 class Carver::Walk {
  public:
-  explicit Walk(double voxel_mm) : voxel_mm_(voxel_mm) {}
+  explicit Walk(const CarvingOptions& options)
+      : voxel_mm_(options.voxel_mm), several_people_(options.several_people) {}
 
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
 
@@ -79,7 +80,9 @@ class Carver::Walk {
   };
   static constexpr std::uint8_t kNoFrame = 255;
 
-  bool Prepare(std::span<const CarvingView> views);
+  bool LayOutRoom(std::span<const CarvingView> views, VoxelGrid& grid);
+  bool LayOutBox(std::span<const CarvingView> views, VoxelGrid& grid);
+  void Prepare(std::span<const CarvingView> views);
   void Visit(const Block& block);
   bool VisitSamples(const Block& block);
   void VisitVoxel(const Block& voxel);
@@ -106,10 +109,14 @@ class Carver::Walk {
   }
 
   double voxel_mm_;
+  bool several_people_;
   int fewest_ = 0;
   int most_gaps_ = 0;
   VoxelGrid* grid_ = nullptr;
+  RoomBlocks room_;
   VolumeOfInterest volume_;
+  std::vector<std::optional<PixelBox>> boxes_;
+  std::vector<Eigen::Vector3i> blocks_;
   std::vector<CarvingView> views_;
   std::vector<WindowMap> windows_;
   std::vector<OctantView> octant_views_;
@@ -120,11 +127,11 @@ class Carver::Walk {
 void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
   MOCAP_CHECK(views.size() <= kMostViews);
   grid.Reset(Eigen::Vector3i::Zero(), Eigen::Vector3i::Zero(), voxel_mm_);
-  const std::optional<Eigen::AlignedBox3d> volume = volume_.Find(views);
-  if (!volume || !Prepare(views)) return;
-  const Vector3 first = (volume->min() / voxel_mm_).array().floor();
-  const Vector3 end = (volume->max() / voxel_mm_).array().ceil();
-  grid.Reset(first.cast<int>(), (end - first).cast<int>(), voxel_mm_);
+  fewest_ = Fewest(views.size());
+  boxes_.clear();
+  for (const CarvingView& view : views) boxes_.push_back(view.silhouette->BoundingBox());
+  if (!(several_people_ ? LayOutRoom(views, grid) : LayOutBox(views, grid))) return;
+  Prepare(views);
   grid_ = &grid;
   for (std::size_t i = 0; i < views_.size(); ++i)
     octant_views_[i].Set(views_[i], grid.origin_W(), windows_[i]);
@@ -136,17 +143,38 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
     block.views[i] = static_cast<std::uint8_t>(i);
     block.frames[i] = kNoFrame;
   }
-  for (int k = 0; k < grid.size().z(); k += block.side)
-    for (int j = 0; j < grid.size().y(); j += block.side)
-      for (int i = 0; i < grid.size().x(); i += block.side) {
-        block.first = {i, j, k};
-        Visit(block);
-      }
+  for (const Eigen::Vector3i& first : blocks_) {
+    block.first = first;
+    Visit(block);
+  }
 }
 
-// Returns whether there are enough cameras that see something.
-bool Carver::Walk::Prepare(std::span<const CarvingView> views) {
-  fewest_ = Fewest(views.size());
+// Both return whether there is anything to see.
+bool Carver::Walk::LayOutRoom(std::span<const CarvingView> views, VoxelGrid& grid) {
+  room_.Find(views, fewest_, voxel_mm_);
+  if (room_.blocks().empty()) return false;
+  grid.Reset(room_.first_voxel(), room_.size_voxels(), voxel_mm_);
+  blocks_ = room_.blocks();
+  return true;
+}
+
+bool Carver::Walk::LayOutBox(std::span<const CarvingView> views, VoxelGrid& grid) {
+  const std::optional<Eigen::AlignedBox3d> box_W = volume_.Find(views);
+  const auto seeing =
+      std::ranges::count_if(boxes_, [](const auto& box) { return box.has_value(); });
+  if (!box_W || seeing < fewest_) return false;
+  const Vector3 first = (box_W->min() / voxel_mm_).array().floor();
+  const Vector3 end = (box_W->max() / voxel_mm_).array().ceil();
+  grid.Reset(first.cast<int>(), (end - first).cast<int>(), voxel_mm_);
+  blocks_.clear();
+  for (int k = 0; k < grid.size().z(); k += kLargestBlock_voxels)
+    for (int j = 0; j < grid.size().y(); j += kLargestBlock_voxels)
+      for (int i = 0; i < grid.size().x(); i += kLargestBlock_voxels) blocks_.push_back({i, j, k});
+  return true;
+}
+
+// Measures the silhouettes of those cameras that see something.
+void Carver::Walk::Prepare(std::span<const CarvingView> views) {
   most_gaps_ = static_cast<int>(views.size()) / kCamerasPerDoubt;
   views_.clear();
   if (windows_.size() < views.size()) {
@@ -155,12 +183,11 @@ bool Carver::Walk::Prepare(std::span<const CarvingView> views) {
     frames_.resize(views.size());
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::optional<PixelBox>& box = volume_.boxes()[i];
+    const std::optional<PixelBox>& box = boxes_[i];
     if (!box) continue;
     windows_[views_.size()].Measure(*views[i].silhouette, *box, most_gaps_ > 0);
     views_.push_back(views[i]);
   }
-  return static_cast<int>(views_.size()) >= fewest_;
 }
 
 // Asks the view at place `i` of a block's about the octants.
@@ -350,7 +377,7 @@ std::optional<WindowMap::Kind> Carver::Walk::Look(int view, const Vector3& p_W) 
   return windows_[view].At(pixel.x, pixel.y);
 }
 
-Carver::Carver(const CarvingOptions& options) : walk_(std::make_unique<Walk>(options.voxel_mm)) {}
+Carver::Carver(const CarvingOptions& options) : walk_(std::make_unique<Walk>(options)) {}
 Carver::Carver(Carver&&) noexcept = default;
 Carver& Carver::operator=(Carver&&) noexcept = default;
 Carver::~Carver() = default;

@@ -12,6 +12,9 @@ namespace mocap {
 
 struct CarvingOptions {
   double voxel_mm = 25;
+  /// Somebody may be beside a picture that shows somebody else. Of one person it is known that all
+  /// of him is within the box that the silhouettes span.
+  bool several_people = false;
 };
 
 /// Carves the person out of the volume of interest that the silhouettes span.

@@ -43,6 +43,8 @@ class VoxelGrid {
   /// Index of the first voxel counted from the world's origin.
   const Eigen::Vector3i& first_voxel() const { return first_; }
   Vector3 origin_W() const { return first_.cast<double>() * voxel_mm_; }
+  /// The corner that lies across from origin_W().
+  Vector3 end_W() const { return (first_ + size_).cast<double>() * voxel_mm_; }
   Vector3 CenterOf(int i, int j, int k) const {
     return (first_ + Eigen::Vector3i(i, j, k)).cast<double>() * voxel_mm_ +
            Vector3::Constant(voxel_mm_ / 2);

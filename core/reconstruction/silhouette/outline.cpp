@@ -99,26 +99,33 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
   ForEachBorderWord(silhouette, *box,
                     [&](int, int, std::uint64_t bits) { length_px += std::popcount(bits); });
   const RigidTransform X_WC = X_CW.Inverse();
+  const GrazingRay empty{X_WC.p, Vector3::UnitZ(), Vector3::Zero()};
   const auto trace = [&](int x, int y) {
     const std::optional<Vector2> outward = OutwardAt(silhouette, x, y);
-    if (!outward) return;
+    if (!outward) return empty;
     // The border runs between the last pixel inside and the first one outside.
     const Vector2 place = Vector2(x, y) + 0.5 * *outward;
     const Vector2 along(-outward->y(), outward->x());
     const auto ray_C = DirectionOf(camera.lens, place);
     const auto beside_C = DirectionOf(camera.lens, place + along);
-    if (!ray_C || !beside_C) return;
+    if (!ray_C || !beside_C) return empty;
     const Vector3 outward_C = beside_C->cross(*ray_C).normalized();
-    outline.push_back({X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C});
+    return GrazingRay{X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C};
   };
   std::int64_t index = 0, taken = 0;
   ForEachBorderWord(silhouette, *box, [&](int first_x, int y, std::uint64_t bits) {
     for (; bits != 0; bits &= bits - 1, ++index) {
       if (index * most < taken * length_px) continue;
       ++taken;
-      trace(first_x + std::countr_zero(bits), y);
+      outline.push_back(trace(first_x + std::countr_zero(bits), y));
     }
   });
+}
+
+void ThinOutline(const Outline& dense, int step, Outline& thin) {
+  thin.clear();
+  for (std::size_t i = 0; i < dense.size(); i += static_cast<std::size_t>(step))
+    if (!dense[i].empty()) thin.push_back(dense[i]);
 }
 
 }  // namespace mocap

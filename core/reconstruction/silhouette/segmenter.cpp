@@ -20,8 +20,6 @@ constexpr std::size_t kFewestFrames = 8;
 // refined outline.
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
-// A region that covers more of the picture than this may be a person.
-constexpr double kLargestThingShare = 0.02;
 // A camera that moved by less is not worth following, nor one whose contours still do not fit.
 constexpr float kNudge_px = 0.25f;
 constexpr float kMuchLess = 0.8f;
@@ -62,7 +60,7 @@ class Segmenter::Impl {
         smallest_blob_px_(
             static_cast<int>(options.smallest_blob_share * camera.width_px * camera.height_px)),
         largest_thing_px_(
-            static_cast<int>(kLargestThingShare * camera.width_px * camera.height_px)) {}
+            static_cast<int>(options.largest_thing_share * camera.width_px * camera.height_px)) {}
 
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
     conditions_ = CoarsePass(image, angles);

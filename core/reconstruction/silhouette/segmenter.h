@@ -22,6 +22,9 @@ struct SegmentationOptions {
   double darkest_shadow = 0.7;
   /// Blobs smaller than this share of the picture are dropped.
   double smallest_blob_share = 0.0005;
+  /// A blob that is larger than this share of the picture may be a person by itself; of smaller
+  /// ones, those that lie apart from the largest are things that were moved.
+  double largest_thing_share = 0.02;
 };
 
 /// Separates one camera's person from its background: Horprasert's classes, then clean-up.

@@ -69,9 +69,9 @@ TEST(SizeRefiner, ClothCountsLessThanTheLimbWithin) {
   const RoundStudio studio;
   Evidence evidence = studio.Show(BodyModel(table, legs), pose);
   const Evidence wide = studio.Show(BodyModel(table, trousers), pose);
-  for (std::size_t i = 0; i < evidence.outlines.size(); i += 2)
-    evidence.outlines[i] = wide.outlines[i];
-  FindBoundingEdges(wide.cloud, evidence.outlines, evidence.edges, evidence.missing);
+  for (std::size_t i = 0; i < evidence.borders.size(); i += 2)
+    evidence.borders[i] = wide.borders[i];
+  BoundingEdgeFinder().Find(wide.cloud, evidence.borders, wide.cloud.box_W(), evidence.edges);
   SurfaceFit fit(SurfaceFitOptions{});
   fit.SetEvidence(evidence);
   SizeRefiner refiner(found);

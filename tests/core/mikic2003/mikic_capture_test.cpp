@@ -29,7 +29,7 @@ class Figure9 : public testing::Test {
     return person_.Pose(Stepping(frame), 0.4, Vector3(60.0 * frame, 0, 1200));
   }
   const CaptureResult& See(int frame) {
-    return capture_.Update(person_.Grid(Truth(frame)), {}, frame * kFrameNs, nullptr);
+    return capture_.Update({person_.Grid(Truth(frame)), {}}, frame * kFrameNs, nullptr);
   }
   double ErrorOf(const CaptureResult& result, int frame) const {
     return (result.points_W - person_.body.PointsAt(person_.body.PostureAt(Truth(frame))))
@@ -73,8 +73,8 @@ TEST_F(Figure9, SameVoxelsGiveTheSameBits) {
   MikicCapture again(LoadBodyTable("mikic2003"));
   for (int frame = 0; frame < 6; ++frame) {
     const VoxelGrid grid = person_.Grid(Truth(frame));
-    const CaptureResult first = capture_.Update(grid, {}, frame * kFrameNs, nullptr);
-    const CaptureResult second = again.Update(grid, {}, frame * kFrameNs, nullptr);
+    const CaptureResult first = capture_.Update({grid, {}}, frame * kFrameNs, nullptr);
+    const CaptureResult second = again.Update({grid, {}}, frame * kFrameNs, nullptr);
     EXPECT_EQ(first.points_W, second.points_W);
   }
 }
@@ -83,11 +83,11 @@ TEST_F(Figure9, WhoIsGoneForASecondIsForgotten) {
   for (int frame = 0; frame < 12; ++frame) See(frame);
   VoxelGrid nothing;
   nothing.Reset({0, 0, 0}, {0, 0, 0}, 25);
-  EXPECT_EQ(capture_.Update(nothing, {}, 12 * kFrameNs, nullptr).state, CaptureState::kLost);
+  EXPECT_EQ(capture_.Update({nothing, {}}, 12 * kFrameNs, nullptr).state, CaptureState::kLost);
   for (int frame = 13; frame < 25; ++frame) {
-    capture_.Update(nothing, {}, frame * kFrameNs, nullptr);
+    capture_.Update({nothing, {}}, frame * kFrameNs, nullptr);
   }
-  EXPECT_EQ(capture_.Update(nothing, {}, 25 * kFrameNs, nullptr).state, CaptureState::kSearching);
+  EXPECT_EQ(capture_.Update({nothing, {}}, 25 * kFrameNs, nullptr).state, CaptureState::kSearching);
 }
 
 TEST(MikicCaptureBody, IsThePapersAlone) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/tracking/bounding_edges.h"
 
 namespace mocap {
@@ -67,7 +69,7 @@ TEST(Cloud, IsMetWhereALineFirstAndLastHoldsAVoxel) {
     constexpr int kSteps = 61;
     int first = -1, last = -1;
     for (int i = 0; i < kSteps; ++i) {
-      if (!cloud.Holds(through_W + i * step_W)) continue;
+      if (!cloud.IsFlesh(through_W + i * step_W)) continue;
       if (first < 0) first = i;
       last = i;
     }
@@ -110,6 +112,27 @@ TEST(Cloud, SurfaceAtTheGridsEdgeHasNormalsToo) {
   EXPECT_NEAR(cloud.NormalAt(corner).dot(Vector3(-1, -1, -1).normalized()), 1, 1e-9);
 }
 
+TEST(Cloud, HasNoSurfaceWhereItTouchesOthers) {
+  VoxelGrid room = Room();
+  AddBall({20, 20, 20}, 8, room);
+  VoxelGrid person = Room();
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 20; ++i)
+        if (room.Test(i, j, k)) person.Set(i, j, k);
+  VoxelCloud cloud, whole;
+  cloud.Build(person, room);
+  whole.Build(room);
+  for (const Voxel& voxel : cloud.voxels()) {
+    const Voxel& same = whole.voxels()[whole.IndexAt(voxel.cell)];
+    EXPECT_EQ(voxel.surface, same.surface);
+    if (!voxel.surface) continue;
+    EXPECT_EQ(cloud.NormalAt(voxel), whole.NormalAt(same));
+  }
+  EXPECT_LT(cloud.IndexAt(Eigen::Vector3i(24, 20, 20)), 0);
+  EXPECT_TRUE(cloud.IsFlesh(room.CenterOf(24, 20, 20)));
+}
+
 // Rays along x that pass a ball above its highest voxels, and a camera's share of rays that miss
 // it.
 class Edges : public testing::Test {
@@ -129,10 +152,9 @@ class Edges : public testing::Test {
     return outline;
   }
 
-  std::vector<BoundingEdge> Find(const Outline& outline) const {
+  std::vector<BoundingEdge> Find(const std::vector<Outline>& outlines) const {
     std::vector<BoundingEdge> edges;
-    std::vector<BoundingEdge> missing;
-    FindBoundingEdges(cloud_, std::vector<Outline>{outline}, edges, missing);
+    BoundingEdgeFinder().Find(cloud_, outlines, cloud_.box_W(), edges);
     return edges;
   }
 
@@ -141,7 +163,7 @@ class Edges : public testing::Test {
 };
 
 TEST_F(Edges, LieAlongTheVoxelsThatTheirRayGrazes) {
-  const std::vector<BoundingEdge> edges = Find({RayAbove(0)});
+  const std::vector<BoundingEdge> edges = Find({Outline{RayAbove(0)}});
   ASSERT_EQ(edges.size(), 1u);
   EXPECT_NEAR(edges[0].from_W.z(), top_W_.z(), 1e-9);
   EXPECT_LE(edges[0].from_W.x(), top_W_.x());
@@ -150,8 +172,29 @@ TEST_F(Edges, LieAlongTheVoxelsThatTheirRayGrazes) {
 }
 
 TEST_F(Edges, RaysThatMissCountOnlyWhereTheCameraIsTrusted) {
-  EXPECT_EQ(Find(CameraThatMisses(12, 3)).size(), 12u);
-  EXPECT_EQ(Find(CameraThatMisses(12, 6)).size(), 6u);
+  const Outline good = CameraThatMisses(12, 0);
+  EXPECT_EQ(Find({good, CameraThatMisses(12, 3), good}).size(), 36u);
+  EXPECT_EQ(Find({good, CameraThatMisses(12, 6), good}).size(), 30u);
+}
+
+TEST_F(Edges, WhatMostCamerasMissWasCarvedAway) {
+  const Outline half = CameraThatMisses(12, 6);
+  EXPECT_EQ(Find({half, CameraThatMisses(12, 0), half}).size(), 36u);
+  EXPECT_EQ(Find({half, CameraThatMisses(12, 11), half}).size(), 25u);
+}
+
+TEST_F(Edges, RaysThatMissReachThroughThePersonsBox) {
+  const Eigen::AlignedBox3d box_W(top_W_ - Vector3(500, 500, 900), top_W_ + Vector3(500, 500, 200));
+  std::vector<BoundingEdge> edges;
+  const std::vector<Outline> outlines(3, CameraThatMisses(12, 1));
+  BoundingEdgeFinder().Find(cloud_, outlines, box_W, edges);
+  ASSERT_EQ(edges.size(), 36u);
+  const double longest_mm =
+      std::ranges::max(edges, {},
+                       [](const BoundingEdge& edge) { return (edge.to_W - edge.from_W).norm(); })
+          .to_W.x() -
+      (top_W_.x() - 500);
+  EXPECT_NEAR(longest_mm, 1000, 1e-6);
 }
 
 }  // namespace

@@ -108,6 +108,61 @@ TEST_F(PosePublisherTest, WhileSearchingThereIsNoPoseButItsFrameIsTold) {
   EXPECT_EQ(inbox.messages[0].num_joints, body_.joint_count());
 }
 
+// Somebody whose pose does not change.
+class Still : public MotionCapture {
+ public:
+  Still(const BodyModel& body, const CaptureResult& result) : body_(body), result_(result) {}
+
+  const CaptureResult& Update(const Sighting&, std::int64_t, UpdateObserver*) override {
+    return result_;
+  }
+  void Forget() override {}
+  void Expect(const BodySizes&) override {}
+  const CaptureResult& result() const override { return result_; }
+  PoseState PredictedPose(std::int64_t) const override { return result_.pose; }
+  const BodyModel& body() const override { return body_; }
+  int acquisition_frames() const override { return 1; }
+
+ private:
+  BodyModel body_;
+  CaptureResult result_;
+};
+
+TEST_F(PosePublisherTest, EverybodyArrivesWithANumberAndABody) {
+  Inbox<people_t> people(lcm_, "MOCAP_PEOPLE");
+  Inbox<person_body_t> bodies(lcm_, "MOCAP_BODIES");
+  Inbox<pose_t> poses(lcm_, "MOCAP_POSE");
+  const Still first(body_, result_);
+  BodyModel small = body_;
+  small.Resize(AverageSizes(1400));
+  CaptureResult other = result_;
+  other.state = CaptureState::kLost;
+  other.pose.X_WT.p.x() = 900;
+  const Still second(small, other);
+  const std::array<PersonView, 2> views = {PersonView{2, &first}, PersonView{5, &second}};
+  TrackedSet set = Set();
+  set.people = views;
+  PosePublisher publisher(lcm_, {}, 3);
+  publisher.OnSet(set);
+  Deliver();
+  ASSERT_EQ(people.messages.size(), 1u);
+  const people_t& message = people.messages[0];
+  EXPECT_EQ(message.frame, 7);
+  EXPECT_GT(message.publish_utime, message.utime);
+  EXPECT_THAT(message.camera_used, ElementsAre(1, 0, 1));
+  ASSERT_EQ(message.num_people, 2);
+  EXPECT_EQ(message.people[0].id, 2);
+  EXPECT_EQ(message.people[1].id, 5);
+  EXPECT_EQ(message.people[1].state, int{pose_t::LOST});
+  EXPECT_EQ(message.people[1].torso_mm[0], 900);
+  // The first is the person of the pose.
+  EXPECT_EQ(message.people[0].joint_rad, poses.messages.at(0).joint_rad);
+  EXPECT_EQ(message.people[0].point_mm[22][2], poses.messages.at(0).point_mm[22][2]);
+  ASSERT_EQ(bodies.messages.size(), 2u);
+  EXPECT_EQ(bodies.messages[1].id, 5);
+  EXPECT_DOUBLE_EQ(bodies.messages[1].body.stature_mm, small.sizes().Stature());
+}
+
 TEST_F(PosePublisherTest, TheBodyComesAtOnceAndWhenItChanges) {
   Inbox<body_t> inbox(lcm_, "MOCAP_BODY");
   PosePublisher publisher(lcm_, {}, 3);

@@ -171,6 +171,23 @@ TEST(SensorPlaneTable, AWindowHoldsTheDirectionsOfItsPixelsAndLittleMore) {
   }
 }
 
+TEST(SensorPlaneTable, TheInnerWindowHoldsNothingThatThePictureDoesNotShow) {
+  for (const auto& [name, camera] : DistortedCameras()) {
+    SCOPED_TRACE(name);
+    const SensorPlaneTable table(camera);
+    const SensorPlaneTable::Window inner = table.InnerWindow();
+    for (int i = 0; i <= 50; ++i) {
+      for (int j = 0; j <= 50; ++j) {
+        // The window's own edge may lie on the picture's.
+        const Vector2 share = Vector2::Constant(0.002) + 0.996 / 50 * Vector2(i, j);
+        const Vector2 n = inner.low + share.cwiseProduct(inner.high - inner.low);
+        if (!n.allFinite()) continue;  // The picture shows the lens's rim.
+        EXPECT_GE(table.Lookup(n.x(), n.y()).x, 0);
+      }
+    }
+  }
+}
+
 TEST(SensorPlaneTable, ALensThatShowsNothingInItsPictureIsRefused) {
   CameraCalibration camera;
   camera.name = "cam7";

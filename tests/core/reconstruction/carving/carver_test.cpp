@@ -98,9 +98,9 @@ Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
   return voxels;
 }
 
-Voxels Carve(std::span<const CarvingView> views, double voxel_mm) {
+Voxels Carve(std::span<const CarvingView> views, double voxel_mm, bool several_people = false) {
   VoxelGrid grid;
-  Carver(CarvingOptions{voxel_mm}).Carve(views, grid);
+  Carver({.voxel_mm = voxel_mm, .several_people = several_people}).Carve(views, grid);
   return VoxelsOf(grid);
 }
 
@@ -197,6 +197,33 @@ TEST(Carver, AFootOutsideOnePictureDoesNotVanish) {
     at_foot += (CenterOf(voxel, 25) - Vector3(110, 30, 70)).norm() < 65;
   // Of a ball of 65 mm radius, 73 voxels.
   EXPECT_GT(at_foot, 55);
+}
+
+TEST(Carver, WhereSeveralMayBeNothingOfThePersonIsOtherwise) {
+  SyntheticStudio studio;
+  studio.Show(StandingPerson(420, -310));
+  const Voxels one = Carve(studio.Views(), 40), any = Carve(studio.Views(), 40, true);
+  EXPECT_GT(one.size(), 500u);
+  EXPECT_TRUE(std::ranges::includes(any, one));
+}
+
+TEST(Carver, SomebodyBesideAPictureIsCarvedWhileItShowsSomebodyElse) {
+  SyntheticStudio studio;
+  studio.cameras[1].X_CW = LookAt({-1200, -2900, 2000}, {-1500, 0, 900});
+  std::vector<DrawnCapsule> both = StandingPerson(-1500, 0);
+  studio.Show(both);
+  const PixelBox shown = studio.silhouettes[1].BoundingBox().value();
+  for (const DrawnCapsule& part : StandingPerson(1700, 300)) both.push_back(part);
+  studio.Show(both);
+  ASSERT_EQ(studio.silhouettes[1].BoundingBox()->right, shown.right);
+  ASSERT_LT(shown.right, 319);
+  const auto beside = [&](bool several_people) {
+    const Voxels voxels = Carve(studio.Views(), 50, several_people);
+    return std::ranges::count_if(voxels,
+                                 [](const auto& voxel) { return CenterOf(voxel, 50).x() > 1000; });
+  };
+  EXPECT_GT(beside(true), 200);
+  EXPECT_EQ(beside(false), 0);
 }
 
 TEST(Carver, WhatOnlyOneCameraSeesIsNotMadeUp) {

@@ -54,6 +54,22 @@ TEST(Outline, RaysGrazeWhatTheLensShows) {
   }
 }
 
+TEST(Outline, EverySecondRayIsOneOfHalfAsMany) {
+  const CameraCalibration camera = DistortedCameras()[0].calibration;
+  const RigidTransform X_CW{ExpRotation(Vector3(0.3, -0.8, 0.2)), Vector3(100, 200, 300)};
+  const Silhouette sphere = SphereSeenBy(camera);
+  Outline thin, dense, thinned;
+  TraceOutline(camera, X_CW, sphere, 60, thin);
+  TraceOutline(camera, X_CW, sphere, 180, dense);
+  ThinOutline(dense, 3, thinned);
+  std::erase_if(thin, [](const GrazingRay& ray) { return ray.empty(); });
+  ASSERT_EQ(thinned.size(), thin.size());
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    EXPECT_EQ(thinned[i].direction_W, thin[i].direction_W);
+    EXPECT_EQ(thinned[i].outward_W, thin[i].outward_W);
+  }
+}
+
 TEST(Outline, HolesBorderOnTheirInside) {
   const CameraCalibration camera = DistortedCameras()[0].calibration;
   Silhouette frame(camera.width_px, camera.height_px);

@@ -1,0 +1,66 @@
+// Beyond the paper: whose the voxels of a room are.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/people/posed_person.h"
+#include "core/reconstruction/carving/voxel_grid.h"
+#include "core/reconstruction/carving/voxel_pieces.h"
+#include "core/reconstruction/silhouette/outline.h"
+
+namespace mocap {
+
+/// Flesh that may be somebody's: his alone, and everybody's in the same block of cells.
+struct FleshShare {
+  VoxelGrid flesh, room;
+  Eigen::AlignedBox3d box_W;  ///< Around `flesh`; empty without any [mm].
+  double litres = 0;
+};
+
+/// Divides the flesh in a room among the people who are known, and finds what is nobody's. Reuses
+/// its memory.
+///
+/// A voxel is the person's whose body, as predicted, is nearest to it. What lies out of everybody's
+/// reach is strange; pieces of it that are too small for a person go to who is next to them, if
+/// anybody is.
+class FleshDivision {
+ public:
+  /// A piece of this size may be a person whom nobody knows.
+  static constexpr double kLeastStrangerLitres = 20;
+
+  void Divide(const VoxelGrid& grid, std::span<const PosedPerson> people);
+
+  /// Whether a ray grazes flesh of a share, or passes through it; strangers' shares come behind the
+  /// people's.
+  bool Touches(std::size_t share, const GrazingRay& ray) const;
+
+  /// One for each person, in their order.
+  const std::vector<FleshShare>& shares() const { return shares_; }
+  /// The strange pieces, the largest first.
+  const std::vector<FleshShare>& strangers() const { return strangers_; }
+
+ private:
+  struct Claim {
+    VoxelGrid grid;
+    Eigen::AlignedBox3i cells;
+    int voxels = 0;
+  };
+
+  void ClaimRow(const VoxelGrid& grid, int j, int k, std::span<const PosedPerson> people);
+  int OwnerOf(const Vector3& p_W, std::span<const PosedPerson> people);
+  void DivideStrangeFlesh();
+  void Add(const VoxelPieces::Run& run, Claim& claim);
+  void Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& share) const;
+
+  std::vector<Claim> claims_;    // Of the people, then of strangers.
+  std::vector<int> candidates_;  // Whose boxes a row runs through.
+  std::vector<int> guesses_;     // The capsule that explained each person's last voxel.
+  VoxelGrid strange_;
+  VoxelPieces pieces_;
+  std::vector<int> claim_of_piece_;
+  std::vector<Eigen::AlignedBox3i> piece_cells_;
+  std::vector<FleshShare> shares_, strangers_;
+};
+
+}  // namespace mocap

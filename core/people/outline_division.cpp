@@ -1,0 +1,102 @@
+#include "core/people/outline_division.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mocap {
+namespace {
+
+// Surfaces that face square to each other count as this far apart, as in a fit.
+constexpr double kSquareMm = 40;
+// A body explains a ray from this mismatch on; beyond the other it certainly does not.
+constexpr double kExplainsMm = 80;
+constexpr double kSurelyNotMm = 120;
+// Farther than any room is long.
+constexpr double kFarMm = 30000;
+// A camera that has so many rays of somebody shows him.
+constexpr int kRaysOfWitness = 6;
+
+bool Passes(const GrazingRay& ray, const Eigen::AlignedBox3d& box_W) {
+  const Vector3 a = (box_W.min() - ray.eye_W).cwiseQuotient(ray.direction_W);
+  const Vector3 b = (box_W.max() - ray.eye_W).cwiseQuotient(ray.direction_W);
+  return std::max(0.0, a.cwiseMin(b).maxCoeff()) < a.cwiseMax(b).minCoeff();
+}
+
+double MismatchOf(const GrazingRay& ray, const PosedPerson& person) {
+  double least_mm = std::numeric_limits<double>::infinity();
+  for (const PosedCapsule& capsule : person.capsules) {
+    const Vector3 to_middle = capsule.middle_W - ray.eye_W;
+    const double aside_mm = to_middle.cross(ray.direction_W).norm();
+    if (aside_mm - capsule.reach_mm >= least_mm) continue;
+    const auto distance = capsule.DistanceTo(ray.eye_W, ray.eye_W + kFarMm * ray.direction_W);
+    const Vector3 offset = distance.segment_W - distance.core_W;
+    const double facing = offset.dot(ray.outward_W) / (offset.norm() + 1);
+    least_mm = std::min(least_mm, std::abs(distance.outside_mm) + kSquareMm * (1 - facing));
+  }
+  return least_mm + person.handicap_mm;
+}
+
+}  // namespace
+
+void OutlineDivision::Divide(std::span<const Outline> outlines, std::span<const PosedPerson> people,
+                             const FleshDivision& flesh) {
+  shares_.resize(people.size() + flesh.strangers().size());
+  sole_.resize(shares_.size());
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    shares_[i].own.resize(outlines.size());
+    shares_[i].near.resize(outlines.size());
+    for (Outline& outline : shares_[i].own) outline.clear();
+    for (Outline& outline : shares_[i].near) outline.clear();
+    sole_[i].assign(outlines.size(), 0);
+  }
+  for (std::size_t camera = 0; camera < outlines.size(); ++camera)
+    for (const GrazingRay& ray : outlines[camera]) DivideRay(ray, camera, people, flesh);
+  CountWitnesses();
+}
+
+void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
+                                std::span<const PosedPerson> people, const FleshDivision& flesh) {
+  passed_.clear();
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    const Eigen::AlignedBox3d& box_W =
+        i < people.size() ? people[i].box_W : flesh.strangers()[i - people.size()].box_W;
+    if (!Passes(ray, box_W)) continue;
+    passed_.push_back({i, 0, true});
+    shares_[i].near[camera].push_back(ray);
+  }
+  const Passed* const owner = OwnerOf(ray, people, flesh);
+  if (!owner) return;
+  shares_[owner->share].own[camera].push_back(ray);
+  const auto explain = std::ranges::count_if(
+      passed_, [](const Passed& passed) { return passed.mismatch_mm <= kSurelyNotMm; });
+  sole_[owner->share][camera] += explain <= 1;
+}
+
+const OutlineDivision::Passed* OutlineDivision::OwnerOf(const GrazingRay& ray,
+                                                        std::span<const PosedPerson> people,
+                                                        const FleshDivision& flesh) {
+  if (passed_.size() == 1) return &passed_.front();
+  const Passed* owner = nullptr;
+  for (Passed& passed : passed_) {
+    passed.touches = flesh.Touches(passed.share, ray);
+    // What a stranger's body is like nobody knows.
+    passed.mismatch_mm =
+        passed.share < people.size() ? MismatchOf(ray, people[passed.share]) : kExplainsMm;
+    if (!passed.touches && passed.mismatch_mm > kExplainsMm) continue;
+    const bool is_better =
+        !owner || passed.touches > owner->touches ||
+        (passed.touches == owner->touches && passed.mismatch_mm < owner->mismatch_mm);
+    if (is_better) owner = &passed;
+  }
+  return owner;
+}
+
+void OutlineDivision::CountWitnesses() {
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    shares_[i].witnesses = static_cast<int>(
+        std::ranges::count_if(sole_[i], [](int rays) { return rays >= kRaysOfWitness; }));
+  }
+}
+
+}  // namespace mocap

@@ -1,0 +1,306 @@
+#include "core/people/people_capture.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/people/flesh_division.h"
+#include "core/people/outline_division.h"
+#include "core/people/posed_person.h"
+
+namespace mocap {
+namespace {
+
+// Flesh so near to where a body is expected may be its own; of somebody who is lost, also flesh
+// that is farther away, if it is nobody else's.
+constexpr double kReachMm = 250;
+constexpr double kLostReachMm = 700;
+constexpr double kLostHandicapMm = 250;
+// A limb that was carved away may be so far beside what was foreseen, or beside the flesh.
+constexpr double kAsideMm = 100;
+// Cameras that have to show a newcomer where nobody else is; and so many of a few, all but one.
+constexpr int kWitnesses = 4;
+// A person without two such cameras for so long is none.
+constexpr int kFewestWitnesses = 2;
+constexpr double kDoubtedS = 0.2;
+// A newcomer who is not seen for so long has gone.
+constexpr double kUnseenS = 0.3;
+// Whoever is not shown as a whole for so long is looked for in what is shown.
+constexpr double kPatienceS = 1.0;
+// Strange flesh that moved by less since the last frame is the same newcomer.
+constexpr double kSameMm = 600;
+
+Eigen::AlignedBox3d Widened(const Eigen::AlignedBox3d& box, double by_mm) {
+  const Vector3 by = Vector3::Constant(by_mm);
+  return {box.min() - by, box.max() + by};
+}
+
+int WitnessesWanted(std::size_t cameras) {
+  return std::min(kWitnesses, std::max(static_cast<int>(cameras) - 1, 2));
+}
+
+// Whether enough cameras have all of a person in their pictures, so that what they show is no part
+// of him. Feet stand on the floor.
+bool IsWholeInPictures(const Eigen::AlignedBox3d& flesh_W, std::span<const CameraEye> eyes) {
+  Eigen::AlignedBox3d box_W = Widened(flesh_W, kAsideMm);
+  box_W.min().z() = 0;
+  const auto seeing =
+      std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAll(box_W); });
+  return seeing >= WitnessesWanted(eyes.size());
+}
+
+// Litres of the voxels of a grid that lie outside of a box.
+double LitresBeside(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W) {
+  const Eigen::Array3d low = (box_W.min() - grid.origin_W()).array() / grid.voxel_mm();
+  const Eigen::Array3d high = (box_W.max() - grid.origin_W()).array() / grid.voxel_mm();
+  const int begin = std::clamp(static_cast<int>(low.x()), 0, grid.size().x());
+  const int end = std::clamp(static_cast<int>(high.x()), 0, grid.size().x());
+  std::int64_t voxels = 0;
+  for (int k = 0; k < grid.size().z(); ++k) {
+    for (int j = 0; j < grid.size().y(); ++j) {
+      const bool is_beside = j < low.y() || j > high.y() || k < low.z() || k > high.z();
+      const std::uint64_t* const row = grid.row(j, k);
+      for (int i = 0; i < grid.words_per_row(); ++i) {
+        std::uint64_t bits = row[i];
+        if (bits == 0) continue;
+        for (int x = std::max(begin, i * 64); !is_beside && x < std::min(end, i * 64 + 64); ++x)
+          bits &= ~(std::uint64_t{1} << (x - i * 64));
+        voxels += std::popcount(bits);
+      }
+    }
+  }
+  return static_cast<double>(voxels) * grid.voxel_mm() * grid.voxel_mm() * grid.voxel_mm() * 1e-6;
+}
+
+}  // namespace
+
+class PeopleCapture::Impl {
+ public:
+  Impl(MakeCapture make, int most, int fineness);
+
+  void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
+              UpdateObserver* observer);
+  const std::vector<PersonView>& people() const { return people_; }
+  const MotionCapture& first() const;
+  void StartOver(const std::optional<BodySizes>& sizes);
+
+ private:
+  struct Member;
+
+  void Thin(std::span<const Outline> outlines, int step);
+  bool IsAlone(const VoxelGrid& grid);
+  void PoseMembers(std::int64_t capture_ns);
+  void Divide(const VoxelGrid& grid);
+  void MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns);
+  Member* MemberFor(const Vector3& middle_W);
+  void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
+  void JudgeMembers(std::int64_t capture_ns);
+  void ListPeople();
+  Member& AddMember();
+
+  const MakeCapture make_;
+  const int most_, fineness_;
+  int witnesses_wanted_ = 0;
+  std::vector<std::unique_ptr<Member>> members_;  // Never empty.
+  int last_id_ = 0;
+  std::vector<PosedPerson> posed_;     // Of members whose pose is known.
+  std::vector<Member*> posed_member_;  // Likewise.
+  FleshDivision flesh_;
+  OutlineDivision outlines_;
+  std::vector<Outline> thinned_;
+  std::vector<PersonView> people_;
+};
+
+struct PeopleCapture::Impl::Member {
+  bool has_pose() const { return capture->result().state != CaptureState::kSearching; }
+
+  std::unique_ptr<MotionCapture> capture;
+  int id = 0;                     // 0: not yet known for a person.
+  std::optional<Vector3> last_W;  // The middle of the flesh of somebody who is not found yet.
+  std::optional<std::int64_t> waits_since_ns;  // To be shown as a whole.
+  std::int64_t seen_ns = 0;
+  std::int64_t vouched_ns = 0;  // When there were witnesses last.
+  // What this frame shows; null without flesh.
+  const FleshShare* flesh = nullptr;
+  const OutlineShare* outlines = nullptr;
+  Eigen::AlignedBox3d box_W;  // The person is in it.
+};
+
+PeopleCapture::Impl::Impl(MakeCapture make, int most, int fineness)
+    : make_(std::move(make)), most_(most), fineness_(fineness) {
+  MOCAP_CHECK(most >= 1 && fineness >= 1);
+  AddMember();
+}
+
+PeopleCapture::Impl::Member& PeopleCapture::Impl::AddMember() {
+  members_.push_back(std::make_unique<Member>());
+  members_.back()->capture = make_();
+  return *members_.back();
+}
+
+const MotionCapture& PeopleCapture::Impl::first() const {
+  return people_.empty() ? *members_.front()->capture : *people_.front().capture;
+}
+
+void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes) {
+  people_.clear();
+  members_.resize(1);
+  members_.front()->id = 0;
+  MotionCapture& capture = *members_.front()->capture;
+  sizes ? capture.Expect(*sizes) : capture.Forget();
+}
+
+void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
+                                 std::int64_t capture_ns, UpdateObserver* observer) {
+  witnesses_wanted_ = WitnessesWanted(eyes.size());
+  PoseMembers(capture_ns);
+  Thin(room.outlines, fineness_);
+  if (IsAlone(room.flesh)) {
+    Member& member = *members_.front();
+    member.capture->Update({room.flesh, thinned_, room.box_W}, capture_ns, observer);
+    member.seen_ns = member.vouched_ns = capture_ns;
+  } else {
+    if (fineness_ > 1) Thin(room.outlines, 1);
+    Divide(room.flesh);
+    MeetStrangers(eyes, capture_ns);
+    if (observer) observer->OnStageEnd(UpdateStage::kLabel);
+    UpdateMembers(capture_ns, observer);
+  }
+  JudgeMembers(capture_ns);
+  ListPeople();
+}
+
+void PeopleCapture::Impl::Thin(std::span<const Outline> outlines, int step) {
+  thinned_.resize(outlines.size());
+  for (std::size_t i = 0; i < outlines.size(); ++i) ThinOutline(outlines[i], step, thinned_[i]);
+}
+
+void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
+  posed_member_.clear();
+  for (const auto& member : members_)
+    if (member->has_pose()) posed_member_.push_back(member.get());
+  posed_.resize(posed_member_.size());
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    const MotionCapture& capture = *posed_member_[i]->capture;
+    const bool is_lost = capture.result().state == CaptureState::kLost;
+    PosePerson(capture.body(), capture.PredictedPose(capture_ns), is_lost ? kLostReachMm : kReachMm,
+               is_lost ? kLostHandicapMm : 0, posed_[i]);
+  }
+}
+
+// Whether nobody can be there but one, so that nothing needs to be divided.
+bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
+  if (most_ == 1) return true;
+  if (members_.size() > 1) return false;
+  if (posed_.size() == 1)
+    return LitresBeside(grid, posed_.front().box_W) < FleshDivision::kLeastStrangerLitres;
+  flesh_.Divide(grid, posed_);
+  return flesh_.strangers().size() <= 1;
+}
+
+void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
+  flesh_.Divide(grid, posed_);
+  outlines_.Divide(thinned_, posed_, flesh_);
+  for (const auto& member : members_) member->flesh = nullptr, member->outlines = nullptr;
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    Member& member = *posed_member_[i];
+    member.flesh = &flesh_.shares()[i];
+    member.outlines = &outlines_.shares()[i];
+    member.box_W =
+        Widened(posed_[i].box_W, kAsideMm - posed_[i].reach_mm).merged(member.flesh->box_W);
+  }
+}
+
+// Gives strange flesh to whoever it was before, or to somebody new.
+void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns) {
+  for (std::size_t i = 0; i < flesh_.strangers().size(); ++i) {
+    const FleshShare& flesh = flesh_.strangers()[i];
+    const OutlineShare& share = outlines_.shares()[posed_.size() + i];
+    if (share.witnesses < witnesses_wanted_) continue;
+    Member* const member = MemberFor(flesh.box_W.center());
+    if (!member) continue;
+    member->last_W = flesh.box_W.center();
+    member->seen_ns = capture_ns;
+    if (!member->waits_since_ns) member->waits_since_ns = capture_ns;
+    const double waited_s = static_cast<double>(capture_ns - *member->waits_since_ns) * 1e-9;
+    if (!IsWholeInPictures(flesh.box_W, eyes) && waited_s < kPatienceS) continue;
+    member->flesh = &flesh;
+    member->outlines = &share;
+    member->box_W = Widened(flesh.box_W, kAsideMm);
+  }
+}
+
+// Null where there is no room for anybody.
+PeopleCapture::Impl::Member* PeopleCapture::Impl::MemberFor(const Vector3& middle_W) {
+  Member* nearest = nullptr;
+  double least_mm = kSameMm;
+  for (const auto& member : members_) {
+    if (member->has_pose() || member->flesh) continue;
+    const double moved_mm = member->last_W ? (middle_W - *member->last_W).norm() : kSameMm / 2;
+    if (moved_mm >= least_mm) continue;
+    least_mm = moved_mm;
+    nearest = member.get();
+  }
+  if (!nearest && static_cast<int>(members_.size()) < most_) nearest = &AddMember();
+  return nearest;
+}
+
+void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer) {
+  const VoxelGrid nothing;
+  for (const auto& member : members_) {
+    if (!member->flesh) {
+      member->capture->Update({nothing, {}}, capture_ns, observer);
+      continue;
+    }
+    member->capture->Update({member->flesh->flesh, member->outlines->own, member->box_W,
+                             member->flesh->room, member->outlines->near},
+                            capture_ns, observer);
+    member->seen_ns = capture_ns;
+    // Who is lost has a second to come back, and may be hidden.
+    const bool is_lost = member->capture->result().state == CaptureState::kLost;
+    if (is_lost || member->outlines->witnesses >= std::min(kFewestWitnesses, witnesses_wanted_))
+      member->vouched_ns = capture_ns;
+  }
+}
+
+void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
+  const auto has_gone = [&](const std::unique_ptr<Member>& member) {
+    const auto since_s = [&](std::int64_t then_ns) {
+      return static_cast<double>(capture_ns - then_ns) * 1e-9;
+    };
+    if (member->has_pose() && since_s(member->vouched_ns) > kDoubtedS) return true;
+    return !member->has_pose() && (member->id > 0 || since_s(member->seen_ns) > kUnseenS);
+  };
+  if (members_.size() > 1) std::erase_if(members_, has_gone);
+  if (members_.empty()) AddMember();
+  if (members_.size() == 1 && !members_.front()->has_pose()) members_.front()->id = 0;
+  for (const auto& member : members_) {
+    if (member->id == 0 && member->capture->result().state == CaptureState::kTracking)
+      member->id = ++last_id_;
+  }
+}
+
+void PeopleCapture::Impl::ListPeople() {
+  people_.clear();
+  for (const auto& member : members_)
+    if (member->id > 0) people_.push_back({member->id, member->capture.get()});
+  std::ranges::sort(people_, {}, &PersonView::id);
+}
+
+PeopleCapture::PeopleCapture(MakeCapture make, int most, int fineness)
+    : impl_(std::make_unique<Impl>(std::move(make), most, fineness)) {}
+PeopleCapture::PeopleCapture(PeopleCapture&&) noexcept = default;
+PeopleCapture::~PeopleCapture() = default;
+
+void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes,
+                           std::int64_t capture_ns, UpdateObserver* observer) {
+  impl_->Update(room, eyes, capture_ns, observer);
+}
+const std::vector<PersonView>& PeopleCapture::people() const { return impl_->people(); }
+const MotionCapture& PeopleCapture::first() const { return impl_->first(); }
+void PeopleCapture::Forget() { impl_->StartOver({}); }
+void PeopleCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
+
+}  // namespace mocap

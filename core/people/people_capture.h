@@ -1,0 +1,64 @@
+// Beyond the paper: everybody in the room. One capture a person, and evidence that is shared.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/motion_capture.h"
+#include "core/reconstruction/carving/carving_view.h"
+
+namespace mocap {
+
+/// More people are not followed at once.
+inline constexpr int kMostPeople = 8;
+
+/// Somebody who is followed, or was until a moment ago.
+struct PersonView {
+  int id = 0;  ///< From 1; nobody else ever gets it.
+  const MotionCapture* capture = nullptr;
+};
+
+/// Follows up to so many people through voxel grids, each by a capture of his own. Same input, same
+/// output, bit for bit. Thread-bound.
+///
+/// While there is one person, the capture gets the evidence as it is. Of several, each gets what
+/// his body, as predicted, explains best. Flesh that nobody explains, large enough for a person and
+/// shown by several cameras where nobody else is, is a newcomer. Whoever has no camera that shows
+/// him alone is nobody: hulls of several people hold flesh that belongs to none.
+class PeopleCapture {
+ public:
+  using MakeCapture = std::function<std::unique_ptr<MotionCapture>()>;
+
+  /// @param fineness  outlines have so many times the rays that one person needs.
+  /// @pre most >= 1, fineness >= 1.
+  PeopleCapture(MakeCapture make, int most, int fineness = 1);
+  PeopleCapture(PeopleCapture&&) noexcept;
+  ~PeopleCapture();
+
+  /// Takes the next frame set.
+  /// @param room        as if there were one person in it.
+  /// @param eyes        of the cameras that are in.
+  /// @param capture_ns  time of exposure; must not go back.
+  /// @param observer    told of the stages, may be null; the result does not depend on it.
+  void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
+              UpdateObserver* observer = nullptr);
+
+  /// Who is followed, in the order of their appearance.
+  const std::vector<PersonView>& people() const;
+  /// Whoever has been followed the longest; whoever is looked for while nobody is.
+  const MotionCapture& first() const;
+
+  /// Forgets everybody: whoever is seen next is measured.
+  void Forget();
+  /// Takes the sizes of whoever is seen from now on as known, and forgets everybody.
+  void Expect(const BodySizes& sizes);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,181 @@
+#include "core/people/people_capture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "config/load_config.h"
+#include "core/body/stance.h"
+#include "core/surface_capture.h"
+#include "tests/support/seen_body.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kFrameNs = 33'333'333;
+constexpr int kRays = 200;
+
+struct Someone {
+  BodyModel body;
+  PoseState pose;
+};
+
+class Room : public testing::Test {
+ protected:
+  explicit Room(int most = 4) : people_([this] { return Make(); }, most) {}
+
+  std::unique_ptr<MotionCapture> Make() const { return std::make_unique<SurfaceCapture>(table_); }
+
+  Someone At(double x_mm, double y_mm, double stature_mm, int frame = 0) const {
+    const BodyModel body(table_, AverageSizes(stature_mm));
+    const double swing = std::sin(0.2 * frame);
+    PoseState pose;
+    pose.X_WT.p =
+        Vector3(x_mm, y_mm, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+    const ArmStance arm_l{.raise = -70, .forward = 20 * swing, .elbow = 25};
+    const ArmStance arm_r{.raise = -70, .forward = -20 * swing, .elbow = 25};
+    const LegStance leg_l{.hip = -20 * swing, .knee = 15};
+    const LegStance leg_r{.hip = 20 * swing, .knee = 15};
+    pose.theta = AnglesOf({arm_l, arm_r, leg_l, leg_r}, table_);
+    return {body, pose};
+  }
+
+  RoundStudio::CarvedBody Carve(const std::vector<Someone>& everybody) const {
+    std::vector<PosedCapsule> flesh, one;
+    for (const Someone& person : everybody) {
+      person.body.PoseShape(person.body.PostureAt(person.pose), one);
+      flesh.insert(flesh.end(), one.begin(), one.end());
+    }
+    return studio_.Carve(flesh, kRays);
+  }
+
+  void See(const RoundStudio::CarvedBody& seen) {
+    people_.Update({seen.hull, seen.outlines}, eyes_, now_ns_ += kFrameNs);
+  }
+  void See(const std::vector<Someone>& everybody) { See(Carve(everybody)); }
+
+  // Mean distance of whoever is tracked nearest.
+  double ErrorOf(const Someone& person) const {
+    const BodyPoints truth = person.body.PointsAt(person.body.PostureAt(person.pose));
+    double least_mm = 1e9;
+    for (const PersonView& view : people_.people()) {
+      const CaptureResult& result = view.capture->result();
+      if (result.state != CaptureState::kTracking) continue;
+      least_mm = std::min(least_mm, (result.points_W - truth).colwise().norm().mean());
+    }
+    return least_mm;
+  }
+
+  std::vector<int> Ids() const {
+    std::vector<int> ids;
+    for (const PersonView& view : people_.people()) ids.push_back(view.id);
+    return ids;
+  }
+
+  BodyTable table_ = LoadBodyTable("full");
+  RoundStudio studio_;
+  const std::vector<CameraEye> eyes_ = studio_.Eyes();
+  PeopleCapture people_;
+  std::int64_t now_ns_ = 1'000'000'000'000;
+};
+
+TEST_F(Room, WhoIsAloneIsFollowedAsIfNobodyElseCouldBeThere) {
+  const std::unique_ptr<MotionCapture> alone = Make();
+  for (int frame = 0; frame < 5; ++frame) {
+    const auto seen = Carve({At(10.0 * frame, 0, 1750, frame)});
+    See(seen);
+    const CaptureResult& result = alone->Update({seen.hull, seen.outlines}, now_ns_);
+    EXPECT_EQ(people_.first().result().state, result.state);
+    EXPECT_EQ(people_.first().result().points_W, result.points_W);
+    EXPECT_EQ(people_.first().result().voxels, result.voxels);
+  }
+  EXPECT_EQ(Ids(), std::vector{1});
+}
+
+TEST_F(Room, TwoPeopleAreFoundAndFollowedPastEachOther) {
+  std::map<int, double> y_before;
+  for (int frame = 0; frame < 12; ++frame) {
+    const double way_mm = 100.0 * frame;
+    const Someone tall = At(-280, -550 + way_mm, 1850, frame);
+    const Someone small = At(280, 550 - way_mm, 1600, frame);
+    See({tall, small});
+    if (frame < 3) continue;
+    EXPECT_EQ(Ids(), (std::vector{1, 2}));
+    EXPECT_LT(ErrorOf(tall), 45) << frame;
+    EXPECT_LT(ErrorOf(small), 45) << frame;
+    for (const PersonView& view : people_.people()) {
+      const double y_mm = view.capture->result().pose.X_WT.p.y();
+      const auto [before, is_new] = y_before.try_emplace(view.id, y_mm);
+      EXPECT_LT(std::abs(y_mm - before->second), 200);
+      before->second = y_mm;
+    }
+  }
+}
+
+TEST_F(Room, WhoComesGetsANumberOfHisOwnAndWhoLeavesIsForgottenAfterASecond) {
+  const Someone stays = At(-600, 0, 1750), passes = At(700, 200, 1700);
+  const auto one = Carve({stays}), two = Carve({stays, passes});
+  for (int i = 0; i < 4; ++i) See(one);
+  for (int i = 0; i < 8; ++i) See(two);
+  EXPECT_EQ(Ids(), (std::vector{1, 2}));
+  EXPECT_LT(ErrorOf(passes), 40);
+  EXPECT_LT(ErrorOf(stays), 40);
+  for (int i = 0; i < 25; ++i) See(one);
+  EXPECT_EQ(Ids(), (std::vector{1, 2}));
+  for (int i = 0; i < 10; ++i) See(one);
+  EXPECT_EQ(Ids(), std::vector{1});
+  for (int i = 0; i < 8; ++i) See(two);
+  EXPECT_EQ(Ids(), (std::vector{1, 3}));
+}
+
+TEST_F(Room, FleshThatNoCameraShowsByItselfIsNobody) {
+  const Someone person = At(-600, 0, 1750);
+  RoundStudio::CarvedBody seen = Carve({person, At(800, 300, 1700)});
+  const auto real = Carve({person});
+  for (int i = 0; i < 4; ++i) See(real);
+  // The flesh of two, and the outlines of one.
+  seen.outlines = real.outlines;
+  for (int i = 0; i < 15; ++i) See(seen);
+  EXPECT_EQ(Ids(), std::vector{1});
+  EXPECT_LT(ErrorOf(person), 40);
+}
+
+TEST_F(Room, TheSamePeopleGiveTheSameNumbersAgain) {
+  PeopleCapture again([this] { return Make(); }, 4);
+  for (int frame = 0; frame < 5; ++frame) {
+    const auto seen = Carve({At(-500, 0, 1800, frame), At(500, 0, 1650, frame)});
+    See(seen);
+    again.Update({seen.hull, seen.outlines}, eyes_, now_ns_);
+    ASSERT_EQ(again.people().size(), people_.people().size());
+    for (std::size_t i = 0; i < again.people().size(); ++i)
+      EXPECT_EQ(again.people()[i].capture->result().points_W,
+                people_.people()[i].capture->result().points_W);
+  }
+}
+
+TEST_F(Room, ForgettingForgetsEverybody) {
+  const auto seen = Carve({At(-500, 0, 1800), At(500, 0, 1650)});
+  for (int i = 0; i < 4; ++i) See(seen);
+  people_.Forget();
+  EXPECT_TRUE(people_.people().empty());
+  EXPECT_EQ(people_.first().result().state, CaptureState::kSearching);
+  for (int i = 0; i < 4; ++i) See(seen);
+  EXPECT_EQ(Ids(), (std::vector{3, 4}));
+}
+
+class RoomForOne : public Room {
+ protected:
+  RoomForOne() : Room(1) {}
+};
+
+TEST_F(RoomForOne, IsNeverShared) {
+  const auto seen = Carve({At(-600, 0, 1800), At(600, 0, 1650)});
+  for (int i = 0; i < 4; ++i) See(seen);
+  EXPECT_LE(people_.people().size(), 1u);
+}
+
+}  // namespace
+}  // namespace mocap
