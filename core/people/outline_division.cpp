@@ -12,6 +12,8 @@ constexpr double kSquareMm = 40;
 // A body explains a ray from this mismatch on; beyond the other it certainly does not.
 constexpr double kExplainsMm = 80;
 constexpr double kSurelyNotMm = 120;
+// So far beside a stranger's flesh a ray may still be his.
+constexpr double kBesideMm = 100;
 // Farther than any room is long.
 constexpr double kFarMm = 30000;
 // A camera that has so many rays of somebody shows him.
@@ -59,8 +61,9 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
                                 std::span<const PosedPerson> people, const FleshDivision& flesh) {
   passed_.clear();
   for (std::size_t i = 0; i < shares_.size(); ++i) {
-    const Eigen::AlignedBox3d& box_W =
-        i < people.size() ? people[i].box_W : flesh.strangers()[i - people.size()].box_W;
+    const Eigen::AlignedBox3d box_W =
+        i < people.size() ? people[i].box_W
+                          : DownToFloor(flesh.strangers()[i - people.size()].box_W, kBesideMm);
     if (!Passes(ray, box_W)) continue;
     passed_.push_back({i, 0, true});
     shares_[i].near[camera].push_back(ray);

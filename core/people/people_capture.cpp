@@ -32,11 +32,6 @@ constexpr double kPatienceS = 1.0;
 // Strange flesh that moved by less since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
 
-Eigen::AlignedBox3d Widened(const Eigen::AlignedBox3d& box, double by_mm) {
-  const Vector3 by = Vector3::Constant(by_mm);
-  return {box.min() - by, box.max() + by};
-}
-
 int WitnessesWanted(std::size_t cameras) {
   return std::min(kWitnesses, std::max(static_cast<int>(cameras) - 1, 2));
 }
@@ -44,8 +39,7 @@ int WitnessesWanted(std::size_t cameras) {
 // Whether enough cameras have all of a person in their pictures, so that what they show is no part
 // of him. Feet stand on the floor.
 bool IsWholeInPictures(const Eigen::AlignedBox3d& flesh_W, std::span<const CameraEye> eyes) {
-  Eigen::AlignedBox3d box_W = Widened(flesh_W, kAsideMm);
-  box_W.min().z() = 0;
+  const Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, kAsideMm);
   const auto seeing =
       std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAll(box_W); });
   return seeing >= WitnessesWanted(eyes.size());
@@ -209,7 +203,7 @@ void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
     member.flesh = &flesh_.shares()[i];
     member.outlines = &outlines_.shares()[i];
     member.box_W =
-        Widened(posed_[i].box_W, kAsideMm - posed_[i].reach_mm).merged(member.flesh->box_W);
+        DownToFloor(posed_[i].box_W, kAsideMm - posed_[i].reach_mm).merged(member.flesh->box_W);
   }
 }
 
@@ -228,7 +222,7 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
     if (!IsWholeInPictures(flesh.box_W, eyes) && waited_s < kPatienceS) continue;
     member->flesh = &flesh;
     member->outlines = &share;
-    member->box_W = Widened(flesh.box_W, kAsideMm);
+    member->box_W = DownToFloor(flesh.box_W, kAsideMm);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "core/people/posed_person.h"
 
+#include <algorithm>
+
 namespace mocap {
 
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
@@ -14,6 +16,13 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
     person.box_W.extend(Eigen::AlignedBox3d(capsule.a_W - a, capsule.a_W + a));
     person.box_W.extend(Eigen::AlignedBox3d(capsule.b_W - b, capsule.b_W + b));
   }
+}
+
+Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm) {
+  const Vector3 beside = Vector3::Constant(beside_mm);
+  Eigen::AlignedBox3d box_W(flesh_W.min() - beside, flesh_W.max() + beside);
+  box_W.min().z() = std::min(box_W.min().z(), 0.0);
+  return box_W;
 }
 
 }  // namespace mocap

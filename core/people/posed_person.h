@@ -21,4 +21,7 @@ struct PosedPerson {
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
                 PosedPerson& person);
 
+/// A box around flesh and as much beside it, down to the floor: legs may have been carved away.
+Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm);
+
 }  // namespace mocap
