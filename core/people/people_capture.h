@@ -26,8 +26,8 @@ struct PersonView {
 ///
 /// While there is one person, the capture gets the evidence as it is. Of several, each gets what
 /// his body, as predicted, explains best. Flesh that nobody explains, large enough for a person and
-/// shown by several cameras where nobody else is, is a newcomer. Whoever has no camera that shows
-/// him alone is nobody: hulls of several people hold flesh that belongs to none.
+/// shown by several cameras where nobody else is, is a newcomer. Whoever lacks two cameras that
+/// show him alone is nobody: hulls of several people hold flesh that belongs to none.
 class PeopleCapture {
  public:
   using MakeCapture = std::function<std::unique_ptr<MotionCapture>()>;
