@@ -46,7 +46,7 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
 
 BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {
   return {ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
-          ray.outward_W};
+          ray.outward_W, false};
 }
 
 double ShareOf(int part, int all) { return static_cast<double>(part) / std::max(1, all); }
@@ -65,9 +65,9 @@ void BoundingEdgeFinder::Find(const VoxelCloud& cloud, std::span<const Outline> 
     const bool errs = ShareOf(camera.missing, camera.rays) > usual_share + kMostMissing;
     const std::size_t end = i + camera.cuts;
     for (std::size_t cut = i; cut < end; ++cut)
-      if (!cuts_[cut].misses) edges.push_back(cuts_[cut].edge);
+      if (!cuts_[cut].misses_hull) edges.push_back(cuts_[cut]);
     for (std::size_t cut = i; cut < end && !errs; ++cut)
-      if (cuts_[cut].misses) edges.push_back(cuts_[cut].edge);
+      if (cuts_[cut].misses_hull) edges.push_back(cuts_[cut]);
     i = end;
   }
 }
@@ -81,7 +81,8 @@ BoundingEdgeFinder::Camera BoundingEdgeFinder::CutRays(const VoxelCloud& cloud,
     const std::optional<Range> in_box = Within(box_W, ray.eye_W, ray.direction_W);
     if (!in_box) continue;
     const std::optional<Range> stretch = AlongVoxels(cloud, ray, *in_box);
-    cuts_.push_back({EdgeOf(ray, stretch.value_or(*in_box)), !stretch});
+    cuts_.push_back(EdgeOf(ray, stretch.value_or(*in_box)));
+    cuts_.back().misses_hull = !stretch;
     camera.missing += !stretch;
     ++camera.cuts;
   }

@@ -15,6 +15,8 @@ struct BoundingEdge {
   Vector3 from_W;
   Vector3 to_W;
   Vector3 outward_W;  ///< The person's normal where it is touched; unit length.
+  /// The ray misses the hull: what it grazes was carved away, for some camera did not see it.
+  bool misses_hull = false;
 };
 
 /// Cuts rays to bounding edges. Reuses its memory.
@@ -28,10 +30,6 @@ class BoundingEdgeFinder {
             const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges);
 
  private:
-  struct Cut {
-    BoundingEdge edge;
-    bool misses;
-  };
   struct Camera {
     int rays = 0, missing = 0;
     std::size_t cuts = 0;
@@ -40,7 +38,7 @@ class BoundingEdgeFinder {
   Camera CutRays(const VoxelCloud& cloud, const Outline& outline, const Eigen::AlignedBox3d& box_W);
   double UsualMissingShare();
 
-  std::vector<Cut> cuts_;
+  std::vector<BoundingEdge> cuts_;
   std::vector<Camera> cameras_;
   std::vector<double> shares_;
 };

@@ -15,7 +15,7 @@ void ChooseContacts(const Evidence& evidence, int voxels, int edges,
   const std::size_t from_edges = std::min<std::size_t>(evidence.edges.size(), edges);
   for (std::size_t i = 0; i < from_edges; ++i) {
     const BoundingEdge& edge = evidence.edges[i * evidence.edges.size() / from_edges];
-    contacts.push_back({edge.from_W, edge.to_W, edge.outward_W, true});
+    contacts.push_back({edge.from_W, edge.to_W, edge.outward_W, true, edge.misses_hull});
   }
 }
 

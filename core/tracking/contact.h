@@ -15,6 +15,7 @@ struct Contact {
   Vector3 to_W;
   Vector3 outward_W;  ///< The surface's normal there.
   bool is_edge;
+  bool misses_hull = false;  ///< An edge of what was carved away.
 };
 
 /// Chooses contacts spread evenly over a frame's surface voxels and bounding edges; keeps the

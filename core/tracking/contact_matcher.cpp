@@ -23,6 +23,10 @@ constexpr float kSquare_mm = 40;
 // Lengths are no less, so that nothing is divided by zero.
 constexpr float kLeastSq_mm2 = 1e-3f;
 constexpr float kParallel = 1e-4f;
+// Share of all edges: so many that miss the hull and graze a part tell that its flesh was carved
+// away.
+constexpr double kShareThatTells = 1.0 / 60;
+constexpr float kGrazes_mm = 40;
 // More than rounding makes of a distance between boxes.
 constexpr float kRounding_mm = 0.1f;
 // Contacts are sorted by cells of this size; edges longer than that by themselves, for their boxes
@@ -328,6 +332,20 @@ const std::vector<float>& ContactMatcher::Distances(std::span<const PosedCapsule
     distances_[contact] = best.distance[i];
   });
   return distances_;
+}
+
+std::uint32_t ContactMatcher::CarvedAway() const {
+  std::array<int, kMostCapsules> rays{};
+  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
+  const double wanted = std::max(2.0, kShareThatTells * static_cast<double>(edges));
+  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
+    if (contacts_[contact].misses_hull && best.capsule[i] >= 0 && best.distance[i] < kGrazes_mm)
+      ++rays[static_cast<std::size_t>(best.capsule[i])];
+  });
+  std::uint32_t capsules = 0;
+  for (int k = 0; k < kMostCapsules; ++k)
+    if (rays[k] >= wanted) capsules |= std::uint32_t{1} << k;
+  return capsules;
 }
 
 }  // namespace mocap

@@ -39,6 +39,10 @@ class ContactMatcher {
   /// @return  `reach_mm` where there is none; valid until the next call.
   const std::vector<float>& Distances(std::span<const PosedCapsule> capsules, double reach_mm);
 
+  /// The capsules, as bits, that several rays graze which miss the hull: flesh is missing there
+  /// because a camera did not see it. Of the last match.
+  std::uint32_t CarvedAway() const;
+
   static constexpr int kMostCapsules = 32;
   /// A capsule in single precision.
   struct SlimCapsule {

@@ -123,9 +123,11 @@ const LimbClaim& LimbSearch::ClaimAt(const PoseState& pose) {
     claim_.distances_mm.push_back(std::min<double>(terms_[i].other_mm, distances_mm[i]));
   }
   double hollow_mm = 0;
-  for (const PosedCapsule& capsule : posed_) {
+  const std::uint32_t carved_away = open_.CarvedAway();
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    if (carved_away >> i & 1) continue;
     for (const double share : kCoreShares) {
-      const auto way_W = WayToFlesh(*cloud_, *surface_W_, CorePlace(capsule, share));
+      const auto way_W = WayToFlesh(*cloud_, *surface_W_, CorePlace(posed_[i], share));
       if (way_W) hollow_mm += std::min(kMostHollowMm, way_W->norm());
     }
   }

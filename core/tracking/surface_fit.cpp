@@ -104,7 +104,9 @@ void SurfaceFit::ForEachResidual(const BodyModel& body, const Visit& visit) {
 
 template <typename Visit>
 void SurfaceFit::ForEachHollow(const Visit& visit) const {
+  const std::uint32_t carved_away = matcher_.CarvedAway();
   for (std::size_t i = 0; i < posed_.size(); ++i) {
+    if (carved_away >> i & 1) continue;
     for (const double share : kCoreShares) {
       const Vector3 p_W = CorePlace(posed_[i], share);
       if (const auto way_W = WayToFlesh(evidence_->cloud, matcher_.surface_W(), p_W))

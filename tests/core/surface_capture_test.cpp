@@ -33,6 +33,11 @@ PoseState Stroll(const BodyModel& body, int frame) {
   return pose;
 }
 
+bool IsLeg(BodyPart part) {
+  return part == BodyPart::kThighL || part == BodyPart::kThighR || part == BodyPart::kCalfL ||
+         part == BodyPart::kCalfR;
+}
+
 double MeanError(const BodyModel& truth, const PoseState& pose, const CaptureResult& result) {
   const BodyPoints expected = truth.PointsAt(truth.PostureAt(pose));
   return (result.points_W - expected).colwise().norm().mean();
@@ -120,6 +125,30 @@ TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
 }
 
 // While sizes are still measured too; only to look for somebody takes memory.
+// As of trousers in the floor's colour.
+TEST(DefaultBody, IsFoundThoughTwoCamerasDoNotSeeItsLegs) {
+  const BodyTable table = LoadBodyTable("full");
+  const BodyModel person(table, AverageSizes(1750));
+  const RoundStudio studio;
+  SurfaceCapture capture(table);
+  for (int frame = 0; frame < 8; ++frame) {
+    const PoseState pose = Stroll(person, frame);
+    std::vector<PosedCapsule> all, trunk;
+    person.PoseShape(person.PostureAt(pose), all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!IsLeg(person.shape()[i].part)) trunk.push_back(all[i]);
+    const auto seen = studio.CarveAsSeen({trunk, all, all, trunk, all, all}, 100);
+    const Eigen::AlignedBox3d box_W(seen.hull.origin_W() - Vector3(300, 300, 0),
+                                    seen.hull.end_W() + Vector3(300, 300, 0));
+    const Eigen::AlignedBox3d to_floor_W(Vector3(box_W.min().x(), box_W.min().y(), 0), box_W.max());
+    const CaptureResult& result =
+        capture.Update({seen.hull, seen.outlines, to_floor_W}, (frame + 1) * kFrameNs, nullptr);
+    if (frame < 6) continue;
+    ASSERT_EQ(result.state, CaptureState::kTracking);
+    EXPECT_LT(MeanError(person, pose, result), 50);
+  }
+}
+
 TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
   if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
   const BodyTable table = LoadBodyTable("full");

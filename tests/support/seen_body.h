@@ -74,10 +74,15 @@ class RoundStudio {
 
   /// What it gets of flesh, with so many rays a camera.
   CarvedBody Carve(const std::vector<PosedCapsule>& flesh, int rays) const {
+    return CarveAsSeen(std::vector(cameras_.size(), flesh), rays);
+  }
+
+  /// What it gets where each camera sees other parts.
+  CarvedBody CarveAsSeen(const std::vector<std::vector<PosedCapsule>>& flesh, int rays) const {
     std::vector<Silhouette> silhouettes;
     CarvedBody carved{{}, std::vector<Outline>(cameras_.size())};
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      silhouettes.push_back(See(i, flesh));
+      silhouettes.push_back(See(i, flesh[i]));
       TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], rays, carved.outlines[i]);
     }
     std::vector<CarvingView> views;
