@@ -86,7 +86,7 @@ struct Config {
   SegmentationOptions segmentation;
   TrackerKind tracker = TrackerKind::kSurface;
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
-  int people = 1;             ///< Followed at once, at the most.
+  int people = 4;             ///< Followed at once, at the most.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;
   ServiceConfig service;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/reconstruction/carving/voxel_block.h"
+
 namespace mocap {
 namespace {
 
@@ -28,26 +30,6 @@ double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_m
     if (least_mm <= enough_mm) break;
   }
   return least_mm;
-}
-
-// Copies the block of cells at `first`; both have one voxel size.
-void CopyBlock(const VoxelGrid& from, const Eigen::Vector3i& first, const Eigen::Vector3i& size,
-               VoxelGrid& to) {
-  to.Reset(from.first_voxel() + first, size, from.voxel_mm());
-  const int word = first.x() / 64, shift = first.x() % 64;
-  const int last = size.x() % 64;
-  for (int k = 0; k < size.z(); ++k) {
-    for (int j = 0; j < size.y(); ++j) {
-      const std::uint64_t* const source = from.row(first.y() + j, first.z() + k);
-      std::uint64_t* const row = to.row(j, k);
-      for (int i = 0; i < to.words_per_row(); ++i) {
-        row[i] = source[word + i] >> shift;
-        if (shift > 0 && word + i + 1 < from.words_per_row())
-          row[i] |= source[word + i + 1] << (64 - shift);
-      }
-      if (last > 0) row[to.words_per_row() - 1] &= (std::uint64_t{1} << last) - 1;
-    }
-  }
 }
 
 Eigen::AlignedBox3d BoxOf(const Eigen::AlignedBox3i& cells, const VoxelGrid& grid) {
@@ -206,11 +188,11 @@ void FleshDivision::Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& s
   }
   share.box_W = BoxOf(claim.cells, grid);
   const Eigen::Vector3i margin = Eigen::Vector3i::Constant(kMargin);
-  const Eigen::Vector3i first = (claim.cells.min() - margin).cwiseMax(0);
-  const Eigen::Vector3i past =
-      (claim.cells.max() + margin + Eigen::Vector3i::Ones()).cwiseMin(grid.size());
-  CopyBlock(claim.grid, first, past - first, share.flesh);
-  CopyBlock(grid, first, past - first, share.room);
+  const Eigen::Vector3i last = grid.size() - Eigen::Vector3i::Ones();
+  const Eigen::AlignedBox3i block((claim.cells.min() - margin).cwiseMax(0),
+                                  (claim.cells.max() + margin).cwiseMin(last));
+  CopyBlock(claim.grid, block, share.flesh);
+  CopyBlock(grid, block, share.room);
 }
 
 }  // namespace mocap

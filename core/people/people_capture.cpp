@@ -1,14 +1,15 @@
 #include "core/people/people_capture.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <utility>
 
 #include "core/errors.h"
+#include "core/people/capture_beside.h"
 #include "core/people/flesh_division.h"
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
+#include "core/reconstruction/carving/voxel_block.h"
 
 namespace mocap {
 namespace {
@@ -45,34 +46,11 @@ bool IsWholeInPictures(const Eigen::AlignedBox3d& flesh_W, std::span<const Camer
   return seeing >= WitnessesWanted(eyes.size());
 }
 
-// Litres of the voxels of a grid that lie outside of a box.
-double LitresBeside(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W) {
-  const Eigen::Array3d low = (box_W.min() - grid.origin_W()).array() / grid.voxel_mm();
-  const Eigen::Array3d high = (box_W.max() - grid.origin_W()).array() / grid.voxel_mm();
-  const int begin = std::clamp(static_cast<int>(low.x()), 0, grid.size().x());
-  const int end = std::clamp(static_cast<int>(high.x()), 0, grid.size().x());
-  std::int64_t voxels = 0;
-  for (int k = 0; k < grid.size().z(); ++k) {
-    for (int j = 0; j < grid.size().y(); ++j) {
-      const bool is_beside = j < low.y() || j > high.y() || k < low.z() || k > high.z();
-      const std::uint64_t* const row = grid.row(j, k);
-      for (int i = 0; i < grid.words_per_row(); ++i) {
-        std::uint64_t bits = row[i];
-        if (bits == 0) continue;
-        for (int x = std::max(begin, i * 64); !is_beside && x < std::min(end, i * 64 + 64); ++x)
-          bits &= ~(std::uint64_t{1} << (x - i * 64));
-        voxels += std::popcount(bits);
-      }
-    }
-  }
-  return static_cast<double>(voxels) * grid.voxel_mm() * grid.voxel_mm() * grid.voxel_mm() * 1e-6;
-}
-
 }  // namespace
 
 class PeopleCapture::Impl {
  public:
-  Impl(MakeCapture make, int most, int fineness);
+  Impl(MakeCapture make, const PeopleOptions& options);
 
   void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
               UpdateObserver* observer);
@@ -83,7 +61,9 @@ class PeopleCapture::Impl {
  private:
   struct Member;
 
+  void BringBack();
   void Thin(std::span<const Outline> outlines, int step);
+  void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
   bool IsAlone(const VoxelGrid& grid);
   void PoseMembers(std::int64_t capture_ns);
   void Divide(const VoxelGrid& grid);
@@ -95,12 +75,15 @@ class PeopleCapture::Impl {
   Member& AddMember();
 
   const MakeCapture make_;
-  const int most_, fineness_;
+  const PeopleOptions options_;
+  std::optional<BodySizes> expected_;  // Of whoever comes first.
+  const std::unique_ptr<MotionCapture> nobody_;
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
   std::vector<PosedPerson> posed_;     // Of members whose pose is known.
   std::vector<Member*> posed_member_;  // Likewise.
+  VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
   std::vector<Outline> thinned_;
@@ -108,11 +91,12 @@ class PeopleCapture::Impl {
 };
 
 struct PeopleCapture::Impl::Member {
-  bool has_pose() const { return capture->result().state != CaptureState::kSearching; }
+  bool has_pose() const { return !beside && capture->result().state != CaptureState::kSearching; }
 
-  std::unique_ptr<MotionCapture> capture;
-  int id = 0;                     // 0: not yet known for a person.
-  std::optional<Vector3> last_W;  // The middle of the flesh of somebody who is not found yet.
+  std::shared_ptr<MotionCapture> capture;
+  std::optional<CaptureBeside> beside;  // The capture is at work there, and not to be touched.
+  int id = 0;                           // 0: not yet known for a person.
+  std::optional<Vector3> last_W;        // The middle of the flesh of somebody who is not found yet.
   std::optional<std::int64_t> waits_since_ns;  // To be shown as a whole.
   std::int64_t seen_ns = 0;
   std::int64_t vouched_ns = 0;  // When there were witnesses last.
@@ -122,41 +106,43 @@ struct PeopleCapture::Impl::Member {
   Eigen::AlignedBox3d box_W;  // The person is in it.
 };
 
-PeopleCapture::Impl::Impl(MakeCapture make, int most, int fineness)
-    : make_(std::move(make)), most_(most), fineness_(fineness) {
-  MOCAP_CHECK(most >= 1 && fineness >= 1);
+PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
+    : make_(std::move(make)), options_(options), nobody_(make_()) {
+  MOCAP_CHECK(options.most >= 1 && options.fineness >= 1);
   AddMember();
 }
 
 PeopleCapture::Impl::Member& PeopleCapture::Impl::AddMember() {
-  members_.push_back(std::make_unique<Member>());
-  members_.back()->capture = make_();
-  return *members_.back();
+  Member& member = *members_.emplace_back(std::make_unique<Member>());
+  member.capture = make_();
+  if (members_.size() == 1 && expected_) member.capture->Expect(*expected_);
+  return member;
 }
 
 const MotionCapture& PeopleCapture::Impl::first() const {
-  return people_.empty() ? *members_.front()->capture : *people_.front().capture;
+  if (!people_.empty()) return *people_.front().capture;
+  const auto is_here = [](const auto& member) { return !member->beside; };
+  const auto member = std::ranges::find_if(members_, is_here);
+  return member == members_.end() ? *nobody_ : *(*member)->capture;
 }
 
 void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes) {
+  expected_ = sizes;
   people_.clear();
-  members_.resize(1);
-  members_.front()->id = 0;
-  MotionCapture& capture = *members_.front()->capture;
-  sizes ? capture.Expect(*sizes) : capture.Forget();
+  members_.clear();
+  AddMember();
 }
 
 void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
                                  std::int64_t capture_ns, UpdateObserver* observer) {
   witnesses_wanted_ = WitnessesWanted(eyes.size());
+  BringBack();
   PoseMembers(capture_ns);
-  Thin(room.outlines, fineness_);
   if (IsAlone(room.flesh)) {
-    Member& member = *members_.front();
-    member.capture->Update({room.flesh, thinned_, room.box_W}, capture_ns, observer);
-    member.seen_ns = member.vouched_ns = capture_ns;
+    Thin(room.outlines, options_.fineness);
+    UpdateAlone(room, capture_ns, observer);
   } else {
-    if (fineness_ > 1) Thin(room.outlines, 1);
+    Thin(room.outlines, 1);
     Divide(room.flesh);
     MeetStrangers(eyes, capture_ns);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
@@ -164,6 +150,26 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   }
   JudgeMembers(capture_ns);
   ListPeople();
+}
+
+// Takes over who has been found beside, up to the last set.
+void PeopleCapture::Impl::BringBack() {
+  for (const auto& member : members_) {
+    if (!member->beside || !member->beside->HasCaughtUp()) continue;
+    if (member->capture->result().state == CaptureState::kTracking) member->beside.reset();
+  }
+}
+
+// What is beside the box that one person spans is nobody, though the room may hold it.
+void PeopleCapture::Impl::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
+                                      UpdateObserver* observer) {
+  const Eigen::AlignedBox3i cells = CellsWithin(room.flesh, room.box_W);
+  const bool is_all = cells.sizes() + Eigen::Vector3i::Ones() == room.flesh.size();
+  if (!is_all) CopyBlock(room.flesh, cells, flesh_of_one_);
+  Member& member = *members_.front();
+  member.capture->Update({is_all ? room.flesh : flesh_of_one_, thinned_, room.box_W}, capture_ns,
+                         observer);
+  member.seen_ns = member.vouched_ns = capture_ns;
 }
 
 void PeopleCapture::Impl::Thin(std::span<const Outline> outlines, int step) {
@@ -186,10 +192,12 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
 
 // Whether nobody can be there but one, so that nothing needs to be divided.
 bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
-  if (most_ == 1) return true;
-  if (members_.size() > 1) return false;
-  if (posed_.size() == 1)
-    return LitresBeside(grid, posed_.front().box_W) < FleshDivision::kLeastStrangerLitres;
+  if (options_.most == 1) return true;
+  if (members_.size() > 1 || members_.front()->beside) return false;
+  if (posed_.size() == 1) {
+    return LitresBeside(grid, CellsWithin(grid, posed_.front().box_W)) <
+           FleshDivision::kLeastStrangerLitres;
+  }
   flesh_.Divide(grid, posed_);
   return flesh_.strangers().size() <= 1;
 }
@@ -237,21 +245,28 @@ PeopleCapture::Impl::Member* PeopleCapture::Impl::MemberFor(const Vector3& middl
     least_mm = moved_mm;
     nearest = member.get();
   }
-  if (!nearest && static_cast<int>(members_.size()) < most_) nearest = &AddMember();
+  if (!nearest && static_cast<int>(members_.size()) < options_.most) nearest = &AddMember();
   return nearest;
 }
 
 void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer) {
   const VoxelGrid nothing;
+  const bool is_anybody_followed = !posed_.empty();
   for (const auto& member : members_) {
     if (!member->flesh) {
-      member->capture->Update({nothing, {}}, capture_ns, observer);
+      if (!member->beside) member->capture->Update({nothing, {}}, capture_ns, observer);
       continue;
     }
-    member->capture->Update({member->flesh->flesh, member->outlines->own, member->box_W,
-                             member->flesh->room, member->outlines->near},
-                            capture_ns, observer);
     member->seen_ns = capture_ns;
+    const Sighting sighting(member->flesh->flesh, member->outlines->own, member->box_W,
+                            member->flesh->room, member->outlines->near);
+    if (options_.side && is_anybody_followed && !member->has_pose() && !member->beside)
+      member->beside.emplace(member->capture, *options_.side);
+    if (member->beside) {
+      member->beside->See(sighting, capture_ns);
+      continue;
+    }
+    member->capture->Update(sighting, capture_ns, observer);
     // Who is lost has a second to come back, and may be hidden.
     const bool is_lost = member->capture->result().state == CaptureState::kLost;
     if (is_lost || member->outlines->witnesses >= std::min(kFewestWitnesses, witnesses_wanted_))
@@ -270,9 +285,12 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   if (members_.size() > 1) std::erase_if(members_, has_gone);
   if (members_.empty()) AddMember();
   if (members_.size() == 1 && !members_.front()->has_pose()) members_.front()->id = 0;
+  const bool is_alone = members_.size() == 1;
   for (const auto& member : members_) {
-    if (member->id == 0 && member->capture->result().state == CaptureState::kTracking)
-      member->id = ++last_id_;
+    if (member->id > 0 || !member->has_pose()) continue;
+    // Nothing but a person can be what one alone is.
+    const bool is_found = member->capture->result().state == CaptureState::kTracking;
+    if (is_found || is_alone) member->id = ++last_id_;
   }
 }
 
@@ -283,8 +301,8 @@ void PeopleCapture::Impl::ListPeople() {
   std::ranges::sort(people_, {}, &PersonView::id);
 }
 
-PeopleCapture::PeopleCapture(MakeCapture make, int most, int fineness)
-    : impl_(std::make_unique<Impl>(std::move(make), most, fineness)) {}
+PeopleCapture::PeopleCapture(MakeCapture make, const PeopleOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(make), options)) {}
 PeopleCapture::PeopleCapture(PeopleCapture&&) noexcept = default;
 PeopleCapture::~PeopleCapture() = default;
 

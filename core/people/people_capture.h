@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/motion_capture.h"
+#include "core/people/side_work.h"
 #include "core/reconstruction/carving/carving_view.h"
 
 namespace mocap {
@@ -15,14 +16,22 @@ namespace mocap {
 /// More people are not followed at once.
 inline constexpr int kMostPeople = 8;
 
+struct PeopleOptions {
+  int most = 1;      ///< Followed at once, at the most.
+  int fineness = 1;  ///< Outlines have so many times the rays that one person needs.
+  /// Whoever comes while others are followed is looked for there; borrowed. Null: in Update, so
+  /// that the result depends on the input alone.
+  SideWork* side = nullptr;
+};
+
 /// Somebody who is followed, or was until a moment ago.
 struct PersonView {
   int id = 0;  ///< From 1; nobody else ever gets it.
   const MotionCapture* capture = nullptr;
 };
 
-/// Follows up to so many people through voxel grids, each by a capture of his own. Same input, same
-/// output, bit for bit. Thread-bound.
+/// Follows up to so many people through voxel grids, each by a capture of his own. Without a side,
+/// same input, same output, bit for bit. Thread-bound.
 ///
 /// While there is one person, the capture gets the evidence as it is. Of several, each gets what
 /// his body, as predicted, explains best. Flesh that nobody explains, large enough for a person and
@@ -32,14 +41,14 @@ class PeopleCapture {
  public:
   using MakeCapture = std::function<std::unique_ptr<MotionCapture>()>;
 
-  /// @param fineness  outlines have so many times the rays that one person needs.
   /// @pre most >= 1, fineness >= 1.
-  PeopleCapture(MakeCapture make, int most, int fineness = 1);
+  PeopleCapture(MakeCapture make, const PeopleOptions& options);
   PeopleCapture(PeopleCapture&&) noexcept;
   ~PeopleCapture();
 
   /// Takes the next frame set.
-  /// @param room        as if there were one person in it.
+  /// @param room        as if there were one person in it. The box is where he would be: of
+  ///                    somebody who is alone nothing else counts.
   /// @param eyes        of the cameras that are in.
   /// @param capture_ns  time of exposure; must not go back.
   /// @param observer    told of the stages, may be null; the result does not depend on it.

@@ -61,7 +61,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
     PublishLoad();
   }
   carver_.Carve(views_, set.grid);
-  set.person_box_W = volume_.Find(views_).value_or(Eigen::AlignedBox3d());
+  set.person_box_W = carver_.person_box_W();
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
   set.work_ns += carve_ns;
   recorders_[Stage::kCarve].Record(carve_ns);

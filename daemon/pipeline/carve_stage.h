@@ -10,7 +10,6 @@
 
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
-#include "core/reconstruction/carving/volume_of_interest.h"
 #include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
@@ -97,7 +96,6 @@ class CarveStage {
   Synchronizer synchronizer_;
   std::optional<LoadControl> load_control_;
   Carver carver_;
-  VolumeOfInterest volume_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
   SetTap* seen_ = nullptr;

@@ -67,6 +67,11 @@ SegmentationOptions SegmentationOf(const PipelineOptions& options) {
   return segmentation;
 }
 
+std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options) {
+  const bool is_wanted = options.people > 1 && options.overflow == Overflow::kDropOldest;
+  return is_wanted ? std::make_unique<SideThread>("newcomers", options.processors) : nullptr;
+}
+
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
   const bool is_live = overflow == Overflow::kDropOldest;
   return Synchronizer(static_cast<int>(studio.cameras.size()),
@@ -117,8 +122,11 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
       sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
       grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
+      side_(MakeSide(options)),
       track_(PeopleCapture([kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
-                           options.people, FinenessFor(options.people)),
+                           {.most = options.people,
+                            .fineness = FinenessFor(options.people),
+                            .side = side_.get()}),
              options.latency_origin, sink, recorders_, studio.person) {
   const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
   carve_ = std::make_unique<CarveStage>(

@@ -22,6 +22,7 @@
 #include "daemon/pipeline/grid_memory.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/pose_sink.h"
+#include "daemon/pipeline/side_thread.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/tap.h"
@@ -76,7 +77,7 @@ struct PipelineStatus {
 
 /// Runs a studio: a thread a camera that grabs and segments, one that matches and carves, one that
 /// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
-/// allocated, locked or copied on a frame's way.
+/// allocated, locked or copied on a frame's way. Live, one more looks for people who come in.
 ///
 /// Run once, with Start and Join or with RunSerially. RequestStop, finished, ChangeSubject,
 /// ReplaceBackground, Status and Progress: any thread.
@@ -136,7 +137,8 @@ class Pipeline {
   std::unique_ptr<HealthWatch> health_;  ///< Live only.
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
-  GridMemory grids_;  ///< Of sets_.
+  GridMemory grids_;                  ///< Of sets_.
+  std::unique_ptr<SideThread> side_;  ///< Live, where several people are followed.
   TrackStage track_;
   std::vector<std::thread> threads_;
   bool taps_are_held_ = false;

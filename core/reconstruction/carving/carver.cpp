@@ -65,6 +65,7 @@ class Carver::Walk {
       : voxel_mm_(options.voxel_mm), several_people_(options.several_people) {}
 
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
+  const Eigen::AlignedBox3d& person_box_W() const { return person_box_W_; }
 
  private:
   // A cube of voxels and what is known of it.
@@ -80,8 +81,6 @@ class Carver::Walk {
   };
   static constexpr std::uint8_t kNoFrame = 255;
 
-  bool LayOutRoom(std::span<const CarvingView> views, VoxelGrid& grid);
-  bool LayOutBox(std::span<const CarvingView> views, VoxelGrid& grid);
   void Prepare(std::span<const CarvingView> views);
   void Visit(const Block& block);
   bool VisitSamples(const Block& block);
@@ -115,8 +114,7 @@ class Carver::Walk {
   VoxelGrid* grid_ = nullptr;
   RoomBlocks room_;
   VolumeOfInterest volume_;
-  std::vector<std::optional<PixelBox>> boxes_;
-  std::vector<Eigen::Vector3i> blocks_;
+  Eigen::AlignedBox3d person_box_W_;
   std::vector<CarvingView> views_;
   std::vector<WindowMap> windows_;
   std::vector<OctantView> octant_views_;
@@ -128,9 +126,11 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
   MOCAP_CHECK(views.size() <= kMostViews);
   grid.Reset(Eigen::Vector3i::Zero(), Eigen::Vector3i::Zero(), voxel_mm_);
   fewest_ = Fewest(views.size());
-  boxes_.clear();
-  for (const CarvingView& view : views) boxes_.push_back(view.silhouette->BoundingBox());
-  if (!(several_people_ ? LayOutRoom(views, grid) : LayOutBox(views, grid))) return;
+  person_box_W_ = volume_.Find(views).value_or(Eigen::AlignedBox3d());
+  if (person_box_W_.isEmpty() && !several_people_) return;
+  room_.Find(views, fewest_, voxel_mm_, several_people_ ? Eigen::AlignedBox3d() : person_box_W_);
+  if (room_.blocks().empty()) return;
+  grid.Reset(room_.first_voxel(), room_.size_voxels(), voxel_mm_);
   Prepare(views);
   grid_ = &grid;
   for (std::size_t i = 0; i < views_.size(); ++i)
@@ -143,34 +143,10 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
     block.views[i] = static_cast<std::uint8_t>(i);
     block.frames[i] = kNoFrame;
   }
-  for (const Eigen::Vector3i& first : blocks_) {
+  for (const Eigen::Vector3i& first : room_.blocks()) {
     block.first = first;
     Visit(block);
   }
-}
-
-// Both return whether there is anything to see.
-bool Carver::Walk::LayOutRoom(std::span<const CarvingView> views, VoxelGrid& grid) {
-  room_.Find(views, fewest_, voxel_mm_);
-  if (room_.blocks().empty()) return false;
-  grid.Reset(room_.first_voxel(), room_.size_voxels(), voxel_mm_);
-  blocks_ = room_.blocks();
-  return true;
-}
-
-bool Carver::Walk::LayOutBox(std::span<const CarvingView> views, VoxelGrid& grid) {
-  const std::optional<Eigen::AlignedBox3d> box_W = volume_.Find(views);
-  const auto seeing =
-      std::ranges::count_if(boxes_, [](const auto& box) { return box.has_value(); });
-  if (!box_W || seeing < fewest_) return false;
-  const Vector3 first = (box_W->min() / voxel_mm_).array().floor();
-  const Vector3 end = (box_W->max() / voxel_mm_).array().ceil();
-  grid.Reset(first.cast<int>(), (end - first).cast<int>(), voxel_mm_);
-  blocks_.clear();
-  for (int k = 0; k < grid.size().z(); k += kLargestBlock_voxels)
-    for (int j = 0; j < grid.size().y(); j += kLargestBlock_voxels)
-      for (int i = 0; i < grid.size().x(); i += kLargestBlock_voxels) blocks_.push_back({i, j, k});
-  return true;
 }
 
 // Measures the silhouettes of those cameras that see something.
@@ -183,7 +159,7 @@ void Carver::Walk::Prepare(std::span<const CarvingView> views) {
     frames_.resize(views.size());
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::optional<PixelBox>& box = boxes_[i];
+    const std::optional<PixelBox>& box = volume_.boxes()[i];
     if (!box) continue;
     windows_[views_.size()].Measure(*views[i].silhouette, *box, most_gaps_ > 0);
     views_.push_back(views[i]);
@@ -385,5 +361,6 @@ Carver::~Carver() = default;
 void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
   walk_->Carve(views, grid);
 }
+const Eigen::AlignedBox3d& Carver::person_box_W() const { return walk_->person_box_W(); }
 
 }  // namespace mocap

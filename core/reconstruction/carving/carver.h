@@ -12,8 +12,8 @@ namespace mocap {
 
 struct CarvingOptions {
   double voxel_mm = 25;
-  /// Somebody may be beside a picture that shows somebody else. Of one person it is known that all
-  /// of him is within the box that the silhouettes span.
+  /// Somebody may be beside a picture that shows somebody else, so that the whole room is carved. A
+  /// person who is alone is within the box that the silhouettes span.
   bool several_people = false;
 };
 
@@ -40,6 +40,8 @@ class Carver {
   /// @pre  there are at most kMostViews.
   /// @post the result does not depend on how the work is divided.
   void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
+  /// Where a person who is alone is, in the last set [mm, world]; empty without anybody.
+  const Eigen::AlignedBox3d& person_box_W() const;
 
  private:
   class Walk;

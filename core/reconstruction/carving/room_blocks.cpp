@@ -21,14 +21,17 @@ RoomBlocks::Cone RoomBlocks::ConeOf(const RigidTransform& X_CW,
           PlaneOf(X_CW, {0, 1, -window.low.y()}), PlaneOf(X_CW, {0, -1, window.high.y()})};
 }
 
-void RoomBlocks::Find(std::span<const CarvingView> views, int fewest, double voxel_mm) {
+void RoomBlocks::Find(std::span<const CarvingView> views, int fewest, double voxel_mm,
+                      const Eigen::AlignedBox3d& within) {
   SetEyes(views);
   blocks_.clear();
   fewest_ = fewest;
   voxel_mm_ = voxel_mm;
   if (static_cast<int>(eyes_.size()) < fewest) return;
-  Eigen::AlignedBox3d room;
-  for (const CarvingView& view : views) room.extend(RoomBefore(view.X_CW));
+  Eigen::AlignedBox3d room = within;
+  if (room.isEmpty()) {
+    for (const CarvingView& view : views) room.extend(RoomBefore(view.X_CW));
+  }
   room_first_ = (room.min() / voxel_mm).array().floor().cast<int>();
   room_size_ = (room.max() / voxel_mm).array().ceil().cast<int>() - room_first_.array();
   for (int k = 0; k < room_size_.z(); k += kLargestCube_voxels)

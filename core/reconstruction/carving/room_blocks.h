@@ -25,7 +25,9 @@ class RoomBlocks {
   static constexpr int kBlock_voxels = 16;
 
   /// @param fewest  cameras that have to see a place.
-  void Find(std::span<const CarvingView> views, int fewest, double voxel_mm);
+  /// @param within  nothing else is looked at [mm, world]; empty: the whole room.
+  void Find(std::span<const CarvingView> views, int fewest, double voxel_mm,
+            const Eigen::AlignedBox3d& within = {});
 
   /// First voxels of the blocks, from first_voxel(). Without any there is nothing to see.
   const std::vector<Eigen::Vector3i>& blocks() const { return blocks_; }

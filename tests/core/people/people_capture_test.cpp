@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "config/load_config.h"
@@ -25,7 +27,8 @@ struct Someone {
 
 class Room : public testing::Test {
  protected:
-  explicit Room(int most = 4) : people_([this] { return Make(); }, most) {}
+  explicit Room(int most = 4, SideWork* side = nullptr)
+      : people_([this] { return Make(); }, {.most = most, .side = side}) {}
 
   std::unique_ptr<MotionCapture> Make() const { return std::make_unique<SurfaceCapture>(table_); }
 
@@ -144,7 +147,7 @@ TEST_F(Room, FleshThatNoCameraShowsByItselfIsNobody) {
 }
 
 TEST_F(Room, TheSamePeopleGiveTheSameNumbersAgain) {
-  PeopleCapture again([this] { return Make(); }, 4);
+  PeopleCapture again([this] { return Make(); }, {.most = 4});
   for (int frame = 0; frame < 5; ++frame) {
     const auto seen = Carve({At(-500, 0, 1800, frame), At(500, 0, 1650, frame)});
     See(seen);
@@ -164,6 +167,102 @@ TEST_F(Room, ForgettingForgetsEverybody) {
   EXPECT_EQ(people_.first().result().state, CaptureState::kSearching);
   for (int i = 0; i < 4; ++i) See(seen);
   EXPECT_EQ(Ids(), (std::vector{3, 4}));
+}
+
+// Work that is done when a test says so.
+class Desk : public SideWork {
+ public:
+  void Begin(std::function<void()> work) override { waiting_.push_back(std::move(work)); }
+  void DoAll() {
+    for (const auto& work : std::exchange(waiting_, {})) work();
+  }
+  bool empty() const { return waiting_.empty(); }
+
+ private:
+  std::vector<std::function<void()>> waiting_;
+};
+
+struct DeskFirst {
+  Desk desk_;
+};
+
+class RoomWithSide : public DeskFirst, public Room {
+ protected:
+  RoomWithSide() : Room(4, &desk_) {}
+
+  const Someone stays_ = At(-600, 0, 1750);
+  const Someone comes_ = At(700, 200, 1700);
+};
+
+TEST_F(RoomWithSide, WhoComesIsLookedForBesideWhoIsFollowed) {
+  const auto one = Carve({stays_}), two = Carve({stays_, comes_});
+  for (int i = 0; i < 4; ++i) See(one);
+  EXPECT_TRUE(desk_.empty());
+  for (int i = 0; i < 6; ++i) {
+    See(two);
+    EXPECT_FALSE(desk_.empty());
+    EXPECT_EQ(Ids(), std::vector{1});
+    EXPECT_LT(ErrorOf(stays_), 40);
+  }
+  desk_.DoAll();
+  See(two);
+  EXPECT_EQ(Ids(), (std::vector{1, 2}));
+  EXPECT_LT(ErrorOf(comes_), 40);
+  for (int i = 0; i < 3; ++i) See(two);
+  EXPECT_TRUE(desk_.empty());
+}
+
+TEST_F(RoomWithSide, WhoIsFollowedAlreadyIsFollowedTheSameWay) {
+  PeopleCapture plain([this] { return Make(); }, {.most = 4});
+  for (int frame = 0; frame < 12; ++frame) {
+    const auto seen =
+        frame < 4 ? Carve({At(-600, 0, 1750, frame)}) : Carve({At(-600, 0, 1750, frame), comes_});
+    See(seen);
+    plain.Update({seen.hull, seen.outlines}, eyes_, now_ns_);
+    if (frame < 5) {
+      EXPECT_EQ(plain.first().result().points_W, people_.first().result().points_W);
+    }
+    desk_.DoAll();
+  }
+  EXPECT_EQ(plain.people().size(), 2u);
+  EXPECT_EQ(people_.people().size(), 2u);
+}
+
+TEST_F(RoomWithSide, WhoLeavesBeforeHeIsFoundIsNobody) {
+  const auto one = Carve({stays_}), two = Carve({stays_, comes_});
+  for (int i = 0; i < 4; ++i) See(one);
+  for (int i = 0; i < 3; ++i) See(two);
+  for (int i = 0; i < 12; ++i) See(one);
+  desk_.DoAll();
+  for (int i = 0; i < 3; ++i) See(one);
+  EXPECT_EQ(Ids(), std::vector{1});
+}
+
+TEST_F(RoomWithSide, WhoeverIsForgottenWhileLookedForIsLookedForAnew) {
+  const auto two = Carve({stays_, comes_});
+  for (int i = 0; i < 4; ++i) See(Carve({stays_}));
+  for (int i = 0; i < 3; ++i) See(two);
+  people_.Forget();
+  EXPECT_EQ(people_.first().result().state, CaptureState::kSearching);
+  desk_.DoAll();
+  for (int i = 0; i < 6; ++i) {
+    See(two);
+    desk_.DoAll();
+  }
+  EXPECT_EQ(people_.people().size(), 2u);
+}
+
+TEST_F(RoomWithSide, MayGoWhileSomebodyIsLookedFor) {
+  {
+    PeopleCapture brief([this] { return Make(); }, {.most = 4, .side = &desk_});
+    const auto one = Carve({stays_}), two = Carve({stays_, comes_});
+    for (int i = 0; i < 6; ++i) {
+      const auto& seen = i < 4 ? one : two;
+      brief.Update({seen.hull, seen.outlines}, eyes_, now_ns_ += kFrameNs);
+    }
+  }
+  EXPECT_FALSE(desk_.empty());
+  desk_.DoAll();
 }
 
 class RoomForOne : public Room {

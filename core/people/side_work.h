@@ -1,0 +1,17 @@
+// Beyond the paper: a place for work that takes longer than a set may.
+#pragma once
+
+#include <functional>
+
+namespace mocap {
+
+/// Runs work beside the thread that follows people.
+class SideWork {
+ public:
+  virtual ~SideWork() = default;
+
+  /// Runs `work` in another thread, soon: one after the other, in their order.
+  virtual void Begin(std::function<void()> work) = 0;
+};
+
+}  // namespace mocap

@@ -1,0 +1,58 @@
+#include "daemon/pipeline/side_thread.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "daemon/pipeline/realtime.h"
+
+namespace mocap {
+namespace {
+
+// A tenth of a processor, where all are busy.
+constexpr int kNiceness = 10;
+// More than a work for each person, and one more.
+constexpr std::size_t kMostWaiting = 32;
+
+}  // namespace
+
+SideThread::SideThread(const std::string& name, const std::vector<int>& processors)
+    : queue_(kMostWaiting, Overflow::kWait, bell_) {
+  thread_ = std::thread([this, name, processors] {
+    pthread_setname_np(pthread_self(), name.c_str());
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+    KeepToProcessors(processors);
+    Run();
+  });
+}
+
+SideThread::~SideThread() {
+  stop_.store(true, std::memory_order_relaxed);
+  queue_.Close();
+  thread_.join();
+}
+
+void SideThread::Begin(std::function<void()> work) {
+  queue_.back() = std::move(work);
+  queue_.Push();
+}
+
+void SideThread::Run() {
+  for (;;) {
+    const int seen = bell_.count();
+    const bool is_closed = queue_.closed();
+    if (stop_.load(std::memory_order_relaxed)) return;
+    if (queue_.TryPop()) {
+      queue_.front()();
+      queue_.front() = nullptr;
+    } else if (is_closed) {
+      return;
+    } else {
+      bell_.WaitPast(seen);
+    }
+  }
+}
+
+}  // namespace mocap
