@@ -28,19 +28,29 @@ constexpr int kFewestWitnesses = 2;
 constexpr double kDoubtedS = 0.2;
 // A newcomer who is not seen for so long has gone.
 constexpr double kUnseenS = 0.3;
-// Whoever is not shown as a whole for so long is looked for in what is shown.
+// Whoever is not shown as a whole for so long is looked for in what is shown; and who was not seen
+// to come is not taken for a person before.
 constexpr double kPatienceS = 1.0;
+// So near to the border of what is covered somebody may just have come in.
+constexpr double kBorderMm = 600;
 // Strange flesh that moved by less since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
+
+double SecondsBetween(std::int64_t before_ns, std::int64_t after_ns) {
+  return static_cast<double>(after_ns - before_ns) * 1e-9;
+}
 
 int WitnessesWanted(std::size_t cameras) {
   return std::min(kWitnesses, std::max(static_cast<int>(cameras) - 1, 2));
 }
 
 // Whether enough cameras have all of a person in their pictures, so that what they show is no part
-// of him. Feet stand on the floor.
-bool IsWholeInPictures(const Eigen::AlignedBox3d& flesh_W, std::span<const CameraEye> eyes) {
-  const Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, kAsideMm);
+// of him, and would have it if he were so far beside. Feet stand on the floor.
+bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
+               std::span<const CameraEye> eyes) {
+  Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, kAsideMm);
+  const Vector3 beside(beside_mm, beside_mm, 0);
+  box_W = {box_W.min() - beside, box_W.max() + beside};
   const auto seeing =
       std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAll(box_W); });
   return seeing >= WitnessesWanted(eyes.size());
@@ -68,6 +78,7 @@ class PeopleCapture::Impl {
   void PoseMembers(std::int64_t capture_ns);
   void Divide(const VoxelGrid& grid);
   void MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns);
+  bool IsBeginning(std::int64_t capture_ns) const;
   Member* MemberFor(const Vector3& middle_W);
   void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
   void JudgeMembers(std::int64_t capture_ns);
@@ -81,8 +92,9 @@ class PeopleCapture::Impl {
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
-  std::vector<PosedPerson> posed_;     // Of members whose pose is known.
-  std::vector<Member*> posed_member_;  // Likewise.
+  std::optional<std::int64_t> followed_since_ns_;  // That anybody is.
+  std::vector<PosedPerson> posed_;                 // Of members whose pose is known.
+  std::vector<Member*> posed_member_;              // Likewise.
   VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
@@ -97,7 +109,9 @@ struct PeopleCapture::Impl::Member {
   std::optional<CaptureBeside> beside;  // The capture is at work there, and not to be touched.
   int id = 0;                           // 0: not yet known for a person.
   std::optional<Vector3> last_W;        // The middle of the flesh of somebody who is not found yet.
-  std::optional<std::int64_t> waits_since_ns;  // To be shown as a whole.
+  std::optional<std::int64_t> waits_since_ns;  // To be looked for.
+  // In from where cameras do not cover, or when others were not followed yet.
+  bool has_come = false;
   std::int64_t seen_ns = 0;
   std::int64_t vouched_ns = 0;  // When there were witnesses last.
   // What this frame shows; null without flesh.
@@ -128,6 +142,7 @@ const MotionCapture& PeopleCapture::Impl::first() const {
 
 void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes) {
   expected_ = sizes;
+  followed_since_ns_.reset();
   people_.clear();
   members_.clear();
   AddMember();
@@ -181,6 +196,8 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
   posed_member_.clear();
   for (const auto& member : members_)
     if (member->has_pose()) posed_member_.push_back(member.get());
+  if (posed_member_.empty()) followed_since_ns_.reset();
+  if (!posed_member_.empty() && !followed_since_ns_) followed_since_ns_ = capture_ns;
   posed_.resize(posed_member_.size());
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     const MotionCapture& capture = *posed_member_[i]->capture;
@@ -225,13 +242,21 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
     if (!member) continue;
     member->last_W = flesh.box_W.center();
     member->seen_ns = capture_ns;
-    if (!member->waits_since_ns) member->waits_since_ns = capture_ns;
-    const double waited_s = static_cast<double>(capture_ns - *member->waits_since_ns) * 1e-9;
-    if (!IsWholeInPictures(flesh.box_W, eyes) && waited_s < kPatienceS) continue;
+    if (!member->waits_since_ns) {
+      member->waits_since_ns = capture_ns;
+      member->has_come = IsBeginning(capture_ns) || !IsCovered(flesh.box_W, kBorderMm, eyes);
+    }
+    const bool may_be_found = member->has_come && IsCovered(flesh.box_W, 0, eyes);
+    if (!may_be_found && SecondsBetween(*member->waits_since_ns, capture_ns) < kPatienceS) continue;
     member->flesh = &flesh;
     member->outlines = &share;
     member->box_W = DownToFloor(flesh.box_W, kAsideMm);
   }
+}
+
+// Whether people may be there whom nobody has seen coming.
+bool PeopleCapture::Impl::IsBeginning(std::int64_t capture_ns) const {
+  return !followed_since_ns_ || SecondsBetween(*followed_since_ns_, capture_ns) < kPatienceS;
 }
 
 // Null where there is no room for anybody.
@@ -276,9 +301,7 @@ void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver*
 
 void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   const auto has_gone = [&](const std::unique_ptr<Member>& member) {
-    const auto since_s = [&](std::int64_t then_ns) {
-      return static_cast<double>(capture_ns - then_ns) * 1e-9;
-    };
+    const auto since_s = [&](std::int64_t then_ns) { return SecondsBetween(then_ns, capture_ns); };
     if (member->has_pose() && since_s(member->vouched_ns) > kDoubtedS) return true;
     return !member->has_pose() && (member->id > 0 || since_s(member->seen_ns) > kUnseenS);
   };

@@ -12,10 +12,10 @@
 
 namespace mocap {
 
-/// Six cameras of 320 x 240 pixels in a circle of 3.2 m around the origin, 2.4 m above the floor.
+/// Six cameras of 320 x 240 pixels in a circle around the origin, 2.4 m above the floor.
 class RoundStudio {
  public:
-  RoundStudio() {
+  explicit RoundStudio(double radius_mm = 3200) {
     Matrix3 K = Matrix3::Identity();
     K(0, 0) = K(1, 1) = 260;
     K(0, 2) = 159.5;
@@ -26,7 +26,8 @@ class RoundStudio {
       camera.width_px = 320;
       camera.height_px = 240;
       camera.lens = OpenCvLens{.K = K, .distortion = {}};
-      camera.X_CW = LookingAt({3200 * std::cos(angle), 3200 * std::sin(angle), 2400}, {0, 0, 950});
+      camera.X_CW =
+          LookingAt({radius_mm * std::cos(angle), radius_mm * std::sin(angle), 2400}, {0, 0, 950});
       cameras_.push_back(camera);
       tables_.emplace_back(camera);
     }

@@ -27,8 +27,8 @@ struct Someone {
 
 class Room : public testing::Test {
  protected:
-  explicit Room(int most = 4, SideWork* side = nullptr)
-      : people_([this] { return Make(); }, {.most = most, .side = side}) {}
+  explicit Room(int most = 4, SideWork* side = nullptr, double radius_mm = 3200)
+      : studio_(radius_mm), people_([this] { return Make(); }, {.most = most, .side = side}) {}
 
   std::unique_ptr<MotionCapture> Make() const { return std::make_unique<SurfaceCapture>(table_); }
 
@@ -144,6 +144,22 @@ TEST_F(Room, FleshThatNoCameraShowsByItselfIsNobody) {
   for (int i = 0; i < 15; ++i) See(seen);
   EXPECT_EQ(Ids(), std::vector{1});
   EXPECT_LT(ErrorOf(person), 40);
+}
+
+class WideRoom : public Room {
+ protected:
+  WideRoom() : Room(4, nullptr, 4500) {}
+};
+
+TEST_F(WideRoom, WhoAppearsInTheMiddleIsNobodyForASecond) {
+  const Someone stays = At(-900, 0, 1600), appears = At(50, 0, 1300);
+  const auto one = Carve({stays}), two = Carve({stays, appears});
+  for (int i = 0; i < 40; ++i) See(one);
+  for (int i = 0; i < 29; ++i) See(two);
+  EXPECT_EQ(Ids(), std::vector{1});
+  for (int i = 0; i < 6; ++i) See(two);
+  EXPECT_EQ(Ids(), (std::vector{1, 2}));
+  EXPECT_LT(ErrorOf(appears), 40);
 }
 
 TEST_F(Room, TheSamePeopleGiveTheSameNumbersAgain) {
