@@ -1,6 +1,6 @@
 // What is said of a camera, in words.
 
-import {fixed, percent} from './text.js';
+import {fixed, measured, percent} from './text.js';
 
 const LEAST_TRUST = 0.5;
 const MOST_OFF_PX = 2;
@@ -14,10 +14,10 @@ export function lookOfCamera({state, trust, off_px: offPx}) {
 
 /** @return the figures of a camera's line in `mocap status`. */
 export function factsOf(camera) {
-  const parts = [`${fixed(camera.frames_per_second, 1)} /s`];
+  const parts = [measured(fixed(camera.frames_per_second, 1), '/s')];
   if (camera.trust !== null) {
     parts.push(`trust ${percent(camera.trust)}`);
-    if (camera.off_px !== null) parts.push(`off ${fixed(camera.off_px, 1)} px`);
+    if (camera.off_px !== null) parts.push(`off ${measured(fixed(camera.off_px, 1), 'px')}`);
   }
   if (camera.light !== null) parts.push(`light ${percent(camera.light)}`);
   for (const name of ['dropped', 'late', 'torn']) {

@@ -47,7 +47,7 @@ function makeScene() {
     // #detail=full, for the script that takes a picture of the page on a machine without a graphics
     // card.
     const isFine = new URLSearchParams(location.hash.slice(1)).get('detail') === 'full';
-    return new StudioScene(byId('scene'), byId('labels'), isFine);
+    return new StudioScene(byId('scene'), byId('labels'), byId('old'), isFine);
   } catch (error) {
     byId('no-webgl').hidden = false;
     console.warn(`no 3-D: ${error.message}`);

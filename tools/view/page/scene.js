@@ -27,11 +27,13 @@ function picturesTangents(camera) {
 export class StudioScene {
   /**
    * @param canvas where it is drawn; @param labels the element above it for names;
+   * @param notice the element above these at the top of the middle, which covers no label;
    * @param isFine whether every pixel is drawn, also where that is slow.
    */
-  constructor(canvas, labels, isFine) {
+  constructor(canvas, labels, notice, isFine) {
     this.canvas = canvas;
     this.labelLayer = labels;
+    this.notice = notice;
     const isSoftware = drawsInSoftware();
     this.detail = new Detail({isSoftware, isFixed: isFine});
     const antialias = isFine || !isSoftware;
@@ -200,11 +202,19 @@ export class StudioScene {
       const at = new THREE.Vector3(place[0], place[1], place[2] + lift).project(this.eye);
       element.hidden = !(Math.abs(at.z) < 1);
       setText(element, text);
-      const [x, y] = [(at.x + 1) / 2 * this.width, (1 - at.y) / 2 * this.height];
-      if (!element.hidden) {
-        element.style.transform =
-            `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
-      }
+      if (element.hidden) continue;
+      const x = (at.x + 1) / 2 * this.width;
+      const y = this.belowNotice(element, x, (1 - at.y) / 2 * this.height);
+      element.style.transform =
+          `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
     }
+  }
+
+  /** @return the height of a label's middle, lowered where the notice would cover the label. */
+  belowNotice(label, x, y) {
+    if (this.notice.hidden) return y;
+    const {offsetTop, offsetWidth, offsetHeight} = this.notice;
+    const isBeside = Math.abs(x - this.width / 2) > (offsetWidth + label.offsetWidth) / 2;
+    return isBeside ? y : Math.max(y, offsetTop + offsetHeight + label.offsetHeight / 2);
   }
 }

@@ -5,9 +5,14 @@ export function fixed(value, places = 0) {
   return Number.isFinite(value) ? value.toFixed(places) : '–';
 }
 
+/** @return a number and its unit, which no line break parts. */
+export function measured(number, unit) {
+  return `${number}\u00a0${unit}`;
+}
+
 /** @return a share as a percentage. */
 export function percent(share) {
-  return Number.isFinite(share) ? `${Math.round(100 * share)} %` : '–';
+  return Number.isFinite(share) ? measured(Math.round(100 * share), '%') : '–';
 }
 
 function counted(count, unit) {

@@ -67,7 +67,12 @@ test('a camera tells what is known of it', () => {
     late: 0,
     torn: 0
   };
-  assert.equal(factsOf(camera), '30.0 /s · light 102 % · dropped 3');
+  assert.equal(factsOf(camera), '30.0\u00a0/s · light 102\u00a0% · dropped 3');
+});
+
+test('no line ends between a number and its unit', () => {
+  const camera = {frames_per_second: 30, trust: 1, off_px: 0.3, light: 1.01};
+  assert.doesNotMatch(factsOf(camera), /\d [^·]/);
 });
 
 test('subjects are those lines of the list that tell a stature', () => {
