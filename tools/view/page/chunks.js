@@ -23,7 +23,7 @@ export class Chunks {
   }
 
   /** Tells which frame is shown: fetches around it what is missing. */
-  want(frame, nowMs = Date.now()) {
+  want(frame, nowMs = performance.now()) {
     const number = Math.floor(frame / FRAMES);
     const chunk = this.chunks.get(number);
     if (chunk) {

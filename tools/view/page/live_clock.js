@@ -8,6 +8,7 @@ const LAG_WINDOW_MS = 3000;
 const LARGEST_AGE_MS = 240;
 const JUMP_MS = 150;
 const SLEW = 0.1;
+const PUT_BACK_MS = 100;  // Messages may overtake each other by less.
 
 function quantile(sorted, share) {
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
@@ -22,7 +23,8 @@ export class LiveClock {
   reset() {
     this.buckets = [];   // {number, offset}: smallest offset of each ten seconds
     this.arrivals = [];  // {nowMs, lag, timeMs}
-    this.delay = null;   // browser's now minus the time of capture that is shown
+    this.publishMs = -Infinity;
+    this.delay = null;  // browser's now minus the time of capture that is shown
     this.lastMs = null;
   }
 
@@ -30,8 +32,14 @@ export class LiveClock {
     return this.buckets.length > 0;
   }
 
-  /** Takes the arrival of a message with its times of capture and publication. */
+  /**
+   * Takes the arrival of a message with its times of capture and publication.
+   * @return whether the server's clock was put back: times of before then mean nothing.
+   */
   arrived(nowMs, timeMs, publishMs) {
+    const wasPutBack = publishMs < this.publishMs - PUT_BACK_MS;
+    if (wasPutBack) this.reset();
+    this.publishMs = publishMs;
     const number = Math.floor(nowMs / OFFSET_BUCKET_MS);
     const offset = nowMs - publishMs;
     const last = this.buckets[this.buckets.length - 1];
@@ -45,6 +53,7 @@ export class LiveClock {
     while (this.arrivals.length > LAGS || this.arrivals[0].nowMs < nowMs - LAG_WINDOW_MS) {
       this.arrivals.shift();
     }
+    return wasPutBack;
   }
 
   /** @return the server's time at the browser's. */

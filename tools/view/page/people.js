@@ -22,7 +22,8 @@ export class People {
 
   /** Takes a decoded pose, just arrived. */
   takePose(pose, nowMs) {
-    this.clock.arrived(nowMs, pose.timeMs, pose.publishMs);
+    const wasPutBack = this.clock.arrived(nowMs, pose.timeMs, pose.publishMs);
+    if (wasPutBack) [...this.histories.keys()].forEach((one) => this.forget(one));
     if (!this.histories.has(pose.person)) {
       if (this.histories.size >= MOST_PEOPLE) return;
       this.histories.set(pose.person, new PoseHistory());
@@ -63,10 +64,13 @@ export class People {
     const newestMs =
         Math.max(...[...this.histories.values()].map((history) => history.newest.timeMs));
     for (const [person, history] of this.histories) {
-      if (history.newest.timeMs > newestMs - HIDE_BODY_MS) continue;
-      this.histories.delete(person);
-      this.scene?.removeFigure(person);
+      if (history.newest.timeMs <= newestMs - HIDE_BODY_MS) this.forget(person);
     }
+  }
+
+  forget(person) {
+    this.histories.delete(person);
+    this.scene?.removeFigure(person);
   }
 
   drawPerson(person, history, showMs, nowMs) {

@@ -62,6 +62,25 @@ test('jitter does not make it show what is older than a quarter of a second', ()
   assert.ok(ageMs <= 250, `${ageMs}`);
 });
 
+test('a clock that is put back is learned anew at once', () => {
+  const clock = new LiveClock();
+  feed(clock, {count: 100, travelMs: () => 1});
+  for (const stepMs of [-800, -3600000]) {
+    const aheadMs = SERVER_AHEAD_MS + stepMs;
+    assert.ok(clock.arrived(1100, aheadMs + 1080, aheadMs + 1095));
+    assert.equal(clock.serverNow(1100), aheadMs + 1095);
+    assert.ok(clock.showTime(1100) <= aheadMs + 1080);
+    assert.ok(!clock.arrived(1110, aheadMs + 1090, aheadMs + 1105));
+  }
+});
+
+test('a message that another one overtook puts no clock back', () => {
+  const clock = new LiveClock();
+  const nowMs = feed(clock, {count: 100, travelMs: (i) => i === 50 ? 1 : 9});
+  assert.ok(!clock.arrived(nowMs, SERVER_AHEAD_MS + 960, SERVER_AHEAD_MS + 975));
+  assert.equal(clock.serverNow(nowMs) - SERVER_AHEAD_MS, nowMs - 1);
+});
+
 test('before the first pose nothing is shown', () => {
   assert.equal(new LiveClock().showTime(0), null);
 });
