@@ -71,7 +71,7 @@ void Track(const TrackOptions& options) {
   for (const std::string& remark : studio.remarks) {
     std::fprintf(stderr, "mocap track: %s\n", Printable(remark).c_str());
   }
-  options.people ? RequireRoomForPeople(options.out) : RequireRoomForResult(options.out);
+  RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1);
   Pipeline pipeline(std::move(studio),

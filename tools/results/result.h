@@ -47,13 +47,14 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
 /// Makes the record of a body.
 BodyRecord RecordOf(const BodyModel& body);
 
-/// Makes sure, before the work, that WriteResult can keep a result in a folder: makes it, and tells
-/// of files of the same names that are somebody's.
+/// Makes sure, before the work, that WriteResult and WritePeople can keep a result in a folder:
+/// makes it, and tells of files of the same names that are somebody's.
 /// @throws SetupError  naming folder or file.
 void RequireRoomForResult(const std::filesystem::path& folder);
 
 /// Writes RESULT/poses.csv and RESULT/body.toml; the folder is made, files that are there are
-/// replaced, each in one step. The same result gives the same bytes.
+/// replaced, each in one step, and what an earlier run left of several people goes. The same result
+/// gives the same bytes.
 /// @throws std::runtime_error  when the folder cannot be written.
 void WriteResult(const std::filesystem::path& folder, const Result& result);
 
@@ -61,7 +62,6 @@ void WriteResult(const std::filesystem::path& folder, const Result& result);
 std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& folder);
 /// The same for several people: RESULT/person-K is the result of person K. What an earlier run left
 /// of others, or of one person, goes.
-void RequireRoomForPeople(const std::filesystem::path& folder);
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people);
 
 /// Reads a folder that WriteResult left, or a log of MOCAP_POSE and MOCAP_BODY messages as

@@ -72,6 +72,23 @@ void RemoveResult(const std::filesystem::path& folder) {
   for (const char* name : {"poses.csv", "body.toml"}) std::filesystem::remove(folder / name);
 }
 
+void RemovePeople(const std::filesystem::path& folder) {
+  for (const std::filesystem::path& person : PersonFolders(folder)) {
+    RemoveResult(person);
+    std::error_code not_empty;
+    std::filesystem::remove(person, not_empty);
+  }
+}
+
+void RequireRoomForOne(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 1> kPoses = {"frame,timestamp_ns,state,"};
+  constexpr std::array<std::string_view, 1> kBody = {"model = "};
+  MakeFolder(folder);
+  for (const char* name : {"poses.csv", "body.toml"}) RequireWritable(folder / name);
+  RequireOwn(folder / "poses.csv", kPoses, "a table of poses");
+  RequireOwn(folder / "body.toml", kBody, "a measured body");
+}
+
 }  // namespace
 
 PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResult& result,
@@ -109,33 +126,21 @@ std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& fo
 }
 
 void RequireRoomForResult(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 1> kPoses = {"frame,timestamp_ns,state,"};
-  constexpr std::array<std::string_view, 1> kBody = {"model = "};
-  MakeFolder(folder);
-  for (const char* name : {"poses.csv", "body.toml"}) RequireWritable(folder / name);
-  RequireOwn(folder / "poses.csv", kPoses, "a table of poses");
-  RequireOwn(folder / "body.toml", kBody, "a measured body");
+  RequireRoomForOne(folder);
+  for (const std::filesystem::path& person : PersonFolders(folder)) RequireRoomForOne(person);
 }
 
 void WriteResult(const std::filesystem::path& folder, const Result& result) {
   MakeFolder(folder);
+  RemovePeople(folder);
   ReplaceText(folder / "poses.csv", PosesCsv(result));
   ReplaceText(folder / "body.toml", BodyToml(result.body));
-}
-
-void RequireRoomForPeople(const std::filesystem::path& folder) {
-  RequireRoomForResult(folder);
-  for (const std::filesystem::path& person : PersonFolders(folder)) RequireRoomForResult(person);
 }
 
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people) {
   MakeFolder(folder);
   RemoveResult(folder);
-  for (const std::filesystem::path& person : PersonFolders(folder)) {
-    RemoveResult(person);
-    std::error_code not_empty;
-    std::filesystem::remove(person, not_empty);
-  }
+  RemovePeople(folder);
   for (const auto& [id, result] : people)
     WriteResult(folder / (kPersonPrefix + std::to_string(id)), result);
 }

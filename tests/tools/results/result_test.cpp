@@ -114,6 +114,23 @@ TEST(Result, WritesTheSameBytesOverAnOlderResult) {
       << "nothing unfinished is left";
 }
 
+TEST(Result, HoldsOnlyThePeopleOfTheLastRun) {
+  TemporaryFolder folder;
+  WritePeople(folder.path(), {{1, SomeResult()}, {2, SomeResult()}});
+  testing::WriteText(folder.path() / "person-1" / "truth.csv", "somebody's");
+  WritePeople(folder.path(), {{3, SomeResult()}});
+  EXPECT_EQ(PersonFolders(folder.path()),
+            (std::vector{folder.path() / "person-1", folder.path() / "person-3"}));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "person-1" / "poses.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "person-1" / "truth.csv"));
+  EXPECT_EQ(ReadResult(folder.path() / "person-3").poses.size(), 3u);
+
+  WriteResult(folder.path(), SomeResult());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "person-3"));
+  WritePeople(folder.path(), {{1, SomeResult()}});
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "poses.csv"));
+}
+
 TEST(Result, DamageIsNamedWithFileAndLine) {
   TemporaryFolder folder;
   const auto read = [&] { ReadResult(folder.path()); };
@@ -180,6 +197,11 @@ TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
   testing::WriteText(folder.path() / "body.toml", "# my body table\nname = \"mine\"\n");
   EXPECT_THAT(Message([&] { RequireRoomForResult(folder.path()); }),
               HasSubstr("body.toml: is there"));
+  const std::filesystem::path other = folder.path() / "other";
+  WritePeople(other, {{1, SomeResult()}});
+  testing::WriteText(other / "person-1" / "poses.csv", "my poses\n");
+  EXPECT_THAT(Message([&] { RequireRoomForResult(other); }),
+              HasSubstr("person-1/poses.csv: is there"));
 }
 
 TEST(Result, ABodysNameMayHoldAnything) {
