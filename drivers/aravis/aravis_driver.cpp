@@ -135,17 +135,16 @@ bool AravisDriver::ReadPixels(ArvBuffer* buffer, Frame& frame) {
   const AravisAgreement& agreed = session_->agreed();
   std::size_t bytes = 0;
   const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_image_data(buffer, &bytes));
-  if (agreed.format.format == PixelFormat::kBgr) {
+  const RawPicture raw{agreed.format.format, agreed.width_px, agreed.height_px, 0, {data, bytes}};
+  // A camera may send less than the picture that it announces.
+  if (!data || bytes < LeastBytes(raw)) return false;
+  if (raw.format == PixelFormat::kBgr) {
     static_assert(sizeof(Bgr) == 3 && alignof(Bgr) == 1);
-    // A camera may send less than the picture that it announces.
-    const auto pixels = static_cast<std::size_t>(agreed.width_px) * agreed.height_px;
-    if (!data || bytes < pixels * sizeof(Bgr)) return false;
     frame.image = {reinterpret_cast<const Bgr*>(data), agreed.width_px, agreed.height_px};
     lent_ = buffer;
     return true;
   }
-  const RawPicture raw{agreed.format.format, agreed.width_px, agreed.height_px, 0, {data, bytes}};
-  if (!data || !converter_.Convert(raw, picture_)) return false;
+  if (!converter_.Convert(raw, picture_)) return false;
   session_->Push(buffer);
   frame.image = picture_.view();
   return true;
