@@ -48,11 +48,11 @@ int WitnessesWanted(std::size_t cameras) {
 // of him, and would have it if he were so far beside. Feet stand on the floor.
 bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
                std::span<const CameraEye> eyes) {
-  Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, kAsideMm);
+  Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, 0);
   const Vector3 beside(beside_mm, beside_mm, 0);
   box_W = {box_W.min() - beside, box_W.max() + beside};
   const auto seeing =
-      std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAll(box_W); });
+      std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAllWithin(box_W); });
   return seeing >= WitnessesWanted(eyes.size());
 }
 

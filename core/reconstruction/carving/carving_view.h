@@ -14,12 +14,20 @@ struct CameraEye {
   const SensorPlaneTable* table = nullptr;
   RigidTransform X_CW;
 
-  /// Whether all of a box is in the picture.
-  bool SeesAll(const Eigen::AlignedBox3d& box_W) const {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vector3 p_C = X_CW * box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-      if (p_C.z() <= 0) return false;
-      if (table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z()).x < 0) return false;
+  /// Whether a place is in the picture.
+  bool Sees(const Vector3& p_W) const {
+    const Vector3 p_C = X_CW * p_W;
+    return p_C.z() > 0 && table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z()).x >= 0;
+  }
+  /// Whether all of a person who fills a box is in the picture. People are round: of the box's
+  /// upright sides the middles count, and not where they meet.
+  bool SeesAllWithin(const Eigen::AlignedBox3d& box_W) const {
+    const Vector3 middle_W = box_W.center(), half = box_W.sizes() / 2;
+    for (const double up : {-half.z(), half.z()}) {
+      for (const double side : {-1.0, 1.0}) {
+        if (!Sees(middle_W + Vector3(side * half.x(), 0, up))) return false;
+        if (!Sees(middle_W + Vector3(0, side * half.y(), up))) return false;
+      }
     }
     return true;
   }
