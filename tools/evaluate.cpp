@@ -12,6 +12,8 @@
 #include "tools/report/evaluation.h"
 #include "tools/report/evaluation_text.h"
 #include "tools/report/hull_overlap.h"
+#include "tools/report/people_report.h"
+#include "tools/report/people_text.h"
 #include "tools/report/report.h"
 #include "tools/take_samples.h"
 
@@ -23,13 +25,25 @@ struct EvaluateArguments {
   std::filesystem::path result;
   std::filesystem::path report;
   std::optional<std::string> prefix;
+  bool people = false;
   bool json = false;
 };
 
-std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
-                                       const Evaluation& evaluation) {
+void RequireRoomForReport(const EvaluateArguments& arguments) {
   RequireWritable(arguments.report);
   RequireOwn(arguments.report, kReportBeginnings, "a report");
+}
+
+void WritePeopleReport(const EvaluateArguments& arguments, const PeopleEvaluation& evaluation) {
+  RequireRoomForReport(arguments);
+  const TakeSamples samples =
+      SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
+  ReplaceText(arguments.report, PeopleReportHtml(evaluation, samples, MeasureOverlaps(samples)));
+}
+
+std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
+                                       const Evaluation& evaluation) {
+  RequireRoomForReport(arguments);
   const TakeSamples samples =
       SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
   std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
@@ -37,11 +51,25 @@ std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
   return overlaps;
 }
 
-void RunEvaluate(const EvaluateArguments& arguments) {
-  const Evaluation evaluation = Evaluate(arguments.take, arguments.result, arguments.prefix);
+void TellRemarks(const Evaluation& evaluation) {
   for (const std::string& remark : evaluation.result.remarks) {
     std::fprintf(stderr, "mocap evaluate: %s\n", Printable(remark).c_str());
   }
+}
+
+void RunPeople(const EvaluateArguments& arguments) {
+  const PeopleEvaluation evaluation =
+      EvaluatePeople(arguments.take, arguments.result, arguments.prefix);
+  for (const TrackedPerson& person : evaluation.people) TellRemarks(person.evaluation);
+  if (!arguments.report.empty()) WritePeopleReport(arguments, evaluation);
+  const std::string text = arguments.json ? PeopleJson(evaluation) : PeopleText(evaluation);
+  std::fputs(text.c_str(), stdout);
+}
+
+void RunEvaluate(const EvaluateArguments& arguments) {
+  if (arguments.people || IsOfPeople(arguments.result)) return RunPeople(arguments);
+  const Evaluation evaluation = EvaluateOne(arguments.take, arguments.result, arguments.prefix);
+  TellRemarks(evaluation);
   std::vector<CameraOverlap> overlaps;
   if (!arguments.report.empty()) overlaps = WriteReport(arguments, evaluation);
   const std::string text =
@@ -55,12 +83,15 @@ void AddEvaluateCommand(CLI::App& app) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = app.add_subcommand("evaluate", "Says how good a result is");
   command->add_option("TAKE", arguments->take, "the take's folder")->required();
-  command->add_option("RESULT", arguments->result, "folder of mocap track, or an LCM log")
+  command
+      ->add_option("RESULT", arguments->result,
+                   "folder of mocap track, of one person or of several, or an LCM log")
       ->required();
   command->add_option("--report", arguments->report,
                       "HTML file to write: figures, camera views, tables");
   command->add_option("--prefix", arguments->prefix,
                       "of a log of several daemons: what stands before the channels' names");
+  command->add_flag("--people", arguments->people, "of a log: everybody, not only the first");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments] { RunEvaluate(*arguments); });
 }

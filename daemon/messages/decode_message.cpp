@@ -44,22 +44,15 @@ class Skimmer {
   bool sound_ = true;
 };
 
-}  // namespace
-
-bool HasSoundCounts(const pose_t&, std::span<const std::uint8_t> bytes) {
-  Skimmer skimmer(bytes);
-  // Times and number, state, the paper's numbers.
-  skimmer.Skip(kHash + 4 * kNumber + 1 + 2 * kPoint + 17 * kNumber);
+/// The paper's numbers, joint angles, points with their deviation, residual and voxels.
+void SkipPerson(Skimmer& skimmer) {
+  skimmer.Skip(2 * kPoint + 17 * kNumber);
   skimmer.Skip(kNumber * skimmer.Count(kNumber));
-  // Points with their deviation, residual, voxels.
   skimmer.Skip(kPoints * (kPoint + kNumber) + kNumber + 4);
-  skimmer.Skip(skimmer.Count(1));
-  return skimmer.sound();
 }
 
-bool HasSoundCounts(const body_t&, std::span<const std::uint8_t> bytes) {
-  Skimmer skimmer(bytes);
-  skimmer.Skip(kHash + kNumber);
+void SkipBody(Skimmer& skimmer) {
+  skimmer.Skip(kNumber);
   skimmer.Text();
   skimmer.Skip(kNumber);
   skimmer.Texts(kPoints);
@@ -72,6 +65,46 @@ bool HasSoundCounts(const body_t&, std::span<const std::uint8_t> bytes) {
   const std::size_t sizes = skimmer.Count(4);
   skimmer.Texts(sizes);
   skimmer.Skip(sizes * kNumber);
+}
+
+}  // namespace
+
+bool HasSoundCounts(const pose_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Times and number, state.
+  skimmer.Skip(kHash + 4 * kNumber + 1);
+  SkipPerson(skimmer);
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const people_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Times and number.
+  skimmer.Skip(kHash + 4 * kNumber);
+  const std::size_t people = skimmer.Count(2 * kPoint + 17 * kNumber);
+  for (std::size_t i = 0; skimmer.sound() && i < people; ++i) {
+    skimmer.Skip(4);
+    skimmer.Text();
+    skimmer.Skip(1);
+    SkipPerson(skimmer);
+  }
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const body_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash);
+  SkipBody(skimmer);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const person_body_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + 4);
+  skimmer.Text();
+  SkipBody(skimmer);
   return skimmer.sound();
 }
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <mocap/body_t.hpp>
+#include <mocap/people_t.hpp>
+#include <mocap/person_body_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
@@ -19,6 +21,8 @@ namespace mocap {
 /// count, and take the memory for it, before they look whether anything follows.
 bool HasSoundCounts(const pose_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const body_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const people_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const person_body_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const studio_t& kind, std::span<const std::uint8_t> bytes);

@@ -1,5 +1,6 @@
 #include "core/errors.h"
 #include "tests/fuzz/fuzz_file.h"
+#include "tools/results/people_log.h"
 #include "tools/results/pose_log.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -8,6 +9,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mocap::ReadPoseLog(file.path(), {});
   } catch (const mocap::SetupError&) {
     // The one way to say that a log cannot be used.
+  }
+  try {
+    mocap::ReadPeopleLog(file.path(), {});
+  } catch (const mocap::SetupError&) {
   }
   return 0;
 }

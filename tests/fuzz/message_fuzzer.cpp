@@ -4,6 +4,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span<const std::uint8_t> bytes(data, size);
   mocap::DecodeMessage<mocap::pose_t>(bytes);
   mocap::DecodeMessage<mocap::body_t>(bytes);
+  mocap::DecodeMessage<mocap::people_t>(bytes);
+  mocap::DecodeMessage<mocap::person_body_t>(bytes);
   mocap::DecodeMessage<mocap::status_t>(bytes);
   mocap::DecodeMessage<mocap::service_t>(bytes);
   mocap::DecodeMessage<mocap::studio_t>(bytes);

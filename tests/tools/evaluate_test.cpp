@@ -105,6 +105,27 @@ TEST_F(EvaluateTest, ReportOfAPersonNeverTrackedStillShowsTheCameras) {
   EXPECT_THAT(html, HasSubstr("data:image/jpeg"));
 }
 
+TEST_F(EvaluateTest, OfSeveralPeopleEachHasARowAndAColour) {
+  std::filesystem::rename(result_, folder_.path() / "one");
+  const Result one = ReadResult(folder_.path() / "one");
+  Result other = one;
+  for (PoseRow& row : other.poses) row.points_W.row(0).array() += 4000;
+  WritePeople(result_, {{1, one}, {2, other}});
+  const std::filesystem::path report = folder_.path() / "report.html";
+  const std::string text =
+      Run({"evaluate", take_.string(), result_.string(), "--report", report.string()});
+  EXPECT_THAT(text, HasSubstr("2 people tracked, 1 person there"));
+  EXPECT_THAT(text, HasSubstr("frames tracked where nobody is: 18"));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
+              ::testing::MatchesRegex("\\{[^\n]*\\}\n"));
+  const std::string html = testing::ReadText(report);
+  EXPECT_THAT(html, HasSubstr("data:image/jpeg"));
+  EXPECT_THAT(html, HasSubstr("class=\"stick c0\""));
+  EXPECT_THAT(html, HasSubstr("Phantom frames"));
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+}
+
 TEST_F(EvaluateTest, RefusesAReportThatCannotBeWritten) {
   EXPECT_THROW(Run({"evaluate", take_.string(), result_.string(), "--report",
                     (folder_.path() / "absent" / "report.html").string()}),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/results/csv_writer.h"
+#include "tools/results/people_times.h"
 #include "tools/results/trc_writer.h"
 
 namespace mocap {
@@ -88,6 +89,48 @@ TEST(TrcWriter, OpenSimFindsAllColumnsInEveryRow) {
   int rows = 0;
   for (; std::getline(lines, line); ++rows) EXPECT_EQ(OpenSimFields(line).size(), 2u + 3 * 23);
   EXPECT_EQ(rows, 2);
+}
+
+TEST(TrcWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
+  const Result first = TwoFrames();
+  Result second = TwoFrames();
+  second.poses.erase(second.poses.begin());
+  second.poses[0].state = CaptureState::kTracking;
+  second.poses[0].has_pose = true;
+  second.poses[0].points_W.setConstant(5);
+  const TrcSubject subjects[] = {{"anna", first}, {"person-2", second}};
+  std::ostringstream text;
+  WriteTrc(subjects, MomentsOf({{"anna", first}, {"person-2", second}}), "both.trc", text);
+  const auto rows = Cells(text.str(), '\t');
+  ASSERT_EQ(rows.size(), 8u);
+  EXPECT_EQ(rows[2][3], "46");
+  EXPECT_EQ(rows[3][2], "anna:torso");
+  EXPECT_EQ(rows[3][2 + 3 * 23], "person-2:torso");
+  EXPECT_EQ(rows[4].back(), "Z46");
+  ASSERT_EQ(rows[6].size(), 2u + 3 * 46);
+  EXPECT_EQ(rows[6][2 + 3 * 18], "-300.000");
+  EXPECT_EQ(rows[6].back(), "nan") << "the second was not there yet";
+  EXPECT_EQ(rows[7][2], "nan") << "the first was lost";
+  EXPECT_EQ(rows[7].back(), "5.000");
+}
+
+TEST(PeopleTimes, HoldingTheFirstPoseBeginsWithEverybody) {
+  Result late = TwoFrames();
+  late.poses[0].frame = 9;
+  late.poses[0].timestamp_ns += 100'000'000;
+  late.poses.pop_back();
+  const Result held = HoldingFirstPose(late, MomentsOf({{"a", TwoFrames()}, {"b", late}}));
+  ASSERT_EQ(held.poses.size(), 3u);
+  EXPECT_EQ(held.poses[0].frame, 7);
+  EXPECT_EQ(held.poses[0].timestamp_ns, TwoFrames().poses[0].timestamp_ns);
+  EXPECT_EQ(held.poses[0].points_W, late.poses[0].points_W);
+  EXPECT_EQ(held.poses[2].frame, 9);
+}
+
+TEST(CsvWriter, TimesCountFromWhatIsAskedFor) {
+  std::ostringstream text;
+  WriteCsv(TwoFrames(), text, TwoFrames().poses[0].timestamp_ns - 1'500'000'000);
+  EXPECT_EQ(Cells(text.str(), ',')[1][0], "1.500000");
 }
 
 TEST(TrcWriter, ANameOfAFileForgesNoLine) {

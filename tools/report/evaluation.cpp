@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "drivers/take/input_file.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -38,6 +37,8 @@ void CountStates(Evaluation& evaluation) {
       tracked / static_cast<double>(poses.size() - evaluation.first_tracked_pose);
 }
 
+}  // namespace
+
 std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& truth) {
   const std::pair<const char*, double> acquired[] = {
       {"torso", sizes.torso},         {"head", sizes.head},   {"upper_arm", sizes.upper_arm},
@@ -49,23 +50,6 @@ std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& 
   }
   return pairs;
 }
-
-/// Poses of another take, or times in another unit, would be "no tracked frame has truth".
-void TellOfOtherTimes(const std::filesystem::path& take, Evaluation& evaluation) {
-  const std::vector<PoseRow>& poses = evaluation.result.poses;
-  if (!evaluation.truth || poses.empty()) return;
-  const std::vector<ScoredFrame>& truth = evaluation.truth->frames;
-  const bool meet = poses.front().timestamp_ns <= truth.back().timestamp_ns &&
-                    truth.front().timestamp_ns <= poses.back().timestamp_ns;
-  if (meet) return;
-  evaluation.result.remarks.push_back(
-      take.string() + ": its truth is of " + std::to_string(truth.front().timestamp_ns) + " to " +
-      std::to_string(truth.back().timestamp_ns) + " ns, the result of " +
-      std::to_string(poses.front().timestamp_ns) + " to " +
-      std::to_string(poses.back().timestamp_ns) + " ns: nothing can be compared");
-}
-
-}  // namespace
 
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   Evaluation evaluation;
@@ -80,15 +64,6 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   }
   evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
-  return evaluation;
-}
-
-Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result,
-                    const std::optional<std::string>& prefix) {
-  RequireFolder(take, "a take");
-  Evaluation evaluation = Evaluate(ReadResult(result, prefix), ReadTakeTruth(take));
-  TellOfOtherTimes(take, evaluation);
-  evaluation.take = std::filesystem::weakly_canonical(take).filename().string();
   return evaluation;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,14 +36,11 @@ struct Evaluation {
   std::vector<LengthPair> lengths;
 };
 
+/// Holds the acquired lengths against the true ones.
+std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& truth);
+
 /// Says how good a result is, by itself and, where there is one, against the truth.
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
-
-/// Reads a take's truth and a result and compares them.
-/// @param prefix  of a result that is a log: see ReadResult.
-/// @throws SetupError  when either cannot be read.
-Evaluation Evaluate(const std::filesystem::path& take, const std::filesystem::path& result,
-                    const std::optional<std::string>& prefix = {});
 
 /// What the sixteen angles of Table 1 turn, and about which axis of the torso.
 inline constexpr std::array<std::string_view, kPaperAngleCount> kPaperAngleLabels = {

@@ -121,13 +121,12 @@ std::string EvaluationText(const Evaluation& evaluation) {
   return text + "accuracy    the take has no truth\n";
 }
 
-std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
+void AddEvaluation(const Evaluation& evaluation, JsonObject& json) {
   const auto& accuracy = evaluation.accuracy;
-  JsonObject json, states;
+  JsonObject states;
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
     states.Add(kCaptureStateNames[i], evaluation.frames_in_state[i]);
   }
-  json.Add("take", evaluation.take);
   json.Add("body", evaluation.result.body.model);
   json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
   json.Add("frames",
@@ -137,6 +136,12 @@ std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraO
   json.Add("residual_mm", evaluation.mean_residual_mm, 2);
   if (accuracy) AddAccuracy(evaluation, json);
   if (evaluation.precision) json.Add("precision", PrecisionJson(*evaluation.precision));
+}
+
+std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
+  JsonObject json;
+  json.Add("take", evaluation.take);
+  AddEvaluation(evaluation, json);
   if (!overlaps.empty()) {
     JsonObject iou;
     for (const CameraOverlap& overlap : overlaps) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "daemon/base/json_object.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/hull_overlap.h"
 
@@ -11,6 +12,9 @@ namespace mocap {
 
 /// Tables for a person at a terminal.
 std::string EvaluationText(const Evaluation& evaluation);
+
+/// Adds what is told of one person; angles in degrees.
+void AddEvaluation(const Evaluation& evaluation, JsonObject& json);
 
 /// One JSON object; angles in degrees. `overlaps` may be empty.
 std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,8 @@ inline constexpr double kReportVoxelMm = 25;
 /// Chooses moments spread evenly over the tracked frames (over all, when none is tracked): twenty
 /// to carve, four of them to show.
 std::vector<SampleRequest> ChooseReportMoments(const Evaluation& evaluation);
+/// The same of any times.
+std::vector<SampleRequest> ChooseReportMoments(std::span<const std::int64_t> times_ns);
 
 /// Measures how far the voxels of each moment cover each camera's silhouette.
 std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples);

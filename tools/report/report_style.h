@@ -57,6 +57,10 @@ rect.lost, i.lost { fill: #d64545; background: #d64545; }
 .key { font-size: 13px; color: var(--muted); margin: 7px 0 0; max-width: none; }
 .key span { margin-right: 18px; white-space: nowrap; }
 .key i { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 6px; }
+i.swatch { display: inline-block; width: 10px; height: 10px; border-radius: 2px;
+  margin-right: 8px; }
+td.is, th.is { padding-left: 24px; }
+summary { cursor: pointer; font-weight: 500; padding: 6px 0; }
 .views { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 8px; }
 .views div { font-size: 12px; color: var(--muted); max-width: 250px; }
 svg.view { display: block; width: 100%; height: auto; border-radius: 4px; background: #222; }

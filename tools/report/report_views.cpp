@@ -123,36 +123,48 @@ std::string PointDots(const PoseRow& row, const CameraCalibration& camera,
   return svg;
 }
 
+std::string ClassOf(const ViewedBody& body, BodySide side) {
+  if (body.color == ViewedBody::kOfSides) return kSideClasses[static_cast<int>(side)];
+  return fmt::format("c{}", body.color);
+}
+
+std::string BodySvg(const ViewedBody& body, const std::vector<BodyLine>& parts,
+                    const CameraCalibration& camera, const RigidTransform& X_CW) {
+  std::string svg;
+  for (const BodyLine& part : parts) {
+    svg += fmt::format("<path class=\"part {}\" d=\"{}\"/>", ClassOf(body, part.side),
+                       PathOf(part.pixels, true));
+  }
+  for (const BodyLine& stick : StickFigure(body.row, camera, X_CW)) {
+    svg += fmt::format("<path class=\"stick {}\" d=\"{}\"/>", ClassOf(body, stick.side),
+                       PathOf(stick.pixels, false));
+  }
+  return svg + PointDots(body.row, camera, X_CW);
+}
+
 }  // namespace
 
 std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& view,
-                          const PoseRow& row, const BodySizes& sizes) {
-  const bool draw_body = IsTracked(row);
-  std::vector<BodyLine> sticks, parts;
-  if (draw_body) {
-    sticks = StickFigure(row, camera, view.X_CW);
-    parts = PartOutlines(row, sizes, camera, view.X_CW);
+                          std::span<const ViewedBody> bodies) {
+  std::vector<BodyLine> outlines;
+  std::string drawn;
+  for (const ViewedBody& body : bodies) {
+    if (!IsTracked(body.row)) continue;
+    const std::vector<BodyLine> parts = PartOutlines(body.row, body.sizes, camera, view.X_CW);
+    outlines.insert(outlines.end(), parts.begin(), parts.end());
+    drawn += BodySvg(body, parts, camera, view.X_CW);
   }
   Contours contours;
   cv::findContours(MaskOf(view.silhouette), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   const cv::Size size(view.image.width(), view.image.height());
-  const cv::Rect crop = CropAround(BoxOf(parts, contours, size), size);
+  const cv::Rect crop = CropAround(BoxOf(outlines, contours, size), size);
   // SVG counts from a pixel's corner, the camera from its centre.
-  std::string svg = fmt::format(
+  return fmt::format(
       "<svg class=\"view\" viewBox=\"{0} {1} {2} {3}\"><image x=\"{0}\" y=\"{1}\" width=\"{2}\" "
       "height=\"{3}\" href=\"data:image/jpeg;base64,{4}\"/><g transform=\"translate(.5 .5)\">"
-      "<path class=\"silhouette\" d=\"{5}\"/>",
-      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop), ContourPath(contours));
-  for (const BodyLine& part : parts) {
-    svg += fmt::format("<path class=\"part {}\" d=\"{}\"/>",
-                       kSideClasses[static_cast<int>(part.side)], PathOf(part.pixels, true));
-  }
-  for (const BodyLine& stick : sticks) {
-    svg += fmt::format("<path class=\"stick {}\" d=\"{}\"/>",
-                       kSideClasses[static_cast<int>(stick.side)], PathOf(stick.pixels, false));
-  }
-  if (draw_body) svg += PointDots(row, camera, view.X_CW);
-  return svg + "</g></svg>";
+      "<path class=\"silhouette\" d=\"{5}\"/>{6}</g></svg>",
+      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop), ContourPath(contours),
+      drawn);
 }
 
 }  // namespace mocap

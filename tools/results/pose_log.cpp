@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
 #include <string_view>
@@ -15,7 +16,7 @@
 namespace mocap {
 namespace {
 
-constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY";
+constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY", kPeople = "MOCAP_PEOPLE";
 /// Microseconds that are no time of day any more, long before nanoseconds overflow.
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
 /// A frame that comes again so soon is another daemon's, not one of a daemon that was restarted.
@@ -26,6 +27,7 @@ struct Daemon {
   std::vector<PoseRow> poses;
   std::optional<BodyRecord> body;
   std::int64_t repeated = 0;  ///< Messages that came twice.
+  bool has_several_people = false;
 };
 
 bool IsFinite(const PoseRow& row) {
@@ -51,6 +53,11 @@ bool AddBody(const LoggedMessage& message, Daemon& daemon) {
   if (!record) return false;
   daemon.body = std::move(record);
   return true;
+}
+
+void NotePeople(const LoggedMessage& message, Daemon& daemon) {
+  const auto set = DecodeMessage<people_t>(message.bytes);
+  if (set && set->num_people > 1) daemon.has_several_people = true;
 }
 
 using Daemons = std::map<std::string, Daemon>;
@@ -123,6 +130,28 @@ std::string PrefixesText(const std::set<std::string>& prefixes) {
 
 }  // namespace
 
+pose_t PoseOf(const people_t& set, const person_t& person) {
+  pose_t pose;
+  pose.utime = set.utime;
+  pose.complete_utime = set.complete_utime;
+  pose.publish_utime = set.publish_utime;
+  pose.frame = set.frame;
+  pose.state = person.state;
+  std::ranges::copy(person.torso_mm, pose.torso_mm);
+  std::ranges::copy(person.torso_axis, pose.torso_axis);
+  pose.torso_angle_rad = person.torso_angle_rad;
+  std::ranges::copy(person.theta_rad, pose.theta_rad);
+  pose.num_joints = person.num_joints;
+  pose.joint_rad = person.joint_rad;
+  std::memcpy(pose.point_mm, person.point_mm, sizeof(pose.point_mm));
+  std::ranges::copy(person.point_std_mm, pose.point_std_mm);
+  pose.residual_mm = person.residual_mm;
+  pose.voxels = person.voxels;
+  pose.num_cameras = set.num_cameras;
+  pose.camera_used = set.camera_used;
+  return pose;
+}
+
 std::optional<PoseRow> PoseRowOf(const pose_t& message) {
   if (message.utime < 0 || message.utime > kLatest_us) return {};
   PoseRow row;
@@ -166,6 +195,11 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
   while (reader.Next(message)) {
     is_log = true;
     std::string_view channel = message.channel;
+    if (channel.ends_with(kPeople)) {
+      channel.remove_suffix(kPeople.size());
+      NotePeople(message, daemons[std::string(channel)]);
+      continue;
+    }
     const bool is_pose = channel.ends_with(kPose);
     if (!is_pose && !channel.ends_with(kBody)) continue;
     channel.remove_suffix(is_pose ? kPose.size() : kBody.size());
@@ -194,6 +228,11 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
   if (daemon.repeated > 0) {
     result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +
                              " came twice, and count once");
+  }
+  if (daemon.has_several_people) {
+    result.remarks.push_back(log.string() +
+                             ": several people were followed at once, and this is whoever had been "
+                             "for longest; --people takes everybody");
   }
   TellOfTimes(log, result.poses, result.remarks);
   return result;

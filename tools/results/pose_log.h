@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <mocap/body_t.hpp>
+#include <mocap/people_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 
 namespace mocap {
 
+/// What pose_t would say of one of several people.
+pose_t PoseOf(const people_t& set, const person_t& person);
 /// What a message says of a pose; empty where a number is none.
 std::optional<PoseRow> PoseRowOf(const pose_t& message);
 /// What it says of a body, likewise.

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/text_table.h"
+#include "tools/results/people_log.h"
 #include "tools/results/pose_log.h"
 #include "tools/results/result.h"
 #include "tools/results/result_columns.h"
@@ -129,6 +130,30 @@ BodyRecord ReadBody(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+bool IsOfPeople(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::is_directory(folder, error) && !IsThere(folder / "poses.csv") &&
+         !PersonFolders(folder).empty();
+}
+
+PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
+                         const std::optional<std::string>& prefix) {
+  if (!IsOfPeople(folder_or_log)) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder_or_log, error)) {
+      return ReadPeopleLog(folder_or_log, prefix);
+    }
+    throw SetupError(folder_or_log.string() +
+                     ": holds no person-1 or the like; what mocap track --people writes is wanted, "
+                     "or a log");
+  }
+  PeopleResults people;
+  for (const std::filesystem::path& person : PersonFolders(folder_or_log)) {
+    people.emplace_back(person.filename().string(), ReadResult(person));
+  }
+  return people;
+}
 
 Result ReadResult(const std::filesystem::path& folder_or_log,
                   const std::optional<std::string>& prefix) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/body/body_model.h"
@@ -58,11 +59,21 @@ void RequireRoomForResult(const std::filesystem::path& folder);
 /// @throws std::runtime_error  when the folder cannot be written.
 void WriteResult(const std::filesystem::path& folder, const Result& result);
 
-/// RESULT/person-1 and so on, in the order of their names. @pre the folder is there.
+/// RESULT/person-1 and so on, in the order of their numbers. @pre the folder is there.
 std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& folder);
 /// The same for several people: RESULT/person-K is the result of person K. What an earlier run left
 /// of others, or of one person, goes.
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people);
+
+/// Whether a folder is what WritePeople left.
+bool IsOfPeople(const std::filesystem::path& folder);
+/// Results of people who were tracked together, with names: person-1, or their own.
+using PeopleResults = std::vector<std::pair<std::string, Result>>;
+/// Reads such a folder, or a log of MOCAP_PEOPLE and MOCAP_BODIES messages.
+/// @param prefix  of a log, as of ReadResult.
+/// @throws SetupError  as ReadResult.
+PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
+                         const std::optional<std::string>& prefix = {});
 
 /// Reads a folder that WriteResult left, or a log of MOCAP_POSE and MOCAP_BODY messages as
 /// lcm-logger records them.

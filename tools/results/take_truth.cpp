@@ -32,11 +32,16 @@ class TruthTable {
     return TableRow(line, columns_, lines_);
   }
 
+  std::optional<std::size_t> Find(const std::string& name) const {
+    const auto column = std::ranges::find(columns_, name);
+    if (column == columns_.end()) return std::nullopt;
+    return static_cast<std::size_t>(column - columns_.begin());
+  }
   /// @pre  no row was read yet.
   std::size_t Column(const std::string& name) const {
-    const auto column = std::ranges::find(columns_, name);
-    if (column == columns_.end()) lines_.Fail("has no column " + name + ", separated by commas");
-    return static_cast<std::size_t>(column - columns_.begin());
+    const std::optional<std::size_t> column = Find(name);
+    if (!column) lines_.Fail("has no column " + name + ", separated by commas");
+    return *column;
   }
 
   [[noreturn]] void Fail(const std::string& what) const { lines_.Fail(what); }
@@ -46,8 +51,9 @@ class TruthTable {
   std::vector<std::string> columns_;
 };
 
-std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm) {
+void ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm, TakeTruth& truth) {
   TruthTable table(file);
+  const std::optional<std::size_t> number_column = table.Find("frame");
   const std::size_t time_column = table.Column("timestamp_ns");
   std::array<std::array<std::size_t, 3>, kScoredPointCount> columns;
   for (int i = 0; i < kScoredPointCount; ++i) {
@@ -55,7 +61,7 @@ std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double an
     columns[i] = {table.Column(joint + "_x_mm"), table.Column(joint + "_y_mm"),
                   table.Column(joint + "_z_mm")};
   }
-  std::vector<ScoredFrame> frames;
+  std::vector<ScoredFrame>& frames = truth.frames;
   while (const std::optional<TableRow> row = table.NextRow()) {
     ScoredFrame frame;
     frame.timestamp_ns = row->Number<std::int64_t>(time_column);
@@ -71,9 +77,10 @@ std::vector<ScoredFrame> ReadFrames(const std::filesystem::path& file, double an
     }
     ProlongShanks(ankle_to_sole_mm, frame.points_W);
     frames.push_back(std::move(frame));
+    truth.numbers.push_back(number_column ? row->Number<std::int64_t>(*number_column)
+                                          : static_cast<std::int64_t>(truth.numbers.size()));
   }
   if (frames.empty()) throw SetupError(file.string() + ": has no rows; at least one is wanted");
-  return frames;
 }
 
 }  // namespace
@@ -105,7 +112,7 @@ std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
       truth.lengths_mm[key.substr(0, key.size() - 3)] = lengths->PositiveNumber(key);
     }
   }
-  truth.frames = ReadFrames(layout.TruthTable(), ankle_to_sole_mm);
+  ReadFrames(layout.TruthTable(), ankle_to_sole_mm, truth);
   return truth;
 }
 

@@ -1,6 +1,7 @@
 // The truth of a take that has one: where the joints were and how long the parts are.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -12,7 +13,8 @@
 namespace mocap {
 
 struct TakeTruth {
-  std::vector<ScoredFrame> frames;  ///< In the order of time, at least one.
+  std::vector<ScoredFrame> frames;    ///< In the order of time, at least one.
+  std::vector<std::int64_t> numbers;  ///< Of each in the take.
   double stature_mm = 0;
   std::map<std::string, double> lengths_mm;  ///< Without the unit: "torso", "thigh" …
 };

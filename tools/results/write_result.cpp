@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <system_error>
+#include <utility>
 
 #include "config/body_size_fields.h"
 #include "drivers/take/text_file.h"
@@ -121,7 +122,11 @@ std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& fo
         !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
     if (is_number && entry.is_directory()) people.push_back(entry.path());
   }
-  std::ranges::sort(people);
+  // person-2 comes before person-10.
+  std::ranges::sort(people, {}, [](const std::filesystem::path& person) {
+    const std::string name = person.filename().string();
+    return std::pair(name.size(), name);
+  });
   return people;
 }
 

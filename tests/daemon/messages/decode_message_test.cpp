@@ -39,6 +39,27 @@ body_t SomeBody() {
   return body;
 }
 
+people_t SomePeople() {
+  people_t people{};
+  people.num_people = 2;
+  people.people.resize(2);
+  people.people[0].id = 3;
+  people.people[0].name = "anna";
+  people.people[1].num_joints = 2;
+  people.people[1].joint_rad = {0.1, 0.2};
+  people.num_cameras = 1;
+  people.camera_used = {1};
+  return people;
+}
+
+person_body_t SomePersonBody() {
+  person_body_t body{};
+  body.id = 3;
+  body.name = "anna";
+  body.body = SomeBody();
+  return body;
+}
+
 status_t SomeStatus() {
   status_t status{};
   status.version = "0.1.0";
@@ -105,6 +126,8 @@ void ExpectWholeOrNothing(const Message& message) {
 TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomePose());
   ExpectWholeOrNothing(SomeBody());
+  ExpectWholeOrNothing(SomePeople());
+  ExpectWholeOrNothing(SomePersonBody());
   ExpectWholeOrNothing(SomeStatus());
   ExpectWholeOrNothing(SomeService());
   ExpectWholeOrNothing(SomeStudio());
@@ -119,6 +142,16 @@ TEST(DecodeMessage, AForgedCountTakesNoMemory) {
   for (const std::uint8_t first : {0x7f, 0xff}) {
     bytes[num_joints] = first;
     EXPECT_FALSE(DecodeMessage<pose_t>(bytes));
+  }
+}
+
+TEST(DecodeMessage, AForgedNumberOfPeopleTakesNoMemory) {
+  std::vector<std::uint8_t> bytes = Encoded(SomePeople());
+  const std::size_t num_people = 8 + 4 * 8;
+  ASSERT_EQ(bytes[num_people + 3], 2);
+  for (const std::uint8_t first : {0x7f, 0xff}) {
+    bytes[num_people] = first;
+    EXPECT_FALSE(DecodeMessage<people_t>(bytes));
   }
 }
 

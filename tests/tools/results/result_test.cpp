@@ -8,7 +8,10 @@
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
+#include <map>
 #include <mocap/body_t.hpp>
+#include <mocap/people_t.hpp>
+#include <mocap/person_body_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <optional>
 #include <string>
@@ -189,6 +192,18 @@ TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
   EXPECT_THAT(error(), HasSubstr("poses.csv:3: timestamp_ns 5 follows 1763990000000000"));
 }
 
+TEST(Result, PeopleAreReadInTheOrderOfTheirNumbers) {
+  TemporaryFolder folder;
+  WritePeople(folder.path(), {{2, SomeResult()}, {10, SomeResult()}});
+  EXPECT_TRUE(IsOfPeople(folder.path()));
+  const PeopleResults people = ReadPeople(folder.path());
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0].first, "person-2");
+  EXPECT_EQ(people[1].first, "person-10");
+  EXPECT_EQ(people[1].second.poses.size(), 3u);
+  EXPECT_FALSE(IsOfPeople(folder.path() / "person-2")) << "that is one of them";
+}
+
 TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
   TemporaryFolder folder;
   RequireRoomForResult(folder.path() / "new");
@@ -311,6 +326,98 @@ TEST_F(PoseLog, OfTwoDaemonsIsNeverMixed) {
   for (const PoseRow& row : right.poses) EXPECT_EQ(row.points_W(0, 0), 2);
   EXPECT_THAT(Error("middle."), ::testing::AllOf(HasSubstr("holds no middle.MOCAP_POSE"),
                                                  HasSubstr("\"left.\", \"right.\"")));
+}
+
+/// A log of a daemon that follows several people.
+class PeopleLog : public PoseLog {
+ protected:
+  /// A set with people of these numbers, each as far along x as his number says.
+  void People(int frame, const std::vector<int>& ids, const std::string& prefix = "") {
+    people_t set{};
+    set.frame = frame;
+    set.utime = (1'700'000'000'000'000'000 + frame * 40'000'000) / 1000;
+    set.num_people = static_cast<std::int32_t>(ids.size());
+    for (const int id : ids) {
+      person_t& person = set.people.emplace_back();
+      person.id = id;
+      person.name = names_[id];
+      person.state = pose_t::TRACKING;
+      for (auto& point : person.point_mm) point[0] = id;
+    }
+    Log(*log_, prefix + "MOCAP_PEOPLE", set);
+  }
+  void BodyOf(int id, const std::string& prefix = "") {
+    person_body_t message{};
+    message.id = id;
+    FillBody(body_, 0, message.body);
+    Log(*log_, prefix + "MOCAP_BODIES", message);
+  }
+  PeopleResults ReadAll(const std::optional<std::string>& prefix = {}) {
+    log_.reset();
+    return ReadPeople(file_, prefix);
+  }
+
+  std::map<int, std::string> names_;
+};
+
+TEST_F(PeopleLog, EachPersonIsAResult) {
+  BodyOf(1);
+  People(0, {1});
+  BodyOf(12);
+  People(1, {1, 12});
+  People(2, {12});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0].first, "person-1");
+  EXPECT_EQ(people[1].first, "person-12");
+  ASSERT_EQ(people[1].second.poses.size(), 2u);
+  EXPECT_EQ(people[1].second.poses[0].frame, 1);
+  EXPECT_EQ(people[1].second.poses[0].points_W(0, 3), 12);
+  EXPECT_EQ(people[1].second.body.sizes.thigh, body_.sizes().thigh);
+}
+
+TEST_F(PeopleLog, ReadForOnePersonItTellsOfTheOthers) {
+  Body("");
+  Pose("", 0, kStart_ns);
+  People(0, {1});
+  Pose("", 1, kStart_ns + kPeriod_ns);
+  People(1, {1, 2});
+  EXPECT_THAT(Read().remarks, ::testing::ElementsAre(HasSubstr("several people")));
+}
+
+TEST_F(PeopleLog, NamesAreTakenThatMayBeFiles) {
+  names_ = {{1, "anna"}, {2, "../x"}, {3, "anna"}};
+  for (const int id : {1, 2, 3}) BodyOf(id);
+  People(0, {1, 2, 3});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 3u);
+  EXPECT_EQ(people[0].first, "anna");
+  EXPECT_EQ(people[1].first, "person-2");
+  EXPECT_EQ(people[2].first, "person-3");
+}
+
+TEST_F(PeopleLog, WhatIsNotUnderstoodIsToldAndLeftOut) {
+  BodyOf(1);
+  People(1, {1, 2});
+  People(1, {1});
+  Log(*log_, "MOCAP_PEOPLE", body_t{});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_THAT(people[0].second.remarks,
+              ::testing::ElementsAre(HasSubstr("person-2 has no body"),
+                                     HasSubstr("1 message not understood"),
+                                     HasSubstr("1 message not later")));
+}
+
+TEST_F(PeopleLog, OfTwoDaemonsIsNeverMixed) {
+  for (const char* prefix : {"left.", "right."}) {
+    BodyOf(1, prefix);
+    People(0, {1}, prefix);
+  }
+  log_.reset();
+  EXPECT_THAT(Message([&] { ReadPeople(file_); }), HasSubstr("\"left.\", \"right.\""));
+  EXPECT_EQ(ReadPeople(file_, "left.").size(), 1u);
+  EXPECT_THAT(Message([&] { ReadPeople(file_, "up."); }), HasSubstr("nobody on up.MOCAP_PEOPLE"));
 }
 
 TEST_F(PoseLog, OfTwoDaemonsOnOneChannelIsRefused) {

@@ -1,0 +1,121 @@
+#include "tools/report/people_text.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "daemon/base/json_object.h"
+#include "drivers/printable_text.h"
+#include "tools/report/evaluation_text.h"
+
+namespace mocap {
+namespace {
+
+double Share(int part, int whole) { return whole > 0 ? part / static_cast<double>(whole) : 0; }
+
+int TrackedFrames(const Evaluation& evaluation) {
+  return evaluation.frames_in_state[static_cast<std::size_t>(CaptureState::kTracking)];
+}
+
+std::string NameOfTruth(const PeopleEvaluation& evaluation, const TrackedPerson& person) {
+  if (person.true_person < 0) return "-";
+  return evaluation.truth[static_cast<std::size_t>(person.true_person)].name;
+}
+
+std::string TrackedTable(const PeopleEvaluation& evaluation) {
+  const bool has_truth = !evaluation.truth.empty();
+  std::string text = fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}", "tracked", "frames", "tracked",
+                                 "residual mm", "stature mm");
+  text += has_truth ? fmt::format("  {:<12}{:>9}{:>10}\n", "is", "error mm", "phantom") : "\n";
+  for (const TrackedPerson& person : evaluation.people) {
+    const Evaluation& one = person.evaluation;
+    text += fmt::format("{:<12}{:>8}{:>9}{:>13.1f}{:>12.0f}", Printable(person.name),
+                        one.result.poses.size(), TrackedFrames(one), one.mean_residual_mm,
+                        one.result.body.stature_mm);
+    if (!has_truth) {
+      text += '\n';
+      continue;
+    }
+    const bool is_scored = one.accuracy && !one.accuracy->frames.empty();
+    text += fmt::format("  {:<12}{:>9}{:>10}\n", Printable(NameOfTruth(evaluation, person)),
+                        is_scored ? fmt::format("{:.1f}", one.accuracy->distance_mm.mean) : "-",
+                        person.phantom_frames);
+  }
+  return text;
+}
+
+std::string TrueRow(const std::string& name, const FollowedTruth& followed) {
+  const auto error =
+      followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : std::string("-");
+  return fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}  {:<12}{:>9}{:>10}\n", name, followed.frames,
+                     followed.found, followed.covered,
+                     fmt::format("{:.1f} %", 100 * Share(followed.found_covered, followed.covered)),
+                     "", error, followed.switches);
+}
+
+std::string TrueTable(const PeopleEvaluation& evaluation) {
+  std::string text =
+      fmt::format("\n{:<12}{:>8}{:>9}{:>13}{:>12}  {:<12}{:>9}{:>10}\n", "true", "frames", "found",
+                  "covered", "found then", "", "error mm", "switches");
+  for (std::size_t i = 0; i < evaluation.truth.size(); ++i) {
+    text += TrueRow(Printable(evaluation.truth[i].name), evaluation.followed[i]);
+  }
+  text += TrueRow("all", evaluation.sum);
+  return text + fmt::format("\nframes tracked where nobody is: {}\n", evaluation.phantom_frames);
+}
+
+JsonObject FollowedJson(const FollowedTruth& followed) {
+  JsonObject json;
+  json.Add("frames", followed.frames);
+  json.Add("found_frames", followed.found);
+  json.Add("covered_frames", followed.covered);
+  json.Add("found_while_covered_share", Share(followed.found_covered, followed.covered), 4);
+  json.Add("switches", followed.switches);
+  json.Add("mpjpe_mm", followed.mean_mm, 1);
+  return json;
+}
+
+}  // namespace
+
+std::string CountedPeople(std::size_t count) {
+  return count == 1 ? "1 person" : std::to_string(count) + " people";
+}
+
+std::string PeopleText(const PeopleEvaluation& evaluation) {
+  std::string text =
+      Printable(evaluation.take) + ": " + CountedPeople(evaluation.people.size()) + " tracked";
+  if (evaluation.truth.empty()) {
+    return text + "\n\n" + TrackedTable(evaluation) + "\naccuracy    the take has no truth\n";
+  }
+  return text + ", " + CountedPeople(evaluation.truth.size()) + " there\n\n" +
+         TrackedTable(evaluation) + TrueTable(evaluation);
+}
+
+std::string PeopleJson(const PeopleEvaluation& evaluation) {
+  std::vector<JsonObject> people, truth;
+  for (const TrackedPerson& person : evaluation.people) {
+    JsonObject& json = people.emplace_back();
+    json.Add("name", person.name);
+    if (!evaluation.truth.empty()) {
+      json.Add("true_person", NameOfTruth(evaluation, person));
+      json.Add("phantom_frames", person.phantom_frames);
+    }
+    AddEvaluation(person.evaluation, json);
+  }
+  for (std::size_t i = 0; i < evaluation.truth.size(); ++i) {
+    JsonObject& json = truth.emplace_back();
+    json.Add("name", evaluation.truth[i].name);
+    json.Add("followed", FollowedJson(evaluation.followed[i]));
+  }
+  JsonObject json;
+  json.Add("take", evaluation.take);
+  json.Add("people", people);
+  if (!evaluation.truth.empty()) {
+    json.Add("truth", truth);
+    json.Add("all", FollowedJson(evaluation.sum));
+    json.Add("phantom_frames", evaluation.phantom_frames);
+  }
+  return json.Text() + '\n';
+}
+
+}  // namespace mocap
