@@ -29,8 +29,10 @@ BodySizes LoadSubject(const std::filesystem::path& file) {
   return sizes;
 }
 
-void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes) {
-  std::string text = "stature_mm = " + TomlNumber(sizes.Stature()) + "\n\n[sizes]\n";
+void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes,
+                 const std::string& name) {
+  std::string text = name.empty() ? "" : "name = " + TomlText(name) + '\n';
+  text += "stature_mm = " + TomlNumber(sizes.Stature()) + "\n\n[sizes]\n";
   for (const BodySizeField& field : kBodySizeFields) {
     text += std::string(field.name) + "_mm = " + TomlNumber(sizes.*field.value) + '\n';
   }

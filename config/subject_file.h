@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/body/body_sizes.h"
 
@@ -13,6 +14,8 @@ BodySizes LoadSubject(const std::filesystem::path& file);
 
 /// Writes it, in one step: there is the old file or the new one.
 /// @throws std::runtime_error  when it cannot be written.
-void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes);
+/// @param name  of the person, to be read by people; empty: none.
+void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes,
+                 const std::string& name = {});
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// Where the person is, as tracking tells the heads that follow.
+// Where the people are, as tracking tells the heads that follow.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace mocap {
 
-/// The middle of the person. One writer, any number of readers; neither waits.
+/// The middle of whoever is followed, of several people that of all. One writer, any number of
+/// readers; neither waits.
 class SubjectPosition {
  public:
   /// @param p_WQ  [mm], within 32 m of the world's origin; nothing while nobody is followed.

@@ -2,11 +2,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "core/errors.h"
+#include "daemon/base/number_option.h"
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
 #include "drivers/printable_text.h"
@@ -29,8 +32,10 @@ class RequestCommands {
     return command;
   }
 
-  void AddNamed(CLI::App& app, const std::string& name, const std::string& help,
-                const std::string& request) const {
+  /// @param more  what follows the name in the request.
+  CLI::App* AddNamed(
+      CLI::App& app, const std::string& name, const std::string& help, const std::string& request,
+      const std::function<std::string()>& more = [] { return ""; }) const {
     CLI::App* command = app.add_subcommand(name, help);
     AddSocket(*command);
     auto file_name = std::make_shared<std::string>();
@@ -42,9 +47,10 @@ class RequestCommands {
                                         "\" is no name; letters, digits, . _ - are wanted, and no "
                                         ".partial at its end";
         });
-    command->callback([socket = socket_, request, file_name] {
-      AskAndPrint(*socket, request + ' ' + *file_name);
+    command->callback([socket = socket_, request, file_name, more] {
+      AskAndPrint(*socket, request + ' ' + *file_name + more());
     });
+    return command;
   }
 
   void AddSocket(CLI::App& command) const {
@@ -89,8 +95,12 @@ void AddControlCommands(CLI::App& app) {
   CLI::App* subject = app.add_subcommand("subject", "Whose body is tracked");
   subject->require_subcommand(1);
   commands.Add(*subject, "new", "Measures whoever is there anew", "subject new");
-  commands.AddNamed(*subject, "save", "Keeps the sizes of the person who is tracked",
-                    "subject save");
+  auto person = std::make_shared<std::optional<int>>();
+  commands
+      .AddNamed(*subject, "save", "Keeps the sizes of the person who is tracked", "subject save",
+                [person] { return *person ? ' ' + std::to_string(**person) : std::string(); })
+      ->add_option("--person", *person, "whose of several people: a number of mocap status")
+      ->check(NumberFrom(1, 1e9));
   commands.AddNamed(*subject, "load", "Tracks a person whose sizes were kept", "subject load");
   commands.Add(*subject, "list", "Tells whose sizes are kept", "subject list");
 

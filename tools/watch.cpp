@@ -11,6 +11,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <mocap/body_t.hpp>
+#include <mocap/people_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
@@ -22,11 +23,12 @@
 #include <vector>
 
 #include "config/config.h"
-#include "core/motion_capture.h"
+#include "core/people/people_capture.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/status/followed_person.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
@@ -61,6 +63,7 @@ class Hearing {
     const std::string prefix = ChannelPattern(named);
     lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
     lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
+    lcm.subscribe(prefix + "MOCAP_PEOPLE", &Hearing::OnPeople, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
     lcm.subscribe(prefix + "MOCAP_SERVICE", &Hearing::OnService, this);
   }
@@ -87,6 +90,7 @@ class Hearing {
   bool HearsSeveral() const { return steps_back_ > 3 + poses_ / 20; }
   const std::optional<pose_t>& pose() const { return pose_; }
   const std::optional<body_t>& body() const { return body_; }
+  const std::optional<people_t>& people() const { return people_; }
   const std::optional<status_t>& status() const { return status_; }
   const std::optional<service_t>& service() const { return service_; }
 
@@ -119,6 +123,9 @@ class Hearing {
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
     Take(DecodeMessage<body_t>(BytesOf(*buffer)), body_);
   }
+  void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    Take(DecodeMessage<people_t>(BytesOf(*buffer)), people_);
+  }
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
     Take(DecodeMessage<status_t>(BytesOf(*buffer)), status_);
   }
@@ -137,6 +144,7 @@ class Hearing {
   std::int64_t missed_ = 0, steps_back_ = 0, poses_ = 0;
   std::optional<pose_t> pose_;
   std::optional<body_t> body_;
+  std::optional<people_t> people_;
   std::optional<status_t> status_;
   std::optional<service_t> service_;
 };
@@ -150,15 +158,47 @@ std::string Foreign(const std::string& text) {
   return Shortened(text, kMostCharacters);
 }
 
+std::string StateName(int state) {
+  const auto number = static_cast<std::size_t>(state);
+  return number < kCaptureStateNames.size() ? std::string(kCaptureStateNames[number]) : "?";
+}
+
+/// "person 1 tracking, person 3 (anna) lost".
+std::string PeopleText(const people_t& people) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, people.people.size()); ++i) {
+    const person_t& person = people.people[i];
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", LabelOf(person.id, Foreign(person.name)),
+                        StateName(person.state));
+  }
+  return text;
+}
+
+/// A line a person.
+void AppendPeople(const people_t& people, std::string& page) {
+  page +=
+      fmt::format("\n{:<24}{:<12}{:>22}{:>9}\n", "person", "state", "torso at x y z m", "fit mm");
+  for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, people.people.size()); ++i) {
+    const person_t& person = people.people[i];
+    const bool is_tracked = person.state == pose_t::TRACKING;
+    page += fmt::format(
+        "{:<24}{:<12}{:>22}{:>9}\n",
+        std::to_string(person.id) + (person.name.empty() ? "" : "  " + Foreign(person.name)),
+        StateName(person.state),
+        fmt::format("{:.2f} {:.2f} {:.2f}", Sane(person.torso_mm[0]) / 1000,
+                    Sane(person.torso_mm[1]) / 1000, Sane(person.torso_mm[2]) / 1000),
+        is_tracked ? fmt::format("{:.0f}", Sane(person.residual_mm)) : "-");
+  }
+}
+
 std::string PoseLine(const Hearing& hearing) {
   const pose_t& pose = *hearing.pose();
-  const auto state = static_cast<std::size_t>(pose.state);
-  std::string line =
-      fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
-                  state < kCaptureStateNames.size() ? kCaptureStateNames[state] : "?",
-                  hearing.Rate(), Sane(hearing.LatencyMs()));
+  std::string line = fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
+                                 StateName(pose.state), hearing.Rate(), Sane(hearing.LatencyMs()));
   if (pose.state == pose_t::TRACKING)
     line += fmt::format("  fit {:3.0f} mm", Sane(pose.residual_mm));
+  if (hearing.people() && hearing.people()->num_people > 1)
+    line += "  " + PeopleText(*hearing.people());
   line += "  " + Counted(pose.voxels, "voxel");
   if (hearing.HearsSeveral()) return line + "  of several daemons in turns: give each a prefix";
   if (hearing.missed() > 0) line += fmt::format("  {} missed here", hearing.missed());
@@ -224,6 +264,7 @@ std::string Page(const Hearing& hearing, const std::string& url) {
       page += fmt::format(", stature {:.0f} mm", Sane(hearing.body()->stature_mm));
     page += '\n';
   }
+  if (hearing.people() && hearing.people()->num_people > 1) AppendPeople(*hearing.people(), page);
   if (hearing.service()) AppendService(*hearing.service(), page);
   if (hearing.status()) AppendCameras(hearing, page);
   return page;

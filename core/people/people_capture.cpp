@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "core/errors.h"
@@ -66,7 +67,8 @@ class PeopleCapture::Impl {
               UpdateObserver* observer);
   const std::vector<PersonView>& people() const { return people_; }
   const MotionCapture& first() const;
-  void StartOver(const std::optional<BodySizes>& sizes);
+  void StartOver(const std::optional<BodySizes>& sizes, std::string_view name);
+  void Call(int id, std::string_view name);
 
  private:
   struct Member;
@@ -88,6 +90,7 @@ class PeopleCapture::Impl {
   const MakeCapture make_;
   const PeopleOptions options_;
   std::optional<BodySizes> expected_;  // Of whoever comes first.
+  std::string expected_name_;
   const std::unique_ptr<MotionCapture> nobody_;
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
@@ -108,6 +111,8 @@ struct PeopleCapture::Impl::Member {
   std::shared_ptr<MotionCapture> capture;
   std::optional<CaptureBeside> beside;  // The capture is at work there, and not to be touched.
   int id = 0;                           // 0: not yet known for a person.
+  std::string name;                     // Empty: not known.
+  bool is_expected = false;             // Whoever comes next is the person of that name.
   std::optional<Vector3> last_W;        // The middle of the flesh of somebody who is not found yet.
   std::optional<std::int64_t> waits_since_ns;  // To be looked for.
   // In from where cameras do not cover, or when others were not followed yet.
@@ -129,7 +134,11 @@ PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
 PeopleCapture::Impl::Member& PeopleCapture::Impl::AddMember() {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   member.capture = make_();
-  if (members_.size() == 1 && expected_) member.capture->Expect(*expected_);
+  if (members_.size() == 1 && expected_) {
+    member.capture->Expect(*expected_);
+    member.is_expected = true;
+    member.name = expected_name_;
+  }
   return member;
 }
 
@@ -140,12 +149,18 @@ const MotionCapture& PeopleCapture::Impl::first() const {
   return member == members_.end() ? *nobody_ : *(*member)->capture;
 }
 
-void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes) {
+void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes, std::string_view name) {
   expected_ = sizes;
+  expected_name_ = name;
   followed_since_ns_.reset();
   people_.clear();
   members_.clear();
   AddMember();
+}
+
+void PeopleCapture::Impl::Call(int id, std::string_view name) {
+  for (const auto& member : members_)
+    if (id > 0 && member->id == id) member->name = name;
 }
 
 void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
@@ -307,8 +322,11 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   };
   if (members_.size() > 1) std::erase_if(members_, has_gone);
   if (members_.empty()) AddMember();
-  if (members_.size() == 1 && !members_.front()->has_pose()) members_.front()->id = 0;
   const bool is_alone = members_.size() == 1;
+  if (is_alone && !members_.front()->has_pose()) {
+    members_.front()->id = 0;
+    if (!members_.front()->is_expected) members_.front()->name.clear();
+  }
   for (const auto& member : members_) {
     if (member->id > 0 || !member->has_pose()) continue;
     // Nothing but a person can be what one alone is.
@@ -320,7 +338,7 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
 void PeopleCapture::Impl::ListPeople() {
   people_.clear();
   for (const auto& member : members_)
-    if (member->id > 0) people_.push_back({member->id, member->capture.get()});
+    if (member->id > 0) people_.push_back({member->id, member->capture.get(), member->name});
   std::ranges::sort(people_, {}, &PersonView::id);
 }
 
@@ -335,7 +353,10 @@ void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes
 }
 const std::vector<PersonView>& PeopleCapture::people() const { return impl_->people(); }
 const MotionCapture& PeopleCapture::first() const { return impl_->first(); }
-void PeopleCapture::Forget() { impl_->StartOver({}); }
-void PeopleCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
+void PeopleCapture::Forget() { impl_->StartOver({}, {}); }
+void PeopleCapture::Expect(const BodySizes& sizes, std::string_view name) {
+  impl_->StartOver(sizes, name);
+}
+void PeopleCapture::Call(int id, std::string_view name) { impl_->Call(id, name); }
 
 }  // namespace mocap

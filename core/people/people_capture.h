@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/motion_capture.h"
@@ -28,6 +29,7 @@ struct PeopleOptions {
 struct PersonView {
   int id = 0;  ///< From 1; nobody else ever gets it.
   const MotionCapture* capture = nullptr;
+  std::string_view name = {};  ///< Empty: nobody has told. Valid until the next call.
 };
 
 /// Follows up to so many people through voxel grids, each by a capture of his own. Without a side,
@@ -63,7 +65,10 @@ class PeopleCapture {
   /// Forgets everybody: whoever is seen next is measured.
   void Forget();
   /// Takes the sizes of whoever is seen from now on as known, and forgets everybody.
-  void Expect(const BodySizes& sizes);
+  /// @param name  of the person, for people().
+  void Expect(const BodySizes& sizes, std::string_view name = {});
+  /// Gives a name to whoever has a number, until he leaves.
+  void Call(int id, std::string_view name);
 
  private:
   class Impl;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,14 @@ template <typename Request>
 std::optional<ControlRequest> Named(std::string_view name) {
   if (!IsFileName(name)) return {};
   return Request{std::string(name)};
+}
+
+std::optional<ControlRequest> SaveOf(std::string_view name, std::string_view number) {
+  int person = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), person);
+  const bool is_number = error == std::errc() && end == number.data() + number.size();
+  if (!IsFileName(name) || !is_number || person < 1) return {};
+  return SubjectSaveRequest{std::string(name), person};
 }
 
 std::optional<ControlRequest> WithoutName(const std::string_view first,
@@ -57,6 +66,9 @@ std::optional<ControlRequest> ParseControlRequest(std::string_view line) {
   if (words.size() == 1 && words[0] == "reload") return ReloadRequest{};
   if (words.size() == 1 && words[0] == "look") return LookRequest{};
   if (words.size() == 2) return WithoutName(words[0], words[1]);
+  if (words.size() == 4 && words[0] == "subject" && words[1] == "save") {
+    return SaveOf(words[2], words[3]);
+  }
   if (words.size() != 3) return {};
   if (words[0] == "background" && words[1] == "learn" && words[2] == "anyway") {
     return BackgroundLearnRequest{.anyway = true};

@@ -19,6 +19,7 @@ struct RecordStopRequest {};
 struct SubjectNewRequest {};
 struct SubjectSaveRequest {
   std::string name;
+  std::optional<int> person = {};  ///< Whose sizes, by number; empty: of the only one.
 };
 struct SubjectLoadRequest {
   std::string name;
@@ -49,7 +50,7 @@ inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
 /// Understands "status [json]", "reload", "record start NAME", "record stop", "subject new",
-/// "subject save NAME", "subject load NAME", "subject list", "background learn [anyway]",
+/// "subject save NAME [NUMBER]", "subject load NAME", "subject list", "background learn [anyway]",
 /// "background status" and "look"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 

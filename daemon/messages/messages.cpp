@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "config/body_size_fields.h"
-#include "core/tracking/voxel_labels.h"
 #include "daemon/status/diagnostics.h"
 
 namespace mocap {
@@ -110,6 +109,7 @@ void FillPeople(const TrackedSet& set, int cameras, people_t& message) {
   message.people.resize(set.people.size());
   for (std::size_t i = 0; i < set.people.size(); ++i) {
     message.people[i].id = set.people[i].id;
+    message.people[i].name = set.people[i].name;
     FillPerson(set.people[i].capture->result(), set.people[i].capture->body(), message.people[i]);
   }
 }
@@ -162,12 +162,22 @@ void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t 
   message.num_labels = 0;
 }
 
-void FillVoxels(const TrackedSet& set, voxels_t& message) {
-  FillVoxelGrid(set.grid, set.capture_ns, set.frame, message);
-  if (set.result.state != CaptureState::kSearching) {
-    LabelVoxels(set.grid, set.body, set.result.pose, message.label);
-  }
+void FillVoxels(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
+                std::span<const BodyInPlace> bodies, voxels_t& message) {
+  FillVoxelGrid(grid, capture_ns, frame, message);
+  if (!bodies.empty()) LabelVoxels(grid, bodies, message.label);
   message.num_labels = static_cast<std::int32_t>(message.label.size());
+}
+
+void FillVoxels(const TrackedSet& set, voxels_t& message) {
+  std::vector<BodyInPlace> bodies;
+  if (set.people.empty() && set.result.state != CaptureState::kSearching) {
+    bodies.push_back({set.body, set.result.pose});
+  }
+  for (const PersonView& person : set.people) {
+    bodies.push_back({person.capture->body(), person.capture->result().pose});
+  }
+  FillVoxels(set.grid, set.capture_ns, set.frame, bodies, message);
 }
 
 void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message) {

@@ -8,7 +8,9 @@
 #include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
 #include <mocap/voxels_t.hpp>
+#include <span>
 
+#include "core/tracking/voxel_labels.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/status/service_report.h"
 #include "daemon/status/status_window.h"
@@ -27,6 +29,9 @@ void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 /// Fills everything but the labels.
 void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
                    voxels_t& message);
+/// With the labels of the parts of all bodies.
+void FillVoxels(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
+                std::span<const BodyInPlace> bodies, voxels_t& message);
 void FillVoxels(const TrackedSet& set, voxels_t& message);
 
 void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);

@@ -1,5 +1,7 @@
 #include "daemon/messages/pose_publisher.h"
 
+#include <algorithm>
+
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 
@@ -71,11 +73,15 @@ void PosePublisher::PublishPeople(const TrackedSet& set, bool body_is_due) {
   people_.publish_utime = TimeOfDayNs() / 1000;
   Publish(people_channel_, people_);
   for (const PersonView& person : set.people) {
-    if (!person.capture->result().body_changed && !body_is_due) continue;
+    const bool is_known = std::ranges::find(known_, person.id) != known_.end();
+    if (is_known && !person.capture->result().body_changed && !body_is_due) continue;
     person_body_.id = person.id;
+    person_body_.name = person.name;
     FillBody(person.capture->body(), set.capture_ns / 1000, person_body_.body);
     Publish(bodies_channel_, person_body_);
   }
+  known_.clear();
+  for (const PersonView& person : set.people) known_.push_back(person.id);
 }
 
 void PosePublisher::PublishStatus(const ServiceReport& report) {

@@ -66,6 +66,7 @@ class PosePublisher : public PoseSink {
   Pacer voxels_pacer_;
   double paced_voxels_hz_;
   std::atomic<double> voxels_hz_;
+  std::vector<int> known_;  ///< Who was in the last set.
   // Kept so that their memory is reused.
   pose_t pose_;
   body_t body_;

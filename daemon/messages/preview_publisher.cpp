@@ -12,6 +12,21 @@ namespace {
 constexpr std::size_t kQueued = 1;
 constexpr int kJpegQuality = 75;
 
+/// Everybody's; of nobody, that of whoever is being measured.
+void CopyBodies(const TrackedSet& set, std::vector<SeenBodies::Body>& bodies) {
+  const bool is_measured = set.people.empty() && set.result.state != CaptureState::kSearching;
+  bodies.resize(is_measured ? 1 : set.people.size());
+  if (is_measured) {
+    bodies.front().model = set.body;
+    bodies.front().pose = set.result.pose;
+    return;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].model = set.people[i].capture->body();
+    bodies[i].pose = set.people[i].capture->result().pose;
+  }
+}
+
 }  // namespace
 
 PreviewPublisher::PreviewPublisher(LcmSender& sender, const LcmConfig& config,
@@ -32,12 +47,11 @@ PreviewPublisher::~PreviewPublisher() {
 }
 
 void PreviewPublisher::OnSet(const TrackedSet& set) {
-  body_tap_.Offer([&](SeenBody& copy) {
+  body_tap_.Offer([&](SeenBodies& copy) {
     if (!body_pacer_.IsDue(SteadyNs())) return false;
     copy.frame = set.frame;
     copy.capture_ns = set.capture_ns;
-    copy.result = set.result;
-    copy.body = set.body;
+    CopyBodies(set, copy.bodies);
     copy.grid = set.grid;
     return true;
   });
@@ -123,13 +137,10 @@ void PreviewPublisher::Publish(std::size_t camera, const SeenFrame& seen) {
   sender_.Send(preview_channel_, preview_, bytes_);
 }
 
-void PreviewPublisher::Publish(const SeenBody& seen) {
-  TrackedSet set{.frame = seen.frame,
-                 .capture_ns = Utime(seen.capture_ns) * 1000,
-                 .result = seen.result,
-                 .body = *seen.body,
-                 .grid = seen.grid};
-  FillVoxels(set, voxels_);
+void PreviewPublisher::Publish(const SeenBodies& seen) {
+  std::vector<BodyInPlace> bodies;
+  for (const SeenBodies::Body& body : seen.bodies) bodies.push_back({*body.model, body.pose});
+  FillVoxels(seen.grid, Utime(seen.capture_ns) * 1000, seen.frame, bodies, voxels_);
   sender_.Send(voxels_channel_, voxels_, bytes_);
 }
 

@@ -25,12 +25,15 @@
 
 namespace mocap {
 
-/// A tracked set's voxels and body on their way to be looked at.
-struct SeenBody {
+/// A tracked set's voxels and bodies on their way to be looked at.
+struct SeenBodies {
+  struct Body {
+    std::optional<BodyModel> model;
+    PoseState pose;
+  };
   std::int64_t frame = 0;
   std::int64_t capture_ns = 0;
-  CaptureResult result;
-  std::optional<BodyModel> body;
+  std::vector<Body> bodies;
   VoxelGrid grid;
 };
 
@@ -61,7 +64,7 @@ class PreviewPublisher : public PoseSink {
   void OpenOrClose();
   bool PublishWhatIsThere();
   void Publish(std::size_t camera, const SeenFrame& seen);
-  void Publish(const SeenBody& seen);
+  void Publish(const SeenBodies& seen);
   std::int64_t Utime(std::int64_t capture_ns) const;
 
   LcmSender& sender_;
@@ -69,7 +72,7 @@ class PreviewPublisher : public PoseSink {
   const std::vector<CameraCalibration> cameras_;
   const CaptureTimes times_;
   std::deque<PreviewTap> taps_;
-  Tap<SeenBody> body_tap_;
+  Tap<SeenBodies> body_tap_;
   Pacer body_pacer_{kHz};
   Doorbell bell_;
   std::atomic<std::int64_t> look_until_ns_{0};  ///< By the steady clock.

@@ -103,7 +103,8 @@ class Pipeline {
 
   /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
   /// there.
-  void ChangeSubject(const std::optional<BodySizes>& sizes) { track_.ChangeSubject(sizes); }
+  void ChangeSubject(const std::optional<KnownSubject>& subject) { track_.ChangeSubject(subject); }
+  void NamePerson(int id, const std::string& name) { track_.NamePerson(id, name); }
 
   /// Segments a camera's frames against other pictures of the empty studio from now on; learns
   /// them in the calling thread. One call at a time.

@@ -8,12 +8,22 @@
 namespace mocap {
 namespace {
 
-/// Of the box around the body: what a camera has to look at to see all of it.
-std::optional<Vector3> MiddleOf(const CaptureResult& result) {
+/// Adds a body to a box, if it is known where that is.
+void Extend(const CaptureResult& result, Eigen::AlignedBox3d& box_W) {
   const bool is_known =
       result.state == CaptureState::kTracking || result.state == CaptureState::kAcquiring;
-  if (!is_known) return std::nullopt;
-  return (result.points_W.rowwise().minCoeff() + result.points_W.rowwise().maxCoeff()) / 2;
+  if (!is_known) return;
+  box_W.extend(result.points_W.rowwise().minCoeff());
+  box_W.extend(result.points_W.rowwise().maxCoeff());
+}
+
+/// Of the box around everybody: what a camera has to look at to see as much of all as it can.
+std::optional<Vector3> MiddleOf(const PeopleCapture& people) {
+  Eigen::AlignedBox3d box_W;
+  for (const PersonView& person : people.people()) Extend(person.capture->result(), box_W);
+  // Nobody is counted among the people while being measured.
+  if (people.people().empty()) Extend(people.first().result(), box_W);
+  return box_W.isEmpty() ? std::nullopt : std::optional<Vector3>(box_W.center());
 }
 
 }  // namespace
@@ -26,17 +36,32 @@ TrackStage::TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sin
       recorders_(recorders),
       person_(std::move(person)) {}
 
-TrackStage::~TrackStage() { delete next_subject_.load(); }
+TrackStage::~TrackStage() {
+  delete next_subject_.load();
+  delete next_name_.load();
+}
 
-void TrackStage::ChangeSubject(const std::optional<BodySizes>& sizes) {
-  delete next_subject_.exchange(new Subject(sizes));
+void TrackStage::ChangeSubject(const std::optional<KnownSubject>& subject) {
+  delete next_subject_.exchange(new Subject(subject));
+}
+
+void TrackStage::NamePerson(int id, const std::string& name) {
+  delete next_name_.exchange(new NamedPerson(id, name));
+}
+
+void TrackStage::TakeRequests() {
+  if (next_subject_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
+    *subject ? people_.Expect((*subject)->sizes, (*subject)->name) : people_.Forget();
+  }
+  if (next_name_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<const NamedPerson> person(next_name_.exchange(nullptr));
+    people_.Call(person->first, person->second);
+  }
 }
 
 void TrackStage::Process(const CarvedSet& set) {
-  if (next_subject_.load(std::memory_order_relaxed)) {
-    const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
-    *subject ? people_.Expect(**subject) : people_.Forget();
-  }
+  TakeRequests();
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
   people_.Update({set.grid, set.outlines, set.person_box_W}, set.eyes, Onward(set.capture_ns),
@@ -47,7 +72,7 @@ void TrackStage::Process(const CarvedSet& set) {
   recorders_[Stage::kFilter].Record(stage_ns_[1]);
   recorders_[Stage::kTotal].Record(set.work_ns + update_ns);
   state_.store(first.result().state, std::memory_order_relaxed);
-  if (person_) person_->Tell(MiddleOf(first.result()));
+  if (person_) person_->Tell(MiddleOf(people_));
   const std::int64_t publish_ns = SteadyNs();
   sink_.OnSet({.frame = set.frame,
                .capture_ns = set.capture_ns,

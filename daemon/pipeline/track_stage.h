@@ -21,6 +21,12 @@ enum class LatencyOrigin {
   kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
 };
 
+/// A person who is known before he is seen.
+struct KnownSubject {
+  BodySizes sizes;
+  std::string name = {};  ///< Empty: none.
+};
+
 /// Tracks set after set and hands each on. One thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:
@@ -33,13 +39,17 @@ class TrackStage : private UpdateObserver {
   void Process(const CarvedSet& set);
   /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
   /// there. Any thread.
-  void ChangeSubject(const std::optional<BodySizes>& sizes);
+  void ChangeSubject(const std::optional<KnownSubject>& subject);
+  /// From the next set on, whoever has this number has a name. Any thread.
+  void NamePerson(int id, const std::string& name);
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
-  using Subject = std::optional<BodySizes>;
+  using Subject = std::optional<KnownSubject>;
+  using NamedPerson = std::pair<int, std::string>;
 
+  void TakeRequests();
   std::int64_t Onward(std::int64_t capture_ns);
   void OnStageEnd(UpdateStage stage) override;
 
@@ -48,11 +58,13 @@ class TrackStage : private UpdateObserver {
   PoseSink& sink_;
   StageRecorders& recorders_;
   const std::shared_ptr<SubjectPosition> person_;
-  std::atomic<const Subject*> next_subject_{nullptr};  ///< Owned, until it is taken.
-  std::int64_t mark_ns_ = 0;                           ///< When the stage before had ended.
-  std::array<std::int64_t, 2> stage_ns_{};             ///< By UpdateStage, of this update.
-  std::int64_t shift_ns_ = 0;                          ///< From capture to the tracker's time.
-  std::optional<std::int64_t> last_ns_;                ///< Of the tracker's time.
+  // Owned, until they are taken.
+  std::atomic<const Subject*> next_subject_{nullptr};
+  std::atomic<const NamedPerson*> next_name_{nullptr};
+  std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
+  std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.
+  std::int64_t shift_ns_ = 0;               ///< From capture to the tracker's time.
+  std::optional<std::int64_t> last_ns_;     ///< Of the tracker's time.
   std::atomic<std::int64_t> sets_{0};
   std::atomic<CaptureState> state_{CaptureState::kSearching};
 };

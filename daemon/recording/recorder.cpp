@@ -12,7 +12,7 @@ Recorder::Recorder(RecordedStudio studio) : studio_(std::move(studio)) {
 }
 
 std::filesystem::path Recorder::Start(const std::string& name, const RecordingConfig& config,
-                                      const std::optional<BodySizes>& subject) {
+                                      std::span<const RecordedPerson> people) {
   const std::scoped_lock change(change_mutex_);
   if (Status().state == RecordingStatus::State::kRunning) {
     throw std::runtime_error(Status().folder.string() + " is being recorded; mocap record stop");
@@ -26,7 +26,7 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
   // It gives the taps back before the next takes them; nobody waits for that to know how things
   // are.
   last.reset();
-  auto recording = std::make_shared<Recording>(folder, config, studio_, subject, taps_);
+  auto recording = std::make_shared<Recording>(folder, config, studio_, people, taps_);
   const std::scoped_lock lock(mutex_);
   recording_ = std::move(recording);
   return folder;

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
+#include <span>
 #include <string>
 
 #include "daemon/recording/recording.h"
@@ -21,7 +21,7 @@ class Recorder {
   /// Begins a take. @return its folder to be.
   /// @throws SetupError, std::runtime_error  as Recording, and when one is on already.
   std::filesystem::path Start(const std::string& name, const RecordingConfig& config,
-                              const std::optional<BodySizes>& subject);
+                              std::span<const RecordedPerson> people);
   /// Ends it. @return how it went, also when it has ended by itself.
   /// @throws std::runtime_error  when there is none.
   RecordingStatus Stop();

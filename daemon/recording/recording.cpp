@@ -99,7 +99,7 @@ struct Recording::Line {
 };
 
 Recording::Recording(const std::filesystem::path& folder, const RecordingConfig& config,
-                     const RecordedStudio& studio, const std::optional<BodySizes>& subject,
+                     const RecordedStudio& studio, std::span<const RecordedPerson> people,
                      RecordingTaps& taps)
     : config_(config),
       studio_(studio),
@@ -111,7 +111,7 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
       place_(partial_),
       can_return_(MayComeForward()) {
   try {
-    Prepare(subject);
+    Prepare(people);
   } catch (...) {
     Discard();
     throw;
@@ -137,10 +137,16 @@ void Recording::Discard() {
   std::filesystem::remove_all(partial_, error);
 }
 
-void Recording::Prepare(const std::optional<BodySizes>& subject) {
+void Recording::Prepare(std::span<const RecordedPerson> people) {
   const TakeLayout layout{partial_};
   if (!studio_.config_text.empty()) WriteText(layout.Config(), studio_.config_text);
-  if (subject) SaveSubject(layout.Subject(), *subject);
+  for (const RecordedPerson& person : people) {
+    // Sizes of the take itself are for whoever is in it.
+    const std::filesystem::path file =
+        people.size() == 1 ? layout.Subject() : layout.Subject(person.id);
+    MakeFolder(file.parent_path());
+    SaveSubject(file, person.sizes, person.name);
+  }
   log_.emplace(layout.Poses());
   safe_log_.emplace(layout.Poses());
   for (const RecordedCamera& camera : studio_.cameras) {

@@ -66,6 +66,13 @@ struct RecordingStatus {
 /// than half of it.
 double BufferFor(const RecordingConfig& config, double memory_mb);
 
+/// Somebody who is in the room when a recording begins.
+struct RecordedPerson {
+  int id = 0;        ///< As on MOCAP_PEOPLE.
+  std::string name;  ///< Empty: none.
+  BodySizes sizes;
+};
+
 /// Records until Stop, until the disk is nearly full or until something cannot be written.
 ///
 /// One thread a camera codes and writes, when nobody else wants the processor or frames have
@@ -76,13 +83,13 @@ class Recording {
  public:
   /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
   /// return on.
-  /// @param folder   of the take to be. @param subject  whose sizes are known, if they are.
+  /// @param folder   of the take to be. @param people  whose sizes are known.
   /// @param taps     borrowed for the recording's life.
   /// @throws SetupError          when the folder cannot be made, or there is too little room.
   /// @throws std::runtime_error  when something cannot be written; nothing is left then, unless it
   /// is frames.
   Recording(const std::filesystem::path& folder, const RecordingConfig& config,
-            const RecordedStudio& studio, const std::optional<BodySizes>& subject,
+            const RecordedStudio& studio, std::span<const RecordedPerson> people,
             RecordingTaps& taps);
   /// Stops.
   ~Recording();
@@ -95,7 +102,7 @@ class Recording {
  private:
   struct Line;
 
-  void Prepare(const std::optional<BodySizes>& subject);
+  void Prepare(std::span<const RecordedPerson> people);
   void Discard();
   void Begin();
   void RunCamera(std::size_t camera);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {
@@ -14,18 +15,32 @@ void LiveView::OnSet(const TrackedSet& set) {
   residual_mm_.store(is_tracking ? set.result.residual_mm : kUnknown, std::memory_order_relaxed);
   voxels_.store(set.result.voxels, std::memory_order_relaxed);
   error_mm_.store(error_ && is_tracking ? error_(set) : kUnknown, std::memory_order_relaxed);
-  sizes_are_new_ |= set.result.body_changed || is_tracking != was_tracking_;
-  was_tracking_ = is_tracking;
-  if (!sizes_are_new_) return;
+  count_.store(static_cast<int>(set.people.size()), std::memory_order_relaxed);
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) return;
-  sizes_are_new_ = false;
-  sizes_ = is_tracking ? std::optional(set.body.sizes()) : std::nullopt;
+  if (lock) TakePeople(set.people);
 }
 
-std::optional<BodySizes> LiveView::sizes() const {
+// Both are in the order of the numbers. Nothing is allocated once there is room for all.
+void LiveView::TakePeople(std::span<const PersonView> people) {
+  const auto is_gone = [&](const FollowedPerson& person) {
+    return std::ranges::find(people, person.id, &PersonView::id) == people.end();
+  };
+  std::erase_if(people_, is_gone);
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    if (i == people_.size()) people_.push_back({.id = people[i].id, .since_ns = SteadyNs()});
+    FollowedPerson& person = people_[i];
+    const CaptureResult& result = people[i].capture->result();
+    person.name = people[i].name;
+    person.state = result.state;
+    person.torso_W = result.points_W.col(static_cast<int>(Point::kTorso));
+    person.residual_mm = result.residual_mm;
+    person.sizes = people[i].capture->body().sizes();
+  }
+}
+
+std::vector<FollowedPerson> LiveView::people() const {
   const std::scoped_lock lock(mutex_);
-  return sizes_;
+  return people_;
 }
 
 Fit LiveView::fit() const {
@@ -44,6 +59,9 @@ std::string LiveView::Line(const StatusReport& report) const {
                   report.recent[Stage::kLatency].PercentileMs(0.5),
                   millimetres(residual_mm_.load(std::memory_order_relaxed)),
                   Counted(voxels_.load(std::memory_order_relaxed), "voxel"));
+  if (const int people = count_.load(std::memory_order_relaxed); people > 1) {
+    line += fmt::format("  {} people", people);
+  }
   if (error_) {
     line += "  error " + millimetres(error_mm_.load(std::memory_order_relaxed));
   }

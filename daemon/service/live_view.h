@@ -4,11 +4,13 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "daemon/messages/truth_error.h"
 #include "daemon/pipeline/pose_sink.h"
+#include "daemon/status/followed_person.h"
 #include "daemon/status/service_report.h"
 #include "daemon/status/status_window.h"
 
@@ -23,8 +25,8 @@ class LiveView : public PoseSink {
 
   void OnSet(const TrackedSet& set) override;
   Fit fit() const;
-  /// The sizes of the person who is tracked; empty before they are known.
-  std::optional<BodySizes> sizes() const;
+  /// Who is followed, in the order of their numbers.
+  std::vector<FollowedPerson> people() const;
   /// One line without its end: state, rate, latency, residual, voxels, error.
   std::string Line(const StatusReport& report) const;
 
@@ -36,10 +38,11 @@ class LiveView : public PoseSink {
   std::atomic<double> residual_mm_{0};
   std::atomic<double> error_mm_{kUnknown};
   std::atomic<int> voxels_{0};
-  bool was_tracking_ = false;
-  bool sizes_are_new_ = true;
+  std::atomic<int> count_{0};
+  void TakePeople(std::span<const PersonView> people);
+
   mutable std::mutex mutex_;  ///< Tried, never waited for, by the pipeline.
-  std::optional<BodySizes> sizes_;
+  std::vector<FollowedPerson> people_;
 };
 
 }  // namespace mocap

@@ -92,6 +92,7 @@ std::string MetricsText(const ServiceReport& report) {
     writer.Sample(fmt::format("state=\"{}\"", kCaptureStateNames[i]),
                   i == static_cast<std::size_t>(status.state) ? 1 : 0);
   }
+  writer.Single("people", "gauge", "Who are followed.", static_cast<double>(report.people.size()));
   writer.Single("residual_meters", "gauge", "Mean distance of the fit.",
                 report.fit.residual_mm / 1000);
   writer.Family("sets_total", "counter", "Frame sets by outcome.");

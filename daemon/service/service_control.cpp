@@ -16,6 +16,14 @@ namespace {
 /// Whoever goes on looking asks again within it.
 constexpr std::chrono::seconds kLook{10};
 
+std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
+  std::vector<RecordedPerson> recorded;
+  for (const FollowedPerson& person : people) {
+    recorded.push_back({person.id, person.name, person.sizes});
+  }
+  return recorded;
+}
+
 }  // namespace
 
 ControlReply ServiceControl::Answer(const ControlRequest& request) {
@@ -57,8 +65,8 @@ std::string ServiceControl::Do(const StatusRequest& request) {
 std::string ServiceControl::Do(const ReloadRequest&) { return Reload() + '\n'; }
 
 std::string ServiceControl::Do(const RecordStartRequest& request) {
-  const auto folder =
-      parts_.recorder.Start(request.name, config().service.recording, parts_.view.sizes());
+  const auto folder = parts_.recorder.Start(request.name, config().service.recording,
+                                            Recorded(Tracked(parts_.view.people())));
   spdlog::info("recording {}", folder.c_str());
   return fmt::format("recording {}\n", folder.string());
 }
@@ -80,25 +88,35 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
 }
 
 std::string ServiceControl::Do(const SubjectNewRequest&) {
+  const std::vector<FollowedPerson> people = parts_.view.people();
   parts_.pipeline.ChangeSubject({});
-  spdlog::info("whoever is there is measured anew");
-  return "whoever is there is measured anew\n";
+  const std::string text =
+      people.empty()
+          ? "whoever comes is measured anew"
+          : Printable(LabelsOf(people)) + (people.size() > 1 ? " are" : " is") + " measured anew";
+  spdlog::info("{}", text);
+  return text + '\n';
 }
 
 std::string ServiceControl::Do(const SubjectSaveRequest& request) {
-  const std::optional<BodySizes> sizes = parts_.view.sizes();
-  if (!sizes) throw std::runtime_error("nobody is tracked whose sizes could be kept");
-  subjects_.Save(request.name, *sizes);
-  spdlog::info("subject {} is kept", request.name);
-  return fmt::format("{} is kept: stature {:.0f} mm\n", request.name, sizes->Stature());
+  const std::vector<FollowedPerson> people = Tracked(parts_.view.people());
+  if (people.empty()) throw std::runtime_error("nobody is tracked whose sizes could be kept");
+  const FollowedPerson& person = ChoosePerson(people, request.person);
+  subjects_.Save(request.name, person.sizes);
+  parts_.pipeline.NamePerson(person.id, request.name);
+  spdlog::info("person {} is kept as subject {}", person.id, request.name);
+  return fmt::format("person {} is kept as {}: stature {:.0f} mm\n", person.id, request.name,
+                     person.sizes.Stature());
 }
 
 std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   const BodySizes sizes = subjects_.Load(request.name);
-  parts_.pipeline.ChangeSubject(sizes);
+  const std::size_t people = parts_.view.people().size();
+  parts_.pipeline.ChangeSubject(KnownSubject{sizes, request.name});
   spdlog::info("subject {} is followed", request.name);
-  return fmt::format("{} is followed from now on: stature {:.0f} mm\n", request.name,
-                     sizes.Stature());
+  return fmt::format(
+      "{} is followed from now on: stature {:.0f} mm{}\n", request.name, sizes.Stature(),
+      people > 1 ? "; whoever of the people is found first is taken for " + request.name : "");
 }
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {

@@ -86,6 +86,8 @@ void Watch::Conclude() {
 void Watch::Report(const PipelineStatus& status) {
   report_.now = window_.Add(status, SteadyNs());
   report_.fit = parts_.view.fit();
+  report_.people = parts_.view.people();
+  report_.people_ns = SteadyNs();
   report_.recording = parts_.recorder.Status();
   report_.up_ns = SteadyNs() - start_ns_;
   report_.epoch_s = TimeOfDayS();

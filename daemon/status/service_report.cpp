@@ -36,6 +36,7 @@ std::string StateText(const ServiceReport& report) {
   if (state == CaptureState::kTracking) {
     text += fmt::format(", fit {:.0f} mm", report.fit.residual_mm);
   }
+  if (report.people.size() > 1) text += fmt::format(", {} people", report.people.size());
   return text + ", " + Counted(report.fit.voxels, "voxel");
 }
 
@@ -124,6 +125,41 @@ std::string CameraTable(const ServiceReport& report) {
   return text;
 }
 
+double SecondsOf(const FollowedPerson& person, const ServiceReport& report) {
+  return static_cast<double>(report.people_ns - person.since_ns) / 1e9;
+}
+
+std::string PeopleTable(const ServiceReport& report) {
+  if (report.people.empty()) return {};
+  std::string text = fmt::format("{:<24}{:<12}{:>16}{:>9}{:>12}  {}\n", "person", "state", "x y m",
+                                 "fit mm", "stature mm", "followed for");
+  for (const FollowedPerson& person : report.people) {
+    const bool is_tracked = person.state == CaptureState::kTracking;
+    text += fmt::format(
+        "{:<24}{:<12}{:>16}{:>9}{:>12.0f}  {}\n",
+        std::to_string(person.id) + (person.name.empty() ? "" : "  " + Printable(person.name)),
+        NameOf(person.state),
+        fmt::format("{:.2f} {:.2f}", person.torso_W.x() / 1000, person.torso_W.y() / 1000),
+        is_tracked ? fmt::format("{:.0f}", person.residual_mm) : "-", person.sizes.Stature(),
+        Duration(report.people_ns - person.since_ns));
+  }
+  return text + '\n';
+}
+
+JsonObject PersonJson(const FollowedPerson& person, const ServiceReport& report) {
+  JsonObject json;
+  json.Add("id", person.id);
+  json.Add("name", person.name);
+  json.Add("state", NameOf(person.state));
+  json.Add("x_mm", person.torso_W.x(), 1);
+  json.Add("y_mm", person.torso_W.y(), 1);
+  json.Add("z_mm", person.torso_W.z(), 1);
+  json.Add("residual_mm", person.residual_mm, 2);
+  json.Add("stature_mm", person.sizes.Stature(), 1);
+  json.Add("seconds", SecondsOf(person, report), 1);
+  return json;
+}
+
 JsonObject MadeJson(const Made& made) {
   JsonObject json;
   json.Add("where", made.where);
@@ -192,7 +228,7 @@ std::string ReportText(const ServiceReport& report) {
   text += Line("calibration",
                MadeText(report.calibration, report.epoch_s) + "; " + AgreementText(status));
   text += Line("background", MadeText(report.background, report.epoch_s)) + '\n';
-  return text + CameraTable(report);
+  return text + PeopleTable(report) + CameraTable(report);
 }
 
 std::string BackgroundText(const ServiceReport& report) {
@@ -219,6 +255,9 @@ std::string ReportJson(const ServiceReport& report) {
   json.Add("state", NameOf(status.state));
   json.Add("residual_mm", report.fit.residual_mm, 2);
   json.Add("voxels", report.fit.voxels);
+  std::vector<JsonObject> people;
+  for (const FollowedPerson& person : report.people) people.push_back(PersonJson(person, report));
+  json.Add("people", people);
   json.Add("sets_per_second", report.now.sets_per_second, 2);
   json.Add("sets_complete", status.sets_complete);
   json.Add("sets_partial", status.sets_partial);

@@ -10,6 +10,7 @@
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recording.h"
 #include "daemon/status/channel_status.h"
+#include "daemon/status/followed_person.h"
 #include "daemon/status/light_watch.h"
 #include "daemon/status/status_window.h"
 
@@ -37,6 +38,8 @@ struct Delivery {
 struct ServiceReport {
   StatusReport now;
   Fit fit;
+  std::vector<FollowedPerson> people;  ///< In the order of their numbers.
+  std::int64_t people_ns = 0;          ///< When that was, by the steady clock.
   std::string studio;
   double fps_nominal = 0;
   std::vector<double> camera_fps;  ///< Of those that have their own; 0 or none: fps_nominal.

@@ -45,6 +45,10 @@ struct TakeLayout {
   }
   /// The person's sizes, where they were known.
   std::filesystem::path Subject() const { return folder / "subject.toml"; }
+  /// The same of one of several people, by number.
+  std::filesystem::path Subject(int person) const {
+    return folder / ("person-" + std::to_string(person)) / "subject.toml";
+  }
   /// What was published while the take was recorded: an LCM log.
   std::filesystem::path Poses() const { return folder / "poses.lcm"; }
   /// The daemon's configuration.

@@ -161,6 +161,20 @@ TEST(OperatingManual, ExplainsEveryLineAndColumnOfTheStatus) {
   }
 }
 
+TEST(OperatingManual, ExplainsEveryColumnOfPeople) {
+  ServiceReport report;
+  report.people.emplace_back().id = 1;
+  const std::string text = ReportText(report);
+  std::string header = text.substr(text.find("person "));
+  header = header.substr(0, header.find('\n'));
+  for (const std::string& column : FirstColumns()) {
+    if (const std::size_t at = header.find(column); at != std::string::npos) {
+      header.replace(at, column.size(), column.size(), ' ');
+    }
+  }
+  EXPECT_EQ(header.find_first_not_of(' '), std::string::npos) << header;
+}
+
 TEST(OperatingManual, TellsOfNoComplaintThatIsNot) {
   std::vector<std::string> patterns;
   for (const std::string& complaint : EveryComplaint()) patterns.push_back(Pattern(complaint));

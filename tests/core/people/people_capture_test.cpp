@@ -175,6 +175,34 @@ TEST_F(Room, TheSamePeopleGiveTheSameNumbersAgain) {
   }
 }
 
+TEST_F(Room, ANameStaysWithAPersonUntilHeLeaves) {
+  const Someone stays = At(-600, 0, 1750), passes = At(700, 200, 1700);
+  const auto one = Carve({stays}), two = Carve({stays, passes});
+  for (int i = 0; i < 8; ++i) See(two);
+  ASSERT_EQ(Ids(), (std::vector{1, 2}));
+  people_.Call(2, "anna");
+  people_.Call(7, "nobody");
+  See(two);
+  EXPECT_EQ(people_.people()[0].name, "");
+  EXPECT_EQ(people_.people()[1].name, "anna");
+  for (int i = 0; i < 40; ++i) See(one);
+  for (int i = 0; i < 8; ++i) See(two);
+  ASSERT_EQ(people_.people().size(), 2u);
+  EXPECT_EQ(people_.people()[1].name, "") << "somebody else may have come";
+}
+
+TEST_F(Room, WhoIsExpectedHasTheName) {
+  const auto seen = Carve({At(-500, 0, 1800)});
+  people_.Expect(AverageSizes(1800), "anna");
+  for (int i = 0; i < 4; ++i) See(seen);
+  ASSERT_EQ(people_.people().size(), 1u);
+  EXPECT_EQ(people_.people()[0].name, "anna");
+  people_.Forget();
+  for (int i = 0; i < 4; ++i) See(seen);
+  ASSERT_EQ(people_.people().size(), 1u);
+  EXPECT_EQ(people_.people()[0].name, "");
+}
+
 TEST_F(Room, ForgettingForgetsEverybody) {
   const auto seen = Carve({At(-500, 0, 1800), At(500, 0, 1650)});
   for (int i = 0; i < 4; ++i) See(seen);

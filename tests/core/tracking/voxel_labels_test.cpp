@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "config/load_config.h"
 #include "core/body/stance.h"
 #include "tests/support/voxelized_body.h"
@@ -18,7 +20,10 @@ TEST(VoxelLabels, NameThePartThatAVoxelLiesIn) {
   VoxelGrid grid = Voxelize(body, pose, 25);
   grid.Set(0, 0, grid.size().z() - 1);  // Nobody is in that corner.
   std::vector<std::int8_t> labels;
-  LabelVoxels(grid, body, pose, labels);
+  // Somebody else is far away, and as good as not there.
+  PoseState elsewhere = pose;
+  elsewhere.X_WT.p.x() = 9000;
+  LabelVoxels(grid, std::array{BodyInPlace{body, elsewhere}, BodyInPlace{body, pose}}, labels);
 
   const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
   std::size_t index = 0;

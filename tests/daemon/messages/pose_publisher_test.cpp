@@ -12,12 +12,14 @@
 #include "config/load_config.h"
 #include "core/body/body_sizes.h"
 #include "core/errors.h"
+#include "tests/support/still_capture.h"
 
 namespace mocap {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::StillCapture;
 
 /// Keeps what arrives on a channel.
 template <typename Message>
@@ -108,38 +110,18 @@ TEST_F(PosePublisherTest, WhileSearchingThereIsNoPoseButItsFrameIsTold) {
   EXPECT_EQ(inbox.messages[0].num_joints, body_.joint_count());
 }
 
-// Somebody whose pose does not change.
-class Still : public MotionCapture {
- public:
-  Still(const BodyModel& body, const CaptureResult& result) : body_(body), result_(result) {}
-
-  const CaptureResult& Update(const Sighting&, std::int64_t, UpdateObserver*) override {
-    return result_;
-  }
-  void Forget() override {}
-  void Expect(const BodySizes&) override {}
-  const CaptureResult& result() const override { return result_; }
-  PoseState PredictedPose(std::int64_t) const override { return result_.pose; }
-  const BodyModel& body() const override { return body_; }
-  int acquisition_frames() const override { return 1; }
-
- private:
-  BodyModel body_;
-  CaptureResult result_;
-};
-
 TEST_F(PosePublisherTest, EverybodyArrivesWithANumberAndABody) {
   Inbox<people_t> people(lcm_, "MOCAP_PEOPLE");
   Inbox<person_body_t> bodies(lcm_, "MOCAP_BODIES");
   Inbox<pose_t> poses(lcm_, "MOCAP_POSE");
-  const Still first(body_, result_);
+  const StillCapture first(body_, result_);
   BodyModel small = body_;
   small.Resize(AverageSizes(1400));
   CaptureResult other = result_;
   other.state = CaptureState::kLost;
   other.pose.X_WT.p.x() = 900;
-  const Still second(small, other);
-  const std::array<PersonView, 2> views = {PersonView{2, &first}, PersonView{5, &second}};
+  const StillCapture second(small, other);
+  const std::array<PersonView, 2> views = {PersonView{2, &first}, PersonView{5, &second, "anna"}};
   TrackedSet set = Set();
   set.people = views;
   PosePublisher publisher(lcm_, {}, 3);
@@ -153,6 +135,8 @@ TEST_F(PosePublisherTest, EverybodyArrivesWithANumberAndABody) {
   ASSERT_EQ(message.num_people, 2);
   EXPECT_EQ(message.people[0].id, 2);
   EXPECT_EQ(message.people[1].id, 5);
+  EXPECT_EQ(message.people[0].name, "");
+  EXPECT_EQ(message.people[1].name, "anna");
   EXPECT_EQ(message.people[1].state, int{pose_t::LOST});
   EXPECT_EQ(message.people[1].torso_mm[0], 900);
   // The first is the person of the pose.
@@ -160,7 +144,24 @@ TEST_F(PosePublisherTest, EverybodyArrivesWithANumberAndABody) {
   EXPECT_EQ(message.people[0].point_mm[22][2], poses.messages.at(0).point_mm[22][2]);
   ASSERT_EQ(bodies.messages.size(), 2u);
   EXPECT_EQ(bodies.messages[1].id, 5);
+  EXPECT_EQ(bodies.messages[1].name, "anna");
   EXPECT_DOUBLE_EQ(bodies.messages[1].body.stature_mm, small.sizes().Stature());
+}
+
+TEST_F(PosePublisherTest, TheBodyOfANewcomerComesWithTheNewcomer) {
+  Inbox<person_body_t> bodies(lcm_, "MOCAP_BODIES");
+  const StillCapture capture(body_, result_);
+  const std::array<PersonView, 2> views = {PersonView{1, &capture}, PersonView{2, &capture}};
+  PosePublisher publisher(lcm_, {}, 3);
+  TrackedSet set = Set();
+  for (const std::size_t people : {1, 1, 2}) {
+    set.people = std::span(views).first(people);
+    publisher.OnSet(set);
+  }
+  Deliver();
+  ASSERT_EQ(bodies.messages.size(), 2u);
+  EXPECT_EQ(bodies.messages[0].id, 1);
+  EXPECT_EQ(bodies.messages[1].id, 2);
 }
 
 TEST_F(PosePublisherTest, TheBodyComesAtOnceAndWhenItChanges) {

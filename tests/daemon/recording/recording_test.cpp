@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <csignal>
 #include <thread>
 
@@ -95,8 +96,22 @@ class RecordingTest : public ::testing::Test {
   std::optional<Recorder> recorder_;
 };
 
+TEST_F(RecordingTest, OfSeveralPeopleEachKeepsHisSizes) {
+  const std::array people = {RecordedPerson{2, "anna", AverageSizes(1700)},
+                             RecordedPerson{5, "", AverageSizes(1500)}};
+  const std::filesystem::path take = recorder_->Start("one", config_, people);
+  Offer(0, 0);
+  Offer(1, 0);
+  recorder_->Stop();
+  EXPECT_FALSE(std::filesystem::exists(take / "subject.toml")) << "whose would they be?";
+  EXPECT_THAT(testing::ReadText(take / "person-2/subject.toml"), HasSubstr("name = \"anna\""));
+  EXPECT_DOUBLE_EQ(LoadSubject(take / "person-2/subject.toml").thigh, AverageSizes(1700).thigh);
+  EXPECT_DOUBLE_EQ(LoadSubject(take / "person-5/subject.toml").thigh, AverageSizes(1500).thigh);
+}
+
 TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {
-  const std::filesystem::path take = recorder_->Start("one", config_, AverageSizes(1700));
+  const std::filesystem::path take =
+      recorder_->Start("one", config_, std::array{RecordedPerson{3, "anna", AverageSizes(1700)}});
   for (std::uint64_t i = 0; i < 5; ++i) {
     Offer(0, i);
     if (i != 2) Offer(1, i);

@@ -54,6 +54,32 @@ TEST(ServiceReport, NamesFromOutsideForgeNoLineAndReachNoTerminal) {
               HasSubstr("\"studio\": \"x\\u001b]0;owned\\u0007\\u000a! forged \\ufffd\\u202e\""));
 }
 
+TEST(ServiceReport, TellsOfEachWhoIsFollowed) {
+  ServiceReport report = Good();
+  EXPECT_THAT(ReportJson(report), HasSubstr("\"people\": []"));
+  report.now.status.state = CaptureState::kTracking;
+  report.people_ns = 100'000'000'000;
+  report.people.push_back({.id = 3,
+                           .name = "anna",
+                           .state = CaptureState::kTracking,
+                           .torso_W = Vector3(1234, -500, 1000),
+                           .residual_mm = 11.5,
+                           .sizes = AverageSizes(1700),
+                           .since_ns = 88'000'000'000});
+  EXPECT_THAT(ReportLine(report), Not(HasSubstr("people")));
+  report.people.push_back({.id = 4, .state = CaptureState::kLost});
+  EXPECT_THAT(ReportLine(report), HasSubstr("2 people"));
+  EXPECT_THAT(ReportText(report),
+              ::testing::ContainsRegex("3  anna +tracking +1\\.23 -0\\.50 +12 +1[67].. +12 s\n"));
+  EXPECT_THAT(ReportText(report), ::testing::ContainsRegex("\n4 +lost .* - "));
+  const std::string json = ReportJson(report);
+  EXPECT_THAT(json, HasSubstr("{\"id\": 3, \"name\": \"anna\", \"state\": \"tracking\", "
+                              "\"x_mm\": 1234, \"y_mm\": -500, \"z_mm\": 1000, "
+                              "\"residual_mm\": 11.5, "));
+  EXPECT_THAT(json, HasSubstr("\"seconds\": 12}"));
+  EXPECT_THAT(MetricsText(report), HasSubstr("\nmocapd_people 2\n"));
+}
+
 TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
   ServiceReport report = Good();
   report.now.status.cameras[0].state = CameraState::kLost;

@@ -1,0 +1,41 @@
+#include "daemon/status/followed_person.h"
+
+#include <algorithm>
+
+#include "core/errors.h"
+
+namespace mocap {
+
+std::vector<FollowedPerson> Tracked(std::vector<FollowedPerson> people) {
+  std::erase_if(
+      people, [](const FollowedPerson& person) { return person.state != CaptureState::kTracking; });
+  return people;
+}
+
+const FollowedPerson& ChoosePerson(std::span<const FollowedPerson> people, std::optional<int> id) {
+  MOCAP_CHECK(!people.empty());
+  if (!id && people.size() == 1) return people.front();
+  if (!id) {
+    throw SetupError("several people are tracked: " + LabelsOf(people) +
+                     "; --person with the number of one of them is wanted");
+  }
+  const auto found = std::ranges::find(people, *id, &FollowedPerson::id);
+  if (found != people.end()) return *found;
+  throw SetupError("person " + std::to_string(*id) +
+                   " is not tracked; tracked are: " + LabelsOf(people));
+}
+
+std::string LabelOf(int id, const std::string& name) {
+  const std::string label = "person " + std::to_string(id);
+  return name.empty() ? label : label + " (" + name + ')';
+}
+
+std::string LabelsOf(std::span<const FollowedPerson> people) {
+  std::string labels;
+  for (const FollowedPerson& person : people) {
+    labels += (labels.empty() ? "" : ", ") + LabelOf(person.id, person.name);
+  }
+  return labels;
+}
+
+}  // namespace mocap
