@@ -22,6 +22,10 @@ class DrawnBody {
   explicit DrawnBody(const BodyRecord& record);
 
   const BodyRecord& record() const { return record_; }
+  /// Whether it is drawn from the same sizes.
+  bool IsOf(const BodyRecord& record) const {
+    return record_.model == record.model && record_.sizes == record.sizes;
+  }
   /// The part that each capsule belongs to, where every joint is known.
   const std::vector<int>& parts() const { return parts_; }
   /// The flesh as the tracker has it.

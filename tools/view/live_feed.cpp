@@ -68,6 +68,8 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   const std::string named = ChannelPattern(prefix);
   lcm.subscribe(named + "MOCAP_POSE", &LiveFeed::OnPose, this);
   lcm.subscribe(named + "MOCAP_BODY", &LiveFeed::OnBody, this);
+  lcm.subscribe(named + "MOCAP_PEOPLE", &LiveFeed::OnPeople, this);
+  lcm.subscribe(named + "MOCAP_BODIES", &LiveFeed::OnPersonBody, this);
   lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + "MOCAP_SERVICE", &LiveFeed::OnService, this);
@@ -97,33 +99,62 @@ void LiveFeed::PutNotice() {
   put_(kNotice, Text(std::move(notice)));
 }
 
+// The same is told of everybody a moment later, by a daemon that follows several people.
 void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
-  const std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
-  const std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
-  if (!row) return;
-  heard_ns_ = SteadyNs();
-  poses_.push_back(*row);
-  if (poses_.size() > kPosesKept) poses_.pop_front();
-  DrawnPose drawn;
-  drawn.row = *row;
-  drawn.publish_ms = static_cast<double>(pose->publish_utime) / 1000;
-  for (std::size_t i = 0; i < std::min<std::size_t>(32, pose->camera_used.size()); ++i) {
-    drawn.cameras_used |= pose->camera_used[i] ? std::uint32_t{1} << i : 0;
+  std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
+  if (!pose) return;
+  const bool people_follow = people_ns_ && SteadyNs() - *people_ns_ < kSilenceNs;
+  if (!people_follow) PutPose(*pose);
+  first_ = std::move(pose);
+}
+
+void LiveFeed::OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<people_t> set = Decoded<people_t>(*buffer);
+  if (!set) return;
+  people_ns_ = SteadyNs();
+  std::vector<DrawnPose> poses = people_.Take(*set);
+  PutPeople();
+  if (!poses.empty()) return PutPoses(std::move(poses));
+  if (set->people.empty() && first_ && first_->utime == set->utime) PutPose(*first_);
+}
+
+void LiveFeed::PutPeople() {
+  std::string people = people_.Json();
+  if (people == told_people_) return;
+  told_people_ = people;
+  put_(kPeople, Text(std::move(people)));
+}
+
+void LiveFeed::PutPose(const pose_t& pose) {
+  if (const std::optional<PoseRow> row = PoseRowOf(pose)) {
+    PutPoses({DrawnPoseOf(pose, *row, body_ ? &*body_ : nullptr)});
   }
-  if (body_) drawn.capsules = body_->Pose(*pose, *row);
-  put_(kPose, Binary(PoseBytes(drawn)));
-  PutPicturesOf(pose->utime);
+}
+
+void LiveFeed::PutPoses(std::vector<DrawnPose> poses) {
+  heard_ns_ = SteadyNs();
+  std::string bytes;
+  for (DrawnPose& pose : poses) {
+    bytes += PoseBytes(pose);
+    pose.capsules.clear();
+  }
+  put_(kPoses, Binary(std::move(bytes)));
+  const std::int64_t utime = poses.front().row.timestamp_ns / 1000;
+  poses_.push_back(std::move(poses));
+  if (poses_.size() > kPosesKept) poses_.pop_front();
+  PutPicturesOf(utime);
 }
 
 void LiveFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<body_t> body = Decoded<body_t>(*buffer);
   const std::optional<BodyRecord> record = body ? BodyRecordOf(*body) : std::nullopt;
-  if (!record) return;
-  const bool is_same =
-      body_ && body_->record().model == record->model && body_->record().sizes == record->sizes;
-  if (is_same) return;
+  if (!record || (body_ && body_->IsOf(*record))) return;
   body_.emplace(*record);
   put_(kBody, Text(BodyJson(*record, body_->parts())));
+}
+
+void LiveFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  if (const auto body = Decoded<person_body_t>(*buffer)) people_.TakeBody(*body);
 }
 
 void LiveFeed::OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string&) {
@@ -169,17 +200,23 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
 
 void LiveFeed::PutStudio() { put_(kStudio, Text(StudioJson(studio_.name, cameras_, X_CW_))); }
 
-/// The pose nearest to a moment, if it is that moment's.
-const PoseRow* LiveFeed::PoseAt(std::int64_t utime) const {
-  const PoseRow* nearest = nullptr;
+/// The poses nearest to a moment, if they are that moment's.
+const std::vector<DrawnPose>* LiveFeed::PosesAt(std::int64_t utime) const {
+  const std::vector<DrawnPose>* nearest = nullptr;
   std::int64_t least_us = kSameMomentUs;
-  for (const PoseRow& row : poses_) {
-    const std::int64_t apart_us = std::abs(row.timestamp_ns / 1000 - utime);
+  for (const std::vector<DrawnPose>& poses : poses_) {
+    const std::int64_t apart_us = std::abs(poses.front().row.timestamp_ns / 1000 - utime);
     if (apart_us > least_us) continue;
     least_us = apart_us;
-    nearest = &row;
+    nearest = &poses;
   }
   return nearest;
+}
+
+const DrawnBody* LiveFeed::BodyOf(const DrawnPose& pose) const {
+  if (pose.id == 0) return body_ ? &*body_ : nullptr;
+  const LivePeople::Person* person = people_.Find(pose.id);
+  return person && person->body ? &*person->body : nullptr;
 }
 
 void LiveFeed::MoveCamera(std::size_t camera, const preview_t& preview) {
@@ -199,7 +236,8 @@ void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const auto camera = static_cast<std::size_t>(found - cameras_.begin());
   MoveCamera(camera, *preview);
   // A picture is quicker than the pose of its moment, if one comes at all.
-  const bool has_pose = !poses_.empty() && poses_.back().timestamp_ns / 1000 >= preview->utime;
+  const bool has_pose =
+      !poses_.empty() && poses_.back().front().row.timestamp_ns / 1000 >= preview->utime;
   if (const auto before = waiting_.find(camera); before != waiting_.end()) {
     PutPicture(camera, before->second);
     waiting_.erase(before);
@@ -219,6 +257,21 @@ void LiveFeed::PutPicturesOf(std::int64_t utime) {
   });
 }
 
+std::vector<DrawnOutlines> LiveFeed::OutlinesOf(const std::vector<DrawnPose>& poses,
+                                                std::size_t camera) const {
+  std::vector<DrawnOutlines> bodies;
+  for (const DrawnPose& pose : poses) {
+    const DrawnBody* body = BodyOf(pose);
+    const bool is_drawn =
+        pose.row.state == CaptureState::kTracking && body && AreSizes(body->record().sizes);
+    if (!is_drawn) continue;
+    bodies.push_back(
+        {.person = poses.size() > 1 ? pose.person : DrawnOutlines::kAlone,
+         .lines = PartOutlines(pose.row, body->record().sizes, cameras_[camera], X_CW_[camera])});
+  }
+  return bodies;
+}
+
 void LiveFeed::PutPicture(std::size_t camera, const preview_t& preview) {
   const int factor = preview.reduction;
   const Silhouette silhouette =
@@ -228,11 +281,10 @@ void LiveFeed::PutPicture(std::size_t camera, const preview_t& preview) {
                        .height_px = preview.height_px,
                        .capture_ms = static_cast<double>(preview.utime) / 1000,
                        .silhouette = SilhouetteLines(silhouette, factor),
-                       .body = {},
+                       .bodies = {},
                        .jpeg = preview.jpeg};
-  const PoseRow* row = PoseAt(preview.utime);
-  if (row && row->state == CaptureState::kTracking && body_ && AreSizes(body_->record().sizes)) {
-    picture.body = PartOutlines(*row, body_->record().sizes, cameras_[camera], X_CW_[camera]);
+  if (const std::vector<DrawnPose>* poses = PosesAt(preview.utime)) {
+    picture.bodies = OutlinesOf(*poses, camera);
   }
   put_(kPictures + camera, Binary(PictureBytes(picture)));
 }

@@ -16,6 +16,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/live_board.h"
+#include "tools/view/live_people.h"
 
 namespace mocap {
 
@@ -23,7 +24,17 @@ namespace mocap {
 class LiveFeed {
  public:
   /// Slots of the board; each camera's picture has one from kPictures on.
-  enum Slot : std::size_t { kStudio, kBody, kStatus, kService, kNotice, kPose, kVoxels, kPictures };
+  enum Slot : std::size_t {
+    kStudio,
+    kBody,
+    kPeople,
+    kStatus,
+    kService,
+    kNotice,
+    kPoses,  ///< Everybody's of one set, whoever has been followed the longest first.
+    kVoxels,
+    kPictures
+  };
   using Put = std::function<void(std::size_t slot, LiveMessage message)>;
 
   /// @param lcm     borrowed for the feed's life.
@@ -38,29 +49,41 @@ class LiveFeed {
 
  private:
   void OnPose(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void PutPose(const pose_t& pose);
+  void PutPoses(std::vector<DrawnPose> poses);
+  void PutPeople();
   void PutStudio();
   void PutNotice();
   void MoveCamera(std::size_t camera, const preview_t& preview);
   void PutPicturesOf(std::int64_t utime);
   void PutPicture(std::size_t camera, const preview_t& preview);
-  const PoseRow* PoseAt(std::int64_t utime) const;
+  const std::vector<DrawnPose>* PosesAt(std::int64_t utime) const;
+  std::vector<DrawnOutlines> OutlinesOf(const std::vector<DrawnPose>& poses,
+                                        std::size_t camera) const;
+  const DrawnBody* BodyOf(const DrawnPose& pose) const;
 
   const std::string url_;
   const Put put_;
   std::int64_t heard_ns_;  ///< By the steady clock.
-  std::string silence_, control_, notice_;
-  std::optional<DrawnBody> body_;
+  std::string silence_, control_, notice_, told_people_;
+  std::optional<DrawnBody> body_;  ///< Of MOCAP_POSE.
+  LivePeople people_;
+  std::optional<std::int64_t> people_ns_;  ///< When they were heard of last, by the steady clock.
+  std::optional<pose_t> first_;            ///< Drawn where MOCAP_PEOPLE has nobody yet.
   std::optional<service_t> service_;
   studio_t studio_;
   std::vector<CameraCalibration> cameras_;
   std::vector<RigidTransform> X_CW_;  ///< Where each camera stands now.
-  std::deque<PoseRow> poses_;         ///< The latest, for pictures that come later,
+  /// The latest, for pictures that come later, without flesh,
+  std::deque<std::vector<DrawnPose>> poses_;
   /// and pictures whose pose is still to come, by camera.
   std::map<std::size_t, preview_t> waiting_;
 };

@@ -49,18 +49,6 @@ std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::s
                      " is wanted"};
 }
 
-/// Folders of a result: itself, or one a person.
-std::vector<std::filesystem::path> FoldersOf(const std::filesystem::path& result) {
-  std::vector<std::filesystem::path> people;
-  std::error_code error;
-  for (int person = 1;; ++person) {
-    const std::filesystem::path folder = result / ("person-" + std::to_string(person));
-    if (!std::filesystem::is_directory(folder, error)) break;
-    people.push_back(folder);
-  }
-  return people.empty() ? std::vector{result} : people;
-}
-
 std::string NameOf(const std::filesystem::path& folder) {
   const std::string name = folder.filename().string();
   return name.starts_with("person-") ? folder.parent_path().filename().string() + '/' + name : name;
@@ -144,14 +132,29 @@ Json ResultJson(const std::string& name, const Evaluation& evaluation,
 
 TakeSite::TakeSite(const std::filesystem::path& take,
                    const std::vector<std::filesystem::path>& results)
-    : pictures_(take), times_ns_(pictures_.Times()), truth_(ReadTakeTruth(take)) {
-  for (const std::filesystem::path& result : results) {
-    for (const std::filesystem::path& folder : FoldersOf(PlainFolder(result))) {
-      results_.push_back({NameOf(folder), Evaluate(ReadResult(folder), truth_), {}});
-    }
+    : pictures_(take), truth_(ReadTruePeople(take)) {
+  for (const std::filesystem::path& result : results) Add(PlainFolder(result));
+  ChooseTimes();
+}
+
+void TakeSite::Add(const std::filesystem::path& result) {
+  const std::size_t group = groups_++;
+  if (!IsOfPeople(result)) {
+    results_.push_back({NameOf(result), EvaluateOne(ReadResult(result), truth_), group});
+    return;
   }
-  if (!results_.empty()) {
-    times_ns_.clear();
+  PeopleEvaluation evaluation = EvaluatePeople(ReadPeople(result), truth_);
+  for (TrackedPerson& person : evaluation.people) {
+    results_.push_back({NameOf(result / person.name), std::move(person.evaluation), group,
+                        person.name, person.true_person});
+  }
+}
+
+void TakeSite::ChooseTimes() {
+  // One of several people may be there for a moment only.
+  if (results_.empty() || !results_.front().person.empty()) {
+    times_ns_ = pictures_.Times();
+  } else {
     for (const PoseRow& row : results_.front().evaluation.result.poses) {
       times_ns_.push_back(row.timestamp_ns);
     }
@@ -192,9 +195,14 @@ std::string TakeSite::TakeJson() const {
             {"times_ms", std::move(times)},
             {"results", Json::array()},
             {"truth", nullptr}};
-  if (truth_) json["truth"] = {{"joints", ScoredJoints()}};
+  if (!truth_.empty()) json["truth"] = {{"joints", ScoredJoints()}, {"people", Json::array()}};
+  for (const TruePerson& person : truth_) json["truth"]["people"].push_back(person.name);
   for (const ShownResult& result : results_) {
-    json["results"].push_back(ResultJson(result.name, result.evaluation, result.rows));
+    Json one = ResultJson(result.name, result.evaluation, result.rows);
+    one["group"] = result.group;
+    one["person"] = result.person;
+    one["true_person"] = result.true_person < 0 ? Json() : Json(result.true_person);
+    json["results"].push_back(std::move(one));
   }
   return JsonText(json);
 }
@@ -208,12 +216,13 @@ const TakeSite::ShownResult* TakeSite::ResultOf(const ViewRequest& request) cons
 std::string TakeSite::Poses(const ViewRequest& request) const {
   const std::size_t from = NumberOf(request, "from", times_ns_.size());
   const std::size_t count = NumberOf(request, "count", kMostPosesAtOnce);
-  const auto which = request.query.find("result");
-  const bool is_truth = which != request.query.end() && which->second == "truth";
+  const bool is_truth = request.query.contains("truth") && !truth_.empty();
+  const TruePerson* truth =
+      is_truth ? &truth_[NumberOf(request, "truth", truth_.size() - 1)] : nullptr;
   const ShownResult* result = is_truth ? nullptr : ResultOf(request);
   std::string bytes;
   for (std::size_t frame = from; frame < std::min(from + count, times_ns_.size()); ++frame) {
-    if (is_truth) bytes += TruthOf(frame);
+    if (truth) bytes += TruthOf(*truth, frame);
     if (result) bytes += PoseOf(*result, frame);
   }
   return bytes;
@@ -230,19 +239,18 @@ std::string TakeSite::PoseOf(const ShownResult& result, std::size_t frame) const
   return PoseBytes(drawn);
 }
 
-std::string TakeSite::TruthOf(std::size_t frame) const {
+std::string TakeSite::TruthOf(const TruePerson& person, std::size_t frame) const {
   DrawnPose drawn;
   drawn.person = kTruthPerson;
   drawn.row.frame = static_cast<std::int64_t>(frame);
   drawn.row.timestamp_ns = times_ns_[frame];
   drawn.row.points_W.setConstant(std::numeric_limits<double>::quiet_NaN());
-  if (!truth_) return PoseBytes(drawn);
   const std::int64_t tolerance_ns = std::llround(0.5e9 / pictures_.fps_nominal());
-  const int nearest = NearestRows({times_ns_[frame]}, truth_->frames, tolerance_ns).front();
+  const int nearest = NearestRows({times_ns_[frame]}, person.truth.frames, tolerance_ns).front();
   if (nearest < 0) return PoseBytes(drawn);
   drawn.row.state = CaptureState::kTracking;
   drawn.row.has_pose = true;
-  const ScoredFrame& truth = truth_->frames[static_cast<std::size_t>(nearest)];
+  const ScoredFrame& truth = person.truth.frames[static_cast<std::size_t>(nearest)];
   for (int i = 0; i < kScoredPointCount; ++i) {
     drawn.row.points_W.col(static_cast<int>(kScoredPoints[static_cast<std::size_t>(i)])) =
         truth.points_W.col(i);
@@ -254,16 +262,13 @@ std::string TakeSite::Pictures(const ViewRequest& request) {
   if (times_ns_.empty()) return {};
   const std::size_t frame = NumberOf(request, "frame", times_ns_.size() - 1);
   const ShownResult* result = ResultOf(request);
-  const PoseRow* row = result ? RowOf(*result, frame) : nullptr;
-  const BodySizes* sizes = row && IsTracked(*row) ? &result->evaluation.result.body.sizes : nullptr;
   const std::scoped_lock lock(mutex_);
   const std::vector<TakePicture> pictures = pictures_.At(times_ns_[frame]);
   std::string bytes;
   for (const TakePicture& picture : pictures) {
-    const CameraCalibration& camera = pictures_.cameras()[static_cast<std::size_t>(picture.camera)];
-    std::vector<BodyLine> body;
-    if (sizes && AreSizes(*sizes)) body = PartOutlines(*row, *sizes, camera, picture.X_CW);
-    bytes += DrawnOver(picture, std::move(body));
+    std::vector<DrawnOutlines> bodies;
+    if (result) bodies = BodiesOf(*result, frame, picture);
+    bytes += DrawnOver(picture, std::move(bodies));
   }
   const VoxelGrid grid = pictures_.Carve(pictures);
   if (grid.size().isZero()) return bytes;
@@ -272,7 +277,23 @@ std::string TakeSite::Pictures(const ViewRequest& request) {
   return bytes + VoxelBytes(voxels, 0);
 }
 
-std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<BodyLine> body) {
+// Everybody's who was tracked together.
+std::vector<DrawnOutlines> TakeSite::BodiesOf(const ShownResult& chosen, std::size_t frame,
+                                              const TakePicture& picture) const {
+  const CameraCalibration& camera = pictures_.cameras()[static_cast<std::size_t>(picture.camera)];
+  std::vector<DrawnOutlines> bodies;
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    const ShownResult& result = results_[i];
+    const BodySizes& sizes = result.evaluation.result.body.sizes;
+    const PoseRow* row = RowOf(result, frame);
+    if (result.group != chosen.group || !row || !IsTracked(*row) || !AreSizes(sizes)) continue;
+    bodies.push_back({.person = result.person.empty() ? DrawnOutlines::kAlone : static_cast<int>(i),
+                      .lines = PartOutlines(*row, sizes, camera, picture.X_CW)});
+  }
+  return bodies;
+}
+
+std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOutlines> bodies) {
   ReducePicture(picture.image, ReductionFor(picture.image.width(), kWidest_px), reduced_);
   encoder_.Encode(reduced_.view(), kJpegQuality, jpeg_);
   DrawnPicture drawn{.camera = picture.camera,
@@ -280,7 +301,7 @@ std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<BodyLine
                      .height_px = picture.image.height(),
                      .capture_ms = static_cast<double>(picture.capture_ns) / kNsPerMs,
                      .silhouette = {},
-                     .body = std::move(body),
+                     .bodies = std::move(bodies),
                      .jpeg = jpeg_};
   if (picture.silhouette) drawn.silhouette = SilhouetteLines(*picture.silhouette, 1);
   return PictureBytes(drawn);

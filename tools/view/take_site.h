@@ -9,14 +9,16 @@
 
 #include "drivers/pixels/jpeg_encoder.h"
 #include "tools/report/body_outline.h"
-#include "tools/report/evaluation.h"
+#include "tools/report/people_evaluation.h"
 #include "tools/view/take_pictures.h"
 #include "tools/view/view_server.h"
+#include "tools/view/wire.h"
 
 namespace mocap {
 
 /// Answers /take.json, /poses.bin and /pictures.bin. Frames are counted in the times of the first
-/// result, or of the camera with most frames. Thread-safe.
+/// result; where that is of several people, or there is none, of the camera with most frames.
+/// Thread-safe.
 class TakeSite {
  public:
   /// @param results  folders of mocap track or logs; a folder of several people counts as one
@@ -32,17 +34,24 @@ class TakeSite {
   struct ShownResult {
     std::string name;
     Evaluation evaluation;
-    std::vector<int> rows;  ///< Of each frame; -1: it has none.
+    std::size_t group = 0;       ///< Those of one group were tracked together.
+    std::string person = {};     ///< Who it is of several; empty: somebody alone.
+    int true_person = -1;        ///< Whom he was most often; -1: that is not known.
+    std::vector<int> rows = {};  ///< Of each frame; -1: it has none.
   };
 
+  void Add(const std::filesystem::path& result);
+  void ChooseTimes();
   std::string TakeJson() const;
   /// The result that is asked for; null where the take has none.
   const ShownResult* ResultOf(const ViewRequest& request) const;
   std::string Poses(const ViewRequest& request) const;
   std::string Pictures(const ViewRequest& request);
-  std::string DrawnOver(const TakePicture& picture, std::vector<BodyLine> body);
+  std::vector<DrawnOutlines> BodiesOf(const ShownResult& result, std::size_t frame,
+                                      const TakePicture& picture) const;
+  std::string DrawnOver(const TakePicture& picture, std::vector<DrawnOutlines> bodies);
   std::string PoseOf(const ShownResult& result, std::size_t frame) const;
-  std::string TruthOf(std::size_t frame) const;
+  std::string TruthOf(const TruePerson& person, std::size_t frame) const;
   const PoseRow* RowOf(const ShownResult& result, std::size_t frame) const;
 
   std::mutex mutex_;  ///< Of reading and coding pictures.
@@ -50,9 +59,10 @@ class TakeSite {
   JpegEncoder encoder_;
   Image<Bgr> reduced_;
   std::vector<std::uint8_t> jpeg_;
+  std::vector<TruePerson> truth_;
   std::vector<ShownResult> results_;
+  std::size_t groups_ = 0;
   std::vector<std::int64_t> times_ns_;
-  std::optional<TakeTruth> truth_;
 };
 
 }  // namespace mocap

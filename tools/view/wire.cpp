@@ -109,6 +109,7 @@ std::string PoseBytes(const DrawnPose& pose) {
     writer.AddFloats(capsule.b_W);
     writer.Add(static_cast<float>(capsule.radius_b_mm));
   }
+  writer.Add(static_cast<std::uint32_t>(pose.id));
   return writer.Take();
 }
 
@@ -144,10 +145,13 @@ std::string VoxelBytes(const voxels_t& voxels, int person) {
 }
 
 std::string PictureBytes(const DrawnPicture& picture) {
+  constexpr int kSides = 4;
   Writer silhouette, body;
   for (const std::vector<Vector2>& line : picture.silhouette) AddLine(0, line, silhouette);
-  for (const BodyLine& line : picture.body) {
-    AddLine(static_cast<int>(line.side), line.pixels, body);
+  for (const DrawnOutlines& one : picture.bodies) {
+    for (const BodyLine& line : one.lines) {
+      AddLine(static_cast<int>(line.side) + kSides * (one.person + 1), line.pixels, body);
+    }
   }
   const std::string lines = silhouette.Take(), body_lines = body.Take();
   Writer writer;

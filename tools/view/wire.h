@@ -16,16 +16,17 @@ namespace mocap {
 
 /// A pose as it is drawn.
 struct DrawnPose {
-  int person = 0;
+  int person = 0;  ///< Whose colour it has.
+  int id = 0;      ///< As person_t has it; 0: not known.
   PoseRow row;
   double publish_ms = 0;  ///< Since the Unix epoch.
   std::uint32_t cameras_used = 0;
   std::vector<PosedCapsule> capsules;
 };
 
-/// 320 bytes and 32 a capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
+/// 324 bytes and 32 a capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
 /// capture [ms], publish [ms], frame; f32 residual [mm]; u32 voxels; f32 points[23][3] [mm]; u32
-/// cameras used; f32 capsules[n][8]: a, its radius, b, its radius [mm].
+/// cameras used; f32 capsules[n][8]: a, its radius, b, its radius [mm]; u32 id.
 std::string PoseBytes(const DrawnPose& pose);
 
 /// 32 bytes and 8 a voxel: u8 kind = 2, person; u16 0; u32 count; f64 capture [ms]; f32 voxel [mm],
@@ -33,20 +34,28 @@ std::string PoseBytes(const DrawnPose& pose);
 /// that cannot be.
 std::string VoxelBytes(const voxels_t& voxels, int person);
 
+/// Outlines of somebody's body in a picture.
+struct DrawnOutlines {
+  int person = kAlone;  ///< Whose colour they have; kAlone: those of the sides.
+  std::vector<BodyLine> lines;
+
+  static constexpr int kAlone = -1;
+};
+
 /// A picture with what is drawn over it.
 struct DrawnPicture {
   int camera = 0;  ///< Its place in the studio.
   int width_px = 0, height_px = 0;
   double capture_ms = 0;
   std::vector<std::vector<Vector2>> silhouette;  ///< Closed lines [px].
-  std::vector<BodyLine> body;
+  std::vector<DrawnOutlines> bodies;
   std::span<const std::uint8_t> jpeg;
 };
 
 /// 32 bytes and what follows: u8 kind = 3, camera; u16 width, height, 0; f64 capture [ms]; u32
-/// floats of the silhouette's lines, floats of the body's, bytes of the JPEG, 0; then those, and
-/// zeros up to a multiple of 8. A line is f32 count, f32 side (0 middle, 1 left, 2 right), and
-/// count × f32 x, y.
+/// floats of the silhouette's lines, floats of the bodies', bytes of the JPEG, 0; then those, and
+/// zeros up to a multiple of 8. A line is f32 count, f32 side (0 middle, 1 left, 2 right) + 4 ×
+/// (person + 1), and count × f32 x, y.
 std::string PictureBytes(const DrawnPicture& picture);
 
 }  // namespace mocap

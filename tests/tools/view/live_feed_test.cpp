@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "config/load_config.h"
 #include "core/body/body_sizes.h"
@@ -75,6 +78,47 @@ class LiveFeedTest : public ::testing::Test {
     return pose;
   }
 
+  /// Tells of people with these numbers, who stand 900 mm apart.
+  people_t People(const std::vector<int>& ids) {
+    const pose_t pose = Pose();
+    people_t set{};
+    set.utime = pose.utime;
+    set.publish_utime = 7000;
+    set.num_people = static_cast<std::int32_t>(ids.size());
+    for (const int id : ids) {
+      person_t& person = set.people.emplace_back();
+      person.id = id;
+      person.state = pose.state;
+      person.num_joints = pose.num_joints;
+      person.joint_rad = pose.joint_rad;
+      std::ranges::copy(pose.torso_mm, person.torso_mm);
+      person.torso_mm[0] += 900 * static_cast<double>(set.people.size() - 1);
+      std::memcpy(person.point_mm, pose.point_mm, sizeof(person.point_mm));
+    }
+    return set;
+  }
+  person_body_t BodyOf(int id) {
+    person_body_t body{};
+    body.id = id;
+    FillBody(body_, 0, body.body);
+    return body;
+  }
+  /// What lies at an offset of the poses on the board.
+  template <typename T>
+  T PosesAt(std::size_t offset) {
+    T value;
+    std::memcpy(&value, board_.at(LiveFeed::kPoses).data() + offset, sizeof(T));
+    return value;
+  }
+  /// The colour of each person who is told of, by number.
+  std::map<int, int> Colors() {
+    std::map<int, int> colors;
+    for (const auto& person : Json(LiveFeed::kPeople)["people"]) {
+      colors[person["id"]] = person["color"];
+    }
+    return colors;
+  }
+
   lcm::LCM lcm_{"memq://"};
   std::map<std::size_t, std::string> board_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1700)};
@@ -103,7 +147,7 @@ TEST_F(LiveFeedTest, APoseHasTheCapsulesOfTheTracker) {
   Publish("left.MOCAP_BODY", body);
   EXPECT_EQ(Json(LiveFeed::kBody)["capsule_parts"].size(), body_.shape().size());
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320 + 32 * body_.shape().size());
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324 + 32 * body_.shape().size());
 }
 
 TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
@@ -112,7 +156,7 @@ TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
   body.model = "/etc/passwd";
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320u + 32 * 13);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324u + 32 * 13);
 }
 
 TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
@@ -121,14 +165,97 @@ TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
   body.size_mm[0] = -1;
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPose).size(), 320u);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324u);
 }
 
 TEST_F(LiveFeedTest, APoseThatIsNoNumberIsNotPassedOn) {
   pose_t pose = Pose();
   pose.point_mm[4][1] = std::numeric_limits<double>::quiet_NaN();
   Publish("left.MOCAP_POSE", pose);
-  EXPECT_FALSE(board_.contains(LiveFeed::kPose));
+  EXPECT_FALSE(board_.contains(LiveFeed::kPoses));
+}
+
+TEST_F(LiveFeedTest, EverybodyOfASetGoesOutAtOnceInColoursOfTheirOwn) {
+  Publish("left.MOCAP_PEOPLE", People({4, 9}));
+  Publish("left.MOCAP_BODIES", BodyOf(9));
+  Publish("left.MOCAP_PEOPLE", People({4, 9}));
+  const std::size_t second = 324;
+  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), second + 324 + 32 * body_.shape().size());
+  EXPECT_EQ(PosesAt<std::uint8_t>(1), 0);
+  EXPECT_EQ(PosesAt<std::uint32_t>(320), 4u);
+  EXPECT_EQ(PosesAt<std::uint8_t>(second + 1), 1);
+  EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 4), 9u);
+  EXPECT_NEAR(PosesAt<float>(second + 320), 900, 500) << "the flesh is where the person is";
+}
+
+TEST_F(LiveFeedTest, WhoeverStaysKeepsTheColour) {
+  Publish("left.MOCAP_PEOPLE", People({1, 2}));
+  Publish("left.MOCAP_PEOPLE", People({2}));
+  EXPECT_EQ(Colors(), (std::map<int, int>{{2, 1}}));
+  Publish("left.MOCAP_PEOPLE", People({2, 3, 4}));
+  EXPECT_EQ(Colors(), (std::map<int, int>{{2, 1}, {3, 0}, {4, 2}}));
+}
+
+TEST_F(LiveFeedTest, WhetherSomebodyHasComeIsKnownOfThoseWhoCameLater) {
+  Publish("left.MOCAP_PEOPLE", People({1}));
+  Publish("left.MOCAP_PEOPLE", People({1, 2}));
+  const nlohmann::json people = Json(LiveFeed::kPeople)["people"];
+  EXPECT_EQ(people[0]["has_come"], false);
+  EXPECT_EQ(people[1]["has_come"], true);
+  EXPECT_EQ(people[1]["since_ms"], 7.0);
+}
+
+TEST_F(LiveFeedTest, ADaemonThatWasStartedAnewHasOtherPeople) {
+  Publish("left.MOCAP_PEOPLE", People({}));
+  Publish("left.MOCAP_PEOPLE", People({1}));
+  EXPECT_EQ(Json(LiveFeed::kPeople)["people"][0]["has_come"], true);
+  people_t later = People({1});
+  later.publish_utime += 60'000'000;
+  Publish("left.MOCAP_PEOPLE", later);
+  EXPECT_EQ(Json(LiveFeed::kPeople)["people"][0]["has_come"], false);
+  EXPECT_EQ(Json(LiveFeed::kPeople)["people"][0]["since_ms"], 60007.0);
+}
+
+TEST_F(LiveFeedTest, NobodyIsDrawnTwice) {
+  Publish("left.MOCAP_PEOPLE", People({1, 2}));
+  const std::string people = board_.at(LiveFeed::kPoses);
+  Publish("left.MOCAP_POSE", Pose());
+  EXPECT_EQ(board_.at(LiveFeed::kPoses), people);
+}
+
+TEST_F(LiveFeedTest, WhoHasNoNumberYetIsDrawnFromThePose) {
+  Publish("left.MOCAP_PEOPLE", People({1}));
+  Publish("left.MOCAP_POSE", Pose());
+  Publish("left.MOCAP_PEOPLE", People({}));
+  EXPECT_EQ(PosesAt<std::uint32_t>(320), 0u);
+  EXPECT_TRUE(Colors().empty());
+}
+
+TEST_F(LiveFeedTest, ACrowdThatNoDaemonFollowsIsCutShort) {
+  std::vector<int> ids(5000);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int>(i);
+  Publish("left.MOCAP_PEOPLE", People(ids));
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 8u * 324);
+  EXPECT_EQ(Colors().size(), 8u);
+}
+
+TEST_F(LiveFeedTest, APictureHasTheBodyOfEachInHisColour) {
+  const auto first_line = [&] {
+    const std::string& bytes = board_.at(LiveFeed::kPictures);
+    std::uint32_t silhouette;
+    std::memcpy(&silhouette, bytes.data() + 16, sizeof(silhouette));
+    float kind;
+    std::memcpy(&kind, bytes.data() + 32 + 4 * silhouette + 4, sizeof(kind));
+    return static_cast<int>(kind);
+  };
+  Publish("left.MOCAP_STUDIO", Studio());
+  Publish("left.MOCAP_PEOPLE", People({7, 8}));
+  Publish("left.MOCAP_BODIES", BodyOf(8));
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_EQ(first_line() / 4, 2) << "the second colour";
+  Publish("left.MOCAP_PEOPLE", People({8}));
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_EQ(first_line() / 4, 0) << "those of the sides";
 }
 
 TEST_F(LiveFeedTest, APictureOfAKnownCameraIsPassedOnWithItsLines) {

@@ -73,11 +73,11 @@ TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
   const std::string poses =
       Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
   // A result without all sizes has no capsules.
-  ASSERT_EQ(poses.size(), 3u * 320);
-  EXPECT_EQ(At<double>(poses, 320 + 24), 5);
+  ASSERT_EQ(poses.size(), 3u * 324);
+  EXPECT_EQ(At<double>(poses, 324 + 24), 5);
   const std::string truth =
-      Get(site, "/poses.bin", {{"result", "truth"}, {"from", "4"}, {"count", "1"}});
-  ASSERT_EQ(truth.size(), 320u);
+      Get(site, "/poses.bin", {{"truth", "0"}, {"from", "4"}, {"count", "1"}});
+  ASSERT_EQ(truth.size(), 324u);
   const std::size_t head_z = 40 + 1 * 12 + 8;
   EXPECT_NEAR(At<float>(poses, head_z) - At<float>(truth, head_z), 12, 1e-3);
 }
@@ -144,6 +144,44 @@ TEST_F(TakeSiteTest, PeopleOfOneResultCountOneByOne) {
   const auto json = nlohmann::json::parse(Get(site, "/take.json"));
   ASSERT_EQ(json["results"].size(), 2u);
   EXPECT_EQ(json["results"][1]["name"], "many/person-2");
+  EXPECT_EQ(json["results"][1]["person"], "person-2");
+  EXPECT_EQ(json["results"][0]["group"], json["results"][1]["group"]);
+}
+
+TEST_F(TakeSiteTest, SeveralPeopleAreShownInTheTimesOfTheTake) {
+  Result late = ReadResult(result_);
+  late.poses.erase(late.poses.begin(), late.poses.begin() + 7);
+  WritePeople(folder_.path() / "many", {{4, late}});
+  TakeSite site(take_, {folder_.path() / "many"});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  EXPECT_EQ(json["times_ms"].size(), static_cast<std::size_t>(kFrames));
+  EXPECT_TRUE(json["results"][0]["states"][6].is_null()) << "he was not there yet";
+  EXPECT_EQ(json["results"][0]["states"][7], 2);
+}
+
+TEST_F(TakeSiteTest, EachTruePersonIsGivenAndWhoWasFollowedByWhom) {
+  for (const char* file : {"truth.csv", "truth.toml"}) {
+    for (const char* person : {"person-1", "person-2"}) {
+      std::filesystem::create_directories(take_ / person);
+      std::filesystem::copy(take_ / file, take_ / person / file);
+    }
+    std::filesystem::remove(take_ / file);
+  }
+  WritePeople(folder_.path() / "many", {{4, ReadResult(result_)}});
+  TakeSite site(take_, {folder_.path() / "many"});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  EXPECT_EQ(json["truth"]["people"], (nlohmann::json{"person-1", "person-2"}));
+  EXPECT_EQ(json["results"][0]["true_person"], 0);
+  EXPECT_NEAR(json["results"][0]["error_mm"][5], 12, 1e-6);
+  EXPECT_EQ(Get(site, "/poses.bin", {{"truth", "1"}, {"from", "4"}, {"count", "2"}}).size(),
+            2u * 324);
+  EXPECT_EQ(site.Answer({.method = "GET",
+                         .path = "/poses.bin",
+                         .query = {{"truth", "2"}, {"from", "0"}, {"count", "1"}},
+                         .authorization = {},
+                         .body = {}})
+                .status,
+            400);
 }
 
 TEST_F(TakeSiteTest, ATakeThatIsNotThereIsRefused) {

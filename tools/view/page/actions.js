@@ -50,6 +50,19 @@ export class Actions {
     byId('record-stop').hidden = state !== 'running';
   }
 
+  /** Offers the choice whose sizes are kept, where several people are followed. */
+  setPeople(rows) {
+    const list = byId('subject-person');
+    list.hidden = rows.length < 2;
+    const said = rows.map(({id, label}) => `${id} ${label}`).join('\n');
+    if (said === this.saidPeople) return;
+    this.saidPeople = said;
+    const chosen = list.value;
+    list.replaceChildren(...rows.map(
+        ({id, label}) =>
+            make('option', {text: label, value: id, selected: String(id) === chosen})));
+  }
+
   /** Asks whether the token holds; wanted after each connection. */
   async check() {
     this.isAllowed = false;
@@ -84,7 +97,9 @@ export class Actions {
     onSubmit('record-form', () => this.withName('record start', byId('record-name')));
     onClick('record-stop', () => this.ask('record stop'));
     onSubmit('save-form', async () => {
-      await this.withName('subject save', byId('subject-name'));
+      const person = byId('subject-person');
+      await this.withName(
+          'subject save', byId('subject-name'), person.hidden ? '' : ` ${person.value}`);
       this.list();
     });
     onSubmit('load-form', () => this.withName('subject load', byId('subject-list')));
@@ -94,9 +109,9 @@ export class Actions {
     byId('subject-list').addEventListener('pointerdown', () => this.list());
   }
 
-  withName(request, field) {
+  withName(request, field, more = '') {
     const name = field.value.trim();
-    if (NAME.test(name)) return this.ask(`${request} ${name}`);
+    if (NAME.test(name)) return this.ask(`${request} ${name}${more}`);
     field.focus();
     return this.answer('wrong', 'A name has letters, digits, ".", "_" and "-", at most 64.');
   }

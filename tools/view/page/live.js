@@ -8,7 +8,7 @@ import {OLD_MS, People} from './people.js';
 import {Socket} from './socket.js';
 import {StatePanel, verdictOf} from './state_panel.js';
 import {ageText, fixed} from './text.js';
-import {decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
+import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
 
 const OLD_PICTURE_MS = 2000;
 const TELL_MS = 250;  // Words and numbers change four times a second at most.
@@ -51,6 +51,7 @@ export class Live {
     const take = {
       studio: () => this.takeStudio(message),
       body: () => this.takeBody(message),
+      people: () => this.people.takePeople(message),
       status: () => this.takeStatus(message),
       service: () => this.takeService(message),
       notice: () => this.takeNotice(message),
@@ -99,7 +100,7 @@ export class Live {
     try {
       const kind = kindOf(buffer);
       if (kind === POSE)
-        this.takePose(decodePose(buffer));
+        this.takePoses(decodeAll(buffer, decodePose));
       else if (kind === VOXELS)
         this.people.takeVoxels(decodeVoxels(buffer));
       else if (kind === PICTURE)
@@ -110,9 +111,9 @@ export class Live {
     }
   }
 
-  takePose(pose) {
+  takePoses(poses) {
     this.poseMs = performance.now();
-    this.people.takePose(pose, this.poseMs);
+    this.people.takePoses(poses, this.poseMs);
   }
 
   takePicture(picture) {
@@ -147,6 +148,9 @@ export class Live {
     }));
     this.panel.setState(this.state() || (this.poseMs === null ? 'waiting' : 'not known'));
     this.panel.setFit(this.people.newestBody());
+    const people = this.people.rows(nowMs);
+    this.panel.setPeople(people);
+    this.actions.setPeople(people);
     setText(byId('page-fps'), fixed(fps, 0));
     setText(byId('connection'), this.socket.isOpen ? '' : 'not connected');
     this.tellStatusAge(since(this.statusMs));
@@ -189,7 +193,12 @@ export class Live {
   }
 
   poseOf(frame) {
-    return this.people.histories.get(0)?.ofFrame(frame) ?? null;
+    const [first] = this.people.histories.values();
+    return first?.ofFrame(frame) ?? null;
+  }
+
+  shownPeople() {
+    return this.people.rows(performance.now());
   }
 
   shownFrame() {

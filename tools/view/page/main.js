@@ -74,6 +74,7 @@ function expose(mode, show, tools, counter) {
     state: () => show.state(),          // 'searching', 'acquiring', 'tracking', 'lost', ''
     shownPose: () => show.shownPose(),  // {timeMs, frame, points: Float32Array(69)} in the scene
     poseOf: (frame) => show.poseOf(frame),  // the same as received, or null
+    people: () => show.shownPeople(),       // who is followed, as the panel tells it
     shownFrame: () => show.shownFrame(),    // replay: index of the frame; live: its number, or null
     pictureFrames: () => show.pictureFrames(),       // camera → capture time [ms] of its picture
     cameraStates: () => show.cameraStates(),         // camera → what is said of it

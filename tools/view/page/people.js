@@ -6,7 +6,6 @@ import {figureColor} from './theme.js';
 
 export const OLD_MS = 250;   // An older pose is never shown without saying so.
 const HIDE_BODY_MS = 10000;  // What is older helps nobody.
-const MOST_PEOPLE = 8;
 // By how much a state says: with several people the best one is the studio's.
 const RANK = ['searching', 'lost', 'acquiring', 'tracking'];
 
@@ -15,24 +14,47 @@ export class People {
   constructor(scene) {
     this.scene = scene;
     this.clock = new LiveClock();
-    this.histories = new Map();  // person → PoseHistory
+    this.histories = new Map();  // colour → PoseHistory; whoever is followed longest comes first
+    this.told = new Map();       // id → what mocap view says of the person
     this.body = null;
     this.shown = null;  // the first person's pose that the scene shows
+    this.hull = scene?.figure('hull', {color: 'stick'});
+    this.hull?.show(null);
   }
 
-  /** Takes a decoded pose, just arrived. */
-  takePose(pose, nowMs) {
-    const wasPutBack = this.clock.arrived(nowMs, pose.timeMs, pose.publishMs);
-    if (wasPutBack) [...this.histories.keys()].forEach((one) => this.forget(one));
-    if (!this.histories.has(pose.person)) {
-      if (this.histories.size >= MOST_PEOPLE) return;
-      this.histories.set(pose.person, new PoseHistory());
+  /** Takes the decoded poses of a set, just arrived: whoever is not among them has left. */
+  takePoses(poses, nowMs) {
+    if (poses.length === 0) return;
+    // What was seen before the clock was put back lies in its future.
+    const wasPutBack = this.clock.arrived(nowMs, poses[0].timeMs, poses[0].publishMs);
+    if (wasPutBack) this.forgetAll();
+    const histories = new Map(poses.map((pose) => [pose.person, this.historyWith(pose)]));
+    for (const person of this.histories.keys()) {
+      if (!histories.has(person)) this.scene?.removeFigure(person);
     }
-    this.histories.get(pose.person).add(pose);
+    this.histories = histories;
+  }
+
+  forgetAll() {
+    for (const person of this.histories.keys()) this.scene?.removeFigure(person);
+    this.histories = new Map();
+  }
+
+  historyWith(pose) {
+    const known = this.histories.get(pose.person);
+    // Whoever is being measured has no number yet. A colour may go to somebody else.
+    const isSame = known && [pose.id, 0].includes(known.newest.id);
+    const history = isSame ? known : new PoseHistory();
+    history.add(pose);
+    return history;
+  }
+
+  takePeople({people}) {
+    this.told = new Map(people.map((person) => [person.id, person]));
   }
 
   takeVoxels(voxels) {
-    if (this.histories.has(voxels.person)) this.figure(voxels.person)?.voxels.take(voxels);
+    this.hull?.voxels.take(voxels);
   }
 
   takeBody(body) {
@@ -49,28 +71,17 @@ export class People {
   /** Poses everybody for now. @return the age of the oldest body shown [ms], null if none is. */
   draw(nowMs) {
     const showMs = this.clock.showTime(nowMs);
-    this.forgetWhoLeft();
     this.shown = null;
     let oldest = null;
     for (const [person, history] of this.histories) {
       const ageMs = this.drawPerson(person, history, showMs ?? history.newest.timeMs, nowMs);
       if (ageMs !== null) oldest = Math.max(oldest ?? 0, ageMs);
     }
+    // Voxels of several people go with nobody.
+    const [first, second] = this.histories.values();
+    const sole = second ? null : first;
+    this.hull?.showVoxels(showMs ?? 0, (t) => sole?.at(t) ?? null);
     return oldest;
-  }
-
-  /** Forgets people of whom others' poses have long outlived the last. */
-  forgetWhoLeft() {
-    const newestMs =
-        Math.max(...[...this.histories.values()].map((history) => history.newest.timeMs));
-    for (const [person, history] of this.histories) {
-      if (history.newest.timeMs <= newestMs - HIDE_BODY_MS) this.forget(person);
-    }
-  }
-
-  forget(person) {
-    this.histories.delete(person);
-    this.scene?.removeFigure(person);
   }
 
   drawPerson(person, history, showMs, nowMs) {
@@ -82,12 +93,37 @@ export class People {
     this.shown = this.shown ?? pose;
     const figure = this.figure(person);
     if (figure) {
-      figure.label = this.histories.size > 1 ? `person ${person + 1}` : '';
+      const {id} = history.newest;
+      figure.label = this.histories.size > 1 ? this.labelOf(id) : this.nameOf(id);
       figure.show(pose, {faded: ageMs > OLD_MS});
       figure.showTrails(pose?.timeMs ?? 0, (t) => history.at(t));
-      figure.showVoxels(showMs, (t) => history.at(t));
     }
     return ageMs;
+  }
+
+  nameOf(id) {
+    return this.told.get(id)?.name ?? '';
+  }
+
+  labelOf(id) {
+    return this.nameOf(id) || `person ${id}`;
+  }
+
+  /** @return what the panel says of each, in the order of the set. */
+  rows(nowMs) {
+    const serverNowMs = this.clock.isKnown ? this.clock.serverNow(nowMs) : null;
+    return [...this.histories].map(([person, {newest}]) => {
+      const told = this.told.get(newest.id);
+      return {
+        id: newest.id,
+        color: figureColor(person),
+        label: this.labelOf(newest.id),
+        state: newest.state,
+        residualMm: newest.hasPose ? newest.residualMm : null,
+        followedS: told && serverNowMs !== null ? (serverNowMs - told.since_ms) / 1000 : null,
+        hasCome: told?.has_come ?? false,
+      };
+    });
   }
 
   /** @return how long ago something was captured [ms]; 0 while clocks are not known. */

@@ -2,7 +2,7 @@
 
 import {CAMERA_LOOKS} from './camera_models.js';
 import {fitCanvas, make, setText} from './dom.js';
-import {color, onTheme} from './theme.js';
+import {color, figureColor, onTheme} from './theme.js';
 
 const SIDES = ['side-middle', 'side-left', 'side-right'];
 
@@ -31,7 +31,9 @@ function drawLines(context, picture, width, height) {
   for (const line of picture.silhouette) stroke(line, true, color('silhouette'), 1.3);
   for (const line of picture.body) stroke(line, line.points.length > 4, 'rgba(0, 0, 0, 0.55)', 3.4);
   for (const line of picture.body) {
-    stroke(line, line.points.length > 4, color(SIDES[line.side] ?? SIDES[0]), 1.8);
+    // Of several people, whose body it is counts more than which side.
+    const name = line.person === null ? SIDES[line.side] ?? SIDES[0] : figureColor(line.person);
+    stroke(line, line.points.length > 4, color(name), 1.8);
   }
   context.restore();
 }

@@ -64,13 +64,15 @@ export class Replay {
     this.scene?.cameraModels.setLooks(new Map(Object.entries(this.cameraStates())));
     this.tracks = take.results.map(
         (result, k) => this.makeTrack(
-            k, String(k), result.body,
+            k, `result=${k}`, result.body,
             {color: figureColor(k), ownSticks: take.results.length > 1}));
-    if (take.truth) {
-      this.tracks.push(this.makeTrack(
-          'truth', 'truth', take.results[0]?.body ?? {point_names: [], bones: []},
-          {color: 'truth', onlySticks: true}));
-    }
+    const {body} = take.results[0] ?? {body: {point_names: [], bones: []}};
+    take.truth?.people.forEach((name, i) => {
+      const track =
+          this.makeTrack(`truth ${i}`, `truth=${i}`, body, {color: 'truth', onlySticks: true});
+      this.tracks.push({...track, isTruth: true});
+    });
+    this.setApart(false);
     this.timeline = new TimelineView(take, this.head);
     this.panel = new ResultPanel(take, {
       onShow: (key, isOn) => isOn ? this.hidden.delete(key) : this.hidden.add(key),
@@ -89,8 +91,7 @@ export class Replay {
     const chunks = new Chunks(
         this.take.times_ms.length,
         async (from, count) => decodeAll(
-            await fetchBytes(`/poses.bin?result=${query}&from=${from}&count=${count}`),
-            decodePose));
+            await fetchBytes(`/poses.bin?${query}&from=${from}&count=${count}`), decodePose));
     return {key, figure, chunks};
   }
 
@@ -113,8 +114,8 @@ export class Replay {
     this.take.results.forEach((result, k) => {
       const {figure} = this.tracks[k];
       if (!figure) return;
-      figure.position.set(isApart ? APART_MM * k : 0, 0, 0);
-      figure.label = isApart ? result.name : '';
+      figure.position.set(isApart ? APART_MM * result.group : 0, 0, 0);
+      figure.label = isApart ? result.name : result.person.replace('-', ' ');
     });
   }
 
@@ -173,9 +174,9 @@ export class Replay {
     this.panel.show(frame, this.head.last);
   }
 
-  drawTrack({key, figure, chunks}, pose, timeMs) {
+  drawTrack({key, isTruth, figure, chunks}, pose, timeMs) {
     if (!figure) return;
-    figure.show(this.hidden.has(key) ? null : pose);
+    figure.show(this.hidden.has(isTruth ? 'truth' : key) ? null : pose);
     figure.showTrails(timeMs, (t) => t < this.head.timesMs[0] ? null : this.poseAt({chunks}, t));
   }
 
@@ -189,6 +190,14 @@ export class Replay {
 
   poseOf(frame) {
     return this.tracks?.[0]?.chunks.get(frame) ?? null;
+  }
+
+  shownPeople() {
+    return (this.take?.results ?? []).map((result, k) => ({
+                                            label: result.name,
+                                            color: figureColor(k),
+                                            state: STATES[result.states[this.head.frame]] ?? '',
+                                          }));
   }
 
   shownFrame() {

@@ -24,9 +24,13 @@ export class ResultPanel {
     byId('replay-panel')
         .append(make('h2', {text: 'Results'}), ...this.rows.map((row) => row.element));
     if (take.truth) byId('replay-panel').append(this.makeTruth(onShow));
-    if (take.results.length > 1) byId('replay-panel').append(this.makeApart(onApart));
+    const groups = new Set(take.results.map((result) => result.group)).size;
+    if (groups > 1) byId('replay-panel').append(this.makeApart(onApart));
     this.tellLegend();
-    this.joints = take.results[0]?.joints ?? [];
+    // With several people one is looked at in detail; results of one person are compared.
+    this.compared = take.results.map((_, k) => k);
+    this.hasPeople = take.results.some((result) => result.person !== '');
+    this.joints = take.results.find((result) => result.joints.length > 0)?.joints ?? [];
     if (this.joints.length > 0) this.makeJoints();
     onTheme(() => this.drawJoint());
   }
@@ -43,17 +47,16 @@ export class ResultPanel {
   makeRow(result, k, onShow, onOver) {
     const shown = make('input', {type: 'checkbox', checked: ''});
     shown.addEventListener('change', () => onShow(k, shown.checked));
-    const over = make('input', {type: 'radio', name: 'over', checked: k === 0});
-    over.addEventListener('change', () => onOver(k));
     const row = {state: make('dd'), error: make('dd'), residual: make('dd'), mean: make('dd')};
     const hasError = result.error_mm.length > 0;
     row.element = make(
         'div', {class: 'result'},
         make(
             'label', {class: 'result-name'}, shown, swatch(k), make('strong', {text: result.name})),
-        make('label', {class: 'over'}, over, 'over the pictures'),
+        ...this.makeOver(result, k, onOver),
         make(
             'dl', {class: 'pairs'}, make('dt', {text: 'State'}), row.state,
+            ...this.tellTruth(result),
             ...hasError ?
                 [
                   make('dt', {text: 'Error now'}), row.error, make('dt', {text: 'Mean error'}),
@@ -63,6 +66,25 @@ export class ResultPanel {
             make('dt', {text: 'Residual'}), row.residual));
     setText(row.mean, `${fixed(meanOf(result.error_mm), 1)} mm`);
     return row;
+  }
+
+  /** The choice whose bodies are drawn over pictures: everybody's who was tracked together. */
+  makeOver(result, k, onOver) {
+    const first = this.take.results.findIndex(({group}) => group === result.group);
+    const isOnlyGroup = this.take.results.every(({group}) => group === result.group);
+    if (first !== k || (isOnlyGroup && this.take.results.length > 1)) return [];
+    const over = make('input', {type: 'radio', name: 'over', checked: k === 0});
+    over.addEventListener('change', () => onOver(k));
+    const text = result.person === '' ? 'over the pictures' : 'all of them over the pictures';
+    return [make('label', {class: 'over'}, over, text)];
+  }
+
+  /** Who it truly is, where there are several. */
+  tellTruth(result) {
+    const people = this.take.truth?.people ?? [];
+    if (people.length < 2) return [];
+    const text = people[result.true_person] ?? 'nobody';
+    return [make('dt', {text: 'Truly'}), make('dd', {text})];
   }
 
   makeTruth(onShow) {
@@ -87,32 +109,56 @@ export class ResultPanel {
     this.joint = this.joints[0];
     this.canvas = make('canvas', {id: 'joint-plot', role: 'img'});
     this.jointTitle = make('p', {class: 'plot-legend'});
-    const heads = this.take.results.map(
-        (result, k) => make(
-            'th', {scope: 'col', title: result.name}, swatch(k),
-            make('span', {class: 'unseen', text: result.name})));
+    this.table = make('table', {class: 'joints'});
+    byId('replay-panel')
+        .append(
+            make('h2', {text: 'Error by joint'}), ...this.hasPeople ? [this.makeChoice()] : [],
+            this.jointTitle, this.canvas, this.table);
+    new ResizeObserver(() => this.drawJoint()).observe(this.canvas);
+    this.compare(this.hasPeople ? [0] : this.compared);
+  }
+
+  /** Whose errors are told: one person's, or everybody's. */
+  makeChoice() {
+    const list = make(
+        'select', {id: 'joints-of', 'aria-label': 'Whose errors'},
+        ...this.take.results.map(({name}, k) => make('option', {text: name, value: k})),
+        make('option', {text: 'everybody', value: ''}));
+    list.addEventListener('change', () => {
+      this.compare(list.value === '' ? this.take.results.map((_, k) => k) : [Number(list.value)]);
+    });
+    return list;
+  }
+
+  /** Fills the table of joints with some results, by number. */
+  compare(results) {
+    this.compared = results;
+    const heads = results.map((k) => {
+      const {name} = this.take.results[k];
+      return make(
+          'th', {scope: 'col', title: name}, swatch(k),
+          make('span', {class: 'unseen', text: name}));
+    });
     const body = make('tbody');
     this.buttons = this.joints.map((joint) => {
       const button = make('button', {type: 'button', class: 'joint', text: partText(joint)});
       button.addEventListener('click', () => this.choose(joint));
-      const means = this.take.results.map((result) => {
-        const values = result.joint_error_mm[result.joints.indexOf(joint)] ?? [];
-        return make('td', {text: fixed(meanOf(values), 1)});
-      });
+      const means =
+          results.map((k) => make('td', {text: fixed(meanOf(this.jointErrors(k, joint)), 1)}));
       body.append(make('tr', {}, make('th', {scope: 'row'}, button), ...means));
       return button;
     });
-    byId('replay-panel')
-        .append(
-            make('h2', {text: 'Error by joint'}), this.jointTitle, this.canvas,
-            make(
-                'table', {class: 'joints'},
-                make(
-                    'thead', {},
-                    make('tr', {}, make('th', {scope: 'col', text: 'Mean error [mm]'}), ...heads)),
-                body));
-    new ResizeObserver(() => this.drawJoint()).observe(this.canvas);
+    this.table.replaceChildren(
+        make(
+            'thead', {},
+            make('tr', {}, make('th', {scope: 'col', text: 'Mean error [mm]'}), ...heads)),
+        body);
     this.choose(this.joint);
+  }
+
+  jointErrors(k, joint) {
+    const result = this.take.results[k];
+    return result.joint_error_mm[result.joints.indexOf(joint)] ?? [];
   }
 
   choose(joint) {
@@ -127,8 +173,7 @@ export class ResultPanel {
   drawJoint() {
     if (!this.canvas || this.canvas.clientWidth === 0) return;
     const {context, width, height} = beginPlot(this.canvas);
-    const curves = this.take.results.map(
-        (result) => result.joint_error_mm[result.joints.indexOf(this.joint)] ?? []);
+    const curves = this.compared.map((k) => this.jointErrors(k, this.joint));
     const top = niceTop(Math.max(1, ...curves.map((values) => quantileOf(values, 0.99) ?? 0)));
     const y = (value) => height - 3 - (height - 12) * Math.min(1.04, value / top);
     for (const share of [0, 0.5, 1]) {
@@ -136,8 +181,9 @@ export class ResultPanel {
       drawLabel(context, `${share * top}`, 26, y(share * top), color('muted'), 'right');
     }
     curves.forEach(
-        (values, k) => drawEnvelope(
-            context, values, {left: 32, width: width - 33, y, color: color(figureColor(k))}));
+        (values, i) => drawEnvelope(
+            context, values,
+            {left: 32, width: width - 33, y, color: color(figureColor(this.compared[i]))}));
     if (this.progress === undefined) return;
     context.fillStyle = color('text');
     context.fillRect(32 + (width - 33) * this.progress - 0.75, 0, 1.5, height);

@@ -37,6 +37,23 @@ export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS,
   return {tone: 'ok', text: 'all is good', lines: []};
 }
 
+function makePersonRow() {
+  const who = make(
+      'th', {scope: 'row'}, make('span', {class: 'swatch', 'aria-hidden': 'true'}), make('span'));
+  return make('tr', {}, who, make('td'), make('td'), make('td'));
+}
+
+function tellPerson(row, {color, label, state, residualMm, followedS, hasCome}) {
+  const [who, stateCell, fit, since] = row.children;
+  const [swatch, name] = who.children;
+  swatch.className = `swatch ${color}`;
+  setText(name, label);
+  setText(stateCell, state);
+  setText(fit, fixed(residualMm ?? NaN, 1));
+  const age = ageText(followedS);
+  setText(since, hasCome || followedS === null ? age : `${age} or more`);
+}
+
 export class StatePanel {
   constructor() {
     this.said = '';
@@ -92,6 +109,16 @@ export class StatePanel {
   setFit(pose) {
     setText(byId('fit'), pose ? fixed(pose.residualMm, 1) : '–');
     setText(byId('voxel-count'), pose ? pose.voxels : '–');
+  }
+
+  /** Tells of each of several people; of one the rest of the panel does. */
+  setPeople(rows) {
+    byId('people').hidden = rows.length < 2;
+    setText(byId('sizes-of'), rows.length < 2 ? 'Subject' : rows[0].label);
+    const list = byId('people-list');
+    while (list.children.length > rows.length) list.lastChild.remove();
+    while (list.children.length < rows.length) list.append(makePersonRow());
+    rows.forEach((row, i) => tellPerson(list.children[i], row));
   }
 
   setService(service, serverNowS) {

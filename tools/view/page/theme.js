@@ -62,5 +62,5 @@ export function rgb(name) {
 
 /** @return the colour of a person or a result by its place in the list. */
 export function figureColor(index) {
-  return `figure-${index % 6}`;
+  return `figure-${index % 8}`;
 }

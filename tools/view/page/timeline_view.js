@@ -64,9 +64,10 @@ export class TimelineView {
     this.head = head;
     this.canvas = byId('track');
     this.still = null;
-    this.curves = take.results.map(
-        ({error_mm: error, residual_mm: residual}) => error.length > 0 ? error : residual);
+    // Somebody who is nobody has no error.
     this.hasTruth = take.results.some((result) => result.error_mm.length > 0);
+    this.curves = take.results.map(
+        ({error_mm: error, residual_mm: residual}) => this.hasTruth ? error : residual);
     const tops = this.curves.map((values) => quantileOf(values, 0.99) ?? 0);
     this.top = niceTop(Math.max(1, ...tops));
     const bands = take.results.length * (BAND + BAND_GAP);
@@ -129,6 +130,8 @@ export class TimelineView {
       context.fillStyle = color(figureColor(k));
       context.fillRect(LEFT - 14, y, 8, BAND);
       for (const {value, from, to} of runsOf(result.states)) {
+        // Where a person is not known of there is nothing.
+        if (value === null) continue;
         drawRun(context, STATES[value], this.x(from), y, this.x(to) - this.x(from));
       }
     });

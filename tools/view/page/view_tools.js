@@ -45,7 +45,7 @@ export class ViewTools {
       this.seeThrough(null);
       this.scene?.orbit.reset();
     });
-    bindKeys(['f'], ['F'], 'look at the person', () => this.lookAtPerson());
+    bindKeys(['f'], ['F'], 'look at who is there', () => this.lookAtPeople());
   }
 
   toggleLayer(layer) {
@@ -72,12 +72,21 @@ export class ViewTools {
     byId('stage').classList.toggle('through', next !== null);
   }
 
-  lookAtPerson() {
-    const shown = [...this.scene?.figures.values() ?? []].find((figure) => figure.visible);
-    if (!shown) return;
+  /** Looks at whoever is shown; at several, so that all are seen. */
+  lookAtPeople() {
+    const middles = [...this.scene?.figures.values() ?? []]
+                        .filter((figure) => figure.visible)
+                        .map(
+                            ({shown, position}) => [0, 1, 2].map(
+                                (axis) => shown.points[axis] + position.getComponent(axis)));
+    if (middles.length === 0) return;
     this.seeThrough(null);
-    this.scene.orbit.target = [...shown.shown.points.slice(0, 3)];
-    this.scene.orbit.zoom(2800 / this.scene.orbit.distance);
+    const along = (axis, pick) => pick(...middles.map((middle) => middle[axis]));
+    const [low, high] =
+        [Math.min, Math.max].map((pick) => [0, 1, 2].map((axis) => along(axis, pick)));
+    this.scene.orbit.target = low.map((value, axis) => (value + high[axis]) / 2);
+    const apartMm = Math.hypot(...low.map((value, axis) => high[axis] - value));
+    this.scene.orbit.zoom((2800 + 1.2 * apartMm) / this.scene.orbit.distance);
   }
 
   /** @return the colour in which a camera stands in the scene. */

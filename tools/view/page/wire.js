@@ -12,6 +12,8 @@ const CAPSULE_FLOATS = 8;
 const VOXELS_HEADER_BYTES = 32;
 const PICTURE_HEADER_BYTES = 32;
 const POINT_COUNT = 23;
+const ID_BYTES = 4;
+const LINE_SIDES = 4;
 
 function require(buffer, end) {
   if (end > buffer.byteLength) {
@@ -33,10 +35,12 @@ export function decodePose(buffer, begin = 0) {
   require(buffer, begin + POSE_HEADER_BYTES);
   const view = new DataView(buffer, begin);
   const capsuleCount = view.getUint16(6, true);
-  const end = begin + POSE_HEADER_BYTES + 4 * CAPSULE_FLOATS * capsuleCount;
+  const idAt = POSE_HEADER_BYTES + 4 * CAPSULE_FLOATS * capsuleCount;
+  const end = begin + idAt + ID_BYTES;
   require(buffer, end);
   return {
     person: view.getUint8(1),
+    id: view.getUint32(idAt, true),
     state: STATES[view.getUint8(2)] ?? 'searching',
     hasPose: view.getUint8(3) !== 0,
     timeMs: view.getFloat64(8, true),
@@ -69,14 +73,19 @@ export function decodeVoxels(buffer, begin = 0) {
   };
 }
 
-/** Splits `{n, class, x0, y0, …}` sequences into lines; what is cut off is left out. */
+/**
+ * Splits `{n, class, x0, y0, …}` sequences into lines; what is cut off is left out. A line's
+ * person is null where somebody is alone.
+ */
 export function splitLines(values) {
   const lines = [];
   for (let at = 0; at + 2 <= values.length;) {
     const count = values[at];
     const end = at + 2 + 2 * count;
     if (!(count >= 1) || end > values.length) break;
-    lines.push({side: values[at + 1], points: values.subarray(at + 2, end)});
+    const kind = values[at + 1];
+    const person = kind < LINE_SIDES ? null : Math.floor(kind / LINE_SIDES) - 1;
+    lines.push({side: kind % LINE_SIDES, person, points: values.subarray(at + 2, end)});
     at = end;
   }
   return lines;

@@ -3,8 +3,8 @@ import test from 'node:test';
 
 import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, splitLines} from '../../../../tools/view/page/wire.js';
 
-function poseBytes({person = 0, capsules = 2, frame = 7} = {}) {
-  const buffer = new ArrayBuffer(320 + 32 * capsules);
+function poseBytes({person = 0, id = 0, capsules = 2, frame = 7} = {}) {
+  const buffer = new ArrayBuffer(324 + 32 * capsules);
   const view = new DataView(buffer);
   [1, person, 2, 1].forEach((value, i) => view.setUint8(i, value));
   view.setUint16(4, 23, true);
@@ -16,6 +16,7 @@ function poseBytes({person = 0, capsules = 2, frame = 7} = {}) {
   for (let i = 0; i < 69; ++i) view.setFloat32(40 + 4 * i, i, true);
   view.setUint32(316, 0b101101, true);
   for (let i = 0; i < 8 * capsules; ++i) view.setFloat32(320 + 4 * i, 100 + i, true);
+  view.setUint32(320 + 32 * capsules, id, true);
   return buffer;
 }
 
@@ -41,7 +42,9 @@ function joined(...buffers) {
 }
 
 test('a pose is read field by field', () => {
-  const pose = decodePose(poseBytes());
+  const pose = decodePose(poseBytes({person: 3, id: 300}));
+  assert.equal(pose.person, 3);
+  assert.equal(pose.id, 300);
   assert.equal(pose.state, 'tracking');
   assert.equal(pose.hasPose, true);
   assert.equal(pose.timeMs, 1.7e12 + 0.25);
@@ -106,6 +109,12 @@ test('pictures that stand one after the other are found behind their padding', (
   assert.equal(first.body[0].side, 1);
   assert.deepEqual([...first.jpeg], [1, 2, 3]);
   assert.equal(second.camera, 5);
+});
+
+test('a line tells a side, and whose it is of several people', () => {
+  const [alone, left] = splitLines(new Float32Array([1, 2, 0, 0, 1, 4 * 3 + 1, 0, 0]));
+  assert.deepEqual([alone.side, alone.person], [2, null]);
+  assert.deepEqual([left.side, left.person], [1, 2]);
 });
 
 test('lines that are cut off, or have no points, end the list', () => {
