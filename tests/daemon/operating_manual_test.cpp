@@ -165,7 +165,7 @@ TEST(OperatingManual, ExplainsEveryColumnOfPeople) {
   ServiceReport report;
   report.people.emplace_back().id = 1;
   const std::string text = ReportText(report);
-  std::string header = text.substr(text.find("person "));
+  std::string header = text.substr(text.find("\nperson ") + 1);
   header = header.substr(0, header.find('\n'));
   for (const std::string& column : FirstColumns()) {
     if (const std::size_t at = header.find(column); at != std::string::npos) {

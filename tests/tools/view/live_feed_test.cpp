@@ -113,7 +113,8 @@ class LiveFeedTest : public ::testing::Test {
   /// The colour of each person who is told of, by number.
   std::map<int, int> Colors() {
     std::map<int, int> colors;
-    for (const auto& person : Json(LiveFeed::kPeople)["people"]) {
+    const nlohmann::json told = Json(LiveFeed::kPeople);
+    for (const auto& person : told["people"]) {
       colors[person["id"]] = person["color"];
     }
     return colors;

@@ -51,7 +51,7 @@ function tellPerson(row, {color, label, state, residualMm, followedS, hasCome}) 
   setText(stateCell, state);
   setText(fit, fixed(residualMm ?? NaN, 1));
   const age = ageText(followedS);
-  setText(since, hasCome || followedS === null ? age : `${age} or more`);
+  setText(since, hasCome || followedS === null ? age : `≥ ${age}`);
 }
 
 export class StatePanel {
