@@ -130,6 +130,10 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
                    "\" cannot be opened, wanted one like udpm://239.255.76.67:7667?ttl=0");
 }
 
+std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
+  return Parse(url).provider == LcmProvider::kMulticast ? OpenLcm(url) : nullptr;
+}
+
 void CheckLcm(const std::string& url) {
   const LcmUrl address = Parse(url);
   if (address.provider == LcmProvider::kMulticast) OpenLcm(url);

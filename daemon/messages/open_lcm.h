@@ -14,6 +14,11 @@ namespace mocap {
 ///                     one.
 std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
 
+/// Opens a second way to the same listeners, for a thread that comes after all other programs: LCM
+/// locks a connection while it sends, and whoever waits for that thread to go on waits as long.
+/// Empty for what has one way alone: a server, a log, this process. @throws SetupError
+std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url);
+
 /// Looks whether OpenLcm would succeed, and leaves no file and no message. @throws SetupError
 void CheckLcm(const std::string& url);
 

@@ -146,7 +146,10 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   LiveView view(TruthFor(config.source));
   const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
   publisher.Describe(studio.name, cameras);
-  PreviewPublisher preview(publisher.sender(), config.lcm, cameras, studio.times);
+  std::optional<LcmSender> beside;
+  if (prepared.preview_lcm) beside.emplace(*prepared.preview_lcm, LcmProvider::kMulticast);
+  PreviewPublisher preview(beside ? *beside : publisher.sender(), config.lcm, cameras,
+                           studio.times);
   Outlet outlet(publisher, view, preview);
   std::deque<FrameTap> learning_taps(studio.cameras.size());
   PipelineOptions options = PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps});

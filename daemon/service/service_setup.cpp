@@ -81,6 +81,7 @@ PreparedService PrepareService(const Config& config) {
   std::unique_ptr<lcm::LCM> lcm = OpenLcm(config.lcm.url);
   PreparedService prepared = Prepare(config);
   prepared.lcm = std::move(lcm);
+  prepared.preview_lcm = OpenLcmBeside(config.lcm.url);
   return prepared;
 }
 

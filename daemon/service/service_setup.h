@@ -23,6 +23,7 @@ namespace mocap {
 struct PreparedService {
   BodyTable body;
   std::unique_ptr<lcm::LCM> lcm;
+  std::unique_ptr<lcm::LCM> preview_lcm;  ///< Empty: previews go the way of all else.
   Studio studio;
   std::filesystem::path socket;  ///< Empty: it is not controlled.
 };

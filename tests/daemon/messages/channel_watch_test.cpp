@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <memory>
 #include <mocap/status_t.hpp>
 #include <thread>
 
@@ -86,6 +87,20 @@ TEST_F(MulticastChannel, AnotherSenderOfTheSamePrefixIsHeardAndOneOfAnotherIsNot
   EXPECT_FALSE(watch.Status().reaches_nobody);
 }
 
+TEST_F(MulticastChannel, ASecondWayReachesTheSameListeners) {
+  lcm::LCM listener(config_.url);
+  bool is_heard = false;
+  listener.subscribeFunction<bool*>(
+      "X", [](const lcm::ReceiveBuffer*, const std::string&, bool* heard) { *heard = true; },
+      &is_heard);
+  const std::unique_ptr<lcm::LCM> beside = OpenLcmBeside(config_.url);
+  ASSERT_TRUE(beside);
+  while (!is_heard) {
+    beside->publish("X", "x", 1);
+    listener.handleTimeout(10);
+  }
+}
+
 TEST(LcmSender, AMessageThatCannotBeSentIsCountedWithItsReason) {
   // Writing to this device fails as on a full disk.
   lcm::LCM lcm("file:///dev/full?mode=w");
@@ -114,6 +129,11 @@ TEST(OpenLcm, AServerThatIsNotThereIsRefusedAtOnceAndInOneLine) {
   for (const auto& open : {+[](const std::string& url) { OpenLcm(url); }, +CheckLcm}) {
     EXPECT_THROW(open("tcpq://127.0.0.1:9"), SetupError);
   }
+}
+
+TEST(OpenLcm, ALogAndAProcessHaveNoSecondWay) {
+  EXPECT_EQ(OpenLcmBeside("file:///nowhere/x.lcm?mode=w"), nullptr);
+  EXPECT_EQ(OpenLcmBeside("memq://"), nullptr);
 }
 
 TEST(OpenLcm, ALogThatCannotBeWrittenIsRefused) {
