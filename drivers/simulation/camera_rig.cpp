@@ -41,8 +41,7 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
     const double wall_mm = std::min((kRoomX_mm / 2 - inset) / std::max(std::abs(out.x()), 1e-9),
                                     (kRoomY_mm / 2 - inset) / std::max(std::abs(out.y()), 1e-9));
     const Vector3 p_WC(wall_mm * out.x(), wall_mm * out.y(), random.Uniform(2300, 2800));
-    const Vector3 target(random.Uniform(-120, 120), random.Uniform(-120, 120),
-                         random.Uniform(820, 980));
+    const Vector3 target = random.UniformIn({-120, 120}, {-120, 120}, {820, 980});
     CameraCalibration camera;
     camera.name = "cam" + std::to_string(i + 1);
     camera.width_px = options.width_px;
@@ -54,9 +53,8 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
                             random.Uniform(-0.15, 0.15));
     lens.kappa1 = random.Uniform(0.0020, 0.0036);
     lens.sx = random.Uniform(0.99, 1.01);
-    lens.center_px =
-        Vector2((options.width_px - 1) / 2.0, (options.height_px - 1) / 2.0) +
-        options.width_px / 640.0 * Vector2(random.Uniform(-6, 6), random.Uniform(-6, 6));
+    lens.center_px = Vector2((options.width_px - 1) / 2.0, (options.height_px - 1) / 2.0) +
+                     options.width_px / 640.0 * random.UniformIn({-6, 6}, {-6, 6});
     lens.pitch_mm = Vector2(0.0100, 0.0099) * 640.0 / options.width_px;
     camera.lens = lens;
     const double roll = options.pan_tilt ? 0 : random.Uniform(-0.026, 0.026);
@@ -66,10 +64,11 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
       PanTiltHead head;
       head.pan_axis_W = (Vector3::UnitZ() + Slightly(random, 0.002)).normalized();
       head.tilt_axis_W = (R_CW.row(0).transpose() + Slightly(random, 0.002)).normalized();
-      head.pan_point_W = p_WC - R_CW.row(2).transpose() * random.Uniform(30, 50) -
-                         Vector3(0, 0, random.Uniform(40, 60));
-      head.tilt_point_W = p_WC - R_CW.row(2).transpose() * random.Uniform(25, 45) +
-                          R_CW.row(1).transpose() * random.Uniform(2, 8);
+      const Vector2 pan = random.UniformIn({30, 50}, {40, 60});
+      head.pan_point_W = p_WC - R_CW.row(2).transpose() * pan.x() - Vector3(0, 0, pan.y());
+      const Vector2 tilt = random.UniformIn({25, 45}, {2, 8});
+      head.tilt_point_W =
+          p_WC - R_CW.row(2).transpose() * tilt.x() + R_CW.row(1).transpose() * tilt.y();
       camera.head = head;
     }
     rig.push_back(camera);

@@ -26,7 +26,8 @@ struct Spot {
 
 Spot RandomSpot(std::uint64_t seed) {
   Random random(Mix(seed, Tag("spot")));
-  return {Vector2(random.Uniform(-400, 400), random.Uniform(-400, 400)), random.Uniform(0, kTurn)};
+  const Vector2 p_W = random.UniformIn({-400, 400}, {-400, 400});
+  return {p_W, random.Uniform(0, kTurn)};
 }
 
 void PlacePelvis(const Spot& spot, double forward_mm, double left_mm, double pitch, double roll,

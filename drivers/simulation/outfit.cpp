@@ -14,9 +14,10 @@ Bgr Color(double r, double g, double b) {
 // A cloth colour: any hue, or a grey, or one close to the wall's.
 Bgr Cloth(Random& random, Bgr wall) {
   const double kind = random.Uniform(0, 1);
-  if (kind < 0.2)
-    return Color(wall.r + random.Uniform(-18, 18), wall.g + random.Uniform(-18, 18),
-                 wall.b + random.Uniform(-18, 18));
+  if (kind < 0.2) {
+    const Vector3 off = random.UniformIn({-18, 18}, {-18, 18}, {-18, 18});
+    return Color(wall.r + off.x(), wall.g + off.y(), wall.b + off.z());
+  }
   const double value = random.Uniform(60, 190);
   if (kind < 0.4) return Color(value, value * 0.98, value * 0.94);
   const double low = value * random.Uniform(0.25, 0.6), middle = random.Uniform(low, value);

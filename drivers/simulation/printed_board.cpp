@@ -35,16 +35,16 @@ RigidTransform HeldUp(Random& random) {
   const Vector3 right = into.cross(Vector3::UnitZ()).normalized();
   Matrix3 R_WB;
   R_WB << right, into.cross(right), into;
-  const Vector3 middle_W(random.Uniform(-kReach_mm, kReach_mm),
-                         random.Uniform(-kReach_mm, kReach_mm), random.Uniform(600, 1500));
+  const Range reach{-kReach_mm, kReach_mm};
+  const Vector3 middle_W = random.UniformIn(reach, reach, {600, 1500});
   return Centred(R_WB * ExpRotation({0, 0, random.Uniform(-0.6, 0.6)}), middle_W);
 }
 
 // Somewhere in a camera's picture, which it fills for a good part.
 RigidTransform HeldBefore(const CameraCalibration& camera, Random& random) {
   const double near = random.Uniform(1100, 2000);
-  const Vector3 middle_C(random.Uniform(-0.5, 0.5) * near, random.Uniform(-0.38, 0.38) * near,
-                         near);
+  const Vector2 aside = near * random.UniformIn({-0.5, 0.5}, {-0.38, 0.38});
+  const Vector3 middle_C(aside.x(), aside.y(), near);
   const Matrix3 R_CB = ExpRotation(
       {random.Uniform(-0.6, 0.6), random.Uniform(-0.6, 0.6), random.Uniform(-0.8, 0.8)});
   const RigidTransform X_WC = camera.X_CW.Inverse();
@@ -131,8 +131,7 @@ RigidTransform BoardOnFloor() {
 
 RigidTransform BoardOnDesk(std::uint64_t seed, int place) {
   Random random(Mix(seed, Tag("desk"), static_cast<std::uint64_t>(place)));
-  const Vector3 middle_W(random.Uniform(-800, 800), random.Uniform(-800, 800),
-                         random.Uniform(500, 1100));
+  const Vector3 middle_W = random.UniformIn({-800, 800}, {-800, 800}, {500, 1100});
   const Matrix3 turned = ExpRotation({0, 0, random.Uniform(-std::numbers::pi, std::numbers::pi)});
   const Matrix3 tilted = ExpRotation({random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 0});
   return Centred(turned * tilted * BoardOnFloor().R, middle_W);

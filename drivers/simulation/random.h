@@ -7,6 +7,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/geometry.h"
+
 namespace mocap::simulation {
 
 /// Mixes a number into 64 random bits (SplitMix64; Steele, Lea, Flood 2014).
@@ -30,7 +32,13 @@ constexpr std::uint64_t Tag(std::string_view purpose) {
   return bits;
 }
 
-/// Draws one number after the other.
+/// From `low` to `high`, without the latter.
+struct Range {
+  double low = 0, high = 0;
+};
+
+/// Draws one number after the other. Two draws never stand in the arguments of one call, nor on
+/// both sides of an operator: the compiler would choose which comes first.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
@@ -39,6 +47,17 @@ class Random {
   /// Uniform in [low, high).
   double Uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(Bits() >> 11) * 0x1p-53;
+  }
+  /// Uniform in a box. The last coordinate is drawn first, as in the studios that GCC made when
+  /// these were arguments: their seeds stay good.
+  Vector3 UniformIn(Range x, Range y, Range z) {
+    const double at_z = Uniform(z.low, z.high);
+    const double at_y = Uniform(y.low, y.high);
+    return {Uniform(x.low, x.high), at_y, at_z};
+  }
+  Vector2 UniformIn(Range x, Range y) {
+    const double at_y = Uniform(y.low, y.high);
+    return {Uniform(x.low, x.high), at_y};
   }
   /// Standard normal (Box and Muller).
   double Normal() {

@@ -88,19 +88,17 @@ Room::Room(std::uint64_t seed, const std::vector<Block>& furniture) : noise_(see
            static_cast<std::uint8_t>(wall_colors_[0].z())};
   const double floor = random.Uniform(85, 125);
   floor_color_ = Vector3f(float(floor * 0.80), float(floor * 0.92), float(floor * 1.05));
-  rug_color_ = Vector3f(float(random.Uniform(60, 130)), float(random.Uniform(60, 130)),
-                        float(random.Uniform(60, 130)));
-  rug_center_ = Vector2f(float(random.Uniform(-900, 900)), float(random.Uniform(-900, 900)));
-  rug_half_ = Vector2f(float(random.Uniform(500, 900)), float(random.Uniform(400, 700)));
+  rug_color_ = random.UniformIn({60, 130}, {60, 130}, {60, 130}).cast<float>();
+  rug_center_ = random.UniformIn({-900, 900}, {-900, 900}).cast<float>();
+  rug_half_ = random.UniformIn({500, 900}, {400, 700}).cast<float>();
   AddPosters(seed);
   AddThings(seed, furniture);
 }
 
 void Room::AddPosters(std::uint64_t seed) {
   Random random(Mix(seed, Tag("poster")));
-  const auto color = [&] {
-    return Vector3f(float(random.Uniform(40, 200)), float(random.Uniform(40, 200)),
-                    float(random.Uniform(40, 200)));
+  const auto color = [&]() -> Vector3f {
+    return random.UniformIn({40, 200}, {40, 200}, {40, 200}).cast<float>();
   };
   for (int wall = 0; wall < 4; ++wall) {
     // The wall with the door has room on one side of it only.
@@ -109,9 +107,9 @@ void Room::AddPosters(std::uint64_t seed) {
       Poster poster;
       poster.wall = wall;
       const double across = wall == 0 ? -2400 + 1500 * i : -2000 + 2000 * i;
-      poster.center =
-          Vector2f(float(across + random.Uniform(-250, 250)), float(random.Uniform(1250, 1750)));
-      poster.half = Vector2f(float(random.Uniform(180, 420)), float(random.Uniform(180, 380)));
+      const Vector2 center = random.UniformIn({-250, 250}, {1250, 1750}) + Vector2(across, 0);
+      poster.center = center.cast<float>();
+      poster.half = random.UniformIn({180, 420}, {180, 380}).cast<float>();
       poster.first = color();
       poster.second = 0.6f * poster.first + 0.4f * color();
       poster.pattern = static_cast<int>(random.Bits() % 4);
