@@ -29,6 +29,7 @@ struct SourceConfig {
   bool in_memory = false;  ///< The take is decoded before it starts.
   // For "simulated":
   std::string motion = "walk";
+  int people = 1;
   double stature_mm = 1750;
   int cameras = 6;
   int width_px = 640, height_px = 480;

@@ -9,6 +9,7 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "core/people/people_capture.h"
+#include "drivers/simulation/company.h"
 
 namespace mocap {
 namespace {
@@ -32,6 +33,8 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.loop = section.Flag("loop", source.loop);
   source.in_memory = section.Flag("in_memory", source.in_memory);
   source.motion = section.Text("motion", source.motion);
+  source.people = static_cast<int>(
+      section.IntegerWithin("people", 1, simulation::kMostSimulatedPeople, source.people));
   source.stature_mm = section.NumberWithin("stature_mm", 1000, 2100, source.stature_mm);
   source.cameras = static_cast<int>(section.IntegerWithin("cameras", 1, 64, source.cameras));
   source.width_px = static_cast<int>(

@@ -9,6 +9,7 @@ namespace mocap {
 SimulatedStudioOptions LiveSimulation(const SourceConfig& source) {
   SimulatedStudioOptions options;
   options.motion = source.motion;
+  options.people = source.people;
   options.stature_mm = source.stature_mm;
   options.fps = source.fps;
   options.cameras = source.cameras;

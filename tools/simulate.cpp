@@ -13,7 +13,7 @@
 
 #include "core/errors.h"
 #include "daemon/base/number_option.h"
-#include "drivers/simulation/motion.h"
+#include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/input_file.h"
@@ -53,6 +53,8 @@ TakeDescription Describe(const SimulateOptions& options,
     description.notes.emplace_back("board", "chess:8x5:100");
   } else {
     description.notes.emplace_back("motion", options.studio.motion);
+    if (options.studio.people > 1)
+      description.notes.emplace_back("people", std::to_string(options.studio.people));
     description.notes.emplace_back("stature_mm", Text(options.studio.stature_mm));
   }
   description.notes.emplace_back("seed", std::to_string(options.studio.seed));
@@ -88,9 +90,50 @@ void WriteBackgrounds(const SimulatedStudio& studio, TakeWriter& writer) {
   }
 }
 
+// Truth of one person in every frame; of several, of those in which each is in the room.
+class TruthOfPeople {
+ public:
+  TruthOfPeople(const SimulatedStudioOptions& options, const SimulatedStudio& studio)
+      : studio_(studio), truth_(options), stays_(options.people) {}
+
+  void Write(std::int64_t frame, TakeWriter& writer) {
+    const std::int64_t time_ns = studio_.NominalTime(frame);
+    const int people = static_cast<int>(stays_.size());
+    for (int i = 0; i < people; ++i) {
+      if (people == 1 || IsThere(i, frame))
+        writer.WriteTruth(frame, time_ns, truth_.At(time_ns, i), i);
+    }
+  }
+
+  void Finish(TakeWriter& writer) const {
+    const int people = static_cast<int>(stays_.size());
+    for (int i = 0; i < people; ++i) writer.WriteTruthSizes(truth_.Sizes(i), i);
+    if (people > 1) writer.AddPeople(stays_);
+  }
+
+ private:
+  static void Extend(std::vector<FrameSpan>& spans, std::int64_t frame) {
+    if (spans.empty() || spans.back().last + 1 < frame) spans.push_back({frame, frame});
+    spans.back().last = frame;
+  }
+
+  bool IsThere(int person, std::int64_t frame) {
+    const PersonPresence presence = studio_.PresenceOf(person, studio_.NominalTime(frame));
+    PersonStay& stay = stays_[person];
+    if (presence.in_room) Extend(stay.in_room, frame);
+    if (presence.whole) Extend(stay.whole, frame);
+    if (presence.whole && presence.pictures >= kCoveringPictures) Extend(stay.covered, frame);
+    return presence.in_room;
+  }
+
+  const SimulatedStudio& studio_;
+  const SimulatedTruth truth_;
+  std::vector<PersonStay> stays_;
+};
+
 void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
                  TakeWriter& writer) {
-  const SimulatedTruth truth(options.studio);
+  TruthOfPeople truth(options.studio, studio);
   std::vector<std::unique_ptr<SimulatedCamera>> cameras;
   for (std::size_t c = 0; c < studio.cameras().size(); ++c) {
     cameras.push_back(studio.OpenCamera(static_cast<int>(c)));
@@ -106,16 +149,16 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
       writer.WriteFrame(camera, frame.image, frame.capture_ns, frame.angles);
       writer.WriteMask(camera, cameras[c]->TrueMask());
     }
-    writer.WriteTruth(studio.NominalTime(i), truth.At(studio.NominalTime(i)));
+    truth.Write(i, writer);
   }
-  writer.WriteTruthSizes(truth.Sizes());
+  truth.Finish(writer);
 }
 
-void SimulatePerson(const SimulateOptions& options) {
+void SimulatePeople(const SimulateOptions& options) {
   const SimulatedStudio studio(options.studio);
   TakeWriter writer(options.out, Describe(options, studio.cameras()));
   const std::vector<std::string> names(kSimulatedJointNames.begin(), kSimulatedJointNames.end());
-  writer.SetTruthPoints(names);
+  writer.SetTruthPoints(names, options.studio.people);
   WriteBackgrounds(studio, writer);
   WriteFrames(options, studio, writer);
   writer.Finish();
@@ -135,7 +178,7 @@ void SimulateBoard(const SimulateOptions& options) {
 }
 
 void Simulate(const SimulateOptions& options) {
-  options.board.empty() ? SimulatePerson(options) : SimulateBoard(options);
+  options.board.empty() ? SimulatePeople(options) : SimulateBoard(options);
 }
 
 }  // namespace
@@ -146,12 +189,17 @@ void AddSimulateCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("simulate", "Writes a take of a simulated studio, with truth");
   std::string motions;
-  for (const std::string_view name : simulation::kMotionNames)
+  for (const std::string_view name : simulation::kCompanyMotionNames)
     motions += (motions.empty() ? "" : ", ") + std::string(name);
   command->add_option("--out", options->out, "Folder of the take to write")->required();
-  command->add_option("--motion", options->studio.motion, "What the person does: " + motions)
+  command->add_option("--motion", options->studio.motion, "What people do: " + motions)
       ->capture_default_str();
-  command->add_option("--stature", options->studio.stature_mm, "Height of the person [mm]")
+  command
+      ->add_option("--people", options->studio.people,
+                   "How many; with several, paths cross, and meet lets them shake hands")
+      ->check(NumberFrom(1, simulation::kMostSimulatedPeople))
+      ->capture_default_str();
+  command->add_option("--stature", options->studio.stature_mm, "Height of the first person [mm]")
       ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
   command->add_option("--seconds", options->studio.seconds, "Length of the take")
@@ -170,12 +218,12 @@ void AddSimulateCommand(CLI::App& app) {
       ->check(NumberFrom(16, 8192))
       ->capture_default_str();
   command->add_flag("--pan-tilt", options->studio.pan_tilt,
-                    "Cameras on heads that follow the person");
-  command->add_option("--seed", options->studio.seed, "Person, clothes, room, lenses and path")
+                    "Cameras on heads that follow the first person");
+  command->add_option("--seed", options->studio.seed, "People, clothes, room, lenses and paths")
       ->capture_default_str();
   command
       ->add_option("--board", options->board,
-                   "Instead of a person a chessboard of 8x5 inner corners, 100 mm")
+                   "Instead of people a chessboard of 8x5 inner corners, 100 mm")
       ->check(CLI::IsMember(kBoardPlaces));
   command
       ->add_option("--desk", options->desk,

@@ -10,6 +10,8 @@ namespace mocap::simulation {
 namespace {
 
 constexpr int kPathSamples = 2048;
+// How far to each side corners are rounded off; of an eight, in radii.
+constexpr double kRoundedOff_mm = 480, kEightRoundedOff = 0.35;
 
 // Slope at the middle of three keys: a weighted harmonic mean, flat at a turning point.
 double Slope(const Key& a, const Key& b, const Key& c) {
@@ -18,6 +20,37 @@ double Slope(const Key& a, const Key& b, const Key& c) {
   if (d0 * d1 <= 0) return 0;
   const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
   return (w0 + w1) / (w0 / d0 + w1 / d1);
+}
+
+struct PlaneKeys {
+  std::vector<Key> x, y;  // Over the distance from waypoint to waypoint.
+};
+
+PlaneKeys KeysThrough(std::span<const Vector2> waypoints) {
+  PlaneKeys keys;
+  double t = 0;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (i > 0) t += (waypoints[i] - waypoints[i - 1]).norm();
+    keys.x.push_back({t, waypoints[i].x()});
+    keys.y.push_back({t, waypoints[i].y()});
+  }
+  return keys;
+}
+
+// A moving average over `half_mm` to each side along a closed path, three times.
+std::vector<Vector2> SmoothedRound(std::vector<Vector2> points, double round_mm, double half_mm) {
+  const int count = static_cast<int>(points.size());
+  const int half = static_cast<int>(half_mm / round_mm * count);
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<Vector2> smooth;
+    for (int i = 0; i < count; ++i) {
+      Vector2 sum = Vector2::Zero();
+      for (int k = i - half; k <= i + half; ++k) sum += points[(k + count) % count];
+      smooth.push_back(sum / (2 * half + 1));
+    }
+    points = std::move(smooth);
+  }
+  return points;
 }
 
 }  // namespace
@@ -110,13 +143,52 @@ FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed) 
   return {std::move(points), true};
 }
 
-FloorPath SplinePath(std::span<const Vector2> waypoints) {
-  std::vector<Key> x, y;
-  for (const Vector2& point : waypoints) {
-    const double t = x.empty() ? 0 : x.back().t + (point - Vector2(x.back().v, y.back().v)).norm();
-    x.push_back({t, point.x()});
-    y.push_back({t, point.y()});
+FloorPath FigureEight(const Vector2& center, double radius_mm, double turned_rad) {
+  // Straight through the middle, three quarters of a circle, straight back, and the same mirrored.
+  const double straight_mm = 2 * radius_mm, arc_mm = 1.5 * std::numbers::pi * radius_mm;
+  const double half_mm = straight_mm + arc_mm;
+  const auto loop = [&](double s) -> Vector2 {
+    const double along = s - radius_mm;
+    if (along < 0 || along > arc_mm) {
+      const double from_middle = along < 0 ? s : s - half_mm;
+      return std::sqrt(0.5) * Vector2(std::abs(from_middle), from_middle);
+    }
+    const double angle = 0.75 * std::numbers::pi - along / radius_mm;
+    return radius_mm * Vector2(std::numbers::sqrt2 + std::cos(angle), std::sin(angle));
+  };
+  const Eigen::Rotation2Dd turn(turned_rad);
+  std::vector<Vector2> points;
+  for (int i = 0; i < kPathSamples; ++i) {
+    const double s = 2 * half_mm * i / kPathSamples;
+    const bool is_first = s < half_mm;
+    const Vector2 p = loop(is_first ? s : s - half_mm);
+    points.push_back(center + turn * Vector2(is_first ? p.x() : -p.x(), p.y()));
   }
+  return {SmoothedRound(std::move(points), 2 * half_mm, kEightRoundedOff * radius_mm), true};
+}
+
+FloorPath RoundPath(std::span<const Vector2> waypoints) {
+  const auto [x, y] = KeysThrough(waypoints);
+  const double round_mm = x.back().t + (waypoints.front() - waypoints.back()).norm();
+  std::vector<Vector2> points;
+  for (int i = 0; i < kPathSamples; ++i) {
+    const double t = round_mm * i / kPathSamples;
+    points.emplace_back(Evaluate(x, t, round_mm), Evaluate(y, t, round_mm));
+  }
+  return {SmoothedRound(std::move(points), round_mm, kRoundedOff_mm), true};
+}
+
+double EasedWalk::WayAt(double t_s) const {
+  if (t_s <= 0) return 0;
+  if (t_s >= duration_s()) return way_mm;
+  if (t_s < ease_s) return speed_mm_s * t_s * t_s / (2 * ease_s);
+  const double left_s = duration_s() - t_s;
+  if (left_s < ease_s) return way_mm - speed_mm_s * left_s * left_s / (2 * ease_s);
+  return speed_mm_s * (t_s - ease_s / 2);
+}
+
+FloorPath SplinePath(std::span<const Vector2> waypoints) {
+  const auto [x, y] = KeysThrough(waypoints);
   std::vector<Vector2> points;
   for (int i = 0; i < kPathSamples; ++i) {
     const double t = x.back().t * i / (kPathSamples - 1);

@@ -54,7 +54,23 @@ class FloorPath {
 /// An oval with waves in its radius, so that it is curved differently everywhere.
 FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed);
 
+/// Two loops that cross at right angles in the middle.
+/// @param radius_mm  of each loop; it reaches 2.4 times as far from the middle.
+FloorPath FigureEight(const Vector2& center, double radius_mm, double turned_rad);
+
 /// A smooth open curve through waypoints.
 FloorPath SplinePath(std::span<const Vector2> waypoints);
+
+/// A smooth closed curve through waypoints, from the last back to the first.
+FloorPath RoundPath(std::span<const Vector2> waypoints);
+
+/// A way that is set off and stopped on gently: speed rises and falls linearly.
+struct EasedWalk {
+  double way_mm = 0, speed_mm_s = 0, ease_s = 0;
+
+  double duration_s() const { return way_mm / speed_mm_s + ease_s; }
+  /// How far one has come after a time; nowhere before 0, all the way after the duration.
+  double WayAt(double t_s) const;
+};
 
 }  // namespace mocap::simulation

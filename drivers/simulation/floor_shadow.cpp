@@ -68,20 +68,17 @@ bool FloorShadow::MayFallOn(std::span<const FloorPlace> places) const {
                      {over(x1_ - x0_), over(y1_ - y0_)}) > 0;
 }
 
-void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W) {
+void FloorShadow::Clear() {
   for (int y = y0_; y <= y1_; ++y) {
     std::fill_n(&lamps_hidden_[y * kColumns + x0_], x1_ - x0_ + 1, 0);
     std::fill_n(&light_[y * kColumns + x0_], x1_ - x0_ + 1, kLightLeft[0]);
   }
   x0_ = kColumns, y0_ = kRows, x1_ = y1_ = -1;
+}
+
+void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W) {
   for (std::size_t i = 0; i < kLamps_W.size(); ++i)
     CastFrom(kLamps_W[i], static_cast<std::uint8_t>(1 << i), mesh, p_W);
-  if (x1_ < x0_) return;
-  x0_ = std::max(0, x0_ - 2 * kBlurCells);
-  y0_ = std::max(0, y0_ - 2 * kBlurCells);
-  x1_ = std::min(kColumns - 1, x1_ + 2 * kBlurCells);
-  y1_ = std::min(kRows - 1, y1_ + 2 * kBlurCells);
-  Blur();
 }
 
 void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, const PersonMesh& mesh,
@@ -128,6 +125,11 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
 
 // Twice a running mean in each direction: the lamps are panels, not points.
 void FloorShadow::Blur() {
+  if (x1_ < x0_) return;
+  x0_ = std::max(0, x0_ - 2 * kBlurCells);
+  y0_ = std::max(0, y0_ - 2 * kBlurCells);
+  x1_ = std::min(kColumns - 1, x1_ + 2 * kBlurCells);
+  y1_ = std::min(kRows - 1, y1_ + 2 * kBlurCells);
   for (int y = y0_; y <= y1_; ++y)
     for (int x = x0_; x <= x1_; ++x)
       light_[y * kColumns + x] = kLightLeft[std::popcount(lamps_hidden_[y * kColumns + x])];

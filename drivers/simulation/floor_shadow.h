@@ -15,8 +15,12 @@ class FloorShadow {
  public:
   FloorShadow();
 
-  /// Projects the mesh from each lamp to the floor.
+  /// Takes all shadows away.
+  void Clear();
+  /// Projects a mesh from each lamp to the floor. The light is that of the last Blur().
   void Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W);
+  /// Makes the shadows that were cast soft, and lets light fall; once after Clear().
+  void Blur();
   /// World rectangle that holds the shadow [mm]; false when there is none.
   bool Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const;
   /// Whether any of some places may lie in the shadow.
@@ -38,7 +42,6 @@ class FloorShadow {
  private:
   void CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, const PersonMesh& mesh,
                 const std::vector<Eigen::Vector3f>& p_W);
-  void Blur();
 
   std::vector<std::uint8_t> lamps_hidden_;  // A bit a lamp.
   std::vector<std::uint16_t> light_, scratch_;

@@ -132,6 +132,20 @@ GaitStyle RunningStyle(const Anthropometry& body) {
   return style;
 }
 
+GaitStyle DancingStyle(const Anthropometry& body) {
+  const double h = body.stature_mm;
+  GaitStyle style = WalkingStyle(body);
+  style.step_s = 0.48 * std::sqrt(h / 1750);
+  style.half_width_mm = 0.065 * h;
+  style.toe_out = 0.22;
+  style.lift_mm = 0.045 * h;
+  style.height_mm = body.hip_height_mm() - 0.030 * h;
+  style.bounce_mm = 0.012 * h;
+  style.sway_mm = 0.03 * h;
+  style.full_step_mm = 0.2 * h;
+  return style;
+}
+
 Gait::Gait(const Anthropometry& body, const GaitStyle& style, std::function<Track(double)> track)
     : body_(body), style_(style), track_(std::move(track)) {}
 

@@ -51,6 +51,8 @@ struct GaitStyle {
 
 GaitStyle WalkingStyle(const Anthropometry& body);
 GaitStyle RunningStyle(const Anthropometry& body);
+/// Steps from side to side.
+GaitStyle DancingStyle(const Anthropometry& body);
 
 /// A body that follows a track with its feet.
 class Gait {

@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/motions_in_place.h"
+#include "drivers/simulation/path_walker.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/room_plan.h"
 
@@ -15,33 +16,17 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-// Walking or running round and round.
-class Rounds : public Motion {
- public:
-  Rounds(const Anthropometry& body, const GaitStyle& style, double speed_mm_s, double radius_mm,
-         std::uint64_t seed)
-      : gait_(body, style,
-              [path = OvalPath(Vector2::Zero(), radius_mm, seed), speed_mm_s](double t_s) {
-                const double distance = speed_mm_s * t_s;
-                return Track{path.PositionAt(distance), path.HeadingAt(distance)};
-              }) {}
-  BodyPose PoseAt(double t_s) const override { return gait_.PoseAt(t_s); }
-
- private:
-  Gait gait_;
-};
-
 // Steps from side to side with a twisting waist and raised arms.
 class Dance : public Motion {
  public:
   Dance(const Anthropometry& body, std::uint64_t seed)
       : body_(body),
         seed_phase_(Random(Mix(seed, Tag("dance"))).Uniform(0, kTurn)),
-        gait_(body, Style(body), [this](double t_s) { return TrackAt(t_s); }) {}
+        gait_(body, DancingStyle(body), [this](double t_s) { return TrackAt(t_s); }) {}
 
   BodyPose PoseAt(double t_s) const override {
     BodyPose pose = gait_.PoseAt(t_s);
-    const double beat = kTurn * t_s / (4 * BeatOf(body_));
+    const double beat = kTurn * t_s / (4 * DancingStyle(body_).step_s);
     const double slow = 0.31 * t_s + seed_phase_;
     BendTrunk(0.10 + 0.10 * std::sin(beat), 0.14 * std::sin(beat + 1.1),
               0.55 * std::sin(beat + 0.4), 0.8, pose);
@@ -63,22 +48,6 @@ class Dance : public Motion {
   }
 
  private:
-  static GaitStyle Style(const Anthropometry& body) {
-    GaitStyle style = WalkingStyle(body);
-    style.step_s = BeatOf(body);
-    style.half_width_mm = 0.065 * body.stature_mm;
-    style.toe_out = 0.22;
-    style.lift_mm = 0.045 * body.stature_mm;
-    style.height_mm = body.hip_height_mm() - 0.030 * body.stature_mm;
-    style.bounce_mm = 0.012 * body.stature_mm;
-    style.sway_mm = 0.03 * body.stature_mm;
-    style.full_step_mm = 0.2 * body.stature_mm;
-    return style;
-  }
-  static double BeatOf(const Anthropometry& body) {
-    return 0.48 * std::sqrt(body.stature_mm / 1750);
-  }
-
   Track TrackAt(double t_s) const {
     const double a = 0.55 * t_s + seed_phase_;
     const double reach = 0.16 * body_.stature_mm;
@@ -99,7 +68,7 @@ class Visit : public Motion {
  public:
   Visit(const Anthropometry& body, std::uint64_t seed)
       : path_(SplinePath(Waypoints(seed))),
-        speed_mm_s_(1050 * std::sqrt(body.stature_mm / 1750)),
+        walk_{path_.length_mm(), 1050 * std::sqrt(body.stature_mm / 1750), kEase_s},
         gait_(body, WalkingStyle(body), [this](double t_s) { return TrackAt(t_s); }) {}
   BodyPose PoseAt(double t_s) const override { return gait_.PoseAt(t_s); }
 
@@ -128,13 +97,13 @@ class Visit : public Motion {
   }
 
   Track TrackAt(double t_s) const {
-    const double walk_s = path_.length_mm() / speed_mm_s_ + kEase_s;
+    const double walk_s = walk_.duration_s();
     const double visit_s = walk_s + kHidden_s;
     const double visit = std::floor(t_s / visit_s);
     const double u = t_s - visit * visit_s;
     const bool back = std::fmod(std::abs(visit), 2) == 1;
     const double waiting = 0.5 * kHidden_s;
-    const double distance = DistanceAfter(u - waiting, walk_s);
+    const double distance = walk_.WayAt(u - waiting);
     // Out of sight the person turns round on the spot.
     const double turned = u < waiting ? -0.5 * (1 - Smoothstep(0, waiting, u))
                                       : 0.5 * Smoothstep(waiting + walk_s, visit_s, u);
@@ -144,18 +113,8 @@ class Visit : public Motion {
     return {path_.PositionAt(s), heading + std::numbers::pi * turned};
   }
 
-  // Sets off and stops gently: speed rises and falls linearly.
-  double DistanceAfter(double t_s, double walk_s) const {
-    if (t_s <= 0) return 0;
-    if (t_s >= walk_s) return path_.length_mm();
-    if (t_s < kEase_s) return speed_mm_s_ * t_s * t_s / (2 * kEase_s);
-    const double left_s = walk_s - t_s;
-    if (left_s < kEase_s) return path_.length_mm() - speed_mm_s_ * left_s * left_s / (2 * kEase_s);
-    return speed_mm_s_ * (t_s - kEase_s / 2);
-  }
-
   FloorPath path_;
-  double speed_mm_s_;
+  EasedWalk walk_;
   Gait gait_;
 };
 
@@ -165,15 +124,17 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
                                          std::uint64_t seed) {
   const double pace = std::sqrt(body.stature_mm / 1750);
   if (name == "walk")
-    return std::make_unique<Rounds>(body, WalkingStyle(body), 1080 * pace, 1250, seed);
+    return std::make_unique<PathWalker>(body, WalkingStyle(body),
+                                        OvalPath(Vector2::Zero(), 1250, seed), 1080 * pace);
   if (name == "run")
-    return std::make_unique<Rounds>(body, RunningStyle(body), 1700 * pace, 1500, seed);
+    return std::make_unique<PathWalker>(body, RunningStyle(body),
+                                        OvalPath(Vector2::Zero(), 1500, seed), 1700 * pace);
   if (name == "dance") return std::make_unique<Dance>(body, seed);
   if (name == "visit") return std::make_unique<Visit>(body, seed);
-  if (name == "jump") return MakeJump(body, seed);
-  if (name == "sit") return MakeSit(body, seed);
-  if (name == "step") return MakeStep(body, seed);
-  if (name == "stand") return MakeStand(body, seed);
+  if (name == "jump") return MakeJump(body, RandomSpot(seed), seed);
+  if (name == "sit") return MakeSit(body, RandomSpot(seed));
+  if (name == "step") return MakeStep(body, RandomSpot(seed));
+  if (name == "stand") return MakeStand(body, RandomSpot(seed), seed);
   std::string wanted;
   for (const std::string_view known : kMotionNames)
     wanted += (wanted.empty() ? "" : ", ") + std::string(known);

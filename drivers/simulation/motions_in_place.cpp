@@ -14,22 +14,6 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kGravity = 9810;  // mm/s²
 
-// Where a person stands and faces, and the feet side by side there.
-struct Spot {
-  Vector2 p_W = Vector2::Zero();
-  double yaw = 0;
-  Vector3 At(double forward_mm, double left_mm, double z_mm) const {
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    return {p_W.x() + c * forward_mm - s * left_mm, p_W.y() + s * forward_mm + c * left_mm, z_mm};
-  }
-};
-
-Spot RandomSpot(std::uint64_t seed) {
-  Random random(Mix(seed, Tag("spot")));
-  const Vector2 p_W = random.UniformIn({-400, 400}, {-400, 400});
-  return {p_W, random.Uniform(0, kTurn)};
-}
-
 void PlacePelvis(const Spot& spot, double forward_mm, double left_mm, double pitch, double roll,
                  double yaw, BodyPose& pose) {
   pose.p_WPelvis = spot.At(forward_mm, left_mm, 0);
@@ -43,7 +27,8 @@ constexpr double kToeOut = 0.14;
 
 class Stand : public Motion {
  public:
-  Stand(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
+  Stand(const Anthropometry& body, const Spot& spot, std::uint64_t seed)
+      : body_(body), spot_(spot) {
     Random random(Mix(seed, Tag("stand")));
     for (double& phase : phases_) phase = random.Uniform(0, kTurn);
   }
@@ -83,7 +68,7 @@ class Stand : public Motion {
 
 class Jump : public Motion {
  public:
-  Jump(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
+  Jump(const Anthropometry& body, const Spot& spot, std::uint64_t seed) : body_(body), spot_(spot) {
     Random random(Mix(seed, Tag("jump")));
     const double apex_mm = random.Uniform(0.12, 0.16) * body.stature_mm;
     // Whoever is smaller jumps faster: times go with the root of the stature, and gravity, counted
@@ -175,7 +160,7 @@ class Jump : public Motion {
 
 class Sit : public Motion {
  public:
-  Sit(const Anthropometry& body, std::uint64_t seed) : body_(body), spot_(RandomSpot(seed)) {
+  Sit(const Anthropometry& body, const Spot& spot) : body_(body), spot_(spot) {
     seat_mm_ = body.shank_mm + body.ankle_to_sole_mm - 0.040 * body.stature_mm;
   }
 
@@ -245,8 +230,8 @@ class Sit : public Motion {
 
 class Step : public Motion {
  public:
-  Step(const Anthropometry& body, std::uint64_t seed)
-      : body_(body), spot_(RandomSpot(seed)), beat_s_(0.85 * std::sqrt(body.stature_mm / 1750)) {
+  Step(const Anthropometry& body, const Spot& spot)
+      : body_(body), spot_(spot), beat_s_(0.85 * std::sqrt(body.stature_mm / 1750)) {
     block_mm_ = 0.11 * body.stature_mm;
     up_mm_ = 0.28 * body.stature_mm;
   }
@@ -331,17 +316,30 @@ class Step : public Motion {
 
 }  // namespace
 
-std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, std::uint64_t seed) {
-  return std::make_unique<Jump>(body, seed);
+Vector3 Spot::At(double forward_mm, double left_mm, double z_mm) const {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {p_W.x() + c * forward_mm - s * left_mm, p_W.y() + s * forward_mm + c * left_mm, z_mm};
 }
-std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, std::uint64_t seed) {
-  return std::make_unique<Sit>(body, seed);
+
+Spot RandomSpot(std::uint64_t seed) {
+  Random random(Mix(seed, Tag("spot")));
+  const Vector2 p_W = random.UniformIn({-400, 400}, {-400, 400});
+  return {p_W, random.Uniform(0, kTurn)};
 }
-std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, std::uint64_t seed) {
-  return std::make_unique<Step>(body, seed);
+
+std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, const Spot& spot,
+                                       std::uint64_t seed) {
+  return std::make_unique<Jump>(body, spot, seed);
 }
-std::unique_ptr<const Motion> MakeStand(const Anthropometry& body, std::uint64_t seed) {
-  return std::make_unique<Stand>(body, seed);
+std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, const Spot& spot) {
+  return std::make_unique<Sit>(body, spot);
+}
+std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& spot) {
+  return std::make_unique<Step>(body, spot);
+}
+std::unique_ptr<const Motion> MakeStand(const Anthropometry& body, const Spot& spot,
+                                        std::uint64_t seed) {
+  return std::make_unique<Stand>(body, spot, seed);
 }
 
 }  // namespace mocap::simulation

@@ -44,6 +44,13 @@ std::uint64_t FlagsOf(const std::uint8_t* bytes) {
   return (((word & kLowBits) + kLowBits) | word) & ~kLowBits;
 }
 
+// Who is seen in each of eight pixels.
+std::uint64_t WhoOf(const std::uint8_t* pixels) {
+  std::uint64_t word;
+  std::memcpy(&word, pixels, kBytes);
+  return word & FigurePixel::kWhoOfEight;
+}
+
 void Include(PixelBox& box, const PixelBox& other) {
   if (other.empty()) return;
   if (box.empty())
@@ -66,7 +73,7 @@ PersonRenderer::PersonRenderer(const CameraCalibration& camera)
       kappa_(static_cast<float>(lens_.kappa1 * lens_.focal_mm * lens_.focal_mm)),
       nearness_(width_px_, height_px_),
       shades_(width_px_, height_px_),
-      materials_(width_px_, height_px_) {
+      figures_(width_px_, height_px_) {
   // g = rd / ru solves g (1 + q g²) = 1 with q = κ1 ru²: Newton's method from above.
   shrink_.reserve(kShrinkSteps + 2);
   double g = 1;
@@ -89,32 +96,34 @@ bool PersonRenderer::ToScreen(const Vector3f& p_C, float& x, float& y) const {
   return true;
 }
 
-void PersonRenderer::Project(const PersonMesh& mesh, const RigidTransform& X_CW) {
+PixelBox PersonRenderer::Project(const PersonMesh& mesh, const Skin& skin,
+                                 const RigidTransform& X_CW,
+                                 std::vector<ScreenVertex>& screen) const {
   const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
   const Vector3f p_CW = X_CW.p.cast<float>();
-  screen_.resize(p_W_.size());
+  screen.resize(skin.p_W.size());
   float low_x = float(width_px_), low_y = float(height_px_), high_x = -1, high_y = -1;
-  for (std::size_t i = 0; i < p_W_.size(); ++i) {
-    const Vector3f p_C = R_CW * p_W_[i] + p_CW;
-    ScreenVertex& v = screen_[i];
+  for (std::size_t i = 0; i < skin.p_W.size(); ++i) {
+    const Vector3f p_C = R_CW * skin.p_W[i] + p_CW;
+    ScreenVertex& v = screen[i];
     if (!ToScreen(p_C, v.x, v.y)) {
       v.nearness = 0;
       continue;
     }
     v.nearness = 1 / p_C.z();
-    v.shade = Shade(n_W_[i]) * mesh.vertices[i].albedo;
+    v.shade = Shade(skin.n_W[i]) * mesh.vertices[i].albedo;
     low_x = std::min(low_x, v.x), high_x = std::max(high_x, v.x);
     low_y = std::min(low_y, v.y), high_y = std::max(high_y, v.y);
   }
   // A pixel more on each side for softened edges.
-  person_ = {};
-  if (high_x >= 0 && high_y >= 0 && low_x < float(width_px_) && low_y < float(height_px_))
-    person_ = {std::max(0, static_cast<int>(low_x) - 1), std::max(0, static_cast<int>(low_y) - 1),
-               static_cast<int>(std::min(high_x + 3, float(width_px_))),
-               static_cast<int>(std::min(high_y + 3, float(height_px_)))};
+  if (high_x < 0 || high_y < 0 || low_x >= float(width_px_) || low_y >= float(height_px_))
+    return {};
+  return {std::max(0, static_cast<int>(low_x) - 1), std::max(0, static_cast<int>(low_y) - 1),
+          static_cast<int>(std::min(high_x + 3, float(width_px_))),
+          static_cast<int>(std::min(high_y + 3, float(height_px_)))};
 }
 
-void PersonRenderer::Draw(const PersonMesh& mesh, const Outfit& outfit, const BonePoses& bones,
+void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BonePoses> poses,
                           const EmptyView& view, const RigidTransform& X_CW, bool same_view,
                           Image<Bgr>& canvas) {
   if (same_view) {
@@ -123,23 +132,32 @@ void PersonRenderer::Draw(const PersonMesh& mesh, const Outfit& outfit, const Bo
   } else {
     canvas = view.image;
   }
-  for (int y = person_.y0; y < person_.y1; ++y)
-    std::fill_n(materials_.row(y) + person_.x0, person_.x1 - person_.x0, std::uint8_t{0});
+  for (int y = people_.y0; y < people_.y1; ++y)
+    std::fill_n(figures_.row(y) + people_.x0, people_.x1 - people_.x0, std::uint8_t{0});
   dirty_ = {};
 
-  SkinMesh(mesh, bones, p_W_, n_W_);
-  shadow_.Cast(mesh, p_W_);
+  skins_.resize(figures.size());
+  screens_.resize(figures.size());
+  people_ = {};
+  shadow_.Clear();
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    SkinMesh(figures[i].mesh, poses[i], skins_[i].p_W, skins_[i].n_W);
+    shadow_.Cast(figures[i].mesh, skins_[i].p_W);
+    Include(people_, Project(figures[i].mesh, skins_[i], X_CW, screens_[i]));
+  }
+  shadow_.Blur();
   DrawShadow(view, X_CW, canvas);
-  Project(mesh, X_CW);
-  if (person_.empty()) return;
-  for (int y = person_.y0; y < person_.y1; ++y)
-    std::copy_n(view.nearness.row(y) + person_.x0, person_.x1 - person_.x0,
-                nearness_.row(y) + person_.x0);
-  for (const PersonMesh::Triangle& t : mesh.triangles)
-    DrawTriangle(screen_[t.v[0]], screen_[t.v[1]], screen_[t.v[2]], t.material);
-  Compose(outfit, canvas);
+  if (people_.empty()) return;
+  for (int y = people_.y0; y < people_.y1; ++y)
+    std::copy_n(view.nearness.row(y) + people_.x0, people_.x1 - people_.x0,
+                nearness_.row(y) + people_.x0);
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    for (const PersonMesh::Triangle& t : figures[i].mesh.triangles)
+      DrawTriangle(screens_[i][t.v[0]], screens_[i][t.v[1]], screens_[i][t.v[2]],
+                   FigurePixel::Of(i, t.material));
+  Compose(figures, canvas);
   SoftenEdges(canvas);
-  Include(dirty_, person_);
+  Include(dirty_, people_);
 }
 
 void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_CW,
@@ -190,15 +208,15 @@ void PersonRenderer::Darken(std::span<const FloorPlace> floor, Bgr* pixels) cons
 }
 
 void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
-                                  const ScreenVertex& c, Material material) {
+                                  const ScreenVertex& c, std::uint8_t pixel) {
   if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) return;
   // Counter-clockwise outside, clockwise in a picture whose y points down.
   const float area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);
   if (area <= 0) return;
-  const int x0 = std::max(person_.x0, Ceil(std::min({a.x, b.x, c.x})));
-  const int y0 = std::max(person_.y0, Ceil(std::min({a.y, b.y, c.y})));
-  const int x1 = std::min(person_.x1 - 1, static_cast<int>(std::max({a.x, b.x, c.x})));
-  const int y1 = std::min(person_.y1 - 1, static_cast<int>(std::max({a.y, b.y, c.y})));
+  const int x0 = std::max(people_.x0, Ceil(std::min({a.x, b.x, c.x})));
+  const int y0 = std::max(people_.y0, Ceil(std::min({a.y, b.y, c.y})));
+  const int x1 = std::min(people_.x1 - 1, static_cast<int>(std::max({a.x, b.x, c.x})));
+  const int y1 = std::min(people_.y1 - 1, static_cast<int>(std::max({a.y, b.y, c.y})));
   if (x0 > x1 || y0 > y1) return;
   // Barycentric weights of b and c are linear over the picture, and so is 1 / z.
   const float inverse = 1 / area;
@@ -219,20 +237,21 @@ void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
       if (near <= nearness[x]) continue;
       nearness[x] = near;
       shades_(x, y) = a.shade + v * (b.shade - a.shade) + w * (c.shade - a.shade);
-      materials_(x, y) = static_cast<std::uint8_t>(material + 1);
+      figures_(x, y) = pixel;
     }
   }
 }
 
-void PersonRenderer::Compose(const Outfit& outfit, Image<Bgr>& canvas) {
-  for (int y = person_.y0; y < person_.y1; ++y)
-    for (int x = person_.x0; x < person_.x1; ++x) {
-      const int material = materials_(x, y);
-      if (material == 0) {
-        while (x + kBytes < person_.x1 && FlagsOf(materials_.row(y) + x + 1) == 0) x += kBytes;
+void PersonRenderer::Compose(std::span<const Figure> figures, Image<Bgr>& canvas) {
+  for (int y = people_.y0; y < people_.y1; ++y)
+    for (int x = people_.x0; x < people_.x1; ++x) {
+      const std::uint8_t pixel = figures_(x, y);
+      if (pixel == 0) {
+        while (x + kBytes < people_.x1 && FlagsOf(figures_.row(y) + x + 1) == 0) x += kBytes;
         continue;
       }
-      const Bgr color = outfit.colors[material - 1];
+      const Bgr color =
+          figures[FigurePixel::FigureOf(pixel)].outfit.colors[FigurePixel::MaterialOf(pixel)];
       const float shade = shades_(x, y);
       canvas(x, y) = {Byte(float(color.b) * shade), Byte(float(color.g) * shade),
                       Byte(float(color.r) * shade)};
@@ -241,25 +260,26 @@ void PersonRenderer::Compose(const Outfit& outfit, Image<Bgr>& canvas) {
 
 // Whether any of eight pixels has a neighbour that shows something else.
 bool PersonRenderer::IsOutlineWithin(int x, int y) const {
-  const std::uint8_t* const row = materials_.row(y) + x;
-  const std::uint64_t here = FlagsOf(row);
-  return here != FlagsOf(row - 1) || here != FlagsOf(row + 1) ||
-         here != FlagsOf(materials_.row(y - 1) + x) || here != FlagsOf(materials_.row(y + 1) + x);
+  const std::uint8_t* const row = figures_.row(y) + x;
+  const std::uint64_t here = WhoOf(row);
+  return here != WhoOf(row - 1) || here != WhoOf(row + 1) ||
+         here != WhoOf(figures_.row(y - 1) + x) || here != WhoOf(figures_.row(y + 1) + x);
 }
 
 // A lens mixes what lies on both sides of an outline.
 void PersonRenderer::SoftenEdges(Image<Bgr>& canvas) {
   soft_.clear();
-  const int x1 = std::min(person_.x1, width_px_ - 1), y1 = std::min(person_.y1, height_px_ - 1);
-  for (int y = std::max(1, person_.y0); y < y1; ++y)
-    for (int x = std::max(1, person_.x0); x < x1; ++x) {
+  const int x1 = std::min(people_.x1, width_px_ - 1), y1 = std::min(people_.y1, height_px_ - 1);
+  for (int y = std::max(1, people_.y0); y < y1; ++y)
+    for (int x = std::max(1, people_.x0); x < x1; ++x) {
       if (x + kBytes <= x1 && !IsOutlineWithin(x, y)) {
         x += kBytes - 1;
         continue;
       }
-      const bool here = materials_(x, y) != 0;
-      if (here == (materials_(x - 1, y) != 0) && here == (materials_(x + 1, y) != 0) &&
-          here == (materials_(x, y - 1) != 0) && here == (materials_(x, y + 1) != 0))
+      const auto who = [this](int i, int j) { return FigurePixel::FigureOf(figures_(i, j)); };
+      const int here = who(x, y);
+      if (here == who(x - 1, y) && here == who(x + 1, y) && here == who(x, y - 1) &&
+          here == who(x, y + 1))
         continue;
       const Bgr m = canvas(x, y), l = canvas(x - 1, y), r = canvas(x + 1, y), u = canvas(x, y - 1),
                 d = canvas(x, y + 1);

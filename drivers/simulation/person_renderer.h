@@ -1,4 +1,4 @@
-// Draws the person into one camera's picture of the empty studio.
+// Draws people into one camera's picture of the empty studio.
 #pragma once
 
 #include <cstdint>
@@ -19,35 +19,66 @@ struct PixelBox {
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
+/// Somebody to draw, one of 31 at the most.
+struct Figure {
+  Outfit outfit;
+  PersonMesh mesh;
+};
+
+/// What a pixel shows: a figure and its material there; 0 is nobody.
+class FigurePixel {
+ public:
+  static std::uint8_t Of(std::size_t figure, Material material) {
+    return static_cast<std::uint8_t>((figure + 1) << kMaterialBits | material);
+  }
+  static constexpr int FigureOf(std::uint8_t pixel) { return (pixel >> kMaterialBits) - 1; }
+  static constexpr Material MaterialOf(std::uint8_t pixel) {
+    return static_cast<Material>(pixel & ((1 << kMaterialBits) - 1));
+  }
+
+  /// The bits of eight pixels that tell who they show, not which material.
+  static constexpr std::uint64_t kWhoOfEight = 0xf8f8f8f8f8f8f8f8;
+
+ private:
+  static constexpr int kMaterialBits = 3;
+  static_assert(kMaterialCount <= 1 << kMaterialBits);
+};
+
 /// A z-buffer for one camera; reuses its memory. Thread-bound.
 class PersonRenderer {
  public:
   explicit PersonRenderer(const CameraCalibration& camera);
 
-  /// Draws shadow and person over the empty view.
+  /// Draws shadows and figures over the empty view.
   ///
-  /// The camera's lens is evaluated at every vertex; a thing that stands before the person hides
-  /// it.
+  /// The camera's lens is evaluated at every vertex; what stands before a figure hides it.
+  /// @param poses   of the figures; as many.
   /// @param canvas  gets the picture; is the empty view outside of what the last call touched when
   ///                `same_view`.
-  void Draw(const PersonMesh& mesh, const Outfit& outfit, const BonePoses& bones,
+  void Draw(std::span<const Figure> figures, std::span<const BonePoses> poses,
             const EmptyView& view, const RigidTransform& X_CW, bool same_view, Image<Bgr>& canvas);
 
-  /// Where the person was visible in the last picture: material + 1, 0 elsewhere.
-  const Image<std::uint8_t>& materials() const { return materials_; }
+  /// Who was visible where in the last picture: each a FigurePixel.
+  const Image<std::uint8_t>& figures() const { return figures_; }
 
  private:
   struct ScreenVertex {
     float x, y, nearness;  // Nearness 0: not in the camera's field.
     float shade;
   };
-  void Project(const PersonMesh& mesh, const RigidTransform& X_CW);
+  // A figure's skin in the world.
+  struct Skin {
+    std::vector<Eigen::Vector3f> p_W, n_W;
+  };
+  // Puts a skin's vertices onto the screen; returns the pixels that may show it.
+  PixelBox Project(const PersonMesh& mesh, const Skin& skin, const RigidTransform& X_CW,
+                   std::vector<ScreenVertex>& screen) const;
   void DrawShadow(const EmptyView& view, const RigidTransform& X_CW, Image<Bgr>& canvas);
   // Lets the shadow fall on pixels that show these places.
   void Darken(std::span<const FloorPlace> floor, Bgr* pixels) const;
   void DrawTriangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
-                    Material material);
-  void Compose(const Outfit& outfit, Image<Bgr>& canvas);
+                    std::uint8_t pixel);
+  void Compose(std::span<const Figure> figures, Image<Bgr>& canvas);
   void SoftenEdges(Image<Bgr>& canvas);
   bool IsOutlineWithin(int x, int y) const;
   bool ToScreen(const Eigen::Vector3f& p_C, float& x, float& y) const;
@@ -56,12 +87,12 @@ class PersonRenderer {
   TsaiLens lens_;
   float fx_, fy_, cx_, cy_, kappa_;
   std::vector<float> shrink_;  // rd / ru by κ1 ru².
-  std::vector<Eigen::Vector3f> p_W_, n_W_;
-  std::vector<ScreenVertex> screen_;
+  std::vector<Skin> skins_;
+  std::vector<std::vector<ScreenVertex>> screens_;
   Image<float> nearness_, shades_;
-  Image<std::uint8_t> materials_;
+  Image<std::uint8_t> figures_;
   FloorShadow shadow_;
-  PixelBox person_, dirty_;
+  PixelBox people_, dirty_;
   struct Soft {
     int x, y;
     Bgr color;

@@ -6,22 +6,27 @@
 
 #include "core/errors.h"
 #include "drivers/simulation/camera_rig.h"
+#include "drivers/simulation/company.h"
 #include "drivers/simulation/random.h"
+#include "drivers/simulation/room_plan.h"
 
 namespace mocap::simulation {
 namespace {
 
 constexpr double kJitter_ns = 300'000;
 constexpr double kMostMegapixels = 128;
+constexpr double kLeastStature_mm = 1000, kMostStature_mm = 2100;
 
-const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
+void Check(const SimulatedStudioOptions& options) {
   const auto refuse = [](const char* name, double found, const char* wanted) {
     std::ostringstream message;
     message << "simulated studio: " << name << " is " << found << "; wanted is " << wanted;
     throw SetupError(message.str());
   };
-  if (!(options.stature_mm >= 1000 && options.stature_mm <= 2100))
+  if (!(options.stature_mm >= kLeastStature_mm && options.stature_mm <= kMostStature_mm))
     refuse("stature_mm", options.stature_mm, "1000 to 2100");
+  if (options.people < 1 || options.people > kMostSimulatedPeople)
+    refuse("people", options.people, "1 to 4");
   if (!(options.fps >= 1 && options.fps <= 1000)) refuse("fps", options.fps, "1 to 1000");
   if (options.cameras < 1 || options.cameras > 64) refuse("cameras", options.cameras, "1 to 64");
   if (options.width_px < 16 || options.width_px > 8192)
@@ -35,7 +40,6 @@ const SimulatedStudioOptions& Checked(const SimulatedStudioOptions& options) {
   }
   if (!(options.seconds >= 0 && options.seconds < 1e6))
     refuse("seconds", options.seconds, "0 to 1000000");
-  return options;
 }
 
 // The middle of the trunk, kept where heads can follow it.
@@ -47,26 +51,87 @@ Vector3 TrunkAt(const Person& person, std::int64_t capture_ns) {
           p.z()};
 }
 
-}  // namespace
+// The first is who the options say; the others are people of his age, each with a seed of his own.
+std::uint64_t SeedOf(const SimulatedStudioOptions& options, int person) {
+  return person == 0 ? options.seed
+                     : Mix(options.seed, Tag("person"), static_cast<std::uint64_t>(person));
+}
 
-Person::Person(const SimulatedStudioOptions& options)
-    : body_(MakeAnthropometry(Checked(options).stature_mm, options.seed)),
-      motion_(MakeMotion(options.motion, body_, options.seed)),
-      start_ns_(options.start_ns) {}
+double StatureOf(const SimulatedStudioOptions& options, int person) {
+  if (person == 0) return options.stature_mm;
+  Random random(Mix(SeedOf(options, person), Tag("stature")));
+  return std::clamp(options.stature_mm * random.Uniform(0.92, 1.08), kLeastStature_mm,
+                    kMostStature_mm);
+}
+
+std::vector<Block> FurnitureOf(const std::vector<Person>& people) {
+  std::vector<Block> furniture;
+  for (const Person& person : people)
+    for (const Block& block : person.motion().furniture()) furniture.push_back(block);
+  return furniture;
+}
+
+bool IsInPicture(const CameraCalibration& camera, const Vector3& p_C) {
+  if (p_C.z() <= 0) return false;
+  const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+  return pixel && pixel->x() >= 0 && pixel->y() >= 0 && pixel->x() <= camera.width_px - 1 &&
+         pixel->y() <= camera.height_px - 1;
+}
+
+}  // namespace
 
 BonePoses Person::BonesAt(std::int64_t capture_ns) const {
   return PlaceBones(body_, motion_->PoseAt(static_cast<double>(capture_ns - start_ns_) * 1e-9));
 }
 
+std::vector<Person> MakePeople(const SimulatedStudioOptions& options) {
+  Check(options);
+  std::vector<Anthropometry> bodies;
+  for (int i = 0; i < options.people; ++i)
+    bodies.push_back(MakeAnthropometry(StatureOf(options, i), SeedOf(options, i)));
+  std::vector<std::unique_ptr<const Motion>> motions =
+      MakeCompany(options.motion, bodies, options.seed);
+  std::vector<Person> people;
+  for (int i = 0; i < options.people; ++i)
+    people.emplace_back(bodies[i], std::move(motions[i]), options.start_ns);
+  return people;
+}
+
 Scene::Scene(const SimulatedStudioOptions& options)
     : options_(options),
-      person_(options),
-      room_(options.seed, person_.motion().furniture()),
-      outfit_(MakeOutfit(options.seed, room_.wall_color())),
-      mesh_(BuildPersonMesh(person_.body(), outfit_, options.seed)),
+      people_(MakePeople(options)),
+      room_(options.seed, FurnitureOf(people_)),
       sensor_(options.seed),
-      cameras_(HangCameras({options.cameras, options.width_px, options.height_px, options.pan_tilt,
-                            options.seed})) {}
+      cameras_(HangCameras(
+          {options.cameras, options.width_px, options.height_px, options.pan_tilt, options.seed})) {
+  for (int i = 0; i < options.people; ++i) {
+    const std::uint64_t seed = SeedOf(options, i);
+    const Outfit outfit = MakeOutfit(seed, room_.wall_color());
+    figures_.push_back({outfit, BuildPersonMesh(people_[i].body(), outfit, seed)});
+  }
+}
+
+std::vector<BonePoses> Scene::BonesAt(std::int64_t capture_ns) const {
+  std::vector<BonePoses> poses;
+  for (const Person& person : people_) poses.push_back(person.BonesAt(capture_ns));
+  return poses;
+}
+
+PersonPresence Scene::PresenceOf(int person, std::int64_t capture_ns) const {
+  const PersonMesh& mesh = figures_[person].mesh;
+  std::vector<Eigen::Vector3f> p_W, n_W;
+  SkinMesh(mesh, people_[person].BonesAt(capture_ns), p_W, n_W);
+  const auto is_inside = [&p_W](int v) { return p_W[v].x() > float(kDoorX_mm); };
+  PersonPresence presence{.in_room = std::ranges::any_of(mesh.coarse_vertices, is_inside),
+                          .whole = std::ranges::all_of(mesh.coarse_vertices, is_inside)};
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    const RigidTransform X_CW = cameras_[c].PoseAt(AnglesAt(static_cast<int>(c), capture_ns));
+    presence.pictures += std::ranges::all_of(mesh.coarse_vertices, [&](int v) {
+      return IsInPicture(cameras_[c], X_CW * p_W[v].cast<double>());
+    });
+  }
+  return presence;
+}
 
 std::int64_t Scene::NominalTime(std::int64_t frame) const {
   // Since 1970 at 1000 Hz a frame's number has 41 bits; long double keeps the nanoseconds.
@@ -85,7 +150,7 @@ PanTiltAngles Scene::AnglesAt(int camera, std::int64_t capture_ns) const {
   constexpr int kSamples = 5;
   constexpr std::int64_t kSpacing_ns = 80'000'000;
   Vector3 sum = Vector3::Zero();
-  for (int i = 0; i < kSamples; ++i) sum += TrunkAt(person_, capture_ns - i * kSpacing_ns);
+  for (int i = 0; i < kSamples; ++i) sum += TrunkAt(people_.front(), capture_ns - i * kSpacing_ns);
   return AimInSteps(cameras_[camera], sum / kSamples);
 }
 
@@ -159,7 +224,7 @@ std::vector<BackgroundFrame> SceneView::Background(int frames) const {
 }
 
 ScenePainter::ScenePainter(std::shared_ptr<const SceneView> view)
-    : view_(std::move(view)), person_(view_->calibration()) {}
+    : view_(std::move(view)), renderer_(view_->calibration()) {}
 
 void ScenePainter::Paint(std::int64_t capture_ns) {
   Paint(capture_ns, view_->scene().AnglesAt(view_->camera(), capture_ns));
@@ -173,8 +238,8 @@ void ScenePainter::Paint(std::int64_t capture_ns, const PanTiltAngles& angles) {
   const bool turned = camera.head && (fresh_ || angles_ != before);
   if (turned) view_->RenderView(angles_, turned_view_);
   const EmptyView& empty = camera.head ? turned_view_ : view_->fixed_view();
-  person_.Draw(scene.mesh(), scene.outfit(), scene.person().BonesAt(capture_ns), empty,
-               camera.PoseAt(angles_), !fresh_ && !turned, canvas_);
+  renderer_.Draw(scene.figures(), scene.BonesAt(capture_ns), empty, camera.PoseAt(angles_),
+                 !fresh_ && !turned, canvas_);
   scene.sensor().Expose(
       canvas_, LampGain(capture_ns),
       Mix(scene.options().seed, Tag("frame"), static_cast<std::uint64_t>(view_->camera()),

@@ -1,4 +1,4 @@
-// A simulated studio with its person: everything that cameras share, and one camera's view of it.
+// A simulated studio with its people: everything that cameras share, and one camera's view of it.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ namespace mocap::simulation {
 /// Who moves, and how. Immutable; reentrant.
 class Person {
  public:
-  /// @throws SetupError  for a motion, stature or seed that cannot be.
-  explicit Person(const SimulatedStudioOptions& options);
+  /// @param start_ns  when the motion begins.
+  Person(const Anthropometry& body, std::unique_ptr<const Motion> motion, std::int64_t start_ns)
+      : body_(body), motion_(std::move(motion)), start_ns_(start_ns) {}
 
   const Anthropometry& body() const { return body_; }
   const Motion& motion() const { return *motion_; }
@@ -37,16 +38,21 @@ class Person {
   std::int64_t start_ns_;
 };
 
+/// Makes all people of a studio.
+/// @throws SetupError  for options that cannot be.
+std::vector<Person> MakePeople(const SimulatedStudioOptions& options);
+
 /// All that the cameras see. Immutable; reentrant.
 class Scene {
  public:
   explicit Scene(const SimulatedStudioOptions& options);
 
   const SimulatedStudioOptions& options() const { return options_; }
-  const Person& person() const { return person_; }
+  const std::vector<Person>& people() const { return people_; }
+  std::vector<BonePoses> BonesAt(std::int64_t capture_ns) const;
   const Room& room() const { return room_; }
-  const Outfit& outfit() const { return outfit_; }
-  const PersonMesh& mesh() const { return mesh_; }
+  /// As many as people, in their order.
+  const std::vector<Figure>& figures() const { return figures_; }
   const Sensor& sensor() const { return sensor_; }
   const std::vector<CameraCalibration>& cameras() const { return cameras_; }
 
@@ -54,7 +60,9 @@ class Scene {
   std::int64_t NominalTime(std::int64_t frame) const;
   /// When a camera really takes it, within 0.3 ms.
   std::int64_t CaptureTime(int camera, std::int64_t frame) const;
-  /// Where a camera's head points: after the person, a little late. Zero without a head.
+  /// How much of somebody is in the room and in the pictures.
+  PersonPresence PresenceOf(int person, std::int64_t capture_ns) const;
+  /// Where a camera's head points: after the first person, a little late. Zero without a head.
   PanTiltAngles AnglesAt(int camera, std::int64_t capture_ns) const;
   /// How far a camera's head turns, when it is told to or by itself. Zero without a head.
   PanTiltLimits ReachOf(int camera) const;
@@ -63,10 +71,9 @@ class Scene {
 
  private:
   SimulatedStudioOptions options_;
-  Person person_;
+  std::vector<Person> people_;
   Room room_;
-  Outfit outfit_;
-  PersonMesh mesh_;
+  std::vector<Figure> figures_;
   Sensor sensor_;
   std::vector<CameraCalibration> cameras_;
 };
@@ -101,18 +108,18 @@ class ScenePainter {
  public:
   explicit ScenePainter(std::shared_ptr<const SceneView> view);
 
-  /// Paints what the camera sees at a moment; its head points after the person.
+  /// Paints what the camera sees at a moment; its head points after the first person.
   void Paint(std::int64_t capture_ns);
   /// Paints what it sees where its head points.
   void Paint(std::int64_t capture_ns, const PanTiltAngles& angles);
   const Image<Bgr>& picture() const { return picture_; }
   const PanTiltAngles& angles() const { return angles_; }
-  /// material + 1 where the person is seen, else 0.
-  const Image<std::uint8_t>& materials() const { return person_.materials(); }
+  /// Who is seen where: each a FigurePixel.
+  const Image<std::uint8_t>& figures() const { return renderer_.figures(); }
 
  private:
   std::shared_ptr<const SceneView> view_;
-  PersonRenderer person_;
+  PersonRenderer renderer_;
   EmptyView turned_view_;
   PanTiltAngles angles_;
   Image<Bgr> canvas_, picture_;

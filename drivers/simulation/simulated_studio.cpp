@@ -29,16 +29,16 @@ SimulatedStudioOptions RecordedSimulation() {
 }
 
 SimulatedTruth::SimulatedTruth(const SimulatedStudioOptions& options)
-    : person_(std::make_unique<const simulation::Person>(options)) {}
+    : people_(simulation::MakePeople(options)) {}
 SimulatedTruth::~SimulatedTruth() = default;
 SimulatedTruth::SimulatedTruth(SimulatedTruth&&) noexcept = default;
 
-JointPositions SimulatedTruth::At(std::int64_t capture_ns) const {
-  return simulation::PointsOf(person_->body(), person_->BonesAt(capture_ns));
+JointPositions SimulatedTruth::At(std::int64_t capture_ns, int person) const {
+  return simulation::PointsOf(people_[person].body(), people_[person].BonesAt(capture_ns));
 }
 
-TruthSizes SimulatedTruth::Sizes() const {
-  const simulation::Anthropometry& body = person_->body();
+TruthSizes SimulatedTruth::Sizes(int person) const {
+  const simulation::Anthropometry& body = people_[person].body();
   const JointPositions upright =
       simulation::PointsOf(body, simulation::PlaceBones(body, simulation::BodyPose{}));
   const auto neck = static_cast<int>(simulation::TruthPoint::kNeck);
@@ -137,8 +137,7 @@ void SimulatedCamera::Stop() {
 }
 
 ImageView<const std::uint8_t> SimulatedCamera::TrueMask() {
-  const Image<std::uint8_t>& materials = painter_->materials();
-  mask_ = materials;
+  mask_ = painter_->figures();
   for (std::uint8_t& value : mask_.pixels()) value = value != 0 ? 255 : 0;
   return static_cast<const Image<std::uint8_t>&>(mask_).view();
 }
@@ -170,6 +169,10 @@ std::vector<BackgroundFrame> SimulatedStudio::Background(int camera) const {
 
 std::int64_t SimulatedStudio::NominalTime(std::int64_t frame) const {
   return scene_->NominalTime(frame);
+}
+
+PersonPresence SimulatedStudio::PresenceOf(int person, std::int64_t capture_ns) const {
+  return scene_->PresenceOf(person, capture_ns);
 }
 
 Studio OpenSimulatedStudio(const SimulatedStudioOptions& options) {

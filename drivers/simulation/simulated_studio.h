@@ -1,4 +1,4 @@
-// A studio that exists in the computer only: cameras render a moving person, with truth.
+// A studio that exists in the computer only: cameras render moving people, with truth.
 #pragma once
 
 #include <array>
@@ -20,8 +20,9 @@ namespace mocap {
 
 /// What happens in the simulated studio. The same options give the same pictures and truth.
 struct SimulatedStudioOptions {
-  std::string motion = "walk";  ///< One of simulation::kMotionNames.
-  double stature_mm = 1750;     ///< 1000 to 2100.
+  std::string motion = "walk";  ///< As simulation::MakeCompany() has it.
+  int people = 1;               ///< 1 to simulation::kMostSimulatedPeople.
+  double stature_mm = 1750;     ///< Of the first, 1000 to 2100; others are of about his size.
   double fps = 30;
   int cameras = 6;
   int width_px = 640, height_px = 480;
@@ -54,7 +55,17 @@ class ScenePainter;
 class PictureAhead;
 }  // namespace simulation
 
-/// Where the simulated person's joints truly are. Reentrant.
+/// How much of somebody is to be seen.
+struct PersonPresence {
+  bool in_room = false;  ///< Any part of the body is on this side of the door.
+  bool whole = false;    ///< All of it is.
+  int pictures = 0;      ///< That have all of the body within their borders, hidden or not.
+};
+
+/// So many pictures that have all of somebody cover him.
+inline constexpr int kCoveringPictures = 4;
+
+/// Where the simulated people's joints truly are. People are numbered from 0. Reentrant.
 class SimulatedTruth {
  public:
   /// @throws SetupError  when the options cannot be.
@@ -62,11 +73,11 @@ class SimulatedTruth {
   ~SimulatedTruth();
   SimulatedTruth(SimulatedTruth&&) noexcept;
 
-  JointPositions At(std::int64_t capture_ns) const;
-  TruthSizes Sizes() const;
+  JointPositions At(std::int64_t capture_ns, int person = 0) const;
+  TruthSizes Sizes(int person = 0) const;
 
  private:
-  std::unique_ptr<const simulation::Person> person_;
+  std::vector<simulation::Person> people_;
 };
 
 /// One virtual camera. In real time it paints ahead of the time when a picture is due, unless its
@@ -81,7 +92,7 @@ class SimulatedCamera : public CameraDriver {
   void Start() override;
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
   void Stop() override;
-  /// Where the person is visible in the last frame: 255, else 0. Valid until the next call.
+  /// Where anybody is visible in the last frame: 255, else 0. Valid until the next call.
   ImageView<const std::uint8_t> TrueMask();
 
  private:
@@ -114,6 +125,7 @@ class SimulatedStudio {
   std::vector<BackgroundFrame> Background(int camera) const;
   /// Time of a frame without any camera's jitter.
   std::int64_t NominalTime(std::int64_t frame) const;
+  PersonPresence PresenceOf(int person, std::int64_t capture_ns) const;
 
  private:
   std::shared_ptr<const simulation::Scene> scene_;

@@ -70,6 +70,19 @@ void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, Bo
                      Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + 0.012 * body.stature_mm)};
 }
 
+// A limb of two links that reaches for a distance: the angles of the triangle, by the law of
+// cosines.
+struct Fold {
+  double bend;     // At the joint between the links; 0 when they are in line.
+  double at_root;  // From the line to the target to the first link.
+};
+
+Fold FoldTo(double distance_mm, double a, double b) {
+  const double distance = std::clamp(distance_mm, 0.3 * (a + b), 0.9999 * (a + b));
+  return {std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b)),
+          std::acos((a * a + distance * distance - b * b) / (2 * a * distance))};
+}
+
 }  // namespace
 
 BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose) {
@@ -123,12 +136,7 @@ void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, Bod
   const double sign = SideSign(side);
   const Vector3 p_WHip = pose.p_WPelvis + pose.R_WPelvis * Vector3(0, sign * body.hip_half_mm, 0);
   const Vector3 reach = target.p_WAnkle - p_WHip;
-  const double a = body.thigh_mm, b = body.shank_mm;
-  const double distance = std::clamp(reach.norm(), 0.3 * (a + b), 0.9999 * (a + b));
-  // Law of cosines: the triangle of hip, knee and ankle.
-  const double knee =
-      std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b));
-  const double at_hip = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
+  const auto [knee, at_hip] = FoldTo(reach.norm(), body.thigh_mm, body.shank_mm);
 
   // The leg's plane holds the line to the ankle and the direction of the foot, which may point
   // nearly along that line when the heel is up: then the pelvis says where forward is.
@@ -154,6 +162,33 @@ void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, Bod
   leg.inversion = -ankle.abduction;
   leg.foot_turn = ankle.rotation;
   leg.toes = target.toes_rad;
+}
+
+void ReachWith(const Anthropometry& body, int side, const Vector3& p_WHand, BodyPose& pose) {
+  const double sign = SideSign(side);
+  const BonePoses bones = PlaceBones(body, pose);
+  const Matrix3& R_WThorax = bones[kThorax].R;
+  const Vector3 reach = p_WHand - bones[kUpperArmL + side].p;
+  const auto [elbow, at_shoulder] =
+      FoldTo(reach.norm(), body.upper_arm_mm, body.forearm_mm + body.hand_mm / 2);
+
+  // The elbow falls below the line to the hand, and what is bent lies above it.
+  const Vector3 along = reach.normalized();
+  const Vector3 pole = R_WThorax * Vector3(0, 0.8 * sign, -1);
+  const Vector3 below = (pole - along.dot(pole) * along).normalized();
+  const Vector3 upper_down = std::cos(at_shoulder) * along + std::sin(at_shoulder) * below;
+  Matrix3 R_WUpper;
+  R_WUpper.col(2) = -upper_down;
+  R_WUpper.col(0) = std::sin(at_shoulder) * along - std::cos(at_shoulder) * below;
+  R_WUpper.col(1) = R_WUpper.col(2).cross(R_WUpper.col(0));
+
+  ArmAngles& arm = pose.arms[side];
+  const LimbAngles shoulder = AnglesOfLimb(R_WThorax.transpose() * R_WUpper, sign);
+  arm.flexion = shoulder.flexion;
+  arm.abduction = shoulder.abduction;
+  arm.rotation = shoulder.rotation;
+  arm.elbow = elbow;
+  arm.pronation = arm.wrist = 0;
 }
 
 }  // namespace mocap::simulation

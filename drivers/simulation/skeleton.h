@@ -137,4 +137,8 @@ struct FootTarget {
 /// out of reach is approached with the leg straight.
 void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, BodyPose& pose);
 
+/// Bends an arm so that the middle of its straight hand comes to a place, elbow down and a little
+/// out; a place out of reach is approached with the arm straight. The collar bone stays as it is.
+void ReachWith(const Anthropometry& body, int side, const Vector3& p_WHand, BodyPose& pose);
+
 }  // namespace mocap::simulation

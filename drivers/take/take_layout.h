@@ -53,6 +53,8 @@ struct TakeLayout {
   std::filesystem::path Poses() const { return folder / "poses.lcm"; }
   /// The daemon's configuration.
   std::filesystem::path Config() const { return folder / "mocapd.toml"; }
+  /// What is known of one of several people, counted from 1: a folder with truth as a take has it.
+  TakeLayout Person(int number) const { return {folder / ("person-" + std::to_string(number))}; }
   std::filesystem::path TruthTable() const { return folder / "truth.csv"; }
   std::filesystem::path TruthSizes() const { return folder / "truth.toml"; }
 };

@@ -97,6 +97,15 @@ std::string DescriptionText(const TakeDescription& description) {
   return text + NotesText(description.notes);
 }
 
+std::string SpansText(const std::vector<FrameSpan>& spans) {
+  std::string text = "[";
+  for (const FrameSpan& span : spans) {
+    text += (text == "[" ? "[" : ", [") + std::to_string(span.first) + ", " +
+            std::to_string(span.last) + ']';
+  }
+  return text + ']';
+}
+
 std::string Fixed(double value, int decimals) {
   std::string text(32, '\0');
   text.resize(std::snprintf(text.data(), text.size(), "%.*f", decimals, value));
@@ -163,33 +172,39 @@ class TakeWriter::Impl {
     return *video;
   }
 
-  void SetTruthPoints(std::span<const std::string> names) {
-    MOCAP_CHECK(!truth_);
+  void SetTruthPoints(std::span<const std::string> names, int people) {
+    MOCAP_CHECK(truths_.empty() && people >= 1);
     std::string header = "frame,timestamp_ns";
     for (const std::string& name : names) {
       for (const char* axis : {"_x_mm", "_y_mm", "_z_mm"}) header += ',' + name + axis;
     }
     truth_points_ = names.size();
-    truth_.emplace(layout_.TruthTable());
-    truth_->Write(header + '\n');
+    truths_.reserve(people);
+    for (int i = 0; i < people; ++i) {
+      const TakeLayout folder = people == 1 ? layout_ : layout_.Person(i + 1);
+      std::filesystem::create_directory(folder.folder);
+      truths_.push_back({folder, TextFile(folder.TruthTable())});
+      truths_.back().table.Write(header + '\n');
+    }
   }
 
-  void WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W) {
-    MOCAP_CHECK(truth_ && points_W.size() == truth_points_);
-    std::string row = std::to_string(truth_rows_++) + ',' + std::to_string(capture_ns);
+  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, std::span<const Vector3> points_W,
+                  int person) {
+    MOCAP_CHECK(points_W.size() == truth_points_);
+    std::string row = std::to_string(frame) + ',' + std::to_string(capture_ns);
     for (const Vector3& point : points_W) {
       for (const double value : point) row += ',' + Fixed(value, 3);
     }
-    truth_->Write(row + '\n');
+    truths_.at(person).table.Write(row + '\n');
   }
 
-  void WriteTruthSizes(const TruthSizes& sizes) {
+  void WriteTruthSizes(const TruthSizes& sizes, int person) {
     std::string text = "stature_mm = " + TomlNumber(sizes.stature_mm) +
                        "\nankle_to_sole_mm = " + TomlNumber(sizes.ankle_to_sole_mm) +
                        "\n\n[lengths]\n";
     for (const auto& [key, value] : sizes.lengths_mm)
       text += key + " = " + TomlNumber(value) + '\n';
-    WriteText(layout_.TruthSizes(), text);
+    WriteText(truths_.at(person).folder.TruthSizes(), text);
   }
 
   const std::filesystem::path& partial_folder() const { return layout_.folder; }
@@ -197,6 +212,17 @@ class TakeWriter::Impl {
   void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
     description_ += NotesText(notes);
     // In one step: a take without its description would not open.
+    ReplaceText(layout_.Description(), description_);
+  }
+
+  void AddPeople(std::span<const PersonStay> people) {
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      description_ += "\n[[person]]\nfolder = " +
+                      TomlText(layout_.Person(static_cast<int>(i) + 1).folder.filename().string()) +
+                      "\nin_room = " + SpansText(people[i].in_room) +
+                      "\nwhole = " + SpansText(people[i].whole) +
+                      "\ncovered = " + SpansText(people[i].covered) + '\n';
+    }
     ReplaceText(layout_.Description(), description_);
   }
 
@@ -253,9 +279,12 @@ class TakeWriter::Impl {
   std::vector<RecordedVideo> frames_;
   std::vector<std::optional<RecordedVideo>> backgrounds_;
   std::vector<std::optional<VideoWriter>> masks_;
-  std::optional<TextFile> truth_;
+  struct Truth {
+    TakeLayout folder;
+    TextFile table;
+  };
+  std::vector<Truth> truths_;
   std::size_t truth_points_ = 0;
-  std::uint64_t truth_rows_ = 0;
 };
 
 TakeWriter::TakeWriter(const std::filesystem::path& folder, const TakeDescription& description)
@@ -274,13 +303,17 @@ void TakeWriter::WriteBackground(int camera, ImageView<const Bgr> image, std::in
 void TakeWriter::WriteMask(int camera, ImageView<const std::uint8_t> mask) {
   impl_->mask(camera).Write(mask);
 }
-void TakeWriter::SetTruthPoints(std::span<const std::string> names) {
-  impl_->SetTruthPoints(names);
+void TakeWriter::SetTruthPoints(std::span<const std::string> names, int people) {
+  impl_->SetTruthPoints(names, people);
 }
-void TakeWriter::WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W) {
-  impl_->WriteTruth(capture_ns, points_W);
+void TakeWriter::WriteTruth(std::int64_t frame, std::int64_t capture_ns,
+                            std::span<const Vector3> points_W, int person) {
+  impl_->WriteTruth(frame, capture_ns, points_W, person);
 }
-void TakeWriter::WriteTruthSizes(const TruthSizes& sizes) { impl_->WriteTruthSizes(sizes); }
+void TakeWriter::WriteTruthSizes(const TruthSizes& sizes, int person) {
+  impl_->WriteTruthSizes(sizes, person);
+}
+void TakeWriter::AddPeople(std::span<const PersonStay> people) { impl_->AddPeople(people); }
 const std::filesystem::path& TakeWriter::partial_folder() const { return impl_->partial_folder(); }
 void TakeWriter::AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
   impl_->AddNotes(notes);

@@ -33,6 +33,17 @@ struct TruthSizes {
   std::vector<std::pair<std::string, double>> lengths_mm;
 };
 
+/// From a frame to a frame, both counted from 0 and included.
+struct FrameSpan {
+  std::int64_t first = 0, last = 0;
+};
+
+/// What take.toml says of one of several people: when any part of the body is in the room, when all
+/// of it is, and when four pictures or more show all of it.
+struct PersonStay {
+  std::vector<FrameSpan> in_room, whole, covered;
+};
+
 /// Writes a take: into FOLDER.partial, which becomes FOLDER once all is there.
 ///
 /// What was written before an interruption stays in FOLDER.partial and opens as a take. The same
@@ -60,15 +71,23 @@ class TakeWriter {
   void WriteMask(int camera, ImageView<const std::uint8_t> mask);
 
   /// Names the points of truth.csv; before the first WriteTruth.
-  void SetTruthPoints(std::span<const std::string> names);
+  /// @param people  of several, each has his own: person-1/truth.csv and so on.
+  void SetTruthPoints(std::span<const std::string> names, int people = 1);
   /// Appends a row of truth: p_WQ of each named point [mm].
-  void WriteTruth(std::int64_t capture_ns, std::span<const Vector3> points_W);
-  void WriteTruthSizes(const TruthSizes& sizes);
+  /// @param frame   increases from row to row.
+  /// @param person  from 0.
+  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, std::span<const Vector3> points_W,
+                  int person = 0);
+  /// @pre SetTruthPoints() was called.
+  void WriteTruthSizes(const TruthSizes& sizes, int person = 0);
 
   /// The folder while it is being written.
   const std::filesystem::path& partial_folder() const;
   /// Adds keys to take.toml.
   void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes);
+
+  /// Adds what take.toml says of several people; no notes may follow.
+  void AddPeople(std::span<const PersonStay> people);
 
   /// Completes all files and gives the folder its name.
   /// @throws std::runtime_error  here and above, when something cannot be written.

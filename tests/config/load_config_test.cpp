@@ -43,6 +43,7 @@ void ExpectSame(const Config& a, const Config& b) {
   EXPECT_EQ(a.source.loop, b.source.loop);
   EXPECT_EQ(a.source.in_memory, b.source.in_memory);
   EXPECT_EQ(a.source.motion, b.source.motion);
+  EXPECT_EQ(a.source.people, b.source.people);
   EXPECT_EQ(a.source.stature_mm, b.source.stature_mm);
   EXPECT_EQ(a.source.cameras, b.source.cameras);
   EXPECT_EQ(a.source.width_px, b.source.width_px);
@@ -147,6 +148,7 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"[recording]\nbuffer_mb = 1e300\n", 2, "recording.buffer_mb is 1e+300"},
       {"\"x\\u001b]0;owned\\u0007\" = 1\n", 1, "x\\x1b]0;owned\\x07 is unknown"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
+      {"[source]\npeople = 5\n", 2, "source.people is 5"},
       {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},
       {"[people]\nmost = 9\n", 2, "people.most is 9; a whole number from 1 to 8"},
       {"[people]\nmost = 0\n", 2, "people.most is 0"},

@@ -83,7 +83,7 @@ inline void WriteBoxTake(const std::filesystem::path& take) {
                         time_ns + 1'000'000 * camera);
     }
     const ScoredPoints points = ScoredPointsOf(TruePoints(frame));
-    writer.WriteTruth(time_ns,
+    writer.WriteTruth(frame, time_ns,
                       std::vector<Vector3>(points.colwise().begin(), points.colwise().end()));
   }
   writer.WriteTruthSizes({1700, 0, {{"torso_mm", 550}}});

@@ -38,6 +38,7 @@ TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
                            "simulate --out x --stature",
                            "simulate --out x --width",
                            "simulate --out x --cameras",
+                           "simulate --out x --people",
                            "track x --out y --voxel-size",
                            "benchmark --seconds",
                            "benchmark --seeds",

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -56,6 +57,31 @@ TEST_F(Simulate, WritesATakeThatOpensWithTruthAndMasks) {
   EXPECT_NE(Content(take / "truth.toml").find("lower_arm_mm"), std::string::npos);
 }
 
+TEST_F(Simulate, OfSeveralPeopleEachHasTruthOfTheFramesInWhichHeIsThere) {
+  const fs::path take = Run("take",
+                            "--motion visit --people 2 --seconds 6 --fps 2 --cameras 4 "
+                            "--width 160 --height 120");
+  EXPECT_FALSE(fs::exists(take / "truth.csv"));
+  const std::string stays = Content(take / "person-1" / "truth.csv");
+  const std::string visits = Content(take / "person-2" / "truth.csv");
+  EXPECT_EQ(std::ranges::count(stays, '\n'), 13);
+  const auto rows = std::ranges::count(visits, '\n') - 1;
+  EXPECT_GT(rows, 0);
+  EXPECT_LT(rows, 12);
+  // He is the last to come, and stays: frames are the take's.
+  EXPECT_NE(visits.find("\n11,1005500000000,"), std::string::npos);
+  EXPECT_NE(Content(take / "person-2" / "truth.toml").find("stature_mm"), std::string::npos);
+  const std::string description = Content(take / "take.toml");
+  EXPECT_NE(description.find("[[person]]\nfolder = \"person-1\"\nin_room = [[0, 11]]\n"),
+            std::string::npos)
+      << description;
+  EXPECT_NE(description.find("folder = \"person-2\"\nin_room = [[" + std::to_string(12 - rows) +
+                             ", 11]]\n"),
+            std::string::npos)
+      << description;
+  EXPECT_EQ(OpenTake(take, {}).cameras.size(), 4u);
+}
+
 TEST_F(Simulate, TheSameOptionsGiveTheSameBytes) {
   const std::string options = "--seconds 0.1 --cameras 2 --stature 1400 --seed 9 --fps 20";
   // The name of a take is its folder's.
@@ -79,9 +105,9 @@ TEST_F(Simulate, PicturesHaveTheSizeThatIsAskedFor) {
 
 TEST_F(Simulate, RefusesWhatCannotBe) {
   EXPECT_THROW(Run("take", "--motion fly"), SetupError);
-  for (const char* option :
-       {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300", "--fps 1e9",
-        "--cameras 0", "--cameras 1000000000", "--width 4", "--height 1000000000"}) {
+  for (const char* option : {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300",
+                             "--fps 1e9", "--cameras 0", "--cameras 1000000000", "--people 0",
+                             "--people 5", "--width 4", "--height 1000000000"}) {
     EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
   }
   EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,9 +17,12 @@ TEST(FloorShadow, FallsOnlyWhereItMay) {
   const SimulatedStudioOptions options = RecordedSimulation();
   const Scene scene(options);
   std::vector<Eigen::Vector3f> p_W, n_W;
-  SkinMesh(scene.mesh(), scene.person().BonesAt(options.start_ns), p_W, n_W);
+  const PersonMesh& mesh = scene.figures().front().mesh;
+  SkinMesh(mesh, scene.people().front().BonesAt(options.start_ns), p_W, n_W);
   FloorShadow shadow;
-  shadow.Cast(scene.mesh(), p_W);
+  shadow.Clear();
+  shadow.Cast(mesh, p_W);
+  shadow.Blur();
   constexpr auto kEnd_x = static_cast<int>(kRoomX_mm * kFloorUnitsPerMm);
   constexpr auto kEnd_y = static_cast<int>(kRoomY_mm * kFloorUnitsPerMm);
   constexpr int kStep = 50;  // Less than a cell.
@@ -38,6 +42,34 @@ TEST(FloorShadow, FallsOnlyWhereItMay) {
   // No row is missed, and few are looked at in vain.
   EXPECT_GT(dark_rows, 0);
   EXPECT_LE(rows, 3 * dark_rows / 2);
+}
+
+TEST(FloorShadow, OfTwoIsNowhereLighterThanOfEither) {
+  SimulatedStudioOptions options = RecordedSimulation();
+  options.motion = "meet";
+  options.people = 2;
+  const Scene scene(options);
+  const std::vector<BonePoses> poses = scene.BonesAt(options.start_ns);
+  std::array<FloorShadow, 3> shadows;  // The first's, the second's, both.
+  for (FloorShadow& shadow : shadows) shadow.Clear();
+  for (int i = 0; i < 2; ++i) {
+    std::vector<Eigen::Vector3f> p_W, n_W;
+    SkinMesh(scene.figures()[i].mesh, poses[i], p_W, n_W);
+    shadows[i].Cast(scene.figures()[i].mesh, p_W);
+    shadows[2].Cast(scene.figures()[i].mesh, p_W);
+  }
+  for (FloorShadow& shadow : shadows) shadow.Blur();
+  std::array<int, 2> dark{};
+  for (int y = 0; y < kRoomY_mm * kFloorUnitsPerMm; y += 150)
+    for (int x = 0; x < kRoomX_mm * kFloorUnitsPerMm; x += 150) {
+      const FloorPlace place{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+      for (int i = 0; i < 2; ++i) {
+        ASSERT_LE(shadows[2].LightAt(place), shadows[i].LightAt(place)) << x << ' ' << y;
+        dark[i] += shadows[i].LightAt(place) < 256;
+      }
+    }
+  EXPECT_GT(dark[0], 50);
+  EXPECT_GT(dark[1], 50);
 }
 
 }  // namespace

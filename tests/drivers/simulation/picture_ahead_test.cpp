@@ -35,7 +35,7 @@ TEST(PictureAhead, ACameraInRealTimeGivesThePicturesOfTheirTimes) {
       EXPECT_EQ(Pixels(frame.image), Pixels(painter.picture().view()));
       const ImageView<const std::uint8_t> mask = camera->TrueMask();
       EXPECT_EQ(std::count(mask.row(0), mask.row(0) + mask.width() * mask.height(), 255),
-                std::ranges::count_if(painter.materials().pixels(), [](int m) { return m != 0; }));
+                std::ranges::count_if(painter.figures().pixels(), [](int m) { return m != 0; }));
     }
     camera->Stop();
   }

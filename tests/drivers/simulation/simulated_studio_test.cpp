@@ -17,6 +17,7 @@
 namespace mocap {
 namespace {
 
+using simulation::BonePoses;
 using std::chrono::milliseconds;
 
 SimulatedStudioOptions SmallStudio(const std::string& motion = "walk") {
@@ -106,7 +107,9 @@ TEST(SimulatedStudio, CamerasInThreadsOfTheirOwnGiveTheSamePictures) {
     GrabOne(camera);
     return Pixels(GrabOne(camera).image);
   };
-  const SimulatedStudio serial(SmallStudio("dance")), threaded(SmallStudio("dance"));
+  SimulatedStudioOptions options = SmallStudio("dance");
+  options.people = 3;
+  const SimulatedStudio serial(options), threaded(options);
   std::array<std::vector<Bgr>, kCameras> pictures;
   std::vector<std::thread> threads;
   for (int c = 0; c < kCameras; ++c)
@@ -130,13 +133,24 @@ TEST(SimulatedStudio, EndsAfterItsSeconds) {
   EXPECT_EQ(camera->Grab(frame, milliseconds(0)), GrabStatus::kEnd);
 }
 
-class TruthInPictures : public testing::TestWithParam<const char*> {};
+struct Scenario {
+  const char* motion;
+  int people;
+};
+
+class TruthInPictures : public testing::TestWithParam<Scenario> {};
 INSTANTIATE_TEST_SUITE_P(Simulated, TruthInPictures,
-                         testing::Values("walk", "run", "jump", "dance", "stand"),
-                         [](const auto& motion) { return std::string(motion.param); });
+                         testing::Values(Scenario{"walk", 1}, Scenario{"run", 1},
+                                         Scenario{"jump", 1}, Scenario{"dance", 1},
+                                         Scenario{"stand", 1}, Scenario{"walk", 3},
+                                         Scenario{"dance", 4}, Scenario{"meet", 2}),
+                         [](const auto& scenario) {
+                           return scenario.param.motion + std::to_string(scenario.param.people);
+                         });
 
 TEST_P(TruthInPictures, TrueJointsLieInTheTrueMask) {
-  SimulatedStudioOptions options = SmallStudio(GetParam());
+  SimulatedStudioOptions options = SmallStudio(GetParam().motion);
+  options.people = GetParam().people;
   options.fps = 4;
   options.seconds = 2;
   const SimulatedStudio studio(options);
@@ -146,13 +160,17 @@ TEST_P(TruthInPictures, TrueJointsLieInTheTrueMask) {
     camera->Start();
     for (int i = 0; i < 8; ++i) {
       const Frame frame = GrabOne(*camera);
-      const JointPositions joints = truth.At(frame.capture_ns);
-      for (std::size_t k = 0; k < joints.size(); ++k) {
-        const Vector2 pixel = PixelOf(studio.cameras()[c], frame.angles, joints[k]);
-        const bool inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < 320 && pixel.y() < 240;
-        if (!inside) continue;
-        EXPECT_TRUE(NearMask(camera->TrueMask(), pixel, 1))
-            << kSimulatedJointNames[k] << " in cam" << c + 1 << ", frame " << i;
+      for (int person = 0; person < options.people; ++person) {
+        const JointPositions joints = truth.At(frame.capture_ns, person);
+        for (std::size_t k = 0; k < joints.size(); ++k) {
+          const Vector2 pixel = PixelOf(studio.cameras()[c], frame.angles, joints[k]);
+          const bool inside =
+              pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < 320 && pixel.y() < 240;
+          if (!inside) continue;
+          EXPECT_TRUE(NearMask(camera->TrueMask(), pixel, 1))
+              << kSimulatedJointNames[k] << " in cam" << c + 1 << ", frame " << i << ", person "
+              << person;
+        }
       }
     }
   }
@@ -167,18 +185,19 @@ TEST(SimulatedStudio, TheMaskIsTheProjectedSkin) {
     simulation::ScenePainter painter(std::make_shared<const simulation::SceneView>(scene, c));
     painter.Paint(options.start_ns);
     std::vector<Eigen::Vector3f> p_W, n_W;
-    simulation::SkinMesh(scene->mesh(), scene->person().BonesAt(options.start_ns), p_W, n_W);
+    simulation::SkinMesh(scene->figures().front().mesh,
+                         scene->people().front().BonesAt(options.start_ns), p_W, n_W);
     Image<std::uint8_t> near_skin(640, 480);
     for (const Eigen::Vector3f& p : p_W) {
       const Vector2 pixel = PixelOf(scene->cameras()[c], {}, p.cast<double>());
-      EXPECT_TRUE(NearMask(painter.materials().view(), pixel, 1));
+      EXPECT_TRUE(NearMask(painter.figures().view(), pixel, 1));
       const int x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
       for (int j = std::max(0, y - 8); j < std::min(480, y + 9); ++j)
         for (int i = std::max(0, x - 8); i < std::min(640, x + 9); ++i) near_skin(i, j) = 1;
     }
     for (int y = 0; y < 480; ++y)
       for (int x = 0; x < 640; ++x)
-        if (painter.materials()(x, y) != 0) {
+        if (painter.figures()(x, y) != 0) {
           ASSERT_EQ(near_skin(x, y), 1) << x << ' ' << y;
         }
   }
@@ -231,13 +250,95 @@ TEST(SimulatedStudio, AVisitorIsNotSeenBeforeAndAfterTheVisit) {
       simulation::ScenePainter painter(
           std::make_shared<const simulation::SceneView>(scene, camera));
       painter.Paint(options.start_ns + static_cast<std::int64_t>(t_s * 1e9));
-      const auto& pixels = painter.materials().pixels();
+      const auto& pixels = painter.figures().pixels();
       return std::any_of(pixels.begin(), pixels.end(), [](std::uint8_t m) { return m != 0; });
     };
     for (int c = 0; c < options.cameras; ++c) {
       EXPECT_FALSE(seen(c, 0.5)) << "seed " << seed << " cam" << c + 1;
       EXPECT_TRUE(seen(c, 9.5)) << "seed " << seed << " cam" << c + 1;
     }
+  }
+}
+
+TEST(SimulatedStudio, OfSeveralTheFirstAndTheRoomAreThoseOfOne) {
+  SimulatedStudioOptions options = SmallStudio();
+  const simulation::Scene alone(options);
+  options.people = 3;
+  const simulation::Scene company(options);
+  const simulation::Figure &one = alone.figures()[0], &first = company.figures()[0];
+  EXPECT_EQ(one.outfit.colors, first.outfit.colors);
+  ASSERT_EQ(one.mesh.vertices.size(), first.mesh.vertices.size());
+  for (std::size_t i = 0; i < one.mesh.vertices.size(); ++i)
+    ASSERT_EQ(one.mesh.vertices[i].p_rest, first.mesh.vertices[i].p_rest);
+  EXPECT_EQ(Pixels(SimulatedStudio(options).Background(2)[5].image.view()),
+            Pixels(SimulatedStudio(SmallStudio()).Background(2)[5].image.view()));
+}
+
+// Each figure alone, and all together, before the same empty view.
+TEST(SimulatedStudio, EverybodyIsSeenAsIfAloneWhereNobodyStandsBefore) {
+  SimulatedStudioOptions options = SmallStudio("dance");
+  options.people = 3;
+  const auto scene = std::make_shared<const simulation::Scene>(options);
+  const std::vector<BonePoses> poses = scene->BonesAt(options.start_ns);
+  int overlaps = 0, in_order = 0;
+  for (int c = 0; c < 6; ++c) {
+    const simulation::SceneView view(scene, c);
+    const RigidTransform& X_CW = scene->cameras()[c].X_CW;
+    simulation::PersonRenderer renderer(scene->cameras()[c]);
+    Image<Bgr> canvas;
+    std::vector<Image<std::uint8_t>> alone;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      renderer.Draw(std::span(scene->figures()).subspan(i, 1), std::span(poses).subspan(i, 1),
+                    view.fixed_view(), X_CW, false, canvas);
+      alone.push_back(renderer.figures());
+    }
+    renderer.Draw(scene->figures(), poses, view.fixed_view(), X_CW, false, canvas);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) {
+        const int seen = simulation::FigurePixel::FigureOf(renderer.figures()(x, y));
+        std::vector<int> there;
+        for (int i = 0; i < 3; ++i)
+          if (alone[i](x, y) != 0) there.push_back(i);
+        ASSERT_EQ(seen >= 0, !there.empty()) << x << ' ' << y;
+        if (seen < 0) continue;
+        ASSERT_NE(alone[seen](x, y), 0) << x << ' ' << y;
+        EXPECT_EQ(simulation::FigurePixel::MaterialOf(renderer.figures()(x, y)),
+                  simulation::FigurePixel::MaterialOf(alone[seen](x, y)));
+        if (there.size() < 2) continue;
+        ++overlaps;
+        const auto depth = [&](int i) { return (X_CW * poses[i][simulation::kThorax].p).z(); };
+        in_order += std::ranges::all_of(there, [&](int i) { return depth(seen) <= depth(i); });
+      }
+  }
+  ASSERT_GT(overlaps, 500);
+  // Arms may reach before who is nearer.
+  EXPECT_GT(in_order, 0.95 * overlaps);
+}
+
+TEST(SimulatedStudio, PresenceTellsWhoIsInTheRoomAndInHowManyPictures) {
+  SimulatedStudioOptions options = SmallStudio("visit");
+  options.people = 2;
+  const SimulatedStudio studio(options);
+  const PersonPresence stays = studio.PresenceOf(0, options.start_ns);
+  EXPECT_TRUE(stays.in_room && stays.whole);
+  EXPECT_GE(stays.pictures, kCoveringPictures);
+  const PersonPresence absent = studio.PresenceOf(1, options.start_ns);
+  EXPECT_FALSE(absent.in_room || absent.whole);
+  const PersonPresence later = studio.PresenceOf(1, options.start_ns + 9'000'000'000);
+  EXPECT_TRUE(later.in_room && later.whole);
+  EXPECT_GE(later.pictures, kCoveringPictures);
+
+  const auto scene = std::make_shared<const simulation::Scene>(options);
+  for (int c = 0; c < 6; ++c) {
+    simulation::ScenePainter painter(std::make_shared<const simulation::SceneView>(scene, c));
+    const auto is_seen = [&](std::int64_t time_ns) {
+      painter.Paint(time_ns);
+      return std::ranges::any_of(painter.figures().pixels(), [](std::uint8_t pixel) {
+        return simulation::FigurePixel::FigureOf(pixel) == 1;
+      });
+    };
+    EXPECT_FALSE(is_seen(options.start_ns)) << c;
+    EXPECT_TRUE(is_seen(options.start_ns + 9'000'000'000)) << c;
   }
 }
 
@@ -364,6 +465,9 @@ TEST(SimulatedStudio, OptionsThatCannotBeAreRefused) {
     EXPECT_THROW(OpenSimulatedStudio(options), SetupError);
   };
   refused([](auto& o) { o.motion = "fly"; });
+  refused([](auto& o) { o.people = 0; });
+  refused([](auto& o) { o.people = 5; });
+  refused([](auto& o) { o.motion = "meet"; });
   refused([](auto& o) { o.stature_mm = 300; });
   refused([](auto& o) { o.stature_mm = std::numeric_limits<double>::quiet_NaN(); });
   refused([](auto& o) { o.fps = 0; });
