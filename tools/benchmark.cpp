@@ -15,6 +15,7 @@
 
 #include "config/load_config.h"
 #include "daemon/base/number_option.h"
+#include "drivers/simulation/company.h"
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
@@ -22,15 +23,30 @@
 namespace mocap {
 namespace {
 
+// What a part takes where nothing is asked for.
+constexpr double kSeconds = 10, kPeopleSeconds = 20;
+constexpr int kSeeds = 3, kPeopleSeeds = 2;
+const std::vector<std::string> kMotions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
+const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
+
 struct BenchmarkOptions {
   std::filesystem::path out;
-  double seconds = 10;
-  std::vector<std::string> motions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
+  double seconds = 0;  ///< 0: what suits the part, as below; also without motions and seeds.
+  std::vector<std::string> motions;
   std::vector<double> statures_mm = {1150, 1550, 1950};
-  int seeds = 3;
+  int seeds = 0;
   std::vector<std::string> parts = {"grid",        "cameras", "voxels", "covered",
                                     "calibration", "mishap",  "tracker"};
+
+  std::vector<std::string> MotionsOr(const std::vector<std::string>& usual) const {
+    return motions.empty() ? usual : motions;
+  }
+  double SecondsOr(double usual) const { return seconds > 0 ? seconds : usual; }
+  int SeedsOr(int usual) const { return seeds > 0 ? seeds : usual; }
 };
+
+// As long as all others together, so that it has to be asked for.
+const std::string kPeoplePart = "people";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
@@ -49,15 +65,34 @@ AccuracyRow MeasureAndPrint(const AccuracyTrial& trial) {
 
 std::vector<AccuracyRow> RunGrid(const BenchmarkOptions& options) {
   std::vector<AccuracyRow> rows;
-  for (const std::string& motion : options.motions) {
+  for (const std::string& motion : options.MotionsOr(kMotions)) {
     for (const double stature_mm : options.statures_mm) {
-      for (int seed = 1; seed <= options.seeds; ++seed) {
+      for (int seed = 1; seed <= options.SeedsOr(kSeeds); ++seed) {
         AccuracyTrial trial;
         trial.studio.motion = motion;
         trial.studio.stature_mm = stature_mm;
         trial.studio.seed = static_cast<std::uint64_t>(seed);
-        trial.studio.seconds = options.seconds;
+        trial.studio.seconds = options.SecondsOr(kSeconds);
         rows.push_back(MeasureAndPrint(trial));
+      }
+    }
+  }
+  return rows;
+}
+
+std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
+  std::vector<PeopleRow> rows;
+  Print(PeopleHeader());
+  for (const std::string& motion : options.MotionsOr(kPeopleMotions)) {
+    for (int people = 2; people <= simulation::kMostSimulatedPeople; ++people) {
+      for (int seed = 1; seed <= options.SeedsOr(kPeopleSeeds); ++seed) {
+        SimulatedStudioOptions studio = RecordedSimulation();
+        studio.motion = motion;
+        studio.people = people;
+        studio.seed = static_cast<std::uint64_t>(seed);
+        studio.seconds = options.SecondsOr(kPeopleSeconds);
+        rows.push_back(RunPeopleTrial(studio));
+        Print(PeopleLine(rows.back()));
       }
     }
   }
@@ -128,7 +163,7 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
       for (const char* motion : {"walk", "dance", "sit"}) {
         AccuracyTrial trial;
         trial.studio.motion = motion;
-        trial.studio.seconds = options.seconds;
+        trial.studio.seconds = options.SecondsOr(kSeconds);
         step.change(trial);
         rows.push_back(MeasureAndPrint(trial));
       }
@@ -146,13 +181,21 @@ void RunBenchmark(const BenchmarkOptions& options) {
     constexpr std::string_view kBeginning = "# Accuracy on simulated people";
     RequireOwn(options.out / "accuracy.md", std::span(&kBeginning, 1), "a benchmark");
   }
-  AccuracyBenchmark benchmark{.seconds = options.seconds, .grid = {}, .sweeps = {}};
-  Print(AccuracyHeader());
+  AccuracyBenchmark benchmark{.seconds = options.SecondsOr(kSeconds),
+                              .grid = {},
+                              .sweeps = {},
+                              .people_seconds = options.SecondsOr(kPeopleSeconds),
+                              .people = {}};
+  if (options.parts != std::vector<std::string>{kPeoplePart}) Print(AccuracyHeader());
   if (Wants(options, "grid")) {
     benchmark.grid = RunGrid(options);
     Print("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
   }
   benchmark.sweeps = RunSweeps(options);
+  if (Wants(options, kPeoplePart)) {
+    benchmark.people = RunPeople(options);
+    Print("\n" + PeopleSummaryText(benchmark.people));
+  }
   if (options.out.empty()) return;
   ReplaceText(options.out / "accuracy.md", AccuracyMarkdown(benchmark));
   if (!benchmark.sweeps.empty()) {
@@ -166,22 +209,32 @@ void AddBenchmarkCommand(CLI::App& app) {
   const auto options = std::make_shared<BenchmarkOptions>();
   CLI::App* command = app.add_subcommand(
       "benchmark", "Measures accuracy on a grid of simulated takes, and what makes it worse");
-  command->add_option("--seconds", options->seconds, "length of each take")
-      ->check(NumberFrom(1, 600))
-      ->capture_default_str();
-  command->add_option("--motions", options->motions, "what people do, as in walk,dance")
-      ->delimiter(',')
-      ->capture_default_str();
+  command
+      ->add_option("--seconds", options->seconds,
+                   fmt::format("length of each take; without: {}, of several people {}", kSeconds,
+                               kPeopleSeconds))
+      ->check(NumberFrom(1, 600));
+  command
+      ->add_option("--motions", options->motions,
+                   fmt::format("what people do; without: {}; several people {}",
+                               fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ",")))
+      ->delimiter(',');
   command->add_option("--statures", options->statures_mm, "how tall they are [mm]")
       ->delimiter(',')
       ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
-  command->add_option("--seeds", options->seeds, "how many people of each")
-      ->check(NumberFrom(1, 1000))
-      ->capture_default_str();
-  command->add_option("--parts", options->parts, "what to measure")
+  command
+      ->add_option("--seeds", options->seeds,
+                   fmt::format("how many people of each; without: {}, of several at once {}",
+                               kSeeds, kPeopleSeeds))
+      ->check(NumberFrom(1, 1000));
+  std::vector<std::string> parts = options->parts;
+  parts.push_back(kPeoplePart);
+  command
+      ->add_option("--parts", options->parts,
+                   "what to measure; people, of two to four at once, has to be asked for")
       ->delimiter(',')
-      ->check(CLI::IsMember(options->parts))
+      ->check(CLI::IsMember(parts))
       ->capture_default_str();
   command->add_option("--out", options->out, "folder for accuracy.md and accuracy.svg");
   command->callback([options] { RunBenchmark(*options); });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/accuracy/accuracy_trial.h"
+#include "tools/accuracy/people_trial.h"
 
 namespace mocap {
 
@@ -51,9 +52,11 @@ struct AccuracySweep {
 };
 
 struct AccuracyBenchmark {
-  double seconds = 0;  ///< Of each take.
+  double seconds = 0;  ///< Of each take,
   std::vector<AccuracyRow> grid;
   std::vector<AccuracySweep> sweeps;
+  double people_seconds = 0;  ///< and of each with several people.
+  std::vector<PeopleRow> people;
 };
 
 }  // namespace mocap

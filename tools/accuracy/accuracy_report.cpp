@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tools/report/svg_plot.h"
 
 namespace mocap {
 namespace {
+
+// Whom nobody ever followed has no such time.
+std::string UntilFound(const PeopleRow& row) {
+  return row.never_found > 0 ? "never" : fmt::format("{:.1f}", row.slowest_found_s);
+}
 
 std::string SweepTable(const AccuracySweep& sweep) {
   std::string text = fmt::format(
@@ -33,6 +39,25 @@ std::string GridTable(const std::vector<AccuracyRow>& rows) {
         row.motion, row.stature_mm, row.seed, row.mpjpe_mm, row.p95_mm, row.angle_deg,
         row.length_error_mm, 100 * row.tracked_share, 100 * row.head_found_share,
         row.acquisition_frames, row.longest_wrong_stretch);
+  }
+  return text;
+}
+
+std::string PeopleTable(const AccuracyBenchmark& benchmark) {
+  std::string text = fmt::format(
+      "\n## Several people\nTakes of {:.0f} s. *Found* is the share of sets in which somebody was "
+      "followed while four pictures had all of him; *until found* how long that took whom it took "
+      "longest,\n*lost* the longest time that nobody followed somebody afterwards, *switches* how "
+      "often another one took over, *phantoms* how long anybody was followed who was not there or "
+      "was followed already.\n\n{}\n"
+      "| motion | people | seed | mean mm | worst person mm | found % | until found s | lost s | "
+      "switches | phantoms s |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      benchmark.people_seconds, PeopleSummaryText(benchmark.people));
+  for (const PeopleRow& row : benchmark.people) {
+    text += fmt::format("| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {} | {:.1f} | {} | {:.1f} |\n",
+                        row.motion, row.people, row.seed, row.mpjpe_mm, row.worst_person_mm,
+                        100 * row.found_share, UntilFound(row), row.longest_lost_s, row.switches,
+                        row.phantom_s);
   }
   return text;
 }
@@ -67,6 +92,41 @@ std::string AccuracySummaryText(const AccuracySummary& summary) {
       summary.most_acquisition_frames, kLongestGlitch, summary.takes_with_wrong_stretch);
 }
 
+std::string PeopleHeader() {
+  return fmt::format("{:<8}{:>7}{:>6}{:>9}{:>9}{:>9}{:>9}{:>8}{:>10}{:>10}\n", "motion", "people",
+                     "seed", "mean mm", "worst mm", "found %", "until s", "lost s", "switches",
+                     "phantom s");
+}
+
+std::string PeopleLine(const PeopleRow& row) {
+  return fmt::format("{:<8}{:>7}{:>6}{:>9.1f}{:>9.1f}{:>9.1f}{:>9}{:>8.1f}{:>10}{:>10.1f}\n",
+                     row.motion, row.people, row.seed, row.mpjpe_mm, row.worst_person_mm,
+                     100 * row.found_share, UntilFound(row), row.longest_lost_s, row.switches,
+                     row.phantom_s);
+}
+
+std::string PeopleSummaryText(std::span<const PeopleRow> rows) {
+  double mpjpe_mm = 0, worst_mm = 0, found = 0, lost_s = 0, phantom_s = 0;
+  int switches = 0, never_found = 0;
+  for (const PeopleRow& row : rows) {
+    const double weight = 1.0 / static_cast<double>(rows.size());
+    mpjpe_mm += weight * row.mpjpe_mm;
+    found += weight * row.found_share;
+    worst_mm = std::max(worst_mm, row.worst_person_mm);
+    lost_s = std::max(lost_s, row.longest_lost_s);
+    phantom_s += row.phantom_s;
+    switches += row.switches;
+    never_found += row.never_found;
+  }
+  return fmt::format(
+      "{} takes of several people: {:.1f} mm in the mean ({:.1f} mm the worst person), found "
+      "{:.2f} "
+      "% of the time, lost for {:.1f} s at the longest;\n{} switches, phantoms for {:.1f} s in "
+      "all, "
+      "{} never found\n",
+      rows.size(), mpjpe_mm, worst_mm, 100 * found, lost_s, switches, phantom_s, never_found);
+}
+
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   std::string text = fmt::format(
       "# Accuracy on simulated people\n\n"
@@ -83,6 +143,7 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
         "down.\n\n![Mean error along each sweep](accuracy.svg)\n";
     for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
   }
+  if (!benchmark.people.empty()) text += PeopleTable(benchmark);
   if (!benchmark.grid.empty()) text += GridTable(benchmark.grid);
   return text;
 }

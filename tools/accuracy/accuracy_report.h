@@ -13,6 +13,12 @@ std::string AccuracyHeader();
 std::string AccuracyLine(const AccuracyRow& row);
 std::string AccuracySummaryText(const AccuracySummary& summary);
 
+/// The same of takes of several people.
+std::string PeopleHeader();
+std::string PeopleLine(const PeopleRow& row);
+/// Means and extremes. @param rows  at least one.
+std::string PeopleSummaryText(std::span<const PeopleRow> rows);
+
 /// A page with all tables; shows accuracy.svg beside it when there were sweeps.
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark);
 

@@ -8,6 +8,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/simulation/random.h"
+#include "tools/accuracy/simulated_points.h"
 #include "tools/results/result_sink.h"
 
 namespace mocap {
@@ -53,14 +54,8 @@ TakeTruth TruthOf(const SimulatedStudioOptions& options, const std::vector<PoseR
     truth.lengths_mm[key.substr(0, key.size() - 3)] = length_mm;
   }
   for (const PoseRow& row : poses) {
-    const JointPositions joints = simulated.At(row.timestamp_ns);
-    ScoredFrame& frame = truth.frames.emplace_back();
-    frame.timestamp_ns = row.timestamp_ns;
-    for (int i = 0; i < kScoredPointCount; ++i) {
-      const auto joint = std::ranges::find(kSimulatedJointNames, RigJoint(kScoredPoints[i]));
-      frame.points_W.col(i) = joints[joint - kSimulatedJointNames.begin()];
-    }
-    ProlongShanks(sizes.ankle_to_sole_mm, frame.points_W);
+    truth.frames.push_back({.timestamp_ns = row.timestamp_ns,
+                            .points_W = TrueScoredPoints(simulated, row.timestamp_ns)});
   }
   return truth;
 }

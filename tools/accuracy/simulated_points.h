@@ -1,0 +1,25 @@
+// What is true of a simulated person, as scores want it.
+#pragma once
+
+#include <algorithm>
+
+#include "core/evaluation/accuracy.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "tools/results/take_truth.h"
+
+namespace mocap {
+
+/// Picks the scored points out of the simulated joints; feet are soles.
+inline ScoredPoints TrueScoredPoints(const SimulatedTruth& truth, std::int64_t capture_ns,
+                                     int person = 0) {
+  const JointPositions joints = truth.At(capture_ns, person);
+  ScoredPoints points_W;
+  for (int i = 0; i < kScoredPointCount; ++i) {
+    const auto joint = std::ranges::find(kSimulatedJointNames, RigJoint(kScoredPoints[i]));
+    points_W.col(i) = joints[joint - kSimulatedJointNames.begin()];
+  }
+  ProlongShanks(truth.Sizes(person).ankle_to_sole_mm, points_W);
+  return points_W;
+}
+
+}  // namespace mocap
