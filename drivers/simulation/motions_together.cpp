@@ -37,6 +37,7 @@ class Greeting : public Motion {
   BodyPose PoseAt(double t_s) const override {
     BodyPose pose = gait_.PoseAt(t_s);
     const double clasped_s = Within(t_s) - walk_.duration_s();
+    // Not before the place is within reach: an arm unbends suddenly.
     const double reach = Smoothstep(-0.2, 0.6, clasped_s) * (1 - Smoothstep(2.3, 3.0, clasped_s));
     if (reach == 0) return pose;
     BodyPose reaching = pose;
@@ -92,7 +93,6 @@ class RingDance : public Motion {
  public:
   RingDance(const Anthropometry& body, const DanceRing& ring, int place)
       : body_(body),
-        ring_(ring),
         place_rad_(kTurn * place / ring.dancers),
         radius_mm_(ring.spacing_mm / (2 * std::sin(std::numbers::pi / ring.dancers))),
         start_rad_(Random(Mix(ring.seed, Tag("ring"))).Uniform(0, kTurn)),
@@ -129,7 +129,6 @@ class RingDance : public Motion {
   }
 
   Anthropometry body_;
-  DanceRing ring_;
   double place_rad_, radius_mm_, start_rad_, own_rad_;
   Gait gait_;
 };
