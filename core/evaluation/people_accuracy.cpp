@@ -25,7 +25,7 @@ double MeanDistance(const ScoredPoints& a, const ScoredPoints& b) {
 }
 
 // What somebody's following gains over a take: sets in which he is near, the nearer the more.
-double GainOf(const TruePerson& person, const FollowedPerson& followed) {
+double GainOf(const PresenceBySet& person, const PosesBySet& followed) {
   double gain = 0;
   for (const auto& [set, there] : person) {
     const auto pose = followed.find(set);
@@ -38,12 +38,12 @@ double GainOf(const TruePerson& person, const FollowedPerson& followed) {
 // Who follows whom, set by set.
 class Followers {
  public:
-  Followers(std::span<const TruePerson> truth, std::span<const FollowedPerson> followed)
+  Followers(std::span<const PresenceBySet> truth, std::span<const PosesBySet> followed)
       : truth_(truth), followed_(followed), of_(truth.size()) {
     std::set<int> sets;
-    for (const TruePerson& person : truth)
+    for (const PresenceBySet& person : truth)
       for (const auto& [set, there] : person) sets.insert(set);
-    for (const FollowedPerson& person : followed)
+    for (const PosesBySet& person : followed)
       for (const auto& [set, pose] : person) sets.insert(set);
     for (const int set : sets) Divide(set);
   }
@@ -79,14 +79,14 @@ class Followers {
     }
   }
 
-  std::span<const TruePerson> truth_;
-  std::span<const FollowedPerson> followed_;
+  std::span<const PresenceBySet> truth_;
+  std::span<const PosesBySet> followed_;
   std::vector<std::map<int, int>> of_;
   int phantom_sets_ = 0, duplicate_sets_ = 0;
 };
 
 // The sets that count: whole in the room for a while.
-std::vector<int> SettledSets(const TruePerson& person, int settle_sets) {
+std::vector<int> SettledSets(const PresenceBySet& person, int settle_sets) {
   std::vector<int> settled;
   int whole_since = 0, last = -2;
   for (const auto& [set, there] : person) {
@@ -108,7 +108,7 @@ int CountSwitches(const std::map<int, int>& by_set) {
 }
 
 // The sets in which one follows a true person, as near as he must.
-std::vector<ScoredFrame> NearPoses(const TruePerson& person, const FollowedPerson& followed,
+std::vector<ScoredFrame> NearPoses(const PresenceBySet& person, const PosesBySet& followed,
                                    std::span<const int> sets, std::vector<ScoredFrame>& truth) {
   std::vector<ScoredFrame> poses;
   for (const int set : sets) {
@@ -122,7 +122,7 @@ std::vector<ScoredFrame> NearPoses(const TruePerson& person, const FollowedPerso
   return poses;
 }
 
-void MeasureCovered(const TruePerson& person, std::span<const int> settled,
+void MeasureCovered(const PresenceBySet& person, std::span<const int> settled,
                     std::span<const ScoredFrame> near, const std::map<int, int>& by_set,
                     PersonAccuracy& accuracy) {
   std::set<int> near_sets;
@@ -146,8 +146,8 @@ void MeasureCovered(const TruePerson& person, std::span<const int> settled,
 
 }  // namespace
 
-PeopleAccuracy MeasurePeople(std::span<const TruePerson> truth,
-                             std::span<const FollowedPerson> followed, int settle_sets) {
+PeopleAccuracy MeasurePeople(std::span<const PresenceBySet> truth,
+                             std::span<const PosesBySet> followed, int settle_sets) {
   Eigen::MatrixXd gain(truth.size(), followed.size());
   for (Eigen::Index i = 0; i < gain.rows(); ++i)
     for (Eigen::Index j = 0; j < gain.cols(); ++j) gain(i, j) = GainOf(truth[i], followed[j]);

@@ -18,9 +18,9 @@ struct TruePresence {
 };
 
 /// Of one person, by the number of the set: those in which any part of the body was in the room.
-using TruePerson = std::map<int, TruePresence>;
+using PresenceBySet = std::map<int, TruePresence>;
 /// Of one person, by the number of the set: those in which he was called tracked.
-using FollowedPerson = std::map<int, ScoredPoints>;
+using PosesBySet = std::map<int, ScoredPoints>;
 
 /// How well one true person was followed, over the sets in which he was whole in the room, and had
 /// been for a while.
@@ -49,8 +49,8 @@ struct PeopleAccuracy {
 /// kNearMm nobody follows anybody.
 ///
 /// @param settle_sets  errors count from so many sets after somebody had come in.
-PeopleAccuracy MeasurePeople(std::span<const TruePerson> truth,
-                             std::span<const FollowedPerson> followed, int settle_sets);
+PeopleAccuracy MeasurePeople(std::span<const PresenceBySet> truth,
+                             std::span<const PosesBySet> followed, int settle_sets);
 
 /// A trunk farther than this from the true one is somebody else's, or nobody's.
 inline constexpr double kNearMm = 500;

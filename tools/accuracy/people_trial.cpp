@@ -17,10 +17,10 @@ namespace {
 // Errors count from so long after somebody has come in.
 constexpr double kSettle_s = 0.3;
 
-std::vector<TruePerson> TruthOf(const SimulatedStudioOptions& options) {
+std::vector<PresenceBySet> TruthOf(const SimulatedStudioOptions& options) {
   const SimulatedStudio studio(options);
   const SimulatedTruth simulated(options);
-  std::vector<TruePerson> truth(options.people);
+  std::vector<PresenceBySet> truth(options.people);
   const auto sets = static_cast<int>(std::lround(options.seconds * options.fps));
   for (int person = 0; person < options.people; ++person)
     for (int set = 0; set < sets; ++set) {
@@ -34,11 +34,10 @@ std::vector<TruePerson> TruthOf(const SimulatedStudioOptions& options) {
   return truth;
 }
 
-std::vector<FollowedPerson> FollowedIn(const ResultSink& sink,
-                                       const SimulatedStudioOptions& options) {
-  std::vector<FollowedPerson> followed;
+std::vector<PosesBySet> FollowedIn(const ResultSink& sink, const SimulatedStudioOptions& options) {
+  std::vector<PosesBySet> followed;
   for (const auto& [id, result] : sink.people()) {
-    FollowedPerson& person = followed.emplace_back();
+    PosesBySet& person = followed.emplace_back();
     for (const PoseRow& row : result.poses) {
       if (row.state != CaptureState::kTracking) continue;
       const double since_s = static_cast<double>(row.timestamp_ns - options.start_ns) * 1e-9;

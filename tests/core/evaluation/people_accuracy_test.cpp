@@ -14,20 +14,20 @@ ScoredPoints StandingAt(double x_mm) {
   return p;
 }
 
-TruePerson Stands(double x_mm, int from, int to) {
-  TruePerson person;
+PresenceBySet Stands(double x_mm, int from, int to) {
+  PresenceBySet person;
   for (int set = from; set < to; ++set)
     person[set] = {.points_W = StandingAt(x_mm), .whole = true, .covered = true};
   return person;
 }
 
-void Follow(double x_mm, int from, int to, FollowedPerson& person) {
+void Follow(double x_mm, int from, int to, PosesBySet& person) {
   for (int set = from; set < to; ++set) person[set] = StandingAt(x_mm);
 }
 
 TEST(PeopleAccuracy, OfTwoIsAsWorkedOutByHand) {
-  const std::vector<TruePerson> truth = {Stands(0, 0, 20), Stands(2000, 0, 20)};
-  std::vector<FollowedPerson> followed(2);
+  const std::vector<PresenceBySet> truth = {Stands(0, 0, 20), Stands(2000, 0, 20)};
+  std::vector<PosesBySet> followed(2);
   Follow(2030, 0, 20, followed[0]);
   Follow(10, 5, 20, followed[1]);
   const PeopleAccuracy accuracy = MeasurePeople(truth, followed, 0);
@@ -46,7 +46,7 @@ TEST(PeopleAccuracy, OfTwoIsAsWorkedOutByHand) {
 }
 
 TEST(PeopleAccuracy, CountsWhoTakesOverAndHowLongNobodyFollowed) {
-  std::vector<FollowedPerson> followed(2);
+  std::vector<PosesBySet> followed(2);
   Follow(0, 0, 8, followed[0]);
   Follow(0, 12, 20, followed[1]);
   const PersonAccuracy accuracy =
@@ -58,8 +58,8 @@ TEST(PeopleAccuracy, CountsWhoTakesOverAndHowLongNobodyFollowed) {
 }
 
 TEST(PeopleAccuracy, TwoWhoChangePlacesAreTwoSwitches) {
-  const std::vector<TruePerson> truth = {Stands(0, 0, 20), Stands(900, 0, 20)};
-  std::vector<FollowedPerson> followed(2);
+  const std::vector<PresenceBySet> truth = {Stands(0, 0, 20), Stands(900, 0, 20)};
+  std::vector<PosesBySet> followed(2);
   Follow(0, 0, 14, followed[0]);
   Follow(900, 14, 20, followed[0]);
   Follow(900, 0, 14, followed[1]);
@@ -73,7 +73,7 @@ TEST(PeopleAccuracy, TwoWhoChangePlacesAreTwoSwitches) {
 }
 
 TEST(PeopleAccuracy, TellsPhantomsFromDuplicates) {
-  std::vector<FollowedPerson> followed(3);
+  std::vector<PosesBySet> followed(3);
   Follow(0, 0, 10, followed[0]);
   Follow(200, 0, 3, followed[1]);
   Follow(-1500, 0, 6, followed[2]);
@@ -85,10 +85,10 @@ TEST(PeopleAccuracy, TellsPhantomsFromDuplicates) {
 }
 
 TEST(PeopleAccuracy, CountsOnlySettledAndCoveredSets) {
-  TruePerson person = Stands(0, 0, 20);
+  PresenceBySet person = Stands(0, 0, 20);
   for (int set = 0; set < 4; ++set) person[set].whole = false;
   for (int set = 12; set < 20; ++set) person[set].covered = false;
-  std::vector<FollowedPerson> followed(1);
+  std::vector<PosesBySet> followed(1);
   Follow(100, 0, 10, followed[0]);  // Not yet settled.
   Follow(20, 10, 20, followed[0]);
   const PersonAccuracy accuracy = MeasurePeople(std::vector{person}, followed, 6).people.front();
