@@ -80,7 +80,6 @@ void ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm, Take
     truth.numbers.push_back(number_column ? row->Number<std::int64_t>(*number_column)
                                           : static_cast<std::int64_t>(truth.numbers.size()));
   }
-  if (frames.empty()) throw SetupError(file.string() + ": has no rows; at least one is wanted");
 }
 
 }  // namespace
@@ -98,8 +97,8 @@ void ProlongShanks(double ankle_to_sole_mm, ScoredPoints& points_W) {
   }
 }
 
-std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
-  const TakeLayout layout{take};
+std::optional<TakeTruth> ReadTruthAmongOthers(const std::filesystem::path& folder) {
+  const TakeLayout layout{folder};
   if (!IsThere(layout.TruthTable())) return std::nullopt;
   TomlSection sizes = TomlSection::ReadFile(layout.TruthSizes());
   TakeTruth truth;
@@ -113,6 +112,16 @@ std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
     }
   }
   ReadFrames(layout.TruthTable(), ankle_to_sole_mm, truth);
+  if (truth.frames.empty()) return std::nullopt;
+  return truth;
+}
+
+std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
+  std::optional<TakeTruth> truth = ReadTruthAmongOthers(take);
+  const std::filesystem::path table = TakeLayout{take}.TruthTable();
+  if (!truth && IsThere(table)) {
+    throw SetupError(table.string() + ": has no rows; at least one is wanted");
+  }
   return truth;
 }
 

@@ -29,8 +29,13 @@ void ProlongShanks(double ankle_to_sole_mm, ScoredPoints& points_W);
 /// Reads truth.csv and truth.toml of a take.
 ///
 /// @return  empty when the take has no truth.csv.
-/// @throws SetupError  naming file and line: a column that is missing, a word for a number, times
-/// that do not increase, lengths that are none.
+/// @throws SetupError  naming file and line: no row, a column that is missing, a word for a number,
+/// times that do not increase, lengths that are none.
 std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take);
+
+/// Reads the same of one of several people.
+/// @return  empty also when the table has no row: he never came into the room.
+/// @throws SetupError  as ReadTakeTruth otherwise.
+std::optional<TakeTruth> ReadTruthAmongOthers(const std::filesystem::path& folder);
 
 }  // namespace mocap

@@ -55,7 +55,7 @@ std::vector<TruePerson> ReadTruePeople(const std::filesystem::path& take) {
   std::vector<TruePerson> people;
   const std::map<std::string, Stretches> covered = ReadCovered(take);
   for (const std::filesystem::path& folder : PersonFolders(take)) {
-    std::optional<TakeTruth> truth = ReadTakeTruth(folder);
+    std::optional<TakeTruth> truth = ReadTruthAmongOthers(folder);
     if (!truth) continue;
     const std::string name = folder.filename().string();
     const auto found = covered.find(name);

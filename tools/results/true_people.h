@@ -17,7 +17,8 @@ struct TruePerson {
   std::vector<bool> covered;
 };
 
-/// Reads TAKE/person-K, or the truth of the take itself; `covered` of [[person]] in take.toml.
+/// Reads TAKE/person-K, or the truth of the take itself; `covered` of [[person]] in take.toml. Who
+/// never came into the room is left out.
 /// @return  none for a take without truth.
 /// @throws SetupError  as ReadTakeTruth, and for stretches of frames that are none.
 std::vector<TruePerson> ReadTruePeople(const std::filesystem::path& take);

@@ -42,6 +42,15 @@ TEST_F(TruePeopleTest, EachPersonHasATruthInTheOrderOfTheNumbers) {
   EXPECT_THAT(people[0].covered, ::testing::Each(true)) << "the take does not tell";
 }
 
+TEST_F(TruePeopleTest, WhoNeverCameIntoTheRoomIsLeftOut) {
+  const std::filesystem::path table = take_ / "person-2" / "truth.csv";
+  const std::string text = testing::ReadText(table);
+  ReplaceText(table, text.substr(0, text.find('\n') + 1));
+  const std::vector<TruePerson> people = ReadTruePeople(take_);
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_EQ(people[0].name, "person-10");
+}
+
 TEST_F(TruePeopleTest, TheTakeTellsInWhichFramesSomebodyIsCovered) {
   Describe("\n[[person]]\nfolder = \"person-2\"\ncovered = [[1, 2], [5, 5]]\n");
   const std::vector<bool> covered = ReadTruePeople(take_)[0].covered;
