@@ -1,6 +1,7 @@
 #include "tools/results/people_log.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
@@ -10,9 +11,8 @@
 #include "core/people/people_capture.h"
 #include "daemon/control/control_request.h"
 #include "daemon/messages/decode_message.h"
-#include "daemon/messages/log_reader.h"
 #include "drivers/printable_text.h"
-#include "drivers/quoted.h"
+#include "tools/results/channel_log.h"
 #include "tools/results/pose_log.h"
 
 namespace mocap {
@@ -27,79 +27,117 @@ struct Person {
   std::optional<BodyRecord> body;
 };
 
+/// By numbers that nobody else has, also where the daemon was started again.
+using People = std::map<std::int64_t, Person>;
+
+std::string NumberName(std::int64_t number) { return "person-" + std::to_string(number); }
+
+/// Some disks take two names for one that differ in this alone.
+std::string WithoutCase(std::string name) {
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char letter) { return std::tolower(letter); });
+  return name;
+}
+
+/// Chooses names that can be files beside each other: each person's own, or his number's.
+std::map<std::int64_t, std::string> NamesOf(const People& people) {
+  std::set<std::string> used;
+  for (const auto& [number, person] : people) used.insert(NumberName(number));
+  std::map<std::int64_t, std::string> names;
+  for (const auto& [number, person] : people) {
+    // Two may have had the same name one after the other.
+    const bool is_own = IsFileName(person.name) && used.insert(WithoutCase(person.name)).second;
+    names[number] = is_own ? person.name : NumberName(number);
+  }
+  return names;
+}
+
+/// What a log has of one daemon.
 class PeopleOfLog {
  public:
   /// Takes a message of everybody. @return false for one that is none.
   bool AddSet(std::span<const std::uint8_t> bytes) {
     const auto set = DecodeMessage<people_t>(bytes);
-    if (!set || set->people.size() > kMostPeople) return false;
-    for (const person_t& one : set->people) {
-      const std::optional<PoseRow> row = PoseRowOf(PoseOf(*set, one));
-      if (!row) return false;
-      Person& person = people_[one.id];
-      if (!one.name.empty()) person.name = one.name;
-      const bool is_later =
-          person.poses.empty() || row->timestamp_ns > person.poses.back().timestamp_ns;
-      is_later ? person.poses.push_back(*row) : void(++repeated_);
-    }
+    const std::optional<std::int64_t> capture_ns =
+        set ? CaptureNsOf(set->utime) : std::optional<std::int64_t>();
+    if (!capture_ns || set->people.size() > kMostPeople) return false;
+    if (order_.Add(set->frame, *capture_ns)) BeginAgain();
+    for (const person_t& one : set->people) AddPerson(*set, one);
     return true;
   }
   bool AddBody(std::span<const std::uint8_t> bytes) {
     const auto message = DecodeMessage<person_body_t>(bytes);
     std::optional<BodyRecord> record = message ? BodyRecordOf(message->body) : std::nullopt;
-    if (!record) return false;
-    people_[message->id].body = std::move(record);
+    if (!record || message->id < 1) return false;
+    people_[before_ + message->id].body = std::move(record);
     return true;
   }
-  void NoteGarbled() { ++garbled_; }
 
   bool HasPeople() const {
     return std::ranges::any_of(people_, [](const auto& one) { return !one.second.poses.empty(); });
   }
-  PeopleResults Take(const std::filesystem::path& log) {
+  const FrameOrder& order() const { return order_; }
+  /// @param remarks  of the log so far.
+  PeopleResults Take(const std::filesystem::path& log, std::vector<std::string> remarks) {
     PeopleResults results;
-    std::vector<std::string> remarks;
-    std::set<std::string> names;
-    for (auto& [id, person] : people_) {
-      const std::string number = "person-" + std::to_string(id);
+    for (const auto& [number, name] : NamesOf(people_)) {
+      Person& person = people_[number];
       if (person.poses.empty()) continue;
       if (!person.body) {
-        remarks.push_back(log.string() + ": " + number + " has no body, and is left out");
+        remarks.push_back(log.string() + ": " + NumberName(number) +
+                          " has no body, and is left out");
         continue;
       }
-      // Two may have had the same name one after the other; names become files.
-      const bool is_own = IsFileName(person.name) && names.insert(person.name).second;
-      results.emplace_back(is_own ? person.name : number,
-                           Result{*person.body, std::move(person.poses), {}});
+      results.emplace_back(name, Result{*person.body, std::move(person.poses), {}});
     }
     const auto tell = [&](std::int64_t count, const std::string& what) {
-      if (count > 0) remarks.push_back(log.string() + ": " + Counted(count, "message") + what);
+      if (count > 0) remarks.push_back(log.string() + ": " + Counted(count, "pose") + what);
     };
-    tell(garbled_, " not understood by this version, and left out");
+    tell(wrong_, " with a number that is none, and left out");
     tell(repeated_, " not later than the one before, and left out");
+    if (before_ > 0) {
+      remarks.push_back(log.string() +
+                        ": mocapd was started again; who came last has a number "
+                        "above " +
+                        std::to_string(before_));
+    }
     if (!results.empty()) results.front().second.remarks = std::move(remarks);
     return results;
   }
 
  private:
-  std::map<int, Person> people_;
-  std::int64_t garbled_ = 0, repeated_ = 0;
+  /// A daemon that was started again counts from 1: these are other people.
+  void BeginAgain() {
+    if (!people_.empty()) before_ = people_.rbegin()->first;
+  }
+  void AddPerson(const people_t& set, const person_t& one) {
+    const std::optional<PoseRow> row = PoseRowOf(PoseOf(set, one));
+    if (!row || one.id < 1) {
+      ++wrong_;
+      return;
+    }
+    Person& person = people_[before_ + one.id];
+    if (!one.name.empty()) person.name = one.name;
+    const bool is_later =
+        person.poses.empty() || row->timestamp_ns > person.poses.back().timestamp_ns;
+    is_later ? person.poses.push_back(*row) : void(++repeated_);
+  }
+
+  People people_;
+  FrameOrder order_;
+  std::int64_t before_ = 0;  ///< The largest number of those before the last start.
+  std::int64_t wrong_ = 0, repeated_ = 0;
 };
 
 using Daemons = std::map<std::string, PeopleOfLog>;
 
-Daemons ReadDaemons(const std::filesystem::path& log) {
-  LogReader reader(log);
+Daemons ReadDaemons(ChannelLog& channels) {
   Daemons daemons;
-  LoggedMessage message;
-  while (reader.Next(message)) {
-    std::string_view channel = message.channel;
-    const bool is_set = channel.ends_with(kPeople);
-    if (!is_set && !channel.ends_with(kBodies)) continue;
-    channel.remove_suffix(is_set ? kPeople.size() : kBodies.size());
-    PeopleOfLog& daemon = daemons[std::string(channel)];
-    const bool is_ours = is_set ? daemon.AddSet(message.bytes) : daemon.AddBody(message.bytes);
-    if (!is_ours) daemon.NoteGarbled();
+  while (channels.Next()) {
+    PeopleOfLog& daemon = daemons[channels.prefix()];
+    const bool is_ours = channels.name() == kPeople ? daemon.AddSet(channels.bytes())
+                                                    : daemon.AddBody(channels.bytes());
+    if (!is_ours) channels.NoteGarbled();
   }
   std::erase_if(daemons, [](const auto& one) { return !one.second.HasPeople(); });
   return daemons;
@@ -109,20 +147,19 @@ Daemons ReadDaemons(const std::filesystem::path& log) {
 
 PeopleResults ReadPeopleLog(const std::filesystem::path& log,
                             const std::optional<std::string>& prefix) {
-  Daemons daemons = ReadDaemons(log);
-  if (!prefix && daemons.size() > 1) {
-    std::string found;
-    for (const auto& [name, daemon] : daemons) found += (found.empty() ? "" : ", ") + Quoted(name);
-    throw SetupError(log.string() + ": holds people of several daemons, with the prefixes " +
-                     found + "; --prefix with one of them is wanted");
-  }
-  const auto chosen = prefix ? daemons.find(*prefix) : daemons.begin();
+  ChannelLog channels(log, {kPeople, kBodies}, prefix);
+  Daemons daemons = ReadDaemons(channels);
+  const std::optional<std::string> name = channels.Choose(daemons, "people");
+  const auto chosen = name ? daemons.find(*name) : daemons.end();
   PeopleResults people;
-  if (chosen != daemons.end()) people = chosen->second.Take(log);
+  if (chosen != daemons.end()) {
+    chosen->second.order().RequireOneDaemon(log, chosen->first + std::string(kPeople));
+    people = chosen->second.Take(log, channels.Remarks());
+  }
   if (people.empty()) {
     throw SetupError(
         log.string() + ": holds nobody on " + Printable(prefix.value_or("")) +
-        std::string(kPeople) +
+        std::string(kPeople) + channels.PrefixesText() +
         "; a log that lcm-logger recorded of mocapd while it followed people is wanted");
   }
   return people;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <set>
 #include <string_view>
 
 #include "config/body_size_fields.h"
 #include "core/errors.h"
 #include "daemon/messages/decode_message.h"
-#include "daemon/messages/log_reader.h"
-#include "drivers/quoted.h"
+#include "drivers/printable_text.h"
+#include "tools/results/channel_log.h"
 
 namespace mocap {
 namespace {
@@ -19,12 +18,10 @@ namespace {
 constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY", kPeople = "MOCAP_PEOPLE";
 /// Microseconds that are no time of day any more, long before nanoseconds overflow.
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
-/// A frame that comes again so soon is another daemon's, not one of a daemon that was restarted.
-constexpr std::int64_t kRestart_ns = 1'000'000'000;
-
 /// What a log has of one daemon: of all channels with the same beginning.
 struct Daemon {
   std::vector<PoseRow> poses;
+  FrameOrder order;
   std::optional<BodyRecord> body;
   std::int64_t repeated = 0;  ///< Messages that came twice.
   bool has_several_people = false;
@@ -37,62 +34,50 @@ bool IsFinite(const PoseRow& row) {
   return std::isfinite(sum);
 }
 
-bool AddPose(const LoggedMessage& message, Daemon& daemon) {
-  const auto pose = DecodeMessage<pose_t>(message.bytes);
+bool AddPose(std::span<const std::uint8_t> bytes, Daemon& daemon) {
+  const auto pose = DecodeMessage<pose_t>(bytes);
   const std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
   if (!row) return false;
   const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
                         daemon.poses.back().timestamp_ns == row->timestamp_ns;
-  is_again ? void(++daemon.repeated) : daemon.poses.push_back(*row);
+  if (is_again) {
+    ++daemon.repeated;
+    return true;
+  }
+  daemon.order.Add(row->frame, row->timestamp_ns);
+  daemon.poses.push_back(*row);
   return true;
 }
 
-bool AddBody(const LoggedMessage& message, Daemon& daemon) {
-  const auto body = DecodeMessage<body_t>(message.bytes);
+bool AddBody(std::span<const std::uint8_t> bytes, Daemon& daemon) {
+  const auto body = DecodeMessage<body_t>(bytes);
   std::optional<BodyRecord> record = body ? BodyRecordOf(*body) : std::nullopt;
   if (!record) return false;
   daemon.body = std::move(record);
   return true;
 }
 
-void NotePeople(const LoggedMessage& message, Daemon& daemon) {
-  const auto set = DecodeMessage<people_t>(message.bytes);
+void NotePeople(std::span<const std::uint8_t> bytes, Daemon& daemon) {
+  const auto set = DecodeMessage<people_t>(bytes);
   if (set && set->num_people > 1) daemon.has_several_people = true;
 }
 
 using Daemons = std::map<std::string, Daemon>;
 
-/// The one whose prefix was asked for, or the only one. @throws SetupError
-Daemons::iterator Choose(const std::filesystem::path& log, const std::optional<std::string>& prefix,
-                         Daemons& daemons) {
-  if (prefix) return daemons.find(*prefix);
-  std::string found, first;
-  int count = 0;
-  for (const auto& [name, daemon] : daemons) {
-    if (daemon.poses.empty()) continue;
-    if (count++ == 0) first = name;
-    found += (found.empty() ? "" : ", ") + Quoted(name);
+Daemons ReadDaemons(ChannelLog& channels) {
+  Daemons daemons;
+  while (channels.Next()) {
+    Daemon& daemon = daemons[channels.prefix()];
+    if (channels.name() == kPeople) {
+      NotePeople(channels.bytes(), daemon);
+      continue;
+    }
+    const bool is_ours = channels.name() == kPose ? AddPose(channels.bytes(), daemon)
+                                                  : AddBody(channels.bytes(), daemon);
+    if (!is_ours) channels.NoteGarbled();
   }
-  if (count > 1) {
-    throw SetupError(log.string() + ": holds poses of several daemons, with the prefixes " + found +
-                     "; --prefix with one of them is wanted");
-  }
-  return count == 1 ? daemons.find(first) : daemons.end();
-}
-
-/// Poses of two persons in turns are nobody's motion.
-void RequireOneDaemon(const std::filesystem::path& log, const std::string& channel,
-                      const std::vector<PoseRow>& poses) {
-  std::size_t back = 0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    const std::int64_t step_ns = poses[i].timestamp_ns - poses[i - 1].timestamp_ns;
-    const bool is_again = poses[i].frame <= poses[i - 1].frame && step_ns < kRestart_ns;
-    if (step_ns <= 0 || is_again) ++back;
-  }
-  if (back <= 2 + poses.size() / 20) return;
-  throw SetupError(log.string() + ": holds poses of several daemons in turns on " +
-                   Printable(channel) +
-                   "; a log of one is wanted, or a prefix for each (lcm.prefix)");
+  std::erase_if(daemons, [](const auto& one) { return one.second.poses.empty(); });
+  return daemons;
 }
 
 void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& poses,
@@ -103,29 +88,6 @@ void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& p
                       std::to_string(poses[i].frame) + ": the clock was set meanwhile");
     return;
   }
-}
-
-/// Passed-over messages.
-std::vector<std::string> RemarksOf(const std::filesystem::path& log, const LogReader& reader,
-                                   const std::map<std::string, std::int64_t>& garbled) {
-  std::vector<std::string> remarks;
-  if (reader.damaged_places() > 0) {
-    remarks.push_back(log.string() + ": is damaged in " +
-                      Counted(reader.damaged_places(), "place") + "; " +
-                      Counted(reader.damaged_bytes(), "byte") + " passed over");
-  }
-  for (const auto& [channel, count] : garbled) {
-    remarks.push_back(log.string() + ": " + Counted(count, "message") + " on " +
-                      Printable(channel) + " not understood by this version, and left out");
-  }
-  return remarks;
-}
-
-/// What could be asked for instead.
-std::string PrefixesText(const std::set<std::string>& prefixes) {
-  std::string text;
-  for (const std::string& prefix : prefixes) text += (text.empty() ? "" : ", ") + Quoted(prefix);
-  return text.empty() ? "" : " (there are channels with the prefixes " + text + ")";
 }
 
 }  // namespace
@@ -152,11 +114,17 @@ pose_t PoseOf(const people_t& set, const person_t& person) {
   return pose;
 }
 
+std::optional<std::int64_t> CaptureNsOf(std::int64_t utime) {
+  if (utime < 0 || utime > kLatest_us) return {};
+  return utime * 1000;
+}
+
 std::optional<PoseRow> PoseRowOf(const pose_t& message) {
-  if (message.utime < 0 || message.utime > kLatest_us) return {};
+  const std::optional<std::int64_t> timestamp_ns = CaptureNsOf(message.utime);
+  if (!timestamp_ns) return {};
   PoseRow row;
   row.frame = message.frame;
-  row.timestamp_ns = message.utime * 1000;
+  row.timestamp_ns = *timestamp_ns;
   row.state = static_cast<CaptureState>(std::clamp<int>(message.state, 0, 3));
   row.has_pose = row.state != CaptureState::kSearching;
   row.paper.torso_mm = Vector3(message.torso_mm);
@@ -186,45 +154,20 @@ std::optional<BodyRecord> BodyRecordOf(const body_t& message) {
 }
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
-  LogReader reader(log);
-  Daemons daemons;
-  std::set<std::string> prefixes;
-  std::map<std::string, std::int64_t> garbled;
-  LoggedMessage message;
-  bool is_log = false;
-  while (reader.Next(message)) {
-    is_log = true;
-    std::string_view channel = message.channel;
-    if (channel.ends_with(kPeople)) {
-      channel.remove_suffix(kPeople.size());
-      NotePeople(message, daemons[std::string(channel)]);
-      continue;
-    }
-    const bool is_pose = channel.ends_with(kPose);
-    if (!is_pose && !channel.ends_with(kBody)) continue;
-    channel.remove_suffix(is_pose ? kPose.size() : kBody.size());
-    if (is_pose) prefixes.emplace(channel);
-    if (prefix && channel != *prefix) continue;
-    Daemon& daemon = daemons[std::string(channel)];
-    const bool is_ours = is_pose ? AddPose(message, daemon) : AddBody(message, daemon);
-    if (!is_ours) ++garbled[message.channel];
-  }
-  if (!is_log) {
-    const bool is_empty = reader.damaged_bytes() == 0;
-    throw SetupError(log.string() + (is_empty ? ": is empty" : ": is no LCM log") +
-                     "; one that lcm-logger recorded of mocapd is wanted");
-  }
-  const auto chosen = Choose(log, prefix, daemons);
-  if (chosen == daemons.end() || chosen->second.poses.empty() || !chosen->second.body) {
-    const bool has_poses = chosen != daemons.end() && !chosen->second.poses.empty();
+  ChannelLog channels(log, {kPose, kBody, kPeople}, prefix);
+  Daemons daemons = ReadDaemons(channels);
+  const std::optional<std::string> name = channels.Choose(daemons, "poses");
+  const auto chosen = name ? daemons.find(*name) : daemons.end();
+  const bool has_poses = chosen != daemons.end();
+  if (!has_poses || !chosen->second.body) {
     throw SetupError(log.string() + ": holds no " + Printable(prefix.value_or("")) +
                      std::string(has_poses ? kBody : kPose) + " message of this version" +
-                     PrefixesText(prefixes) +
+                     channels.PrefixesText() +
                      "; a log that lcm-logger recorded of mocapd is wanted");
   }
   Daemon& daemon = chosen->second;
-  RequireOneDaemon(log, chosen->first + std::string(kPose), daemon.poses);
-  Result result{*daemon.body, std::move(daemon.poses), RemarksOf(log, reader, garbled)};
+  daemon.order.RequireOneDaemon(log, chosen->first + std::string(kPose));
+  Result result{*daemon.body, std::move(daemon.poses), channels.Remarks()};
   if (daemon.repeated > 0) {
     result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +
                              " came twice, and count once");

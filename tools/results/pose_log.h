@@ -1,6 +1,7 @@
 // A log of LCM messages as a result.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <mocap/body_t.hpp>
 #include <mocap/people_t.hpp>
@@ -14,6 +15,8 @@ namespace mocap {
 
 /// What pose_t would say of one of several people.
 pose_t PoseOf(const people_t& set, const person_t& person);
+/// Nanoseconds of a message's microseconds; empty where they are no time of day.
+std::optional<std::int64_t> CaptureNsOf(std::int64_t utime);
 /// What a message says of a pose; empty where a number is none.
 std::optional<PoseRow> PoseRowOf(const pose_t& message);
 /// What it says of a body, likewise.

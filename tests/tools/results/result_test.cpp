@@ -335,13 +335,14 @@ class PeopleLog : public PoseLog {
   void People(int frame, const std::vector<int>& ids, const std::string& prefix = "") {
     people_t set{};
     set.frame = frame;
-    set.utime = (1'700'000'000'000'000'000 + frame * 40'000'000) / 1000;
+    set.utime = (kStart_ns + later_ns_ + frame * kPeriod_ns) / 1000;
     set.num_people = static_cast<std::int32_t>(ids.size());
     for (const int id : ids) {
       person_t& person = set.people.emplace_back();
       person.id = id;
       person.name = names_[id];
       person.state = pose_t::TRACKING;
+      person.residual_mm = residuals_mm_[id];
       for (auto& point : person.point_mm) point[0] = id;
     }
     Log(*log_, prefix + "MOCAP_PEOPLE", set);
@@ -358,6 +359,8 @@ class PeopleLog : public PoseLog {
   }
 
   std::map<int, std::string> names_;
+  std::map<int, double> residuals_mm_;
+  std::int64_t later_ns_ = 0;  ///< Than the time of a daemon's first frame.
 };
 
 TEST_F(PeopleLog, EachPersonIsAResult) {
@@ -403,10 +406,76 @@ TEST_F(PeopleLog, WhatIsNotUnderstoodIsToldAndLeftOut) {
   Log(*log_, "MOCAP_PEOPLE", body_t{});
   const PeopleResults people = ReadAll();
   ASSERT_EQ(people.size(), 1u);
-  EXPECT_THAT(people[0].second.remarks,
-              ::testing::ElementsAre(HasSubstr("person-2 has no body"),
-                                     HasSubstr("1 message not understood"),
-                                     HasSubstr("1 message not later")));
+  EXPECT_THAT(
+      people[0].second.remarks,
+      ::testing::ElementsAre(HasSubstr("1 message on MOCAP_PEOPLE not understood"),
+                             HasSubstr("person-2 has no body"), HasSubstr("1 pose not later")));
+}
+
+TEST_F(PeopleLog, ANameIsNeverThatOfAnothersNumberNorTheSameInCapitals) {
+  names_ = {{1, "Person-2"}, {3, "anna"}, {4, "Anna"}};
+  for (const int id : {1, 2, 3, 4}) BodyOf(id);
+  People(0, {1, 2, 3, 4});
+  std::vector<std::string> names;
+  for (const auto& [name, result] : ReadAll()) names.push_back(name);
+  EXPECT_THAT(names, ::testing::ElementsAre("person-1", "person-2", "anna", "person-4"));
+}
+
+TEST_F(PeopleLog, OneWithNumbersThatAreNoneLeavesTheOthers) {
+  residuals_mm_[1] = std::numeric_limits<double>::quiet_NaN();
+  for (const int id : {1, 2}) BodyOf(id);
+  People(0, {1, 2});
+  residuals_mm_.clear();
+  People(1, {1, 2});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0].second.poses.size(), 1u);
+  EXPECT_EQ(people[1].second.poses.size(), 2u);
+  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("1 pose with a number")));
+}
+
+TEST_F(PeopleLog, AfterAnotherStartOfTheDaemonTheSameNumberIsSomebodyElse) {
+  for (const int id : {1, 2}) BodyOf(id);
+  for (const int frame : {0, 1, 2}) People(frame, {1, 2});
+  later_ns_ = 60'000'000'000;
+  People(0, {});
+  BodyOf(1);
+  People(1, {1});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 3u);
+  EXPECT_EQ(people[0].second.poses.size(), 3u);
+  EXPECT_EQ(people[2].first, "person-3");
+  EXPECT_EQ(people[2].second.poses.size(), 1u);
+  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("started again")));
+}
+
+TEST_F(PeopleLog, OfTwoDaemonsOnOneChannelIsRefused) {
+  BodyOf(1);
+  for (int frame = 0; frame < 20; ++frame) {
+    People(frame, {1});
+    later_ns_ = 1'000'000;
+    People(frame, {1});
+    later_ns_ = 0;
+  }
+  log_.reset();
+  EXPECT_THAT(Message([&] { ReadPeople(file_); }),
+              HasSubstr("several daemons in turns on MOCAP_PEOPLE"));
+}
+
+TEST_F(PeopleLog, ThatIsDamagedOrNoLogIsTold) {
+  BodyOf(1);
+  for (const int frame : {0, 1, 2}) People(frame, {1});
+  log_.reset();
+  std::string log = ReadText(file_);
+  const std::size_t second = log.find("MOCAP_PEOPLE", log.find("MOCAP_PEOPLE") + 1);
+  testing::WriteText(file_, log.replace(second - 8, 4, "\x7f\xff\xff\xff"));
+  const PeopleResults people = ReadPeople(file_);
+  EXPECT_EQ(people[0].second.poses.size(), 2u);
+  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("damaged in 1 place")));
+  testing::WriteText(file_, "no log at all\n");
+  EXPECT_THAT(Message([&] { ReadPeople(file_); }), HasSubstr("is no LCM log"));
+  testing::WriteText(file_, "");
+  EXPECT_THAT(Message([&] { ReadPeople(file_); }), HasSubstr("is empty"));
 }
 
 TEST_F(PeopleLog, OfTwoDaemonsIsNeverMixed) {
