@@ -1,6 +1,7 @@
 // What may be done from the page: only with the token of the address that `mocap view` printed.
 
 import {byId, make, setText} from './dom.js';
+import {PersonChoice} from './person_choice.js';
 
 const KEY = 'mocapd-view-token';
 const NAME = /^[A-Za-z0-9._-]{1,64}$/;
@@ -28,6 +29,7 @@ export class Actions {
     this.isAllowed = false;
     this.why = '';  // what the server says against it
     this.isBusy = false;
+    this.choice = new PersonChoice();
     this.bind();
     this.check();
     window.addEventListener('hashchange', () => {
@@ -52,15 +54,18 @@ export class Actions {
 
   /** Offers the choice whose sizes are kept, where several people are followed. */
   setPeople(rows) {
+    this.choice.take(rows);
+    this.showChoice();
+  }
+
+  showChoice() {
     const list = byId('subject-person');
-    list.hidden = rows.length < 2;
-    const said = rows.map(({id, label}) => `${id} ${label}`).join('\n');
-    if (said === this.saidPeople) return;
-    this.saidPeople = said;
-    const chosen = list.value;
-    list.replaceChildren(...rows.map(
-        ({id, label}) =>
-            make('option', {text: label, value: id, selected: String(id) === chosen})));
+    list.hidden = !this.choice.isOffered;
+    const options = this.choice.options();
+    const said = JSON.stringify(options);
+    if (said === this.saidOptions) return;
+    this.saidOptions = said;
+    list.replaceChildren(...options.map((option) => make('option', option)));
   }
 
   /** Asks whether the token holds; wanted after each connection. */
@@ -96,17 +101,26 @@ export class Actions {
     const onClick = (id, request) => byId(id).addEventListener('click', request);
     onSubmit('record-form', () => this.withName('record start', byId('record-name')));
     onClick('record-stop', () => this.ask('record stop'));
-    onSubmit('save-form', async () => {
-      const person = byId('subject-person');
-      await this.withName(
-          'subject save', byId('subject-name'), person.hidden ? '' : ` ${person.value}`);
-      this.list();
+    onSubmit('save-form', () => this.save());
+    byId('subject-person').addEventListener('change', ({target}) => {
+      this.choice.choose(target.value);
+      this.showChoice();
     });
     onSubmit('load-form', () => this.withName('subject load', byId('subject-list')));
     onClick('subject-new', () => this.ask('subject new'));
     onClick('reload', () => this.ask('reload'));
     onClick('background-learn', () => this.learn());
     byId('subject-list').addEventListener('pointerdown', () => this.list());
+  }
+
+  async save() {
+    if (this.choice.isGone) {
+      byId('subject-person').focus();
+      return this.answer('wrong', 'Who was chosen has left. Choose whose sizes are to be kept.');
+    }
+    const {value} = this.choice;
+    await this.withName('subject save', byId('subject-name'), value === '' ? '' : ` ${value}`);
+    return this.list();
   }
 
   withName(request, field, more = '') {
