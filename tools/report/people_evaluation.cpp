@@ -39,8 +39,8 @@ std::vector<ScoredFrame> OutputOf(const Result& result) {
   return frames;
 }
 
-std::vector<std::vector<PersonMatch>> MatchAll(const PeopleResults& people,
-                                               const std::vector<TruePerson>& truth) {
+std::vector<MatchedPerson> MatchAll(const PeopleResults& people,
+                                    const std::vector<TruePerson>& truth) {
   std::vector<std::vector<ScoredFrame>> outputs, truths;
   for (const auto& [name, result] : people) outputs.push_back(OutputOf(result));
   for (const TruePerson& person : truth) truths.push_back(person.truth.frames);
@@ -125,18 +125,21 @@ FollowedTruth SumOf(const std::vector<FollowedTruth>& all) {
 
 PeopleEvaluation EvaluatePeople(PeopleResults people, std::vector<TruePerson> truth) {
   PeopleEvaluation evaluation;
-  std::vector<std::vector<PersonMatch>> matches = MatchAll(people, truth);
+  std::vector<MatchedPerson> matched = MatchAll(people, truth);
   for (std::size_t i = 0; i < people.size(); ++i) {
     TrackedPerson& person = evaluation.people.emplace_back();
     person.name = people[i].first;
     person.evaluation = Evaluate(std::move(people[i].second), std::nullopt);
-    person.matches = std::move(matches[i]);
+    person.matches = std::move(matched[i].matches);
     person.true_person = MostOften(person.matches, truth.size());
     Score(truth, person);
     if (truth.empty()) continue;
     const auto tracked = std::ranges::count_if(person.evaluation.result.poses, IsTracked);
-    person.phantom_frames = static_cast<int>(tracked) - static_cast<int>(person.matches.size());
+    person.duplicate_frames = matched[i].duplicates;
+    person.phantom_frames = static_cast<int>(tracked) - static_cast<int>(person.matches.size()) -
+                            person.duplicate_frames;
     evaluation.phantom_frames += person.phantom_frames;
+    evaluation.duplicate_frames += person.duplicate_frames;
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
     evaluation.followed.push_back(FollowedOf(static_cast<int>(i), truth[i], evaluation.people));

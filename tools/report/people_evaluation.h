@@ -19,8 +19,10 @@ struct TrackedPerson {
   /// With the truth of whom he was, frame by frame; without truth where he never was anybody.
   Evaluation evaluation;
   std::vector<PersonMatch> matches;
-  int true_person = -1;    ///< Whom he was most often; -1: nobody.
-  int phantom_frames = 0;  ///< Tracked where nobody is; 0 without truth.
+  int true_person = -1;  ///< Whom he was most often; -1: nobody.
+  // Without truth 0:
+  int phantom_frames = 0;    ///< Tracked where nobody is,
+  int duplicate_frames = 0;  ///< or somebody whom another one follows already.
 };
 
 /// How one of the people who were there was followed.
@@ -39,7 +41,8 @@ struct PeopleEvaluation {
   std::vector<TruePerson> truth;        ///< Empty: the take has none.
   std::vector<FollowedTruth> followed;  ///< Of each of those.
   FollowedTruth sum;                    ///< Of all.
-  int phantom_frames = 0;               ///< Likewise.
+  int phantom_frames = 0;               ///< Likewise,
+  int duplicate_frames = 0;             ///< and this.
 };
 
 /// Says how good results are that were tracked together.

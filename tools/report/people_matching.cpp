@@ -6,11 +6,12 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace mocap {
 namespace {
 
-constexpr int kNobody = -1;
+constexpr int kNobody = -1, kNone = -1;
 
 /// Half the shortest time between frames of anybody: what is farther away in time is another frame.
 std::int64_t ToleranceNs(std::span<const std::vector<ScoredFrame>> truth) {
@@ -52,10 +53,11 @@ class Matcher {
       : truth_(truth),
         tracked_(tracked),
         tolerance_ns_(ToleranceNs(truth)),
-        matches_(tracked.size()),
-        last_(tracked.size(), kNobody) {}
+        people_(tracked.size()),
+        last_(tracked.size(), kNobody),
+        found_(truth.size(), kNone) {}
 
-  std::vector<std::vector<PersonMatch>> Match() {
+  std::vector<MatchedPerson> Match() {
     std::map<std::int64_t, std::vector<Candidate>> moments;
     for (std::size_t i = 0; i < tracked_.size(); ++i) {
       for (std::size_t pose = 0; pose < tracked_[i].size(); ++pose) {
@@ -64,7 +66,7 @@ class Matcher {
       }
     }
     for (auto& [time_ns, candidates] : moments) Choose(candidates);
-    return std::move(matches_);
+    return std::move(people_);
   }
 
  private:
@@ -88,27 +90,33 @@ class Matcher {
       if (a.was_the_same != b.was_the_same) return a.was_the_same;
       return a.match.mean_mm < b.match.mean_mm;
     });
-    std::vector<bool> is_used(tracked_.size()), is_found(truth_.size());
+    std::set<std::size_t> near, used;
     for (const Candidate& candidate : candidates) {
-      const auto person = static_cast<std::size_t>(candidate.match.person);
-      if (is_used[candidate.tracked] || is_found[person]) continue;
-      is_used[candidate.tracked] = is_found[person] = true;
-      matches_[candidate.tracked].push_back(candidate.match);
+      near.insert(candidate.tracked);
+      // Moments come in the order of time: a later one may have the same frame, never an earlier.
+      int& found = found_[static_cast<std::size_t>(candidate.match.person)];
+      if (used.contains(candidate.tracked) || candidate.match.frame <= found) continue;
+      used.insert(candidate.tracked);
+      found = candidate.match.frame;
+      people_[candidate.tracked].matches.push_back(candidate.match);
       last_[candidate.tracked] = candidate.match.person;
+    }
+    for (const std::size_t tracked : near) {
+      people_[tracked].duplicates += !used.contains(tracked);
     }
   }
 
   const std::span<const std::vector<ScoredFrame>> truth_, tracked_;
   const std::int64_t tolerance_ns_;
-  std::vector<std::vector<PersonMatch>> matches_;
-  std::vector<int> last_;  ///< Whom each tracked person was last.
+  std::vector<MatchedPerson> people_;
+  std::vector<int> last_;   ///< Whom each tracked person was last.
+  std::vector<int> found_;  ///< The last frame of each true person that is matched.
 };
 
 }  // namespace
 
-std::vector<std::vector<PersonMatch>> MatchPeople(
-    std::span<const std::vector<ScoredFrame>> truth,
-    std::span<const std::vector<ScoredFrame>> tracked) {
+std::vector<MatchedPerson> MatchPeople(std::span<const std::vector<ScoredFrame>> truth,
+                                       std::span<const std::vector<ScoredFrame>> tracked) {
   return Matcher(truth, tracked).Match();
 }
 

@@ -19,15 +19,20 @@ struct PersonMatch {
   double mean_mm = 0;
 };
 
-/// Matches people one to one in each frame: whoever was the same person in the frame before stays
-/// so while he is near enough; of the others, the nearest first.
+/// Whom a tracked person was.
+struct MatchedPerson {
+  std::vector<PersonMatch> matches;  ///< In the order of time.
+  int duplicates = 0;  ///< Frames in which he was near somebody whom another one is already.
+};
+
+/// Matches people one to one in each true frame: whoever was the same person in the frame before
+/// stays so while he is near enough; of the others, the nearest first.
 ///
 /// @param truth    frames of each true person, in the order of time; only those in which he is
 ///                 there.
 /// @param tracked  of each tracked person; frames that are not `tracked` are nobody's.
-/// @return  for each tracked person his matches, in the order of time.
-std::vector<std::vector<PersonMatch>> MatchPeople(
-    std::span<const std::vector<ScoredFrame>> truth,
-    std::span<const std::vector<ScoredFrame>> tracked);
+/// @return  of each tracked person.
+std::vector<MatchedPerson> MatchPeople(std::span<const std::vector<ScoredFrame>> truth,
+                                       std::span<const std::vector<ScoredFrame>> tracked);
 
 }  // namespace mocap

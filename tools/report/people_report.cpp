@@ -54,7 +54,9 @@ std::string Tiles(const PeopleEvaluation& evaluation) {
              " %", fmt::format("of {}", Counted(sum.covered, "frame"))) +
         Tile("Switches", std::to_string(sum.switches), "", "people taken for one another") +
         Tile("Phantom frames", std::to_string(evaluation.phantom_frames), "",
-             "tracked where nobody is");
+             "tracked where nobody is") +
+        Tile("Duplicate frames", std::to_string(evaluation.duplicate_frames), "",
+             "of somebody whom another one follows already");
   }
   return tiles + "</div>\n";
 }
@@ -113,7 +115,7 @@ std::string TrackedRows(const PeopleEvaluation& evaluation) {
       "<h3>Who was tracked</h3><table><tr><th>tracked</th><th class=\"n\">frames</th><th "
       "class=\"n\">residual mm</th><th "
       "class=\"n\">stature mm</th><th class=\"is\">is</th><th class=\"n\">error mm</th><th "
-      "class=\"n\">phantom</th></tr>";
+      "class=\"n\">phantom</th><th class=\"n\">duplicate</th></tr>";
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {
     const TrackedPerson& person = evaluation.people[i];
     const Evaluation& one = person.evaluation;
@@ -121,14 +123,14 @@ std::string TrackedRows(const PeopleEvaluation& evaluation) {
     html += fmt::format(
         "<tr><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td "
         "class=\"n\">{:.0f}</td><td class=\"is\">{}</td><td class=\"n\">{}</td><td "
-        "class=\"n\">{}</td></tr>",
+        "class=\"n\">{}</td><td class=\"n\">{}</td></tr>",
         Swatch(i), EscapeHtml(person.name), one.result.poses.size(), one.mean_residual_mm,
         one.result.body.stature_mm,
         person.true_person < 0
             ? "–"
             : EscapeHtml(evaluation.truth[static_cast<std::size_t>(person.true_person)].name),
         is_scored ? fmt::format("{:.1f}", one.accuracy->distance_mm.mean) : "–",
-        person.phantom_frames);
+        person.phantom_frames, person.duplicate_frames);
   }
   return html + "</table>\n";
 }

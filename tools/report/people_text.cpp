@@ -26,7 +26,9 @@ std::string TrackedTable(const PeopleEvaluation& evaluation) {
   const bool has_truth = !evaluation.truth.empty();
   std::string text = fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}", "tracked", "frames", "tracked",
                                  "residual mm", "stature mm");
-  text += has_truth ? fmt::format("  {:<12}{:>9}{:>10}\n", "is", "error mm", "phantom") : "\n";
+  text += has_truth
+              ? fmt::format("  {:<12}{:>9}{:>10}{:>11}\n", "is", "error mm", "phantom", "duplicate")
+              : "\n";
   for (const TrackedPerson& person : evaluation.people) {
     const Evaluation& one = person.evaluation;
     text += fmt::format("{:<12}{:>8}{:>9}{:>13.1f}{:>12.0f}", Printable(person.name),
@@ -37,9 +39,9 @@ std::string TrackedTable(const PeopleEvaluation& evaluation) {
       continue;
     }
     const bool is_scored = one.accuracy && !one.accuracy->frames.empty();
-    text += fmt::format("  {:<12}{:>9}{:>10}\n", Printable(NameOfTruth(evaluation, person)),
+    text += fmt::format("  {:<12}{:>9}{:>10}{:>11}\n", Printable(NameOfTruth(evaluation, person)),
                         is_scored ? fmt::format("{:.1f}", one.accuracy->distance_mm.mean) : "-",
-                        person.phantom_frames);
+                        person.phantom_frames, person.duplicate_frames);
   }
   return text;
 }
@@ -61,7 +63,10 @@ std::string TrueTable(const PeopleEvaluation& evaluation) {
     text += TrueRow(Printable(evaluation.truth[i].name), evaluation.followed[i]);
   }
   text += TrueRow("all", evaluation.sum);
-  return text + fmt::format("\nframes tracked where nobody is: {}\n", evaluation.phantom_frames);
+  return text + fmt::format(
+                    "\nframes tracked where nobody is (phantom): {}\n"
+                    "frames tracked of somebody whom another one follows already (duplicate): {}\n",
+                    evaluation.phantom_frames, evaluation.duplicate_frames);
 }
 
 JsonObject FollowedJson(const FollowedTruth& followed) {
@@ -99,6 +104,7 @@ std::string PeopleJson(const PeopleEvaluation& evaluation) {
     if (!evaluation.truth.empty()) {
       json.Add("true_person", NameOfTruth(evaluation, person));
       json.Add("phantom_frames", person.phantom_frames);
+      json.Add("duplicate_frames", person.duplicate_frames);
     }
     AddEvaluation(person.evaluation, json);
   }
@@ -114,6 +120,7 @@ std::string PeopleJson(const PeopleEvaluation& evaluation) {
     json.Add("truth", truth);
     json.Add("all", FollowedJson(evaluation.sum));
     json.Add("phantom_frames", evaluation.phantom_frames);
+    json.Add("duplicate_frames", evaluation.duplicate_frames);
   }
   return json.Text() + '\n';
 }

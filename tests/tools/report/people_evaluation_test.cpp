@@ -91,6 +91,17 @@ TEST(EvaluatePeople, FramesWhereNobodyIsArePhantoms) {
   EXPECT_EQ(evaluation.people[1].true_person, -1);
   EXPECT_FALSE(evaluation.people[1].evaluation.accuracy);
   EXPECT_EQ(evaluation.phantom_frames, 9);
+  EXPECT_EQ(evaluation.duplicate_frames, 0);
+}
+
+TEST(EvaluatePeople, ASecondFollowerOfSomebodyIsADuplicateAndNoPhantom) {
+  const PeopleEvaluation evaluation =
+      EvaluatePeople({{"person-1", TrackedAt(0, 10, 0)}, {"person-2", TrackedAt(3, 8, 100)}},
+                     {Standing("anna", 0, 10, 0)});
+  EXPECT_EQ(evaluation.people[0].duplicate_frames, 0);
+  EXPECT_EQ(evaluation.people[1].duplicate_frames, 5);
+  EXPECT_EQ(evaluation.duplicate_frames, 5);
+  EXPECT_EQ(evaluation.phantom_frames, 0);
 }
 
 TEST(EvaluatePeople, OnlyCoveredFramesCountForTheShare) {
@@ -118,13 +129,13 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   evaluation.take = "pair";
   const std::string text = PeopleText(evaluation);
   EXPECT_THAT(text, HasSubstr("pair: 2 people tracked, 2 people there"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("person-1 +10 +10 +0\\.0 +0  bert +10\\.0 +0\n"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("person-7 +8 +8 +0\\.0 +0  - +- +8\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("person-1 +10 +10 +0\\.0 +0  bert +10\\.0 +0 +0\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("person-7 +8 +8 +0\\.0 +0  - +- +8 +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("anna +10 +0 +10 +0\\.0 % +- +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("all +20 +10 +20 +50\\.0 % +10\\.0 +0\n"));
-  EXPECT_THAT(text, HasSubstr("frames tracked where nobody is: 8\n"));
+  EXPECT_THAT(text, HasSubstr("frames tracked where nobody is (phantom): 8\n"));
   const std::string json = PeopleJson(evaluation);
-  EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8}"));
+  EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8, \"duplicate_frames\": 0}"));
   EXPECT_THAT(json, HasSubstr("\"name\": \"person-1\", \"true_person\": \"bert\""));
   EXPECT_THAT(json, HasSubstr("\"found_while_covered_share\": 0.5,"));
 }
