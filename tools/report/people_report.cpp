@@ -22,7 +22,16 @@ constexpr int kColors = 8;
 
 int ColorOf(std::size_t person) { return static_cast<int>(person % kColors); }
 
-double Percent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 0; }
+constexpr const char* kNothing = "–";  ///< What a figure over no frame is.
+
+std::string FoundPercent(const FollowedTruth& followed) {
+  if (followed.covered == 0) return kNothing;
+  return fmt::format("{:.1f}", 100.0 * followed.found_covered / followed.covered);
+}
+
+std::string ErrorText(const FollowedTruth& followed) {
+  return followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : kNothing;
+}
 
 /// First and last frames of anybody.
 std::pair<double, double> FrameRange(const PeopleEvaluation& evaluation) {
@@ -47,16 +56,15 @@ std::string Tiles(const PeopleEvaluation& evaluation) {
                                          : fmt::format("{} were there", evaluation.truth.size()));
   if (!evaluation.truth.empty()) {
     const FollowedTruth& sum = evaluation.sum;
-    tiles +=
-        Tile("Error of 14 points", fmt::format("{:.1f}", sum.mean_mm), " mm",
-             "over everybody who was found") +
-        Tile("Found while covered", fmt::format("{:.1f}", Percent(sum.found_covered, sum.covered)),
-             " %", fmt::format("of {}", Counted(sum.covered, "frame"))) +
-        Tile("Switches", std::to_string(sum.switches), "", "people taken for one another") +
-        Tile("Phantom frames", std::to_string(evaluation.phantom_frames), "",
-             "tracked where nobody is") +
-        Tile("Duplicate frames", std::to_string(evaluation.duplicate_frames), "",
-             "of somebody whom another one follows already");
+    tiles += Tile("Error of 14 points", ErrorText(sum), sum.found > 0 ? " mm" : "",
+                  "over everybody who was found") +
+             Tile("Found while covered", FoundPercent(sum), sum.covered > 0 ? " %" : "",
+                  fmt::format("of {}", Counted(sum.covered, "frame"))) +
+             Tile("Switches", std::to_string(sum.switches), "", "people taken for one another") +
+             Tile("Phantom frames", std::to_string(evaluation.phantom_frames), "",
+                  "tracked where nobody is") +
+             Tile("Duplicate frames", std::to_string(evaluation.duplicate_frames), "",
+                  "of somebody whom another one follows already");
   }
   return tiles + "</div>\n";
 }
@@ -127,9 +135,9 @@ std::string TrackedRows(const PeopleEvaluation& evaluation) {
         Swatch(i), EscapeHtml(person.name), one.result.poses.size(), one.mean_residual_mm,
         one.result.body.stature_mm,
         person.true_person < 0
-            ? "–"
+            ? kNothing
             : EscapeHtml(evaluation.truth[static_cast<std::size_t>(person.true_person)].name),
-        is_scored ? fmt::format("{:.1f}", one.accuracy->distance_mm.mean) : "–",
+        is_scored ? fmt::format("{:.1f}", one.accuracy->distance_mm.mean) : kNothing,
         person.phantom_frames, person.duplicate_frames);
   }
   return html + "</table>\n";
@@ -144,9 +152,9 @@ std::string TrueRows(const PeopleEvaluation& evaluation) {
   const auto add = [&](const std::string& name, const FollowedTruth& followed) {
     html += fmt::format(
         "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
-        "class=\"n\">{:.1f}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td></tr>",
-        EscapeHtml(name), followed.frames, followed.found, followed.covered,
-        Percent(followed.found_covered, followed.covered), followed.switches, followed.mean_mm);
+        "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>",
+        EscapeHtml(name), followed.frames, followed.found, followed.covered, FoundPercent(followed),
+        followed.switches, ErrorText(followed));
   };
   for (std::size_t i = 0; i < evaluation.truth.size(); ++i) {
     add(evaluation.truth[i].name, evaluation.followed[i]);

@@ -11,7 +11,9 @@
 namespace mocap {
 namespace {
 
-double Share(int part, int whole) { return whole > 0 ? part / static_cast<double>(whole) : 0; }
+double FoundShare(const FollowedTruth& followed) {
+  return followed.found_covered / static_cast<double>(followed.covered);
+}
 
 int TrackedFrames(const Evaluation& evaluation) {
   return evaluation.frames_in_state[static_cast<std::size_t>(CaptureState::kTracking)];
@@ -47,12 +49,11 @@ std::string TrackedTable(const PeopleEvaluation& evaluation) {
 }
 
 std::string TrueRow(const std::string& name, const FollowedTruth& followed) {
-  const auto error =
-      followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : std::string("-");
+  const std::string error = followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : "-";
+  const std::string share =
+      followed.covered > 0 ? fmt::format("{:.1f} %", 100 * FoundShare(followed)) : "-";
   return fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}  {:<12}{:>9}{:>10}\n", name, followed.frames,
-                     followed.found, followed.covered,
-                     fmt::format("{:.1f} %", 100 * Share(followed.found_covered, followed.covered)),
-                     "", error, followed.switches);
+                     followed.found, followed.covered, share, "", error, followed.switches);
 }
 
 std::string TrueTable(const PeopleEvaluation& evaluation) {
@@ -74,9 +75,9 @@ JsonObject FollowedJson(const FollowedTruth& followed) {
   json.Add("frames", followed.frames);
   json.Add("found_frames", followed.found);
   json.Add("covered_frames", followed.covered);
-  json.Add("found_while_covered_share", Share(followed.found_covered, followed.covered), 4);
+  if (followed.covered > 0) json.Add("found_while_covered_share", FoundShare(followed), 4);
   json.Add("switches", followed.switches);
-  json.Add("mpjpe_mm", followed.mean_mm, 1);
+  if (followed.found > 0) json.Add("mpjpe_mm", followed.mean_mm, 1);
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/report/people_report.h"
 #include "tools/report/people_text.h"
 
 namespace mocap {
@@ -138,6 +139,18 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8, \"duplicate_frames\": 0}"));
   EXPECT_THAT(json, HasSubstr("\"name\": \"person-1\", \"true_person\": \"bert\""));
   EXPECT_THAT(json, HasSubstr("\"found_while_covered_share\": 0.5,"));
+}
+
+TEST(PeopleText, NothingIsSaidOfFramesThatAreNone) {
+  TruePerson anna = Standing("anna", 0, 3, 0);
+  anna.covered.assign(3, false);
+  const PeopleEvaluation evaluation = EvaluatePeople({{"person-1", TrackedAt(0, 3, 5000)}}, {anna});
+  EXPECT_THAT(PeopleText(evaluation), ::testing::ContainsRegex("anna +3 +0 +0 +- +- +0\n"));
+  EXPECT_THAT(PeopleReportHtml(evaluation, {}, {}),
+              HasSubstr("<td>anna</td><td class=\"n\">3</td><td class=\"n\">0</td><td "
+                        "class=\"n\">0</td><td class=\"n\">–</td><td class=\"n\">0</td><td "
+                        "class=\"n\">–</td>"));
+  EXPECT_THAT(PeopleJson(evaluation), ::testing::Not(HasSubstr("found_while_covered_share")));
 }
 
 TEST(PeopleText, WithoutTruthSaysWhatItCan) {
