@@ -114,7 +114,7 @@ void ExportOne(const ExportArguments& arguments) {
   ReplaceText(arguments.out, out.str());
 }
 
-/// "walk.bvh" of person-1 is walk-person-1.bvh.
+/// "walk.bvh" of person-1 is walk-person-1.bvh; out of a log, of anna, walk-anna.bvh.
 std::filesystem::path FileOf(const std::filesystem::path& out, const std::string& name) {
   std::filesystem::path file = out;
   return file.replace_filename(out.stem().string() + '-' + name + out.extension().string());
@@ -183,8 +183,10 @@ void AddExportCommand(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"bvh", "trc", "csv"}));
   command
-      ->add_option("--out", arguments->out,
-                   "file to write; of several people FILE-person-1 and so on")
+      ->add_option(
+          "--out", arguments->out,
+          "file to write; of several people FILE-person-1 and so on, out of a log FILE-anna "
+          "for who has a name")
       ->required();
   command->add_option("--prefix", arguments->prefix,
                       "of a log of several daemons: what stands before the channels' names");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "core/errors.h"
 #include "drivers/simulation/camera_rig.h"
@@ -18,7 +19,7 @@ constexpr double kMostMegapixels = 128;
 constexpr double kLeastStature_mm = 1000, kMostStature_mm = 2100;
 
 void Check(const SimulatedStudioOptions& options) {
-  const auto refuse = [](const char* name, double found, const char* wanted) {
+  const auto refuse = [](const char* name, double found, const std::string& wanted) {
     std::ostringstream message;
     message << "simulated studio: " << name << " is " << found << "; wanted is " << wanted;
     throw SetupError(message.str());
@@ -26,7 +27,7 @@ void Check(const SimulatedStudioOptions& options) {
   if (!(options.stature_mm >= kLeastStature_mm && options.stature_mm <= kMostStature_mm))
     refuse("stature_mm", options.stature_mm, "1000 to 2100");
   if (options.people < 1 || options.people > kMostSimulatedPeople)
-    refuse("people", options.people, "1 to 4");
+    refuse("people", options.people, "1 to " + std::to_string(kMostSimulatedPeople));
   if (!(options.fps >= 1 && options.fps <= 1000)) refuse("fps", options.fps, "1 to 1000");
   if (options.cameras < 1 || options.cameras > 64) refuse("cameras", options.cameras, "1 to 64");
   if (options.width_px < 16 || options.width_px > 8192)

@@ -23,7 +23,8 @@ struct PeopleRow {
   int never_found = 0;   ///< People who were covered and never followed.
 };
 
-/// Sums up what was measured. @param fps  sets a second.
+/// Sums up what was measured.
+/// @param studio  the simulated one; its fps are the sets a second.
 PeopleRow SumUp(const SimulatedStudioOptions& studio, const PeopleAccuracy& accuracy);
 
 /// Simulates a take and tracks it; as many may be followed as the simulated studio can hold. The
