@@ -31,6 +31,8 @@ class LiveView : public PoseSink {
   std::string Line(const StatusReport& report) const;
 
  private:
+  void TakePeople(std::span<const PersonView> people);
+
   static constexpr double kUnknown = -1;
 
   const TruthError error_;
@@ -39,7 +41,6 @@ class LiveView : public PoseSink {
   std::atomic<double> error_mm_{kUnknown};
   std::atomic<int> voxels_{0};
   std::atomic<int> count_{0};
-  void TakePeople(std::span<const PersonView> people);
 
   mutable std::mutex mutex_;  ///< Tried, never waited for, by the pipeline.
   std::vector<FollowedPerson> people_;
