@@ -1,7 +1,6 @@
 #include "tools/results/channel_log.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "core/errors.h"
@@ -87,7 +86,8 @@ bool FrameOrder::Add(std::int64_t frame, std::int64_t timestamp_ns) {
   ++frames_;
   frame_ = frame;
   timestamp_ns_ = timestamp_ns;
-  return is_again && std::abs(step_ns) >= kRestart_ns;
+  // A little earlier is a message that was overtaken on its way.
+  return is_again && (step_ns > 0 || step_ns <= -kRestart_ns);
 }
 
 void FrameOrder::RequireOneDaemon(const std::filesystem::path& log,

@@ -97,8 +97,7 @@ class PeopleOfLog {
     tell(repeated_, " not later than the one before, and left out");
     if (before_ > 0) {
       remarks.push_back(log.string() +
-                        ": mocapd was started again; who came last has a number "
-                        "above " +
+                        ": mocapd was started again; who came since has a number above " +
                         std::to_string(before_));
     }
     if (!results.empty()) results.front().second.remarks = std::move(remarks);

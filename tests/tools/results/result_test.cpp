@@ -449,6 +449,14 @@ TEST_F(PeopleLog, AfterAnotherStartOfTheDaemonTheSameNumberIsSomebodyElse) {
   EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("started again")));
 }
 
+TEST_F(PeopleLog, AMessageThatWasOvertakenIsNoOtherStart) {
+  BodyOf(1);
+  for (const int frame : {0, 2, 1, 3}) People(frame, {1});
+  const PeopleResults people = ReadAll();
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_EQ(people[0].second.poses.size(), 3u);
+}
+
 TEST_F(PeopleLog, OfTwoDaemonsOnOneChannelIsRefused) {
   BodyOf(1);
   for (int frame = 0; frame < 20; ++frame) {
