@@ -25,6 +25,19 @@ constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
 constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
+// Of a person who stands: the flesh's middle as a share of the height. Flesh that begins higher
+// than shins do lacks the legs.
+constexpr double kMiddleShare = 0.55;
+constexpr double kShinMm = 250;
+
+// Where the legs were carved away, the middle of who stands on the floor under the flesh.
+Vector3 MiddleOf(const VoxelCloud& cloud) {
+  Vector3 middle_W = cloud.Centroid();
+  const auto height_mm = [](const Voxel& voxel) { return voxel.center_W.z(); };
+  const auto [lowest, highest] = std::ranges::minmax(cloud.voxels(), {}, height_mm);
+  if (height_mm(lowest) > kShinMm) middle_W.z() = kMiddleShare * height_mm(highest);
+  return middle_W;
+}
 
 }  // namespace
 
@@ -80,7 +93,7 @@ void PoseContest::Remember(const BodySizes& sizes, const PoseState& pose) {
 }
 
 void PoseContest::Propose(const VoxelCloud& cloud) {
-  const Vector3 middle_W = cloud.Centroid();
+  const Vector3 middle_W = MiddleOf(cloud);
   const std::vector<Vector3> axes_W = TrunkAxes(cloud);
   const int first = builds_ == 1 ? 0 : (kCoarseStep / 2) * builds_ + kCoarseBuild;
   for (int body = first; body < std::ssize(bodies_); body += kCoarseStep * builds_) {

@@ -30,19 +30,23 @@ struct CaptureBeside::Queue {
   std::shared_ptr<MotionCapture> capture;
   std::array<Seen, kMostWaiting> seen;
   std::optional<std::int64_t> last_ns;
-  // Sequentially consistent, so that of the last one taken and the next one pushed at least one
-  // side knows.
   std::atomic<std::int64_t> pushed{0}, taken{0};
+  std::atomic<bool> is_begun{false};  // Work that was begun has not ended.
   std::atomic<bool> is_abandoned{false};
 };
 
 void CaptureBeside::Queue::Work() {
-  while (taken < pushed && !is_abandoned) {
-    const Seen& next = At(taken);
-    capture->Update({next.flesh, next.outlines, next.box_W, next.room, next.borders},
-                    next.capture_ns);
-    ++taken;
-  }
+  const auto has_more = [this] { return taken < pushed && !is_abandoned; };
+  do {
+    while (has_more()) {
+      const Seen& next = At(taken);
+      capture->Update({next.flesh, next.outlines, next.box_W, next.room, next.borders},
+                      next.capture_ns);
+      ++taken;
+    }
+    is_begun = false;
+    // What was pushed just now did not begin work of its own.
+  } while (has_more() && !is_begun.exchange(true));
 }
 
 CaptureBeside::CaptureBeside(std::shared_ptr<MotionCapture> capture, SideWork& side)
@@ -64,8 +68,9 @@ void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
   seen.borders.assign(sighting.borders.begin(), sighting.borders.end());
   seen.box_W = sighting.box_W;
   seen.capture_ns = capture_ns;
-  const std::int64_t waiting_before = queue.pushed++ - queue.taken;
-  if (waiting_before == 0) side_.Begin([work = queue_] { work->Work(); });
+  ++queue.pushed;
+  if (queue.is_begun.exchange(true)) return;
+  if (!side_.Begin([work = queue_] { work->Work(); })) queue.is_begun = false;
 }
 
 bool CaptureBeside::HasCaughtUp() const { return queue_->taken == queue_->pushed; }

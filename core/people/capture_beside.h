@@ -10,7 +10,8 @@
 namespace mocap {
 
 /// Lets a capture take in sighting after sighting beside its owner's thread: a search for a body
-/// takes longer than a set may. Meanwhile sightings are copied and wait. Thread-bound.
+/// takes longer than a set may. Meanwhile up to 32 sightings are copied and wait; their memory goes
+/// round. Thread-bound.
 class CaptureBeside {
  public:
   /// @param capture  nobody else uses it until HasCaughtUp.

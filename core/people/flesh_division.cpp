@@ -112,10 +112,7 @@ void FleshDivision::ClaimRow(const VoxelGrid& grid, int j, int k,
         strange_.Set(x, j, k);
         continue;
       }
-      Claim& claim = claims_[owner];
-      claim.grid.Set(x, j, k);
-      claim.cells.extend(Eigen::Vector3i(x, j, k));
-      ++claim.voxels;
+      Add({j, k, x, x + 1, 0}, claims_[owner]);
     }
   }
 }
@@ -139,43 +136,63 @@ int FleshDivision::OwnerOf(const Vector3& p_W, std::span<const PosedPerson> peop
   return owner;
 }
 
-void FleshDivision::Add(const VoxelPieces::Run& run, Claim& claim) {
-  for (int x = run.begin; x < run.end; ++x) claim.grid.Set(x, run.j, run.k);
-  claim.cells.extend(Eigen::Vector3i(run.begin, run.j, run.k));
-  claim.cells.extend(Eigen::Vector3i(run.end - 1, run.j, run.k));
-  claim.voxels += run.length();
-}
-
 void FleshDivision::DivideStrangeFlesh() {
   pieces_.Find(strange_);
   const std::vector<int>& sizes = pieces_.sizes();
+  const int pieces = static_cast<int>(sizes.size());
+  owner_of_piece_.assign(sizes.size(), -1);
   piece_cells_.assign(sizes.size(), Eigen::AlignedBox3i());
   for (const VoxelPieces::Run& run : pieces_.runs()) {
     piece_cells_[run.piece].extend(Eigen::Vector3i(run.begin, run.j, run.k));
     piece_cells_[run.piece].extend(Eigen::Vector3i(run.end - 1, run.j, run.k));
   }
-  claim_of_piece_.assign(sizes.size(), -1);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (LitresOf(sizes[i], strange_.voxel_mm()) < kLeastStrangerLitres) continue;
-    claim_of_piece_[i] = static_cast<int>(claims_.size());
-    Claim& claim = claims_.emplace_back();
-    claim.grid.Reset(strange_.first_voxel(), strange_.size(), strange_.voxel_mm());
-    claim.cells = piece_cells_[i];
-  }
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (claim_of_piece_[i] >= 0) continue;
-    double least_mm = kBesideMm;
-    const Eigen::AlignedBox3d box_W = BoxOf(piece_cells_[i], strange_);
-    for (std::size_t c = 0; c < claims_.size(); ++c) {
-      if (claims_[c].cells.isEmpty()) continue;
-      const double gap_mm = BoxOf(claims_[c].cells, strange_).exteriorDistance(box_W);
-      if (gap_mm >= least_mm) continue;
-      least_mm = gap_mm;
-      claim_of_piece_[i] = static_cast<int>(c);
+  const auto is_large = [&](int piece) {
+    return LitresOf(sizes[piece], strange_.voxel_mm()) >= kLeastStrangerLitres;
+  };
+  for (int piece = 0; piece < pieces; ++piece)
+    if (is_large(piece)) MakeStrangers(piece);
+  for (int piece = 0; piece < pieces; ++piece)
+    if (!is_large(piece)) owner_of_piece_[piece] = ClaimBeside(piece_cells_[piece]);
+  for (const VoxelPieces::Run& run : pieces_.runs())
+    if (owner_of_piece_[run.piece] >= 0) Add(run, claims_[owner_of_piece_[run.piece]]);
+}
+
+void FleshDivision::MakeStrangers(int piece) {
+  runs_.clear();
+  for (const VoxelPieces::Run& run : pieces_.runs())
+    if (run.piece == piece) runs_.push_back(run);
+  standing_.Divide(runs_, strange_, kLeastStrangerLitres);
+  const std::size_t first = claims_.size();
+  for (int person = 0; person < standing_.count(); ++person)
+    claims_.emplace_back().grid.Reset(strange_.first_voxel(), strange_.size(), strange_.voxel_mm());
+  for (const VoxelPieces::Run& run : runs_) {
+    for (int x = run.begin; x < run.end; ++x) {
+      const auto person = static_cast<std::size_t>(standing_.OwnerOf(x, run.j));
+      Add({run.j, run.k, x, x + 1, piece}, claims_[first + person]);
     }
   }
-  for (const VoxelPieces::Run& run : pieces_.runs())
-    if (claim_of_piece_[run.piece] >= 0) Add(run, claims_[claim_of_piece_[run.piece]]);
+}
+
+// Whose flesh is next to a piece; -1: nobody's.
+int FleshDivision::ClaimBeside(const Eigen::AlignedBox3i& cells) const {
+  const Eigen::AlignedBox3d box_W = BoxOf(cells, strange_);
+  int nearest = -1;
+  double least_mm = kBesideMm;
+  for (std::size_t i = 0; i < claims_.size(); ++i) {
+    if (claims_[i].cells.isEmpty()) continue;
+    const double gap_mm = BoxOf(claims_[i].cells, strange_).exteriorDistance(box_W);
+    if (gap_mm >= least_mm) continue;
+    least_mm = gap_mm;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+void FleshDivision::Add(const VoxelPieces::Run& run, Claim& claim) {
+  for (int x = run.begin; x < run.end; ++x) claim.grid.Set(x, run.j, run.k);
+  claim.cells.extend(Eigen::Vector3i(run.begin, run.j, run.k));
+  claim.cells.extend(Eigen::Vector3i(run.end - 1, run.j, run.k));
+  claim.voxels += run.length();
 }
 
 void FleshDivision::Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& share) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/people/posed_person.h"
+#include "core/people/standing_flesh.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "core/reconstruction/carving/voxel_pieces.h"
 #include "core/reconstruction/silhouette/outline.h"
@@ -23,7 +24,7 @@ struct FleshShare {
 ///
 /// A voxel is the person's whose body, as predicted, is nearest to it. What lies out of everybody's
 /// reach is strange; pieces of it that are too small for a person go to who is next to them, if
-/// anybody is.
+/// anybody is. Strangers who touch are told apart by their heads.
 class FleshDivision {
  public:
   /// A piece of this size may be a person whom nobody knows.
@@ -50,7 +51,9 @@ class FleshDivision {
   void ClaimRow(const VoxelGrid& grid, int j, int k, std::span<const PosedPerson> people);
   int OwnerOf(const Vector3& p_W, std::span<const PosedPerson> people);
   void DivideStrangeFlesh();
-  void Add(const VoxelPieces::Run& run, Claim& claim);
+  void MakeStrangers(int piece);
+  int ClaimBeside(const Eigen::AlignedBox3i& cells) const;
+  static void Add(const VoxelPieces::Run& run, Claim& claim);
   void Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& share) const;
 
   std::vector<Claim> claims_;    // Of the people, then of strangers.
@@ -58,8 +61,10 @@ class FleshDivision {
   std::vector<int> guesses_;     // The capsule that explained each person's last voxel.
   VoxelGrid strange_;
   VoxelPieces pieces_;
-  std::vector<int> claim_of_piece_;
+  std::vector<int> owner_of_piece_;
   std::vector<Eigen::AlignedBox3i> piece_cells_;
+  std::vector<VoxelPieces::Run> runs_;  // Of a piece.
+  StandingFlesh standing_;
   std::vector<FleshShare> shares_, strangers_;
 };
 

@@ -12,8 +12,6 @@ constexpr double kSquareMm = 40;
 // A body explains a ray from this mismatch on; beyond the other it certainly does not.
 constexpr double kExplainsMm = 80;
 constexpr double kSurelyNotMm = 120;
-// So far beside a stranger's flesh a ray may still be his.
-constexpr double kBesideMm = 100;
 // Farther than any room is long.
 constexpr double kFarMm = 30000;
 // A camera that has so many rays of somebody shows him.
@@ -63,7 +61,7 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     const Eigen::AlignedBox3d box_W =
         i < people.size() ? people[i].box_W
-                          : DownToFloor(flesh.strangers()[i - people.size()].box_W, kBesideMm);
+                          : AroundStranger(flesh.strangers()[i - people.size()].box_W);
     if (!Passes(ray, box_W)) continue;
     passed_.push_back({i, 0, true});
     shares_[i].near[camera].push_back(ray);

@@ -134,7 +134,8 @@ PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
 PeopleCapture::Impl::Member& PeopleCapture::Impl::AddMember() {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   member.capture = make_();
-  if (members_.size() == 1 && expected_) {
+  if (expected_ &&
+      std::ranges::none_of(members_, [](const auto& one) { return one->is_expected; })) {
     member.capture->Expect(*expected_);
     member.is_expected = true;
     member.name = expected_name_;
@@ -261,11 +262,13 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
       member->waits_since_ns = capture_ns;
       member->has_come = IsBeginning(capture_ns) || !IsCovered(flesh.box_W, kBorderMm, eyes);
     }
-    const bool may_be_found = member->has_come && IsCovered(flesh.box_W, 0, eyes);
-    if (!may_be_found && SecondsBetween(*member->waits_since_ns, capture_ns) < kPatienceS) continue;
+    const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W);
+    if (!(is_whole && member->has_come) &&
+        SecondsBetween(*member->waits_since_ns, capture_ns) < kPatienceS)
+      continue;
     member->flesh = &flesh;
     member->outlines = &share;
-    member->box_W = DownToFloor(flesh.box_W, kAsideMm);
+    member->box_W = AroundStranger(flesh.box_W);
   }
 }
 
@@ -304,6 +307,7 @@ void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver*
       member->beside.emplace(member->capture, *options_.side);
     if (member->beside) {
       member->beside->See(sighting, capture_ns);
+      member->vouched_ns = capture_ns;
       continue;
     }
     member->capture->Update(sighting, capture_ns, observer);
@@ -325,7 +329,7 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   const bool is_alone = members_.size() == 1;
   if (is_alone && !members_.front()->has_pose()) {
     members_.front()->id = 0;
-    if (!members_.front()->is_expected) members_.front()->name.clear();
+    members_.front()->name = members_.front()->is_expected ? expected_name_ : std::string();
   }
   for (const auto& member : members_) {
     if (member->id > 0 || !member->has_pose()) continue;

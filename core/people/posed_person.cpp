@@ -18,6 +18,16 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
   }
 }
 
+Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W) {
+  constexpr double kBesideMm = 100, kStrideMm = 400;
+  return DownToFloor(flesh_W, LacksLegs(flesh_W) ? kStrideMm : kBesideMm);
+}
+
+bool LacksLegs(const Eigen::AlignedBox3d& flesh_W) {
+  constexpr double kShinMm = 250;
+  return flesh_W.min().z() > kShinMm;
+}
+
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm) {
   const Vector3 beside = Vector3::Constant(beside_mm);
   Eigen::AlignedBox3d box_W(flesh_W.min() - beside, flesh_W.max() + beside);

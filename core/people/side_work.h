@@ -10,8 +10,9 @@ class SideWork {
  public:
   virtual ~SideWork() = default;
 
-  /// Runs `work` in another thread, soon: one after the other, in their order.
-  virtual void Begin(std::function<void()> work) = 0;
+  /// Runs `work` in another thread, soon: one after the other, in their order. Does not wait.
+  /// @return  false where too much waits already: it is not run.
+  virtual bool Begin(std::function<void()> work) = 0;
 };
 
 }  // namespace mocap

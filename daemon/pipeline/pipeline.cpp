@@ -67,9 +67,10 @@ SegmentationOptions SegmentationOf(const PipelineOptions& options) {
   return segmentation;
 }
 
-std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options) {
+std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options, SideThread::Guard guard) {
   const bool is_wanted = options.people > 1 && options.overflow == Overflow::kDropOldest;
-  return is_wanted ? std::make_unique<SideThread>("newcomers", options.processors) : nullptr;
+  if (!is_wanted) return nullptr;
+  return std::make_unique<SideThread>("newcomers", options.processors, std::move(guard));
 }
 
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
@@ -122,7 +123,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
       sets_(SizesFor(options.overflow).sets, Overflow::kWait, track_bell_,
             RoomySet(CountCameras(studio), options.voxel_mm)),
       grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
-      side_(MakeSide(options)),
+      side_(MakeSide(options, [this](const auto& work) { Guard(work); })),
       track_(PeopleCapture([kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
                            {.most = options.people,
                             .fineness = FinenessFor(options.people),

@@ -77,7 +77,8 @@ struct PipelineStatus {
 
 /// Runs a studio: a thread a camera that grabs and segments, one that matches and carves, one that
 /// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
-/// allocated, locked or copied on a frame's way. Live, one more looks for people who come in.
+/// allocated, locked or copied on a frame's way. Live, one more looks for people who come in; for
+/// that the sets that show them are copied.
 ///
 /// Run once, with Start and Join or with RunSerially. RequestStop, finished, ChangeSubject,
 /// ReplaceBackground, Status and Progress: any thread.

@@ -13,13 +13,12 @@ namespace {
 
 // A tenth of a processor, where all are busy.
 constexpr int kNiceness = 10;
-// More than a work for each person, and one more.
 constexpr std::size_t kMostWaiting = 32;
 
 }  // namespace
 
-SideThread::SideThread(const std::string& name, const std::vector<int>& processors)
-    : queue_(kMostWaiting, Overflow::kWait, bell_) {
+SideThread::SideThread(const std::string& name, const std::vector<int>& processors, Guard guard)
+    : guard_(std::move(guard)), queue_(kMostWaiting, Overflow::kWait, bell_) {
   thread_ = std::thread([this, name, processors] {
     pthread_setname_np(pthread_self(), name.c_str());
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
@@ -34,9 +33,12 @@ SideThread::~SideThread() {
   thread_.join();
 }
 
-void SideThread::Begin(std::function<void()> work) {
+bool SideThread::Begin(std::function<void()> work) {
+  if (waiting_.load() == kMostWaiting) return false;
+  ++waiting_;
   queue_.back() = std::move(work);
   queue_.Push();
+  return true;
 }
 
 void SideThread::Run() {
@@ -45,7 +47,8 @@ void SideThread::Run() {
     const bool is_closed = queue_.closed();
     if (stop_.load(std::memory_order_relaxed)) return;
     if (queue_.TryPop()) {
-      queue_.front()();
+      --waiting_;
+      guard_(queue_.front());
       queue_.front() = nullptr;
     } else if (is_closed) {
       return;

@@ -16,18 +16,23 @@ namespace mocap {
 /// is always busy. Work that waits at the end is not run.
 class SideThread : public SideWork {
  public:
+  using Guard = std::function<void(const std::function<void()>& work)>;
+
   /// @param processors  that the thread keeps to; empty: all.
-  SideThread(const std::string& name, const std::vector<int>& processors);
+  /// @param guard       runs the work and takes care of what it throws.
+  SideThread(const std::string& name, const std::vector<int>& processors, Guard guard);
   ~SideThread() override;
 
   /// One thread at a time.
-  void Begin(std::function<void()> work) override;
+  bool Begin(std::function<void()> work) override;
 
  private:
   void Run();
 
+  const Guard guard_;
   Doorbell bell_;
   SpscQueue<std::function<void()>> queue_;
+  std::atomic<std::size_t> waiting_{0};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

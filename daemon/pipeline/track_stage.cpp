@@ -38,7 +38,7 @@ TrackStage::TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sin
 
 TrackStage::~TrackStage() {
   delete next_subject_.load();
-  delete next_name_.load();
+  delete next_names_.load();
 }
 
 void TrackStage::ChangeSubject(const std::optional<KnownSubject>& subject) {
@@ -46,7 +46,10 @@ void TrackStage::ChangeSubject(const std::optional<KnownSubject>& subject) {
 }
 
 void TrackStage::NamePerson(int id, const std::string& name) {
-  delete next_name_.exchange(new NamedPerson(id, name));
+  std::unique_ptr<NamedPeople> names(next_names_.exchange(nullptr));
+  if (!names) names = std::make_unique<NamedPeople>();
+  names->emplace_back(id, name);
+  next_names_.store(names.release());
 }
 
 void TrackStage::TakeRequests() {
@@ -54,9 +57,9 @@ void TrackStage::TakeRequests() {
     const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
     *subject ? people_.Expect((*subject)->sizes, (*subject)->name) : people_.Forget();
   }
-  if (next_name_.load(std::memory_order_relaxed)) {
-    const std::unique_ptr<const NamedPerson> person(next_name_.exchange(nullptr));
-    people_.Call(person->first, person->second);
+  if (next_names_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<const NamedPeople> names(next_names_.exchange(nullptr));
+    for (const auto& [id, name] : *names) people_.Call(id, name);
   }
 }
 

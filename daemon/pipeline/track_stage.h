@@ -40,14 +40,14 @@ class TrackStage : private UpdateObserver {
   /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
   /// there. Any thread.
   void ChangeSubject(const std::optional<KnownSubject>& subject);
-  /// From the next set on, whoever has this number has a name. Any thread.
+  /// From the next set on, whoever has this number has a name. One thread at a time.
   void NamePerson(int id, const std::string& name);
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
   using Subject = std::optional<KnownSubject>;
-  using NamedPerson = std::pair<int, std::string>;
+  using NamedPeople = std::vector<std::pair<int, std::string>>;
 
   void TakeRequests();
   std::int64_t Onward(std::int64_t capture_ns);
@@ -60,7 +60,7 @@ class TrackStage : private UpdateObserver {
   const std::shared_ptr<SubjectPosition> person_;
   // Owned, until they are taken.
   std::atomic<const Subject*> next_subject_{nullptr};
-  std::atomic<const NamedPerson*> next_name_{nullptr};
+  std::atomic<NamedPeople*> next_names_{nullptr};
   std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.
   std::int64_t shift_ns_ = 0;               ///< From capture to the tracker's time.

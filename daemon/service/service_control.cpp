@@ -116,7 +116,7 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   spdlog::info("subject {} is followed", request.name);
   return fmt::format(
       "{} is followed from now on: stature {:.0f} mm{}\n", request.name, sizes.Stature(),
-      people > 1 ? "; whoever of the people is found first is taken for " + request.name : "");
+      people > 1 ? "; whoever is looked for first is taken for " + request.name : "");
 }
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {

@@ -56,7 +56,7 @@ struct AccuracyBenchmark {
   std::vector<AccuracyRow> grid;
   std::vector<AccuracySweep> sweeps;
   double people_seconds = 0;  ///< and of each with several people.
-  std::vector<PeopleRow> people;
+  std::vector<PeopleRow> people = {};
 };
 
 }  // namespace mocap

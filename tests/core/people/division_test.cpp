@@ -43,6 +43,21 @@ class Division : public testing::Test {
   OutlineDivision outlines_;
 };
 
+TEST_F(Division, StrangersWhoTouchAreToldApart) {
+  const auto seen = Carve({At(-210, 1850), At(210, 1650)});
+  VoxelPieces pieces;
+  pieces.Find(seen.hull);
+  ASSERT_EQ(pieces.sizes().size(), 1u);
+  flesh_.Divide(seen.hull, {});
+  ASSERT_EQ(flesh_.strangers().size(), 2u);
+  const FleshShare& tall = flesh_.strangers()[0];
+  const FleshShare& small = flesh_.strangers()[1];
+  EXPECT_EQ(Count(tall.flesh) + Count(small.flesh), Count(seen.hull));
+  EXPECT_LT(tall.box_W.center().x(), -100);
+  EXPECT_GT(small.box_W.center().x(), 100);
+  EXPECT_GT(small.litres, 40);
+}
+
 TEST_F(Division, GivesEveryVoxelToOneOfThoseWhoTouch) {
   const std::vector<PosedPerson> people = {At(-190, 1800), At(190, 1650)};
   const auto seen = Carve(people);

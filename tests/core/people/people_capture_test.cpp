@@ -216,7 +216,10 @@ TEST_F(Room, ForgettingForgetsEverybody) {
 // Work that is done when a test says so.
 class Desk : public SideWork {
  public:
-  void Begin(std::function<void()> work) override { waiting_.push_back(std::move(work)); }
+  bool Begin(std::function<void()> work) override {
+    waiting_.push_back(std::move(work));
+    return true;
+  }
   void DoAll() {
     for (const auto& work : std::exchange(waiting_, {})) work();
   }

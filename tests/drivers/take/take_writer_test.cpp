@@ -106,8 +106,8 @@ TEST_F(WrittenTake, TruthHasOneRowAFrame) {
   const std::array<std::string, 2> names = {"neck", "knee_l"};
   writer.SetTruthPoints(names);
   const std::array<Vector3, 2> points = {Vector3(1, -2.5, 1000.1234), Vector3(0, 1e-9, 3)};
-  writer.WriteTruth(10, points);
-  writer.WriteTruth(20, points);
+  writer.WriteTruth(0, 10, points);
+  writer.WriteTruth(1, 20, points);
   writer.WriteTruthSizes({1750, 80.5, {{"torso_mm", 588.25}, {"calf_mm", 500}}});
   writer.Finish();
   const std::string row = ",1.000,-2.500,1000.123,0.000,0.000,3.000\n";

@@ -92,7 +92,7 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   picture.width_px = 640;
   picture.height_px = 480;
   picture.silhouette = {{{1, 2}, {3, 4}, {5, 6}}};
-  picture.body = {{BodySide::kRight, {{7, 8}, {9, 10}}}};
+  picture.bodies = {{.person = 0, .lines = {{BodySide::kRight, {{7, 8}, {9, 10}}}}}};
   picture.jpeg = jpeg;
   const std::string bytes = PictureBytes(picture);
   EXPECT_EQ(bytes.size() % 8, 0u);
