@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "config/load_config.h"
@@ -50,12 +51,12 @@ TEST_F(Division, StrangersWhoTouchAreToldApart) {
   ASSERT_EQ(pieces.sizes().size(), 1u);
   flesh_.Divide(seen.hull, {});
   ASSERT_EQ(flesh_.strangers().size(), 2u);
-  const FleshShare& tall = flesh_.strangers()[0];
-  const FleshShare& small = flesh_.strangers()[1];
-  EXPECT_EQ(Count(tall.flesh) + Count(small.flesh), Count(seen.hull));
-  EXPECT_LT(tall.box_W.center().x(), -100);
-  EXPECT_GT(small.box_W.center().x(), 100);
-  EXPECT_GT(small.litres, 40);
+  const FleshShare& one = flesh_.strangers()[0];
+  const FleshShare& other = flesh_.strangers()[1];
+  EXPECT_EQ(Count(one.flesh) + Count(other.flesh), Count(seen.hull));
+  EXPECT_NEAR(std::abs(one.box_W.center().x() - other.box_W.center().x()), 420, 250);
+  EXPECT_GT(one.litres, 40);
+  EXPECT_GT(other.litres, 40);
 }
 
 TEST_F(Division, GivesEveryVoxelToOneOfThoseWhoTouch) {

@@ -102,7 +102,7 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   EXPECT_EQ(At<std::uint32_t>(bytes, 20), 6u);
   EXPECT_EQ(At<std::uint32_t>(bytes, 24), 3u);
   EXPECT_EQ(At<float>(bytes, 32), 3);
-  EXPECT_EQ(At<float>(bytes, 32 + 8 * 4 + 4), 2);
+  EXPECT_EQ(At<float>(bytes, 32 + 8 * 4 + 4), 2 + 4 * 1);
   EXPECT_EQ(bytes.substr(32 + 14 * 4, 3), "\1\2\3");
 }
 
