@@ -230,6 +230,11 @@ void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);
   bests_.resize(blocks_.size());
   trials_.resize(blocks_.size() * kMostCapsules + 1);
+  missing_.clear();
+  for (std::size_t place = 0; place < order_.size(); ++place)
+    if (contacts_[order_[place]].misses_hull) missing_.push_back(place);
+  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
+  rays_that_tell_ = std::max(2.0, kShareThatTells * static_cast<double>(edges));
   has_favourites_ = false;
 }
 
@@ -335,16 +340,16 @@ const std::vector<float>& ContactMatcher::Distances(std::span<const PosedCapsule
 }
 
 std::uint32_t ContactMatcher::CarvedAway() const {
+  if (missing_.empty()) return 0;
   std::array<int, kMostCapsules> rays{};
-  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
-  const double wanted = std::max(2.0, kShareThatTells * static_cast<double>(edges));
-  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
-    if (contacts_[contact].misses_hull && best.capsule[i] >= 0 && best.distance[i] < kGrazes_mm)
-      ++rays[static_cast<std::size_t>(best.capsule[i])];
-  });
+  for (const std::size_t place : missing_) {
+    const Best& best = bests_[place / Block::kContacts];
+    const std::size_t i = place % Block::kContacts;
+    if (best.capsule[i] >= 0 && best.distance[i] < kGrazes_mm) ++rays[best.capsule[i]];
+  }
   std::uint32_t capsules = 0;
   for (int k = 0; k < kMostCapsules; ++k)
-    if (rays[k] >= wanted) capsules |= std::uint32_t{1} << k;
+    if (rays[k] >= rays_that_tell_) capsules |= std::uint32_t{1} << k;
   return capsules;
 }
 

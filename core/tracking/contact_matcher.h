@@ -91,7 +91,9 @@ class ContactMatcher {
   std::vector<std::uint32_t> keys_;   ///< The contacts' own, while they are sorted.
   std::vector<std::uint32_t> order_before_;
   std::vector<Block> blocks_;
-  std::vector<Best> bests_;  ///< One a block.
+  std::vector<Best> bests_;           ///< One a block.
+  std::vector<std::size_t> missing_;  ///< Places in order_ of rays that miss the hull.
+  double rays_that_tell_ = 0;         ///< That flesh was carved away.
   std::vector<Trial> trials_;
   bool has_favourites_ = false;
   SlimShape slim_;
