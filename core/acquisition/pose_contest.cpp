@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/tracking/flesh_rules.h"
+
 namespace mocap {
 namespace {
 
@@ -25,18 +27,19 @@ constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
 constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
-// Of a person who stands: the flesh's middle as a share of the height. Flesh that begins higher
-// than shins do lacks the legs.
+// The middle of a person who stands, as a share of the height.
 constexpr double kMiddleShare = 0.55;
-constexpr double kShinMm = 250;
 
-// Where the legs were carved away, the middle of who stands on the floor under the flesh.
-Vector3 MiddleOf(const VoxelCloud& cloud) {
-  Vector3 middle_W = cloud.Centroid();
+// Where a person's middle may be: the flesh's, and if legs were carved away, that of somebody who
+// stands on the floor under it.
+std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
+  std::vector<Vector3> middles_W = {cloud.Centroid()};
   const auto height_mm = [](const Voxel& voxel) { return voxel.center_W.z(); };
   const auto [lowest, highest] = std::ranges::minmax(cloud.voxels(), {}, height_mm);
-  if (height_mm(lowest) > kShinMm) middle_W.z() = kMiddleShare * height_mm(highest);
-  return middle_W;
+  if (!LacksLegs(height_mm(lowest))) return middles_W;
+  const Vector3 middle_W = middles_W.front();
+  middles_W.emplace_back(middle_W.x(), middle_W.y(), kMiddleShare * height_mm(highest));
+  return middles_W;
 }
 
 }  // namespace
@@ -93,12 +96,13 @@ void PoseContest::Remember(const BodySizes& sizes, const PoseState& pose) {
 }
 
 void PoseContest::Propose(const VoxelCloud& cloud) {
-  const Vector3 middle_W = MiddleOf(cloud);
+  const std::vector<Vector3> middles_W = MiddlesOf(cloud);
   const std::vector<Vector3> axes_W = TrunkAxes(cloud);
   const int first = builds_ == 1 ? 0 : (kCoarseStep / 2) * builds_ + kCoarseBuild;
   for (int body = first; body < std::ssize(bodies_); body += kCoarseStep * builds_) {
     poses_.clear();
-    for (const Vector3& up_W : axes_W) libraries_[body].Propose(middle_W, up_W, poses_);
+    for (const Vector3& middle_W : middles_W)
+      for (const Vector3& up_W : axes_W) libraries_[body].Propose(middle_W, up_W, poses_);
     for (const PoseState& pose : poses_) candidates_.push_back({body, pose, 0});
   }
 }

@@ -11,6 +11,7 @@
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
 #include "core/reconstruction/carving/voxel_block.h"
+#include "core/tracking/flesh_rules.h"
 
 namespace mocap {
 namespace {
@@ -195,7 +196,8 @@ void PeopleCapture::Impl::BringBack() {
 void PeopleCapture::Impl::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
                                       UpdateObserver* observer) {
   const Eigen::AlignedBox3i cells = CellsWithin(room.flesh, room.box_W);
-  const bool is_all = cells.sizes() + Eigen::Vector3i::Ones() == room.flesh.size();
+  const bool is_all =
+      !cells.isEmpty() && cells.sizes() + Eigen::Vector3i::Ones() == room.flesh.size();
   if (!is_all) CopyBlock(room.flesh, cells, flesh_of_one_);
   Member& member = *members_.front();
   member.capture->Update({is_all ? room.flesh : flesh_of_one_, thinned_, room.box_W}, capture_ns,
@@ -262,7 +264,7 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
       member->waits_since_ns = capture_ns;
       member->has_come = IsBeginning(capture_ns) || !IsCovered(flesh.box_W, kBorderMm, eyes);
     }
-    const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W);
+    const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W.min().z());
     if (!(is_whole && member->has_come) &&
         SecondsBetween(*member->waits_since_ns, capture_ns) < kPatienceS)
       continue;
@@ -333,7 +335,7 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   }
   for (const auto& member : members_) {
     if (member->id > 0 || !member->has_pose()) continue;
-    // Nothing but a person can be what one alone is.
+    // A phantom needs others; who is alone is told of from the first fit on.
     const bool is_found = member->capture->result().state == CaptureState::kTracking;
     if (is_found || is_alone) member->id = ++last_id_;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/tracking/flesh_rules.h"
+
 namespace mocap {
 
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
@@ -20,12 +22,7 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
 
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W) {
   constexpr double kBesideMm = 100, kStrideMm = 400;
-  return DownToFloor(flesh_W, LacksLegs(flesh_W) ? kStrideMm : kBesideMm);
-}
-
-bool LacksLegs(const Eigen::AlignedBox3d& flesh_W) {
-  constexpr double kShinMm = 250;
-  return flesh_W.min().z() > kShinMm;
+  return DownToFloor(flesh_W, LacksLegs(flesh_W.min().z()) ? kStrideMm : kBesideMm);
 }
 
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm) {

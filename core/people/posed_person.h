@@ -24,8 +24,6 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
 /// A box around flesh and as much beside it, down to the floor: legs may have been carved away.
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm);
 
-/// Whether the legs of whom flesh shows were carved away.
-bool LacksLegs(const Eigen::AlignedBox3d& flesh_W);
 /// Where all of a stranger is, by the flesh that is left: as far beside it as limbs may have been
 /// carved away, and a stride where the legs were.
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W);

@@ -12,6 +12,14 @@
 
 namespace mocap {
 
+/// Whether flesh begins higher over the floor than shins do, so that the legs were carved away or
+/// are in the air.
+/// @param lowest_mm  where it begins.
+inline bool LacksLegs(double lowest_mm) {
+  constexpr double kShinMm = 250;
+  return lowest_mm > kShinMm;
+}
+
 /// Whether a limb's end can run into a part at all: forearms into trunk, head, thighs and each
 /// other, a calf into the other leg.
 bool MayOverlap(BodyPart limb, BodyPart other);
