@@ -83,7 +83,7 @@ void Track(const TrackOptions& options) {
                     LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
   if (!options.measure && IsThere(subject)) {
-    pipeline.ChangeSubject(KnownSubject{LoadSubject(subject)});
+    pipeline.ChangeSubject(KnownPerson{"", LoadSubject(subject)});
   }
   const std::int64_t begin_ns = SteadyNs();
   pipeline.Start();

@@ -1,6 +1,7 @@
 #include "core/people/people_capture.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -69,6 +70,7 @@ class PeopleCapture::Impl {
   const std::vector<PersonView>& people() const { return people_; }
   const MotionCapture& first() const;
   void StartOver(const std::optional<BodySizes>& sizes, std::string_view name);
+  void Know(std::vector<KnownPerson> people) { known_ = std::move(people); }
   void Call(int id, std::string_view name);
 
  private:
@@ -85,6 +87,8 @@ class PeopleCapture::Impl {
   Member* MemberFor(const Vector3& middle_W);
   void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
   void JudgeMembers(std::int64_t capture_ns);
+  void Recognise();
+  bool IsHere(std::string_view name) const;
   void ListPeople();
   Member& AddMember();
 
@@ -92,6 +96,7 @@ class PeopleCapture::Impl {
   const PeopleOptions options_;
   std::optional<BodySizes> expected_;  // Of whoever comes first.
   std::string expected_name_;
+  std::vector<KnownPerson> known_;
   const std::unique_ptr<MotionCapture> nobody_;
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
@@ -108,11 +113,17 @@ class PeopleCapture::Impl {
 
 struct PeopleCapture::Impl::Member {
   bool has_pose() const { return !beside && capture->result().state != CaptureState::kSearching; }
+  void SetName(std::string_view to, double how_certain) {
+    name = to;
+    certainty = how_certain;
+  }
 
   std::shared_ptr<MotionCapture> capture;
   std::optional<CaptureBeside> beside;  // The capture is at work there, and not to be touched.
   int id = 0;                           // 0: not yet known for a person.
   std::string name;                     // Empty: not known.
+  double certainty = 1;                 // Of the name.
+  BodySizes compared;                   // With those who are known, the last time.
   bool is_expected = false;             // Whoever comes next is the person of that name.
   std::optional<Vector3> last_W;        // The middle of the flesh of somebody who is not found yet.
   std::optional<std::int64_t> waits_since_ns;  // To be looked for.
@@ -162,7 +173,7 @@ void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes, std::
 
 void PeopleCapture::Impl::Call(int id, std::string_view name) {
   for (const auto& member : members_)
-    if (id > 0 && member->id == id) member->name = name;
+    if (id > 0 && member->id == id) member->SetName(name, 1);
 }
 
 void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
@@ -181,6 +192,7 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
     UpdateMembers(capture_ns, observer);
   }
   JudgeMembers(capture_ns);
+  Recognise();
   ListPeople();
 }
 
@@ -330,8 +342,10 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   if (members_.empty()) AddMember();
   const bool is_alone = members_.size() == 1;
   if (is_alone && !members_.front()->has_pose()) {
-    members_.front()->id = 0;
-    members_.front()->name = members_.front()->is_expected ? expected_name_ : std::string();
+    Member& next = *members_.front();
+    next.id = 0;
+    next.SetName(next.is_expected ? expected_name_ : std::string(), 1);
+    next.compared = {};
   }
   for (const auto& member : members_) {
     if (member->id > 0 || !member->has_pose()) continue;
@@ -341,10 +355,35 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   }
 }
 
+// Names those whose sizes have settled anew.
+void PeopleCapture::Impl::Recognise() {
+  if (known_.empty()) return;
+  for (const auto& member : members_) {
+    const MotionCapture& capture = *member->capture;
+    const bool is_measured =
+        member->id > 0 && member->has_pose() && capture.acquisition_frames() > 0;
+    if (!is_measured || !member->name.empty()) continue;
+    const BodySizes& sizes = capture.body().sizes();
+    if (sizes == member->compared) continue;
+    member->compared = sizes;
+    std::vector<KnownPerson> absent;
+    std::ranges::copy_if(known_, std::back_inserter(absent),
+                         [this](const KnownPerson& person) { return !IsHere(person.name); });
+    const Likeness likeness = WhoIs(sizes, absent);
+    if (!likeness.person || likeness.certainty < kSureOfName) continue;
+    member->SetName(likeness.person->name, likeness.certainty);
+  }
+}
+
+bool PeopleCapture::Impl::IsHere(std::string_view name) const {
+  return std::ranges::any_of(members_, [&](const auto& member) { return member->name == name; });
+}
+
 void PeopleCapture::Impl::ListPeople() {
   people_.clear();
   for (const auto& member : members_)
-    if (member->id > 0) people_.push_back({member->id, member->capture.get(), member->name});
+    if (member->id > 0)
+      people_.push_back({member->id, member->capture.get(), member->name, member->certainty});
   std::ranges::sort(people_, {}, &PersonView::id);
 }
 
@@ -363,6 +402,7 @@ void PeopleCapture::Forget() { impl_->StartOver({}, {}); }
 void PeopleCapture::Expect(const BodySizes& sizes, std::string_view name) {
   impl_->StartOver(sizes, name);
 }
+void PeopleCapture::Know(std::vector<KnownPerson> people) { impl_->Know(std::move(people)); }
 void PeopleCapture::Call(int id, std::string_view name) { impl_->Call(id, name); }
 
 }  // namespace mocap

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/motion_capture.h"
+#include "core/people/recognition.h"
 #include "core/people/side_work.h"
 #include "core/reconstruction/carving/carving_view.h"
 
@@ -29,7 +30,8 @@ struct PeopleOptions {
 struct PersonView {
   int id = 0;  ///< From 1; nobody else ever gets it.
   const MotionCapture* capture = nullptr;
-  std::string_view name = {};  ///< Empty: nobody has told. Valid until the next call.
+  std::string_view name = {};  ///< Empty: not known. Valid until the next call.
+  double certainty = 1;        ///< That the name is his, 0 to 1; 1 where somebody told.
 };
 
 /// Follows up to so many people through voxel grids, each by a capture of his own. Without a side,
@@ -67,6 +69,9 @@ class PeopleCapture {
   /// Takes the sizes of whoever is seen from now on as known, and forgets everybody.
   /// @param name  of the person, for people().
   void Expect(const BodySizes& sizes, std::string_view name = {});
+  /// Takes people as known: whoever is measured and is one of them by his sizes has the name from
+  /// then on, until he leaves; nobody has it while in doubt, or while another has it.
+  void Know(std::vector<KnownPerson> people);
   /// Gives a name to whoever has a number, until he leaves.
   void Call(int id, std::string_view name);
 

@@ -104,7 +104,9 @@ class Pipeline {
 
   /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
   /// there.
-  void ChangeSubject(const std::optional<KnownSubject>& subject) { track_.ChangeSubject(subject); }
+  void ChangeSubject(const std::optional<KnownPerson>& subject) { track_.ChangeSubject(subject); }
+  /// From the next set on, whoever has the sizes of one of these people gets his name.
+  void KnowPeople(const std::vector<KnownPerson>& people) { track_.KnowPeople(people); }
   void NamePerson(int id, const std::string& name) { track_.NamePerson(id, name); }
 
   /// Segments a camera's frames against other pictures of the empty studio from now on; learns

@@ -38,11 +38,16 @@ TrackStage::TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sin
 
 TrackStage::~TrackStage() {
   delete next_subject_.load();
+  delete next_known_.load();
   delete next_names_.load();
 }
 
-void TrackStage::ChangeSubject(const std::optional<KnownSubject>& subject) {
+void TrackStage::ChangeSubject(const std::optional<KnownPerson>& subject) {
   delete next_subject_.exchange(new Subject(subject));
+}
+
+void TrackStage::KnowPeople(const std::vector<KnownPerson>& people) {
+  delete next_known_.exchange(new KnownPeople(people));
 }
 
 void TrackStage::NamePerson(int id, const std::string& name) {
@@ -56,6 +61,10 @@ void TrackStage::TakeRequests() {
   if (next_subject_.load(std::memory_order_relaxed)) {
     const std::unique_ptr<const Subject> subject(next_subject_.exchange(nullptr));
     *subject ? people_.Expect((*subject)->sizes, (*subject)->name) : people_.Forget();
+  }
+  if (next_known_.load(std::memory_order_relaxed)) {
+    const std::unique_ptr<KnownPeople> known(next_known_.exchange(nullptr));
+    people_.Know(std::move(*known));
   }
   if (next_names_.load(std::memory_order_relaxed)) {
     const std::unique_ptr<const NamedPeople> names(next_names_.exchange(nullptr));

@@ -21,12 +21,6 @@ enum class LatencyOrigin {
   kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
 };
 
-/// A person who is known before he is seen.
-struct KnownSubject {
-  BodySizes sizes;
-  std::string name = {};  ///< Empty: none.
-};
-
 /// Tracks set after set and hands each on. One thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:
@@ -39,14 +33,18 @@ class TrackStage : private UpdateObserver {
   void Process(const CarvedSet& set);
   /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
   /// there. Any thread.
-  void ChangeSubject(const std::optional<KnownSubject>& subject);
+  /// @param subject  without a name nobody gets one.
+  void ChangeSubject(const std::optional<KnownPerson>& subject);
+  /// From the next set on, whoever has the sizes of one of these people gets his name. Any thread.
+  void KnowPeople(const std::vector<KnownPerson>& people);
   /// From the next set on, whoever has this number has a name. One thread at a time.
   void NamePerson(int id, const std::string& name);
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
-  using Subject = std::optional<KnownSubject>;
+  using Subject = std::optional<KnownPerson>;
+  using KnownPeople = std::vector<KnownPerson>;
   using NamedPeople = std::vector<std::pair<int, std::string>>;
 
   void TakeRequests();
@@ -60,6 +58,7 @@ class TrackStage : private UpdateObserver {
   const std::shared_ptr<SubjectPosition> person_;
   // Owned, until they are taken.
   std::atomic<const Subject*> next_subject_{nullptr};
+  std::atomic<KnownPeople*> next_known_{nullptr};
   std::atomic<NamedPeople*> next_names_{nullptr};
   std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
   std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.

@@ -31,6 +31,7 @@ void LiveView::TakePeople(std::span<const PersonView> people) {
     FollowedPerson& person = people_[i];
     const CaptureResult& result = people[i].capture->result();
     person.name = people[i].name;
+    person.certainty = people[i].certainty;
     person.state = result.state;
     person.torso_W = result.points_W.col(static_cast<int>(Point::kTorso));
     person.residual_mm = result.residual_mm;

@@ -26,6 +26,11 @@ std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) 
 
 }  // namespace
 
+ServiceControl::ServiceControl(const ServiceParts& parts, Subjects subjects)
+    : parts_(parts), subjects_(std::move(subjects)), config_(parts.config.config()) {
+  parts_.pipeline.KnowPeople(subjects_.Known());
+}
+
 ControlReply ServiceControl::Answer(const ControlRequest& request) {
   return {ControlOutcome::kDone,
           std::visit([this](const auto& of_its_kind) { return Do(of_its_kind); }, request)};
@@ -104,6 +109,7 @@ std::string ServiceControl::Do(const SubjectSaveRequest& request) {
   const FollowedPerson& person = ChoosePerson(people, request.person);
   subjects_.Save(request.name, person.sizes);
   parts_.pipeline.NamePerson(person.id, request.name);
+  parts_.pipeline.KnowPeople(subjects_.Known());
   spdlog::info("person {} is kept as subject {}", person.id, request.name);
   return fmt::format("person {} is kept as {}: stature {:.0f} mm\n", person.id, request.name,
                      person.sizes.Stature());
@@ -112,7 +118,7 @@ std::string ServiceControl::Do(const SubjectSaveRequest& request) {
 std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   const BodySizes sizes = subjects_.Load(request.name);
   const std::size_t people = parts_.view.people().size();
-  parts_.pipeline.ChangeSubject(KnownSubject{sizes, request.name});
+  parts_.pipeline.ChangeSubject(KnownPerson{request.name, sizes});
   spdlog::info("subject {} is followed", request.name);
   return fmt::format(
       "{} is followed from now on: stature {:.0f} mm{}\n", request.name, sizes.Stature(),

@@ -30,8 +30,8 @@ struct ServiceParts {
 /// Answers requests. Thread-safe.
 class ServiceControl {
  public:
-  ServiceControl(const ServiceParts& parts, Subjects subjects)
-      : parts_(parts), subjects_(std::move(subjects)), config_(parts.config.config()) {}
+  /// Whoever is kept is known by his sizes from now on.
+  ServiceControl(const ServiceParts& parts, Subjects subjects);
 
   /// @throws SetupError for what was asked wrongly, std::runtime_error for what failed.
   ControlReply Answer(const ControlRequest& request);

@@ -28,6 +28,18 @@ BodySizes Subjects::Load(const std::string& name) const {
   return LoadSubject(FileOf(name));
 }
 
+std::vector<KnownPerson> Subjects::Known() const {
+  std::vector<KnownPerson> known;
+  for (const std::string& name : Names()) {
+    try {
+      known.push_back({name, Load(name)});
+    } catch (const SetupError&) {
+      // `mocap subject list` tells of it.
+    }
+  }
+  return known;
+}
+
 std::vector<std::string> Subjects::Names() const {
   std::vector<std::string> names;
   std::error_code error;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body/body_sizes.h"
+#include "core/people/recognition.h"
 
 namespace mocap {
 
@@ -18,6 +19,8 @@ class Subjects {
   void Save(const std::string& name, const BodySizes& sizes) const;
   /// @throws SetupError  when there is none, or its file is damaged.
   BodySizes Load(const std::string& name) const;
+  /// All but those whose files are damaged, by name.
+  std::vector<KnownPerson> Known() const;
   /// Names in order.
   std::vector<std::string> Names() const;
 

@@ -15,7 +15,8 @@ namespace mocap {
 
 struct FollowedPerson {
   int id = 0;             ///< As on MOCAP_PEOPLE.
-  std::string name = {};  ///< Empty: nobody has told.
+  std::string name = {};  ///< Empty: not known.
+  double certainty = 1;   ///< That the name is his, 0 to 1; 1 where somebody told.
   CaptureState state = CaptureState::kSearching;
   Vector3 torso_W = Vector3::Zero();  ///< [mm]
   double residual_mm = 0;             ///< Meaningful while tracking.

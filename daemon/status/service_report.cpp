@@ -125,6 +125,13 @@ std::string CameraTable(const ServiceReport& report) {
   return text;
 }
 
+// How sure it is, of a name that the sizes tell.
+std::string NameText(const FollowedPerson& person) {
+  if (person.name.empty()) return {};
+  const std::string text = "  " + Printable(person.name);
+  return person.certainty < 1 ? text + fmt::format(" ({:.0f} %)", 100 * person.certainty) : text;
+}
+
 double SecondsOf(const FollowedPerson& person, const ServiceReport& report) {
   return static_cast<double>(report.people_ns - person.since_ns) / 1e9;
 }
@@ -137,7 +144,7 @@ std::string PeopleTable(const ServiceReport& report) {
     const bool is_tracked = person.state == CaptureState::kTracking;
     text += fmt::format(
         "{:<24}{:<12}{:>16}{:>9}{:>12.0f}  {}\n",
-        std::to_string(person.id) + (person.name.empty() ? "" : "  " + Printable(person.name)),
+        std::to_string(person.id) + NameText(person),
         NameOf(person.state),
         fmt::format("{:.2f} {:.2f}", person.torso_W.x() / 1000, person.torso_W.y() / 1000),
         is_tracked ? fmt::format("{:.0f}", person.residual_mm) : "-", person.sizes.Stature(),
@@ -150,6 +157,7 @@ JsonObject PersonJson(const FollowedPerson& person, const ServiceReport& report)
   JsonObject json;
   json.Add("id", person.id);
   json.Add("name", person.name);
+  json.Add("name_certainty", person.certainty, 3);
   json.Add("state", NameOf(person.state));
   json.Add("x_mm", person.torso_W.x(), 1);
   json.Add("y_mm", person.torso_W.y(), 1);

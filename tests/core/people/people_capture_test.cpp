@@ -203,6 +203,32 @@ TEST_F(Room, WhoIsExpectedHasTheName) {
   EXPECT_EQ(people_.people()[0].name, "");
 }
 
+TEST_F(Room, WhoIsKnownBySizesHasTheNameOnceMeasured) {
+  const auto walk = [this](int frames) {
+    for (int i = 0; i < frames; ++i) See({At(-500, 0, 1800, i), At(500, 200, 1650, i)});
+  };
+  walk(40);
+  ASSERT_EQ(Ids(), (std::vector{1, 2}));
+  const bool is_first = people_.people()[0].capture->body().sizes().Stature() < 1725;
+  const BodySizes sizes = people_.people()[is_first ? 0 : 1].capture->body().sizes();
+  people_.Forget();
+  people_.Know({{"anna", sizes}, {"bertil", AverageSizes(1950)}});
+  walk(40);
+  ASSERT_EQ(people_.people().size(), 2u);
+  for (const PersonView& person : people_.people()) {
+    const bool is_anna = person.capture->body().sizes().Stature() < 1725;
+    EXPECT_EQ(person.name, is_anna ? "anna" : "");
+    if (is_anna) EXPECT_TRUE(person.certainty >= kSureOfName && person.certainty < 1);
+  }
+}
+
+TEST_F(Room, OfTwoWhoAreAlikeOneHasTheName) {
+  people_.Know({{"anna", AverageSizes(1700)}});
+  for (int i = 0; i < 40; ++i) See({At(-500, 0, 1700, i), At(500, 200, 1700, i)});
+  ASSERT_EQ(people_.people().size(), 2u);
+  EXPECT_NE(people_.people()[0].name, people_.people()[1].name);
+}
+
 TEST_F(Room, ForgettingForgetsEverybody) {
   const auto seen = Carve({At(-500, 0, 1800), At(500, 0, 1650)});
   for (int i = 0; i < 4; ++i) See(seen);

@@ -16,5 +16,16 @@ TEST(Subjects, FilesThatOtherSystemsHideAreNobody) {
   EXPECT_THAT(Subjects(folder.path()).Names(), ::testing::ElementsAre("anna"));
 }
 
+TEST(Subjects, KnowsAllButThoseWhoseFilesAreDamaged) {
+  const testing::TemporaryFolder folder;
+  const Subjects subjects(folder.path());
+  subjects.Save("anna", AverageSizes(1700));
+  testing::WriteText(folder.path() / "bertil.toml", "torn [");
+  const std::vector<KnownPerson> known = subjects.Known();
+  ASSERT_EQ(known.size(), 1u);
+  EXPECT_EQ(known[0].name, "anna");
+  EXPECT_NEAR(known[0].sizes.Stature(), 1700, 1);
+}
+
 }  // namespace
 }  // namespace mocap

@@ -1,0 +1,62 @@
+#include "core/people/recognition.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace mocap {
+namespace {
+
+const KnownPerson kAnna{"anna", AverageSizes(1680)};
+const KnownPerson kBertil{"bertil", AverageSizes(1830)};
+
+TEST(WhoIs, FindsWhoHasTheSizes) {
+  const std::array known = {kAnna, kBertil};
+  for (const KnownPerson& person : known) {
+    const Likeness likeness = WhoIs(AverageSizes(person.sizes.Stature() * 1.005), known);
+    ASSERT_NE(likeness.person, nullptr);
+    EXPECT_EQ(likeness.person->name, person.name);
+    EXPECT_GE(likeness.certainty, kSureOfName);
+  }
+}
+
+TEST(WhoIs, ClothesDoNotMatter) {
+  KnownPerson in_a_coat = kAnna;
+  for (const SizeMember width : kStoutWidths) in_a_coat.sizes.*width *= 1.4;
+  const std::array known = {kAnna};
+  EXPECT_EQ(WhoIs(in_a_coat.sizes, known).certainty, WhoIs(kAnna.sizes, known).certainty);
+}
+
+TEST(WhoIs, SomebodyElseIsNobodyWhoIsKnown) {
+  const std::array known = {kAnna, kBertil};
+  for (const double stature_mm : {1450.0, 1755.0, 1990.0}) {
+    const Likeness likeness = WhoIs(AverageSizes(stature_mm), known);
+    EXPECT_EQ(likeness.person, nullptr) << stature_mm;
+    EXPECT_GE(likeness.certainty, kSureOfName) << stature_mm;
+  }
+}
+
+TEST(WhoIs, LongLegsTellFromALongTorso) {
+  KnownPerson long_torso = kAnna;
+  long_torso.sizes.torso *= 1.08;
+  long_torso.sizes.thigh -= long_torso.sizes.Stature() - kAnna.sizes.Stature();
+  ASSERT_NEAR(long_torso.sizes.Stature(), kAnna.sizes.Stature(), 1e-6);
+  const std::array known = {long_torso, kAnna};
+  const Likeness likeness = WhoIs(kAnna.sizes, known);
+  ASSERT_NE(likeness.person, nullptr);
+  EXPECT_EQ(likeness.person->name, "anna");
+  EXPECT_GE(likeness.certainty, kSureOfName);
+}
+
+TEST(WhoIs, DoubtsBetweenPeopleWhoAreAlike) {
+  const std::array known = {kAnna, KnownPerson{"agda", AverageSizes(1685)}};
+  EXPECT_LT(WhoIs(kAnna.sizes, known).certainty, kSureOfName);
+}
+
+TEST(WhoIs, WithoutAnybodyKnownItIsNobody) {
+  EXPECT_EQ(WhoIs(kAnna.sizes, {}).person, nullptr);
+  EXPECT_EQ(WhoIs(kAnna.sizes, {}).certainty, 1);
+}
+
+}  // namespace
+}  // namespace mocap
