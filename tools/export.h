@@ -5,7 +5,7 @@
 
 namespace mocap {
 
-/// Adds the subcommand `export RESULT --format bvh|trc|csv --out FILE`.
+/// Adds the subcommand `export RESULT --format FORMAT --out FILE`.
 void AddExportCommand(CLI::App& app);
 
 }  // namespace mocap

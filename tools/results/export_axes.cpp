@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+
+#include "core/errors.h"
 
 namespace mocap {
 
@@ -25,6 +28,14 @@ EvenClock FitClock(const std::vector<PoseRow>& poses) {
   const double periods = std::accumulate(clock.steps.begin() + 1, clock.steps.end(), 0.0);
   clock.period_s = std::max(std::accumulate(apart_s.begin(), apart_s.end(), 0.0) / periods, 1e-6);
   return clock;
+}
+
+void RequireShortGap(std::int64_t missing, const PoseRow& row) {
+  constexpr std::int64_t kLongest = 108'000;
+  if (missing <= kLongest) return;
+  throw SetupError(
+      "frame " + std::to_string(row.frame) + " comes " + std::to_string(missing) +
+      " frame times after the one before; the format has one rate and no room for that");
 }
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-#include "tools/results/trc_writer.h"
+#include "tools/interchange/trc_writer.h"
 
 #include <fmt/format.h>
 
@@ -13,20 +13,21 @@
 namespace mocap {
 namespace {
 
-std::string Header(std::span<const TrcSubject> subjects, const std::vector<PoseRow>& rows,
-                   const std::string& file_name) {
-  const double rate = 1 / FitClock(rows).period_s;
-  const std::size_t markers = subjects.size() * kPointCount;
+std::string Header(const ExportScene& scene) {
+  const double rate = 1 / FitClock(scene.moments).period_s;
+  const std::size_t markers = scene.subjects.size() * kPointCount;
   std::string text = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\t{}\n"
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
       "OrigNumFrames\n"
       "{:.6f}\t{:.6f}\t{}\t{}\tmm\t{:.6f}\t1\t{}\n",
-      Printable(file_name), rate, rate, rows.size(), markers, rate, rows.size());
+      Printable(scene.file_name), rate, rate, scene.moments.size(), markers, rate,
+      scene.moments.size());
   text += "Frame#\tTime";
-  for (const TrcSubject& subject : subjects) {
-    const std::string prefix = subject.name.empty() ? "" : Printable(subject.name) + ':';
-    for (const std::string_view name : kPointNames) text += fmt::format("\t{}{}\t\t", prefix, name);
+  for (const ExportSubject& subject : scene.subjects) {
+    const std::string prefix = scene.LabelPrefix(subject);
+    for (const std::string_view name : kPointNames)
+      text += fmt::format("\t{}{}\t\t", prefix, name);
   }
   text += "\n\t";
   for (std::size_t i = 1; i <= markers; ++i) text += fmt::format("\tX{0}\tY{0}\tZ{0}", i);
@@ -43,26 +44,21 @@ BodyPoints MarkersAt(const std::vector<PoseRow>& poses, std::int64_t time_ns) {
 
 }  // namespace
 
-void WriteTrc(const Result& result, const std::string& file_name, std::ostream& out) {
-  const TrcSubject subject{"", result};
-  WriteTrc(std::span(&subject, 1), result.poses, file_name, out);
-}
-
-void WriteTrc(std::span<const TrcSubject> subjects, const std::vector<PoseRow>& rows,
-              const std::string& file_name, std::ostream& out) {
-  out << Header(subjects, rows, file_name);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::int64_t time_ns = rows[i].timestamp_ns;
-    const auto since_first_ns = static_cast<double>(time_ns - rows.front().timestamp_ns);
+ExportRemarks WriteTrc(const ExportScene& scene, std::ostream& out) {
+  out << Header(scene);
+  for (std::size_t i = 0; i < scene.moments.size(); ++i) {
+    const std::int64_t time_ns = scene.moments[i].timestamp_ns;
+    const auto since_first_ns = static_cast<double>(time_ns - scene.moments.front().timestamp_ns);
     std::string line = fmt::format("{}\t{:.6f}", i + 1, 1e-9 * since_first_ns);
     // OpenSim drops an empty last field and then refuses the row; "nan" it reads as missing, and
     // writes itself.
-    for (const TrcSubject& subject : subjects) {
+    for (const ExportSubject& subject : scene.subjects) {
       const BodyPoints points_Y = MarkersAt(subject.result.poses, time_ns);
       for (const double mm : points_Y.reshaped()) line += '\t' + FixedText(mm, 3);
     }
     out << line << '\n';
   }
+  return {};
 }
 
 }  // namespace mocap

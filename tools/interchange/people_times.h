@@ -15,4 +15,8 @@ std::vector<PoseRow> MomentsOf(const PeopleResults& people);
 /// @pre  he is tracked at some time.
 Result HoldingFirstPose(const Result& result, const std::vector<PoseRow>& moments);
 
+/// How long the first of the moments lies before the first tracked frame of somebody [s].
+/// @pre  he is tracked at some time.
+double SecondsBeforeFirstPose(const Result& result, const std::vector<PoseRow>& moments);
+
 }  // namespace mocap

@@ -1,4 +1,4 @@
-#include "tools/results/people_times.h"
+#include "tools/interchange/people_times.h"
 
 #include <algorithm>
 #include <map>
@@ -7,6 +7,15 @@
 #include "tools/results/export_axes.h"
 
 namespace mocap {
+namespace {
+
+const PoseRow& FirstTracked(const Result& result) {
+  const auto first = std::ranges::find_if(result.poses, IsTracked);
+  MOCAP_CHECK(first != result.poses.end());
+  return *first;
+}
+
+}  // namespace
 
 std::vector<PoseRow> MomentsOf(const PeopleResults& people) {
   std::map<std::int64_t, std::int64_t> frames;  // By time.
@@ -22,17 +31,22 @@ std::vector<PoseRow> MomentsOf(const PeopleResults& people) {
   return moments;
 }
 
+double SecondsBeforeFirstPose(const Result& result, const std::vector<PoseRow>& moments) {
+  return 1e-9 *
+         static_cast<double>(FirstTracked(result).timestamp_ns - moments.front().timestamp_ns);
+}
+
 Result HoldingFirstPose(const Result& result, const std::vector<PoseRow>& moments) {
-  const auto first = std::ranges::find_if(result.poses, IsTracked);
-  MOCAP_CHECK(first != result.poses.end());
+  const PoseRow& first = FirstTracked(result);
   Result held{result.body, {}, result.remarks};
   for (const PoseRow& moment : moments) {
-    if (moment.timestamp_ns >= first->timestamp_ns) break;
-    PoseRow& row = held.poses.emplace_back(*first);
+    if (moment.timestamp_ns >= first.timestamp_ns) break;
+    PoseRow& row = held.poses.emplace_back(first);
     row.frame = moment.frame;
     row.timestamp_ns = moment.timestamp_ns;
   }
-  held.poses.insert(held.poses.end(), first, result.poses.end());
+  held.poses.insert(held.poses.end(), result.poses.begin() + (&first - result.poses.data()),
+                    result.poses.end());
   return held;
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/results/csv_writer.h"
-#include "tools/results/people_times.h"
-#include "tools/results/trc_writer.h"
+#include "tools/interchange/csv_writer.h"
+#include "tools/interchange/people_times.h"
+#include "tools/interchange/trc_writer.h"
 
 namespace mocap {
 namespace {
@@ -33,6 +33,15 @@ Result TwoFrames() {
   return result;
 }
 
+/// What a writer makes of somebody who is alone.
+std::string Written(ExportRemarks (*write)(const ExportScene&, std::ostream&), const Result& result,
+                    const std::string& file_name = "walk") {
+  const ExportSubject subject{"", result};
+  std::ostringstream text;
+  write({std::span(&subject, 1), result.poses, file_name}, text);
+  return text.str();
+}
+
 std::vector<std::vector<std::string>> Cells(const std::string& text, char separator) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(text);
@@ -45,9 +54,8 @@ std::vector<std::vector<std::string>> Cells(const std::string& text, char separa
 }
 
 TEST(TrcWriter, WritesTheHeaderThatOpenSimReads) {
-  std::ostringstream text;
-  WriteTrc(TwoFrames(), "walk.trc", text);
-  const auto rows = Cells(text.str(), '\t');
+  const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
+  const auto rows = Cells(text, '\t');
   ASSERT_EQ(rows.size(), 8u);
   EXPECT_THAT(rows[0], ElementsAre("PathFileType", "4", "(X/Y/Z)", "walk.trc"));
   EXPECT_THAT(rows[1], ElementsAre("DataRate", "CameraRate", "NumFrames", "NumMarkers", "Units",
@@ -61,9 +69,8 @@ TEST(TrcWriter, WritesTheHeaderThatOpenSimReads) {
 }
 
 TEST(TrcWriter, TurnsTheWorldYUpWithoutMirroringIt) {
-  std::ostringstream text;
-  WriteTrc(TwoFrames(), "walk.trc", text);
-  const auto rows = Cells(text.str(), '\t');
+  const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
+  const auto rows = Cells(text, '\t');
   const std::vector<std::string>& row = rows[6];
   ASSERT_EQ(row.size(), 2u + 3 * 23);
   EXPECT_EQ(row[0], "1");
@@ -81,9 +88,8 @@ std::vector<std::string> OpenSimFields(const std::string& line) {
 }
 
 TEST(TrcWriter, OpenSimFindsAllColumnsInEveryRow) {
-  std::ostringstream text;
-  WriteTrc(TwoFrames(), "walk.trc", text);
-  std::istringstream lines(text.str());
+  const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
+  std::istringstream lines(text);
   std::string line;
   for (int i = 0; i < 6; ++i) std::getline(lines, line);
   int rows = 0;
@@ -98,10 +104,12 @@ TEST(TrcWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
   second.poses[0].state = CaptureState::kTracking;
   second.poses[0].has_pose = true;
   second.poses[0].points_W.setConstant(5);
-  const TrcSubject subjects[] = {{"anna", first}, {"person-2", second}};
-  std::ostringstream text;
-  WriteTrc(subjects, MomentsOf({{"anna", first}, {"person-2", second}}), "both.trc", text);
-  const auto rows = Cells(text.str(), '\t');
+  const ExportSubject subjects[] = {{"anna", first}, {"person-2", second}};
+  std::ostringstream written;
+  WriteTrc({subjects, MomentsOf({{"anna", first}, {"person-2", second}}), "both.trc", true},
+           written);
+  const std::string text = written.str();
+  const auto rows = Cells(text, '\t');
   ASSERT_EQ(rows.size(), 8u);
   EXPECT_EQ(rows[2][3], "46");
   EXPECT_EQ(rows[3][2], "anna:torso");
@@ -127,16 +135,19 @@ TEST(PeopleTimes, HoldingTheFirstPoseBeginsWithEverybody) {
   EXPECT_EQ(held.poses[2].frame, 9);
 }
 
-TEST(CsvWriter, TimesCountFromWhatIsAskedFor) {
+TEST(CsvWriter, TimesCountFromTheFirstMomentOfAll) {
+  const Result result = TwoFrames();
+  std::vector<PoseRow> moments = result.poses;
+  moments.front().timestamp_ns -= 1'500'000'000;
+  const ExportSubject subject{"anna", result};
   std::ostringstream text;
-  WriteCsv(TwoFrames(), text, TwoFrames().poses[0].timestamp_ns - 1'500'000'000);
+  WriteCsv({std::span(&subject, 1), moments, "walk.csv"}, text);
   EXPECT_EQ(Cells(text.str(), ',')[1][0], "1.500000");
 }
 
 TEST(TrcWriter, ANameOfAFileForgesNoLine) {
-  std::ostringstream text;
-  WriteTrc(TwoFrames(), "a\nb\t.trc", text);
-  EXPECT_EQ(Cells(text.str(), '\t')[0].back(), "a\\x0ab\\x09.trc");
+  const std::string text = Written(WriteTrc, TwoFrames(), "a\nb\t.trc");
+  EXPECT_EQ(Cells(text, '\t')[0].back(), "a\\x0ab\\x09.trc");
 }
 
 TEST(TableWriters, WriteNoMinusBeforeZero) {
@@ -144,16 +155,14 @@ TEST(TableWriters, WriteNoMinusBeforeZero) {
   result.poses[0].points_W.setConstant(-1e-9);
   result.poses[0].paper.torso_axis.setConstant(-1e-9);
   for (const bool as_trc : {true, false}) {
-    std::ostringstream text;
-    as_trc ? WriteTrc(result, "walk.trc", text) : WriteCsv(result, text);
-    EXPECT_EQ(text.str().find("-0.000"), std::string::npos);
+    const std::string text = Written(as_trc ? WriteTrc : WriteCsv, result);
+    EXPECT_EQ(text.find("-0.000"), std::string::npos);
   }
 }
 
 TEST(TrcWriter, MarksCellsOfAFrameNotTrackedAsMissing) {
-  std::ostringstream text;
-  WriteTrc(TwoFrames(), "walk.trc", text);
-  const auto rows = Cells(text.str(), '\t');
+  const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
+  const auto rows = Cells(text, '\t');
   const std::vector<std::string>& row = rows[7];
   ASSERT_EQ(row.size(), 2u + 3 * 23);
   EXPECT_EQ(row[0], "2");
@@ -162,9 +171,8 @@ TEST(TrcWriter, MarksCellsOfAFrameNotTrackedAsMissing) {
 }
 
 TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {
-  std::ostringstream text;
-  WriteCsv(TwoFrames(), text);
-  const auto rows = Cells(text.str(), ',');
+  const std::string text = Written(WriteCsv, TwoFrames());
+  const auto rows = Cells(text, ',');
   ASSERT_EQ(rows.size(), 3u);
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
   const auto cell = [&](int row, const std::string& name) {

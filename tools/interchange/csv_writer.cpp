@@ -1,4 +1,4 @@
-#include "tools/results/csv_writer.h"
+#include "tools/interchange/csv_writer.h"
 
 #include <fmt/format.h>
 
@@ -32,12 +32,12 @@ void AppendPose(const PoseRow& row, std::string& line) {
 
 }  // namespace
 
-void WriteCsv(const Result& result, std::ostream& out, std::optional<std::int64_t> first_ns) {
+ExportRemarks WriteCsv(const ExportScene& scene, std::ostream& out) {
   out << Header();
   constexpr std::size_t kPoseCells = 3 + 4 + kPaperAngleCount + 3 * kPointCount + 1;
-  for (const PoseRow& row : result.poses) {
-    const auto since_first_ns = static_cast<double>(
-        row.timestamp_ns - first_ns.value_or(result.poses.front().timestamp_ns));
+  for (const PoseRow& row : scene.subjects.front().result.poses) {
+    const auto since_first_ns =
+        static_cast<double>(row.timestamp_ns - scene.moments.front().timestamp_ns);
     std::string line =
         fmt::format("{:.6f},{},{},{}", 1e-9 * since_first_ns, row.timestamp_ns / 1000, row.frame,
                     kCaptureStateNames[static_cast<std::size_t>(row.state)]);
@@ -48,6 +48,7 @@ void WriteCsv(const Result& result, std::ostream& out, std::optional<std::int64_
     }
     out << line << ',' << row.voxels << '\n';
   }
+  return {};
 }
 
 }  // namespace mocap

@@ -1,0 +1,37 @@
+#include <algorithm>
+#include <array>
+
+#include "core/errors.h"
+#include "drivers/printable_text.h"
+#include "tools/interchange/bvh_writer.h"
+#include "tools/interchange/csv_writer.h"
+#include "tools/interchange/export_format.h"
+#include "tools/interchange/trc_writer.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::array kFormats = {
+    ExportFormat{"bvh", "animation: Blender, three.js (cm, degrees, y up)", "HIERARCHY", false,
+                 WriteBvh},
+    ExportFormat{"trc", "OpenSim's markers, to scale a model and for inverse kinematics (mm, y up)",
+                 "PathFileType", true, WriteTrc},
+    ExportFormat{"csv", "spreadsheets and scripts (mm, radians, z up as in the studio)",
+                 "time_s,utime_us,", false, WriteCsv},
+};
+
+}  // namespace
+
+std::string ExportScene::LabelPrefix(const ExportSubject& subject) const {
+  return is_of_all ? Printable(subject.name) + ':' : "";
+}
+
+std::span<const ExportFormat> ExportFormats() { return kFormats; }
+
+const ExportFormat& FindExportFormat(std::string_view name) {
+  const auto format = std::ranges::find(kFormats, name, &ExportFormat::name);
+  if (format == kFormats.end()) throw SetupError(std::string(name) + ": is no format of exports");
+  return *format;
+}
+
+}  // namespace mocap
