@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "drivers/printable_text.h"
 #include "tools/interchange/bvh_writer.h"
+#include "tools/interchange/c3d_writer.h"
 #include "tools/interchange/csv_writer.h"
 #include "tools/interchange/export_format.h"
 #include "tools/interchange/trc_writer.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr std::array kFormats = {
     ExportFormat{"bvh", "animation: Blender, three.js (cm, degrees, y up)", "HIERARCHY", false,
                  WriteBvh},
+    ExportFormat{"c3d", "biomechanics: Visual3D, Mokka, Motive (mm, degrees, z up)", "\x02\x50",
+                 true, WriteC3d},
     ExportFormat{"trc", "OpenSim's markers, to scale a model and for inverse kinematics (mm, y up)",
                  "PathFileType", true, WriteTrc},
     ExportFormat{"csv", "spreadsheets and scripts (mm, radians, z up as in the studio)",

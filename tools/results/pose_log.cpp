@@ -134,6 +134,9 @@ std::optional<PoseRow> PoseRowOf(const pose_t& message) {
   for (int i = 0; i < kPointCount; ++i) row.points_W.col(i) = Vector3(message.point_mm[i]);
   row.residual_mm = message.residual_mm;
   row.voxels = message.voxels;
+  for (std::size_t i = 0; i < std::min<std::size_t>(7, message.camera_used.size()); ++i) {
+    row.first_cameras |= static_cast<std::uint8_t>(message.camera_used[i] ? 1 << i : 0);
+  }
   if (!IsFinite(row)) return {};
   return row;
 }

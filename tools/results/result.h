@@ -26,6 +26,8 @@ struct PoseRow {
   BodyPoints points_W = BodyPoints::Zero();  ///< p_WQ of the 23 points, after the filter [mm].
   double residual_mm = 0;
   int voxels = 0;
+  /// Bit k: camera k was used, of the first seven; 0: not known. Of logs alone.
+  std::uint8_t first_cameras = 0;
 };
 
 /// The acquired body: body.toml.

@@ -1,38 +1,18 @@
 #include "tools/view/wire.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <utility>
 
+#include "tools/byte_writer.h"
+
 namespace mocap {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "messages are written as they lie");
 
 constexpr double kNsPerMs = 1e6;
 /// More voxels than any room has; what is said of a larger one is not believed.
 constexpr std::int64_t kMostVoxels = std::int64_t{1} << 26;
-
-/// Appends numbers one after the other.
-class Writer {
- public:
-  template <typename T>
-  void Add(T value) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    text_.append(bytes, sizeof(T));
-  }
-  template <typename Vector>
-  void AddFloats(const Vector& vector) {
-    for (const double value : vector) Add(static_cast<float>(value));
-  }
-  std::string Take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
 
 /// A grid's occupied voxels, by place in a scan along x, then y, then z.
 struct OccupiedVoxels {
@@ -79,7 +59,7 @@ OccupiedVoxels Unpack(const voxels_t& voxels) {
 }
 
 template <typename Points>
-void AddLine(int side, const Points& points, Writer& writer) {
+void AddLine(int side, const Points& points, ByteWriter& writer) {
   writer.Add(static_cast<float>(points.size()));
   writer.Add(static_cast<float>(side));
   for (const Vector2& p : points) writer.AddFloats(p);
@@ -88,7 +68,7 @@ void AddLine(int side, const Points& points, Writer& writer) {
 }  // namespace
 
 std::string PoseBytes(const DrawnPose& pose) {
-  Writer writer;
+  ByteWriter writer;
   const PoseRow& row = pose.row;
   writer.Add(std::uint8_t{1});
   writer.Add(static_cast<std::uint8_t>(pose.person));
@@ -116,7 +96,7 @@ std::string PoseBytes(const DrawnPose& pose) {
 std::string VoxelBytes(const voxels_t& voxels, int person) {
   if (!IsSound(voxels)) return {};
   const OccupiedVoxels grid = Unpack(voxels);
-  Writer cells;
+  ByteWriter cells;
   std::uint32_t count = 0;
   for (std::int64_t z = 0, at = 0; z < grid.height; ++z) {
     for (std::int64_t y = 0; y < grid.depth; ++y) {
@@ -133,7 +113,7 @@ std::string VoxelBytes(const voxels_t& voxels, int person) {
       }
     }
   }
-  Writer writer;
+  ByteWriter writer;
   writer.Add(std::uint8_t{2});
   writer.Add(static_cast<std::uint8_t>(person));
   writer.Add(std::uint16_t{0});
@@ -146,7 +126,7 @@ std::string VoxelBytes(const voxels_t& voxels, int person) {
 
 std::string PictureBytes(const DrawnPicture& picture) {
   constexpr int kSides = 4;
-  Writer silhouette, body;
+  ByteWriter silhouette, body;
   for (const std::vector<Vector2>& line : picture.silhouette) AddLine(0, line, silhouette);
   for (const DrawnOutlines& one : picture.bodies) {
     for (const BodyLine& line : one.lines) {
@@ -154,7 +134,7 @@ std::string PictureBytes(const DrawnPicture& picture) {
     }
   }
   const std::string lines = silhouette.Take(), body_lines = body.Take();
-  Writer writer;
+  ByteWriter writer;
   writer.Add(std::uint8_t{3});
   writer.Add(static_cast<std::uint8_t>(picture.camera));
   writer.Add(static_cast<std::uint16_t>(picture.width_px));

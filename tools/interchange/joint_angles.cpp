@@ -1,0 +1,122 @@
+#include "tools/interchange/joint_angles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/interchange/euler_zxy.h"
+#include "tools/interchange/rest_body.h"
+#include "tools/results/export_axes.h"
+
+namespace mocap {
+namespace {
+
+/// A limb that is bent less shows nothing of its turn about itself; one that is bent more, all.
+constexpr double kStraight_rad = 10 * EIGEN_PI / 180, kBent_rad = 20 * EIGEN_PI / 180;
+
+/// Where the hip joints lie in the pelvis of Rajagopal's model, and how far apart [m].
+constexpr double kHipForward_m = -0.056276, kHipUp_m = -0.07849, kHipsApart_m = 2 * 0.07726;
+
+/// Turns axes x forward, y left, z up into OpenSim's: x forward, y up, z right.
+Matrix3 SimFromBody() {
+  Matrix3 R;
+  R << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return R;
+}
+
+double SmoothStep(double share) {
+  const double s = std::clamp(share, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+/// Which way a hinge bends the lower part: forward as an elbow, or backward as a knee.
+enum class Bends { kForward = 1, kBackward = -1 };
+
+/// Angles z, x, y of the upper part and the hinge's bend, as if the limb were a right one.
+struct Turns {
+  Vector3 zxy;
+  double bend;
+};
+
+/// @param upper, lower  unit vectors along the parts, in the parent's axes as OpenSim has them.
+Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
+  const double x = std::asin(std::clamp(-upper.z(), -1.0, 1.0));
+  const double z = std::atan2(upper.x(), -upper.y());
+  const Matrix3 R_zx =
+      (Eigen::AngleAxisd(z, Vector3::UnitZ()) * Eigen::AngleAxisd(x, Vector3::UnitX()))
+          .toRotationMatrix();
+  const Vector3 hinged = R_zx.transpose() * lower;
+  const double sign = static_cast<int>(bends);
+  const double aside = std::hypot(hinged.x(), hinged.z());
+  const double shown =
+      (std::atan2(aside, -hinged.y()) - kStraight_rad) / (kBent_rad - kStraight_rad);
+  const double y = SmoothStep(shown) * std::atan2(-sign * hinged.z(), sign * hinged.x());
+  const double bend =
+      std::atan2(sign * (hinged.x() * std::cos(y) - hinged.z() * std::sin(y)), -hinged.y());
+  return {{z, x, y}, bend};
+}
+
+class AngleReader {
+ public:
+  explicit AngleReader(const BodyRecord& body) : rest_(body) {}
+
+  BodyAngles Read(const PoseRow& row) {
+    const Matrix3 R_GW = YUpFromWorld();
+    const Matrix3 R_WP = rest_.PelvisRotation(row) * SimFromBody().transpose();
+    const Matrix3 R_WT = TorsoRotation(row) * SimFromBody().transpose();
+    const Matrix3 R_GP = R_GW * R_WP;
+    const double scale =
+        1e-3 * (At(row, Point::kHipL) - At(row, Point::kHipR)).norm() / kHipsApart_m;
+    BodyAngles angles;
+    angles.time_ns = row.timestamp_ns;
+    angles.p_GPelvis =
+        1e-3 * (R_GW * HipsMiddle(row)) - R_GP * (scale * Vector3(kHipForward_m, kHipUp_m, 0));
+    angles.pelvis = Follow(AnglesZxy(R_GP), last_.pelvis);
+    angles.lumbar = Follow(AnglesZxy(R_WP.transpose() * R_WT), last_.lumbar);
+    const auto limb = [&](const Matrix3& R_WParent, Point start, Point hinge, Point end,
+                          Bends bends, double side, Vector3& last) {
+      const auto along = [&](Point a, Point b) -> Vector3 {
+        return R_WParent.transpose() * (At(row, b) - At(row, a)).normalized();
+      };
+      const Turns turns = TurnsOf(along(start, hinge), along(hinge, end), bends);
+      const Vector3 zxy = Follow(turns.zxy, last);
+      return LimbAngles{zxy[0], side * zxy[1], side * zxy[2], turns.bend};
+    };
+    angles.leg_l =
+        limb(R_WP, Point::kHipL, Point::kKneeL, Point::kFootL, Bends::kBackward, -1, last_.leg_l);
+    angles.leg_r =
+        limb(R_WP, Point::kHipR, Point::kKneeR, Point::kFootR, Bends::kBackward, 1, last_.leg_r);
+    angles.arm_l = limb(R_WT, Point::kShoulderL, Point::kElbowL, Point::kLowerArmL, Bends::kForward,
+                        -1, last_.arm_l);
+    angles.arm_r = limb(R_WT, Point::kShoulderR, Point::kElbowR, Point::kLowerArmR, Bends::kForward,
+                        1, last_.arm_r);
+    return angles;
+  }
+
+ private:
+  /// Of the frame before, about z, x and y.
+  struct Last {
+    Vector3 pelvis = Vector3::Zero(), lumbar = Vector3::Zero(), leg_l = Vector3::Zero(),
+            leg_r = Vector3::Zero(), arm_l = Vector3::Zero(), arm_r = Vector3::Zero();
+  };
+
+  static Vector3 Follow(const Vector3& zxy, Vector3& last) {
+    last = NearestEquivalent(zxy, last);
+    return last;
+  }
+
+  RestBody rest_;
+  Last last_;
+};
+
+}  // namespace
+
+std::vector<BodyAngles> AnglesOf(const Result& result) {
+  std::vector<BodyAngles> angles;
+  AngleReader reader(result.body);
+  for (const PoseRow& row : result.poses) {
+    if (IsTracked(row)) angles.push_back(reader.Read(row));
+  }
+  return angles;
+}
+
+}  // namespace mocap
