@@ -7,6 +7,7 @@
 #include "tools/interchange/c3d_writer.h"
 #include "tools/interchange/csv_writer.h"
 #include "tools/interchange/export_format.h"
+#include "tools/interchange/mot_writer.h"
 #include "tools/interchange/trc_writer.h"
 
 namespace mocap {
@@ -17,6 +18,8 @@ constexpr std::array kFormats = {
                  WriteBvh},
     ExportFormat{"c3d", "biomechanics: Visual3D, Mokka, Motive (mm, degrees, z up)", "\x02\x50",
                  true, WriteC3d},
+    ExportFormat{"mot", "OpenSim's joint angles, as of its inverse kinematics (degrees, m, y up)",
+                 "Coordinates\nversion=1", false, WriteMot},
     ExportFormat{"trc", "OpenSim's markers, to scale a model and for inverse kinematics (mm, y up)",
                  "PathFileType", true, WriteTrc},
     ExportFormat{"csv", "spreadsheets and scripts (mm, radians, z up as in the studio)",

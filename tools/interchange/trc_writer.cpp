@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <ostream>
 
@@ -12,6 +13,23 @@
 
 namespace mocap {
 namespace {
+
+/// Joint centres have the names that marker sets of OpenSim's models give them.
+constexpr std::array<std::string_view, kPointCount> kMarkerNames = [] {
+  std::array<std::string_view, kPointCount> names = kPointNames;
+  const auto name = [&](Point point, std::string_view usual) {
+    names[static_cast<int>(point)] = usual;
+  };
+  name(Point::kShoulderL, "LSJC");
+  name(Point::kShoulderR, "RSJC");
+  name(Point::kElbowL, "LEJC");
+  name(Point::kElbowR, "REJC");
+  name(Point::kHipL, "LHJC");
+  name(Point::kHipR, "RHJC");
+  name(Point::kKneeL, "LKJC");
+  name(Point::kKneeR, "RKJC");
+  return names;
+}();
 
 std::string Header(const ExportScene& scene) {
   const double rate = 1 / FitClock(scene.moments).period_s;
@@ -26,7 +44,7 @@ std::string Header(const ExportScene& scene) {
   text += "Frame#\tTime";
   for (const ExportSubject& subject : scene.subjects) {
     const std::string prefix = scene.LabelPrefix(subject);
-    for (const std::string_view name : kPointNames)
+    for (const std::string_view name : kMarkerNames)
       text += fmt::format("\t{}{}\t\t", prefix, name);
   }
   text += "\n\t";

@@ -64,6 +64,8 @@ TEST(TrcWriter, WritesTheHeaderThatOpenSimReads) {
               ElementsAre("20.000000", "20.000000", "2", "23", "mm", "20.000000", "1", "2"));
   EXPECT_EQ(rows[3][0], "Frame#");
   EXPECT_EQ(rows[3][2 + 3 * 18], "fingertips_r");
+  EXPECT_EQ(rows[3][2 + 3 * static_cast<int>(Point::kHipL)], "LHJC");
+  EXPECT_EQ(rows[3][2 + 3 * static_cast<int>(Point::kElbowR)], "REJC");
   EXPECT_EQ(rows[4][2 + 3 * 18], "X19");
   EXPECT_EQ(rows[4].back(), "Z23");
 }
