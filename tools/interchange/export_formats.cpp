@@ -7,6 +7,7 @@
 #include "tools/interchange/c3d_writer.h"
 #include "tools/interchange/csv_writer.h"
 #include "tools/interchange/export_format.h"
+#include "tools/interchange/glb_writer.h"
 #include "tools/interchange/mot_writer.h"
 #include "tools/interchange/trc_writer.h"
 
@@ -16,6 +17,8 @@ namespace {
 constexpr std::array kFormats = {
     ExportFormat{"bvh", "animation: Blender, three.js (cm, degrees, y up)", "HIERARCHY", false,
                  WriteBvh},
+    ExportFormat{"glb", "glTF 2.0, a body that moves: Blender, three.js, viewers (m, y up)", "glTF",
+                 false, WriteGlb},
     ExportFormat{"c3d", "biomechanics: Visual3D, Mokka, Motive (mm, degrees, z up)", "\x02\x50",
                  true, WriteC3d},
     ExportFormat{"mot", "OpenSim's joint angles, as of its inverse kinematics (degrees, m, y up)",
