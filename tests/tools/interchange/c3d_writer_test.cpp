@@ -61,10 +61,11 @@ TEST(C3dReaderOfTests, ReadsAFileOfViconAsOpenSimDoes) {
   }
   ASSERT_EQ(names.size(), 44u);
   int compared = 0;
-  for (std::size_t frame = 0; std::getline(trc, line) && line.size() > 1; frame += 10) {
+  while (std::getline(trc, line) && line.size() > 1) {
     std::istringstream cells(line);
     std::getline(cells, cell, '\t');
     std::getline(cells, cell, '\t');
+    const auto frame = static_cast<std::size_t>(std::lround(std::stod(cell) * 250));
     for (const std::string& name : names) {
       std::array<double, 3> at{};
       for (double& value : at) {

@@ -54,8 +54,13 @@ TEST(ResultLog, IsReadAsAResult) {
     FillBody(body, 0, body_message);
     Log(log, "PRE_MOCAP_BODY", body_message);
     pose_t pose{};
-    FillPose({.frame = 4, .capture_ns = 9000, .result = tracked, .body = body, .grid = grid}, 1,
-             pose);
+    FillPose({.frame = 4,
+              .capture_ns = 9000,
+              .cameras = 0b101,
+              .result = tracked,
+              .body = body,
+              .grid = grid},
+             3, pose);
     Log(log, "OTHER", pose);
     Log(log, "PRE_MOCAP_POSE", pose);
     CaptureResult searching;
@@ -73,6 +78,7 @@ TEST(ResultLog, IsReadAsAResult) {
   EXPECT_TRUE(result.poses[0].has_pose);
   EXPECT_EQ(result.poses[0].paper.torso_mm, Vector3(1, 2, 3));
   EXPECT_EQ(result.poses[0].points_W(1, 8), 7);
+  EXPECT_EQ(result.poses[0].first_cameras, 0b101);
   EXPECT_FALSE(result.poses[1].has_pose);
 }
 
