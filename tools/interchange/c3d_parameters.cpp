@@ -100,7 +100,10 @@ void C3dParameters::TextPairs(std::string_view name, std::span<const std::string
 std::string C3dParameters::Section() {
   const std::string records = records_.Take();
   const std::size_t blocks = (4 + records.size() + 2 + kC3dBlock - 1) / kC3dBlock;
-  MOCAP_CHECK(blocks <= kMost);
+  if (blocks > kMost) {
+    throw SetupError("names of so many people take " + std::to_string(blocks) +
+                     " blocks; C3D holds " + std::to_string(kMost));
+  }
   ByteWriter section;
   section.Add(std::uint8_t{1});
   section.Add(kKey);

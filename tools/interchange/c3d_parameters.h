@@ -36,7 +36,7 @@ class C3dParameters {
   void TextPairs(std::string_view name, std::span<const std::string> texts);
 
   /// The whole section, in whole blocks.
-  /// @pre  there are 255 blocks at most.
+  /// @throws SetupError  when these are more than 255, which is what C3D can count.
   std::string Section();
 
  private:

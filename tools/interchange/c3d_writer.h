@@ -9,7 +9,7 @@ namespace mocap {
 /// tell), and joint angles in degrees as points of the type ANGLES; floats in Intel's byte order.
 /// The file has one rate: frames that are missing are filled in. A point of somebody who is not
 /// tracked has the residual -1. EVENT tells where tracking starts and ends.
-/// @throws SetupError  when an hour or more of frames is missing in one place.
+/// @throws SetupError  as RequireShortGap, and for more people than labels fit of.
 ExportRemarks WriteC3d(const ExportScene& scene, std::ostream& out);
 
 }  // namespace mocap

@@ -53,7 +53,7 @@ class Poser {
       pose.R[i] = Turn(i, row, R_W[parent], places_W);
       R_W[i] = R_W[parent] * pose.R[i];
     }
-    // The skull goes on where the neck points, whatever the row says of it.
+    // The 23 points have no top of the head.
     pose.offset[kHead + 1] = Vector3(0, 0, rest_.sizes().head / 2);
     return pose;
   }

@@ -102,8 +102,7 @@ JointOffsets RestPlaces(const BodyRecord& body);
 
 /// Makes the skeleton's motion from the tracked frames. Joints lie where the points are; turns of a
 /// limb about itself, which points do not show, are left out.
-/// @throws SetupError  when no frame is tracked, or an hour or more of frames is missing in one
-/// place.
+/// @throws SetupError  when no frame is tracked, and as RequireShortGap.
 SkeletonMotion MakeSkeletonMotion(const Result& result);
 
 }  // namespace mocap

@@ -33,9 +33,9 @@ EvenClock FitClock(const std::vector<PoseRow>& poses) {
 void RequireShortGap(std::int64_t missing, const PoseRow& row) {
   constexpr std::int64_t kLongest = 108'000;
   if (missing <= kLongest) return;
-  throw SetupError(
-      "frame " + std::to_string(row.frame) + " comes " + std::to_string(missing) +
-      " frame times after the one before; the format has one rate and no room for that");
+  throw SetupError("frame " + std::to_string(row.frame) + " comes " + std::to_string(missing) +
+                   " frame times after the one before; at most " + std::to_string(kLongest) +
+                   " missing ones are filled in");
 }
 
 }  // namespace mocap

@@ -27,7 +27,7 @@ struct EvenClock {
 /// Fits a clock to frames that may jitter and of which some may be missing.
 EvenClock FitClock(const std::vector<PoseRow>& poses);
 
-/// Formats with one rate fill in frames that are missing.
+/// Exports fill in frames that are missing.
 /// @throws SetupError  when so many are missing before a row that these are two recordings, or
 /// times that are wrong: an hour at 30 frames a second.
 void RequireShortGap(std::int64_t missing, const PoseRow& row);

@@ -166,6 +166,13 @@ TEST(C3dWriter, EightPeopleHaveMoreLabelsThanOneArrayHolds) {
   EXPECT_EQ(c3d.labels.back(), "person-8:SpineAngles");
 }
 
+TEST(C3dWriter, MorePeopleThanItCanNameAreTold) {
+  const Result result = SwingingResult(1);
+  std::vector<ExportSubject> subjects;
+  for (int i = 1; i <= 300; ++i) subjects.push_back({"person-" + std::to_string(i), result});
+  EXPECT_THROW(WriteAndRead({subjects, result.poses, "all.c3d", true}), SetupError);
+}
+
 TEST(C3dWriter, CountsMoreFramesThanSixteenBitsHold) {
   Result result = SwingingResult(1);
   for (int i = 1; i < 70'000; ++i) {
