@@ -87,7 +87,6 @@ inline void ReadC3dParameters(const C3dBytes& bytes, ReadC3d& c3d) {
   if (bytes.Get<std::uint8_t>(at + 3) != 84) throw std::runtime_error("not of Intel's order");
   const std::size_t end = at + 512 * bytes.Get<std::uint8_t>(at + 2);
   std::map<int, std::string> groups;
-  std::map<std::string, std::pair<int, C3dParameter>> found;
   at += 4;
   while (at + 2 < end) {
     const int length = std::abs(bytes.Get<std::int8_t>(at));

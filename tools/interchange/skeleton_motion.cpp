@@ -143,6 +143,7 @@ SkeletonMotion MakeSkeletonMotion(const Result& result) {
   const EvenClock clock = FitClock(result.poses);
   motion.period_s = clock.period_s;
   const Poser poser(result.body);
+  motion.frames.reserve(result.poses.size());
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     const PoseRow& row = result.poses[i];
     if (motion.frames.empty() && !IsTracked(row)) {
