@@ -47,15 +47,16 @@ TrackedSet PosePublisher::InTimeOfDay(const TrackedSet& set) const {
 
 void PosePublisher::OnSet(const TrackedSet& timeline_set) {
   const TrackedSet set = InTimeOfDay(timeline_set);
-  FillPose(set, cameras_, pose_);
-  pose_.publish_utime = TimeOfDayNs() / 1000;
-  Publish(pose_channel_, pose_);
   const std::int64_t now_ns = SteadyNs();
   const bool body_is_due = body_pacer_.IsDue(now_ns);
+  // Before the pose, which is of the new sizes already.
   if (set.result.body_changed || body_is_due) {
     FillBody(set.body, set.capture_ns / 1000, body_);
     Publish(body_channel_, body_);
   }
+  FillPose(set, cameras_, pose_);
+  pose_.publish_utime = TimeOfDayNs() / 1000;
+  Publish(pose_channel_, pose_);
   PublishPeople(set, body_is_due);
   const double voxels_hz = voxels_hz_.load(std::memory_order_relaxed);
   if (voxels_hz != paced_voxels_hz_) {

@@ -182,6 +182,24 @@ TEST_F(PosePublisherTest, TheBodyComesAtOnceAndWhenItChanges) {
   EXPECT_EQ(body.size_mm[0], body_.sizes().torso);
 }
 
+TEST_F(PosePublisherTest, NewSizesAreToldBeforeThePoseThatHasThem) {
+  std::vector<std::string> channels;
+  lcm_.subscribeFunction(
+      "MOCAP_(POSE|BODY)",
+      +[](const lcm::ReceiveBuffer*, const std::string& channel, std::vector<std::string>* heard) {
+        heard->push_back(channel);
+      },
+      &channels);
+  PosePublisher publisher(lcm_, {}, 3);
+  for (const bool is_new : {false, true, false}) {
+    result_.body_changed = is_new;
+    publisher.OnSet(Set());
+  }
+  Deliver();
+  EXPECT_THAT(channels,
+              ElementsAre("MOCAP_BODY", "MOCAP_POSE", "MOCAP_BODY", "MOCAP_POSE", "MOCAP_POSE"));
+}
+
 TEST_F(PosePublisherTest, APoseCanBeDrawnAgainFromItsMessageAndTheBody) {
   Inbox<pose_t> poses(lcm_, "MOCAP_POSE");
   Inbox<body_t> bodies(lcm_, "MOCAP_BODY");
