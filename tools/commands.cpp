@@ -10,6 +10,7 @@
 #include "tools/export.h"
 #include "tools/gige_studio.h"
 #include "tools/simulate.h"
+#include "tools/stream.h"
 #include "tools/track.h"
 #include "tools/view.h"
 #include "tools/watch.h"
@@ -28,6 +29,7 @@ void AddCommands(CLI::App& app) {
   AddGigeStudioCommand(app);
   AddControlCommands(app);
   AddViewCommand(app);
+  AddStreamCommand(app);
   AddWatchCommand(app);
   AddDoctorCommand(app);
 }

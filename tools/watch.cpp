@@ -1,7 +1,6 @@
 #include "tools/watch.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,10 +26,11 @@
 #include "daemon/base/number_option.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
-#include "daemon/messages/pose_publisher.h"
+#include "daemon/messages/open_lcm.h"
 #include "daemon/status/followed_person.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -42,15 +42,6 @@ constexpr std::int64_t kSilenceNs = 2'000'000'000;
 /// How far back rate and latency look.
 constexpr std::int64_t kWindowNs = 2'000'000'000;
 constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
-
-volatile sig_atomic_t stop_asked = 0;
-
-void StopOnSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_asked = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
@@ -293,7 +284,7 @@ void Watch(const WatchOptions& options) {
   if (on_terminal) std::fputs("\x1b[2J", stdout);
   const std::int64_t begin_ns = SteadyNs();
   std::int64_t next_ns = begin_ns + kPageNs;
-  while (stop_asked == 0) {
+  while (!StopAsked()) {
     lcm->handleTimeout(50);
     const std::int64_t now_ns = SteadyNs();
     if (options.seconds && static_cast<double>(now_ns - begin_ns) > *options.seconds * 1e9) break;
@@ -301,8 +292,7 @@ void Watch(const WatchOptions& options) {
     next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
     hearing.Age(now_ns);
     const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
-    const std::string silence = "nothing is heard on " + Printable(options.url) +
-                                ": does mocapd run? mocap doctor looks at the network\n";
+    const std::string silence = SilenceText(options.url) + '\n';
     if (on_terminal) {
       Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, options.url));
     } else {

@@ -15,6 +15,7 @@
 
 #include "core/errors.h"
 #include "daemon/base/file_descriptor.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
@@ -132,6 +133,11 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
 
 std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
   return Parse(url).provider == LcmProvider::kMulticast ? OpenLcm(url) : nullptr;
+}
+
+std::string SilenceText(const std::string& url) {
+  return "nothing is heard on " + Printable(url) +
+         ": does mocapd run? mocap doctor looks at the network";
 }
 
 void CheckLcm(const std::string& url) {

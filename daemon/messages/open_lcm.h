@@ -22,6 +22,9 @@ std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url);
 /// Looks whether OpenLcm would succeed, and leaves no file and no message. @throws SetupError
 void CheckLcm(const std::string& url);
 
+/// What to tell a person where nothing is heard at an address.
+std::string SilenceText(const std::string& url);
+
 /// Whether the kernel knows where to send LCM's multicast.
 bool HasMulticastRoute();
 

@@ -45,6 +45,8 @@ TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
                            "benchmark --statures",
                            "cameras --seconds",
                            "watch --seconds",
+                           "stream json --rate",
+                           "stream osc --person",
                            "background learn --config x --seconds"};
   for (const char* option : options) {
     for (const char* number : wrong) {

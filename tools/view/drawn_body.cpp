@@ -5,35 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "config/body_size_fields.h"
-#include "config/builtin_body_tables.h"
-#include "config/load_config.h"
 #include "tools/report/body_outline.h"
+#include "tools/results/message_body.h"
 #include "tools/view/json_text.h"
 
 namespace mocap {
 namespace {
-
-constexpr double kLongestPart_mm = 3000;
-
-bool IsBuiltIn(const std::string& model) {
-  return std::ranges::any_of(BuiltinBodyTables(),
-                             [&](const BuiltinBodyTable& table) { return table.name == model; });
-}
-
-std::optional<BodyModel> ModelOf(const BodyRecord& record) {
-  // A message must not have files read.
-  if (!IsBuiltIn(record.model) || !AreSizes(record.sizes)) return {};
-  return BodyModel(LoadBodyTable(record.model), record.sizes);
-}
-
-PoseState StateOf(const pose_t& pose) {
-  PoseState state;
-  state.X_WT.R = ExpRotation(Vector3(pose.torso_axis) * pose.torso_angle_rad);
-  state.X_WT.p = Vector3(pose.torso_mm);
-  state.theta.resize(pose.num_joints);
-  std::ranges::copy(pose.joint_rad, state.theta.begin());
-  return state;
-}
 
 /// A limb of the same width from joint to joint.
 struct Limb {
@@ -61,13 +38,6 @@ constexpr std::array<std::array<Point, 2>, 4> kTrunk = {{{Point::kShoulderL, Poi
 Vector3 At(const PoseRow& row, Point point) { return row.points_W.col(static_cast<int>(point)); }
 
 }  // namespace
-
-bool AreSizes(const BodySizes& sizes) {
-  return std::ranges::all_of(kBodySizeFields, [&](const BodySizeField& field) {
-    const double size = sizes.*field.value;
-    return size > 0 && size < kLongestPart_mm;
-  });
-}
 
 DrawnBody::DrawnBody(const BodyRecord& record) : record_(record), model_(ModelOf(record)) {
   if (!model_) {

@@ -12,9 +12,6 @@
 
 namespace mocap {
 
-/// Whether sizes are those of a person, whoever sent them.
-bool AreSizes(const BodySizes& sizes);
-
 /// A person's body with sizes.
 class DrawnBody {
  public:

@@ -10,10 +10,11 @@
 #include "core/errors.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
+#include "daemon/messages/open_lcm.h"
 #include "daemon/messages/reduced_picture.h"
 #include "drivers/clock.h"
-#include "drivers/printable_text.h"
 #include "tools/report/body_outline.h"
+#include "tools/results/message_body.h"
 #include "tools/results/pose_log.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/json_text.h"
@@ -85,9 +86,7 @@ void LiveFeed::NoteControl(const std::string& why) {
 
 void LiveFeed::Tick() {
   const bool is_silent = SteadyNs() - heard_ns_ > kSilenceNs;
-  silence_ = is_silent ? "nothing is heard on " + Printable(url_) +
-                             ": does mocapd run? mocap doctor looks at the network"
-                       : "";
+  silence_ = is_silent ? SilenceText(url_) : "";
   PutNotice();
 }
 

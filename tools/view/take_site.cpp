@@ -15,6 +15,7 @@
 #include "drivers/take/input_file.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"
+#include "tools/results/message_body.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/json_text.h"

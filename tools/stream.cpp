@@ -1,0 +1,174 @@
+#include "tools/stream.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "config/config.h"
+#include "config/lcm_url.h"
+#include "daemon/base/number_option.h"
+#include "daemon/messages/open_lcm.h"
+#include "drivers/clock.h"
+#include "drivers/printable_text.h"
+#include "tools/results/message_body.h"
+#include "tools/results/pose_log.h"
+#include "tools/stop_on_signals.h"
+#include "tools/stream/pose_feed.h"
+#include "tools/stream/pose_json.h"
+#include "tools/stream/vmc_sender.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kWaitMs = 50;
+/// Without a pose for so long, nobody publishes.
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+
+struct StreamOptions {
+  std::string url = LcmConfig().url;
+  PoseFeedOptions feed;
+  std::string to = "127.0.0.1:39539";
+};
+
+/// Says something on standard error when it begins to hold.
+class Notice {
+ public:
+  void Tell(const std::string& text) {
+    if (text != told_ && !text.empty()) fmt::print(stderr, "mocap stream: {}\n", Printable(text));
+    told_ = text;
+  }
+
+ private:
+  std::string told_;
+};
+
+/// Hands on poses until a signal comes, a log ends, or nobody wants any more.
+void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
+  StopOnSignals();
+  const std::unique_ptr<lcm::LCM> lcm = OpenLcm(options.url);
+  const bool is_log = ParseLcmUrl(options.url).provider == LcmProvider::kFile;
+  PoseFeed feed(*lcm, options.feed, take);
+  Notice silence;
+  while (!StopAsked() && !is_over) {
+    if (lcm->handleTimeout(kWaitMs) < 0) {
+      if (is_log || StopAsked()) return;
+      throw std::runtime_error(Printable(options.url) + ": LCM cannot go on");
+    }
+    const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
+    silence.Tell(is_silent && !is_log ? SilenceText(options.url) : "");
+  }
+}
+
+void StreamJson(const StreamOptions& options) {
+  signal(SIGPIPE, SIG_IGN);
+  bool is_over = false;
+  Stream(
+      options,
+      [&is_over](const StreamedPose& pose) {
+        if (is_over) return;
+        const std::string line = PoseJson(pose) + '\n';
+        const bool is_written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size() &&
+                                std::fflush(stdout) == 0;
+        if (is_written) return;
+        if (errno != EPIPE) {
+          throw std::runtime_error(std::string("standard output cannot be written: ") +
+                                   std::strerror(errno));
+        }
+        // Whoever read has had enough, which is no failure.
+        std::clearerr(stdout);
+        is_over = true;
+      },
+      is_over);
+}
+
+/// Poses as an avatar's bones.
+class OscStream {
+ public:
+  explicit OscStream(const std::string& to) : to_(to), sender_(to) {}
+
+  void Take(const StreamedPose& pose) {
+    if (!begin_us_) begin_us_ = pose.message.utime;
+    const double time_s = 1e-6 * static_cast<double>(pose.message.utime - *begin_us_);
+    const BodyModel* body = pose.is_tracked ? BodyOf(*pose.body) : nullptr;
+    if (!pose.is_tracked) {
+      sender_.SendState(static_cast<CaptureState>(pose.message.state), time_s);
+    } else if (body && body->joint_count() == pose.message.num_joints) {
+      sender_.SendPose(HumanoidPoseOf(*body, StateOf(pose.message)), time_s);
+    } else {
+      unknown_.Tell(
+          "the body \"" + Shortened(pose.body->model, 40) +
+          "\" is not one of those built in, and has no bones; full or mikic2003 is wanted");
+      sender_.SendState(CaptureState::kAcquiring, time_s);
+    }
+    trouble_.Tell(sender_.trouble().empty() ? "" : to_ + ": " + sender_.trouble());
+  }
+
+ private:
+  /// Null: it has no bones.
+  const BodyModel* BodyOf(const body_t& message) {
+    const std::optional<BodyRecord> record = BodyRecordOf(message);
+    if (!record) return nullptr;
+    const bool is_same = record->model == record_.model && record->sizes == record_.sizes;
+    if (!is_same) {
+      record_ = *record;
+      body_ = ModelOf(record_);
+    }
+    return body_ ? &*body_ : nullptr;
+  }
+
+  const std::string to_;
+  VmcSender sender_;
+  Notice unknown_, trouble_;
+  std::optional<std::int64_t> begin_us_;
+  BodyRecord record_;
+  std::optional<BodyModel> body_;  ///< Of the record.
+};
+
+void StreamOsc(const StreamOptions& options) {
+  OscStream stream(options.to);
+  const bool is_over = false;
+  Stream(
+      options, [&stream](const StreamedPose& pose) { stream.Take(pose); }, is_over);
+}
+
+void AddFeedOptions(CLI::App& command, StreamOptions& options) {
+  command.add_option("--url", options.url, "LCM's address; file:// plays a log")
+      ->capture_default_str();
+  command.add_option("--prefix", options.feed.prefix, "what stands before each channel's name");
+  command.add_option("--rate", options.feed.most_hz, "poses a second at most; all without")
+      ->check(NumberFrom(0.01, 1e6));
+  command
+      .add_option("--person", options.feed.person,
+                  "the number of the one who is meant; otherwise whoever has been followed the "
+                  "longest")
+      ->check(NumberFrom(1, 1e9));
+}
+
+}  // namespace
+
+void AddStreamCommand(CLI::App& app) {
+  CLI::App* stream = app.add_subcommand("stream", "Sends live poses to other programs");
+  stream->require_subcommand(1);
+  const auto options = std::make_shared<StreamOptions>();
+  CLI::App* json = stream->add_subcommand("json", "Prints each pose as a line of JSON, for pipes");
+  AddFeedOptions(*json, *options);
+  json->add_flag("--people", options->feed.everybody, "everybody, a line each")
+      ->excludes("--person");
+  json->callback([options] { StreamJson(*options); });
+  CLI::App* osc = stream->add_subcommand(
+      "osc", "Moves an avatar by VMC protocol: VSeeFace, Warudo, Unity with EVMC4U, Blender");
+  osc->add_option("--to", options->to, "HOST:PORT where the avatar's program listens")
+      ->capture_default_str();
+  AddFeedOptions(*osc, *options);
+  osc->callback([options] { StreamOsc(*options); });
+}
+
+}  // namespace mocap

@@ -1,0 +1,99 @@
+#include "tools/stream/pose_feed.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/people/people_capture.h"
+#include "daemon/messages/channel_name.h"
+#include "daemon/messages/decode_message.h"
+#include "drivers/clock.h"
+#include "tools/results/message_body.h"
+#include "tools/results/pose_log.h"
+
+namespace mocap {
+namespace {
+
+template <typename Message>
+std::optional<Message> Decoded(const lcm::ReceiveBuffer& buffer) {
+  return DecodeMessage<Message>(
+      {static_cast<const std::uint8_t*>(buffer.data), static_cast<std::size_t>(buffer.data_size)});
+}
+
+bool IsSound(const pose_t& pose) {
+  return PoseRowOf(pose) && pose.num_joints <= kMaxJoints && StateOf(pose).IsFinite();
+}
+
+bool IsIn(const people_t& set, int id) {
+  return std::ranges::find(set.people, id, &person_t::id) != set.people.end();
+}
+
+/// What is told of somebody who is not there.
+pose_t NoPoseIn(const people_t& set) {
+  pose_t pose{};
+  pose.utime = set.utime;
+  pose.frame = set.frame;
+  pose.state = pose_t::SEARCHING;
+  return pose;
+}
+
+}  // namespace
+
+PoseFeed::PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take)
+    : options_(options), take_(std::move(take)), rate_(options.most_hz), heard_ns_(SteadyNs()) {
+  const std::string prefix = ChannelPattern(options.prefix);
+  if (options.everybody || options.person) {
+    lcm.subscribe(prefix + "MOCAP_PEOPLE", &PoseFeed::OnPeople, this);
+    lcm.subscribe(prefix + "MOCAP_BODIES", &PoseFeed::OnPersonBody, this);
+  } else {
+    lcm.subscribe(prefix + "MOCAP_POSE", &PoseFeed::OnPose, this);
+    lcm.subscribe(prefix + "MOCAP_BODY", &PoseFeed::OnBody, this);
+  }
+}
+
+void PoseFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
+  if (pose && IsDue()) HandOn(*pose, 0, "");
+}
+
+void PoseFeed::OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<people_t> set = Decoded<people_t>(*buffer);
+  if (!set) return;
+  std::erase_if(bodies_, [&](const auto& body) { return !IsIn(*set, body.first); });
+  if (!IsDue()) return;
+  for (const person_t& person : set->people) {
+    if (options_.person.value_or(person.id) != person.id) continue;
+    HandOn(PoseOf(*set, person), person.id, person.name);
+  }
+  if (options_.person && !IsIn(*set, *options_.person)) {
+    HandOn(NoPoseIn(*set), *options_.person, "");
+  }
+}
+
+void PoseFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  if (std::optional<body_t> body = Decoded<body_t>(*buffer)) bodies_[0] = std::move(*body);
+}
+
+void PoseFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  std::optional<person_body_t> message = Decoded<person_body_t>(*buffer);
+  const bool has_room =
+      message && (bodies_.contains(message->id) || bodies_.size() < std::size_t{kMostPeople});
+  if (has_room) bodies_[message->id] = std::move(message->body);
+}
+
+bool PoseFeed::IsDue() {
+  heard_ns_ = SteadyNs();
+  return rate_.Passes(heard_ns_);
+}
+
+void PoseFeed::HandOn(const pose_t& pose, int person, const std::string& name) {
+  if (pose.state != pose_t::TRACKING) {
+    if (CaptureNsOf(pose.utime)) take_({.message = pose, .person = person, .name = name});
+    return;
+  }
+  const auto body = bodies_.find(person);
+  if (body == bodies_.end() || body->second.num_joints != pose.num_joints || !IsSound(pose)) return;
+  take_(
+      {.message = pose, .is_tracked = true, .body = &body->second, .person = person, .name = name});
+}
+
+}  // namespace mocap

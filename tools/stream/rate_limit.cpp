@@ -1,0 +1,18 @@
+#include "tools/stream/rate_limit.h"
+
+#include <algorithm>
+
+namespace mocap {
+
+bool RateLimit::Passes(std::int64_t now_ns) {
+  const double since_s = 1e-9 * static_cast<double>(now_ns - before_ns_);
+  before_ns_ = now_ns;
+  // Thousandths are forgiven: a period in nanoseconds is a rounded one.
+  constexpr double kTurn = 0.999;
+  saved_ = std::min(kMostSaved, saved_ + hz_ * std::max(since_s, 1e-9));
+  if (saved_ < kTurn) return false;
+  saved_ = std::max(0.0, saved_ - 1);
+  return true;
+}
+
+}  // namespace mocap

@@ -1,0 +1,132 @@
+#include "tools/stream/vmc_sender.h"
+
+#include <lo/lo.h>
+
+#include <charconv>
+#include <string_view>
+
+#include "core/errors.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kMPerMm = 0.001;
+/// An Ethernet's 1500 without the headers of IPv6 and UDP.
+constexpr std::size_t kMostBytes = 1500 - 40 - 8;
+/// Before each message of a bundle.
+constexpr std::size_t kLengthBytes = 4;
+
+struct Place {
+  std::string host, port;
+};
+
+/// "HOST:PORT" or "[IPV6]:PORT".
+Place ParsePlace(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const std::string_view port = std::string_view(text).substr(std::min(colon, text.size() - 1) + 1);
+  std::string host = text.substr(0, std::min(colon, text.size()));
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  std::uint16_t number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  const bool is_port = error == std::errc() && end == port.data() + port.size() && number > 0;
+  const bool has_more_colons = host.find(':') != std::string::npos && !text.starts_with('[');
+  if (colon == std::string::npos || host.empty() || !is_port || has_more_colons) {
+    throw SetupError("--to: \"" + text +
+                     "\" is no address; HOST:PORT is wanted, like 127.0.0.1:39539 or [::1]:39539");
+  }
+  return {host, std::to_string(number)};
+}
+
+struct Status {
+  int loaded, calibration, tracking;
+};
+
+/// The protocol knows a model that is loaded or not; calibration is 0 not begun, 2 going on, 3
+/// done.
+Status StatusOf(CaptureState state) {
+  switch (state) {
+    case CaptureState::kSearching:
+      return {0, 0, 0};
+    case CaptureState::kAcquiring:
+      return {0, 2, 0};
+    case CaptureState::kTracking:
+      return {1, 3, 1};
+    case CaptureState::kLost:
+      return {1, 3, 0};
+  }
+  return {0, 0, 0};
+}
+
+lo_message TransformMessage(std::string_view name, const RigidTransform& X) {
+  const Matrix3 M = UnityFromStudio();
+  const Eigen::Vector3f p = (M * X.p * kMPerMm).cast<float>();
+  const Eigen::Quaternionf q(Matrix3(M * X.R * M.transpose()).cast<float>());
+  lo_message message = lo_message_new();
+  lo_message_add_string(message, std::string(name).c_str());
+  for (const float number : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
+    lo_message_add_float(message, number);
+  }
+  return message;
+}
+
+}  // namespace
+
+Matrix3 UnityFromStudio() {
+  Matrix3 M;
+  M << 0, -1, 0, 0, 0, 1, 1, 0, 0;
+  return M;
+}
+
+VmcSender::VmcSender(const std::string& place)
+    : address_(nullptr, &lo_address_free), bundle_(nullptr, &lo_bundle_free_recursive) {
+  const Place parsed = ParsePlace(place);
+  address_.reset(lo_address_new(parsed.host.c_str(), parsed.port.c_str()));
+  SendState(CaptureState::kSearching, 0);
+  if (!trouble_.empty()) throw SetupError("--to: " + place + ": " + trouble_);
+}
+
+void VmcSender::SendState(CaptureState state, double time_s) {
+  Begin(state, time_s);
+  Flush();
+}
+
+void VmcSender::SendPose(const HumanoidPose& pose, double time_s) {
+  Begin(CaptureState::kTracking, time_s);
+  Add("/VMC/Ext/Root/Pos", TransformMessage("root", {}));
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    Add("/VMC/Ext/Bone/Pos", TransformMessage(kHumanoid[i].name, pose[i]));
+  }
+  Flush();
+}
+
+void VmcSender::Begin(CaptureState state, double time_s) {
+  trouble_.clear();
+  bundle_.reset(lo_bundle_new(LO_TT_IMMEDIATE));
+  const Status status = StatusOf(state);
+  constexpr int kNormalMode = 0;
+  lo_message available = lo_message_new();
+  for (const int number : {status.loaded, status.calibration, kNormalMode, status.tracking}) {
+    lo_message_add_int32(available, number);
+  }
+  Add("/VMC/Ext/OK", available);
+  lo_message time = lo_message_new();
+  lo_message_add_float(time, static_cast<float>(time_s));
+  Add("/VMC/Ext/T", time);
+}
+
+void VmcSender::Add(const char* path, void* message) {
+  const std::size_t bytes = kLengthBytes + lo_message_length(message, path);
+  if (lo_bundle_length(bundle_.get()) + bytes > kMostBytes) {
+    Flush();
+    bundle_.reset(lo_bundle_new(LO_TT_IMMEDIATE));
+  }
+  lo_bundle_add_message(bundle_.get(), path, message);
+}
+
+void VmcSender::Flush() {
+  if (lo_send_bundle(address_.get(), bundle_.get()) >= 0) return;
+  const char* why = lo_address_errstr(address_.get());
+  trouble_ = why ? why : "it cannot be sent";
+}
+
+}  // namespace mocap
