@@ -1,0 +1,65 @@
+"""Poses as they come."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from urllib.parse import unquote, urlsplit
+
+from .lcm_log import read_events
+from .lcm_udp import receive
+from .poses import Pose, PoseDecoder
+
+#: Where mocapd sends unless it is told otherwise.
+DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
+
+
+def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator[tuple[str, bytes]]:
+    """Yields channel and bytes of every LCM message.
+
+    @param url  "udpm://GROUP:PORT", or "file://PATH" of a log, whose messages come at once, one after the other.
+    @param timeout_s  raises TimeoutError when nothing comes for so long.
+    @raises ValueError  for an address that is none. @raises OSError  where no group can be joined, or no file read.
+    """
+    address = url or DEFAULT_URL
+    parts = urlsplit(address)
+    if parts.scheme == "file":
+        return read_events(unquote(parts.netloc + parts.path))
+    return receive(address, timeout_s)
+
+
+def listen(url: str | None = None, prefix: str = "", person: int | None = None,
+           timeout_s: float | None = None) -> Iterator[Pose]:
+    """Yields the pose of every frame set, of whoever has been followed the longest, or of one person.
+
+    A tracked pose comes once the person's body is known, within a second. A generator: break off when you have enough.
+
+    @param url, timeout_s  as of messages().
+    @param prefix  what stands before the channels' names (`lcm.prefix` in mocapd's configuration).
+    @param person  number of the one who is meant, as `mocap status` tells it.
+    """
+    if person is not None:
+        for people in listen_people(url, prefix, timeout_s):
+            yield from (pose for pose in people if pose.person == person)
+        return
+    decoder = PoseDecoder()
+    for channel, data in messages(url, timeout_s):
+        if channel == prefix + "MOCAP_BODY":
+            decoder.take_body(data)
+        elif channel == prefix + "MOCAP_POSE":
+            pose = decoder.pose(data)
+            if pose is not None:
+                yield pose
+
+
+def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | None = None) -> Iterator[list[Pose]]:
+    """Yields everybody's poses of every frame set, whoever has been followed the longest first; nobody's: an empty list.
+
+    Whose body is not known yet is left out, for a second at most. Arguments are those of listen().
+    """
+    decoder = PoseDecoder()
+    for channel, data in messages(url, timeout_s):
+        if channel == prefix + "MOCAP_BODIES":
+            decoder.take_person_body(data)
+        elif channel == prefix + "MOCAP_PEOPLE":
+            people = decoder.people(data)
+            if people is not None:
+                yield people

@@ -1,0 +1,168 @@
+"""What messages tell of people, in numpy."""
+from __future__ import annotations
+
+import dataclasses
+import struct
+from typing import Any, TypeVar
+
+import numpy as np
+
+from .mocap.body_t import body_t
+from .mocap.people_t import people_t
+from .mocap.person_body_t import person_body_t
+from .mocap.person_t import person_t
+from .mocap.pose_t import pose_t
+
+#: The 23 points of every pose, in the order of its arrays.
+POINT_NAMES: tuple[str, ...] = (
+    "torso", "head", "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l", "calf_r",
+    "neck", "shoulder_l", "shoulder_r", "hip_l", "hip_r", "elbow_l", "elbow_r", "fingertips_l", "fingertips_r", "knee_l",
+    "knee_r", "foot_l", "foot_r")
+STATES = ("searching", "acquiring", "tracking", "lost")
+TRACKING = "tracking"
+
+LATEST_US = 4 * 10**15  # What is later is no time of day.
+
+Message = TypeVar("Message")
+
+
+def decoded(kind: type[Message], data: bytes) -> Message | None:
+    """Decodes a message; None for what is none of its type, whatever stands in it."""
+    try:
+        return kind.decode(data)  # type: ignore[attr-defined]
+    except (ValueError, struct.error, IndexError, OverflowError, MemoryError):
+        return None
+
+
+def is_time(utime: int) -> bool:
+    return 0 <= utime <= LATEST_US
+
+
+def state_name(number: int) -> str:
+    return STATES[min(max(number, 0), len(STATES) - 1)]
+
+
+def rotation_matrix(axis: Any, angle_rad: float) -> np.ndarray:
+    """Turns about an axis, a unit vector, by an angle; 3 x 3."""
+    x, y, z = axis
+    hat = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle_rad) * hat + (1 - np.cos(angle_rad)) * hat @ hat
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Body:
+    """A person's measured body: sizes, and the axes about which its joints turn.
+
+    Axes and places are in the torso's frame (x out of the chest, y to the left, z up), arms out to the sides and legs down.
+    """
+    model: str
+    stature_mm: float
+    sizes_mm: dict[str, float]
+    joint_names: tuple[str, ...]
+    joint_parents: np.ndarray  #: of each joint, a parent before its children; -1: the torso
+    joint_axes: np.ndarray  #: n x 3, unit vectors
+    joint_places_mm: np.ndarray  #: n x 3, a point on each axis
+    joint_limits_rad: np.ndarray  #: n x 2
+
+    @classmethod
+    def of(cls, message: body_t) -> Body:
+        joints = message.num_joints
+        return cls(model=message.model, stature_mm=message.stature_mm,
+                   sizes_mm=dict(zip(message.size_name, message.size_mm)), joint_names=tuple(message.joint_name),
+                   joint_parents=np.array(message.joint_parent, dtype=int),
+                   joint_axes=np.array(message.joint_axis, dtype=float).reshape(joints, 3),
+                   joint_places_mm=np.array(message.joint_place_mm, dtype=float).reshape(joints, 3),
+                   joint_limits_rad=np.column_stack([message.joint_min_rad, message.joint_max_rad]))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Pose:
+    """A person's pose at one moment. Arrays are full of NaN where nobody is tracked."""
+    utime: int  #: of capture, microseconds since the Unix epoch
+    frame: int  #: number of the frame set
+    state: str  #: "searching", "acquiring", "tracking" or "lost"
+    person: int | None  #: who it is, among several people
+    name: str  #: under which the person's sizes were saved; empty: none
+    body: Body | None  #: None: not tracked
+    torso_mm: np.ndarray  #: 3
+    torso_rotation: np.ndarray  #: 3 x 3, from the torso's frame to the studio's
+    joints_rad: np.ndarray  #: n, in the order of body.joint_names
+    points_mm: np.ndarray  #: 23 x 3, in the order of POINT_NAMES
+    points_std_mm: np.ndarray  #: 23
+    residual_mm: float  #: how far the body lies from what the cameras see, on the average
+
+    @property
+    def is_tracked(self) -> bool:
+        return self.body is not None
+
+    @property
+    def time_s(self) -> float:
+        """Of capture, since the Unix epoch."""
+        return self.utime * 1e-6
+
+    def point(self, name: str) -> np.ndarray:
+        """Where one of POINT_NAMES lies; 3 [mm]."""
+        return self.points_mm[POINT_NAMES.index(name)]
+
+    def angle(self, joint: str) -> float:
+        """How far one of body.joint_names is turned [rad]; NaN where nobody is tracked."""
+        return float("nan") if self.body is None else float(self.joints_rad[self.body.joint_names.index(joint)])
+
+    @classmethod
+    def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,
+           name: str = "") -> Pose | None:
+        """Reads a message. None where somebody is tracked and the body is not known yet, or a number is none."""
+        state = state_name(message.state)
+        if not is_time(utime):
+            return None
+        if state != TRACKING:
+            return cls.untracked(utime, frame, state, person, name)
+        if body is None or len(body.joint_names) != message.num_joints:
+            return None
+        pose = cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
+                   torso_mm=np.array(message.torso_mm), joints_rad=np.array(message.joint_rad),
+                   torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
+                   points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
+                   residual_mm=message.residual_mm)
+        numbers = (pose.torso_mm, pose.torso_rotation, pose.joints_rad, pose.points_mm)
+        return pose if all(np.isfinite(array).all() for array in numbers) else None
+
+    @classmethod
+    def untracked(cls, utime: int, frame: int, state: str, person: int | None, name: str) -> Pose:
+        def nothing(*shape: int) -> np.ndarray:
+            return np.full(shape, np.nan)
+        return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=None, torso_mm=nothing(3),
+                   torso_rotation=nothing(3, 3), joints_rad=nothing(0), points_mm=nothing(len(POINT_NAMES), 3),
+                   points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"))
+
+
+class PoseDecoder:
+    """Makes poses of a daemon's messages, which it takes one by one."""
+
+    def __init__(self) -> None:
+        self.body: Body | None = None
+        self.bodies: dict[int, Body] = {}
+
+    def take_body(self, data: bytes) -> None:
+        message = decoded(body_t, data)
+        if message is not None:
+            self.body = Body.of(message)
+
+    def take_person_body(self, data: bytes) -> None:
+        message = decoded(person_body_t, data)
+        if message is not None:
+            self.bodies[message.id] = Body.of(message.body)
+
+    def pose(self, data: bytes) -> Pose | None:
+        message = decoded(pose_t, data)
+        return None if message is None else Pose.of(message, message.utime, message.frame, self.body)
+
+    def people(self, data: bytes) -> list[Pose] | None:
+        """Everybody of one set; None for what is none."""
+        message = decoded(people_t, data)
+        if message is None:
+            return None
+        self.bodies = {person.id: self.bodies[person.id] for person in message.people if person.id in self.bodies}
+        poses = [Pose.of(person, message.utime, message.frame, self.bodies.get(person.id), person.id, person.name)
+                 for person in message.people]
+        return [pose for pose in poses if pose is not None]

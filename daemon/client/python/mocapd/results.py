@@ -1,0 +1,227 @@
+"""Whole takes: what `mocap track` left, and logs of messages."""
+from __future__ import annotations
+
+import csv
+import dataclasses
+import os
+import pathlib
+import tomllib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .lcm_log import read_events
+from .mocap.people_t import people_t
+from .mocap.pose_t import pose_t
+from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, is_time, rotation_matrix, state_name
+
+if TYPE_CHECKING:
+    import pandas
+
+Path = str | os.PathLike[str]
+POSE, BODY, PEOPLE, BODIES = "MOCAP_POSE", "MOCAP_BODY", "MOCAP_PEOPLE", "MOCAP_BODIES"
+PAPER_ANGLES = 16
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Result:
+    """A person's poses, a row a frame set. Whatever was not tracked is NaN."""
+    model: str  #: name of the body's table
+    stature_mm: float
+    sizes_mm: dict[str, float]
+    frame: np.ndarray  #: n, numbers of the frame sets
+    timestamp_ns: np.ndarray  #: n, of capture
+    state: np.ndarray  #: n, words
+    torso_mm: np.ndarray  #: n x 3
+    torso_rotation: np.ndarray  #: n x 3 x 3, from the torso's frame to the studio's
+    theta_rad: np.ndarray  #: n x 16, the angles of the paper's Table 1
+    points_mm: np.ndarray  #: n x 23 x 3, in the order of POINT_NAMES
+    residual_mm: np.ndarray  #: n
+    joint_names: tuple[str, ...] = ()  #: of a log; poses.csv has the paper's angles alone
+    joints_rad: np.ndarray = dataclasses.field(default_factory=lambda: np.empty((0, 0)))  #: n x joint_names
+
+    def __len__(self) -> int:
+        return len(self.frame)
+
+    @property
+    def is_tracked(self) -> np.ndarray:
+        return self.state == TRACKING
+
+    @property
+    def time_s(self) -> np.ndarray:
+        """Since the first frame set; n."""
+        return (self.timestamp_ns - self.timestamp_ns[:1]) * 1e-9
+
+    def point(self, name: str) -> np.ndarray:
+        """Where one of POINT_NAMES lies; n x 3 [mm]."""
+        return self.points_mm[:, POINT_NAMES.index(name)]
+
+    def angle(self, joint: str) -> np.ndarray:
+        """How far a joint is turned; n [rad]. One of joint_names, or "theta_1" to "theta_16" of Table 1."""
+        if joint in self.joint_names:
+            return self.joints_rad[:, self.joint_names.index(joint)]
+        return self.theta_rad[:, [f"theta_{i + 1}" for i in range(PAPER_ANGLES)].index(joint)]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A column a number, with the names of poses.csv; joints as NAME_rad. Needs pandas."""
+        import pandas
+        columns: dict[str, Any] = {"frame": self.frame, "timestamp_ns": self.timestamp_ns, "time_s": self.time_s,
+                                   "state": self.state}
+        columns |= {f"theta_{i + 1}_rad": self.theta_rad[:, i] for i in range(PAPER_ANGLES)}
+        columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
+        columns |= {f"{name}_{axis}_mm": self.points_mm[:, i, k] for i, name in enumerate(POINT_NAMES)
+                    for k, axis in enumerate("xyz")}
+        columns["residual_mm"] = self.residual_mm
+        return pandas.DataFrame(columns)
+
+
+def read_result(folder: Path) -> Result:
+    """Reads a folder of `mocap track`, or RESULT/person-K of several people.
+
+    @raises OSError  where it is none. @raises ValueError  naming file and line of what is damaged.
+    """
+    poses = pathlib.Path(folder) / "poses.csv"
+    body = tomllib.loads((pathlib.Path(folder) / "body.toml").read_text(encoding="utf-8"))
+    rows = _Rows()
+    with open(poses, newline="", encoding="utf-8") as table:
+        reader = csv.DictReader(table)
+        for row in reader:
+            try:
+                rows.add_cells(row)
+            except (KeyError, TypeError, ValueError) as error:
+                raise ValueError(f"{poses}: line {reader.line_num}: {error!r}; a row of poses.csv is wanted") from error
+    sizes = {name.removesuffix("_mm"): size for name, size in body.get("sizes", {}).items()}
+    return rows.result(body["model"], body["stature_mm"], sizes)
+
+
+def read_log(path: Path, prefix: str | None = None, person: int | None = None) -> Result:
+    """Reads the poses in a log: of whoever had been followed the longest, or of one person.
+
+    @param prefix  what stands before the channels' names; None: whatever it is, if it is one.
+    @param person  number, as in read_people().
+    @raises ValueError  when it holds none, or those of several daemons.
+    """
+    if person is not None:
+        people = _read_people_log(path, prefix)
+        if person not in people:
+            raise ValueError(f"{path}: holds no person {person}; there are {sorted(people)}")
+        return people[person][1]
+    chosen = _choose_prefix(path, POSE, prefix)
+    decoder, rows = PoseDecoder(), _Rows()
+    for channel, data in read_events(path):
+        if channel == chosen + BODY:
+            decoder.take_body(data)
+        elif channel == chosen + POSE:
+            message = decoded(pose_t, data)
+            if message is not None:
+                rows.add_message(message, message.utime, message.frame)
+    return _result_of(path, rows, decoder.body)
+
+
+def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Result]:
+    """Reads everybody out of a folder of `mocap track --people`, or out of a log.
+
+    @return  by "person-1" and so on; out of a log by the person's name, for whoever has one.
+    """
+    folder = pathlib.Path(folder_or_log)
+    if folder.is_dir():
+        numbers = sorted(int(path.name.removeprefix("person-")) for path in folder.glob("person-*")
+                         if path.name.removeprefix("person-").isdecimal())
+        return {f"person-{number}": read_result(folder / f"person-{number}") for number in numbers}
+    people = _read_people_log(folder, prefix)
+    return {name or f"person-{number}": result for number, (name, result) in people.items()}
+
+
+def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Result]]:
+    """By number. Whom a daemon follows after it was started again is somebody else, with a number above all before."""
+    chosen = _choose_prefix(path, PEOPLE, prefix)
+    rows: dict[int, _Rows] = {}
+    names: dict[int, str] = {}
+    bodies: dict[int, Body] = {}
+    decoder = PoseDecoder()
+    before, frame = 0, -1
+    for channel, data in read_events(path):
+        if channel == chosen + BODIES:
+            decoder.take_person_body(data)
+            bodies |= {before + number: body for number, body in decoder.bodies.items() if before + number in rows}
+        elif channel == chosen + PEOPLE:
+            people = decoded(people_t, data)
+            if people is None:
+                continue
+            if people.frame < frame:
+                before, decoder = max(rows, default=0), PoseDecoder()
+            frame = people.frame
+            for person in people.people:
+                rows.setdefault(before + person.id, _Rows()).add_message(person, people.utime, people.frame)
+                names[before + person.id] = person.name
+    return {number: (names[number], _result_of(path, rows[number], bodies[number])) for number in sorted(rows)
+            if number in bodies}
+
+
+def _result_of(path: Path, rows: _Rows, body: Body | None) -> Result:
+    if body is None:
+        raise ValueError(f"{path}: holds no body of mocapd's; a log of its messages is wanted")
+    return rows.result(body.model, body.stature_mm, body.sizes_mm, body.joint_names)
+
+
+def _choose_prefix(path: Path, name: str, wanted: str | None) -> str:
+    found = {channel.removesuffix(name) for channel, _ in read_events(path) if channel.endswith(name)}
+    if wanted is None and len(found) == 1:
+        return found.pop()
+    if wanted is None and found:
+        raise ValueError(f"{path}: holds several daemons' messages; a prefix of {sorted(found)} is wanted")
+    if wanted is None or wanted not in found:
+        raise ValueError(f"{path}: holds no {wanted or ''}{name}; a log of mocapd's messages is wanted")
+    return wanted
+
+
+class _Rows:
+    """Rows of a result, as they are read."""
+
+    def __init__(self) -> None:
+        self.heads: list[tuple[int, int, str]] = []
+        self.poses: list[tuple[np.ndarray, ...] | None] = []
+
+    def add_cells(self, row: dict[str, str]) -> None:
+        def numbers(names: Iterable[str]) -> np.ndarray:
+            return np.array([float(row[name]) for name in names])
+        self.heads.append((int(row["frame"]), int(row["timestamp_ns"]), row["state"]))
+        if row["state"] != TRACKING:
+            self.poses.append(None)
+            return
+        axis, angle = numbers(f"torso_axis_{axis}" for axis in "xyz"), float(row["torso_angle_rad"])
+        points = numbers(f"{name}_{axis}_mm" for name in POINT_NAMES for axis in "xyz").reshape(-1, 3)
+        self.poses.append((points[0], rotation_matrix(axis, angle),
+                           numbers(f"theta_{i + 1}_rad" for i in range(PAPER_ANGLES)), points,
+                           np.array(float(row["residual_mm"])), np.empty(0)))
+
+    def add_message(self, message: Any, utime: int, frame: int) -> None:
+        state = state_name(message.state)
+        head = (frame, utime * 1000, state)
+        came_before = bool(self.heads) and self.heads[-1] == head
+        if came_before or not is_time(utime):
+            return
+        self.heads.append(head)
+        self.poses.append(None if state != TRACKING else (
+            np.array(message.torso_mm), rotation_matrix(message.torso_axis, message.torso_angle_rad),
+            np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
+            np.array(message.joint_rad)))
+
+    def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float],
+               joint_names: tuple[str, ...] = ()) -> Result:
+        shapes = ((3,), (3, 3), (PAPER_ANGLES,), (len(POINT_NAMES), 3), (), (len(joint_names),))
+        columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
+        for i, pose in enumerate(self.poses):
+            if pose is None:
+                continue
+            for column, value in zip(columns, pose):
+                # Joints of another body, which the person had before, have no column.
+                if column[i].shape == value.shape:
+                    column[i] = value
+        frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
+        torso_mm, rotation, theta, points, residual, joints = columns
+        return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
+                      timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
+                      torso_rotation=rotation, theta_rad=theta, points_mm=points, residual_mm=residual,
+                      joint_names=joint_names, joints_rad=joints)

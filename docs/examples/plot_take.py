@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""Plots a hand's path and how elbows and knees bend, of a result of `mocap track` or of a log. Needs matplotlib.
+
+usage: plot_take.py RESULT|LOG [PICTURE]      into a window, or a picture
+"""
+import os
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import mocapd
+
+# theta_k of the paper's Table 1, and the sign with which it bends.
+BENT = {"left elbow": ("theta_9", -1), "right elbow": ("theta_10", 1), "left knee": ("theta_15", 1), "right knee": ("theta_16", 1)}
+
+
+def plot(result):
+    figure = plt.figure(figsize=(11, 4.5), layout="constrained")
+    path = figure.add_subplot(1, 2, 1, projection="3d")
+    for side, name in (("left", "fingertips_l"), ("right", "fingertips_r")):
+        path.plot(*(result.point(name).T / 1000), label=side + " hand")
+    path.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", title="Paths of the hands")
+    path.set_aspect("equal")
+    path.locator_params(nbins=4)
+    path.legend()
+    angles = figure.add_subplot(1, 2, 2)
+    for name, (theta, sign) in BENT.items():
+        angles.plot(result.time_s, np.degrees(sign * result.angle(theta)), label=name)
+    angles.set(xlabel="time [s]", ylabel="bent by [°]", title="Elbows and knees")
+    angles.grid(alpha=0.3)
+    angles.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=4)
+    return figure
+
+
+def main():
+    path, *picture = sys.argv[1:]
+    result = mocapd.read_result(path) if os.path.isdir(path) else mocapd.read_log(path)
+    figure = plot(result)
+    figure.savefig(picture[0], dpi=120) if picture else plt.show()
+
+
+if __name__ == "__main__":
+    main()

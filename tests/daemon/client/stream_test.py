@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+"""`mocap stream json` and `mocap export` beside the Python package: two readers that share no line have to agree, and with what
+`mocap track` leaves.
+"""
+import csv
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import mocapd
+from client_log import BIN, TrackedTake, free_group, mocap, need_multicast
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/examples")
+ROUNDED_MM, ROUNDED_RAD = 6e-4, 6e-7
+
+
+def lines_of(log, *words):
+    return [json.loads(line) for line in mocap("stream", "json", "--url", f"file://{log}?speed=0", *words).splitlines()]
+
+
+def example(name, *words):
+    return subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, name), *words], check=True, capture_output=True,
+                          text=True, env={**os.environ, "MPLBACKEND": "Agg"}).stdout
+
+
+class StreamTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.take = cls.enterClassContext(TrackedTake(people=2))
+        cls.log = cls.take.log
+
+    def assert_same(self, lines, poses):
+        self.assertEqual([(line["utime"], line["frame"], line["state"]) for line in lines],
+                         [(pose.utime, pose.frame, pose.state) for pose in poses])
+        for line, pose in zip(lines, poses):
+            self.assertEqual("points_mm" in line, pose.is_tracked)
+            if not pose.is_tracked:
+                continue
+            self.assertEqual(tuple(line["joints_rad"]), pose.body.joint_names)
+            self.assertEqual(tuple(line["points_mm"]), mocapd.POINT_NAMES)
+            np.testing.assert_allclose(list(line["points_mm"].values()), pose.points_mm, rtol=0, atol=ROUNDED_MM)
+            np.testing.assert_allclose(list(line["points_std_mm"].values()), pose.points_std_mm, rtol=0, atol=ROUNDED_MM)
+            np.testing.assert_allclose(list(line["joints_rad"].values()), pose.joints_rad, rtol=0, atol=ROUNDED_RAD)
+            np.testing.assert_allclose(line["torso_rotation"], pose.torso_rotation, rtol=0, atol=ROUNDED_RAD)
+            np.testing.assert_allclose(line["torso_mm"], pose.torso_mm, rtol=0, atol=ROUNDED_MM)
+
+    def test_lines_are_what_python_hears(self):
+        lines = lines_of(self.log)
+        self.assertGreater(sum(line["state"] == "tracking" for line in lines), 20)
+        self.assert_same(lines, list(mocapd.listen("file://" + self.log)))
+
+    def test_a_running_daemon_is_heard_by_both(self):
+        need_multicast(self)
+        url = free_group()
+        stream = subprocess.Popen([os.path.join(BIN, "mocap"), "stream", "json", "--url", url], stdout=subprocess.PIPE, text=True)
+        daemon = self.take.daemon(url, rate="realtime", loop="true")
+        try:
+            # From then on it hears all that is heard here.
+            while json.loads(stream.stdout.readline())["state"] != "tracking":
+                pass
+            heard = mocapd.listen(url, timeout_s=60)
+            poses = [next(pose for pose in heard if pose.is_tracked) for _ in range(5)]
+            wanted = {pose.utime for pose in poses}
+            lines = {}
+            while not wanted <= set(lines):
+                line = json.loads(stream.stdout.readline())
+                lines[line["utime"]] = line
+            self.assert_same([lines[pose.utime] for pose in poses], poses)
+            stream.send_signal(signal.SIGINT)
+            self.assertEqual(stream.wait(30), 0)
+        finally:
+            for process in (stream, daemon):
+                process.kill()
+                process.communicate()
+
+    def test_everybody_has_lines(self):
+        lines = lines_of(self.log, "--people")
+        poses = [pose for people in mocapd.listen_people("file://" + self.log) for pose in people]
+        self.assertEqual({line["person"] for line in lines}, {1, 2})
+        self.assertEqual([line["person"] for line in lines], [pose.person for pose in poses])
+        self.assert_same(lines, poses)
+
+    def test_one_person_is_chosen(self):
+        lines = [line for line in lines_of(self.log, "--person", "2") if line["state"] == "tracking"]
+        self.assertGreater(len(lines), 5)
+        self.assert_same(lines, [pose for pose in mocapd.listen("file://" + self.log, person=2) if pose.is_tracked])
+
+    def test_who_has_read_enough_ends_it_quietly(self):
+        with subprocess.Popen([os.path.join(BIN, "mocap"), "stream", "json", "--url", f"file://{self.log}?speed=0"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as stream:
+            stream.stdout.readline()
+            stream.stdout.close()
+            self.assertEqual(stream.stderr.read(), b"")
+            self.assertEqual(stream.wait(), 0)
+
+    def test_a_log_reads_as_mocap_export_reads_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = os.path.join(folder, "out.csv")
+            mocap("export", self.log, "--format", "csv", "--out", table)
+            with open(table, newline="") as lines:
+                rows = list(csv.DictReader(lines))
+            result = mocapd.read_log(self.log)
+            self.assertEqual(len(result), len(rows))
+            for i, row in enumerate(rows):
+                self.assertEqual((result.frame[i], result.state[i]), (int(row["frame"]), row["state"]))
+                self.assertEqual(result.timestamp_ns[i], int(row["utime_us"]) * 1000)
+                if not result.is_tracked[i]:
+                    continue
+                points = [[float(row[f"{name}_{axis}_mm"]) for axis in "xyz"] for name in mocapd.POINT_NAMES]
+                np.testing.assert_allclose(result.points_mm[i], points, rtol=0, atol=ROUNDED_MM)
+                theta = [float(row[f"theta_{k + 1}_rad"]) for k in range(16)]
+                np.testing.assert_allclose(result.theta_rad[i], theta, rtol=0, atol=ROUNDED_RAD)
+
+    def test_people_have_the_names_that_mocap_export_gives(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mocap("export", self.log, "--people", "--format", "csv", "--out", os.path.join(folder, "out.csv"))
+            files = sorted(os.listdir(folder))
+        self.assertEqual(files, [f"out-{name}.csv" for name in sorted(mocapd.read_people(self.log))])
+
+    def test_the_examples_work(self):
+        hands = example("follow_pose.py", "file://" + self.log).splitlines()
+        tracked = [pose for pose in mocapd.listen("file://" + self.log) if pose.is_tracked]
+        self.assertEqual(len(hands), len(tracked))
+        self.assertIn("%6.0f %6.0f %6.0f mm   right" % tuple(tracked[-1].point("fingertips_l")), hands[-1])
+        with tempfile.TemporaryDirectory() as folder:
+            picture = os.path.join(folder, "take.png")
+            example("plot_take.py", self.log, picture)
+            with open(picture, "rb") as file:
+                self.assertEqual(file.read(4), b"\x89PNG")
+
+    def test_results_of_mocap_track_read_as_their_tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mocap("track", self.take.take, "--people", "2", "--out", folder)
+            people = mocapd.read_people(folder)
+            self.assertEqual(list(people), ["person-1", "person-2"])
+            for name, result in people.items():
+                table = os.path.join(folder, name, "poses.csv")
+                with open(table, newline="") as lines:
+                    rows = list(csv.DictReader(lines))
+                self.assertEqual(len(result), len(rows))
+                self.assertGreater(result.is_tracked.sum(), 20)
+                hand = [float(row["fingertips_r_z_mm"]) if row["state"] == "tracking" else np.nan for row in rows]
+                np.testing.assert_array_equal(result.point("fingertips_r")[:, 2], hand)
+                self.assertGreater(result.sizes_mm["thigh"], 200)
+                with open(table, "a") as damaged:
+                    damaged.write("1,2,tracking,x\n")
+                with self.assertRaisesRegex(ValueError, f"poses.csv: line {len(rows) + 2}: .*is wanted"):
+                    mocapd.read_result(os.path.dirname(table))
+
+
+if __name__ == "__main__":
+    unittest.main()
