@@ -116,10 +116,10 @@ class OscStream {
   const BodyModel* BodyOf(const body_t& message) {
     const std::optional<BodyRecord> record = BodyRecordOf(message);
     if (!record) return nullptr;
-    const bool is_same = record->model == record_.model && record->sizes == record_.sizes;
-    if (!is_same) {
-      record_ = *record;
-      body_ = ModelOf(record_);
+    if (body_ && body_->table().name == record->model && AreSizes(record->sizes)) {
+      body_->Resize(record->sizes);
+    } else {
+      body_ = ModelOf(*record);
     }
     return body_ ? &*body_ : nullptr;
   }
@@ -128,8 +128,7 @@ class OscStream {
   VmcSender sender_;
   Notice unknown_, trouble_;
   std::optional<std::int64_t> begin_us_;
-  BodyRecord record_;
-  std::optional<BodyModel> body_;  ///< Of the record.
+  std::optional<BodyModel> body_;
 };
 
 void StreamOsc(const StreamOptions& options) {

@@ -121,6 +121,17 @@ TEST_F(PoseFeedTest, WhatIsNoNumberIsPassedOver) {
   pose = Pose(1);
   pose.utime = std::numeric_limits<std::int64_t>::max();
   Publish("MOCAP_POSE", pose);
+  pose = Pose(1);
+  body_t body = BodyMessage(body_);
+  pose.num_joints = body.num_joints = 1000;
+  for (auto* angles : {&pose.joint_rad, &body.joint_min_rad, &body.joint_max_rad})
+    angles->resize(1000);
+  body.joint_name.resize(1000);
+  body.joint_parent.resize(1000);
+  body.joint_axis.resize(1000, std::vector<double>(3));
+  body.joint_place_mm.resize(1000, std::vector<double>(3));
+  Publish("MOCAP_BODY", body);
+  Publish("MOCAP_POSE", pose);
   EXPECT_TRUE(lines_.empty());
 }
 
