@@ -96,6 +96,15 @@ LcmUrl Multicast(const std::string& url, std::string_view place, const std::vect
   return address;
 }
 
+double Speed(const std::string& url, std::string_view text) {
+  constexpr double kSlowest = 0.001, kFastest = 1e6;
+  double speed = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (is_number && (speed == 0 || (speed >= kSlowest && speed <= kFastest))) return speed;
+  Fail(url, "has speed=" + std::string(text) + "; 0 or a number from 0.001 to 1000000 is wanted");
+}
+
 LcmUrl File(const std::string& url, std::string_view place, const std::vector<Option>& options) {
   LcmUrl address{.provider = LcmProvider::kFile, .host = {}, .file = std::string(place)};
   if (address.file.empty()) Fail(url, "names no file");
@@ -105,8 +114,10 @@ LcmUrl File(const std::string& url, std::string_view place, const std::vector<Op
         Fail(url, "has mode=" + std::string(option.value) + "; w, a or r is wanted");
       }
       address.is_written = option.value != "r";
-    } else if (option.key != "speed" && option.key != "start_timestamp") {
-      Fail(url, "has the unknown option " + std::string(option.key) + "; mode=w is wanted");
+    } else if (option.key == "speed") {
+      address.speed = Speed(url, option.value);
+    } else {
+      Fail(url, "has the unknown option " + std::string(option.key) + "; mode or speed is wanted");
     }
   }
   return address;

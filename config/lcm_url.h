@@ -19,6 +19,7 @@ struct LcmUrl {
   std::uint16_t port = 0;   ///< Likewise.
   std::string file;         ///< Of kFile.
   bool is_written = false;  ///< Of kFile: it is written, not read.
+  double speed = 1;         ///< Of a log that is read: 0 as fast as can be.
 };
 
 /// Takes an LCM address apart.

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -14,6 +15,7 @@
 
 #include "config/config.h"
 #include "config/lcm_url.h"
+#include "core/errors.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
@@ -21,6 +23,7 @@
 #include "tools/results/message_body.h"
 #include "tools/results/pose_log.h"
 #include "tools/stop_on_signals.h"
+#include "tools/stream/log_player.h"
 #include "tools/stream/pose_feed.h"
 #include "tools/stream/pose_json.h"
 #include "tools/stream/vmc_sender.h"
@@ -50,21 +53,40 @@ class Notice {
   std::string told_;
 };
 
-/// Hands on poses until a signal comes, a log ends, or nobody wants any more.
-void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
-  StopOnSignals();
+/// Hands on poses until a signal comes, or nobody wants any more.
+void StreamLive(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
   const std::unique_ptr<lcm::LCM> lcm = OpenLcm(options.url);
-  const bool is_log = ParseLcmUrl(options.url).provider == LcmProvider::kFile;
   PoseFeed feed(*lcm, options.feed, take);
   Notice silence;
   while (!StopAsked() && !is_over) {
-    if (lcm->handleTimeout(kWaitMs) < 0) {
-      if (is_log || StopAsked()) return;
-      throw std::runtime_error(Printable(options.url) + ": LCM cannot go on");
+    if (lcm->handleTimeout(kWaitMs) < 0 && !StopAsked()) {
+      throw std::runtime_error(options.url + ": LCM cannot go on");
     }
     const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
-    silence.Tell(is_silent && !is_log ? SilenceText(options.url) : "");
+    silence.Tell(is_silent ? SilenceText(options.url) : "");
   }
+}
+
+/// The same until a log ends.
+void StreamLog(const LcmUrl& log, const StreamOptions& options, const PoseFeed::Take& take,
+               const bool& is_over) {
+  if (log.is_written) throw SetupError("--url: " + options.url + " is written; mode=r is wanted");
+  LogPlayer player(log.file, log.speed);
+  PoseFeed feed(player.lcm(), options.feed, take);
+  while (!StopAsked() && !is_over && player.Play(std::chrono::milliseconds(kWaitMs))) {
+  }
+}
+
+void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
+  StopOnSignals();
+  LcmUrl address;
+  try {
+    address = ParseLcmUrl(options.url);
+  } catch (const SetupError& error) {
+    throw SetupError(std::string("--url: ") + error.what());
+  }
+  address.provider == LcmProvider::kFile ? StreamLog(address, options, take, is_over)
+                                         : StreamLive(options, take, is_over);
 }
 
 void StreamJson(const StreamOptions& options) {

@@ -64,6 +64,7 @@ bool LogReader::ReadEvent(std::int64_t place, LoggedMessage& message) {
   std::array<std::uint8_t, kHead> head{};
   if (!IsMark(place) || !ReadAt(place, head.data(), head.size())) return false;
   message.number = NumberIn<std::int64_t>(head, 4);
+  message.utime = NumberIn<std::int64_t>(head, 12);
   const auto channel = NumberIn<std::int32_t>(head, 20);
   const auto data = NumberIn<std::int32_t>(head, 24);
   const std::int64_t rest = size_ - place - kHead;

@@ -13,6 +13,7 @@ namespace mocap {
 /// One message of a log.
 struct LoggedMessage {
   std::int64_t number = 0;
+  std::int64_t utime = 0;  ///< When it was logged, whatever clock that was by.
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };

@@ -25,6 +25,8 @@ TEST(LcmUrl, TakesApartWhatLcmKnows) {
   EXPECT_EQ(log.file, "/tmp/x.lcm");
   EXPECT_TRUE(log.is_written);
   EXPECT_FALSE(ParseLcmUrl("file:///tmp/x.lcm").is_written) << "LCM's default is to read";
+  EXPECT_EQ(ParseLcmUrl("file:///tmp/x.lcm").speed, 1);
+  EXPECT_EQ(ParseLcmUrl("file:///tmp/x.lcm?speed=0.5").speed, 0.5);
 }
 
 TEST(LcmUrl, RefusesWhatLcmPassesOver) {
@@ -43,6 +45,10 @@ TEST(LcmUrl, RefusesWhatLcmPassesOver) {
       {"tcpq://host", "no address with a port"},
       {"file://?mode=w", "names no file"},
       {"file:///tmp/x?mode=x", "mode=x"},
+      {"file:///tmp/x?speed=fast", "speed=fast"},
+      {"file:///tmp/x?speed=-1", "speed=-1"},
+      {"file:///tmp/x?speed=nan", "speed=nan"},
+      {"file:///tmp/x?speed=1e-9", "speed=1e-9"},
       {"memq://?ttl=0", "has options"}};
   for (const auto& [url, what] : wrong) {
     try {

@@ -57,6 +57,7 @@ TEST_F(LogReaderTest, GivesEveryMessage) {
   ASSERT_TRUE(reader.Next(message) && reader.Next(message));
   EXPECT_EQ(message.channel, "A");
   EXPECT_EQ(message.number, 1);
+  EXPECT_EQ(message.utime, 7);
 }
 
 TEST_F(LogReaderTest, GoesOnBehindDamageAndCountsIt) {

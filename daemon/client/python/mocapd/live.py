@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from urllib.parse import unquote, urlsplit
 
 from .lcm_log import read_events
 from .lcm_udp import receive
@@ -20,9 +19,8 @@ def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator
     @raises ValueError  for an address that is none. @raises OSError  where no group can be joined, or no file read.
     """
     address = url or DEFAULT_URL
-    parts = urlsplit(address)
-    if parts.scheme == "file":
-        return read_events(unquote(parts.netloc + parts.path))
+    if address.startswith("file://"):
+        return read_events(address.removeprefix("file://").partition("?")[0])
     return receive(address, timeout_s)
 
 
