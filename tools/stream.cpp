@@ -125,9 +125,8 @@ class OscStream {
     } else if (body && body->joint_count() == pose.message.num_joints) {
       sender_.SendPose(HumanoidPoseOf(*body, StateOf(pose.message)), time_s);
     } else {
-      unknown_.Tell(
-          "the body \"" + Shortened(pose.body->model, 40) +
-          "\" is not one of those built in, and has no bones; full or mikic2003 is wanted");
+      unknown_.Tell("the body \"" + Shortened(pose.body->model, 40) +
+                    "\" is not known here, or has sizes that are nobody's: no bones are sent");
       sender_.SendState(CaptureState::kAcquiring, time_s);
     }
     trouble_.Tell(sender_.trouble().empty() ? "" : to_ + ": " + sender_.trouble());

@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import signal
+import socket
 import subprocess
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ import mocapd
 from client_log import BIN, TrackedTake, free_group, mocap, need_multicast
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/examples")
+LAST_BONE = b"RightFoot\0"
 ROUNDED_MM, ROUNDED_RAD = 6e-4, 6e-7
 
 
@@ -97,6 +99,17 @@ class StreamTest(unittest.TestCase):
             stream.stdout.close()
             self.assertEqual(stream.stderr.read(), b"")
             self.assertEqual(stream.wait(), 0)
+
+    def test_bones_go_to_whoever_was_named(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
+            udp.bind(("127.0.0.1", 0))
+            udp.settimeout(60)
+            mocap("stream", "osc", "--to", "127.0.0.1:%d" % udp.getsockname()[1], "--url", f"file://{self.log}?speed=0")
+            heard = b""
+            while LAST_BONE not in heard:
+                heard += udp.recv(65536)
+        self.assertEqual(heard.count(b"/VMC/Ext/Root/Pos\0"), 1)
+        self.assertEqual(heard.count(b"/VMC/Ext/Bone/Pos\0"), 19)
 
     def test_a_log_reads_as_mocap_export_reads_it(self):
         with tempfile.TemporaryDirectory() as folder:
