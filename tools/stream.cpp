@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -11,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <string_view>
 
 #include "config/config.h"
 #include "config/lcm_url.h"
@@ -89,26 +90,30 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
                                          : StreamLive(options, take, is_over);
 }
 
+/// Writes to standard output at once, however slowly it is read.
+/// @return  false when nobody reads any more, or a signal has come.
+bool Print(std::string_view text) {
+  while (!text.empty() && !StopAsked()) {
+    const ssize_t written = write(STDOUT_FILENO, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno == EPIPE) {
+      return false;
+    } else if (errno != EINTR) {
+      throw std::runtime_error(std::string("standard output cannot be written: ") +
+                               std::strerror(errno));
+    }
+  }
+  return !StopAsked();
+}
+
 void StreamJson(const StreamOptions& options) {
   signal(SIGPIPE, SIG_IGN);
   bool is_over = false;
-  Stream(
-      options,
-      [&is_over](const StreamedPose& pose) {
-        if (is_over) return;
-        const std::string line = PoseJson(pose) + '\n';
-        const bool is_written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size() &&
-                                std::fflush(stdout) == 0;
-        if (is_written) return;
-        if (errno != EPIPE) {
-          throw std::runtime_error(std::string("standard output cannot be written: ") +
-                                   std::strerror(errno));
-        }
-        // Whoever read has had enough, which is no failure.
-        std::clearerr(stdout);
-        is_over = true;
-      },
-      is_over);
+  const auto take = [&is_over](const StreamedPose& pose) {
+    is_over = is_over || !Print(PoseJson(pose) + '\n');
+  };
+  Stream(options, take, is_over);
 }
 
 /// Poses as an avatar's bones.

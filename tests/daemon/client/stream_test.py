@@ -100,6 +100,14 @@ class StreamTest(unittest.TestCase):
             self.assertEqual(stream.stderr.read(), b"")
             self.assertEqual(stream.wait(), 0)
 
+    def test_an_interrupt_ends_it_though_nobody_reads(self):
+        with subprocess.Popen([os.path.join(BIN, "mocap"), "stream", "json", "--url", f"file://{self.log}?speed=0"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as stream:
+            stream.stdout.readline()
+            stream.send_signal(signal.SIGINT)
+            self.assertEqual(stream.wait(60), 0)
+            self.assertEqual(stream.stderr.read(), b"")
+
     def test_bones_go_to_whoever_was_named(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
             udp.bind(("127.0.0.1", 0))
