@@ -21,12 +21,11 @@
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
-#include "tools/results/message_body.h"
-#include "tools/results/pose_log.h"
 #include "tools/stop_on_signals.h"
 #include "tools/stream/log_player.h"
 #include "tools/stream/pose_feed.h"
 #include "tools/stream/pose_json.h"
+#include "tools/stream/streamed_bones.h"
 #include "tools/stream/vmc_sender.h"
 
 namespace mocap {
@@ -124,11 +123,11 @@ class OscStream {
   void Take(const StreamedPose& pose) {
     if (!begin_us_) begin_us_ = pose.message.utime;
     const double time_s = 1e-6 * static_cast<double>(pose.message.utime - *begin_us_);
-    const BodyModel* body = pose.is_tracked ? BodyOf(*pose.body) : nullptr;
-    if (!pose.is_tracked) {
+    const auto bones = pose.is_tracked ? bones_.Of(pose) : std::nullopt;
+    if (bones) {
+      sender_.SendPose(*bones, time_s);
+    } else if (!pose.is_tracked) {
       sender_.SendState(static_cast<CaptureState>(pose.message.state), time_s);
-    } else if (body && body->joint_count() == pose.message.num_joints) {
-      sender_.SendPose(HumanoidPoseOf(*body, StateOf(pose.message)), time_s);
     } else {
       unknown_.Tell("the body \"" + Shortened(pose.body->model, 40) +
                     "\" is not known here, or has sizes that are nobody's: no bones are sent");
@@ -138,23 +137,11 @@ class OscStream {
   }
 
  private:
-  /// Null: it has no bones.
-  const BodyModel* BodyOf(const body_t& message) {
-    const std::optional<BodyRecord> record = BodyRecordOf(message);
-    if (!record) return nullptr;
-    if (body_ && body_->table().name == record->model && AreSizes(record->sizes)) {
-      body_->Resize(record->sizes);
-    } else {
-      body_ = ModelOf(*record);
-    }
-    return body_ ? &*body_ : nullptr;
-  }
-
   const std::string to_;
   VmcSender sender_;
   Notice unknown_, trouble_;
+  StreamedBones bones_;
   std::optional<std::int64_t> begin_us_;
-  std::optional<BodyModel> body_;
 };
 
 void StreamOsc(const StreamOptions& options) {
