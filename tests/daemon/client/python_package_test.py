@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -294,6 +295,23 @@ class ReadLogTest(LogTest):
         self.log.add("OTHER", b"x").write()
         with self.assertRaisesRegex(ValueError, "holds no MOCAP_POSE"):
             mocapd.read_log(self.log.path)
+
+    def test_numbers_that_are_none_are_passed_over(self):
+        self.whole()
+        for name, value in (("torso_angle_rad", float("inf")), ("residual_mm", float("nan")), ("utime", 2**63 - 1)):
+            wrong = pose_message(10)
+            setattr(wrong, name, value)
+            self.log.add("MOCAP_POSE", wrong)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(list(mocapd.read_log(self.log.write()).frame), [0, 1, 2, 3, 4, 5])
+
+    def test_who_has_anothers_name_has_a_number(self):
+        for number in (1, 2):
+            self.log.add("MOCAP_BODIES", person_body_message(number))
+        self.log.add("MOCAP_PEOPLE", people_message(0, [(1, "anna")])).add("MOCAP_BODIES", person_body_message(1))
+        self.log.add("MOCAP_PEOPLE", people_message(1, [(2, "anna")])).add("MOCAP_BODIES", person_body_message(2))
+        self.assertEqual(list(mocapd.read_people(self.log.write())), ["anna", "person-2"])
 
     def test_people_are_told_apart_and_from_those_of_another_run(self):
         for number in (1, 2):

@@ -38,6 +38,13 @@ def is_time(utime: int) -> bool:
     return 0 <= utime <= LATEST_US
 
 
+def has_numbers(message: Any) -> bool:
+    """Whether the numbers of a pose_t or person_t are any."""
+    parts = (message.torso_mm, message.torso_axis, message.torso_angle_rad, message.theta_rad, message.joint_rad, message.point_mm,
+             message.point_std_mm, message.residual_mm)
+    return all(np.isfinite(part).all() for part in parts)
+
+
 def state_name(number: int) -> str:
     return STATES[min(max(number, 0), len(STATES) - 1)]
 
@@ -117,15 +124,13 @@ class Pose:
             return None
         if state != TRACKING:
             return cls.untracked(utime, frame, state, person, name)
-        if body is None or len(body.joint_names) != message.num_joints:
+        if body is None or len(body.joint_names) != message.num_joints or not has_numbers(message):
             return None
-        pose = cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
+        return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
                    torso_mm=np.array(message.torso_mm), joints_rad=np.array(message.joint_rad),
                    torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
                    points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
                    residual_mm=message.residual_mm)
-        numbers = (pose.torso_mm, pose.torso_rotation, pose.joints_rad, pose.points_mm)
-        return pose if all(np.isfinite(array).all() for array in numbers) else None
 
     @classmethod
     def untracked(cls, utime: int, frame: int, state: str, person: int | None, name: str) -> Pose:

@@ -14,7 +14,7 @@ import numpy as np
 from .lcm_log import read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, is_time, rotation_matrix, state_name
+from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, rotation_matrix, state_name
 
 if TYPE_CHECKING:
     import pandas
@@ -89,7 +89,7 @@ def read_result(folder: Path) -> Result:
         for row in reader:
             try:
                 rows.add_cells(row)
-            except (KeyError, TypeError, ValueError) as error:
+            except (KeyError, TypeError, ValueError, OverflowError) as error:
                 raise ValueError(f"{poses}: line {reader.line_num}: {error!r}; a row of poses.csv is wanted") from error
     sizes = {name.removesuffix("_mm"): size for name, size in body.get("sizes", {}).items()}
     return rows.result(body["model"], body["stature_mm"], sizes)
@@ -122,15 +122,18 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
 def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Result]:
     """Reads everybody out of a folder of `mocap track --people`, or out of a log.
 
-    @return  by "person-1" and so on; out of a log by the person's name, for whoever has one.
+    @return  by "person-1" and so on; out of a log by the person's name, for whoever has one of his own.
     """
     folder = pathlib.Path(folder_or_log)
     if folder.is_dir():
         numbers = sorted(int(path.name.removeprefix("person-")) for path in folder.glob("person-*")
                          if path.name.removeprefix("person-").isdecimal())
         return {f"person-{number}": read_result(folder / f"person-{number}") for number in numbers}
-    people = _read_people_log(folder, prefix)
-    return {name or f"person-{number}": result for number, (name, result) in people.items()}
+    results: dict[str, Result] = {}
+    for number, (name, result) in _read_people_log(folder, prefix).items():
+        # Two may have had the same name one after the other.
+        results[name if name and name not in results else f"person-{number}"] = result
+    return results
 
 
 def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Result]]:
@@ -154,7 +157,7 @@ def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Res
             frame = people.frame
             for person in people.people:
                 rows.setdefault(before + person.id, _Rows()).add_message(person, people.utime, people.frame)
-                names[before + person.id] = person.name
+                names[before + person.id] = person.name or names.get(before + person.id, "")
     return {number: (names[number], _result_of(path, rows[number], bodies[number])) for number in sorted(rows)
             if number in bodies}
 
@@ -180,13 +183,13 @@ class _Rows:
     """Rows of a result, as they are read."""
 
     def __init__(self) -> None:
-        self.heads: list[tuple[int, int, str]] = []
+        self.heads: list[tuple[int | np.int64, int | np.int64, str]] = []
         self.poses: list[tuple[np.ndarray, ...] | None] = []
 
     def add_cells(self, row: dict[str, str]) -> None:
         def numbers(names: Iterable[str]) -> np.ndarray:
             return np.array([float(row[name]) for name in names])
-        self.heads.append((int(row["frame"]), int(row["timestamp_ns"]), row["state"]))
+        self.heads.append((np.int64(int(row["frame"])), np.int64(int(row["timestamp_ns"])), row["state"]))
         if row["state"] != TRACKING:
             self.poses.append(None)
             return
@@ -200,7 +203,7 @@ class _Rows:
         state = state_name(message.state)
         head = (frame, utime * 1000, state)
         came_before = bool(self.heads) and self.heads[-1] == head
-        if came_before or not is_time(utime):
+        if came_before or not is_time(utime) or not has_numbers(message):
             return
         self.heads.append(head)
         self.poses.append(None if state != TRACKING else (
