@@ -9,6 +9,7 @@ the host of mocapd, send the poses here:
 It listens to the VMC protocol (OSC over UDP). The armature has the person's sizes and the names of Unity's bones, and faces -y
 when the person faces x in the studio, as imported BVH and glTF do.
 """
+import math
 import socket
 import struct
 
@@ -28,6 +29,7 @@ bl_info = {
 PORT = 39539
 PERIOD_S = 1 / 60
 MOST_NESTED = 4
+SHORTEST_BONE = 0.01  # Blender removes bones of no length.
 
 # Each bone's parent, which stands before it.
 PARENTS = {
@@ -121,14 +123,18 @@ class Receiver:
         if address == "/VMC/Ext/OK":
             self.is_tracked = arguments[-1:] == [1]
             self.coming = {}
-        elif address == "/VMC/Ext/T" and arguments:
+        elif address == "/VMC/Ext/T" and are_numbers(arguments[:1], 1):
             self.time_s = arguments[0]
-        elif address == "/VMC/Ext/Bone/Pos" and len(arguments) >= 8 and arguments[0] in PARENTS:
+        elif address == "/VMC/Ext/Bone/Pos" and arguments[:1] and arguments[0] in PARENTS and are_numbers(arguments[1:8], 7):
             name, x, y, z, qx, qy, qz, qw = arguments[:8]
             self.coming[name] = transform((x, y, z), (qw, qx, qy, qz))
             if len(self.coming) == len(PARENTS):
                 self.pose, self.pose_time_s = self.coming, self.time_s
                 self.coming = {}
+
+
+def are_numbers(arguments, count):
+    return len(arguments) == count and all(isinstance(number, float) and math.isfinite(number) for number in arguments)
 
 
 def transform(position, quaternion):
@@ -165,6 +171,8 @@ def make_armature(pose):
         else:
             direction, share = ENDS[name]
             bone.tail = rest[name] + direction * share * (rest[name] - rest[parent]).length
+        if bone.length < SHORTEST_BONE:
+            bone.tail = bone.head + Vector((0, 0, SHORTEST_BONE))
         bone.parent = data.edit_bones[parent] if parent else None
     bpy.ops.object.mode_set(mode="OBJECT")
     for bone in armature.pose.bones:
@@ -181,8 +189,13 @@ def apply_pose(armature, pose):
         rest = bone.bone.matrix_local
         turned = joints[name].to_3x3() @ rest.to_3x3()
         posed[name] = Matrix.Translation(joints[name].translation) @ turned.to_4x4()
-        unposed = posed[parent] @ bone.parent.bone.matrix_local.inverted() @ rest if parent else rest
-        bone.matrix_basis = unposed.inverted() @ posed[name]
+        unposed = posed[parent] @ bone.parent.bone.matrix_local.inverted_safe() @ rest if parent else rest
+        bone.matrix_basis = unposed.inverted_safe() @ posed[name]
+
+
+def has_bones(thing):
+    """Whether it is there and nobody has taken a bone away."""
+    return thing is not None and thing.type == "ARMATURE" and set(PARENTS) <= set(thing.pose.bones.keys())
 
 
 class LiveBody:
@@ -198,9 +211,9 @@ class LiveBody:
             return False
         pose = self.receiver.pose
         armature = bpy.data.objects.get(self.armature_name or "")
-        if armature is None and bpy.context.mode != "OBJECT":
-            return False  # Somebody is editing; bones are made in edit mode too.
-        if armature is None:
+        if not has_bones(armature):
+            if bpy.context.mode != "OBJECT":
+                return False  # Somebody is editing; bones are made in edit mode too.
             armature = make_armature(pose)
             self.armature_name = armature.name
         apply_pose(armature, pose)

@@ -7,6 +7,7 @@ Blender runs this file too, with what it needs after "--".
 import json
 import os
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,14 @@ FEWEST_POSES = 20
 POINTS = {"Spine": "torso", "Neck": "neck", "LeftUpperArm": "shoulder_l", "RightUpperArm": "shoulder_r", "LeftLowerArm": "elbow_l",
           "RightLowerArm": "elbow_r", "LeftUpperLeg": "hip_l", "RightUpperLeg": "hip_r", "LeftLowerLeg": "knee_l",
           "RightLowerLeg": "knee_r"}
+
+
+def osc(address, *arguments):
+    def text(value):
+        return value.encode() + b"\0" * (4 - len(value) % 4)
+    kinds = {str: "s", float: "f", int: "i"}
+    packed = [text(value) if isinstance(value, str) else struct.pack(">" + kinds[type(value)], value) for value in arguments]
+    return text(address) + text("," + "".join(kinds[type(value)] for value in arguments)) + b"".join(packed)
 
 
 def in_blender(mocap, log, port):
@@ -42,8 +51,14 @@ def in_blender(mocap, log, port):
     for garbage in (b"", b"#bundle\0", b"\xff" * 100, b"/VMC/Ext/Bone/Pos\0\0\0,sf\0Hips",
                     b"#bundle\0" + b"\0" * 8 + b"\x7f\xff\xff\xff"):
         stranger.sendto(garbage, ("127.0.0.1", port))
-    stream = subprocess.Popen([mocap, "stream", "osc", "--to", f"127.0.0.1:{port}", "--url", f"file://{log}"])
     live = mocapd_live.live_body
+    # Neither must whole poses of nothing, nor an armature that lost a bone.
+    for number in ("x", float("nan"), 0.0):
+        for bone in mocapd_live.PARENTS:
+            stranger.sendto(osc("/VMC/Ext/Bone/Pos", bone, *[number] * 7), ("127.0.0.1", port))
+        assert live.poll() == (number == 0.0), number
+    bpy.data.objects.remove(bpy.data.objects["mocapd"])
+    stream = subprocess.Popen([mocap, "stream", "osc", "--to", f"127.0.0.1:{port}", "--url", f"file://{log}"])
     worst, poses = 0.0, 0
     while stream.poll() is None or live.receiver.poll():
         if not live.poll():
