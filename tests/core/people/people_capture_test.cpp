@@ -218,7 +218,9 @@ TEST_F(Room, WhoIsKnownBySizesHasTheNameOnceMeasured) {
   for (const PersonView& person : people_.people()) {
     const bool is_anna = person.capture->body().sizes().Stature() < 1725;
     EXPECT_EQ(person.name, is_anna ? "anna" : "");
-    if (is_anna) EXPECT_TRUE(person.certainty >= kSureOfName && person.certainty < 1);
+    if (!is_anna) continue;
+    EXPECT_GE(person.certainty, kSureOfName);
+    EXPECT_LT(person.certainty, 1);
   }
 }
 
