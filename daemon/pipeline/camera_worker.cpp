@@ -88,6 +88,7 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
+  out.shading = segmenter_.shading();
   TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   out.is_blind = NoteConditions(out.silhouette);

@@ -29,6 +29,7 @@ inline constexpr int kMostRays = 2 * kRaysPerPerson;
 struct SegmentedFrame {
   Silhouette silhouette;
   Outline outline;      ///< The silhouette's border.
+  Shading shading;      ///< What the picture tells of shadows.
   RigidTransform X_CW;  ///< Where the camera stood.
   std::int64_t capture_ns = 0;
   std::uint64_t sequence = 0;

@@ -24,8 +24,12 @@ CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
 }
 
 CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
-                       const CarvingOptions& options, StageRecorders& recorders)
-    : synchronizer_(std::move(synchronizer)), carver_(options), recorders_(recorders) {
+                       const CarvingOptions& options, int rays, StageRecorders& recorders)
+    : synchronizer_(std::move(synchronizer)),
+      shadows_(cameras),
+      rays_(rays),
+      carver_(options),
+      recorders_(recorders) {
   MOCAP_CHECK(cameras.size() <= kMaxCameras);
   for (const CameraCalibration& camera : cameras) cameras_.emplace_back(camera);
   views_.reserve(cameras.size());
@@ -55,6 +59,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   }
   if (verdict != Synchronizer::Verdict::kSet) return verdict;
   const std::int64_t begin_ns = SteadyNs();
+  CompleteSilhouettes();
   Gather(set);
   if (load_control_) {
     load_control_->AddSet(set.capture_ns, set.complete_ns, TimelineNs(), synchronizer_.PeriodNs());
@@ -101,6 +106,24 @@ void CarveStage::PublishLoad() {
   for (int i = 0; i < camera_count(); ++i) {
     if (!synchronizer_.LetGoBefore(i, wanted_from_ns)) continue;
     cameras_[i].left_out.fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+// By what the cameras of a set see together.
+void CarveStage::CompleteSilhouettes() {
+  shaded_.clear();
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    SegmentedFrame& front = cameras_[i].front;
+    if (!synchronizer_.members()[i] || front.is_blind) continue;
+    shaded_.push_back(
+        {static_cast<int>(i), &cameras_[i].table, front.X_CW, &front.shading, &front.silhouette});
+  }
+  shadows_.Complete(shaded_);
+  for (const ShadedView& view : shaded_) {
+    if (!view.is_completed) continue;
+    Camera& camera = cameras_[static_cast<std::size_t>(view.camera)];
+    TraceOutline(camera.calibration, view.X_CW, camera.front.silhouette, rays_,
+                 camera.front.outline);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/carving/floor_shadows.h"
 #include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
@@ -42,8 +43,9 @@ CarvedSet RoomySet(std::size_t cameras, double voxel_mm);
 /// Matches silhouettes by time and carves each set. One thread; counters and wanted_from_ns: any.
 class CarveStage {
  public:
+  /// @param rays  of an outline, at the most.
   CarveStage(const std::vector<CameraCalibration>& cameras, Synchronizer synchronizer,
-             const CarvingOptions& options, StageRecorders& recorders);
+             const CarvingOptions& options, int rays, StageRecorders& recorders);
   /// Leaves out sets when there is too much to do. Without it, every set is carved.
   void ControlLoad() { load_control_.emplace(); }
   /// Offers copies of a set's silhouettes now and then; borrowed for the stage's life.
@@ -80,24 +82,29 @@ class CarveStage {
 
  private:
   struct Camera {
-    explicit Camera(const CameraCalibration& calibration) : table(calibration) {}
+    explicit Camera(const CameraCalibration& camera) : calibration(camera), table(camera) {}
 
-    SensorPlaneTable table;
+    const CameraCalibration calibration;
+    const SensorPlaneTable table;
     SegmentedFrame front;
     std::atomic<std::int64_t> late{0};
     std::atomic<std::int64_t> left_out{0};
   };
 
   void Gather(CarvedSet& set);
+  void CompleteSilhouettes();
   void OfferToWatch();
   void PublishLoad();
 
   std::deque<Camera> cameras_;  // Cameras with counters do not move.
   Synchronizer synchronizer_;
   std::optional<LoadControl> load_control_;
+  FloorShadows shadows_;
+  const int rays_;
   Carver carver_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
+  std::vector<ShadedView> shaded_;
   SetTap* seen_ = nullptr;
   Pacer seen_pacer_{HealthWatch::kHz};
   std::int64_t next_frame_ = 0;

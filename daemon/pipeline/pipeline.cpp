@@ -130,9 +130,10 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
                             .side = side_.get()}),
              options.latency_origin, sink, recorders_, studio.person) {
   const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
+  const int rays = kRaysPerPerson * FinenessFor(options.people);
   carve_ = std::make_unique<CarveStage>(
       calibrations, MakeSynchronizer(studio, options.overflow),
-      CarvingOptions{.voxel_mm = options.voxel_mm, .several_people = options.people > 1},
+      CarvingOptions{.voxel_mm = options.voxel_mm, .several_people = options.people > 1}, rays,
       recorders_);
   if (options.overflow == Overflow::kDropOldest) {
     carve_->ControlLoad();
@@ -147,7 +148,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     PreviewTap* preview = options.previews ? &options.previews->at(i) : nullptr;
     lines_.push_back(std::make_unique<CameraLine>(
         std::move(studio.cameras[i]), std::move(segmenters[i]), recorders_, std::move(taps),
-        preview, kRaysPerPerson * FinenessFor(options.people), options.overflow, carve_bell_));
+        preview, rays, options.overflow, carve_bell_));
   }
 }
 

@@ -73,7 +73,7 @@ class FramePathTest : public testing::Test {
     }
     carve_ = std::make_unique<CarveStage>(
         studio.cameras(), Synchronizer(kCameras, kPeriodNs, Synchronizer::kWaitForever),
-        CarvingOptions{.voxel_mm = 40}, recorders_);
+        CarvingOptions{.voxel_mm = 40}, kRaysPerPerson, recorders_);
   }
 
   // Brings one set on its way, perhaps without a camera; returns how many voxels there are.

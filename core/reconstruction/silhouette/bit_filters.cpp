@@ -28,6 +28,11 @@ void AddAll(const Word* from, std::size_t count, Word* to) {
   for (std::size_t i = 0; i < count; ++i) to[i] |= from[i];
 }
 
+MOCAP_VECTORIZED
+void RemoveAll(const Word* from, std::size_t count, Word* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] &= ~from[i];
+}
+
 // At least a row: pictures are 16384 pixels wide at most.
 constexpr int kMostWords = 256;
 
@@ -120,6 +125,11 @@ void Unite(const Silhouette& from, Silhouette& to) {
 void Intersect(const Silhouette& from, Silhouette& to) {
   MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
   KeepCommon(from.row(0), from.words().size(), to.row(0));
+}
+
+void Subtract(const Silhouette& from, Silhouette& to) {
+  MOCAP_CHECK(from.width() == to.width() && from.height() == to.height());
+  RemoveAll(from.row(0), from.words().size(), to.row(0));
 }
 
 void Paste(const Silhouette& from, int left, int top, Silhouette& to) {

@@ -20,6 +20,9 @@ void Unite(const Silhouette& from, Silhouette& to);
 /// Empties every pixel of `to` that is empty in `from`.
 void Intersect(const Silhouette& from, Silhouette& to);
 
+/// Empties every pixel of `to` that is set in `from`.
+void Subtract(const Silhouette& from, Silhouette& to);
+
 /// Writes `from` over a part of `to`, whose other pixels stay.
 /// @param left, top  where in `to` it begins; `left` is a multiple of 64, and `from` ends at such a
 /// multiple or at the end of `to`.

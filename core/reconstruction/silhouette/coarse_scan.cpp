@@ -57,6 +57,9 @@ constexpr int kFewestTiles = 4;
 constexpr int kBandStep = 3;
 // So many tiles around what was suspicious are looked at.
 constexpr int kRegionMargin = 3;
+// And so many around shadows, whose tiles are darker by this share.
+constexpr int kShadowMargin = 1;
+constexpr float kShade = 0.02f;
 
 float Square(float x) { return x * x; }
 
@@ -194,6 +197,9 @@ void CoarseScan::Conclude() {
   cleaner_.DropBlobs(kFewestTiles, suspicious_);
   Dilate(suspicious_, kRegionMargin, region_);
   Erode(region_, 1, inner_region_);
+  cleaner_.DropBlobs(kFewestTiles, shaded_);
+  Dilate(shaded_, kShadowMargin, shadows_);
+  Unite(shadows_, region_);
   knows_region_ = true;
 }
 
@@ -205,6 +211,7 @@ void CoarseScan::Resize(const ExpectedHalf& expected, ImageView<const Bgr> image
     live_ = HalfPicture(full_width_, full_height_);
     for (auto* values : {&tiles_.alpha, &tiles_.tint, &tiles_.glare, &tiles_.chi_square})
       values->resize(live_.tiles());
+    shades_.assign(live_.tiles(), Shading::kUnknown);
   }
   MOCAP_CHECK(expected.mean.width == live_.width && expected.mean.height == live_.height);
 }
@@ -308,10 +315,14 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
   const float harmless =
       kHarmlessChiSquare * std::max(values_.empty() ? 0 : Median(values_), kLeastChiSquare);
   suspicious_.Reset(live_.tile_columns(), live_.tile_rows());
+  shaded_.Reset(live_.tile_columns(), live_.tile_rows());
   for (const TileRun& look : looks_) {
     for (int column = look.begin; column < look.end; ++column) {
       const std::size_t i = live_.FirstTileOf(look) + (column - look.begin);
+      shades_[i] = Shading::kUnknown;
       if (!IsKnown(expected, i)) continue;
+      shades_[i] = tiles_.alpha[i] - 1;
+      if (shades_[i] < -kShade) shaded_.Set(column, look.row);
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||
           (tiles_.chi_square[i] > harmless &&

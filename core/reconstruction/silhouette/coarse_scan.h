@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "core/reconstruction/background/conditions.h"
 #include "core/reconstruction/background/half_picture.h"
+#include "core/reconstruction/silhouette/shading.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
 #include "core/reconstruction/silhouette/tile_comparison.h"
@@ -43,6 +44,9 @@ class CoarseScan {
   const Silhouette& suspicious() const { return suspicious_; }
   /// The picture at half the resolution.
   const HalfPicture& live() const { return live_; }
+  /// The brightness of each tile over that of the empty studio, less one, when it was looked at
+  /// last; Shading::kUnknown where the empty studio is not known.
+  const std::vector<float>& shades() const { return shades_; }
 
  private:
   struct Tiles {
@@ -72,8 +76,8 @@ class CoarseScan {
   std::vector<TileRun> looks_;
   std::size_t whole_rows_ = 0;
   // Tiles that everything suspicious in the last picture lies well within, and those that have
-  // such tiles all around.
-  Silhouette region_, inner_region_;
+  // such tiles all around. Shadows are looked at besides.
+  Silhouette region_, inner_region_, shadows_;
   bool knows_region_ = false;
   int first_band_ = 0;
   int full_width_ = 0, full_height_ = 0;
@@ -86,6 +90,8 @@ class CoarseScan {
   Allowance allowance_;
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
+  Silhouette shaded_;  // Tiles darker than the empty studio.
+  std::vector<float> shades_;
 };
 
 }  // namespace mocap

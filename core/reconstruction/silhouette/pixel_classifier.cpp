@@ -46,6 +46,7 @@ struct Criteria {
 // Of the windows around eight pixels, as bits.
 struct Decision {
   unsigned doubtful, clear;
+  unsigned dark;  // As shadows are, and some clothes.
 };
 
 // Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
@@ -59,7 +60,8 @@ MOCAP_INLINE Decision JudgeWindows(const WindowDistortions& d, const Floats& alp
   excess_sq = Most(excess_sq, d.roughness_sq * criteria.per_roughness);
   const Ints is_dark =
       (d.alpha_shift < criteria.dark.shift) & (normalized < criteria.dark.normalized);
-  return {BitsOf(is_dark | (excess_sq > 1)), BitsOf(is_dark | (excess_sq > criteria.margin_sq))};
+  return {BitsOf(is_dark | (excess_sq > 1)), BitsOf(is_dark | (excess_sq > criteria.margin_sq)),
+          BitsOf(normalized < criteria.dark.normalized)};
 }
 
 // How eight pixels by themselves, and the windows around them, would differ from background.
@@ -101,11 +103,12 @@ std::uint8_t* BytesOf(std::uint64_t* words) {
 
 // Where decisions on the pixels of a row go, eight a byte.
 struct DecisionBytes {
-  std::uint8_t* clear_pixels;
+  std::uint8_t *clear_pixels, *dark;
   std::array<std::uint8_t*, kWindows> doubtful, clear;
 
   MOCAP_INLINE void Set(int block, const Judgement& judgement, unsigned judged) const {
     clear_pixels[block] = static_cast<std::uint8_t>(judgement.clear & judged);
+    dark[block] = static_cast<std::uint8_t>(judgement.windows[0].dark & judged);
 #pragma GCC unroll 2
     for (std::size_t k = 0; k < kWindows; ++k) {
       doubtful[k][block] = static_cast<std::uint8_t>(judgement.windows[k].doubtful & judged);
@@ -152,7 +155,7 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
     const auto row_of = [this, y](Silhouette& s) {
       return BytesOf(s.row(y - frame_.top)) - frame_.left / kFloats;
     };
-    DecisionBytes bytes{row_of(clear_pixels_), {}, {}};
+    DecisionBytes bytes{row_of(clear_pixels_), row_of(dark_), {}, {}};
     for (std::size_t k = 0; k < kWindows; ++k) {
       bytes.doubtful[k] = row_of(doubtful_windows_[k]);
       bytes.clear[k] = row_of(clear_windows_[k]);
@@ -182,10 +185,11 @@ void PixelClassifier::Resize(const RegionOfInterest& roi) {
   frame_ = roi.frame();
   for (auto* windows : {&clear_windows_, &doubtful_windows_, &eroded_})
     for (Silhouette& s : *windows) s.Reserve(roi.width(), roi.height());
-  for (Silhouette* s : {&clear_pixels_, &foreground_, &doubtful_})
+  for (Silhouette* s : {&clear_pixels_, &foreground_, &doubtful_, &dark_})
     s->Reserve(roi.width(), roi.height());
   const int width = frame_.right - frame_.left + 1, height = frame_.bottom - frame_.top + 1;
   clear_pixels_.Reset(width, height);
+  dark_.Reset(width, height);
   for (auto* windows : {&clear_windows_, &doubtful_windows_})
     for (Silhouette& s : *windows) s.Reset(width, height);
 }

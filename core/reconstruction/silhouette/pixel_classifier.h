@@ -48,6 +48,9 @@ class PixelClassifier {
   /// Where background would be as rare as the training frames allow, but not clearly beyond that:
   /// within the region of interest's frame.
   const Silhouette& doubtful() const { return doubtful_; }
+  /// Where it is darker than the empty studio by more than noise, be it a shadow or not: within the
+  /// region of interest's frame.
+  const Silhouette& dark() const { return dark_; }
   /// α − 1 of every pixel that is measured.
   ImageView<const float> alpha_shift() const { return scan_.alpha_shift(); }
 
@@ -61,7 +64,7 @@ class PixelClassifier {
   DistortionScan scan_;
   Silhouette clear_pixels_;
   std::array<Silhouette, kWindows> clear_windows_, doubtful_windows_, eroded_;
-  Silhouette foreground_, doubtful_;
+  Silhouette foreground_, doubtful_, dark_;
 };
 
 }  // namespace mocap

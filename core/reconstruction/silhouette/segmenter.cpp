@@ -76,11 +76,25 @@ class Segmenter::Impl {
     silhouette.Reset(image.width(), image.height());
     Paste(person_, roi_.frame().left, roi_.frame().top, silhouette);
     silhouette.KeepBox();
+    MeasureShading(image.width(), image.height());
   }
 
   const Conditions& conditions() const { return conditions_; }
+  const Shading& shading() const { return shading_; }
 
  private:
+  void MeasureShading(int width, int height) {
+    const PixelBox& frame = roi_.frame();
+    dark_.Reserve(width, height);
+    dark_ = classifier_.dark();
+    Subtract(person_, dark_);
+    shading_.dark.Reset(width, height);
+    Paste(dark_, frame.left, frame.top, shading_.dark);
+    shading_.tile_columns = coarse_.live().tile_columns();
+    shading_.shades = coarse_.shades();
+    ListDarkTiles(frame, classifier_.alpha_shift(), shading_);
+  }
+
   // Compares the picture as a whole, and follows a camera that was nudged.
   Conditions CoarsePass(ImageView<const Bgr> image, const PanTiltAngles& angles) {
     const ExpectedHalf& expected = background_->CoarsePass(angles, {});
@@ -113,7 +127,8 @@ class Segmenter::Impl {
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
-  Silhouette person_;  // Within the region of interest's frame.
+  Silhouette person_, dark_;  // Within the region of interest's frame.
+  Shading shading_;
   int smallest_blob_px_, largest_thing_px_;
 };
 
@@ -129,6 +144,7 @@ void Segmenter::Segment(ImageView<const Bgr> image, const PanTiltAngles& angles,
   impl_->Segment(image, angles, silhouette);
 }
 
+const Shading& Segmenter::shading() const { return impl_->shading(); }
 const Conditions& Segmenter::conditions() const { return impl_->conditions(); }
 
 }  // namespace mocap

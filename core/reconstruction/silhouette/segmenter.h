@@ -8,6 +8,7 @@
 #include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/background/conditions.h"
 #include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/shading.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
@@ -42,6 +43,8 @@ class Segmenter {
   /// Segments one frame into `silhouette`, whose memory is reused.
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette);
 
+  /// What the last picture tells of shadows.
+  const Shading& shading() const;
   /// How the last picture as a whole differed from the empty studio.
   const Conditions& conditions() const;
 

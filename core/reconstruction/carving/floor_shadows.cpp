@@ -1,0 +1,185 @@
+#include "core/reconstruction/carving/floor_shadows.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/reconstruction/silhouette/bit_filters.h"
+
+namespace mocap {
+namespace {
+
+constexpr int kTile_px = Shading::kTile_px;
+// Farther from a camera the floor is no matter of the studio.
+constexpr double kFarthestMm = 12'000;
+// A place with less than this share of the shade is bright.
+constexpr float kAlike = 0.4f;
+constexpr int kBrightWanted = 2;
+// Half the width of what is too thin to be more than a rim.
+constexpr int kThin_px = 2;
+// Of the eight tiles around one.
+constexpr int kNeighboursWanted = 3;
+constexpr int kRounds = 2;
+// Holes of fewer pixels are filled, blobs of a smaller share of the picture dropped.
+constexpr int kSmallestHole_px = 20;
+constexpr double kSmallestBlobShare = 0.0005;
+
+int TilesAlong(int pixels) { return (pixels + kTile_px - 1) / kTile_px; }
+
+std::vector<Vector3> TileDirections(const CameraCalibration& camera) {
+  std::vector<Vector3> directions;
+  for (int row = 0; row < TilesAlong(camera.height_px); ++row) {
+    for (int column = 0; column < TilesAlong(camera.width_px); ++column) {
+      const Vector2 middle = Vector2(column + 0.5, row + 0.5) * kTile_px - Vector2(0.5, 0.5);
+      const std::optional<Vector2> place = NormalizedFromPixel(camera.lens, middle);
+      directions.push_back(place ? Vector3(place->x(), place->y(), 1) : Vector3::Zero());
+    }
+  }
+  return directions;
+}
+
+// Where a ray from a camera meets the floor.
+std::optional<Vector3> OnFloor(const RigidTransform& X_WC, const Vector3& direction_C) {
+  const Vector3 direction_W = X_WC.R * direction_C;
+  if (!(direction_W.z() < 0)) return std::nullopt;
+  const double depth_mm = -X_WC.p.z() / direction_W.z();
+  if (!(depth_mm > 0 && depth_mm < kFarthestMm)) return std::nullopt;
+  return X_WC.p + depth_mm * direction_W;
+}
+
+// How dark a camera sees a place; empty where somebody may stand before it.
+std::optional<float> ShadeOf(const ShadedView& view, const Silhouette& people,
+                             const Vector3& place_W) {
+  const Vector3 place_C = view.X_CW * place_W;
+  if (place_C.z() <= 0) return std::nullopt;
+  const SensorPlaneTable::Pixel pixel =
+      view.table->Lookup(place_C.x() / place_C.z(), place_C.y() / place_C.z());
+  if (pixel.x < 0) return std::nullopt;
+  const int column = pixel.x / kTile_px, row = pixel.y / kTile_px;
+  const Shading& shading = *view.shading;
+  const float shade = shading.shades[static_cast<std::size_t>(row) * shading.tile_columns + column];
+  if (people.Test(column, row) || shade == Shading::kUnknown) return std::nullopt;
+  return shade;
+}
+
+// Tiles that are set beside one.
+int CountAround(const Silhouette& tiles, const Shading::DarkTile& tile) {
+  int count = 0;
+  for (int row = std::max(tile.row - 1, 0); row <= std::min(tile.row + 1, tiles.height() - 1);
+       ++row)
+    for (int column = std::max(tile.column - 1, 0);
+         column <= std::min(tile.column + 1, tiles.width() - 1); ++column)
+      count += tiles.Test(column, row);
+  return count;
+}
+
+}  // namespace
+
+FloorShadows::FloorShadows(std::span<const CameraCalibration> cameras) {
+  for (const CameraCalibration& camera : cameras) directions_C_.push_back(TileDirections(camera));
+}
+
+void FloorShadows::Complete(std::span<ShadedView> views) {
+  FindPeople(views);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].is_completed = false;
+    Gather(views, i);
+    if (!added_.BoundingBox()) continue;
+    Open();
+    if (!opened_.BoundingBox()) continue;
+    Silhouette& silhouette = *views[i].silhouette;
+    Unite(opened_, silhouette);
+    cleaner_.Clean(kSmallestHole_px, views[i].shading->dark,
+                   static_cast<int>(kSmallestBlobShare * silhouette.width() * silhouette.height()),
+                   silhouette);
+    silhouette.KeepBox();
+    views[i].is_completed = true;
+  }
+}
+
+void FloorShadows::FindPeople(std::span<const ShadedView> views) {
+  people_.resize(std::max(people_.size(), views.size()));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Silhouette& silhouette = *views[i].silhouette;
+    scratch_.Reset(TilesAlong(silhouette.width()), TilesAlong(silhouette.height()));
+    people_[i].Reset(scratch_.width(), scratch_.height());
+    const std::optional<PixelBox> box = silhouette.BoundingBox();
+    if (!box) continue;
+    for (int y = box->top; y <= box->bottom; ++y) {
+      const std::uint64_t* const row = silhouette.row(y);
+      for (int tile = box->left / kTile_px; tile <= box->right / kTile_px; ++tile)
+        if (row[tile / 8] >> tile % 8 * 8 & 0xff) scratch_.Set(tile, y / kTile_px);
+    }
+    Dilate(scratch_, 1, people_[i]);
+  }
+}
+
+// Puts those dark pixels of a view together that are no shadow.
+void FloorShadows::Gather(std::span<const ShadedView> views, std::size_t view) {
+  const Shading& shading = *views[view].shading;
+  Vote(views, view);
+  added_.Reset(shading.dark.width(), shading.dark.height());
+  for (const Shading::DarkTile& tile : shading.dark_tiles) {
+    if (!clothes_.Test(tile.column, tile.row)) continue;
+    const std::uint64_t mask = std::uint64_t{0xff} << tile.column % 8 * 8;
+    const int top = tile.row * kTile_px;
+    for (int y = top; y < std::min(top + kTile_px, added_.height()); ++y)
+      added_.row(y)[tile.column / 8] |= shading.dark.row(y)[tile.column / 8] & mask;
+  }
+}
+
+// Decides on a view's dark tiles. Those of which the others tell nothing go with their neighbours.
+void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
+  const Shading& shading = *views[view].shading;
+  for (Silhouette* const tiles : {&clothes_, &shadows_})
+    tiles->Reset(people_[view].width(), people_[view].height());
+  undecided_.clear();
+  const RigidTransform X_WC = views[view].X_CW.Inverse();
+  const Vector3* const directions_C =
+      directions_C_[static_cast<std::size_t>(views[view].camera)].data();
+  for (const Shading::DarkTile& tile : shading.dark_tiles) {
+    const auto place_W = OnFloor(X_WC, directions_C[tile.row * shading.tile_columns + tile.column]);
+    if (!place_W) continue;
+    switch (Judge(views, view, *place_W, tile.shade)) {
+      case Verdict::kClothes:
+        clothes_.Set(tile.column, tile.row);
+        break;
+      case Verdict::kShadow:
+        shadows_.Set(tile.column, tile.row);
+        break;
+      case Verdict::kUnknown:
+        undecided_.push_back(tile);
+    }
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    joining_.clear();
+    for (const Shading::DarkTile& tile : undecided_) {
+      const int clothes = CountAround(clothes_, tile);
+      if (clothes >= kNeighboursWanted && clothes > CountAround(shadows_, tile))
+        joining_.push_back(tile);
+    }
+    for (const Shading::DarkTile& tile : joining_) clothes_.Set(tile.column, tile.row);
+  }
+}
+
+// Asks the other cameras how bright the floor is where a dark tile has it.
+FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std::size_t view,
+                                          const Vector3& place_W, float shade) const {
+  int bright = 0, dark = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (i == view) continue;
+    const std::optional<float> other = ShadeOf(views[i], people_[i], place_W);
+    if (other) ++(*other > kAlike * shade ? bright : dark);
+  }
+  if (bright >= kBrightWanted && bright > dark) return Verdict::kClothes;
+  return dark > 0 ? Verdict::kShadow : Verdict::kUnknown;
+}
+
+void FloorShadows::Open() {
+  scratch_.Reset(added_.width(), added_.height());
+  opened_.Reset(added_.width(), added_.height());
+  Erode(added_, kThin_px, scratch_);
+  Dilate(scratch_, kThin_px, opened_);
+  Intersect(added_, opened_);
+}
+
+}  // namespace mocap
