@@ -101,19 +101,17 @@ void FloorShadows::FindPeople(std::span<const ShadedView> views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Silhouette& silhouette = *views[i].silhouette;
     scratch_.Reset(TilesAlong(silhouette.width()), TilesAlong(silhouette.height()));
-    people_[i].Reset(scratch_.width(), scratch_.height());
-    const std::optional<PixelBox> box = silhouette.BoundingBox();
-    if (!box) continue;
-    for (int y = box->top; y <= box->bottom; ++y) {
+    const PixelBox box = silhouette.BoundingBox().value_or(PixelBox{0, 0, -1, -1});
+    for (int y = box.top; y <= box.bottom; ++y) {
       const std::uint64_t* const row = silhouette.row(y);
-      for (int tile = box->left / kTile_px; tile <= box->right / kTile_px; ++tile)
+      for (int tile = box.left / kTile_px; tile <= box.right / kTile_px; ++tile)
         if (row[tile / 8] >> tile % 8 * 8 & 0xff) scratch_.Set(tile, y / kTile_px);
     }
     Dilate(scratch_, 1, people_[i]);
   }
 }
 
-// Puts those dark pixels of a view together that are no shadow.
+// Puts the dark pixels of a view's clothes together.
 void FloorShadows::Gather(std::span<const ShadedView> views, std::size_t view) {
   const Shading& shading = *views[view].shading;
   Vote(views, view);
@@ -174,9 +172,8 @@ FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std
   return dark > 0 ? Verdict::kShadow : Verdict::kUnknown;
 }
 
+// Leaves out what is thin.
 void FloorShadows::Open() {
-  scratch_.Reset(added_.width(), added_.height());
-  opened_.Reset(added_.width(), added_.height());
   Erode(added_, kThin_px, scratch_);
   Dilate(scratch_, kThin_px, opened_);
   Intersect(added_, opened_);
