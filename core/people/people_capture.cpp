@@ -11,6 +11,7 @@
 #include "core/people/flesh_division.h"
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
+#include "core/people/witnesses.h"
 #include "core/reconstruction/carving/voxel_block.h"
 #include "core/tracking/flesh_rules.h"
 
@@ -24,8 +25,6 @@ constexpr double kLostReachMm = 700;
 constexpr double kLostHandicapMm = 250;
 // A limb that was carved away may be so far beside what was foreseen, or beside the flesh.
 constexpr double kAsideMm = 100;
-// Cameras that have to show a newcomer where nobody else is; and so many of a few, all but one.
-constexpr int kWitnesses = 4;
 // A person without two such cameras for so long is none.
 constexpr int kFewestWitnesses = 2;
 constexpr double kDoubtedS = 0.2;
@@ -41,22 +40,6 @@ constexpr double kSameMm = 600;
 
 double SecondsBetween(std::int64_t before_ns, std::int64_t after_ns) {
   return static_cast<double>(after_ns - before_ns) * 1e-9;
-}
-
-int WitnessesWanted(std::size_t cameras) {
-  return std::min(kWitnesses, std::max(static_cast<int>(cameras) - 1, 2));
-}
-
-// Whether enough cameras have all of a person in their pictures, so that what they show is no part
-// of him, and would have it if he were so far beside. Feet stand on the floor.
-bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
-               std::span<const CameraEye> eyes) {
-  Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, 0);
-  const Vector3 beside(beside_mm, beside_mm, 0);
-  box_W = {box_W.min() - beside, box_W.max() + beside};
-  const auto seeing =
-      std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAllWithin(box_W); });
-  return seeing >= WitnessesWanted(eyes.size());
 }
 
 }  // namespace
