@@ -14,8 +14,8 @@ struct Spread {
 // both sexes (ANSUR). Of the torso's share of the stature, likewise.
 constexpr Spread kStature = {0.01, 0.06};
 constexpr Spread kTorsoShare = {0.012, 0.025};
-// Where sizes are kept, whoever comes is so likely somebody whose are not.
-constexpr double kStranger = 0.2;
+// How likely somebody is to come whose sizes are not kept, over any one of those whose are.
+constexpr double kStranger = 0.25;
 
 constexpr double Square(double x) { return x * x; }
 
@@ -48,8 +48,7 @@ Likeness WhoIs(const BodySizes& measured, std::span<const KnownPerson> known) {
   Likeness likeness;
   double sum = kStranger * LikelihoodOfStranger(), most = sum;
   for (const KnownPerson& person : known) {
-    const double weight =
-        (1 - kStranger) / static_cast<double>(known.size()) * LikelihoodOf(measured, person.sizes);
+    const double weight = LikelihoodOf(measured, person.sizes);
     sum += weight;
     if (weight <= most) continue;
     most = weight;

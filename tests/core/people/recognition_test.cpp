@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 namespace mocap {
 namespace {
@@ -18,6 +19,16 @@ TEST(WhoIs, FindsWhoHasTheSizes) {
     EXPECT_EQ(likeness.person->name, person.name);
     EXPECT_GE(likeness.certainty, kSureOfName);
   }
+}
+
+TEST(WhoIs, OthersWhoAreUnlikeTakeNothingAway) {
+  std::vector<KnownPerson> known = {kAnna};
+  const double alone = WhoIs(kAnna.sizes, known).certainty;
+  for (const double stature_mm : {1380.0, 1480.0, 1580.0, 1780.0, 1880.0, 1980.0})
+    known.push_back({"somebody", AverageSizes(stature_mm)});
+  const Likeness likeness = WhoIs(kAnna.sizes, known);
+  EXPECT_EQ(likeness.person, known.data());
+  EXPECT_NEAR(likeness.certainty, alone, 0.01);
 }
 
 TEST(WhoIs, ClothesDoNotMatter) {
