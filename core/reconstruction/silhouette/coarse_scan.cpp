@@ -13,6 +13,7 @@
 namespace mocap {
 namespace {
 
+static_assert(Shading::kTile_px == HalfPicture::kTile_px);
 constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
 // A pixel of the half is so many of the picture's wide.
