@@ -12,6 +12,7 @@ namespace {
 
 /// A limb that is bent less shows nothing of its turn about itself; one that is bent more, all.
 constexpr double kStraight_rad = 10 * EIGEN_PI / 180, kBent_rad = 20 * EIGEN_PI / 180;
+constexpr double kQuarter_rad = EIGEN_PI / 2;
 
 /// Where the hip joints lie in the pelvis of Rajagopal's model, and how far apart [m].
 constexpr double kHipForward_m = -0.056276, kHipUp_m = -0.07849, kHipsApart_m = 2 * 0.07726;
@@ -49,7 +50,10 @@ Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
   const double aside = std::hypot(hinged.x(), hinged.z());
   const double shown =
       (std::atan2(aside, -hinged.y()) - kStraight_rad) / (kBent_rad - kStraight_rad);
-  const double y = SmoothStep(shown) * std::atan2(-sign * hinged.z(), sign * hinged.x());
+  double y = std::atan2(-sign * hinged.z(), sign * hinged.x());
+  // A limb that is nearly straight and bends the wrong way is overstretched, not turned about.
+  if (shown < 1 && std::abs(y) > kQuarter_rad) y -= std::copysign(2 * kQuarter_rad, y);
+  y *= SmoothStep(shown);
   const double bend =
       std::atan2(sign * (hinged.x() * std::cos(y) - hinged.z() * std::sin(y)), -hinged.y());
   return {{z, x, y}, bend};
