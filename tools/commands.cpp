@@ -1,5 +1,6 @@
 #include "tools/commands.h"
 
+#include "tools/ask.h"
 #include "tools/background.h"
 #include "tools/benchmark.h"
 #include "tools/calibrate.h"
@@ -28,6 +29,7 @@ void AddCommands(CLI::App& app) {
   AddCamerasCommand(app);
   AddGigeStudioCommand(app);
   AddControlCommands(app);
+  AddAskCommand(app);
   AddViewCommand(app);
   AddStreamCommand(app);
   AddWatchCommand(app);

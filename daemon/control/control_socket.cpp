@@ -190,4 +190,14 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
   throw std::runtime_error("no mocapd runs here; start it: systemctl start mocapd");
 }
 
+ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request) {
+  try {
+    return AskDaemon(socket, request);
+  } catch (const SetupError& error) {
+    return {ControlOutcome::kWrong, error.what()};
+  } catch (const std::runtime_error& error) {
+    return {ControlOutcome::kFailed, error.what()};
+  }
+}
+
 }  // namespace mocap

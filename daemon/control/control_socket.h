@@ -43,5 +43,7 @@ class ControlServer {
 /// Asks the daemon. @param socket  empty: the system's daemon, or the user's own.
 /// @throws std::runtime_error  when no daemon answers; SetupError when it may not be asked.
 ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& request);
+/// The same; what keeps the daemon from answering is told in the reply.
+ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request);
 
 }  // namespace mocap

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "core/errors.h"
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
 #include "tools/view/access.h"
@@ -23,16 +21,6 @@ bool IsOffered(const std::string& line) {
   const std::optional<ControlRequest> request = ParseControlRequest(line);
   return request && !std::holds_alternative<StatusRequest>(*request) &&
          !std::holds_alternative<LookRequest>(*request);
-}
-
-ControlReply Ask(const std::filesystem::path& socket, const std::string& request) {
-  try {
-    return AskDaemon(socket, request);
-  } catch (const SetupError& error) {
-    return {ControlOutcome::kWrong, error.what()};
-  } catch (const std::runtime_error& error) {
-    return {ControlOutcome::kFailed, error.what()};
-  }
 }
 
 ViewReply Wrong(const std::string& why) {
@@ -57,14 +45,14 @@ ViewReply ControlDesk::Answer(const ViewRequest& request) const {
   if (!is_request) return Wrong("{\"request\": \"…\"} is wanted");
   const std::string line = body["request"];
   if (!IsOffered(line)) return Wrong("the request is none that the page may make");
-  const ControlReply reply = Ask(socket_, line);
+  const ControlReply reply = ReplyOfDaemon(socket_, line);
   return {200, kJson,
           JsonText({{"outcome", kOutcomes[static_cast<std::size_t>(reply.outcome)]},
                     {"text", reply.text}})};
 }
 
 std::string ControlDesk::Look() const {
-  const ControlReply reply = Ask(socket_, "look");
+  const ControlReply reply = ReplyOfDaemon(socket_, "look");
   return reply.outcome == ControlOutcome::kDone ? "" : reply.text;
 }
 

@@ -1,0 +1,80 @@
+#include "tools/ask.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "daemon/control/control_request.h"
+#include "daemon/control/control_socket.h"
+
+namespace mocap {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A connection that says nothing is not kept for longer.
+constexpr std::chrono::milliseconds kPatience{10'000};
+
+/// Whether standard input can be read, or has ended.
+bool WaitForInput(Clock::time_point deadline) {
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd wait{STDIN_FILENO, POLLIN, 0};
+    const int ready = poll(&wait, 1, static_cast<int>(left));
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
+  }
+}
+
+/// Reads standard input to its end, and no more of it than a request may have.
+/// @return  empty when it goes on.
+std::optional<std::string> ReadRequest() {
+  const Clock::time_point deadline = Clock::now() + kPatience;
+  std::string request;
+  std::array<char, kLongestRequest + 1> bytes;
+  while (request.size() <= kLongestRequest && WaitForInput(deadline)) {
+    const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return request;
+    request.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
+ControlReply AnswerInput(const std::filesystem::path& socket) {
+  const std::optional<std::string> request = ReadRequest();
+  if (!request) {
+    return {ControlOutcome::kWrong, "the request does not end within " +
+                                        std::to_string(kLongestRequest) + " bytes and " +
+                                        std::to_string(kPatience.count() / 1000) + " s"};
+  }
+  if (request->empty()) return {ControlOutcome::kWrong, "a request is wanted on standard input"};
+  return ReplyOfDaemon(socket, *request);
+}
+
+}  // namespace
+
+void AddAskCommand(CLI::App& app) {
+  auto socket = std::make_shared<std::filesystem::path>();
+  CLI::App* command = app.add_subcommand(
+      "ask", "Passes one request from standard input on to mocapd, for other computers by ssh");
+  command->add_option("--socket", *socket, "where mocapd answers; the system's if not given");
+  command->footer(
+      "The reply begins with a line of `done`, `failed` or `wrong`. It is what a key may run and "
+      "nothing\nelse, in authorized_keys:\n\n  restrict,command=\"mocap ask\" ssh-ed25519 AAAA… "
+      "studio");
+  command->callback([socket] {
+    const std::string reply = EncodeReply(AnswerInput(*socket));
+    std::fwrite(reply.data(), 1, reply.size(), stdout);
+  });
+}
+
+}  // namespace mocap
