@@ -47,8 +47,8 @@ std::optional<Vector3> OnFloor(const RigidTransform& X_WC, const Vector3& direct
 }
 
 // How dark a camera sees a place; empty where somebody may stand before it.
-std::optional<float> ShadeOf(const ShadedView& view, const Silhouette& people,
-                             const Vector3& place_W) {
+std::optional<Shading::Shade> ShadeOf(const ShadedView& view, const Silhouette& people,
+                                      const Vector3& place_W) {
   const Vector3 place_C = view.X_CW * place_W;
   if (place_C.z() <= 0) return std::nullopt;
   const SensorPlaneTable::Pixel pixel =
@@ -56,7 +56,8 @@ std::optional<float> ShadeOf(const ShadedView& view, const Silhouette& people,
   if (pixel.x < 0) return std::nullopt;
   const int column = pixel.x / kTile_px, row = pixel.y / kTile_px;
   const Shading& shading = *view.shading;
-  const float shade = shading.shades[static_cast<std::size_t>(row) * shading.tile_columns + column];
+  const Shading::Shade shade =
+      shading.shades[static_cast<std::size_t>(row) * shading.tile_columns + column];
   if (people.Test(column, row) || shade == Shading::kUnknown) return std::nullopt;
   return shade;
 }
@@ -161,12 +162,12 @@ void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
 
 // Asks the other cameras how bright the floor is where a dark tile has it.
 FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std::size_t view,
-                                          const Vector3& place_W, float shade) const {
+                                          const Vector3& place_W, Shading::Shade shade) const {
   int bright = 0, dark = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (i == view) continue;
-    const std::optional<float> other = ShadeOf(views[i], people_[i], place_W);
-    if (other) ++(*other > kAlike * shade ? bright : dark);
+    const std::optional<Shading::Shade> other = ShadeOf(views[i], people_[i], place_W);
+    if (other) ++(static_cast<float>(*other) > kAlike * static_cast<float>(shade) ? bright : dark);
   }
   if (bright >= kBrightWanted && bright > dark) return Verdict::kClothes;
   return dark > 0 ? Verdict::kShadow : Verdict::kUnknown;

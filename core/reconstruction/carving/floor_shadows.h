@@ -42,7 +42,7 @@ class FloorShadows {
   enum class Verdict { kClothes, kShadow, kUnknown };
   void Vote(std::span<const ShadedView> views, std::size_t view);
   Verdict Judge(std::span<const ShadedView> views, std::size_t view, const Vector3& place_W,
-                float shade) const;
+                Shading::Shade shade) const;
   void Gather(std::span<const ShadedView> views, std::size_t view);
   void Open();
 

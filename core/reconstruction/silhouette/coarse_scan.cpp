@@ -322,8 +322,8 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
       const std::size_t i = live_.FirstTileOf(look) + (column - look.begin);
       shades_[i] = Shading::kUnknown;
       if (!IsKnown(expected, i)) continue;
-      shades_[i] = tiles_.alpha[i] - 1;
-      if (shades_[i] < -kShade) shaded_.Set(column, look.row);
+      shades_[i] = Shading::ShadeOf(tiles_.alpha[i] - 1);
+      if (tiles_.alpha[i] - 1 < -kShade) shaded_.Set(column, look.row);
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||
           (tiles_.chi_square[i] > harmless &&

@@ -44,9 +44,9 @@ class CoarseScan {
   const Silhouette& suspicious() const { return suspicious_; }
   /// The picture at half the resolution.
   const HalfPicture& live() const { return live_; }
-  /// The brightness of each tile over that of the empty studio, less one, when it was looked at
-  /// last; Shading::kUnknown where the empty studio is not known.
-  const std::vector<float>& shades() const { return shades_; }
+  /// The shade of each tile when it was looked at last; Shading::kUnknown where the empty studio is
+  /// not known.
+  const std::vector<Shading::Shade>& shades() const { return shades_; }
 
  private:
   struct Tiles {
@@ -91,7 +91,7 @@ class CoarseScan {
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
   Silhouette shaded_;  // Tiles darker than the empty studio.
-  std::vector<float> shades_;
+  std::vector<Shading::Shade> shades_;
 };
 
 }  // namespace mocap

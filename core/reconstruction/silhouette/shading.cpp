@@ -35,7 +35,7 @@ void ListDarkTiles(const PixelBox& frame, ImageView<const float> shade, Shading&
       if (sum.count == 0) continue;
       shading.dark_tiles.push_back({static_cast<std::int16_t>(column),
                                     static_cast<std::int16_t>(row),
-                                    sum.shade / static_cast<float>(sum.count)});
+                                    Shading::ShadeOf(sum.shade / static_cast<float>(sum.count))});
     }
   }
 }

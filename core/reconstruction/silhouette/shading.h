@@ -2,6 +2,8 @@
 // somebody's clothes.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,14 +15,22 @@ namespace mocap {
 /// What one picture tells of shadows. Tiles are squares of kTile_px pixels.
 struct Shading {
   static constexpr int kTile_px = 8;
+  /// Brightness over that of the empty studio, less one, in steps that noise does not reach; what
+  /// is brighter is 0.
+  using Shade = std::int8_t;
+  static constexpr float kShadesPerUnit = 64;
   /// The shade of what the camera does not know.
-  static constexpr float kUnknown = 1;
+  static constexpr Shade kUnknown = 1;
+  static Shade ShadeOf(float brighter) {
+    return static_cast<Shade>(std::lround(kShadesPerUnit * std::clamp(brighter, -1.0F, 0.0F)));
+  }
 
   /// A tile with dark pixels.
   struct DarkTile {
     std::int16_t column = 0;
     std::int16_t row = 0;
-    float shade = 0;  ///< Mean of its dark pixels.
+    Shade shade = 0;  ///< Mean of its dark pixels.
+    friend bool operator==(const DarkTile&, const DarkTile&) = default;
   };
 
   /// Pixels beside the silhouette that are darker than the empty studio by more than noise, and by
@@ -28,8 +38,8 @@ struct Shading {
   Silhouette dark;
   std::vector<DarkTile> dark_tiles;
   int tile_columns = 0;
-  /// Of each tile, row by row: its brightness over that of the empty studio, less one.
-  std::vector<float> shades;
+  /// Of each tile, row by row.
+  std::vector<Shade> shades;
 };
 
 /// Lists the tiles that have dark pixels in one row of four.

@@ -78,10 +78,11 @@ class Trousers : public testing::Test {
         int count = 0;
         for (int i = 0; i < kTile_px * kTile_px; ++i)
           count += dark.Test(column * kTile_px + i % kTile_px, row * kTile_px + i / kTile_px);
-        shading.shades.push_back(kShade * static_cast<float>(count) / (kTile_px * kTile_px));
+        shading.shades.push_back(
+            Shading::ShadeOf(kShade * static_cast<float>(count) / (kTile_px * kTile_px)));
         if (count == 0) continue;
-        shading.dark_tiles.push_back(
-            {static_cast<std::int16_t>(column), static_cast<std::int16_t>(row), kShade});
+        shading.dark_tiles.push_back({static_cast<std::int16_t>(column),
+                                      static_cast<std::int16_t>(row), Shading::ShadeOf(kShade)});
       }
     }
     return shading;
