@@ -20,9 +20,30 @@ namespace mocap {
 /// How fast a recording is replayed: at its own times, or as fast as it is read.
 enum class ReplayRate { kRealtime, kFast };
 
+/// What this mocapd does of the work.
+enum class Role {
+  kAlone,  ///< All of it.
+  kNode,   ///< It has cameras, and sends their silhouettes to a studio.
+  kStudio  ///< It carves and tracks by the silhouettes of nodes, and of its own cameras if it has
+           ///< any.
+};
+
+/// [node]: this computer as a part of a studio.
+struct NodeConfig {
+  std::string name;
+  std::vector<std::string> cameras;  ///< Of a take or the simulated studio; empty: all.
+};
+
+/// One [[nodes]] entry of a studio.
+struct StudioNode {
+  std::string name;
+  std::vector<std::string> cameras;
+  std::vector<std::string> control;  ///< The command that reaches its mocapd; empty: it cannot be.
+};
+
 /// [source]: where frames come from.
 struct SourceConfig {
-  std::string driver = "simulated";  ///< "take", "simulated", "v4l2", "aravis".
+  std::string driver = "simulated";  ///< "take", "simulated", "v4l2", "aravis", "none".
   std::filesystem::path take;
   ReplayRate rate = ReplayRate::kRealtime;
   bool loop = false;
@@ -79,6 +100,9 @@ struct CameraConfig {
 };
 
 struct Config {
+  Role role = Role::kAlone;
+  NodeConfig node;                ///< Of role kNode.
+  std::vector<StudioNode> nodes;  ///< Of role kStudio.
   std::filesystem::path calibration;
   std::filesystem::path
       background;  ///< Folder with the live cameras' pictures of the empty studio.

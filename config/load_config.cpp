@@ -6,6 +6,7 @@
 #include "config/lcm_url.h"
 #include "config/load_service_config.h"
 #include "config/read_cameras.h"
+#include "config/read_nodes.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "core/people/people_capture.h"
@@ -22,7 +23,7 @@ constexpr int kLargestPicture_px = 8192;
 
 SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) {
   SourceConfig source;
-  const std::vector<std::string> drivers = {"take", "simulated", "v4l2", "aravis"};
+  const std::vector<std::string> drivers = {"take", "simulated", "v4l2", "aravis", "none"};
   source.driver = drivers[section.Choice("driver", drivers, 1)];
   source.take = Resolved(file, section.Text("take", ""));
   if (source.driver == "take" && source.take.empty()) {
@@ -153,6 +154,9 @@ Config LoadConfig(const std::filesystem::path& file) {
   if (auto section = root.Section("lcm")) config.lcm = ReadLcm(*section);
   config.cameras = ReadCameras(root, config.source.driver);
   config.service = ReadServiceConfig(root, file);
+  ReadRole(root, config);
+  if (config.source.driver == "none" && config.role != Role::kStudio)
+    root.Fail("source", "has driver \"none\", which role \"studio\" alone can have");
   root.RejectUnknownKeys();
   CheckLiveStudio(config, root);
   return config;

@@ -1,7 +1,12 @@
 #include "config/open_studio.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "config/load_config.h"
 #include "config/open_live.h"
 #include "config/room_limits.h"
+#include "core/errors.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -28,19 +33,74 @@ std::vector<CameraCalibration> CalibrationsOf(const Studio& studio) {
   return calibrations;
 }
 
-Studio OpenStudio(const Config& config) {
+namespace {
+
+Studio OpenTakeAsSource(const Config& config) {
   const SourceConfig& source = config.source;
-  if (source.driver == "take") {
-    Studio studio = OpenTake(
-        source.take,
-        {.rate = source.rate, .loop = source.loop, .in_memory = source.in_memory, .cameras = {}});
-    RequireRoom(CalibrationsOf(studio), config.voxel_mm,
-                TakeLayout{source.take}.Calibration().string());
+  TakeOptions options{.rate = source.rate,
+                      .loop = source.loop,
+                      .in_memory = source.in_memory,
+                      .cameras = config.node.cameras};
+  // Nodes that replay one take show the same moment.
+  if (config.role == Role::kNode) options.begin_ns = [] { return std::int64_t{0}; };
+  Studio studio = OpenTake(source.take, options);
+  RequireRoom(CalibrationsOf(studio), config.voxel_mm,
+              TakeLayout{source.take}.Calibration().string());
+  return studio;
+}
+
+/// Keeps the cameras named, in that order; all where none is.
+void Keep(const std::vector<std::string>& names, Studio& studio) {
+  if (names.empty()) return;
+  std::vector<StudioCamera> kept;
+  for (const std::string& name : names) {
+    const auto camera = std::ranges::find_if(studio.cameras, [&](const StudioCamera& c) {
+      return c.driver && c.calibration.name == name;
+    });
+    if (camera == studio.cameras.end()) {
+      throw SetupError("node.cameras has \"" + name + "\", and " + studio.name +
+                       " has no such camera");
+    }
+    kept.push_back(std::move(*camera));
+  }
+  studio.cameras = std::move(kept);
+}
+
+Studio OpenOwnCameras(const Config& config) {
+  const SourceConfig& source = config.source;
+  if (source.driver == "none") return {"studio", source.fps, {}};
+  if (source.driver == "take") return OpenTakeAsSource(config);
+  if (IsLive(source)) {
+    Studio studio = OpenLiveStudio(config);
+    RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
     return studio;
   }
-  if (!IsLive(source)) return OpenSimulatedStudio(LiveSimulation(source));
-  Studio studio = OpenLiveStudio(config);
+  Studio studio = OpenSimulatedStudio(LiveSimulation(source));
+  Keep(config.node.cameras, studio);
+  return studio;
+}
+
+/// Adds those of the nodes, which have no drivers here.
+void AddNodes(const Config& config, Studio& studio) {
+  const std::vector<CameraCalibration> calibrations = LoadCalibration(config.calibration);
+  for (const StudioNode& node : config.nodes) {
+    for (const std::string& name : node.cameras) {
+      const auto camera = std::ranges::find(calibrations, name, &CameraCalibration::name);
+      if (camera == calibrations.end()) {
+        throw SetupError(config.calibration.string() + ": cameras." + name +
+                         " is missing, which node " + node.name + " has");
+      }
+      studio.cameras.push_back({*camera, nullptr, {}});
+    }
+  }
   RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
+}
+
+}  // namespace
+
+Studio OpenStudio(const Config& config) {
+  Studio studio = OpenOwnCameras(config);
+  if (config.role == Role::kStudio) AddNodes(config, studio);
   return studio;
 }
 

@@ -27,7 +27,8 @@ struct TakeOptions {
   bool loop = false;
   bool in_memory = false;            ///< Decodes the whole take at once.
   std::vector<std::string> cameras;  ///< Empty: all.
-  /// In real time, tells when its first frame is captured; null: when the first camera starts.
+  /// In real time, tells when the first frame of all cameras is captured, those that are not opened
+  /// among them; null: when the first camera starts.
   std::function<std::int64_t()> begin_ns = nullptr;
 };
 

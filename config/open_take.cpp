@@ -153,8 +153,16 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   }
   const bool realtime = options.rate == ReplayRate::kRealtime;
   studio.times = realtime ? CaptureTimes::kPresent : CaptureTimes::kRecorded;
+  // Whoever shares the time line may replay other cameras of the take.
+  std::vector<TakeTable> spanned = tables;
+  if (options.begin_ns) {
+    for (const std::string& name : Choose(header, {}, layout)) {
+      spanned.push_back(
+          ReadCameraTable(layout.Table(name), Find(calibrations, name, layout.Calibration())));
+    }
+  }
   const auto replay =
-      std::make_shared<Replay>(SpanOf(tables, header.fps_nominal, take), options.loop,
+      std::make_shared<Replay>(SpanOf(spanned, header.fps_nominal, take), options.loop,
                                realtime ? MakeTimelineClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];

@@ -15,7 +15,7 @@ namespace mocap {
 /// One camera with its calibration and the way to its picture of the empty studio.
 struct StudioCamera {
   CameraCalibration calibration;
-  std::unique_ptr<CameraDriver> driver;
+  std::unique_ptr<CameraDriver> driver;  ///< Null: it is at another computer.
   BackgroundSource background;  ///< Read before the driver starts.
   double fps = 0;               ///< Of its own; 0: the studio's.
   std::string waits_for = "";   ///< The camera that triggers it; empty: none that is known.
@@ -27,7 +27,7 @@ enum class CaptureTimes {
   kRecorded  ///< That of the recording, which is read as fast as possible.
 };
 
-/// All cameras, in the order in which the pipeline numbers them.
+/// All cameras, in the order in which the pipeline numbers them: those with drivers come first.
 struct Studio {
   std::string name;
   double fps_nominal = 30;

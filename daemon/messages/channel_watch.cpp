@@ -18,8 +18,8 @@ constexpr std::size_t kRemembered = 64;
 constexpr std::int64_t kSilenceNs = 4'000'000'000;
 constexpr std::int64_t kOtherIsNewsNs = 5'000'000'000;
 /// A way in that hears nothing is opened anew so often.
-constexpr std::int64_t kReopenNs = 10'000'000'000;
-constexpr int kTickMs = 100;
+constexpr std::chrono::seconds kReopen{10};
+constexpr std::chrono::milliseconds kTick{100};
 constexpr std::int64_t kFirstPauseNs = 1'000'000'000;
 constexpr std::int64_t kLongestPauseNs = 60'000'000'000;
 
@@ -68,10 +68,19 @@ ChannelStatus StatusRegister::Status(std::int64_t now_ns) const {
 }
 
 ChannelWatch::ChannelWatch(const LcmConfig& config, LcmSender& sender)
-    : config_(config), address_(ParseLcmUrl(config.url)), sender_(sender) {
-  const bool is_watched =
-      address_.provider == LcmProvider::kMulticast || address_.provider == LcmProvider::kTcp;
-  if (is_watched) thread_ = std::thread([this] { Run(); });
+    : address_(ParseLcmUrl(config.url)), sender_(sender) {
+  if (address_.provider == LcmProvider::kMulticast) {
+    listener_.emplace("channel watch", config.url, kReopen,
+                      LcmListener::Calls{
+                          .subscribe =
+                              [this, channel = config.prefix + "MOCAP_STATUS"](lcm::LCM& lcm) {
+                                lcm.subscribeFunction(ChannelPattern(channel), &NoteMessage,
+                                                      &register_);
+                              },
+                          .hears = [this] { return register_.Status(SteadyNs()).silent_ns == 0; }});
+  } else if (address_.provider == LcmProvider::kTcp) {
+    thread_ = std::thread([this] { AskServer(); });
+  }
 }
 
 ChannelWatch::~ChannelWatch() {
@@ -88,34 +97,11 @@ ChannelStatus ChannelWatch::Status() const {
   return status;
 }
 
-void ChannelWatch::Run() {
-  pthread_setname_np(pthread_self(), "channel watch");
-  address_.provider == LcmProvider::kTcp ? AskServer() : Listen();
-}
-
-void ChannelWatch::Listen() {
-  while (!stop_.load()) {
-    // LCM would tell in many lines that there is no way in.
-    std::unique_ptr<lcm::LCM> lcm;
-    if (HasMulticastRoute()) lcm = std::make_unique<lcm::LCM>(config_.url);
-    if (lcm && lcm->good()) {
-      lcm->subscribeFunction(ChannelPattern(config_.prefix + "MOCAP_STATUS"), &NoteMessage,
-                             &register_);
-    }
-    std::int64_t good_ns = SteadyNs();
-    while (!stop_.load() && SteadyNs() - good_ns < kReopenNs) {
-      if (!lcm || !lcm->good() || lcm->handleTimeout(kTickMs) < 0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(kTickMs));
-      }
-      if (register_.Status(SteadyNs()).silent_ns == 0) good_ns = SteadyNs();
-    }
-  }
-}
-
 void ChannelWatch::AskServer() {
+  pthread_setname_np(pthread_self(), "channel watch");
   std::int64_t pause_ns = kFirstPauseNs;
   std::int64_t tried_ns = SteadyNs();
-  for (; !stop_.load(); std::this_thread::sleep_for(std::chrono::milliseconds(kTickMs))) {
+  for (; !stop_.load(); std::this_thread::sleep_for(kTick)) {
     const std::int64_t since_ns = SteadyNs() - tried_ns;
     if (!sender_.is_down()) {
       if (since_ns > kLongestPauseNs) pause_ns = kFirstPauseNs;

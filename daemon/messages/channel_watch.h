@@ -7,10 +7,12 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "config/config.h"
+#include "daemon/messages/lcm_listener.h"
 #include "daemon/messages/lcm_sender.h"
 #include "daemon/status/channel_status.h"
 
@@ -47,16 +49,14 @@ class ChannelWatch {
   ChannelStatus Status() const;
 
  private:
-  void Run();
-  void Listen();
   void AskServer();
 
-  const LcmConfig config_;
   const LcmUrl address_;
   LcmSender& sender_;
   StatusRegister register_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;
+  std::thread thread_;                   ///< Of AskServer.
+  std::optional<LcmListener> listener_;  ///< Ends before what it tells.
 };
 
 }  // namespace mocap

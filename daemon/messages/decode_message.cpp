@@ -169,4 +169,31 @@ bool HasSoundCounts(const voxels_t&, std::span<const std::uint8_t> bytes) {
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const silhouette_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Capture, sending, clock.
+  skimmer.Skip(kHash + 3 * kNumber);
+  skimmer.Text();
+  // Session and number.
+  skimmer.Skip(2 * kNumber);
+  skimmer.Text();
+  // Sequence, angles, blindness, light, nudge, duration, size.
+  skimmer.Skip(3 * kNumber + 1 + 3 * kNumber + 2 * 4);
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const node_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + 2 * kNumber);
+  skimmer.Text();
+  skimmer.Skip(kNumber);
+  // Version, host, who keeps the clock.
+  skimmer.Texts(3);
+  skimmer.Skip(1 + kNumber);
+  skimmer.Texts(3 * skimmer.Count(3 * 4));
+  skimmer.Texts(skimmer.Count(4));
+  return skimmer.sound();
+}
+
 }  // namespace mocap

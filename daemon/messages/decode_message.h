@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <mocap/body_t.hpp>
+#include <mocap/node_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_body_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
+#include <mocap/silhouette_t.hpp>
 #include <mocap/status_t.hpp>
 #include <mocap/studio_t.hpp>
 #include <mocap/voxels_t.hpp>
@@ -28,6 +30,8 @@ bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const studio_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const preview_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const silhouette_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const node_t& kind, std::span<const std::uint8_t> bytes);
 
 /// Decodes a message; empty for what is none of its type.
 template <typename Message>

@@ -1,6 +1,7 @@
 #include "daemon/pipeline/camera_worker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -16,7 +17,6 @@ constexpr std::int64_t kNoneYet = std::numeric_limits<std::int64_t>::min();
 constexpr std::chrono::milliseconds kGrabTimeout{100};
 /// Between attempts to get a lost camera back.
 constexpr std::chrono::milliseconds kLostPause{20};
-/// More say little that is new.
 /// A worker comes round ten times a second; one that does not hangs.
 constexpr std::chrono::milliseconds kReplacePause{5};
 constexpr int kReplacePauses = 400;
@@ -85,13 +85,14 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.arrival_ns = TimelineNs();
   out.capture_ns = frame.capture_ns;
   out.sequence = frame.sequence;
+  out.angles = frame.angles;
   out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
   segmenter_.Segment(frame.image, frame.angles, out.silhouette);
   out.shading = segmenter_.shading();
-  TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
+  if (rays_ > 0) TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
-  out.is_blind = NoteConditions(out.silhouette);
+  NoteConditions(out);
   recorders_[Stage::kSegment].Record(out.segment_ns);
   newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
   OfferPreview(frame, out);
@@ -134,17 +135,17 @@ void CameraWorker::TakeReplacement() {
   replacement_waits_.store(false);
 }
 
-bool CameraWorker::NoteConditions(const Silhouette& silhouette) {
+void CameraWorker::NoteConditions(SegmentedFrame& frame) {
   const Conditions& conditions = segmenter_.conditions();
   constexpr int kGreen = 1;
   const float light = 1 / std::max(conditions.gain[kGreen], kLeastGain);
-  const bool is_blind = silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
-                        light < 1 / kMostLightFactor || conditions.shift_px > kMostShift_px;
-  is_blind_.store(is_blind, std::memory_order_relaxed);
-  light_.store(light, std::memory_order_relaxed);
-  nudged_px_.store(std::hypot(conditions.displacement.x_px, conditions.displacement.y_px),
-                   std::memory_order_relaxed);
-  return is_blind;
+  frame.light = light;
+  frame.nudged_px = std::hypot(conditions.displacement.x_px, conditions.displacement.y_px);
+  frame.is_blind = frame.silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
+                   light < 1 / kMostLightFactor || conditions.shift_px > kMostShift_px;
+  is_blind_.store(frame.is_blind, std::memory_order_relaxed);
+  light_.store(frame.light, std::memory_order_relaxed);
+  nudged_px_.store(frame.nudged_px, std::memory_order_relaxed);
 }
 
 void CameraWorker::Enter(CameraState state) {
@@ -154,6 +155,7 @@ void CameraWorker::Enter(CameraState state) {
   if (!facts.damage.empty()) remarks.push_back("frames come damaged: " + facts.damage);
   const std::lock_guard lock(remarks_mutex_);
   remarks_ = std::move(remarks);
+  time_source_ = facts.time_source;
 }
 
 void CameraWorker::CountFrame(std::uint64_t sequence) {
@@ -181,6 +183,7 @@ CameraStatus CameraWorker::Status() const {
   status.is_blind = is_blind_.load(std::memory_order_relaxed);
   const std::lock_guard lock(remarks_mutex_);
   status.remarks = remarks_;
+  status.time_source = time_source_;
   return status;
 }
 

@@ -11,10 +11,10 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/carving/floor_shadows.h"
-#include "daemon/pipeline/camera_worker.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
 #include "daemon/pipeline/pacer.h"
+#include "daemon/pipeline/segmented_frame.h"
 #include "daemon/pipeline/stage.h"
 #include "daemon/pipeline/synchronizer.h"
 

@@ -23,6 +23,12 @@ inline constexpr int kStageCount = 8;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames = {
     "segment", "carve", "label", "filter", "publish", "total", "latency", "spread"};
 
+/// The origin of latency.
+enum class LatencyOrigin {
+  kCapture,  ///< The frames' own time: cameras, and recordings in real time.
+  kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
+};
+
 /// One recorder a stage.
 class StageRecorders {
  public:

@@ -15,12 +15,6 @@
 
 namespace mocap {
 
-/// The origin of latency.
-enum class LatencyOrigin {
-  kCapture,  ///< The frames' own time: cameras, and recordings in real time.
-  kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
-};
-
 /// Tracks set after set and hands each on. One thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:

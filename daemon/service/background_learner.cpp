@@ -56,9 +56,9 @@ void KnownBackgrounds::Set(std::size_t camera, BackgroundSource source) {
   sources_.at(camera) = std::move(source);
 }
 
-BackgroundLearner::BackgroundLearner(Pipeline& pipeline, std::deque<FrameTap>& taps,
+BackgroundLearner::BackgroundLearner(FramePath& path, std::deque<FrameTap>& taps,
                                      KnownBackgrounds& known, LearningPlace place)
-    : pipeline_(pipeline), taps_(taps), known_(known), place_(std::move(place)) {}
+    : path_(path), taps_(taps), known_(known), place_(std::move(place)) {}
 
 std::string BackgroundLearner::Learn(bool anyway, double seconds) {
   if (!place_.refusal.empty()) throw SetupError(place_.refusal);
@@ -77,7 +77,7 @@ std::string BackgroundLearner::Learn(bool anyway, double seconds) {
 }
 
 void BackgroundLearner::RequireNobody() const {
-  const CaptureState state = pipeline_.Status().state;
+  const CaptureState state = path_.Status().state;
   if (state == CaptureState::kSearching || state == CaptureState::kLost) return;
   throw std::runtime_error(
       "somebody is tracked in the room; if that is nobody, mocap background learn --anyway");
@@ -146,7 +146,7 @@ void BackgroundLearner::Use(const std::deque<Look>& looks) {
     const CameraCalibration& camera = place_.cameras[i];
     const std::filesystem::path base = place_.folder / camera.name;
     known_.Set(i, OpenCameraBackground(base.string() + ".mkv", base.string() + ".csv", camera));
-    pipeline_.ReplaceBackground(static_cast<int>(i), looks[i].frames);
+    path_.ReplaceBackground(static_cast<int>(i), looks[i].frames);
   }
 }
 

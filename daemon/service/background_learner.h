@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline/pipeline.h"
+#include "daemon/pipeline/frame_path.h"
 #include "daemon/pipeline/tap.h"
 #include "drivers/background_source.h"
 
@@ -34,12 +34,12 @@ struct LearningPlace {
   std::string refusal;           ///< Why nothing can be learned here; empty: it can.
 };
 
-/// Looks at the studio for some seconds and has the pipeline go on with what was seen; no frame is
-/// lost meanwhile. Learn: one thread at a time.
+/// Looks at the studio for some seconds and has the frame path go on with what was seen; no frame
+/// is lost meanwhile. Learn: one thread at a time.
 class BackgroundLearner {
  public:
-  /// @param taps  one a camera, offered every frame; borrowed, as is the pipeline.
-  BackgroundLearner(Pipeline& pipeline, std::deque<FrameTap>& taps, KnownBackgrounds& known,
+  /// @param taps  one a camera, offered every frame; borrowed, as is the path.
+  BackgroundLearner(FramePath& path, std::deque<FrameTap>& taps, KnownBackgrounds& known,
                     LearningPlace place);
 
   /// Learns, keeps and uses what the cameras see. @return  one line a camera.
@@ -59,7 +59,7 @@ class BackgroundLearner {
   void Keep(const std::deque<Look>& looks) const;
   void Use(const std::deque<Look>& looks);
 
-  Pipeline& pipeline_;
+  FramePath& path_;
   std::deque<FrameTap>& taps_;
   KnownBackgrounds& known_;
   const LearningPlace place_;

@@ -15,7 +15,7 @@ std::string WithoutDigits(std::string text) {
 
 void ChangeLog::Add(const PipelineStatus& status) {
   const PipelineStatus before = last_.value_or(PipelineStatus{});
-  if (!last_ || status.state != before.state) {
+  if (status.tracks && (!last_ || status.state != before.state)) {
     spdlog::info("{}", kCaptureStateNames[static_cast<std::size_t>(status.state)]);
   }
   if (last_) CompareCameras(before, status);

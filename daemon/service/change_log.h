@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "daemon/pipeline/pipeline.h"
+#include "daemon/pipeline/frame_path.h"
 
 namespace mocap {
 

@@ -17,6 +17,10 @@
 #include "daemon/messages/channel_watch.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/messages/preview_publisher.h"
+#include "daemon/nodes/node_listener.h"
+#include "daemon/nodes/silhouette_sender.h"
+#include "daemon/nodes/subject_listener.h"
+#include "daemon/pipeline/node_path.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recorder.h"
 #include "daemon/service/live_config.h"
@@ -110,12 +114,19 @@ std::chrono::seconds TakePatience(const RecordingConfig& config) {
   return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
 }
 
+/// A node's own statuses go where they are not taken for the studio's.
+LcmConfig OwnChannels(const Config& config) {
+  LcmConfig lcm = config.lcm;
+  if (config.role == Role::kNode) lcm.prefix += config.node.name + "_";
+  return lcm;
+}
+
 /// Runs until there is nothing more to do.
-void RunUntilStopped(Pipeline& pipeline, Watch& watch, StopSignals& signals,
+void RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
                      std::optional<double> seconds) {
   const std::int64_t end_ns = seconds ? SteadyNs() + std::llround(*seconds * 1e9)
                                       : std::numeric_limits<std::int64_t>::max();
-  while (!pipeline.finished() && SteadyNs() < end_ns) {
+  while (!path.finished() && SteadyNs() < end_ns) {
     signals.Wait(kTick);
     if (signals.stop().load()) return;
     if (signals.TakeReload()) watch.Reload();
@@ -136,9 +147,10 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);
-  PosePublisher publisher(*prepared.lcm, config.lcm, static_cast<int>(studio.cameras.size()),
+  const LcmConfig lcm = OwnChannels(config);
+  PosePublisher publisher(*prepared.lcm, lcm, static_cast<int>(studio.cameras.size()),
                           studio.times);
-  ChannelWatch channels(config.lcm, publisher.sender());
+  ChannelWatch channels(lcm, publisher.sender());
   publisher.Watch(channels);
   KnownBackgrounds known = KnownBackgroundsOf(studio);
   Recorder recorder(RecordedStudioOf(studio, known, live.text()));
@@ -148,6 +160,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   publisher.Describe(studio.name, cameras);
   std::optional<LcmSender> beside;
   if (prepared.preview_lcm) beside.emplace(*prepared.preview_lcm, LcmProvider::kMulticast);
+  // Pictures of nodes go to whoever looks at the studio.
   PreviewPublisher preview(beside ? *beside : publisher.sender(), config.lcm, cameras,
                            studio.times);
   Outlet outlet(publisher, view, preview);
@@ -155,16 +168,40 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   PipelineOptions options = PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps});
   options.previews = &preview.taps();
   options.stop = &signals.stop();
-  Pipeline pipeline(std::move(studio), options, prepared.body, outlet);
-  BackgroundLearner learner(pipeline, learning_taps, known, learning);
-  const ServiceParts parts{live, pipeline, publisher, preview, view, recorder, learner};
+  std::optional<NodeListener> nodes;
+  if (config.role == Role::kStudio) {
+    nodes.emplace(config, cameras);
+    options.elsewhere = [&nodes](const auto& camera, int rays) {
+      return nodes->Open(camera, rays);
+    };
+  }
+  std::optional<SilhouetteSender> silhouettes;
+  std::optional<SubjectListener> subject;
+  std::unique_ptr<FramePath> path;
+  Pipeline* pipeline = nullptr;
+  if (config.role == Role::kNode) {
+    silhouettes.emplace(publisher.sender(), config, cameras);
+    if (studio.person) subject.emplace(config.lcm, studio.person);
+    path = std::make_unique<NodePath>(std::move(studio), options, *silhouettes);
+  } else {
+    auto tracking = std::make_unique<Pipeline>(std::move(studio), options, prepared.body, outlet);
+    pipeline = tracking.get();
+    path = std::move(tracking);
+  }
+  BackgroundLearner learner(*path, learning_taps, known, learning);
+  const ServiceParts parts{live, *path, pipeline, publisher, preview, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
-  Watch watch(parts, {control, manager, channels, log}, about);
+  Watch watch(parts,
+              {control, manager, channels, log, nodes ? &*nodes : nullptr,
+               silhouettes ? &*silhouettes : nullptr},
+              about);
   const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
   signals.Allow(kEndPatience, false);
-  pipeline.Start();
-  RunUntilStopped(pipeline, watch, signals, seconds);
+  if (nodes) nodes->Listen();
+  if (subject) subject->Listen();
+  path->Start();
+  RunUntilStopped(*path, watch, signals, seconds);
   const auto is_recording = [&recorder] {
     return recorder.Status().state == RecordingStatus::State::kRunning;
   };
@@ -180,8 +217,8 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   allow(is_recording());
   if (is_recording()) recorder.Stop();
   allow(false);
-  pipeline.RequestStop();
-  pipeline.Join();
+  path->RequestStop();
+  path->Join();
   watch.Conclude();
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 /// Whoever goes on looking asks again within it.
 constexpr std::chrono::seconds kLook{10};
+/// So long a node may take to answer, and one that completes a take or learns a background.
+constexpr std::chrono::seconds kPatience{10}, kTakePatience{60};
 
 std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
   std::vector<RecordedPerson> recorded;
@@ -27,8 +29,16 @@ std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) 
 }  // namespace
 
 ServiceControl::ServiceControl(const ServiceParts& parts, Subjects subjects)
-    : parts_(parts), subjects_(std::move(subjects)), config_(parts.config.config()) {
-  parts_.pipeline.KnowPeople(subjects_.Known());
+    : parts_(parts),
+      subjects_(std::move(subjects)),
+      nodes_(parts.config.config().nodes),
+      config_(parts.config.config()) {
+  if (parts_.pipeline) parts_.pipeline->KnowPeople(subjects_.Known());
+}
+
+Pipeline& ServiceControl::Tracking() const {
+  if (parts_.pipeline) return *parts_.pipeline;
+  throw SetupError("this mocapd is a node, which follows nobody: ask that of the studio");
 }
 
 ControlReply ServiceControl::Answer(const ControlRequest& request) {
@@ -67,16 +77,46 @@ std::string ServiceControl::Do(const StatusRequest& request) {
   return request.as_json ? ReportJson(report_) : ReportText(report_);
 }
 
-std::string ServiceControl::Do(const ReloadRequest&) { return Reload() + '\n'; }
+std::string ServiceControl::Do(const ReloadRequest&) {
+  NodeRequests::Asked asked = nodes_.Ask("reload", kPatience);
+  const std::string text = Reload() + '\n';
+  const NodeRequests::Answers answers = asked.Wait();
+  if (const std::string problem = answers.Problem(); !problem.empty())
+    throw std::runtime_error(text + problem);
+  return text + answers.Text();
+}
 
 std::string ServiceControl::Do(const RecordStartRequest& request) {
-  const auto folder = parts_.recorder.Start(request.name, config().service.recording,
+  const std::string text = StartRecording(request.name);
+  const NodeRequests::Answers answers =
+      nodes_.Ask("record start " + request.name, kPatience).Wait();
+  if (const std::string problem = answers.Problem(); !problem.empty()) {
+    // A take without some of its cameras is none.
+    NodeRequests::Asked stopping = nodes_.Ask("record stop", kTakePatience);
+    parts_.recorder.Stop();
+    stopping.Wait();
+    throw std::runtime_error(problem + "; the recording was ended");
+  }
+  return text + answers.Text();
+}
+
+std::string ServiceControl::StartRecording(const std::string& name) {
+  const auto folder = parts_.recorder.Start(name, config().service.recording,
                                             Recorded(Tracked(parts_.view.people())));
   spdlog::info("recording {}", folder.c_str());
   return fmt::format("recording {}\n", folder.string());
 }
 
 std::string ServiceControl::Do(const RecordStopRequest&) {
+  NodeRequests::Asked asked = nodes_.Ask("record stop", kTakePatience);
+  const std::string text = StopRecording();
+  const NodeRequests::Answers answers = asked.Wait();
+  if (const std::string problem = answers.Problem(); !problem.empty())
+    throw std::runtime_error(text + problem);
+  return text + answers.Text();
+}
+
+std::string ServiceControl::StopRecording() {
   const RecordingStatus status = parts_.recorder.Stop();
   if (status.state != RecordingStatus::State::kComplete) {
     throw std::runtime_error("the recording failed: " + status.problem + "; what there is, is in " +
@@ -94,7 +134,7 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
 
 std::string ServiceControl::Do(const SubjectNewRequest&) {
   const std::vector<FollowedPerson> people = parts_.view.people();
-  parts_.pipeline.ChangeSubject({});
+  Tracking().ChangeSubject({});
   const std::string text =
       people.empty()
           ? "whoever comes is measured anew"
@@ -108,8 +148,8 @@ std::string ServiceControl::Do(const SubjectSaveRequest& request) {
   if (people.empty()) throw std::runtime_error("nobody is tracked whose sizes could be kept");
   const FollowedPerson& person = ChoosePerson(people, request.person);
   subjects_.Save(request.name, person.sizes);
-  parts_.pipeline.NamePerson(person.id, request.name);
-  parts_.pipeline.KnowPeople(subjects_.Known());
+  Tracking().NamePerson(person.id, request.name);
+  Tracking().KnowPeople(subjects_.Known());
   spdlog::info("person {} is kept as subject {}", person.id, request.name);
   return fmt::format("person {} is kept as {}: stature {:.0f} mm\n", person.id, request.name,
                      person.sizes.Stature());
@@ -118,7 +158,7 @@ std::string ServiceControl::Do(const SubjectSaveRequest& request) {
 std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   const BodySizes sizes = subjects_.Load(request.name);
   const std::size_t people = parts_.view.people().size();
-  parts_.pipeline.ChangeSubject(KnownPerson{request.name, sizes});
+  Tracking().ChangeSubject(KnownPerson{request.name, sizes});
   spdlog::info("subject {} is followed", request.name);
   return fmt::format(
       "{} is followed from now on: stature {:.0f} mm{}\n", request.name, sizes.Stature(),
@@ -126,12 +166,23 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
 }
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
+  NodeRequests::Asked asked =
+      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kTakePatience);
+  const bool has_cameras = nodes_.empty() || config().source.driver != "none";
+  const std::string text = has_cameras ? LearnBackground(request.anyway) : "";
+  const NodeRequests::Answers answers = asked.Wait();
+  if (const std::string problem = answers.Problem(); !problem.empty())
+    throw std::runtime_error(text + problem);
+  return text + answers.Text();
+}
+
+std::string ServiceControl::LearnBackground(bool anyway) {
   if (parts_.recorder.Status().state == RecordingStatus::State::kRunning) {
     throw std::runtime_error(
         "a take is being recorded, which has one background; "
         "mocap record stop comes first");
   }
-  const std::string text = parts_.background.Learn(request.anyway);
+  const std::string text = parts_.background.Learn(anyway);
   spdlog::info("the empty studio was learned anew");
   return text;
 }
@@ -143,6 +194,7 @@ std::string ServiceControl::Do(const BackgroundStatusRequest&) {
 
 std::string ServiceControl::Do(const LookRequest&) {
   parts_.preview.Look(kLook);
+  nodes_.Look();
   return fmt::format("pictures and voxels are published for {} s\n", kLook.count());
 }
 

@@ -11,6 +11,7 @@
 #include "daemon/service/background_learner.h"
 #include "daemon/service/live_config.h"
 #include "daemon/service/live_view.h"
+#include "daemon/service/node_requests.h"
 #include "daemon/service/subjects.h"
 #include "daemon/status/service_report.h"
 
@@ -19,7 +20,8 @@ namespace mocap {
 /// The parts of the running daemon that requests reach. Borrowed.
 struct ServiceParts {
   LiveConfig& config;
-  Pipeline& pipeline;
+  FramePath& path;
+  Pipeline* pipeline;  ///< The path, where it tracks; null at a node.
   PosePublisher& publisher;
   PreviewPublisher& preview;
   LiveView& view;
@@ -55,8 +57,14 @@ class ServiceControl {
   std::string Do(const BackgroundStatusRequest&);
   std::string Do(const LookRequest&);
 
+  Pipeline& Tracking() const;
+  std::string StartRecording(const std::string& name);
+  std::string StopRecording();
+  std::string LearnBackground(bool anyway);
+
   const ServiceParts parts_;
   const Subjects subjects_;
+  NodeRequests nodes_;
   std::mutex report_mutex_;
   ServiceReport report_;
   std::int64_t report_ns_ = 0;  ///< When it was given, by the steady clock.

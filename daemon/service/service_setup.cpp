@@ -28,7 +28,8 @@ Made CalibrationMadeBy(const std::filesystem::path& file) {
 Made CalibrationOf(const Config& config) {
   if (config.source.driver == "take")
     return CalibrationMadeBy(TakeLayout{config.source.take}.Calibration());
-  if (IsLive(config.source)) return CalibrationMadeBy(config.calibration);
+  if (IsLive(config.source) || config.role == Role::kStudio)
+    return CalibrationMadeBy(config.calibration);
   return {"the simulated studio's own", 0};
 }
 
@@ -110,7 +111,8 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
 
 KnownBackgrounds KnownBackgroundsOf(const Studio& studio) {
   std::vector<BackgroundSource> sources;
-  for (const StudioCamera& camera : studio.cameras) sources.push_back(camera.background);
+  for (const StudioCamera& camera : studio.cameras)
+    if (camera.driver) sources.push_back(camera.background);
   return KnownBackgrounds(std::move(sources));
 }
 
@@ -121,7 +123,7 @@ RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& kn
                           .cameras = {},
                           .config_text = config_text,
                           .times = studio.times};
-  for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < studio.cameras.size() && studio.cameras[i].driver; ++i) {
     // What is known by the time of the recording, not now.
     const auto read = [&known, i](const BackgroundSource::Visit& visit) {
       known.Of(i).ForEach(visit);
@@ -145,6 +147,7 @@ Made BackgroundOf(const Config& config) {
 LearningPlace LearningPlaceFor(const Config& config, const Studio& studio) {
   LearningPlace place{.cameras = {}, .folder = config.background, .refusal = {}};
   for (const StudioCamera& camera : studio.cameras) {
+    if (!camera.driver) break;
     place.cameras.push_back(camera.calibration);
     if (!camera.calibration.head || !place.refusal.empty()) continue;
     place.refusal = camera.calibration.name +
@@ -164,6 +167,7 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   report.fps_nominal = studio.fps_nominal;
   for (const StudioCamera& camera : studio.cameras) report.camera_fps.push_back(camera.fps);
   report.lcm_url = config.lcm.url;
+  report.node = config.node.name;
   report.calibration = CalibrationOf(config);
   report.background = BackgroundOf(config);
   return report;

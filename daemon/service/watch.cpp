@@ -42,15 +42,17 @@ Watch::Watch(const ServiceParts& parts, const WatchParts& around, ServiceReport 
 }
 
 void Watch::Tick() {
-  const PipelineStatus status = parts_.pipeline.Status();
+  const PipelineStatus status = parts_.path.Status();
   ClearLine();
   log_.Add(status);
   if (status_pacer_.IsDue(SteadyNs())) Report(status);
   if (status.sets_tracked > 0 && !around_.manager.is_ready()) {
-    if (parts_.publisher.sender().Status().failed == 0) spdlog::info("poses flow");
+    if (parts_.publisher.sender().Status().failed == 0)
+      spdlog::info("{} flow", parts_.pipeline ? "poses" : "silhouettes");
     around_.manager.Ready();
   }
-  if (progress_.HasMoved(parts_.pipeline.Progress())) around_.manager.FeedWatchdog();
+  if (around_.silhouettes) around_.silhouettes->Tell(status.cameras, told_);
+  if (progress_.HasMoved(parts_.path.Progress())) around_.manager.FeedWatchdog();
   if (on_terminal_) {
     std::printf("%s", parts_.view.Line(report_.now).c_str());
     std::fflush(stdout);
@@ -75,7 +77,11 @@ void Watch::Reload() {
 void Watch::Conclude() {
   Tick();
   ClearLine();
-  const PipelineStatus status = parts_.pipeline.Status();
+  const PipelineStatus status = parts_.path.Status();
+  if (!status.tracks) {
+    spdlog::info("{}", Counted(status.sets_tracked, "silhouette"));
+    return;
+  }
   const LatencyHistogram& latency = status.stages[Stage::kLatency];
   spdlog::info(
       "{}, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} ms",
@@ -92,13 +98,15 @@ void Watch::Report(const PipelineStatus& status) {
   report_.up_ns = SteadyNs() - start_ns_;
   report_.epoch_s = TimeOfDayS();
   report_.log_fails = around_.log.Fails(SteadyNs());
+  if (around_.nodes) report_.nodes = around_.nodes->Report();
   LookAtClock();
   LookAtStudio(status);
   LookAtDelivery();
   LookAtDisk();
   parts_.publisher.PublishStatus(report_);
   around_.control.SetReport(report_);
-  complaints_.Add(Diagnostics(report_), SteadyNs());
+  told_ = Diagnostics(report_);
+  complaints_.Add(told_, SteadyNs());
   around_.manager.Say(ReportLine(report_));
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "daemon/messages/channel_watch.h"
+#include "daemon/nodes/node_listener.h"
+#include "daemon/nodes/silhouette_sender.h"
 #include "daemon/pipeline/frame_progress.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/service/change_log.h"
@@ -30,6 +32,8 @@ struct WatchParts {
   ServiceManager& manager;
   const ChannelWatch& channels;
   const ServiceLog& log;
+  NodeListener* nodes;            ///< Of a studio; else null.
+  SilhouetteSender* silhouettes;  ///< Of a node; else null.
 };
 
 /// Looks at the running daemon some times a second and tells of it. Nothing here waits for a disk.
@@ -59,6 +63,7 @@ class Watch {
   ProgressWatch progress_;
   ChangeLog log_;
   DiagnosticLog complaints_;
+  std::vector<std::string> told_;  ///< What was not good at the last report.
   StatusWindow window_;
   LightWatch light_;
   ClockWatch clock_;

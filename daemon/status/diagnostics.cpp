@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "daemon/status/node_diagnostics.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {
@@ -180,8 +181,8 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
 }
 
 void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
-  if (WaitsForTrigger(report, i)) return;
   const CameraStatus& camera = report.now.status.cameras[i];
+  if (WaitsForTrigger(report, i) || IsOfLostNode(report.nodes, camera.node)) return;
   if (camera.state == CameraState::kLost) {
     list.push_back(camera.name + " is lost: look at its cable and power");
   } else if (camera.state == CameraState::kStarting) {
@@ -189,7 +190,9 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   }
   const double rate = report.now.frames_per_second[i];
   const double wanted = FpsOf(report, i);
-  const bool is_slow = report.now.sets_per_second > 0 && rate < kGoodRate * wanted;
+  const bool is_flowing = report.now.sets_per_second > 0;
+  const bool returns = i < report.now.returns.size() && report.now.returns[i];
+  const bool is_slow = is_flowing && !returns && rate < kGoodRate * wanted;
   if (camera.state == CameraState::kStreaming && is_slow) {
     list.push_back(
         fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
@@ -320,12 +323,14 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfDelivery(report, list);
   ComplainOfRecording(report, list);
   ComplainOfDisk(report, list);
-  ComplainOfSets(report, list);
+  if (report.node.empty()) ComplainOfSets(report, list);
+  const List of_nodes = NodeDiagnostics(report.nodes, report.lcm_url);
+  list.insert(list.end(), of_nodes.begin(), of_nodes.end());
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     ComplainOfFlow(report, i, list);
     ComplainOfPicture(report.now.status.cameras[i], list);
   }
-  ComplainOfOneAlone(report, list);
+  if (report.node.empty()) ComplainOfOneAlone(report, list);
   ComplainOfTriggers(report, list);
   ComplainOfMatching(report, list);
   ComplainOfPlace(report.now.status, list);

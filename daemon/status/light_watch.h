@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline/pipeline.h"
+#include "daemon/pipeline/frame_path.h"
 
 namespace mocap {
 

@@ -143,8 +143,7 @@ std::string PeopleTable(const ServiceReport& report) {
   for (const FollowedPerson& person : report.people) {
     const bool is_tracked = person.state == CaptureState::kTracking;
     text += fmt::format(
-        "{:<24}{:<12}{:>16}{:>9}{:>12.0f}  {}\n",
-        std::to_string(person.id) + NameText(person),
+        "{:<24}{:<12}{:>16}{:>9}{:>12.0f}  {}\n", std::to_string(person.id) + NameText(person),
         NameOf(person.state),
         fmt::format("{:.2f} {:.2f}", person.torso_W.x() / 1000, person.torso_W.y() / 1000),
         is_tracked ? fmt::format("{:.0f}", person.residual_mm) : "-", person.sizes.Stature(),
@@ -178,6 +177,7 @@ JsonObject MadeJson(const Made& made) {
 JsonObject CameraJson(const CameraStatus& camera, double frames_per_second) {
   JsonObject json;
   json.Add("name", camera.name);
+  json.Add("node", camera.node);
   json.Add("state", NameOf(camera.state));
   json.Add("frames_per_second", frames_per_second, 2);
   json.Add("frames", camera.frames);
@@ -193,14 +193,42 @@ JsonObject CameraJson(const CameraStatus& camera, double frames_per_second) {
   return json;
 }
 
+std::string TrackingText(const ServiceReport& report) {
+  const PipelineStatus& status = report.now.status;
+  const StageHistograms& recent = report.now.recent;
+  std::string text = Line("poses", "on " + report.lcm_url);
+  text += Line("state", StateText(report));
+  text +=
+      Line("sets", fmt::format("{:.1f} a second; {} complete, {} without some camera, {} left out",
+                               report.now.sets_per_second, status.sets_complete,
+                               status.sets_partial, status.sets_dropped));
+  text += Line("spread", Percentiles(recent[Stage::kSpread]));
+  text += Line("latency", Percentiles(recent[Stage::kLatency]));
+  for (const Stage stage : kTold) {
+    text += Line("  " + std::string(NameOf(stage)), Percentiles(recent[stage]));
+  }
+  return text;
+}
+
+/// Of a node, which does not track.
+std::string SendingText(const ServiceReport& report) {
+  return Line("node", report.node) +
+         Line("silhouettes",
+              fmt::format("{:.1f} a second, on {}", report.now.sets_per_second, report.lcm_url)) +
+         Line("  segment", Percentiles(report.now.recent[Stage::kSegment]));
+}
+
 }  // namespace
 
 std::string ReportLine(const ServiceReport& report) {
   const PipelineStatus& status = report.now.status;
   std::string line =
-      fmt::format("{}; {:.1f} sets/s, latency {:.0f} ms, {} of {} cameras", StateText(report),
-                  report.now.sets_per_second, report.now.recent[Stage::kLatency].PercentileMs(0.5),
-                  Streaming(status), status.cameras.size());
+      report.node.empty()
+          ? fmt::format("{}; {:.1f} sets/s, latency {:.0f} ms", StateText(report),
+                        report.now.sets_per_second,
+                        report.now.recent[Stage::kLatency].PercentileMs(0.5))
+          : fmt::format("node {}; {:.1f} silhouettes/s", report.node, report.now.sets_per_second);
+  line += fmt::format(", {} of {} cameras", Streaming(status), status.cameras.size());
   if (report.recording.state == Recorded::kRunning) {
     line += fmt::format("; recording {}, {}", report.recording.folder.stem().c_str(),
                         Duration(report.recording.duration_ns));
@@ -212,23 +240,12 @@ std::string ReportLine(const ServiceReport& report) {
 
 std::string ReportText(const ServiceReport& report) {
   const PipelineStatus& status = report.now.status;
-  const StageHistograms& recent = report.now.recent;
   const std::vector<std::string> complaints = Diagnostics(report);
   std::string text = complaints.empty() ? "all is good\n" : "";
   for (const std::string& complaint : complaints) text += "! " + Printable(complaint) + '\n';
   text += '\n' + Line("mocapd", fmt::format("{}, up {}; {}", MOCAP_VERSION, Duration(report.up_ns),
                                             report.studio));
-  text += Line("poses", "on " + report.lcm_url);
-  text += Line("state", StateText(report));
-  text +=
-      Line("sets", fmt::format("{:.1f} a second; {} complete, {} without some camera, {} left out",
-                               report.now.sets_per_second, status.sets_complete,
-                               status.sets_partial, status.sets_dropped));
-  text += Line("spread", Percentiles(recent[Stage::kSpread]));
-  text += Line("latency", Percentiles(recent[Stage::kLatency]));
-  for (const Stage stage : kTold) {
-    text += Line("  " + std::string(NameOf(stage)), Percentiles(recent[stage]));
-  }
+  text += report.node.empty() ? TrackingText(report) : SendingText(report);
   text += Line("recording", RecordingText(report.recording));
   text += Line("disk",
                fmt::format("{:.1f} GB free for takes in {}",
@@ -236,7 +253,7 @@ std::string ReportText(const ServiceReport& report) {
   text += Line("calibration",
                MadeText(report.calibration, report.epoch_s) + "; " + AgreementText(status));
   text += Line("background", MadeText(report.background, report.epoch_s)) + '\n';
-  return text + PeopleTable(report) + CameraTable(report);
+  return text + PeopleTable(report) + NodeTable(report.nodes) + CameraTable(report);
 }
 
 std::string BackgroundText(const ServiceReport& report) {
@@ -278,6 +295,10 @@ std::string ReportJson(const ServiceReport& report) {
     cameras.push_back(CameraJson(status.cameras[i], report.now.frames_per_second[i]));
   }
   json.Add("cameras", cameras);
+  json.Add("node", report.node);
+  std::vector<JsonObject> nodes;
+  for (const NodeReport& node : report.nodes.nodes) nodes.push_back(NodeJson(node));
+  json.Add("nodes", nodes);
   json.Add("calibration", MadeJson(report.calibration));
   json.Add("background", MadeJson(report.background));
   json.Add("takes", report.takes.string());

@@ -12,6 +12,7 @@
 #include "daemon/status/channel_status.h"
 #include "daemon/status/followed_person.h"
 #include "daemon/status/light_watch.h"
+#include "daemon/status/node_report.h"
 #include "daemon/status/status_window.h"
 
 namespace mocap {
@@ -60,6 +61,8 @@ struct ServiceReport {
   std::int64_t age_ns = 0;         ///< How long ago this was, when somebody asks.
   Delivery delivery;
   std::vector<CutOffTake> cut_off;
+  std::string node;   ///< The name of this node; empty: it is none.
+  NodesReport nodes;  ///< Of a studio.
 };
 
 /// One line for people: the state, rate, latency, cameras, and the first complaint.

@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "daemon/pipeline/pipeline.h"
+#include "daemon/pipeline/frame_path.h"
 
 namespace mocap {
 
@@ -19,7 +19,8 @@ struct StatusReport {
   std::int64_t sets_complete_lately = 0;
   std::int64_t sets_partial_lately = 0;
   std::int64_t sets_dropped_lately = 0;
-  std::vector<double> frames_per_second;  ///< By camera.
+  std::vector<double> frames_per_second;  ///< By camera; of one that was lost, since it came back.
+  std::vector<bool> returns;              ///< Likewise: it was lost at the last status.
   std::vector<double> late_per_second;    ///< Likewise: those that found no set.
 };
 
@@ -36,6 +37,8 @@ class StatusWindow {
     std::int64_t time_ns = 0;
     PipelineStatus status;
   };
+  const Past& SinceLost(std::size_t camera) const;
+
   std::deque<Past> past_;
 };
 

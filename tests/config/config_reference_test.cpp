@@ -23,7 +23,8 @@ std::set<std::string> KeysInCode() {
       R"re((?:Text|Texts|Flag|Choice|Number|Numbers|NumberWithin|IntegerWithin|Integers|Section|Sections|Has)\(\s*"(\w+)")re");
   static const std::regex kOptional(R"re((?:OptionalWithin|ReadRange)\(section, "(\w+)")re");
   std::set<std::string> keys;
-  for (const char* file : {"load_config.cpp", "load_service_config.cpp", "read_cameras.cpp"}) {
+  for (const char* file :
+       {"load_config.cpp", "load_service_config.cpp", "read_cameras.cpp", "read_nodes.cpp"}) {
     const std::string code = testing::ReadText(kSource / "config" / file);
     for (const std::regex& asks : {kAsked, kOptional}) {
       for (std::sregex_iterator i(code.begin(), code.end(), asks), end; i != end; ++i) {

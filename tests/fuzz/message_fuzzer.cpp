@@ -11,5 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::studio_t>(bytes);
   mocap::DecodeMessage<mocap::preview_t>(bytes);
   mocap::DecodeMessage<mocap::voxels_t>(bytes);
+  mocap::DecodeMessage<mocap::silhouette_t>(bytes);
+  mocap::DecodeMessage<mocap::node_t>(bytes);
   return 0;
 }

@@ -47,7 +47,8 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kInner
       {"recording", {"base", "pipeline"}},
       {"status", {"base", "pipeline", "recording"}},
       {"messages", {"base", "pipeline", "status"}},
-      {"service", {"base", "control", "messages", "pipeline", "recording", "status"}}}}};
+      {"nodes", {"messages", "pipeline", "status"}},
+      {"service", {"base", "control", "messages", "nodes", "pipeline", "recording", "status"}}}}};
 
 struct Include {
   fs::path file;

@@ -6,6 +6,7 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/pipeline/pipeline.h"
 #include "tests/daemon/fake_studio.h"
 #include "tests/support/temporary_folder.h"
 

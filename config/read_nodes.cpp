@@ -1,0 +1,79 @@
+#include "config/read_nodes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kLongestName = 16;
+
+/// The name is part of channels' names.
+std::string ReadName(TomlSection& section) {
+  const std::string name = section.Text("name");
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  if (name.empty() || name.size() > kLongestName || !std::ranges::all_of(name, fits)) {
+    section.Fail("name", "is \"" + name + "\"; 1 to " + std::to_string(kLongestName) +
+                             " letters, digits, _ and - are wanted");
+  }
+  return name;
+}
+
+NodeConfig ReadNode(TomlSection section) {
+  NodeConfig node;
+  node.name = ReadName(section);
+  if (section.Has("cameras")) node.cameras = section.Texts("cameras");
+  section.RejectUnknownKeys();
+  return node;
+}
+
+StudioNode ReadStudioNode(TomlSection section, std::set<std::string>& names,
+                          std::set<std::string>& cameras) {
+  StudioNode node;
+  node.name = ReadName(section);
+  if (!names.insert(node.name).second) {
+    section.Fail("name",
+                 "is \"" + node.name + "\", as another node's; a name of its own is wanted");
+  }
+  node.cameras = section.Texts("cameras");
+  if (node.cameras.empty()) section.Fail("cameras", "is empty; names of cameras are wanted");
+  for (const std::string& camera : node.cameras) {
+    if (cameras.insert(camera).second) continue;
+    section.Fail("cameras", "has \"" + camera + "\", which is there twice");
+  }
+  if (section.Has("control")) node.control = section.Texts("control");
+  section.RejectUnknownKeys();
+  return node;
+}
+
+}  // namespace
+
+void ReadRole(TomlSection& root, Config& config) {
+  config.role = static_cast<Role>(root.Choice("role", {"alone", "node", "studio"}, 0));
+  if (auto section = root.Section("node")) {
+    if (config.role != Role::kNode) root.Fail("node", "is there, which needs role = \"node\"");
+    if (section->Has("cameras") && IsLive(config.source)) {
+      section->Fail("cameras",
+                    "is for takes and the simulated studio; [[cameras]] are the ones of "
+                    "source.driver \"" +
+                        config.source.driver + "\"");
+    }
+    config.node = ReadNode(std::move(*section));
+  } else if (config.role == Role::kNode) {
+    root.Fail("node", "is missing, which role \"node\" needs: [node] with a name");
+  }
+  std::set<std::string> names, cameras;
+  for (const CameraConfig& camera : config.cameras) cameras.insert(camera.name);
+  for (TomlSection& section : root.Sections("nodes"))
+    config.nodes.push_back(ReadStudioNode(std::move(section), names, cameras));
+  const bool is_studio = config.role == Role::kStudio;
+  if (!config.nodes.empty() && !is_studio)
+    root.Fail("nodes", "is there, which needs role = \"studio\"");
+  if (!is_studio) return;
+  if (config.nodes.empty()) root.Fail("nodes", "is missing, which role \"studio\" needs");
+  if (config.calibration.empty())
+    root.Fail("calibration", "is missing; role \"studio\" needs that of all cameras");
+}
+
+}  // namespace mocap

@@ -1,0 +1,79 @@
+// A camera whose driver is at another computer.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/reconstruction/camera/camera_model.h"
+#include "daemon/pipeline/doorbell.h"
+#include "daemon/pipeline/silhouette_source.h"
+#include "daemon/pipeline/spsc_queue.h"
+
+namespace mocap {
+
+/// A silhouette as it came, its times on the timeline of this program.
+struct ReceivedSilhouette {
+  std::vector<std::uint8_t> packed;
+  PanTiltAngles angles;
+  std::int64_t capture_ns = 0;
+  std::int64_t arrival_ns = 0;
+  std::int64_t segment_ns = 0;
+  std::uint64_t sequence = 0;
+  bool is_blind = false;
+  double light = 1;
+  double nudged_px = 0;
+};
+
+/// What comes in for one camera. The listener's thread fills it, the camera's thread takes it out.
+struct RemoteInbox {
+  RemoteInbox(const CameraCalibration& of, std::string of_node)
+      : calibration(of), node(std::move(of_node)) {}
+
+  const CameraCalibration calibration;
+  const std::string node;
+  Doorbell bell;  ///< Rung for each silhouette, and some times a second without.
+  SpscQueue<ReceivedSilhouette> queue{8, Overflow::kDropOldest, bell};
+  /// Whether its node can be heard, and its times can be used.
+  std::atomic<bool> is_connected{false};
+};
+
+/// Unpacks what its inbox holds.
+class RemoteCamera : public SilhouetteSource {
+ public:
+  /// @param inbox  borrowed for life; of no other camera. @param rays  of an outline, at the most.
+  RemoteCamera(RemoteInbox& inbox, int rays) : inbox_(inbox), rays_(rays) {}
+
+  void Start() override {}
+  void Stop() override { state_.store(CameraState::kEnded, std::memory_order_relaxed); }
+  Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame) override;
+  const CameraCalibration& calibration() const override { return inbox_.calibration; }
+  Expectation expectation() const override { return expectation_.load(std::memory_order_acquire); }
+  std::int64_t newest_ns() const override { return newest_ns_.load(std::memory_order_relaxed); }
+  CameraStatus Status() const override;
+
+ private:
+  static constexpr std::int64_t kNoneYetNs = std::numeric_limits<std::int64_t>::min();
+
+  bool Await();
+  bool Unpack(SegmentedFrame& frame);
+  void Count(std::uint64_t sequence);
+
+  RemoteInbox& inbox_;
+  const int rays_;
+  std::uint64_t next_sequence_ = 0;
+  std::atomic<CameraState> state_{CameraState::kStarting};
+  std::atomic<Expectation> expectation_{Expectation::kPossible};
+  std::atomic<std::int64_t> newest_ns_{kNoneYetNs};
+  std::atomic<std::int64_t> frames_{0};
+  std::atomic<std::int64_t> dropped_{0};
+  std::atomic<std::int64_t> torn_{0};
+  std::atomic<double> light_{1};
+  std::atomic<double> nudged_px_{0};
+  std::atomic<bool> is_blind_{false};
+};
+
+}  // namespace mocap

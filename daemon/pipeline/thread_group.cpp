@@ -1,0 +1,53 @@
+#include "daemon/pipeline/thread_group.h"
+
+#include <pthread.h>
+
+#include <utility>
+
+#include "daemon/pipeline/realtime.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::size_t kLongestThreadName = 15;
+
+}  // namespace
+
+void ThreadGroup::Launch(const std::string& name, std::function<void()> body) {
+  threads_.emplace_back([this, name, body = std::move(body)] {
+    pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
+    // Whether they may is known by now; without it, frames are only more often late.
+    if (options_.priority > 0) {
+      TakePriority(options_.priority);
+    } else if (options_.in_long_turns) {
+      WorkInLongTurns();
+    }
+    KeepToProcessors(options_.processors);
+    body();
+  });
+}
+
+void ThreadGroup::Guard(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (...) {
+    if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+    RequestStop();
+  }
+}
+
+void ThreadGroup::Join() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void ThreadGroup::End() {
+  RequestStop();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+  threads_.clear();
+}
+
+}  // namespace mocap

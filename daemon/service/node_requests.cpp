@@ -1,0 +1,84 @@
+#include "daemon/service/node_requests.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mocap {
+namespace {
+
+constexpr std::chrono::seconds kLookPatience{5};
+
+std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+NodeRequests::NodeRequests(const std::vector<StudioNode>& nodes) {
+  for (const StudioNode& node : nodes) {
+    if (node.control.empty()) {
+      unreachable_.push_back(node.name);
+    } else {
+      controls_.emplace_back("node " + node.name, node.control);
+    }
+  }
+}
+
+NodeRequests::Asked NodeRequests::Ask(const std::string& request,
+                                      std::chrono::milliseconds patience) const {
+  Asked asked;
+  for (const RemoteControl& control : controls_) {
+    asked.nodes_.push_back(control.node());
+    asked.futures_.push_back(control.AskBeside(request, patience));
+  }
+  for (const std::string& name : unreachable_) {
+    asked.nodes_.push_back("node " + name);
+    std::promise<RemoteAnswer> refusal;
+    refusal.set_value({{},
+                       "node " + name +
+                           ": [[nodes]] has no control command for it, such as "
+                           "[\"ssh\", \"mocap-studio@" +
+                           name + "\"]"});
+    asked.futures_.push_back(refusal.get_future());
+  }
+  return asked;
+}
+
+NodeRequests::Answers NodeRequests::Asked::Wait() {
+  Answers answers{std::move(nodes_), {}};
+  for (std::future<RemoteAnswer>& future : futures_) answers.answers.push_back(future.get());
+  return answers;
+}
+
+std::string NodeRequests::Answers::Problem() const {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const RemoteAnswer& answer = answers[i];
+    if (!answer.reply) return answer.problem;
+    if (answer.reply->outcome != ControlOutcome::kDone)
+      return nodes[i] + ": " + FirstLine(answer.reply->text);
+  }
+  return {};
+}
+
+std::string NodeRequests::Answers::Text() const {
+  std::string text;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i].reply) continue;
+    const std::string& said = answers[i].reply->text;
+    for (std::size_t begin = 0; begin < said.size();) {
+      const std::size_t end = std::min(said.find('\n', begin), said.size());
+      text += nodes[i] + ": " + said.substr(begin, end - begin) + '\n';
+      begin = end + 1;
+    }
+  }
+  return text;
+}
+
+void NodeRequests::Look() {
+  std::erase_if(looks_, [](const std::future<RemoteAnswer>& look) {
+    return look.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  if (!looks_.empty()) return;
+  for (const RemoteControl& control : controls_)
+    looks_.push_back(control.AskBeside("look", kLookPatience));
+}
+
+}  // namespace mocap

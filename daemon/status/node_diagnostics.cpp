@@ -1,0 +1,104 @@
+#include "daemon/status/node_diagnostics.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "daemon/status/diagnostics.h"
+
+namespace mocap {
+namespace {
+
+/// More silhouettes than this share are not lost without a reason.
+constexpr double kMostLost = 0.001;
+/// A clock that may be off by more is not kept well enough.
+constexpr double kMostError_ms = 5;
+
+using List = std::vector<std::string>;
+
+std::string Silence(const NodeReport& node, const std::string& lcm_url) {
+  const std::string since =
+      node.was_heard ? " for " + Duration(node.silent_ns) : " since the start";
+  const bool stays_here = lcm_url.find("ttl=0") != std::string::npos;
+  return fmt::format(
+      "nothing has been heard of node {}{}: look at its power and network, and at "
+      "mocapd there{}",
+      node.name, since,
+      stays_here ? "; lcm.url has ttl=0, which keeps messages on one computer" : "");
+}
+
+void DiagnoseClock(const NodeReport& node, List& list) {
+  if (!node.clock_agrees) {
+    const double apart_ms = static_cast<double>(node.clock_apart_ns) / 1e6;
+    list.push_back(fmt::format(
+        "the clock of node {} is {:.0f} ms {} the one here, and its cameras are gone on without: "
+        "ptp4l and phc2sys, or chrony, keep both right",
+        node.name, std::abs(apart_ms), apart_ms > 0 ? "behind" : "ahead of"));
+  } else if (!node.version.empty() && !node.has_this_clock &&
+             (!node.clock_is_kept || node.clock_error_ms > kMostError_ms)) {
+    list.push_back(
+        node.clock_is_kept
+            ? fmt::format(
+                  "the clock of node {} may be off by {:.0f} ms, says its kernel: ptp4l and "
+                  "phc2sys keep it better{}",
+                  node.name, node.clock_error_ms,
+                  node.clock_keeper.empty() ? "" : " than " + node.clock_keeper)
+            : fmt::format("nothing keeps the clock of node {} right: ptp4l and phc2sys, or chrony, "
+                          "are wanted there",
+                          node.name));
+  }
+}
+
+void Diagnose(const NodeReport& node, const std::string& lcm_url, List& list) {
+  if (IsSilent(node)) {
+    list.push_back(Silence(node, lcm_url));
+    return;
+  }
+  DiagnoseClock(node, list);
+  if (!node.is_of_this_version) {
+    list.push_back(fmt::format("node {} runs mocapd {}, and this is {}: one version is wanted",
+                               node.name, node.version, MOCAP_VERSION));
+  }
+  if (!node.missing.empty()) {
+    list.push_back(fmt::format("node {} does not have {}: look at its [[cameras]]", node.name,
+                               fmt::join(node.missing, ", ")));
+  }
+  if (!node.miscalibrated.empty()) {
+    list.push_back(
+        fmt::format("node {} has another calibration of {}: give it the studio's "
+                    "calibration.toml",
+                    node.name, fmt::join(node.miscalibrated, ", ")));
+  }
+  if (node.lost_share > kMostLost) {
+    list.push_back(
+        fmt::format("{:.1f} % of the silhouettes of node {} are lost on the way: look at "
+                    "the network, and at socket buffers with mocap doctor",
+                    100 * node.lost_share, node.name));
+  }
+  for (const std::string& complaint : node.complaints) {
+    list.push_back(fmt::format("node {}: {}", node.name, complaint));
+  }
+}
+
+}  // namespace
+
+bool IsOfLostNode(const NodesReport& report, const std::string& node) {
+  for (const NodeReport& known : report.nodes)
+    if (known.name == node) return IsSilent(known) || !known.clock_agrees;
+  return false;
+}
+
+List NodeDiagnostics(const NodesReport& report, const std::string& lcm_url) {
+  List list;
+  for (const NodeReport& node : report.nodes) Diagnose(node, lcm_url, list);
+  if (!report.stranger.empty()) {
+    list.push_back(
+        fmt::format("{} sends to {} as well and is not known here: add it to [[nodes]], "
+                    "or give that studio another lcm.prefix",
+                    report.stranger, lcm_url));
+  }
+  return list;
+}
+
+}  // namespace mocap

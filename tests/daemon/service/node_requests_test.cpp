@@ -1,0 +1,50 @@
+#include "daemon/service/node_requests.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mocap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::chrono::seconds kPatience{20};
+
+/// A node that answers so, and names what it was asked.
+StudioNode NodeThatSays(const std::string& name, const std::string& outcome) {
+  return {name, {}, {"/bin/sh", "-c", "read -r words; printf '" + outcome + "\\n%s\\n' \"$words\""}};
+}
+
+NodeRequests::Answers Ask(const std::vector<StudioNode>& nodes) {
+  return NodeRequests(nodes).Ask("record start walk", kPatience).Wait();
+}
+
+TEST(NodeRequests, AskEveryNodeAndTellWhatEachSaid) {
+  const NodeRequests::Answers answers =
+      Ask({NodeThatSays("left", "done"), NodeThatSays("right", "done")});
+  EXPECT_THAT(answers.Problem(), IsEmpty());
+  EXPECT_EQ(answers.Text(), "node left: record start walk\nnode right: record start walk\n");
+}
+
+TEST(NodeRequests, OneThatFailsIsNamedWithItsWords) {
+  const NodeRequests::Answers answers =
+      Ask({NodeThatSays("left", "done"), NodeThatSays("right", "failed")});
+  EXPECT_EQ(answers.Problem(), "node right: record start walk");
+}
+
+TEST(NodeRequests, OneThatCannotBeReachedIsNamed) {
+  EXPECT_THAT(Ask({{"left", {}, {"/bin/false"}}}).Problem(), HasSubstr("node left: "));
+  EXPECT_THAT(Ask({NodeThatSays("left", "done"), {"right", {}, {}}}).Problem(),
+              AllOf(HasSubstr("node right: "), HasSubstr("no control command")));
+}
+
+TEST(NodeRequests, WithoutNodesAllHaveDoneIt) {
+  EXPECT_TRUE(NodeRequests({}).empty());
+  EXPECT_THAT(Ask({}).Problem(), IsEmpty());
+  EXPECT_THAT(Ask({}).Text(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace mocap
