@@ -12,6 +12,7 @@
 #include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/stream.h"
+#include "tools/take.h"
 #include "tools/track.h"
 #include "tools/view.h"
 #include "tools/watch.h"
@@ -20,6 +21,7 @@ namespace mocap {
 
 void AddCommands(CLI::App& app) {
   AddSimulateCommand(app);
+  AddTakeCommand(app);
   AddTrackCommand(app);
   AddEvaluateCommand(app);
   AddExportCommand(app);

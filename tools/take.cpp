@@ -1,0 +1,45 @@
+#include "tools/take.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "drivers/printable_text.h"
+#include "tools/take_join.h"
+
+namespace mocap {
+namespace {
+
+struct JoinOptions {
+  std::vector<std::filesystem::path> takes;
+  std::filesystem::path out;
+};
+
+void Join(const JoinOptions& options) {
+  const JoinedTake joined = JoinTakes(options.takes, options.out);
+  fmt::print("{}, {:.1f} s with all of them, {:.1f} s in all: {}\n",
+             Counted(joined.cameras, "camera"), static_cast<double>(joined.common_ns) / 1e9,
+             static_cast<double>(joined.all_ns) / 1e9, Printable(options.out.string()));
+}
+
+}  // namespace
+
+void AddTakeCommand(CLI::App& app) {
+  CLI::App* take = app.add_subcommand("take", "Recorded takes as such");
+  take->require_subcommand(1);
+  CLI::App* join =
+      take->add_subcommand("join",
+                           "Makes one take of those that several computers recorded of "
+                           "their own cameras at the same time");
+  auto options = std::make_shared<JoinOptions>();
+  join->add_option("TAKE", options->takes, "the takes' folders, two or more")
+      ->required()
+      ->expected(2, -1);
+  join->add_option("--out", options->out, "folder of the new take")->required();
+  join->callback([options] { Join(*options); });
+}
+
+}  // namespace mocap

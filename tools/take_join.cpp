@@ -1,0 +1,269 @@
+#include "tools/take_join.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/load_config.h"
+#include "config/open_studio.h"
+#include "config/parse_toml.h"
+#include "core/errors.h"
+#include "drivers/take/calibration_file.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/take_table.h"
+#include "drivers/take/text_file.h"
+#include "drivers/take/toml_text.h"
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TimeSpan {
+  std::int64_t first_ns, last_ns;
+
+  std::int64_t Length() const { return last_ns - first_ns; }
+};
+
+/// One of the takes.
+struct Part {
+  TakeLayout layout;
+  double fps_nominal = 0;
+  std::vector<CameraCalibration> cameras;  ///< Those with frames.
+  std::vector<CameraCalibration> known;    ///< All that its calibration has.
+  toml::table description;
+  TimeSpan span{};
+
+  std::string name() const { return layout.folder.string(); }
+};
+
+TimeSpan SpanOf(const Part& part) {
+  std::optional<TimeSpan> span;
+  for (const CameraCalibration& camera : part.cameras) {
+    const std::vector<TakeRow> rows = ReadTakeTable(part.layout.Table(camera.name)).rows;
+    const TimeSpan own{rows.front().timestamp_ns, rows.back().timestamp_ns};
+    if (!span) span = own;
+    span = {std::min(span->first_ns, own.first_ns), std::max(span->last_ns, own.last_ns)};
+  }
+  return *span;
+}
+
+Part OpenPart(const fs::path& take) {
+  // Whatever would keep it from being tracked is told here.
+  const Studio studio = OpenTake(take, {});
+  Part part;
+  part.layout.folder = PlainFolder(take);
+  part.fps_nominal = studio.fps_nominal;
+  for (const StudioCamera& camera : studio.cameras) part.cameras.push_back(camera.calibration);
+  part.known = LoadCalibration(part.layout.Calibration());
+  part.description = ParseTomlFile(part.layout.Description());
+  part.span = SpanOf(part);
+  return part;
+}
+
+void RequireOneRate(const std::vector<Part>& parts) {
+  for (const Part& part : parts) {
+    if (part.fps_nominal == parts[0].fps_nominal) continue;
+    std::ostringstream text;
+    text << part.name() << ": has " << part.fps_nominal << " frames a second, and "
+         << parts[0].name() << " has " << parts[0].fps_nominal << "; takes of one rate are wanted";
+    throw SetupError(text.str());
+  }
+}
+
+void RequireDifferentCameras(const std::vector<Part>& parts) {
+  std::map<std::string, const Part*> seen;
+  for (const Part& part : parts) {
+    for (const CameraCalibration& camera : part.cameras) {
+      const auto [other, is_new] = seen.emplace(camera.name, &part);
+      if (is_new) continue;
+      throw SetupError(part.name() + ": its camera " + camera.name + " is in " +
+                       other->second->name() + " too; takes of different cameras are wanted");
+    }
+  }
+}
+
+/// Where calibrations tell of the same camera, they tell the same: they are of one world.
+void RequireOneCalibration(const std::vector<Part>& parts) {
+  std::map<std::string, std::pair<std::string, const Part*>> seen;
+  for (const Part& part : parts) {
+    const fs::path file = part.layout.Calibration();
+    for (const CameraCalibration& camera : part.known) {
+      const std::string text = CalibrationText(file, std::span(&camera, 1));
+      const auto [other, is_new] = seen.emplace(camera.name, std::pair(text, &part));
+      if (is_new || other->second.first == text) continue;
+      throw SetupError(file.string() + ": cameras." + camera.name + " is another than in " +
+                       other->second.second->layout.Calibration().string() +
+                       "; takes of one calibration are wanted");
+    }
+  }
+}
+
+/// @return  the time in which every take recorded.
+TimeSpan RequireOverlap(const std::vector<Part>& parts) {
+  const Part& last_to_begin =
+      *std::ranges::max_element(parts, {}, [](const Part& part) { return part.span.first_ns; });
+  const Part& first_to_end =
+      *std::ranges::min_element(parts, {}, [](const Part& part) { return part.span.last_ns; });
+  const TimeSpan common{last_to_begin.span.first_ns, first_to_end.span.last_ns};
+  if (common.Length() > 0) return common;
+  std::ostringstream text;
+  text << first_to_end.name() << ": ends " << -static_cast<double>(common.Length()) / 1e9
+       << " s before " << last_to_begin.name()
+       << " begins; takes of one time are wanted, by clocks that agree";
+  throw SetupError(text.str());
+}
+
+TimeSpan WholeSpanOf(const std::vector<Part>& parts) {
+  TimeSpan whole = parts[0].span;
+  for (const Part& part : parts) {
+    whole = {std::min(whole.first_ns, part.span.first_ns),
+             std::max(whole.last_ns, part.span.last_ns)};
+  }
+  return whole;
+}
+
+/// Truth and sizes of people, which are those of the studio and not of a camera.
+std::vector<fs::path> FilesOfPeople(const Part& part) {
+  const fs::path& folder = part.layout.folder;
+  std::vector<fs::path> files;
+  for (const fs::path& file :
+       {part.layout.TruthTable(), part.layout.TruthSizes(), part.layout.Subject()}) {
+    if (IsThere(file)) files.push_back(file.lexically_relative(folder));
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory() || !entry.path().filename().native().starts_with("person-")) continue;
+    for (const auto& file : fs::directory_iterator(entry.path())) {
+      if (file.is_regular_file()) files.push_back(file.path().lexically_relative(folder));
+    }
+  }
+  return files;
+}
+
+bool HoldTheSame(const fs::path& a, const fs::path& b) {
+  std::ifstream in_a(a, std::ios::binary), in_b(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return std::equal(Bytes(in_a), Bytes(), Bytes(in_b), Bytes());
+}
+
+/// A file of the take to come, and where it comes from.
+using Sources = std::map<fs::path, fs::path>;
+
+void AddFilesOfPeople(const Part& part, Sources& sources) {
+  for (const fs::path& file : FilesOfPeople(part)) {
+    const fs::path from = part.layout.folder / file;
+    const auto [other, is_new] = sources.emplace(file, from);
+    if (is_new || HoldTheSame(from, other->second)) continue;
+    throw SetupError(from.string() + ": differs from " + other->second.string() +
+                     "; takes of the same people are wanted");
+  }
+}
+
+Sources SourcesOf(const std::vector<Part>& parts) {
+  Sources sources;
+  for (const Part& part : parts) {
+    for (const CameraCalibration& camera : part.cameras) {
+      const TakeLayout& from = part.layout;
+      for (const fs::path& file :
+           {from.Video(camera.name), from.Table(camera.name), from.BackgroundVideo(camera.name),
+            from.BackgroundTable(camera.name), from.Mask(camera.name)}) {
+        if (IsThere(file)) sources.emplace(file.lexically_relative(from.folder), file);
+      }
+    }
+    AddFilesOfPeople(part, sources);
+  }
+  return sources;
+}
+
+std::vector<CameraCalibration> CamerasOf(const std::vector<Part>& parts) {
+  std::vector<CameraCalibration> cameras;
+  for (const Part& part : parts)
+    cameras.insert(cameras.end(), part.cameras.begin(), part.cameras.end());
+  return cameras;
+}
+
+/// What the takes say of themselves, without that on which they differ.
+toml::table Agreed(const std::vector<Part>& parts) {
+  toml::table agreed;
+  std::set<std::string, std::less<>> passed_over = {"name", "fps_nominal", "cameras"};
+  for (const Part& part : parts) {
+    for (const auto& [key, value] : part.description) {
+      const toml::node* other = agreed.get(key);
+      if (other && toml::node_view(*other) != toml::node_view(value))
+        passed_over.emplace(key.str());
+      if (!other) agreed.insert(key, value);
+    }
+  }
+  for (const std::string& key : passed_over) agreed.erase(key);
+  return agreed;
+}
+
+std::string DescriptionOf(const std::vector<Part>& parts, const std::string& name) {
+  std::string cameras, joined;
+  for (const Part& part : parts) {
+    joined += (joined.empty() ? "" : ", ") + TomlText(part.layout.folder.filename().string());
+    for (const CameraCalibration& camera : part.cameras)
+      cameras += (cameras.empty() ? "" : ", ") + TomlText(camera.name);
+  }
+  std::ostringstream text;
+  text << "name = " << TomlText(name) << "\nfps_nominal = " << TomlNumber(parts[0].fps_nominal)
+       << "\ncameras = [" << cameras << "]\njoined = [" << joined << "]\n"
+       << Agreed(parts) << '\n';
+  return text.str();
+}
+
+void LinkOrCopy(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  std::error_code error;
+  // A table may be put right by hand, which must not change the take that it came from.
+  if (from.extension() == ".mkv") fs::create_hard_link(from, to, error);
+  if (from.extension() != ".mkv" || error) fs::copy_file(from, to);
+}
+
+void Write(const std::vector<Part>& parts, const Sources& sources, const fs::path& out,
+           const fs::path& partial) {
+  const TakeLayout layout{partial};
+  fs::create_directories(partial);
+  WriteText(layout.Description(), DescriptionOf(parts, out.filename().string()));
+  WriteCalibration(layout.Calibration(), CamerasOf(parts));
+  for (const auto& [file, from] : sources) LinkOrCopy(from, partial / file);
+  fs::rename(partial, out);
+}
+
+}  // namespace
+
+JoinedTake JoinTakes(std::span<const fs::path> takes, const fs::path& out) {
+  const fs::path folder = PlainFolder(out), partial = folder.string() + ".partial";
+  for (const fs::path& path : {folder, partial}) {
+    if (IsThere(path))
+      throw SetupError(path.string() + ": exists; the name of a new folder is wanted");
+  }
+  std::vector<Part> parts;
+  for (const fs::path& take : takes) parts.push_back(OpenPart(take));
+  RequireOneRate(parts);
+  RequireDifferentCameras(parts);
+  RequireOneCalibration(parts);
+  const TimeSpan common = RequireOverlap(parts);
+  const Sources sources = SourcesOf(parts);
+  try {
+    Write(parts, sources, folder, partial);
+  } catch (...) {
+    std::error_code error;
+    fs::remove_all(partial, error);
+    throw;
+  }
+  return {CamerasOf(parts).size(), common.Length(), WholeSpanOf(parts).Length()};
+}
+
+}  // namespace mocap
