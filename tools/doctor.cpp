@@ -67,6 +67,7 @@ void Doctor(const DoctorOptions& options) {
   std::ranges::move(CheckDevices(config), std::back_inserter(diagnoses));
   diagnoses.push_back(
       CheckControl(options.socket.empty() ? config.service.control.socket : options.socket));
+  std::ranges::move(CheckNodes(config), std::back_inserter(diagnoses));
   for (const Diagnosis& diagnosis : diagnoses) {
     std::printf("%s  %s\n", MarkOf(diagnosis.verdict), Printable(diagnosis.what).c_str());
     if (!diagnosis.fix.empty()) std::printf("        -> %s\n", Printable(diagnosis.fix).c_str());

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
@@ -18,6 +19,7 @@
 #include "core/errors.h"
 #include "daemon/base/disk_space.h"
 #include "daemon/control/control_socket.h"
+#include "daemon/control/remote_control.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/status/diagnostics.h"
 #include "drivers/clock.h"
@@ -239,6 +241,28 @@ Diagnosis CheckControl(const std::filesystem::path& socket) {
   } catch (const std::exception& error) {
     return {Verdict::kAdvice, error.what(), "journalctl -u mocapd tells why it ended"};
   }
+}
+
+std::vector<Diagnosis> CheckNodes(const Config& config) {
+  constexpr std::chrono::seconds kPatience{10};
+  std::vector<Diagnosis> diagnoses;
+  for (const StudioNode& node : config.nodes) {
+    const std::string name = "node " + node.name;
+    if (node.control.empty()) {
+      diagnoses.push_back({Verdict::kAdvice, name + " has no control command in [[nodes]]",
+                           "see docs/nodes.md: recordings at the studio need it"});
+      continue;
+    }
+    const RemoteAnswer answer = RemoteControl(name, node.control).Ask("status", kPatience);
+    const bool is_good = answer.reply && answer.reply->outcome == ControlOutcome::kDone;
+    if (is_good) {
+      diagnoses.push_back({Verdict::kGood, name + " answers", ""});
+    } else {
+      diagnoses.push_back({Verdict::kBad, answer.reply ? answer.reply->text : answer.problem,
+                           "see docs/operating.md, Nodes: requests"});
+    }
+  }
+  return diagnoses;
 }
 
 }  // namespace mocap

@@ -38,5 +38,7 @@ Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second
 /// One diagnosis for each device of a live studio, and what its bus needs.
 std::vector<Diagnosis> CheckDevices(const Config& config);
 Diagnosis CheckControl(const std::filesystem::path& socket);
+/// Of a studio, whether each of its nodes answers.
+std::vector<Diagnosis> CheckNodes(const Config& config);
 
 }  // namespace mocap

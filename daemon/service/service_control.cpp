@@ -15,7 +15,8 @@ namespace {
 
 /// Whoever goes on looking asks again within it.
 constexpr std::chrono::seconds kLook{10};
-/// So long a node may take to answer, and one that completes a take or learns a background.
+/// So long a node may take to answer, and one that begins or completes a take, or learns a
+/// background.
 constexpr std::chrono::seconds kPatience{10}, kTakePatience{60};
 
 std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
@@ -89,7 +90,7 @@ std::string ServiceControl::Do(const ReloadRequest&) {
 std::string ServiceControl::Do(const RecordStartRequest& request) {
   const std::string text = StartRecording(request.name);
   const NodeRequests::Answers answers =
-      nodes_.Ask("record start " + request.name, kPatience).Wait();
+      nodes_.Ask("record start " + request.name, kTakePatience).Wait();
   if (const std::string problem = answers.Problem(); !problem.empty()) {
     // A take without some of its cameras is none.
     NodeRequests::Asked stopping = nodes_.Ask("record stop", kTakePatience);
