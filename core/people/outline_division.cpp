@@ -69,9 +69,13 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   const Passed* const owner = OwnerOf(ray, people, flesh);
   if (!owner) return;
   shares_[owner->share].own[camera].push_back(ray);
-  const auto explain = std::ranges::count_if(
-      passed_, [](const Passed& passed) { return passed.mismatch_mm <= kSurelyNotMm; });
-  sole_[owner->share][camera] += explain <= 1;
+  // What a stranger's body is like nobody knows: it takes no witness from somebody who is known.
+  const bool is_known = owner->share < people.size();
+  const bool is_shared = std::ranges::any_of(passed_, [&](const Passed& passed) {
+    return &passed != owner && passed.mismatch_mm <= kSurelyNotMm &&
+           (!is_known || passed.share < people.size());
+  });
+  sole_[owner->share][camera] += !is_shared;
 }
 
 const OutlineDivision::Passed* OutlineDivision::OwnerOf(const GrazingRay& ray,
