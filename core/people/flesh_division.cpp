@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/reconstruction/carving/voxel_block.h"
+#include "core/tracking/surface_fit.h"
 
 namespace mocap {
 namespace {
@@ -107,18 +108,17 @@ void FleshDivision::ClaimRow(const VoxelGrid& grid, int j, int k,
     }
     for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
       const int x = word * 64 + std::countr_zero(bits);
-      const int owner = OwnerOf(grid.CenterOf(x, j, k), people);
-      if (owner < 0) {
-        strange_.Set(x, j, k);
-        continue;
-      }
-      Add({j, k, x, x + 1, 0}, claims_[owner]);
+      FindOwners(grid.CenterOf(x, j, k), people);
+      if (owners_.empty()) strange_.Set(x, j, k);
+      for (const int owner : owners_) Add({j, k, x, x + 1, 0}, claims_[owner]);
     }
   }
 }
 
-int FleshDivision::OwnerOf(const Vector3& p_W, std::span<const PosedPerson> people) {
-  int owner = -1;
+// Whoever is nearest to a place. What no body explains may be of a limb that was lost: it is for
+// all in whose reach it is.
+void FleshDivision::FindOwners(const Vector3& p_W, std::span<const PosedPerson> people) {
+  owners_.clear();
   double least_mm = kNobody;
   const auto is_within = [&](int i) {
     return p_W.x() >= people[i].box_W.min().x() && p_W.x() <= people[i].box_W.max().x();
@@ -129,11 +129,14 @@ int FleshDivision::OwnerOf(const Vector3& p_W, std::span<const PosedPerson> peop
     const PosedPerson& person = people[i];
     const double enough_mm = is_contested ? -kNobody : person.reach_mm;
     const double distance_mm = DistanceTo(person, p_W, enough_mm, guesses_[i]);
-    if (distance_mm > person.reach_mm || distance_mm + person.handicap_mm >= least_mm) continue;
+    if (distance_mm > person.reach_mm) continue;
+    owners_.push_back(i);
+    if (distance_mm + person.handicap_mm >= least_mm) continue;
     least_mm = distance_mm + person.handicap_mm;
-    owner = i;
+    std::swap(owners_.front(), owners_.back());
   }
-  return owner;
+  const bool is_explained = least_mm <= kExplainedMm;
+  if (is_explained) owners_.erase(owners_.begin() + 1, owners_.end());
 }
 
 void FleshDivision::DivideStrangeFlesh() {

@@ -22,7 +22,8 @@ struct FleshShare {
 /// Divides the flesh in a room among the people who are known, and finds what is nobody's. Reuses
 /// its memory.
 ///
-/// A voxel is the person's whose body, as predicted, is nearest to it. What lies out of everybody's
+/// A voxel is the person's whose body, as predicted, is nearest to it; one that no body explains is
+/// everybody's in whose reach it is, for it may be of a limb that was lost. What lies out of all
 /// reach is strange; pieces of it that are too small for a person go to who is next to them, if
 /// anybody is. Strangers who touch are told apart by their heads.
 class FleshDivision {
@@ -49,7 +50,7 @@ class FleshDivision {
   };
 
   void ClaimRow(const VoxelGrid& grid, int j, int k, std::span<const PosedPerson> people);
-  int OwnerOf(const Vector3& p_W, std::span<const PosedPerson> people);
+  void FindOwners(const Vector3& p_W, std::span<const PosedPerson> people);
   void DivideStrangeFlesh();
   void MakeStrangers(int piece);
   int ClaimBeside(const Eigen::AlignedBox3i& cells) const;
@@ -58,6 +59,7 @@ class FleshDivision {
 
   std::vector<Claim> claims_;    // Of the people, then of strangers.
   std::vector<int> candidates_;  // Whose boxes a row runs through.
+  std::vector<int> owners_;      // Of a voxel.
   std::vector<int> guesses_;     // The capsule that explained each person's last voxel.
   VoxelGrid strange_;
   VoxelPieces pieces_;

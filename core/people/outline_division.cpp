@@ -69,6 +69,7 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   const Passed* const owner = OwnerOf(ray, people, flesh);
   if (!owner) return;
   shares_[owner->share].own[camera].push_back(ray);
+  if (owner->mismatch_mm > kExplainsMm) ShareAmongTouched(ray, camera, *owner, people.size());
   // What a stranger's body is like nobody knows: it takes no witness from somebody who is known.
   const bool is_known = owner->share < people.size();
   const bool is_shared = std::ranges::any_of(passed_, [&](const Passed& passed) {
@@ -76,6 +77,16 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
            (!is_known || passed.share < people.size());
   });
   sole_[owner->share][camera] += !is_shared;
+}
+
+// What no body explains may graze a limb that was lost: it is for all people whose flesh it
+// touches.
+void OutlineDivision::ShareAmongTouched(const GrazingRay& ray, std::size_t camera,
+                                        const Passed& owner, std::size_t people) {
+  for (const Passed& passed : passed_) {
+    if (&passed != &owner && passed.touches && passed.share < people)
+      shares_[passed.share].own[camera].push_back(ray);
+  }
 }
 
 const OutlineDivision::Passed* OutlineDivision::OwnerOf(const GrazingRay& ray,

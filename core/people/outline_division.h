@@ -22,7 +22,8 @@ struct OutlineShare {
 ///
 /// A ray is the person's whose flesh it touches; of several, and where it touches none, the one's
 /// whose body, as predicted, it grazes best: it passes near, and faces the same way. Rays that no
-/// body explains are for strangers whom they pass.
+/// body explains are for strangers whom they pass, and for all whose flesh they touch: a limb that
+/// was lost may be anybody's.
 class OutlineDivision {
  public:
   /// @param flesh  of the same set, divided among the same people.
@@ -40,6 +41,8 @@ class OutlineDivision {
   };
   void DivideRay(const GrazingRay& ray, std::size_t camera, std::span<const PosedPerson> people,
                  const FleshDivision& flesh);
+  void ShareAmongTouched(const GrazingRay& ray, std::size_t camera, const Passed& owner,
+                         std::size_t people);
   const Passed* OwnerOf(const GrazingRay& ray, std::span<const PosedPerson> people,
                         const FleshDivision& flesh);
   void CountWitnesses();
