@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/reconstruction/carving/voxel_block.h"
-#include "core/tracking/surface_fit.h"
 
 namespace mocap {
 namespace {
@@ -135,7 +134,7 @@ void FleshDivision::FindOwners(const Vector3& p_W, std::span<const PosedPerson> 
     least_mm = distance_mm + person.handicap_mm;
     std::swap(owners_.front(), owners_.back());
   }
-  const bool is_explained = least_mm <= kExplainedMm;
+  const bool is_explained = least_mm <= kExplainsMm;
   if (is_explained) owners_.erase(owners_.begin() + 1, owners_.end());
 }
 

@@ -9,8 +9,7 @@ namespace {
 
 // Surfaces that face square to each other count as this far apart, as in a fit.
 constexpr double kSquareMm = 40;
-// A body explains a ray from this mismatch on; beyond the other it certainly does not.
-constexpr double kExplainsMm = 80;
+// A body certainly does not explain a ray beyond this mismatch.
 constexpr double kSurelyNotMm = 120;
 // Farther than any room is long.
 constexpr double kFarMm = 30000;

@@ -30,8 +30,9 @@ constexpr int kFewestWitnesses = 2;
 constexpr double kDoubtedS = 0.2;
 // A newcomer who is not seen for so long has gone.
 constexpr double kUnseenS = 0.3;
-// Whoever is not shown as a whole for so long is looked for in what is shown; and who was not seen
-// to come is not taken for a person before.
+// Whoever is not shown as a whole for so long is looked for in what is shown.
+constexpr double kWholeWithinS = 0.3;
+// Who was not seen to come is not taken for a person before.
 constexpr double kPatienceS = 1.0;
 // So near to the border of what is covered somebody may just have come in.
 constexpr double kBorderMm = 600;
@@ -260,9 +261,8 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
       member->has_come = IsBeginning(capture_ns) || !IsCovered(flesh.box_W, kBorderMm, eyes);
     }
     const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W.min().z());
-    if (!(is_whole && member->has_come) &&
-        SecondsBetween(*member->waits_since_ns, capture_ns) < kPatienceS)
-      continue;
+    const double wanted_s = !member->has_come ? kPatienceS : is_whole ? 0 : kWholeWithinS;
+    if (SecondsBetween(*member->waits_since_ns, capture_ns) < wanted_s) continue;
     member->flesh = &flesh;
     member->outlines = &share;
     member->box_W = AroundStranger(flesh.box_W);

@@ -8,6 +8,10 @@
 
 namespace mocap {
 
+/// What is nearer than this to a body, as it is expected, may be its own; what is farther from all
+/// bodies may be of a limb that was lost.
+inline constexpr double kExplainsMm = 80;
+
 /// A body as it is expected in a frame, to hold the evidence of a room against.
 struct PosedPerson {
   std::vector<PosedCapsule> capsules;

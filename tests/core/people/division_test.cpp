@@ -33,6 +33,47 @@ class Division : public testing::Test {
     return RoundStudio().Carve(flesh, 200);
   }
 
+  static bool HasFleshAt(const FleshShare& share, const Vector3& p_W) {
+    const VoxelGrid& grid = share.flesh;
+    const Eigen::Vector3i cell =
+        ((p_W - grid.origin_W()) / grid.voxel_mm()).array().floor().cast<int>();
+    return grid.Contains(cell.x(), cell.y(), cell.z()) && grid.Test(cell.x(), cell.y(), cell.z());
+  }
+
+  // Rays of a share that pass so near to a place.
+  static int RaysPast(const OutlineShare& share, const Vector3& p_W, double aside_mm) {
+    int rays = 0;
+    for (const Outline& outline : share.own)
+      for (const GrazingRay& ray : outline)
+        rays += ray.direction_W.cross(p_W - ray.eye_W).norm() < aside_mm;
+    return rays;
+  }
+
+  static double DistanceTo(const PosedPerson& person, const Vector3& p_W) {
+    double least_mm = 1e9;
+    for (const PosedCapsule& capsule : person.capsules)
+      least_mm = std::min(least_mm, capsule.DistanceTo(p_W).outside_mm);
+    return least_mm;
+  }
+
+  template <typename Visit>
+  static void ForEachVoxel(const VoxelGrid& grid, const Visit& visit) {
+    for (int k = 0; k < grid.size().z(); ++k)
+      for (int j = 0; j < grid.size().y(); ++j)
+        for (int i = 0; i < grid.size().x(); ++i)
+          if (grid.Test(i, j, k)) visit(grid.CenterOf(i, j, k));
+  }
+
+  // Somebody who is no more than a pillar.
+  static PosedPerson PillarAt(double x_mm) {
+    PosedPerson person;
+    person.capsules.emplace_back(Vector3(x_mm, 0, 100), Vector3(x_mm, 0, 1700), 110, 110);
+    const Vector3 reach(110 + kReachMm, 110 + kReachMm, 110 + kReachMm);
+    person.box_W = {Vector3(x_mm, 0, 100) - reach, Vector3(x_mm, 0, 1700) + reach};
+    person.reach_mm = kReachMm;
+    return person;
+  }
+
   static int Count(const VoxelGrid& grid) {
     int voxels = 0;
     for (const std::uint64_t word : grid.words()) voxels += std::popcount(word);
@@ -59,23 +100,29 @@ TEST_F(Division, StrangersWhoTouchAreToldApart) {
   EXPECT_GT(other.litres, 40);
 }
 
-TEST_F(Division, GivesEveryVoxelToOneOfThoseWhoTouch) {
+TEST_F(Division, GivesEveryVoxelThatABodyExplainsToOneOfThoseWhoTouch) {
   const std::vector<PosedPerson> people = {At(-190, 1800), At(190, 1650)};
   const auto seen = Carve(people);
   flesh_.Divide(seen.hull, people);
   EXPECT_TRUE(flesh_.strangers().empty());
-  const FleshShare& left = flesh_.shares()[0];
-  const FleshShare& right = flesh_.shares()[1];
-  EXPECT_EQ(Count(left.flesh) + Count(right.flesh), Count(seen.hull));
-  EXPECT_GT(left.litres, 60);
-  EXPECT_GT(right.litres, 45);
-  EXPECT_LT(left.box_W.max().x(), 120);
-  EXPECT_GT(right.box_W.min().x(), -120);
+  int wrong = 0, shared = 0;
+  ForEachVoxel(seen.hull, [&](const Vector3& p_W) {
+    const bool left = HasFleshAt(flesh_.shares()[0], p_W);
+    const bool right = HasFleshAt(flesh_.shares()[1], p_W);
+    const double left_mm = DistanceTo(people[0], p_W), right_mm = DistanceTo(people[1], p_W);
+    const bool is_explained = std::min(left_mm, right_mm) <= kExplainsMm;
+    shared += left && right;
+    wrong += !left && !right;
+    wrong += is_explained && left && right;
+    wrong += is_explained && left != (left_mm < right_mm);
+  });
+  EXPECT_EQ(wrong, 0);
+  EXPECT_LT(shared, Count(seen.hull) / 5);
   // Every share lies in everybody's flesh, voxel by voxel.
-  for (const FleshShare* share : {&left, &right}) {
-    ASSERT_EQ(share->flesh.size(), share->room.size());
-    for (std::size_t i = 0; i < share->flesh.words().size(); ++i)
-      EXPECT_EQ(share->flesh.words()[i] & ~share->room.words()[i], 0u);
+  for (const FleshShare& share : flesh_.shares()) {
+    ASSERT_EQ(share.flesh.size(), share.room.size());
+    for (std::size_t i = 0; i < share.flesh.words().size(); ++i)
+      EXPECT_EQ(share.flesh.words()[i] & ~share.room.words()[i], 0u);
   }
 }
 
@@ -135,6 +182,39 @@ TEST_F(Division, TwoBodiesInOnePlaceHaveNoWitness) {
   flesh_.Divide(seen.hull, people);
   outlines_.Divide(seen.outlines, people, flesh_);
   EXPECT_LT(std::min(outlines_.shares()[0].witnesses, outlines_.shares()[1].witnesses), 2);
+}
+
+TEST_F(Division, WhatNoBodyExplainsIsForAllWhoMayHaveLostIt) {
+  const std::vector<PosedPerson> people = {PillarAt(-310), PillarAt(310)};
+  std::vector<PosedPerson> with_hand = people;
+  const Vector3 hand_W(0, 0, 1300);
+  with_hand[0].capsules.emplace_back(hand_W, hand_W, 60, 60);
+  const auto seen = Carve(with_hand);
+  flesh_.Divide(seen.hull, people);
+  outlines_.Divide(seen.outlines, people, flesh_);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(HasFleshAt(flesh_.shares()[i], hand_W)) << i;
+    EXPECT_GT(RaysPast(outlines_.shares()[i], hand_W, 75), 10) << i;
+  }
+  // What a body explains is its own.
+  const Vector3 chest_W(-310, 0, 1300);
+  EXPECT_TRUE(HasFleshAt(flesh_.shares()[0], chest_W));
+  EXPECT_FALSE(HasFleshAt(flesh_.shares()[1], chest_W));
+}
+
+TEST_F(Division, StrangeFleshTakesNoWitnessFromWhoIsKnown) {
+  const std::vector<PosedPerson> people = {At(0, 1750)};
+  std::vector<PosedPerson> with_phantom = people;
+  const std::vector<Vector3> around_W = {
+      {-700, -500, 900}, {-700, 600, 900}, {700, 600, 900}, {700, -500, 900}};
+  for (std::size_t i = 0; i + 1 < around_W.size(); ++i)
+    with_phantom[0].capsules.emplace_back(around_W[i], around_W[i + 1], 110, 110);
+  const auto seen = Carve(with_phantom);
+  flesh_.Divide(seen.hull, people);
+  ASSERT_FALSE(flesh_.strangers().empty());
+  ASSERT_TRUE(flesh_.strangers()[0].box_W.contains(Vector3(0, 0, 900)));
+  outlines_.Divide(seen.outlines, people, flesh_);
+  EXPECT_GE(outlines_.shares()[0].witnesses, 5);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "config/load_config.h"
 #include "core/body/stance.h"
+#include "core/people/witnesses.h"
 #include "core/surface_capture.h"
 #include "tests/support/seen_body.h"
 
@@ -160,6 +161,17 @@ TEST_F(WideRoom, WhoAppearsInTheMiddleIsNobodyForASecond) {
   for (int i = 0; i < 6; ++i) See(two);
   EXPECT_EQ(Ids(), (std::vector{1, 2}));
   EXPECT_LT(ErrorOf(appears), 40);
+}
+
+TEST_F(Room, WhoComesInIsFoundBeforeEnoughCamerasHaveAllOfHim) {
+  const Someone stays = At(-600, 0, 1750), comes = At(1650, 0, 1700);
+  const auto one = Carve({stays}), two = Carve({stays, comes});
+  const Eigen::AlignedBox3d comes_W(Vector3(1450, -200, 0), Vector3(1850, 200, 1700));
+  ASSERT_FALSE(IsCovered(comes_W, 0, eyes_));
+  for (int i = 0; i < 40; ++i) See(one);
+  for (int i = 0; i < 20; ++i) See(two);
+  EXPECT_EQ(Ids(), (std::vector{1, 2}));
+  EXPECT_LT(ErrorOf(comes), 60);
 }
 
 TEST_F(Room, TheSamePeopleGiveTheSameNumbersAgain) {
