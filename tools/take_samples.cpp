@@ -12,6 +12,7 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/silhouette/segmenter.h"
+#include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -84,6 +85,7 @@ void AddSilentCameras(const std::filesystem::path& take, TakeSamples& samples) {
 TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm) {
   Studio studio = OpenTake(take, {});
+  RequireCameraCount(studio);
   RequireRoom(CalibrationsOf(studio), voxel_mm, TakeLayout{take}.Calibration().string());
   const std::int64_t tolerance_ns = std::llround(0.5e9 / studio.fps_nominal);
   TakeSamples samples;

@@ -12,6 +12,7 @@
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/open_lcm.h"
 #include "daemon/messages/reduced_picture.h"
+#include "daemon/pipeline/carve_stage.h"
 #include "drivers/clock.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/message_body.h"
@@ -30,7 +31,6 @@ constexpr std::int64_t kSilenceNs = 2'000'000'000;
 constexpr std::size_t kPosesKept = 300;
 /// A pose so far from a picture in time is not the picture's.
 constexpr std::int64_t kSameMomentUs = 60'000;
-constexpr std::size_t kMostCameras = 64;
 constexpr int kLargestPreview_px = 2048;
 
 LiveMessage Text(std::string json) {
@@ -184,7 +184,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
   try {
     std::vector<CameraCalibration> cameras =
         ParseCalibration(studio->calibration, "the calibration in MOCAP_STUDIO");
-    if (cameras.size() > kMostCameras) return;
+    if (cameras.size() > kMaxCameras) return;
     cameras_ = std::move(cameras);
   } catch (const SetupError&) {
     // Whoever sent it is no mocapd of this version: the page goes on with what it has.

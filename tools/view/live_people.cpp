@@ -18,9 +18,6 @@ DrawnPose DrawnPoseOf(const pose_t& pose, const PoseRow& row, const DrawnBody* b
   DrawnPose drawn;
   drawn.row = row;
   drawn.publish_ms = static_cast<double>(pose.publish_utime) / 1000;
-  for (std::size_t i = 0; i < std::min<std::size_t>(32, pose.camera_used.size()); ++i) {
-    drawn.cameras_used |= pose.camera_used[i] ? std::uint32_t{1} << i : 0;
-  }
   if (body) drawn.capsules = body->Pose(pose, row);
   return drawn;
 }

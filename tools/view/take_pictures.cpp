@@ -9,6 +9,7 @@
 #include "config/camera_files.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -30,6 +31,7 @@ std::size_t NearestRow(const TakeTable& table, std::int64_t time_ns) {
 TakePictures::TakePictures(const std::filesystem::path& take)
     : carver_(CarvingOptions{.voxel_mm = kVoxel_mm}) {
   const Studio studio = OpenTake(take, {});
+  RequireCameraCount(studio);
   const TakeLayout layout{take};
   name_ = studio.name;
   fps_nominal_ = studio.fps_nominal;

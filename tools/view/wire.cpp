@@ -82,7 +82,6 @@ std::string PoseBytes(const DrawnPose& pose) {
   writer.Add(static_cast<float>(row.residual_mm));
   writer.Add(static_cast<std::uint32_t>(std::max(0, row.voxels)));
   for (int i = 0; i < kPointCount; ++i) writer.AddFloats(row.points_W.col(i));
-  writer.Add(pose.cameras_used);
   for (const PosedCapsule& capsule : pose.capsules) {
     writer.AddFloats(capsule.a_W);
     writer.Add(static_cast<float>(capsule.radius_a_mm));

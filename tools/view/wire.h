@@ -20,13 +20,12 @@ struct DrawnPose {
   int id = 0;      ///< As person_t has it; 0: not known.
   PoseRow row;
   double publish_ms = 0;  ///< Since the Unix epoch.
-  std::uint32_t cameras_used = 0;
   std::vector<PosedCapsule> capsules;
 };
 
-/// 324 bytes and 32 a capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
-/// capture [ms], publish [ms], frame; f32 residual [mm]; u32 voxels; f32 points[23][3] [mm]; u32
-/// cameras used; f32 capsules[n][8]: a, its radius, b, its radius [mm]; u32 id.
+/// 320 bytes and 32 a capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
+/// capture [ms], publish [ms], frame; f32 residual [mm]; u32 voxels; f32 points[23][3] [mm]; f32
+/// capsules[n][8]: a, its radius, b, its radius [mm]; u32 id.
 std::string PoseBytes(const DrawnPose& pose);
 
 /// 32 bytes and 8 a voxel: u8 kind = 2, person; u16 0; u32 count; f64 capture [ms]; f32 voxel [mm],

@@ -28,8 +28,7 @@ struct CarvingOptions {
 /// clothes of the background's colour leave such gaps. Thread-bound; reuses its memory.
 class Carver {
  public:
-  /// More cameras than any studio has.
-  static constexpr int kMostViews = 32;
+  static constexpr int kMostViews = 64;
 
   explicit Carver(const CarvingOptions& options);
   Carver(Carver&&) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/reconstruction/carving/other_views.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 namespace mocap {
@@ -165,7 +166,7 @@ FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std
                                           const Vector3& place_W, Shading::Shade shade) const {
   int bright = 0, dark = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (i == view) continue;
+    if (!IsOther(i, view, views.size())) continue;
     const std::optional<Shading::Shade> other = ShadeOf(views[i], people_[i], place_W);
     if (other) ++(static_cast<float>(*other) > kAlike * static_cast<float>(shade) ? bright : dark);
   }

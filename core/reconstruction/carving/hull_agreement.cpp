@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reconstruction/carving/other_views.h"
+
 namespace mocap {
 namespace {
 
@@ -78,7 +80,8 @@ std::optional<SilhouetteShift> HullAgreement::MeasureOne(std::span<const Carving
   if (TouchesBorder(*views[view].silhouette)) return {};
   others_.clear();
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (i != view && views[i].silhouette->BoundingBox()) others_.push_back(views[i]);
+    const bool is_held_against = IsOther(i, view, views.size());
+    if (is_held_against && views[i].silhouette->BoundingBox()) others_.push_back(views[i]);
   }
   if (others_.size() < kFewestOthers) return {};
   carver_.Carve(others_, hull_);

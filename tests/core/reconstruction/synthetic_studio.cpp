@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mocap {
 namespace {
@@ -18,6 +19,15 @@ CameraCalibration HalfSizeCamera() {
   camera.height_px = kHeight_px;
   camera.lens = lens;
   return camera;
+}
+
+std::vector<Vector3> Circle(int places) {
+  std::vector<Vector3> circle_W;
+  for (int i = 0; i < places; ++i) {
+    const double turn = 2 * std::numbers::pi * i / places;
+    circle_W.emplace_back(3800 * std::cos(turn), 3800 * std::sin(turn), 1500 + 100 * (i * 7 % 13));
+  }
+  return circle_W;
 }
 
 // Between a ray from the origin and a segment.
@@ -49,12 +59,17 @@ RigidTransform LookAt(const Vector3& eye_W, const Vector3& target_W) {
   return X_CW;
 }
 
-SyntheticStudio::SyntheticStudio() : table_(HalfSizeCamera()) {
-  for (const Vector3& eye :
-       {Vector3(-2800, -2700, 2300), Vector3(100, -2900, 2000), Vector3(2750, -2800, 2500),
-        Vector3(2900, 2700, 2200), Vector3(-150, 2850, 2600), Vector3(-2700, 2900, 2100)}) {
+SyntheticStudio::SyntheticStudio()
+    : SyntheticStudio({Vector3(-2800, -2700, 2300), Vector3(100, -2900, 2000),
+                       Vector3(2750, -2800, 2500), Vector3(2900, 2700, 2200),
+                       Vector3(-150, 2850, 2600), Vector3(-2700, 2900, 2100)}) {}
+
+SyntheticStudio::SyntheticStudio(int places) : SyntheticStudio(Circle(places)) {}
+
+SyntheticStudio::SyntheticStudio(const std::vector<Vector3>& eyes_W) : table_(HalfSizeCamera()) {
+  for (const Vector3& eye_W : eyes_W) {
     cameras.push_back(HalfSizeCamera());
-    cameras.back().X_CW = LookAt(eye, {0, 0, 900});
+    cameras.back().X_CW = LookAt(eye_W, {0, 0, 900});
   }
   for (int y = 0; y < kHeight_px; ++y)
     for (int x = 0; x < kWidth_px; ++x)

@@ -25,6 +25,8 @@ class SyntheticStudio {
  public:
   /// Six cameras of 320 x 240 pixels in a room of 6 x 6 m that all look at (0, 0, 900).
   SyntheticStudio();
+  /// As many as there shall be on a circle around it, at different heights.
+  explicit SyntheticStudio(int places);
 
   std::vector<CameraCalibration> cameras;
   std::vector<Silhouette> silhouettes;
@@ -34,6 +36,8 @@ class SyntheticStudio {
   std::vector<CarvingView> Views() const;
 
  private:
+  explicit SyntheticStudio(const std::vector<Vector3>& eyes_W);
+
   SensorPlaneTable table_;
   std::vector<std::optional<Vector2>> directions_;
 };

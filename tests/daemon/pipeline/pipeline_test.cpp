@@ -16,6 +16,7 @@
 #include "drivers/clock.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "tests/daemon/fake_studio.h"
+#include "tests/support/setup_error.h"
 
 namespace mocap {
 namespace {
@@ -65,12 +66,12 @@ void RunToEnd(Pipeline& pipeline) {
 }
 
 /// A person who walks, in pictures so small that it is a matter of seconds.
-Studio SmallSimulation() {
+Studio SmallSimulation(int cameras = 4, double seconds = 0.8) {
   SimulatedStudioOptions options = RecordedSimulation();
-  options.cameras = 4;
+  options.cameras = cameras;
   options.width_px = 160;
   options.height_px = 120;
-  options.seconds = 0.8;
+  options.seconds = seconds;
   return OpenSimulatedStudio(options);
 }
 
@@ -83,6 +84,39 @@ TEST(Pipeline, ThreadedEqualsSerialBitForBit) {
   Pipeline pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), threaded);
   RunToEnd(pipeline);
   EXPECT_TRUE(threaded.seen == serial.seen);
+}
+
+TEST(Pipeline, SixtyFourCamerasCarveTogether) {
+  RecordingSink sink;
+  Pipeline pipeline(SmallSimulation(64, 0.1), Waiting(), LoadBodyTable("full"), sink);
+  RunToEnd(pipeline);
+  ASSERT_EQ(sink.seen.size(), 3u);
+  for (const Seen& set : sink.seen) {
+    EXPECT_EQ(set.cameras, ~std::uint64_t{0});
+    EXPECT_GT(std::ranges::count_if(set.voxels, [](std::uint64_t word) { return word != 0; }), 100);
+  }
+}
+
+TEST(Pipeline, EachOfManyCamerasMayBeTheOneThatIsMissing) {
+  for (const int cameras : {33, 63, 64}) {
+    std::vector<FakeScript> scripts(static_cast<std::size_t>(cameras), SteadyFrames(4));
+    scripts.back() = SteadyFrames(2);
+    RecordingSink sink;
+    Pipeline(FakeStudio(scripts), Waiting(), LoadBodyTable("full"), sink).RunSerially();
+    ASSERT_EQ(sink.seen.size(), 4u);
+    const std::uint64_t all = ~std::uint64_t{0} >> (64 - cameras);
+    EXPECT_EQ(sink.seen[1].cameras, all);
+    EXPECT_EQ(sink.seen[2].cameras, all >> 1);
+  }
+}
+
+TEST(Pipeline, SixtyFiveCamerasAreRefusedByTheStudiosName) {
+  Studio studio = FakeStudio(std::vector<FakeScript>(65, SteadyFrames(1)));
+  const std::string name = studio.name;
+  RecordingSink sink;
+  const std::string said = testing::SetupErrorOf(
+      [&] { Pipeline(std::move(studio), Waiting(), LoadBodyTable("full"), sink); });
+  EXPECT_EQ(said, name + ": has 65 cameras, wanted 1 to 64");
 }
 
 TEST(Pipeline, TracksEverySetInOrderWhenItMayWait) {

@@ -148,7 +148,7 @@ TEST_F(LiveFeedTest, APoseHasTheCapsulesOfTheTracker) {
   Publish("left.MOCAP_BODY", body);
   EXPECT_EQ(Json(LiveFeed::kBody)["capsule_parts"].size(), body_.shape().size());
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324 + 32 * body_.shape().size());
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320 + 32 * body_.shape().size());
 }
 
 TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
@@ -157,7 +157,7 @@ TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
   body.model = "/etc/passwd";
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324u + 32 * 13);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320u + 32 * 13);
 }
 
 TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
@@ -166,7 +166,7 @@ TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
   body.size_mm[0] = -1;
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 324u);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320u);
 }
 
 TEST_F(LiveFeedTest, APoseThatIsNoNumberIsNotPassedOn) {
@@ -180,13 +180,13 @@ TEST_F(LiveFeedTest, EverybodyOfASetGoesOutAtOnceInColoursOfTheirOwn) {
   Publish("left.MOCAP_PEOPLE", People({4, 9}));
   Publish("left.MOCAP_BODIES", BodyOf(9));
   Publish("left.MOCAP_PEOPLE", People({4, 9}));
-  const std::size_t second = 324;
-  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), second + 324 + 32 * body_.shape().size());
+  const std::size_t second = 320;
+  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), second + 320 + 32 * body_.shape().size());
   EXPECT_EQ(PosesAt<std::uint8_t>(1), 0);
-  EXPECT_EQ(PosesAt<std::uint32_t>(320), 4u);
+  EXPECT_EQ(PosesAt<std::uint32_t>(316), 4u);
   EXPECT_EQ(PosesAt<std::uint8_t>(second + 1), 1);
   EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 4), 9u);
-  EXPECT_NEAR(PosesAt<float>(second + 320), 900, 500) << "the flesh is where the person is";
+  EXPECT_NEAR(PosesAt<float>(second + 316), 900, 500) << "the flesh is where the person is";
 }
 
 TEST_F(LiveFeedTest, WhoeverStaysKeepsTheColour) {
@@ -228,7 +228,7 @@ TEST_F(LiveFeedTest, WhoHasNoNumberYetIsDrawnFromThePose) {
   Publish("left.MOCAP_PEOPLE", People({1}));
   Publish("left.MOCAP_POSE", Pose());
   Publish("left.MOCAP_PEOPLE", People({}));
-  EXPECT_EQ(PosesAt<std::uint32_t>(320), 0u);
+  EXPECT_EQ(PosesAt<std::uint32_t>(316), 0u);
   EXPECT_TRUE(Colors().empty());
 }
 
@@ -236,7 +236,7 @@ TEST_F(LiveFeedTest, ACrowdThatNoDaemonFollowsIsCutShort) {
   std::vector<int> ids(5000);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int>(i);
   Publish("left.MOCAP_PEOPLE", People(ids));
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 8u * 324);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 8u * 320);
   EXPECT_EQ(Colors().size(), 8u);
 }
 

@@ -73,11 +73,11 @@ TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
   const std::string poses =
       Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
   // A result without all sizes has no capsules.
-  ASSERT_EQ(poses.size(), 3u * 324);
-  EXPECT_EQ(At<double>(poses, 324 + 24), 5);
+  ASSERT_EQ(poses.size(), 3u * 320);
+  EXPECT_EQ(At<double>(poses, 320 + 24), 5);
   const std::string truth =
       Get(site, "/poses.bin", {{"truth", "0"}, {"from", "4"}, {"count", "1"}});
-  ASSERT_EQ(truth.size(), 324u);
+  ASSERT_EQ(truth.size(), 320u);
   const std::size_t head_z = 40 + 1 * 12 + 8;
   EXPECT_NEAR(At<float>(poses, head_z) - At<float>(truth, head_z), 12, 1e-3);
 }
@@ -174,7 +174,7 @@ TEST_F(TakeSiteTest, EachTruePersonIsGivenAndWhoWasFollowedByWhom) {
   EXPECT_EQ(json["results"][0]["true_person"], 0);
   EXPECT_NEAR(json["results"][0]["error_mm"][5], 12, 1e-6);
   EXPECT_EQ(Get(site, "/poses.bin", {{"truth", "1"}, {"from", "4"}, {"count", "2"}}).size(),
-            2u * 324);
+            2u * 320);
   EXPECT_EQ(site.Answer({.method = "GET",
                          .path = "/poses.bin",
                          .query = {{"truth", "2"}, {"from", "0"}, {"count", "1"}},

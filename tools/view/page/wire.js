@@ -7,7 +7,7 @@ export const POSE = 1;
 export const VOXELS = 2;
 export const PICTURE = 3;
 
-const POSE_HEADER_BYTES = 320;
+const POSE_HEADER_BYTES = 316;
 const CAPSULE_FLOATS = 8;
 const VOXELS_HEADER_BYTES = 32;
 const PICTURE_HEADER_BYTES = 32;
@@ -49,7 +49,6 @@ export function decodePose(buffer, begin = 0) {
     residualMm: view.getFloat32(32, true),
     voxels: view.getUint32(36, true),
     points: floats(buffer, begin + 40, 3 * POINT_COUNT),
-    camerasUsed: view.getUint32(316, true),
     capsules: floats(buffer, begin + POSE_HEADER_BYTES, CAPSULE_FLOATS * capsuleCount),
     end,
   };

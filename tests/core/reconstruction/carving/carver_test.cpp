@@ -28,25 +28,33 @@ Voxels VoxelsOf(const VoxelGrid& grid) {
   return voxels;
 }
 
-// Whether any (or every) pixel of the picture within 6 px is set.
-Silhouette Within6(const Silhouette& from, bool every) {
+// Whether any (or every) pixel of the picture within 6 px is set, along one axis.
+Silhouette Within6Along(const Silhouette& from, bool every, int dx, int dy) {
   constexpr int kRadius_px = 6;
   Silhouette to(from.width(), from.height());
-  for (int y = 0; y < from.height(); ++y) {
-    for (int x = 0; x < from.width(); ++x) {
+  const std::optional<PixelBox> box = from.BoundingBox();
+  if (!box) return to;
+  for (int y = std::max(0, box->top - kRadius_px);
+       y <= std::min(from.height() - 1, box->bottom + kRadius_px); ++y) {
+    for (int x = std::max(0, box->left - kRadius_px);
+         x <= std::min(from.width() - 1, box->right + kRadius_px); ++x) {
       bool any = false;
       bool all = true;
-      for (int v = std::max(0, y - kRadius_px); v <= std::min(from.height() - 1, y + kRadius_px);
-           ++v)
-        for (int u = std::max(0, x - kRadius_px); u <= std::min(from.width() - 1, x + kRadius_px);
-             ++u) {
-          any = any || from.Test(u, v);
-          all = all && from.Test(u, v);
-        }
+      for (int i = -kRadius_px; i <= kRadius_px; ++i) {
+        const int u = x + i * dx, v = y + i * dy;
+        if (u < 0 || v < 0 || u >= from.width() || v >= from.height()) continue;
+        any = any || from.Test(u, v);
+        all = all && from.Test(u, v);
+      }
       if (every ? all : any) to.Set(x, y);
     }
   }
   return to;
+}
+
+// In a square, which is along one axis and then along the other.
+Silhouette Within6(const Silhouette& from, bool every) {
+  return Within6Along(Within6Along(from, every, 1, 0), every, 0, 1);
 }
 
 struct PlainView {
@@ -159,6 +167,32 @@ TEST(Carver, GivesTheSameAsThePlainDefinitionWithNoisySilhouettes) {
     }
   }
   EXPECT_TRUE(Carve(studio.Views(), 50) == CarvePlainly(studio.Views(), 50));
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWithUpTo64Cameras) {
+  for (const int cameras : {33, 63, 64}) {
+    SCOPED_TRACE(cameras);
+    SyntheticStudio studio(cameras);
+    studio.Show(
+        {{{420, -310, 300}, {420, -310, 1500}, 180}, {{420, -310, 1400}, {900, -310, 1500}, 60}});
+    std::mt19937 random(3);
+    for (Silhouette& silhouette : studio.silhouettes) {
+      for (int i = 0; i < 8000; ++i) {
+        const int x = static_cast<int>(random() % 320), y = static_cast<int>(random() % 240);
+        silhouette.row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63));
+      }
+    }
+    const Voxels all = Carve(studio.Views(), 50);
+    EXPECT_GT(all.size(), 200u);
+    EXPECT_TRUE(all == CarvePlainly(studio.Views(), 50));
+    // The last camera counts as well: what it does not see of the top is gone.
+    Silhouette& last = studio.silhouettes.back();
+    const int top = last.BoundingBox()->top;
+    for (int y = top; y < top + 20; ++y) std::fill_n(last.row(y), last.words_per_row(), 0);
+    const Voxels fewer = Carve(studio.Views(), 50);
+    EXPECT_LT(fewer.size(), all.size());
+    EXPECT_TRUE(fewer == CarvePlainly(studio.Views(), 50));
+  }
 }
 
 TEST(Carver, GivesTheSameAsThePlainDefinitionWhereThePersonLeavesPictures) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <utility>
 
 #include "core/reconstruction/silhouette/bit_filters.h"
 #include "tests/core/reconstruction/synthetic_studio.h"
@@ -32,7 +33,7 @@ Silhouette Common(Silhouette a, const Silhouette& b) {
 // Somebody whose trousers one camera cannot tell from the floor, and a shadow beside him.
 class Trousers : public testing::Test {
  protected:
-  Trousers() {
+  explicit Trousers(const SyntheticStudio& studio = SyntheticStudio()) : studio_(studio) {
     studio_.Show({{{0, 0, 900}, {0, 0, 1600}, 180}});
     const std::vector<Silhouette> upper = studio_.silhouettes;
     studio_.Show({{{0, -120, 80}, {0, -120, 900}, 90}, {{0, 120, 80}, {0, 120, 900}, 90}});
@@ -131,6 +132,33 @@ TEST_F(Trousers, WhatIsNotKnownOfTheFloorTellsNothing) {
   for (Shading& shading : shadings_)
     shading.shades.assign(shading.shades.size(), Shading::kUnknown);
   EXPECT_FALSE(Complete(6)[0].is_completed);
+}
+
+TEST_F(Trousers, WhoIsAskedFirstDoesNotMatter) {
+  const std::vector<Silhouette> before = people_;
+  Complete(6);
+  const std::vector<Silhouette> completed = std::exchange(people_, before);
+  FloorShadows shadows(studio_.cameras);
+  const std::vector<CarvingView> carving = studio_.Views();
+  std::vector<ShadedView> backwards;
+  for (std::size_t i = 6; i-- > 0;)
+    backwards.push_back({static_cast<int>(i), carving[i].table, studio_.cameras[i].X_CW,
+                         &shadings_[i], &people_[i]});
+  shadows.Complete(backwards);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(people_[i].words(), completed[i].words()) << i;
+}
+
+class TrousersAmongMany : public Trousers {
+ protected:
+  TrousersAmongMany() : Trousers(SyntheticStudio(64)) {}
+};
+
+TEST_F(TrousersAmongMany, AreCompletedAndShadowsStayOutside) {
+  const int missing = CountOf(legs_);
+  EXPECT_TRUE(Complete(64)[0].is_completed);
+  EXPECT_GT(CountOf(Common(people_[0], legs_)), 0.8 * missing);
+  for (const std::size_t i : {0, 1, 31, 32, 63})
+    EXPECT_LT(CountOf(Common(people_[i], shadows_[i])), 0.05 * CountOf(shadows_[i])) << i;
 }
 
 }  // namespace
