@@ -18,7 +18,7 @@ struct RemoteAnswer {
 };
 
 /// Asks the daemon of one node by a command that reads the request and prints the reply, as
-/// `mocap ask` does at the other end of `ssh -o BatchMode=yes USER@NODE`.
+/// `mocap ask` does at the other end of `ssh -T -o BatchMode=yes USER@NODE`.
 ///
 /// Who may ask whom is the command's business: keys and known hosts are ssh's. Thread-safe.
 class RemoteControl {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -99,29 +98,49 @@ std::string GrowthPlots(const Results& results) {
   return StackedSvg(drawn, size.width, size.height);
 }
 
-// Takes our own option out of the command line.
-std::filesystem::path TakePlotOption(int& argc, char** argv) {
-  std::filesystem::path plot;
+std::string ManyCamerasPlots(const Results& results) {
+  const auto of = [&](const std::string& label, int color, const std::string& benchmark) {
+    std::vector<std::pair<double, std::string>> measured;
+    for (const int cameras : {2, 4, 6, 8, 12, 16, 24, 32, 48, 64})
+      measured.emplace_back(cameras, benchmark + "/cameras:" + std::to_string(cameras));
+    return Growth(results, label, color, measured);
+  };
+  const std::vector<std::vector<PlotSeries>> plots = {
+      {of("carving", 1, "CarveManySets"), of("tracking", 0, "TrackManySets"),
+       of("shadows", 2, "CompleteManySets"), of("matching by time", 3, "MatchManySets")},
+      {of("one look of the health watch", 0, "CheckManyCameras")}};
+  std::vector<std::string> drawn;
+  const PlotAxes size;
+  for (const std::vector<PlotSeries>& series : plots)
+    drawn.push_back(PlotSvg({.x_label = "cameras", .y_label = "ms a set"}, series));
+  return StackedSvg(drawn, size.width, size.height);
+}
+
+// Takes one of our own options out of the command line.
+std::filesystem::path TakeOption(const std::string& option, int& argc, char** argv) {
+  std::filesystem::path value;
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
-    constexpr char kOption[] = "--plot=";
-    if (std::strncmp(argv[i], kOption, sizeof kOption - 1) == 0)
-      plot = argv[i] + sizeof kOption - 1;
+    const std::string argument = argv[i];
+    if (argument.starts_with(option))
+      value = argument.substr(option.size());
     else
       argv[kept++] = argv[i];
   }
   argc = kept;
-  return plot;
+  return value;
 }
 
 int Run(int argc, char** argv) {
-  const std::filesystem::path plot = TakePlotOption(argc, argv);
+  const std::filesystem::path plot = TakeOption("--plot=", argc, argv);
+  const std::filesystem::path many_cameras = TakeOption("--plot-many-cameras=", argc, argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   Results results;
   benchmark::RunSpecifiedBenchmarks(&results);
   PrintComparisons(results);
   if (!plot.empty()) std::ofstream(plot) << GrowthPlots(results);
+  if (!many_cameras.empty()) std::ofstream(many_cameras) << ManyCamerasPlots(results);
   return 0;
 }
 

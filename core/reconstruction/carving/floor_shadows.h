@@ -29,7 +29,7 @@ struct ShadedView {
 /// the floor: all cameras that see the place see it dark. A dark pixel whose place on the floor is
 /// as bright as ever in two other cameras, and dark in fewer, shows something that stands before
 /// the floor. What the others tell nothing of goes with what surrounds it; thin rims are left
-/// alone. Thread-bound; reuses its memory.
+/// alone. Of very many cameras 31 others are asked. Thread-bound; reuses its memory.
 class FloorShadows {
  public:
   explicit FloorShadows(std::span<const CameraCalibration> cameras);

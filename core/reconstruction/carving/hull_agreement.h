@@ -11,8 +11,8 @@
 
 namespace mocap {
 
-/// Holds each camera of a set against all others: one that was bumped sees the person beside the
-/// place where they put him. Thread-bound; reuses its memory.
+/// Holds each camera of a set against the others, 31 of very many: one that was bumped sees the
+/// person beside the place where they put him. Thread-bound; reuses its memory.
 class HullAgreement {
  public:
   HullAgreement();
