@@ -7,42 +7,35 @@ namespace mocap {
 
 SilhouetteSource::Outcome RemoteCamera::Next(const std::atomic<std::int64_t>& wanted_from_ns,
                                              SegmentedFrame& frame) {
-  if (expectation() == Expectation::kCertain) {
-    expectation_.store(Expectation::kPossible, std::memory_order_release);
-  }
+  if (expectation() == Expectation::kCertain) counters_.Expect(Expectation::kPossible);
   if (!Await()) return Outcome::kNothing;
   const ReceivedSilhouette& received = inbox_.queue.front();
-  Count(received.sequence);
-  const bool starts_anew =
-      newest_ns() > kNoneYetNs && received.capture_ns < newest_ns() - Synchronizer::kClockStepNs;
-  if (!starts_anew && received.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
-    expectation_.store(Expectation::kPossible, std::memory_order_release);
+  counters_.Enter(CameraState::kStreaming);
+  counters_.CountFrame(received.sequence);
+  if (!counters_.IsWanted(received.capture_ns, wanted_from_ns)) {
+    counters_.CountDropped();
+    counters_.Expect(Expectation::kPossible);
     return Outcome::kNothing;
   }
-  expectation_.store(Expectation::kCertain, std::memory_order_release);
+  counters_.Expect(Expectation::kCertain);
   if (!Unpack(frame)) {
-    torn_.fetch_add(1, std::memory_order_relaxed);
-    expectation_.store(Expectation::kPossible, std::memory_order_release);
+    counters_.CountTorn();
+    counters_.Expect(Expectation::kPossible);
     return Outcome::kNothing;
   }
-  newest_ns_.store(received.capture_ns, std::memory_order_relaxed);
+  counters_.Note(frame);
   return Outcome::kFrame;
 }
 
 // Waits for a silhouette, or until the listener has looked round.
 bool RemoteCamera::Await() {
   const int seen = inbox_.bell.count();
-  if (!inbox_.queue.TryPop()) {
-    const bool is_connected = inbox_.is_connected.load(std::memory_order_relaxed);
-    if (!is_connected && frames_.load(std::memory_order_relaxed) > 0)
-      state_.store(CameraState::kLost, std::memory_order_relaxed);
-    expectation_.store(is_connected ? Expectation::kPossible : Expectation::kNone,
-                       std::memory_order_release);
-    inbox_.bell.WaitPast(seen);
-    return inbox_.queue.TryPop();
-  }
-  return true;
+  if (inbox_.queue.TryPop()) return true;
+  const bool is_connected = inbox_.is_connected.load(std::memory_order_relaxed);
+  if (!is_connected && counters_.has_frames()) counters_.Enter(CameraState::kLost);
+  counters_.Expect(is_connected ? Expectation::kPossible : Expectation::kNone);
+  inbox_.bell.WaitPast(seen);
+  return inbox_.queue.TryPop();
 }
 
 bool RemoteCamera::Unpack(SegmentedFrame& frame) {
@@ -61,33 +54,15 @@ bool RemoteCamera::Unpack(SegmentedFrame& frame) {
   frame.is_blind = received.is_blind;
   frame.light = received.light;
   frame.nudged_px = received.nudged_px;
-  is_blind_.store(frame.is_blind, std::memory_order_relaxed);
-  light_.store(frame.light, std::memory_order_relaxed);
-  nudged_px_.store(frame.nudged_px, std::memory_order_relaxed);
   return true;
-}
-
-void RemoteCamera::Count(std::uint64_t sequence) {
-  state_.store(CameraState::kStreaming, std::memory_order_relaxed);
-  const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
-  if (!is_first && sequence > next_sequence_) {
-    dropped_.fetch_add(static_cast<std::int64_t>(sequence - next_sequence_),
-                       std::memory_order_relaxed);
-  }
-  next_sequence_ = sequence + 1;
 }
 
 CameraStatus RemoteCamera::Status() const {
   CameraStatus status;
+  counters_.Fill(status);
   status.name = inbox_.calibration.name;
   status.node = inbox_.node;
-  status.state = state_.load(std::memory_order_relaxed);
-  status.frames = frames_.load(std::memory_order_relaxed);
-  status.dropped = dropped_.load(std::memory_order_relaxed) + inbox_.queue.dropped();
-  status.torn = torn_.load(std::memory_order_relaxed);
-  status.light = light_.load(std::memory_order_relaxed);
-  status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
-  status.is_blind = is_blind_.load(std::memory_order_relaxed);
+  status.dropped += inbox_.queue.dropped();
   return status;
 }
 

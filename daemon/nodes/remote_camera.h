@@ -3,12 +3,12 @@
 
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
+#include "daemon/pipeline/camera_counters.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/silhouette_source.h"
 #include "daemon/pipeline/spsc_queue.h"
@@ -48,32 +48,20 @@ class RemoteCamera : public SilhouetteSource {
   RemoteCamera(RemoteInbox& inbox, int rays) : inbox_(inbox), rays_(rays) {}
 
   void Start() override {}
-  void Stop() override { state_.store(CameraState::kEnded, std::memory_order_relaxed); }
+  void Stop() override { counters_.Enter(CameraState::kEnded); }
   Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame) override;
   const CameraCalibration& calibration() const override { return inbox_.calibration; }
-  Expectation expectation() const override { return expectation_.load(std::memory_order_acquire); }
-  std::int64_t newest_ns() const override { return newest_ns_.load(std::memory_order_relaxed); }
+  Expectation expectation() const override { return counters_.expectation(); }
+  std::int64_t newest_ns() const override { return counters_.newest_ns(); }
   CameraStatus Status() const override;
 
  private:
-  static constexpr std::int64_t kNoneYetNs = std::numeric_limits<std::int64_t>::min();
-
   bool Await();
   bool Unpack(SegmentedFrame& frame);
-  void Count(std::uint64_t sequence);
 
   RemoteInbox& inbox_;
   const int rays_;
-  std::uint64_t next_sequence_ = 0;
-  std::atomic<CameraState> state_{CameraState::kStarting};
-  std::atomic<Expectation> expectation_{Expectation::kPossible};
-  std::atomic<std::int64_t> newest_ns_{kNoneYetNs};
-  std::atomic<std::int64_t> frames_{0};
-  std::atomic<std::int64_t> dropped_{0};
-  std::atomic<std::int64_t> torn_{0};
-  std::atomic<double> light_{1};
-  std::atomic<double> nudged_px_{0};
-  std::atomic<bool> is_blind_{false};
+  CameraCounters counters_;
 };
 
 }  // namespace mocap

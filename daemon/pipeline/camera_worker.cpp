@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <thread>
 #include <utility>
 
@@ -12,7 +11,6 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kNoneYet = std::numeric_limits<std::int64_t>::min();
 /// Bounds how long a stop can take.
 constexpr std::chrono::milliseconds kGrabTimeout{100};
 /// Between attempts to get a lost camera back.
@@ -39,19 +37,16 @@ CameraWorker::CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecord
       recorders_(recorders),
       taps_(std::move(taps)),
       preview_(preview),
-      rays_(rays),
-      newest_ns_(kNoneYet) {}
+      rays_(rays) {}
 
 void CameraWorker::Stop() {
   camera_.driver->Stop();
-  state_.store(CameraState::kEnded, std::memory_order_relaxed);
+  counters_.Enter(CameraState::kEnded);
 }
 
 CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted_from_ns,
                                          SegmentedFrame& out) {
-  if (expectation() == Expectation::kCertain) {
-    expectation_.store(Expectation::kPossible, std::memory_order_release);
-  }
+  if (expectation() == Expectation::kCertain) counters_.Expect(Expectation::kPossible);
   TakeReplacement();
   Frame frame;
   switch (camera_.driver->Grab(frame, kGrabTimeout)) {
@@ -60,28 +55,27 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
     case GrabStatus::kTimeout:
       return Outcome::kNothing;
     case GrabStatus::kTorn:
-      torn_.fetch_add(1, std::memory_order_relaxed);
+      counters_.CountTorn();
       return Outcome::kNothing;
     case GrabStatus::kLost:
       Enter(CameraState::kLost);
-      expectation_.store(Expectation::kNone, std::memory_order_release);
+      counters_.Expect(Expectation::kNone);
       std::this_thread::sleep_for(kLostPause);
       return Outcome::kNothing;
     case GrabStatus::kEnd:
       return Outcome::kEnd;
   }
-  CountFrame(frame.sequence);
+  Enter(CameraState::kStreaming);
+  counters_.CountFrame(frame.sequence);
   for (FrameTap* tap : taps_) {
     tap->Offer([&frame](TappedFrame& copy) { return CopyFrame(frame, copy); });
   }
-  const bool starts_anew =
-      newest_ns() > kNoneYet && frame.capture_ns < newest_ns() - Synchronizer::kClockStepNs;
-  if (!starts_anew && frame.capture_ns < wanted_from_ns.load(std::memory_order_relaxed)) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
-    expectation_.store(Expectation::kPossible, std::memory_order_release);
+  if (!counters_.IsWanted(frame.capture_ns, wanted_from_ns)) {
+    counters_.CountDropped();
+    counters_.Expect(Expectation::kPossible);
     return Outcome::kNothing;
   }
-  expectation_.store(Expectation::kCertain, std::memory_order_release);
+  counters_.Expect(Expectation::kCertain);
   out.arrival_ns = TimelineNs();
   out.capture_ns = frame.capture_ns;
   out.sequence = frame.sequence;
@@ -92,9 +86,9 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.shading = segmenter_.shading();
   if (rays_ > 0) TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
-  NoteConditions(out);
+  TellConditions(out);
   recorders_[Stage::kSegment].Record(out.segment_ns);
-  newest_ns_.store(frame.capture_ns, std::memory_order_relaxed);
+  counters_.Note(out);
   OfferPreview(frame, out);
   return Outcome::kFrame;
 }
@@ -130,12 +124,11 @@ void CameraWorker::TakeReplacement() {
   const std::unique_lock lock(replacement_mutex_, std::try_to_lock);
   if (!lock || !replacement_waits_.load()) return;
   std::swap(segmenter_, *replacement_);
-  light_.store(1, std::memory_order_relaxed);
-  replacements_.fetch_add(1, std::memory_order_relaxed);
+  counters_.CountReplacement();
   replacement_waits_.store(false);
 }
 
-void CameraWorker::NoteConditions(SegmentedFrame& frame) {
+void CameraWorker::TellConditions(SegmentedFrame& frame) const {
   const Conditions& conditions = segmenter_.conditions();
   constexpr int kGreen = 1;
   const float light = 1 / std::max(conditions.gain[kGreen], kLeastGain);
@@ -143,13 +136,10 @@ void CameraWorker::NoteConditions(SegmentedFrame& frame) {
   frame.nudged_px = std::hypot(conditions.displacement.x_px, conditions.displacement.y_px);
   frame.is_blind = frame.silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
                    light < 1 / kMostLightFactor || conditions.shift_px > kMostShift_px;
-  is_blind_.store(frame.is_blind, std::memory_order_relaxed);
-  light_.store(frame.light, std::memory_order_relaxed);
-  nudged_px_.store(frame.nudged_px, std::memory_order_relaxed);
 }
 
 void CameraWorker::Enter(CameraState state) {
-  if (state_.exchange(state, std::memory_order_relaxed) == state) return;
+  if (!counters_.Enter(state)) return;
   const CameraFacts facts = camera_.driver->Facts();
   std::vector<std::string> remarks = facts.remarks;
   if (!facts.damage.empty()) remarks.push_back("frames come damaged: " + facts.damage);
@@ -158,29 +148,11 @@ void CameraWorker::Enter(CameraState state) {
   time_source_ = facts.time_source;
 }
 
-void CameraWorker::CountFrame(std::uint64_t sequence) {
-  Enter(CameraState::kStreaming);
-  // The first frame's number means nothing, and a camera that came back counts from anew.
-  const bool is_first = frames_.fetch_add(1, std::memory_order_relaxed) == 0;
-  if (!is_first && sequence > next_sequence_) {
-    const auto gap = static_cast<std::int64_t>(sequence - next_sequence_);
-    dropped_.fetch_add(gap, std::memory_order_relaxed);
-  }
-  next_sequence_ = sequence + 1;
-}
-
 CameraStatus CameraWorker::Status() const {
   CameraStatus status;
   status.name = camera_.calibration.name;
   status.waits_for = camera_.waits_for;
-  status.state = state_.load(std::memory_order_relaxed);
-  status.frames = frames_.load(std::memory_order_relaxed);
-  status.dropped = dropped_.load(std::memory_order_relaxed);
-  status.torn = torn_.load(std::memory_order_relaxed);
-  status.replacements = replacements_.load(std::memory_order_relaxed);
-  status.light = light_.load(std::memory_order_relaxed);
-  status.nudged_px = nudged_px_.load(std::memory_order_relaxed);
-  status.is_blind = is_blind_.load(std::memory_order_relaxed);
+  counters_.Fill(status);
   const std::lock_guard lock(remarks_mutex_);
   status.remarks = remarks_;
   status.time_source = time_source_;

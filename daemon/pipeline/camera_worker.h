@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/reconstruction/silhouette/segmenter.h"
+#include "daemon/pipeline/camera_counters.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/silhouette_source.h"
 #include "daemon/pipeline/stage.h"
@@ -38,15 +39,14 @@ class CameraWorker : public SilhouetteSource {
   bool Replace(Segmenter segmenter);
 
   const CameraCalibration& calibration() const override { return camera_.calibration; }
-  Expectation expectation() const override { return expectation_.load(std::memory_order_acquire); }
-  std::int64_t newest_ns() const override { return newest_ns_.load(std::memory_order_relaxed); }
+  Expectation expectation() const override { return counters_.expectation(); }
+  std::int64_t newest_ns() const override { return counters_.newest_ns(); }
   CameraStatus Status() const override;
 
  private:
   void TakeReplacement();
   void OfferPreview(const Frame& frame, const SegmentedFrame& segmented);
-  void NoteConditions(SegmentedFrame& frame);
-  void CountFrame(std::uint64_t sequence);
+  void TellConditions(SegmentedFrame& frame) const;
   void Enter(CameraState state);
 
   StudioCamera camera_;
@@ -59,17 +59,7 @@ class CameraWorker : public SilhouetteSource {
   std::mutex replacement_mutex_;  ///< Tried, never waited for, by the worker.
   std::optional<Segmenter> replacement_;
   std::atomic<bool> replacement_waits_{false};
-  std::uint64_t next_sequence_ = 0;
-  std::atomic<CameraState> state_{CameraState::kStarting};
-  std::atomic<Expectation> expectation_{Expectation::kPossible};
-  std::atomic<std::int64_t> newest_ns_;
-  std::atomic<std::int64_t> frames_{0};
-  std::atomic<std::int64_t> dropped_{0};
-  std::atomic<std::int64_t> torn_{0};
-  std::atomic<int> replacements_{0};
-  std::atomic<double> light_{1};
-  std::atomic<double> nudged_px_{0};
-  std::atomic<bool> is_blind_{false};
+  CameraCounters counters_;
   mutable std::mutex remarks_mutex_;
   std::vector<std::string> remarks_;
   std::string time_source_;
