@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/setup_error.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/calibration/footage.h"
@@ -47,6 +48,13 @@ TEST(TakeSamples, FootageHasOnlyCamerasThatDelivered) {
   EXPECT_THAT(
       OpenFootage(folder.path() / "take").cameras,
       ElementsAre(Field(&FootageCamera::name, "cam2"), Field(&FootageCamera::name, "cam3")));
+}
+
+TEST(TakeSamples, MoreCamerasThanAreCarvedAreRefusedByTheTakesName) {
+  const testing::TemporaryFolder folder;
+  testing::WriteSmallTake(folder.path() / "take", {.cameras = 65, .frames = 1});
+  EXPECT_EQ(testing::SetupErrorOf([&] { SampleTake(folder.path() / "take", {}, 50); }),
+            "small: has 65 cameras, wanted 1 to 64");
 }
 
 }  // namespace
