@@ -12,7 +12,7 @@
 
 namespace mocap {
 
-/// Flesh that may be somebody's: his alone, and everybody's in the same block of cells.
+/// Flesh that may be somebody's, and everybody's in the same block of cells.
 struct FleshShare {
   VoxelGrid flesh, room;
   Eigen::AlignedBox3d box_W;  ///< Around `flesh`; empty without any [mm].
