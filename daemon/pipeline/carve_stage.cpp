@@ -83,7 +83,7 @@ void CarveStage::OfferToWatch() {
     copy.X_CW.clear();
     copy.silhouettes.resize(views_.size());
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      if (!synchronizer_.members()[i]) continue;
+      if (!synchronizer_.members()[i] || cameras_[i].front.is_blind) continue;
       copy.silhouettes[copy.cameras.size()] = cameras_[i].front.silhouette;
       copy.X_CW.push_back(cameras_[i].front.X_CW);
       copy.cameras.push_back(static_cast<int>(i));

@@ -319,7 +319,7 @@ TEST_F(MocapdTest, WhatTheStartRefusesTheCheckRefusesWithTheSameWords) {
   testing::WriteText(folder_.path() / "file", "x");
   const std::string take = "driver = \"take\"\ntake = \"take\"\n";
   const std::pair<std::string, std::string> wrong[] = {
-      {"driver = \"simulated\"\ncameras = 40\nwidth = 32\nheight = 32\n", ""},
+      {"driver = \"simulated\"\ncameras = 65\nwidth = 32\nheight = 32\n", ""},
       {take, "[realtime]\nprocessors = [1023]\n"},
       {take, "[metrics]\nfile = \"m.txt\"\n"},
       {take, "[metrics]\nfile = \"nowhere/m.prom\"\n"},
