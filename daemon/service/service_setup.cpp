@@ -140,6 +140,7 @@ TruthError TruthFor(const SourceConfig& source) {
 
 Made BackgroundOf(const Config& config) {
   if (config.source.driver == "take") return {"the take's own", 0};
+  if (config.source.driver == "none") return {"that of each node", 0};
   if (!IsLive(config.source)) return {"the simulated studio's own", 0};
   return MadeBy(config.background);
 }
