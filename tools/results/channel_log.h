@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <string>
@@ -46,8 +45,9 @@ class ChannelLog {
   template <typename Daemon>
   std::optional<std::string> Choose(const std::map<std::string, Daemon>& found,
                                     const std::string& of_what) const {
-    const auto prefixes = std::views::keys(found);
-    return ChooseAmong({prefixes.begin(), prefixes.end()}, of_what);
+    std::vector<std::string> prefixes;
+    for (const auto& [prefix, daemon] : found) prefixes.push_back(prefix);
+    return ChooseAmong(prefixes, of_what);
   }
   /// Tells with which prefixes there are channels of the first name; empty where there are none.
   std::string PrefixesText() const;

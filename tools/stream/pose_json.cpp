@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 
 #include "core/motion_capture.h"
 #include "tools/results/message_body.h"
