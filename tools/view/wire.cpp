@@ -13,6 +13,8 @@ namespace {
 constexpr double kNsPerMs = 1e6;
 /// More voxels than any room has; what is said of a larger one is not believed.
 constexpr std::int64_t kMostVoxels = std::int64_t{1} << 26;
+/// And more than people fill, with 10 mm of size.
+constexpr std::int64_t kMostOccupied = std::int64_t{1} << 21;
 
 /// A grid's occupied voxels, by place in a scan along x, then y, then z.
 struct OccupiedVoxels {
@@ -38,7 +40,13 @@ bool IsSound(const voxels_t& voxels) {
     count *= size;
     if (count > kMostVoxels) return false;
   }
-  return true;
+  std::int64_t at = 0, occupied = 0;
+  for (std::size_t i = 0; i < voxels.run.size(); ++i) {
+    const std::int64_t until = std::min(count, at + std::max(0, voxels.run[i]));
+    if (i % 2 == 1) occupied += until - at;
+    at = until;
+  }
+  return occupied <= kMostOccupied;
 }
 
 OccupiedVoxels Unpack(const voxels_t& voxels) {

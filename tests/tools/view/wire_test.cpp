@@ -83,6 +83,15 @@ TEST(Wire, AForgedGridIsNotBelieved) {
   EXPECT_EQ(At<std::uint32_t>(VoxelBytes(voxels, 0), 4), 8u);
 }
 
+TEST(Wire, AHallFullOfPeopleIsNotBelieved) {
+  voxels_t voxels = Cube(1);
+  for (std::int32_t& size : voxels.size) size = 400;
+  voxels.run = {0, 400 * 400 * 400};
+  EXPECT_EQ(VoxelBytes(voxels, 0), "");
+  voxels.run = {400 * 400 * 400 - 1, 1};
+  EXPECT_EQ(At<std::uint32_t>(VoxelBytes(voxels, 0), 4), 1u);
+}
+
 TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   const std::vector<std::uint8_t> jpeg = {1, 2, 3};
   DrawnPicture picture;
