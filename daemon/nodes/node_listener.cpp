@@ -21,17 +21,20 @@ constexpr int kMostWaiting = 256;
 /// A stranger is told for so long.
 constexpr std::int64_t kLatelyNs = 3'000'000'000;
 constexpr std::size_t kLongestName = 64;
-/// Times and counts beyond are none.
+/// Times and a camera's counts beyond are none.
 constexpr std::int64_t kMostNs = std::int64_t{1} << 61;
+
+/// And no node sends so many silhouettes; sums of what is missing stay numbers.
+constexpr std::int64_t kMostMessages = std::int64_t{1} << 40;
 
 bool IsTime(std::int64_t ns) { return ns >= 0 && ns < kMostNs; }
 
 /// Whether the numbers are such as a node sends.
 bool IsSound(const silhouette_t& message) {
-  return IsTime(message.capture_ns) && IsTime(message.sent_ns) && IsTime(message.number) &&
-         IsTime(message.sequence) && IsTime(message.segment_ns) && std::isfinite(message.pan_rad) &&
-         std::isfinite(message.tilt_rad) && std::isfinite(message.light) &&
-         std::isfinite(message.nudged_px);
+  return IsTime(message.capture_ns) && IsTime(message.sent_ns) && message.number >= 0 &&
+         message.number < kMostMessages && IsTime(message.sequence) && IsTime(message.segment_ns) &&
+         std::isfinite(message.pan_rad) && std::isfinite(message.tilt_rad) &&
+         std::isfinite(message.light) && std::isfinite(message.nudged_px);
 }
 
 template <void (NodeListener::*Take)(std::span<const std::uint8_t>)>

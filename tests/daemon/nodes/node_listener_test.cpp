@@ -205,11 +205,12 @@ TEST_F(NodeListenerTest, StrangersAreToldAndGoNoFurther) {
 TEST_F(NodeListenerTest, NumbersThatCannotBeGoNoFurther) {
   Send(0);
   const silhouette_t sound = TakeMessage();
-  std::vector<silhouette_t> messages(5, sound);
+  std::vector<silhouette_t> messages(6, sound);
   messages[0].number = std::numeric_limits<std::int64_t>::max();
   messages[1].capture_ns = std::numeric_limits<std::int64_t>::min();
   messages[2].pan_rad = std::numeric_limits<double>::quiet_NaN();
   messages[3].sequence = -1;
+  messages[5].number = std::int64_t{1} << 40;
   messages[4].sent_ns = std::numeric_limits<std::int64_t>::max();
   for (const silhouette_t& message : messages) Hear(message);
   listener_->OnSilhouette({});
