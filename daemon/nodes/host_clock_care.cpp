@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 namespace mocap {
 namespace {
 
-// The most exact first: where PTP runs, it is what counts.
-constexpr std::array<const char*, 6> kKeepers = {"phc2sys", "ptp4l",   "chronyd",
-                                                 "ntpd",    "ntpd-rs", "systemd-timesyn"};
+// How their processes and their units of systemd begin. The most exact first: where PTP runs, it is
+// what counts.
+constexpr std::array<const char*, 5> kKeepers = {"phc2sys", "ptp4l", "chrony", "ntp",
+                                                 "systemd-timesyn"};
+
+// Units count as well, for a service may be forbidden to see other users' processes.
+constexpr const char* kUnits = "/sys/fs/cgroup/system.slice";
 
 std::string FirstLine(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -21,15 +26,16 @@ std::string FirstLine(const std::filesystem::path& file) {
   return line;
 }
 
-std::string FindKeeper() {
-  std::size_t best = kKeepers.size();
+/// The names of all processes, and of all services, that can be seen.
+std::vector<std::string> RunningPrograms() {
+  std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
-    const std::string name = FirstLine(entry.path() / "comm");
-    const auto found = std::ranges::find(kKeepers, name);
-    best = std::min(best, static_cast<std::size_t>(found - kKeepers.begin()));
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error))
+    names.push_back(FirstLine(entry.path() / "comm"));
+  for (const auto& entry : std::filesystem::directory_iterator(kUnits, error)) {
+    if (entry.path().extension() == ".service") names.push_back(entry.path().filename());
   }
-  return best < kKeepers.size() ? kKeepers[best] : "";
+  return names;
 }
 
 }  // namespace
@@ -37,12 +43,28 @@ std::string FindKeeper() {
 ClockCare LookAtClockCare() {
   timex state{};
   ClockCare care;
-  care.is_kept = adjtimex(&state) != TIME_ERROR && (state.status & STA_UNSYNC) == 0;
+  const int found = adjtimex(&state);
+  care.is_kept = found >= 0 && found != TIME_ERROR && (state.status & STA_UNSYNC) == 0;
   care.error_ms = static_cast<double>(state.maxerror) / 1000;
-  care.keeper = FindKeeper();
+  care.keeper = FindClockKeeper(RunningPrograms());
   return care;
 }
 
-std::string BootName() { return FirstLine("/proc/sys/kernel/random/boot_id"); }
+std::string FindClockKeeper(const std::vector<std::string>& programs) {
+  for (const char* keeper : kKeepers) {
+    const auto found = std::ranges::find_if(
+        programs, [&](const std::string& program) { return program.starts_with(keeper); });
+    if (found != programs.end()) return found->substr(0, found->find_first_of("@."));
+  }
+  return {};
+}
+
+std::string BootName() {
+  std::string name = FirstLine("/proc/sys/kernel/random/boot_id");
+  if (const char* told = std::getenv("MOCAPD_BOOT_ID"); name.empty() && told != nullptr)
+    name = told;
+  std::erase(name, '-');
+  return name;
+}
 
 }  // namespace mocap

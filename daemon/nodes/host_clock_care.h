@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace mocap {
 
@@ -15,8 +16,13 @@ struct ClockCare {
 /// Asks the kernel, and looks which of the programs that set clocks runs.
 ClockCare LookAtClockCare();
 
-/// The kernel's name for this start of this computer; empty where it has none. Programs that read
-/// the same one have the same clock.
+/// The first of `programs` that sets clocks, the most exact kind first; empty: none.
+/// @param programs  names of processes, or of units of systemd such as "ptp4l@eth0.service".
+std::string FindClockKeeper(const std::vector<std::string>& programs);
+
+/// The kernel's name for this start of this computer, 32 hexadecimal digits; empty where it has
+/// none. Programs that read the same one have the same clock. Where the kernel's file is hidden,
+/// MOCAPD_BOOT_ID of the environment tells it.
 std::string BootName();
 
 }  // namespace mocap

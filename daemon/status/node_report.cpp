@@ -37,6 +37,7 @@ JsonObject NodeJson(const NodeReport& node) {
   json.Add("name", node.name);
   json.Add("heard", !IsSilent(node));
   json.Add("version", node.version);
+  json.Add("has_this_clock", node.has_this_clock);
   json.Add("clock_agrees", node.clock_agrees);
   json.Add("clock_ahead_ms", -static_cast<double>(node.clock_apart_ns) / 1e6, 3);
   json.Add("clock_keeper", node.clock_keeper);
