@@ -1,4 +1,4 @@
-// How finely the scene is drawn: as finely as the machine can draw it smoothly.
+// How finely and how often the scene is drawn: as finely as the machine can draw it smoothly.
 
 const WINDOW = 30;  // intervals that are looked at together
 const SLOW_MS = 45;
@@ -8,6 +8,8 @@ const STEP = 0.75;
 const LEAST = 0.5;
 const FIRST_PATIENCE_MS = 60000;  // before it is tried more finely again; twice as long each time
 const SOFTWARE_START = 0.6;
+const SOFTWARE_PACE_MS = 60;  // between frames: the processor that draws has other work as well
+const EARLY_MS = 5;           // a display's refresh is not exact
 
 /** @return whether WebGL is drawn by the processor: then each pixel counts. */
 export function drawsInSoftware() {
@@ -25,6 +27,7 @@ export class Detail {
     this.isFixed = isFixed;
     this.scale = isSoftware && !isFixed ? SOFTWARE_START : 1;
     this.finest = this.scale;
+    this.paceMs = isSoftware && !isFixed ? SOFTWARE_PACE_MS : 0;
     this.intervals = [];
     this.lastMs = null;
     this.coarserMs = null;
@@ -34,6 +37,11 @@ export class Detail {
   /** Pixels drawn for each CSS pixel, along an edge. */
   ratio(devicePixelRatio) {
     return this.scale * Math.min(2, devicePixelRatio || 1);
+  }
+
+  /** @return whether a frame is to be drawn, when the display asks for one. */
+  isDue(nowMs) {
+    return this.lastMs === null || nowMs - this.lastMs >= this.paceMs - EARLY_MS;
   }
 
   /** Takes the time at which a frame is drawn. @return whether the scale has changed. */
@@ -48,7 +56,7 @@ export class Detail {
   }
 
   goCoarser(meanMs, nowMs) {
-    if (meanMs < SLOW_MS || this.scale <= LEAST) return false;
+    if (meanMs < this.paceMs + SLOW_MS || this.scale <= LEAST) return false;
     this.scale = Math.max(LEAST, STEP * this.scale);
     this.coarserMs = nowMs;
     return true;
@@ -56,7 +64,7 @@ export class Detail {
 
   // What was slow may have been another program's fault, for a while.
   goFiner(meanMs, nowMs) {
-    if (meanMs > FAST_MS || this.scale >= this.finest) return false;
+    if (meanMs > this.paceMs + FAST_MS || this.scale >= this.finest) return false;
     if (nowMs - this.coarserMs < this.patienceMs) return false;
     this.scale = Math.min(this.finest, this.scale / STEP);
     this.coarserMs = nowMs;

@@ -100,11 +100,12 @@ async function start() {
   expose(mode, show, tools, counter);
   await show.start();
   const draw = () => {
+    requestAnimationFrame(draw);
     const nowMs = performance.now();
+    if (scene && !scene.detail.isDue(nowMs)) return;
     counter.tick(nowMs);
     show.draw(nowMs, counter.rate);
     tools.draw(nowMs);
-    requestAnimationFrame(draw);
   };
   requestAnimationFrame(draw);
 }

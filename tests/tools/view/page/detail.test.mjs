@@ -38,3 +38,15 @@ test('for a picture of the page every pixel is drawn', () => {
   drawFor(detail, {fromMs: 0, seconds: 60, intervalMs: 300});
   assert.equal(detail.ratio(1), 1);
 });
+
+test('where the processor draws, it draws some frames a second and no more', () => {
+  const detail = new Detail({isSoftware: true, isFixed: false});
+  let drawn = 0;
+  for (let nowMs = 0; nowMs < 10000; nowMs += 1000 / 60) {
+    if (!detail.isDue(nowMs)) continue;
+    detail.tick(nowMs);
+    ++drawn;
+  }
+  assert.ok(drawn > 120 && drawn < 170, `${drawn}`);
+  assert.equal(detail.scale, detail.finest, 'its pace is not slowness');
+});
