@@ -8,7 +8,7 @@ const STEP = 0.75;
 const LEAST = 0.5;
 const FIRST_PATIENCE_MS = 60000;  // before it is tried more finely again; twice as long each time
 const SOFTWARE_START = 0.6;
-const SOFTWARE_PACE_MS = 60;  // between frames: the processor that draws has other work as well
+const SOFTWARE_PACE_MS = 100;  // between frames: the processor that draws has other work as well
 const EARLY_MS = 5;           // a display's refresh is not exact
 
 /** @return whether WebGL is drawn by the processor: then each pixel counts. */

@@ -106,6 +106,7 @@ async function start() {
     counter.tick(nowMs);
     show.draw(nowMs, counter.rate);
     tools.draw(nowMs);
+    pictures.draw();
   };
   requestAnimationFrame(draw);
 }

@@ -44,6 +44,7 @@ class CameraCard {
     this.name = camera.name;
     this.picture = null;  // the last one that was drawn, decoded
     this.bitmap = null;
+    this.isDrawn = true;
     this.next = null;  // the newest that waits while one is being decoded
     this.isDecoding = false;
     this.canvas = make('canvas', {role: 'img', 'aria-label': `Picture of ${camera.name}`});
@@ -85,7 +86,7 @@ class CameraCard {
         this.bitmap?.close();
         this.bitmap = bitmap;
         this.picture = {...picture, jpeg: null};
-        this.draw();
+        this.isDrawn = false;
       } catch {
         // A damaged picture is as good as none: the card tells how old the last one is.
       }
@@ -94,6 +95,7 @@ class CameraCard {
   }
 
   draw() {
+    this.isDrawn = true;
     if (!this.bitmap || this.canvas.clientWidth === 0) return;
     const {clientWidth: width, clientHeight: height} = this.canvas;
     const context = fitCanvas(this.canvas);
@@ -148,6 +150,13 @@ export class Pictures {
   /** Takes a decoded picture. */
   take(picture) {
     this.cards[picture.camera]?.take(picture);
+  }
+
+  /** Draws what has come since: together, for a browser puts the page together after each. */
+  draw() {
+    for (const card of this.cards) {
+      if (!card.isDrawn) card.draw();
+    }
   }
 
   card(name) {
