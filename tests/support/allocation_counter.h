@@ -5,13 +5,13 @@
 
 namespace mocap {
 
-// GCC says it by macros, Clang by features.
-#if defined(__has_feature)
+// GCC says it by macros, Clang by features; Eigen defines the latter's question for everybody.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define MOCAP_HAS_SANITIZER
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define MOCAP_HAS_SANITIZER
 #endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MOCAP_HAS_SANITIZER
 #endif
 
 #ifdef MOCAP_HAS_SANITIZER
