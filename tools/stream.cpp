@@ -15,14 +15,13 @@
 #include <string_view>
 
 #include "config/config.h"
-#include "config/lcm_url.h"
 #include "core/errors.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 #include "tools/stop_on_signals.h"
-#include "tools/stream/log_player.h"
+#include "tools/stream/message_source.h"
 #include "tools/stream/pose_feed.h"
 #include "tools/stream/pose_json.h"
 #include "tools/stream/streamed_bones.h"
@@ -31,7 +30,7 @@
 namespace mocap {
 namespace {
 
-constexpr int kWaitMs = 50;
+constexpr std::chrono::milliseconds kWait{50};
 /// Without a pose for so long, nobody publishes.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
 
@@ -53,40 +52,17 @@ class Notice {
   std::string told_;
 };
 
-/// Hands on poses until a signal comes, or nobody wants any more.
-void StreamLive(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
-  const std::unique_ptr<lcm::LCM> lcm = OpenLcm(options.url);
-  PoseFeed feed(*lcm, options.feed, take);
+/// Hands on poses until a signal comes, a log ends, or nobody wants any more.
+void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
+  StopOnSignals();
+  MessageSource source(options.url);
+  PoseFeed feed(source.lcm(), options.feed, take);
   Notice silence;
-  while (!StopAsked() && !is_over) {
-    if (lcm->handleTimeout(kWaitMs) < 0 && !StopAsked()) {
-      throw std::runtime_error(options.url + ": LCM cannot go on");
-    }
+  while (!StopAsked() && !is_over && source.Handle(kWait)) {
+    if (source.is_log()) continue;
     const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
     silence.Tell(is_silent ? SilenceText(options.url) : "");
   }
-}
-
-/// The same until a log ends.
-void StreamLog(const LcmUrl& log, const StreamOptions& options, const PoseFeed::Take& take,
-               const bool& is_over) {
-  if (log.is_written) throw SetupError("--url: " + options.url + " is written; mode=r is wanted");
-  LogPlayer player(log.file, log.speed);
-  PoseFeed feed(player.lcm(), options.feed, take);
-  while (!StopAsked() && !is_over && player.Play(std::chrono::milliseconds(kWaitMs))) {
-  }
-}
-
-void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
-  StopOnSignals();
-  LcmUrl address;
-  try {
-    address = ParseLcmUrl(options.url);
-  } catch (const SetupError& error) {
-    throw SetupError(std::string("--url: ") + error.what());
-  }
-  address.provider == LcmProvider::kFile ? StreamLog(address, options, take, is_over)
-                                         : StreamLive(options, take, is_over);
 }
 
 /// Writes to standard output at once, however slowly it is read.

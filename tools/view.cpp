@@ -98,6 +98,8 @@ Config ConfigFor(const ViewOptions& options) {
 void ViewLive(const ViewOptions& options) {
   const Config config = ConfigFor(options);
   const std::string url = options.url.value_or(config.lcm.url);
+  if (url.starts_with("file:"))
+    throw SetupError("--url: " + url + " is a log; to look at it: mocap view TAKE LOG");
   const std::string token = MakeToken();
   ControlDesk desk(options.socket.empty() ? config.service.control.socket : options.socket, token);
   const std::unique_ptr<lcm::LCM> lcm = OpenLcm(url);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -31,10 +32,12 @@
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 #include "tools/stop_on_signals.h"
+#include "tools/stream/message_source.h"
 
 namespace mocap {
 namespace {
 
+constexpr std::chrono::milliseconds kWait{50};
 constexpr std::int64_t kPageNs = 250'000'000;
 constexpr std::int64_t kLineNs = 1'000'000'000;
 /// Without a pose for so long, nobody publishes.
@@ -270,6 +273,14 @@ void Show(const std::string& page) {
   std::fflush(stdout);
 }
 
+void Tell(const Hearing& hearing, std::int64_t now_ns, const std::string& url, bool on_terminal) {
+  const std::string silence = SilenceText(url) + '\n';
+  if (on_terminal) return Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, url));
+  const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
+  std::fputs(is_silent ? silence.c_str() : (PoseLine(hearing) + '\n').c_str(), stdout);
+  std::fflush(stdout);
+}
+
 struct WatchOptions {
   std::string url = LcmConfig().url;
   std::string prefix;
@@ -277,29 +288,23 @@ struct WatchOptions {
 };
 
 void Watch(const WatchOptions& options) {
-  const std::unique_ptr<lcm::LCM> lcm = OpenLcm(options.url);
-  Hearing hearing(*lcm, options.prefix);
   StopOnSignals();
+  MessageSource source(options.url);
+  Hearing hearing(source.lcm(), options.prefix);
   const bool on_terminal = isatty(STDOUT_FILENO) == 1;
   if (on_terminal) std::fputs("\x1b[2J", stdout);
   const std::int64_t begin_ns = SteadyNs();
   std::int64_t next_ns = begin_ns + kPageNs;
-  while (!StopAsked()) {
-    lcm->handleTimeout(50);
+  while (!StopAsked() && source.Handle(kWait)) {
     const std::int64_t now_ns = SteadyNs();
     if (options.seconds && static_cast<double>(now_ns - begin_ns) > *options.seconds * 1e9) break;
     if (now_ns < next_ns) continue;
     next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
     hearing.Age(now_ns);
-    const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
-    const std::string silence = SilenceText(options.url) + '\n';
-    if (on_terminal) {
-      Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, options.url));
-    } else {
-      std::fputs(is_silent ? silence.c_str() : (PoseLine(hearing) + '\n').c_str(), stdout);
-      std::fflush(stdout);
-    }
+    Tell(hearing, now_ns, options.url, on_terminal);
   }
+  // Of a log that ended since the last line.
+  if (source.is_log() && !StopAsked()) Tell(hearing, SteadyNs(), options.url, on_terminal);
 }
 
 }  // namespace
@@ -308,7 +313,8 @@ void AddWatchCommand(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
   CLI::App* command =
       app.add_subcommand("watch", "Shows rate, latency, cameras and fit, live in the terminal");
-  command->add_option("--url", options->url, "LCM's address")->capture_default_str();
+  command->add_option("--url", options->url, "LCM's address; file:// plays a log")
+      ->capture_default_str();
   command->add_option("--prefix", options->prefix, "what stands before each channel's name");
   command->add_option("--seconds", options->seconds, "stop after so long")
       ->check(NumberFrom(0.001, 1e8));

@@ -1,0 +1,44 @@
+#include "tools/stream/message_source.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "daemon/recording/message_log.h"
+#include "tests/support/setup_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::SetupErrorOf;
+using ::testing::StartsWith;
+
+constexpr std::chrono::hours kLong{1};
+
+void Count(const lcm::ReceiveBuffer*, const std::string&, int* count) { ++*count; }
+
+TEST(MessageSource, ALogIsHeardToItsEndAndThenIsOver) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "log.lcm";
+  MessageLog log(file);
+  for (const std::int64_t utime : {5, 6, 7})
+    log.Write({.channel = "A", .bytes = {1}, .utime = utime});
+  log.Flush();
+  MessageSource source("file://" + file.string());
+  int count = 0;
+  source.lcm().subscribeFunction("A", &Count, &count);
+  while (source.Handle(kLong)) {
+  }
+  EXPECT_TRUE(source.is_log());
+  EXPECT_EQ(count, 3);
+}
+
+TEST(MessageSource, WhatCannotBeHeardIsRefusedByTheNameOfTheOption) {
+  EXPECT_THAT(SetupErrorOf([] { MessageSource("file:///tmp/x?mode=w"); }),
+              AllOf(StartsWith("--url: "), HasSubstr("mode=r is wanted")));
+  EXPECT_THAT(SetupErrorOf([] { MessageSource("nonsense"); }), StartsWith("--url: "));
+}
+
+}  // namespace
+}  // namespace mocap
