@@ -1,4 +1,4 @@
-// How much room there is for takes.
+// Free disk space for takes.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 
 namespace mocap {
 
-/// Gives a folder, or the nearest above it that is there and may be seen.
+/// Returns the folder itself, or its nearest parent that exists and is visible.
 std::filesystem::path NearestFolder(const std::filesystem::path& folder);
 
-/// Bytes that the daemon's user may still write where a folder is, or would be made; 0 where nobody
-/// can tell.
+/// Bytes that the daemon's user may still write in a folder, or in the nearest existing parent of
+/// one not made yet. 0 if unknown.
 std::int64_t BytesFree(const std::filesystem::path& folder);
 
 }  // namespace mocap

@@ -16,7 +16,7 @@ std::string Escaped(char32_t code) {
   return fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + (rest >> 10), 0xdc00 + (rest & 0x3ff));
 }
 
-/// What a terminal would obey is spelled out as well.
+/// Also escapes characters that a terminal would interpret.
 std::string InQuotes(std::string_view text) { return InDoubleQuotes(text, Escaped); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A JSON object as text, for programs that ask.
+// A JSON object as text, for other programs.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace mocap {
 
-/// Collects members in the order in which they are added.
+/// Members keep the order in which they are added.
 class JsonObject {
  public:
-  /// @param decimals  the number is rounded to them; it must be finite.
+  /// @param decimals  the number is rounded to this many; it must be finite.
   void Add(std::string_view name, double value, int decimals);
   void Add(std::string_view name, std::int64_t value);
   void Add(std::string_view name, int value) { Add(name, std::int64_t{value}); }

@@ -9,8 +9,8 @@
 
 namespace mocap {
 
-/// Accepts numbers within bounds, and tells of others in plain figures: CLI11's own message spells
-/// out the smallest and largest number there is.
+/// Accepts numbers within bounds. The error message names these bounds; CLI11's own message would
+/// print the limits of the number type.
 inline CLI::Validator NumberFrom(double least, double most) {
   const std::string bounds = fmt::format("from {} to {}", least, most);
   const auto check = [least, most, bounds](const std::string& text) {

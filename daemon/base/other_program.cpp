@@ -23,9 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using End = ProgramRun::End;
 
-/// Of standard error; its last line is wanted.
+/// Kept of standard error: only the last line is needed.
 constexpr std::size_t kMostWordsKept = 4096;
-/// Who floods one pipe does not keep the other, or the deadline, from being looked at.
+/// A program that floods one pipe cannot keep us from the other pipe or the deadline.
 constexpr int kReadsInARow = 16;
 
 void Require(bool is_done) {
@@ -43,14 +43,14 @@ struct Pipe {
   FileDescriptor read, write;
 };
 
-/// A pipe that holds a text and then ends. It holds so little whether somebody reads it or not.
+/// Returns a pipe that contains a text, then ends. The pipe buffers this much without a reader.
 FileDescriptor PipeOf(std::string_view text) {
   Pipe pipe;
   Require(write(pipe.write.get(), text.data(), text.size()) == std::ssize(text));
   return std::move(pipe.read);
 }
 
-/// What differs from this process: files, session, and signals that are held back or ignored here.
+/// What the child does not inherit: files, session, and blocked or ignored signals.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output, int words) {
@@ -90,7 +90,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// A process that leads a group of its own, ended with all of that group.
+/// A process that leads its own process group. The whole group is killed at the end.
 class Child {
  public:
   explicit Child(pid_t process) : process_(process) {}
@@ -100,16 +100,16 @@ class Child {
     if (process_ > 0) End();
   }
 
-  /// Becomes readable when the process has ended, of which its status is kept until then.
+  /// Becomes readable when the process has ended. Its status is kept until End.
   FileDescriptor HasEnded() const {
-    // glibc 2.36 declares its function for C alone.
+    // glibc 2.36 declares pidfd_open for C only.
     FileDescriptor ended(static_cast<int>(syscall(SYS_pidfd_open, process_, 0)));
     Require(ended.valid());
     return ended;
   }
-  /// @return  its status as waitpid has it.
+  /// @return  the status, as from waitpid.
   int End() {
-    // Its number is nobody else's until it has been waited for.
+    // The process id cannot be reused until the process has been waited for.
     kill(-process_, SIGKILL);
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -122,14 +122,14 @@ class Child {
   pid_t process_;
 };
 
-/// One of its pipes, and what has come out of it.
+/// One of the child's output pipes, and what was read from it.
 class Ear {
  public:
   explicit Ear(FileDescriptor end) : end_(std::move(end)) {
     Require(fcntl(end_.get(), F_SETFL, O_NONBLOCK) == 0);
   }
 
-  /// -1 after the end of what there was.
+  /// -1 after the end of the stream.
   int descriptor() const { return end_.get(); }
   std::string& heard() { return heard_; }
 
@@ -167,7 +167,7 @@ End ListenUntilEnd(const FileDescriptor& has_ended, const ProgramLimits& limits,
     std::string& kept = words.heard();
     if (kept.size() > kMostWordsKept) kept.erase(0, kept.size() - kMostWordsKept);
     if (output.heard().size() > limits.longest_output) return End::kSaidTooMuch;
-    // What was said before it ended has been heard by now. Others may hold its pipes open.
+    // All output from before the exit has been read. Other processes may keep the pipes open.
     if (waits[0].revents != 0) return End::kExited;
   }
 }

@@ -1,4 +1,4 @@
-// Another program that is asked one thing, bounded in time and in what it says.
+// Runs another program for one request, with limits on its time and output.
 #pragma once
 
 #include <chrono>
@@ -9,28 +9,27 @@
 
 namespace mocap {
 
-/// How another program ended, and what it said until then.
+/// How another program ended, and its output until then.
 struct ProgramRun {
   enum class End { kExited, kKilledBySignal, kNotStarted, kDeadlinePassed, kSaidTooMuch };
 
   End end = End::kNotStarted;
-  int number = 0;           ///< The exit status, the signal, or errno of the start; otherwise 0.
-  std::string output = {};  ///< Its standard output.
-  std::string last_words = {};  ///< The last line of its standard error that says something.
+  int number = 0;               ///< Exit status, signal, or errno of the failed start; otherwise 0.
+  std::string output = {};      ///< Its standard output.
+  std::string last_words = {};  ///< Last line of its standard error that is not blank.
 };
 
 struct ProgramLimits {
-  std::chrono::milliseconds patience{0};  ///< Until it has to have ended.
+  std::chrono::milliseconds patience{0};  ///< Time limit for the whole run.
   std::size_t longest_output = 0;         ///< [bytes]
 };
 
-/// Runs a program without a shell, in a session of its own, so that it can ask nobody on a
-/// terminal.
+/// Runs a program without a shell, in its own session, so that it cannot prompt on a terminal.
 ///
-/// It ends with all that it started in its process group, whatever happens: nothing is left of it,
-/// no process and no descriptor. Thread-safe.
+/// In every case, the program and its process group are killed at the end: no process and no
+/// descriptor is left. Thread-safe.
 /// @param command  the program, looked up in PATH, and its arguments.
-/// @param input    its standard input, to the end; at most PIPE_BUF bytes.
+/// @param input    its whole standard input; at most PIPE_BUF bytes.
 ProgramRun RunOtherProgram(const std::vector<std::string>& command, std::string_view input,
                            const ProgramLimits& limits);
 

@@ -39,7 +39,7 @@ std::string WhyNotWritable(const std::filesystem::path& folder) {
   const std::filesystem::path place = NearestFolder(folder);
   std::error_code error;
   if (!std::filesystem::is_directory(place, error)) return place.string() + " is no folder";
-  // A system that is read-only, or a folder of the kernel's, tells only whoever tries.
+  // Only an attempt to write reveals a read-only file system, or a folder of the kernel.
   std::string name = (place / ".mocapd-XXXXXX").string();
   const FileDescriptor file(mkostemp(name.data(), O_CLOEXEC));
   if (!file.valid()) {
