@@ -7,13 +7,13 @@
 namespace mocap {
 namespace {
 
-/// How many frames of a camera lie between threads at most: where nothing waits for a pose, every
-/// thread finds enough to do; live, frames do not become old.
+/// Maximum number of a camera's frames between threads. Offline, every thread has enough work;
+/// live, frames do not get old.
 constexpr std::size_t kPatientFrames = 8, kLiveFrames = 4;
-/// Where several people may be, a small blob may be one whom others hide; share of the picture.
+/// With several people, a small blob may be a person whom others hide; share of the picture.
 constexpr double kLargestThingAmongPeople = 0.003;
 
-/// The same pictures, until the program shall end.
+/// The same pictures, but throws LearningStopped once `stop` is set.
 BackgroundSource UntilStopped(const BackgroundSource& source, const std::atomic<bool>* stop) {
   if (!stop) return source;
   return BackgroundSource::OneByOne([&source, stop](const BackgroundSource::Visit& visit) {
@@ -95,7 +95,7 @@ void CameraLines::Run(CameraLine& line, ThreadGroup& threads,
     if (outcome == SilhouetteSource::Outcome::kFrame) {
       line.queue.Push();
     } else {
-      // The consumer may have to go on without this camera.
+      // The consumer may have to continue without this camera.
       bell_.Ring();
     }
   }

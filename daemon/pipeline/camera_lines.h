@@ -17,17 +17,17 @@
 
 namespace mocap {
 
-/// Learning was given up because the program shall end.
+/// Learning was abandoned because the program is to end.
 struct LearningStopped {};
 
-/// Learns what each camera that has a driver sees of the empty studio, all at the same time.
-/// @param stop  as PipelineOptions::stop. @throws SetupError of the first camera whose pictures
-/// cannot be used; LearningStopped.
+/// Learns the background of each camera that has a driver, all at the same time.
+/// @param stop  as PipelineOptions::stop.
+/// @throws SetupError  of the first camera whose pictures cannot be used; LearningStopped.
 std::vector<Segmenter> LearnBackgrounds(const std::vector<StudioCamera>& cameras,
                                         const SegmentationOptions& options,
                                         const std::atomic<bool>* stop = nullptr);
 
-/// How segmentation is set for so many people.
+/// Segmentation options for the number of people in `options`.
 SegmentationOptions SegmentationOf(const PipelineOptions& options);
 
 /// One camera's source, and the queue that its thread fills.
@@ -36,23 +36,25 @@ struct CameraLine {
 
   std::unique_ptr<SilhouetteSource> source;
   SpscQueue<SegmentedFrame> queue;
-  bool ended = false;  ///< Nothing more will come; the consumer's view.
+  bool ended = false;  ///< Nothing more will come, as the consumer sees it.
   std::atomic<std::int64_t> turns{0};
-  std::atomic<bool> has_ended{false};  ///< The camera's thread is done.
+  std::atomic<bool> has_ended{false};  ///< The camera's thread has ended.
 };
 
-/// All cameras' lines, which one thread consumes.
+/// The lines of all cameras. One thread consumes them.
 class CameraLines {
  public:
-  /// Learns the backgrounds. @param bell  rung whenever there may be something to do; borrowed, as
-  /// the recorders are. @param rays  of an outline, at the most; 0: outlines are not traced.
+  /// Learns the backgrounds.
+  /// @param recorders  borrowed.
+  /// @param bell  rung when there may be something to do; borrowed.
+  /// @param rays  maximum number per outline; 0: outlines are not traced.
   /// @throws SetupError  for backgrounds that cannot be used; LearningStopped.
   CameraLines(std::vector<StudioCamera> cameras, const PipelineOptions& options, int rays,
               StageRecorders& recorders, Doorbell& bell);
 
-  /// A thread a camera. @param wanted_from_ns  as SilhouetteSource::Next has it; borrowed.
+  /// Starts one thread per camera. @param wanted_from_ns  as in SilhouetteSource::Next; borrowed.
   void Launch(ThreadGroup& threads, const std::atomic<std::int64_t>& wanted_from_ns);
-  /// Nothing more is taken out.
+  /// Closes the queues: the consumer takes out nothing more.
   void Close();
 
   int count() const { return static_cast<int>(lines_.size()); }
@@ -61,9 +63,9 @@ class CameraLines {
     return *lines_[static_cast<std::size_t>(camera)];
   }
 
-  /// As FramePath has it.
+  /// As in FramePath.
   void ReplaceBackground(int camera, std::span<const BackgroundFrame> background);
-  /// A camera's own counters, and what its queue lost.
+  /// A camera's own counters, and the frames that its queue dropped.
   CameraStatus Status(int camera) const;
   std::vector<FrameProgress::Thread> Progress() const;
 
@@ -73,7 +75,7 @@ class CameraLines {
   const SegmentationOptions segmentation_;
   Doorbell& bell_;
   std::vector<std::unique_ptr<CameraLine>> lines_;
-  std::vector<CameraWorker*> workers_;  ///< Of the first lines, which have drivers.
+  std::vector<CameraWorker*> workers_;  ///< The first lines' workers: these cameras have drivers.
 };
 
 }  // namespace mocap

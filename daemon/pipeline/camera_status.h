@@ -1,4 +1,4 @@
-// How one camera does.
+// The status of one camera.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ enum class CameraState { kStarting = 0, kStreaming = 1, kLost = 2, kEnded = 3 };
 /// A camera's counters at one moment.
 struct CameraStatus {
   std::string name;
-  std::string node;  ///< Where its driver is; empty: here.
+  std::string node;  ///< The node that has its driver; empty: this computer.
   CameraState state = CameraState::kStarting;
   std::int64_t frames = 0;
-  std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames let go on the way.
-  std::int64_t late = 0;     ///< Came after their set had gone, or found none.
+  std::int64_t dropped = 0;  ///< Gaps in the camera's count, and frames dropped on the way.
+  std::int64_t late = 0;     ///< Arrived after their set was processed, or matched none.
   std::int64_t torn = 0;
-  int replacements = 0;              ///< How often the background was learned since the start.
-  double light = 1;                  ///< Brightness, over that of the empty studio as learned.
-  double nudged_px = 0;              ///< How far the picture lies from where it was learned.
-  bool is_blind = false;             ///< As the last frame's.
+  int replacements = 0;              ///< Number of backgrounds learned since the start.
+  double light = 1;                  ///< Brightness relative to the learned background.
+  double nudged_px = 0;              ///< Shift of the picture relative to the learned background.
+  bool is_blind = false;             ///< As in the last frame.
   CameraHealth health;               ///< Whether the other cameras agree.
-  std::string waits_for;             ///< The camera that triggers it; empty: none that is known.
-  std::vector<std::string> remarks;  ///< Of the driver, when the state last changed.
-  std::string time_source;           ///< Where capture times come from, as the driver had it then.
+  std::string waits_for;             ///< The camera that triggers it; empty: none known.
+  std::vector<std::string> remarks;  ///< The driver's, from the last change of state.
+  std::string time_source;           ///< Origin of capture times, as of the last change of state.
 };
 
 }  // namespace mocap

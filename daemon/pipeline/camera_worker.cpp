@@ -11,21 +11,21 @@
 namespace mocap {
 namespace {
 
-/// Bounds how long a stop can take.
+/// Limits the time that a stop can take.
 constexpr std::chrono::milliseconds kGrabTimeout{100};
-/// Between attempts to get a lost camera back.
+/// Between attempts to recover a lost camera.
 constexpr std::chrono::milliseconds kLostPause{20};
-/// A worker comes round ten times a second; one that does not hangs.
+/// A worker turns ten times a second; otherwise it hangs.
 constexpr std::chrono::milliseconds kReplacePause{5};
 constexpr int kReplacePauses = 400;
 constexpr float kLeastGain = 0.01f;
-/// Nobody covers more of a camera that can see the whole of a person.
+/// A person covers less than this of a camera that can see a whole person.
 constexpr double kBlindShare = 0.35;
-/// Beyond this, pixels are at the end of their range.
+/// Beyond this factor, pixels saturate.
 constexpr float kMostLightFactor = 2;
-/// Contours that lie so far off, where a nudge would have been followed, are those of another view:
-/// in pictures of a real studio they lie 0.34 px off at most, of cameras turned by 8 px 0.53 and
-/// more.
+/// A larger contour shift, where a nudge would have been compensated, means another view. In
+/// pictures of a real studio the shift is at most 0.34 px; for cameras turned by 8 px it is at
+/// least 0.53 px.
 constexpr float kMostShift_px = 0.5;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One camera that is here, from its driver to silhouettes.
+// Processes one local camera, from its driver to silhouettes.
 #pragma once
 
 #include <atomic>
@@ -22,9 +22,9 @@ namespace mocap {
 class CameraWorker : public SilhouetteSource {
  public:
   /// @param recorders  borrowed for the worker's life.
-  /// @param taps       get every frame, likewise.
-  /// @param preview    gets some frames a second with their silhouettes, likewise; may be null.
-  /// @param rays  of an outline, at the most; 0: it is not traced.
+  /// @param taps       get every frame; borrowed likewise.
+  /// @param preview    gets some frames a second with silhouettes; likewise; may be null.
+  /// @param rays  maximum number per outline; 0: it is not traced.
   CameraWorker(StudioCamera camera, Segmenter segmenter, StageRecorders& recorders,
                std::vector<FrameTap*> taps = {}, PreviewTap* preview = nullptr,
                int rays = kRaysPerPerson);
@@ -33,9 +33,9 @@ class CameraWorker : public SilhouetteSource {
   void Stop() override;
   Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame) override;
 
-  /// Segments with another knowledge of the empty studio from the next frame on. Any thread but the
-  /// worker's, one at a time; waits until the worker has taken it, so that what it had before ends
-  /// here. @return  false when the worker does not come round.
+  /// Segments against another background from the next frame on. Call from any thread but the
+  /// worker's, one call at a time. Waits until the worker has taken it; the old segmenter is then
+  /// destroyed in the calling thread. @return  false when the worker does not respond.
   bool Replace(Segmenter segmenter);
 
   const CameraCalibration& calibration() const override { return camera_.calibration; }
@@ -56,7 +56,7 @@ class CameraWorker : public SilhouetteSource {
   PreviewTap* const preview_;
   const int rays_;
   Pacer preview_pacer_{kPreviewHz};
-  std::mutex replacement_mutex_;  ///< Tried, never waited for, by the worker.
+  std::mutex replacement_mutex_;  ///< The worker tries it, but never waits.
   std::optional<Segmenter> replacement_;
   std::atomic<bool> replacement_waits_{false};
   CameraCounters counters_;

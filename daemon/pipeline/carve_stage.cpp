@@ -9,10 +9,10 @@
 namespace mocap {
 
 CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
-  // Without some camera the hull of somebody with arms out is longer than the person.
+  // Without some camera, outstretched arms have a hull longer than the person.
   constexpr double kLongest_mm = 3200;
   constexpr double kHandsUp_mm = 2400;
-  // Of finer voxels, which are no matter of real time, nothing is laid by.
+  // No memory is reserved for finer voxels: they are not for real time.
   constexpr double kFinest_mm = 20;
   CarvedSet set;
   const Vector3 voxels =
@@ -109,7 +109,7 @@ void CarveStage::PublishLoad() {
   }
 }
 
-// By what the cameras of a set see together.
+// Uses what the cameras of a set see together.
 void CarveStage::CompleteSilhouettes() {
   shaded_.clear();
   for (std::size_t i = 0; i < cameras_.size(); ++i) {

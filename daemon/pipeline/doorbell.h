@@ -1,14 +1,14 @@
-// How a thread sleeps until another one has done something: a counter to wait on, without a lock.
+// Lets a thread sleep until another one has done something: a counter to wait on, without a lock.
 #pragma once
 
 #include <atomic>
 
 namespace mocap {
 
-/// Counts events; whoever has seen a count can sleep until there are more. Thread-safe.
+/// Counts events. A thread that has read a count can sleep until it rises. Thread-safe.
 ///
-/// Read the count, look whether there is work, and only then wait for a newer count: an event in
-/// between is never slept through.
+/// Read the count, check for work, and only then wait for a newer count. Then an event in between
+/// cannot be missed.
 class Doorbell {
  public:
   int count() const { return count_.load(std::memory_order_acquire); }
@@ -19,7 +19,7 @@ class Doorbell {
   void WaitPast(int seen) const { count_.wait(seen, std::memory_order_acquire); }
 
  private:
-  // An int is what the kernel's futex takes without a detour.
+  // The kernel's futex takes an int directly.
   std::atomic<int> count_{0};
 };
 

@@ -1,4 +1,4 @@
-// The way of frames through the daemon, as the service sees it.
+// The path of frames through the daemon, as the service sees it.
 #pragma once
 
 #include <atomic>
@@ -25,61 +25,61 @@ namespace mocap {
 struct PipelineOptions {
   SegmentationOptions segmentation{};
   double voxel_mm = 25;
-  /// kWait: every set is tracked, and the poses depend on the frames alone, not on the threads.
-  /// kDropOldest: the newest set counts, stale ones go, and a camera that is late is gone on
-  /// without.
+  /// kWait: every set is tracked, and poses depend on the frames alone, not on thread timing.
+  /// kDropOldest: the newest set counts, late frames are dropped, and sets go on without a late
+  /// camera.
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
   TrackerKind tracker = TrackerKind::kSurface;
-  int people = 1;                 ///< Followed at most.
-  int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: as everybody.
-  std::vector<int> processors{};  ///< That the threads keep to; empty: all.
-  /// Whoever gets frames: one tap a camera that has a driver; these come first. Borrowed for the
-  /// pipeline's life.
+  int people = 1;                 ///< Maximum number that is tracked.
+  int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: normal scheduling.
+  std::vector<int> processors{};  ///< For the threads; empty: all.
+  /// Recipients of frames, each with one tap per camera that has a driver; these cameras come
+  /// first. Borrowed for the pipeline's life.
   std::vector<std::deque<FrameTap>*> taps = {};
-  /// Whoever gets previews, likewise; null: nobody.
+  /// Recipient of previews, likewise; null: none.
   std::deque<PreviewTap>* previews = nullptr;
-  /// Of cameras without a driver.
+  /// Opens cameras without a driver here.
   OpenElsewhere elsewhere = nullptr;
-  /// Learning gives up when this becomes true. Borrowed; null: it does not.
+  /// Learning is abandoned when this becomes true. Borrowed; null: never.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How a frame path does; counters never go back.
+/// The state of a frame path. Counters never decrease.
 struct PipelineStatus {
-  bool tracks = true;  ///< Else silhouettes are handed on, and there are no sets.
+  bool tracks = true;  ///< Otherwise silhouettes are handed on, and there are no sets.
   CaptureState state = CaptureState::kSearching;
   std::int64_t sets_complete = 0;  ///< With every camera.
-  std::int64_t sets_partial = 0;   ///< Went on without some camera.
-  std::int64_t sets_dropped = 0;   ///< Let go because the pipeline was behind.
+  std::int64_t sets_partial = 0;   ///< Without some camera.
+  std::int64_t sets_dropped = 0;   ///< Dropped because the pipeline was behind.
   std::int64_t sets_tracked = 0;   ///< Handed on: sets, or silhouettes.
   std::vector<CameraStatus> cameras;
   StageHistograms stages;
 };
 
-/// From cameras to whatever is handed on: poses, or silhouettes. RequestStop, finished,
+/// The path from cameras to poses, or on a node to silhouettes. RequestStop, finished,
 /// ReplaceBackground, Status and Progress: any thread.
 class FramePath {
  public:
   virtual ~FramePath() = default;
 
   virtual void Start() = 0;
-  /// Ends the flow at the cameras; what is under way still arrives.
+  /// Ends the flow at the cameras. What is in the pipeline still arrives.
   virtual void RequestStop() = 0;
-  /// The last item has been handed on.
+  /// Whether the last item has been handed on.
   virtual bool finished() const = 0;
   /// Waits for the threads in the order of the flow.
-  /// @throws what one of them threw, SetupError of a camera that does not start among it.
+  /// @throws what one of them threw, such as SetupError of a camera that does not start.
   virtual void Join() = 0;
 
-  /// Segments a camera's frames against other pictures of the empty studio from now on; learns
-  /// them in the calling thread. One call at a time.
-  /// @throws SetupError  for pictures that cannot be used; std::runtime_error for a camera whose
-  /// thread does not take them over.
+  /// Segments a camera's frames against another background from now on. Learns it in the calling
+  /// thread. One call at a time.
+  /// @throws SetupError  for pictures that cannot be used; std::runtime_error if the camera's
+  /// thread does not take the background.
   virtual void ReplaceBackground(int camera, std::span<const BackgroundFrame> background) = 0;
 
   virtual PipelineStatus Status() const = 0;
-  /// How far each thread has come.
+  /// Progress of each thread.
   virtual FrameProgress Progress() const = 0;
 };
 

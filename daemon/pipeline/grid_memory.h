@@ -1,4 +1,4 @@
-// How much memory voxel grids keep while they go round between threads.
+// Limits the memory that voxel grids keep while they circulate between threads.
 #pragma once
 
 #include <atomic>
@@ -8,33 +8,32 @@
 
 namespace mocap {
 
-/// Lets grids keep their memory, so that none is allocated once all have their size, as long as
-/// what is more than usual is below a limit for all of them. Beyond it they give theirs back once
-/// they were used: a hull of the whole room, for moments, would otherwise be kept by each of more
-/// than a hundred grids.
+/// Lets grids keep their memory, so that nothing is allocated once all have grown, while their
+/// total above the usual size is below a limit. Above it, grids release their memory after use.
+/// Otherwise a momentary hull of the whole room would stay allocated in more than a hundred grids.
 ///
-/// NoteGrowth: the thread that fills grids; Bound: the one that is done with them.
+/// NoteGrowth: the thread that fills grids. Bound: the thread that has finished with them.
 class GridMemory {
  public:
-  /// @param usual_bytes  that a grid may keep in any case.
-  /// @param most_bytes   that all may keep beyond that, together.
+  /// @param usual_bytes  that each grid may always keep.
+  /// @param most_bytes   that all may keep above that, together.
   GridMemory(std::size_t usual_bytes, std::size_t most_bytes)
       : usual_bytes_(usual_bytes), most_bytes_(most_bytes) {}
 
-  /// A grid that had so many bytes before has been filled.
+  /// Call after a grid was filled whose capacity was `before_bytes`.
   void NoteGrowth(std::size_t before_bytes, const VoxelGrid& grid) {
-    // It never shrinks by being filled.
+    // Filling never shrinks it.
     beyond_bytes_.fetch_add(Beyond(grid.capacity_bytes()) - Beyond(before_bytes),
                             std::memory_order_relaxed);
   }
-  /// Nobody needs what is in the grid any more.
+  /// Call when nobody needs the grid's content any more.
   void Bound(VoxelGrid& grid) {
     const std::size_t beyond = Beyond(grid.capacity_bytes());
     if (beyond == 0 || beyond_bytes() <= most_bytes_) return;
     grid.Release();
     beyond_bytes_.fetch_sub(beyond, std::memory_order_relaxed);
   }
-  /// Memory that grids keep beyond the usual.
+  /// Total memory of grids above the usual.
   std::size_t beyond_bytes() const { return beyond_bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kSetsQueued = 1;
 constexpr std::size_t kMoments = 12;
-/// Who stands still is seen once: a stance may mislead, several do not.
+/// A standing person counts once: one stance may mislead, several do not.
 constexpr double kAnotherPlace_mm = 150;
 
 double Median(const std::deque<SilhouetteShift>& shifts, int axis) {

@@ -1,4 +1,4 @@
-// Whether the cameras still stand where they were calibrated, looked at while they run.
+// Checks during operation whether the cameras still are where they were calibrated.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace mocap {
 
-/// What one camera saw of the person, lately, against what the others make of him.
+/// One camera's recent silhouettes compared with those the other cameras predict.
 struct CameraHealth {
-  int moments = 0;                     ///< That could be compared; the rest is known with some.
-  Vector2 shift_px = Vector2::Zero();  ///< Median, to the right and down: seen minus expected.
+  int moments = 0;                     ///< Comparisons made; the rest is valid if there are some.
+  Vector2 shift_px = Vector2::Zero();  ///< Median, to the right and down: seen minus predicted.
   double overlap = 0;                  ///< Mean intersection over union.
 };
 
-/// A set's silhouettes on their way to be compared.
+/// The silhouettes of a set that will be compared.
 struct SeenSet {
   std::vector<int> cameras;
   std::vector<Silhouette> silhouettes;
@@ -30,24 +30,24 @@ struct SeenSet {
 };
 using SetTap = Tap<SeenSet>;
 
-/// Compares now and then a set's silhouettes with each other's hulls, in a thread of its own that
-/// comes after everything else.
+/// Occasionally compares a set's silhouettes with the hulls from the other cameras, in a thread of
+/// low priority.
 class HealthWatch {
  public:
-  /// How often a set is wanted at most.
+  /// Maximum rate of sets.
   static constexpr double kHz = 0.5;
-  /// Fewer moments say nothing.
+  /// Fewer moments are not conclusive.
   static constexpr int kFewestMoments = 4;
 
   explicit HealthWatch(const std::vector<CameraCalibration>& cameras);
   ~HealthWatch();
 
-  /// Where the pipeline leaves sets.
+  /// The pipeline offers sets here.
   SetTap& tap() { return tap_; }
   /// One for each camera. Any thread.
   std::vector<CameraHealth> Health() const;
 
-  /// What the thread does with a set.
+  /// Compares a set; called by the thread.
   void Add(const SeenSet& set);
 
  private:
@@ -57,7 +57,7 @@ class HealthWatch {
   HullAgreement agreement_;
   std::optional<Vector3> last_place_W_;
   mutable std::mutex mutex_;
-  std::vector<std::deque<SilhouetteShift>> shifts_;  ///< The latest of each camera.
+  std::vector<std::deque<SilhouetteShift>> shifts_;  ///< The latest per camera.
   Doorbell bell_;
   SetTap tap_;
   std::thread thread_;

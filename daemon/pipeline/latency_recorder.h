@@ -1,4 +1,4 @@
-// How long things take: percentiles without keeping every value.
+// Measures durations: percentiles without storing every value.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// Buckets of durations, each 1/32 of an octave wide: from 128 ns on, values keep 3 %.
+/// Buckets of durations, each 1/32 of an octave wide. From 128 ns on, the error is at most 3 %.
 struct LatencyBuckets {
   static constexpr int kUnitBits = 7;  ///< Durations count in units of 128 ns.
   static constexpr std::uint64_t kPerOctave = 32;
@@ -24,7 +24,7 @@ struct LatencyBuckets {
     const std::size_t index = kPerOctave * shift + (units >> shift);
     return std::min(index, kCount - 1);
   }
-  /// Where a bucket begins [ns].
+  /// Start of a bucket [ns].
   static constexpr double BeginNs(std::size_t index) {
     const std::size_t octave = index / kPerOctave;
     const std::size_t shift = octave > 0 ? octave - 1 : 0;
@@ -44,7 +44,7 @@ class LatencyHistogram {
     return sum;
   }
 
-  /// The duration that `share` (0 to 1) of all stay below; 0 when there are none.
+  /// The duration that a `share` (0 to 1) of all samples stays below; 0 without samples.
   double PercentileMs(double share) const {
     const auto wanted = share * static_cast<double>(count());
     std::int64_t below = 0;
@@ -69,7 +69,7 @@ class LatencyHistogram {
   std::array<std::int64_t, LatencyBuckets::kCount> counts_{};
 };
 
-/// Counts durations as they come. Thread-safe; never waits, never allocates.
+/// Counts durations. Thread-safe; never waits, never allocates.
 class LatencyRecorder {
  public:
   void Record(std::int64_t duration_ns) {

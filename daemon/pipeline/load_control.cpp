@@ -31,7 +31,7 @@ void LoadControl::StartAnew() {
 void LoadControl::NoteDelay(std::int64_t delay_ns, std::int64_t now_ns) {
   const bool has_span = span_begin_ns_ <= now_ns && now_ns - span_begin_ns_ < kDelaySpanNs;
   if (!has_span) {
-    // Without an earlier span, this delay is all that is known.
+    // Without an earlier span, only this delay is known.
     least_delay_ns_ = least_of_span_ns_;
     least_of_span_ns_ = kNoDelayYet;
     span_begin_ns_ = now_ns;

@@ -1,4 +1,4 @@
-// The frame path of a camera node: silhouettes are handed on as they are.
+// The frame path of a camera node: it hands silhouettes on as they are.
 #pragma once
 
 #include <atomic>
@@ -14,16 +14,16 @@
 
 namespace mocap {
 
-/// Whoever gets a node's silhouettes, all in one thread.
+/// Receives a node's silhouettes, all in one thread.
 class SilhouetteSink {
  public:
   virtual ~SilhouetteSink() = default;
-  /// @param camera  its place among the node's.
+  /// @param camera  its index among the node's cameras.
   virtual void OnSilhouette(int camera, const SegmentedFrame& frame) = 0;
 };
 
-/// Runs a node: a thread a camera that grabs and segments, and one that hands silhouettes on. Run
-/// once.
+/// Runs a node: one thread per camera that grabs and segments, and one that hands silhouettes on.
+/// Run once.
 class NodePath : public FramePath {
  public:
   /// Learns every camera's background. @param sink  borrowed for the path's life.
@@ -49,7 +49,7 @@ class NodePath : public FramePath {
   StageRecorders recorders_;
   Doorbell bell_;
   CameraLines lines_;
-  // Of all that is captured; how late it is, the studio knows.
+  // All frames are wanted: only the studio knows how late they are.
   const std::atomic<std::int64_t> wanted_from_ns_{std::numeric_limits<std::int64_t>::min()};
   std::atomic<std::int64_t> turns_{0};
   std::atomic<std::int64_t> sent_{0};

@@ -1,15 +1,15 @@
-// How something that comes too often is done now and then only.
+// Limits the rate of something that comes too often.
 #pragma once
 
 #include <cstdint>
 
 namespace mocap {
 
-/// Says when it is time again.
+/// Tells when the next time is due.
 class Pacer {
  public:
   explicit Pacer(double hz);
-  /// Whether it is time now; if so, the next time is a period later. Never with 0 Hz.
+  /// Whether it is due; if so, the next time is a period later. Never at 0 Hz.
   bool IsDue(std::int64_t now_ns);
 
  private:

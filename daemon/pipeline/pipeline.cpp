@@ -10,22 +10,22 @@
 namespace mocap {
 namespace {
 
-/// How many sets lie between threads at most: live, who comes in has to be found, and cameras go
-/// on meanwhile.
+/// Maximum number of sets between threads. Live, finding a person who enters takes time while
+/// cameras continue.
 constexpr std::size_t kPatientSets = 4, kLiveSets = LoadControl::kMostUnderWay;
 
 constexpr std::size_t SetsFor(Overflow overflow) {
   return overflow == Overflow::kWait ? kPatientSets : kLiveSets;
 }
 
-/// Live: how many periods the other cameras may be ahead before a set goes on without one.
+/// Live: how many periods other cameras may be ahead before a set does without one.
 constexpr double kPatiencePeriods = 1.75;
-// By the time that a set went on without a camera, up to a period later, it must not be too old.
+// When a set does without a camera, up to a period later, it must not be too old.
 static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
-/// How far tracking is behind when recordings have to wait, and when they may go on.
+/// Delay of tracking at which recordings have to wait, and at which they may continue.
 constexpr std::int64_t kFarBehindNs = 250'000'000;
 constexpr std::int64_t kKeepsUpNs = 50'000'000;
-/// Of all grids that go round together, beyond what a person needs: some dozens of a whole room.
+/// Of all circulating grids, above what a person needs: some dozens of a whole room.
 constexpr std::size_t kMostGridBytes = 256 << 20;
 
 std::size_t CountCameras(const Studio& studio) {
@@ -33,7 +33,7 @@ std::size_t CountCameras(const Studio& studio) {
   return studio.cameras.size();
 }
 
-/// Rays of outlines, as a multiple of those that one person needs.
+/// Rays of outlines, as a multiple of those for one person.
 int FinenessFor(int people) { return people > 1 ? kMostRays / kRaysPerPerson : 1; }
 
 ThreadOptions ThreadsFor(const PipelineOptions& options) {
@@ -112,13 +112,13 @@ bool Pipeline::FeedFromQueues() {
   bool all_ended = true;
   for (int i = 0; i < carve_->camera_count(); ++i) {
     CameraLine& line = (*lines_)[i];
-    // First what is on the way, then what has come: whatever comes in between rings the bell.
+    // Query the state before the queue: whatever arrives in between rings the bell.
     const bool is_closed = line.queue.closed();
     const Expectation expectation = line.source->expectation();
     while (carve_->NeedsFrame(i) && line.queue.TryPop()) carve_->Offer(i, line.queue.front());
     line.ended = is_closed && carve_->NeedsFrame(i);
     carve_->synchronizer().Expect(i, line.ended ? Expectation::kNone : expectation);
-    // What a camera was at when it was lost says nothing about those that go on.
+    // The last frame of a lost camera says nothing about the others.
     if (expectation != Expectation::kNone) {
       carve_->synchronizer().NoteNewest(i, line.source->newest_ns());
     }
@@ -146,7 +146,7 @@ void Pipeline::RunCarving() {
   }
 }
 
-// A pose comes before a recording.
+// Poses have priority over recordings.
 void Pipeline::HoldTaps() {
   const std::int64_t behind_ns = carve_->under_way() * carve_->synchronizer().PeriodNs();
   const bool is_held = behind_ns > (taps_are_held_ ? kKeepsUpNs : kFarBehindNs);
@@ -223,7 +223,7 @@ FrameProgress Pipeline::Progress() const {
   progress.cameras = lines_->Progress();
   progress.carving = {carving_turns_.load(std::memory_order_relaxed),
                       carving_has_ended_.load(std::memory_order_relaxed)};
-  // Tracked first: what is matched in between then still waits.
+  // Read first: sets matched in between then count as waiting.
   progress.sets_tracked = track_.sets();
   progress.sets_matched = carve_->complete_sets() + carve_->partial_sets();
   return progress;

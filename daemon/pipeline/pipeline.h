@@ -1,4 +1,4 @@
-// From photons to poses: who runs when.
+// The whole pipeline from frames to poses, and its threads.
 #pragma once
 
 #include <atomic>
@@ -30,12 +30,12 @@ namespace mocap {
 /// @throws SetupError  when a studio has no cameras, or too many.
 void RequireCameraCount(const Studio& studio);
 
-/// Runs a studio: a thread a camera that grabs and segments, one that matches and carves, one that
-/// tracks and hands on. Between them bounded queues whose items go round, so that nothing is
-/// allocated, locked or copied on a frame's way. Live, one more looks for people who come in; for
-/// that the sets that show them are copied.
+/// Runs a studio: one thread per camera that grabs and segments, one that matches and carves, one
+/// that tracks and hands on. Bounded queues between them recycle their items, so that nothing is
+/// allocated, locked or copied on a frame's path. A live pipeline has one more thread that looks
+/// for people who enter; the sets that show them are copied for it.
 ///
-/// Run once, with Start and Join or with RunSerially. ChangeSubject, KnowPeople, NamePerson: any
+/// Run once, with Start and Join or with RunSerially. ChangeSubject, KnowPeople and NamePerson: any
 /// thread.
 class Pipeline : public FramePath {
  public:
@@ -50,13 +50,13 @@ class Pipeline : public FramePath {
   bool finished() const override { return finished_.load(std::memory_order_acquire); }
   void Join() override { threads_.Join(); }
 
-  /// Does everything in the calling thread, without dropping: the measure for the threads.
+  /// Does everything in the calling thread, without dropping: the reference for the threads.
   void RunSerially();
 
-  /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
-  /// there.
+  /// From the next set on, tracks a person of these sizes. Without sizes, measures those who are
+  /// present.
   void ChangeSubject(const std::optional<KnownPerson>& subject) { track_.ChangeSubject(subject); }
-  /// From the next set on, whoever has the sizes of one of these people gets his name.
+  /// From the next set on, a person whose sizes match one of these gets that name.
   void KnowPeople(const std::vector<KnownPerson>& people) { track_.KnowPeople(people); }
   void NamePerson(int id, const std::string& name) { track_.NamePerson(id, name); }
 
@@ -82,7 +82,7 @@ class Pipeline : public FramePath {
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
   GridMemory grids_;                  ///< Of sets_.
-  std::unique_ptr<SideThread> side_;  ///< Live, where several people are followed.
+  std::unique_ptr<SideThread> side_;  ///< Live, with several people.
   TrackStage track_;
   std::unique_ptr<CameraLines> lines_;
   bool taps_are_held_ = false;

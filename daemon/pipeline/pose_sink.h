@@ -1,4 +1,4 @@
-// Where tracked sets go: the publisher, a result, a test.
+// Recipients of tracked sets: the publisher, a result, a test.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace mocap {
 
-/// One frame set at the end of the pipeline. Borrowed for the call.
+/// One frame set at the end of the pipeline. Valid during the call only.
 struct TrackedSet {
   std::int64_t frame = 0;
   std::int64_t capture_ns = 0;
-  std::int64_t complete_ns = 0;  ///< When its last frame had arrived, on the timeline.
+  std::int64_t complete_ns = 0;  ///< Arrival of its last frame, on the timeline.
   std::uint64_t cameras = 0;     ///< Bit i: camera i was used.
   int acquisition_frames = 0;
-  const CaptureResult& result;              ///< Of whoever has been followed the longest.
-  const BodyModel& body;                    ///< His.
-  std::span<const PersonView> people = {};  ///< Everybody.
+  const CaptureResult& result;              ///< Of the person tracked for longest.
+  const BodyModel& body;                    ///< The same person's.
+  std::span<const PersonView> people = {};  ///< All of them.
   const VoxelGrid& grid;
 };
 
-/// Takes tracked sets in order, in the pipeline's last thread.
+/// Receives tracked sets in order, in the pipeline's last thread.
 class PoseSink {
  public:
   virtual ~PoseSink() = default;

@@ -14,14 +14,14 @@
 namespace mocap {
 namespace {
 
-/// The kernel's struct sched_attr, which its header and glibc's do not let anybody include.
+/// The kernel's struct sched_attr. Its header conflicts with glibc's.
 struct SchedulingAttributes {
   std::uint32_t size = sizeof(SchedulingAttributes);
   std::uint32_t policy = SCHED_OTHER;
   std::uint64_t flags = 0;
   std::int32_t nice = 0;
   std::uint32_t priority = 0;
-  std::uint64_t runtime_ns = 0;  ///< Of SCHED_OTHER and SCHED_BATCH: how long a turn is.
+  std::uint64_t runtime_ns = 0;  ///< For SCHED_OTHER and SCHED_BATCH: the time slice.
   std::uint64_t deadline_ns = 0;
   std::uint64_t period_ns = 0;
 };
@@ -34,7 +34,7 @@ bool KeepToProcessors(const std::vector<int>& processors) {
   CPU_ZERO(&set);
   for (const int processor : processors) CPU_SET(processor, &set);
   cpu_set_t kept;
-  // Of processors that are not there the kernel leaves out some without a word.
+  // The kernel silently ignores some processors that do not exist.
   return pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0 &&
          pthread_getaffinity_np(pthread_self(), sizeof kept, &kept) == 0 && CPU_EQUAL(&set, &kept);
 }
@@ -46,16 +46,16 @@ bool TakePriority(int priority) {
 }
 
 void WorkInLongTurns() {
-  constexpr std::uint64_t kLongestTurnNs = 100'000'000;  // The kernel allows no more.
+  constexpr std::uint64_t kLongestTurnNs = 100'000'000;  // The kernel's maximum.
   constexpr pid_t kThisThread = 0;
-  SchedulingAttributes attributes;  // A thread stays as nice as it is.
+  SchedulingAttributes attributes;  // Keeps the thread's nice value.
   if (syscall(SYS_sched_getattr, kThisThread, &attributes, sizeof attributes, 0U) != 0) return;
   attributes.policy = SCHED_BATCH;
   attributes.runtime_ns = kLongestTurnNs;
   syscall(SYS_sched_setattr, kThisThread, &attributes, 0U);
 }
 
-// The threads of the frame path take all of this for themselves; here it is only tried.
+// Only tests the limits. The threads of the frame path apply these settings themselves.
 void PrepareRealtime(const RealtimeConfig& config) {
   if (config.priority > 0) {
     if (!TakePriority(config.priority)) {

@@ -1,4 +1,4 @@
-// Going before everything else on a busy machine, as far as limits allow.
+// Gives the daemon precedence on a busy machine, as far as limits allow.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,21 @@
 
 namespace mocap {
 
-/// Locks memory and looks whether threads may have the priority and the processors that are wished.
-/// @throws SetupError  naming the limit that stands against it.
+/// Locks memory, and tests whether threads may have the configured priority and processors.
+/// @throws SetupError  naming the limit that prevents it.
 void PrepareRealtime(const RealtimeConfig& config);
 
-/// Keeps the calling thread to these processors; to none in particular when there are none.
-/// @return  false where that is not possible.
+/// Restricts the calling thread to these processors; an empty list is no restriction.
+/// @return  false if not possible.
 bool KeepToProcessors(const std::vector<int>& processors);
 
-/// Lets the calling thread go before others, by SCHED_FIFO; 0: as everybody.
-/// @return  false where the limits do not allow it.
+/// Gives the calling thread SCHED_FIFO priority; 0: normal scheduling.
+/// @return  false if the limits do not allow it.
 bool TakePriority(int priority);
 
-/// Lets the calling thread work on for long when others are ready as well, where none is in a
-/// hurry: what it has begun is not left lying about half done. Before Linux 6.12 only who wakes up
-/// no longer interrupts it.
+/// Gives the calling thread long time slices although others are ready, for throughput without
+/// deadlines: begun work is not left half done. Before Linux 6.12 it only prevents preemption by
+/// threads that wake up.
 void WorkInLongTurns();
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// What becomes of one camera's picture: no pixels.
+// The result of segmenting one camera's picture, without pixels.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// Most rays of an outline that one person needs; of several, outlines have more.
+/// Maximum number of rays for one person's outline. With several people, outlines have more.
 inline constexpr int kRaysPerPerson = 100;
 inline constexpr int kMostRays = 2 * kRaysPerPerson;
 
@@ -17,18 +17,18 @@ inline constexpr int kMostRays = 2 * kRaysPerPerson;
 struct SegmentedFrame {
   Silhouette silhouette;
   Outline outline;       ///< The silhouette's border.
-  Shading shading;       ///< What the picture tells of shadows.
-  PanTiltAngles angles;  ///< Of the camera's head.
-  RigidTransform X_CW;   ///< Where the camera stood.
+  Shading shading;       ///< Information about shadows.
+  PanTiltAngles angles;  ///< Of the pan-tilt head.
+  RigidTransform X_CW;   ///< The camera's pose.
   std::int64_t capture_ns = 0;
   std::uint64_t sequence = 0;
-  std::int64_t arrival_ns = 0;  ///< When the driver handed it out, on the timeline.
-  std::int64_t segment_ns = 0;  ///< How long segmentation took.
-  /// Most of the picture is unlike the empty studio, or the camera looks elsewhere: whoever stands
-  /// there is not to be seen, or not where calibration has him.
+  std::int64_t arrival_ns = 0;  ///< When the driver delivered it, on the timeline.
+  std::int64_t segment_ns = 0;  ///< Duration of segmentation.
+  /// Most of the picture differs from the background, or the camera looks elsewhere. A person is
+  /// then not visible, or not where calibration puts them.
   bool is_blind = false;
-  double light = 1;      ///< Brightness, over that of the empty studio as learned.
-  double nudged_px = 0;  ///< How far the picture lies from where it was learned.
+  double light = 1;      ///< Brightness relative to the learned background.
+  double nudged_px = 0;  ///< Shift of the picture relative to the learned background.
 };
 
 }  // namespace mocap

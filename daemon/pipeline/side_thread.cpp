@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-// A tenth of a processor, where all are busy.
+// A tenth of a processor if all are busy.
 constexpr int kNiceness = 10;
 constexpr std::size_t kMostWaiting = 32;
 

@@ -1,4 +1,4 @@
-// A thread for work that takes longer than a set may.
+// A thread for work that takes longer than a set.
 #pragma once
 
 #include <atomic>
@@ -12,18 +12,18 @@
 
 namespace mocap {
 
-/// Runs work in a thread of its own that gives way to others, but has its share of a processor that
-/// is always busy. Work that waits at the end is not run.
+/// Runs work in its own thread of lower priority. It still gets a share of a processor that is
+/// always busy. Work that is queued at the end is not run.
 class SideThread : public SideWork {
  public:
   using Guard = std::function<void(const std::function<void()>& work)>;
 
-  /// @param processors  that the thread keeps to; empty: all.
-  /// @param guard       runs the work and takes care of what it throws.
+  /// @param processors  that the thread is restricted to; empty: all.
+  /// @param guard       runs the work and handles its exceptions.
   SideThread(const std::string& name, const std::vector<int>& processors, Guard guard);
   ~SideThread() override;
 
-  /// One thread at a time.
+  /// Call from one thread at a time.
   bool Begin(std::function<void()> work) override;
 
  private:

@@ -1,4 +1,4 @@
-// Where a camera's silhouettes come from.
+// Source of a camera's silhouettes.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace mocap {
 
-/// One camera, as the frame path sees it: its driver is here, or at another computer. Start, Next
+/// One camera, as the frame path sees it. Its driver is here, or on another computer. Start, Next
 /// and Stop: one thread; the rest: any.
 class SilhouetteSource {
  public:
@@ -23,22 +23,22 @@ class SilhouetteSource {
   virtual void Stop() = 0;
 
   enum class Outcome { kFrame, kNothing, kEnd };
-  /// Waits a moment for the next frame; one captured before `wanted_from_ns`, as it is by then, is
-  /// dropped instead, unless the clock was put back.
+  /// Waits a moment for the next frame. A frame captured before the current `wanted_from_ns` is
+  /// dropped, unless the clock was put back.
   virtual Outcome Next(const std::atomic<std::int64_t>& wanted_from_ns, SegmentedFrame& frame) = 0;
 
   virtual const CameraCalibration& calibration() const = 0;
-  /// Whether another frame is to come. It stays kCertain until the next call of Next, so that a
-  /// frame's owner has time to pass it on.
+  /// Whether another frame will come. Stays kCertain until the next call of Next, so that the owner
+  /// of a frame has time to pass it on.
   virtual Expectation expectation() const = 0;
-  /// Time of the newest segmented frame.
+  /// Capture time of the newest segmented frame.
   virtual std::int64_t newest_ns() const = 0;
   /// The source's own counters.
   virtual CameraStatus Status() const = 0;
 };
 
-/// Opens the source of a camera whose driver is elsewhere.
-/// @param rays  of an outline, at the most.
+/// Opens the source of a camera whose driver is on another computer.
+/// @param rays  maximum number per outline.
 using OpenElsewhere =
     std::function<std::unique_ptr<SilhouetteSource>(const CameraCalibration& camera, int rays)>;
 

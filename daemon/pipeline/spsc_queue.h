@@ -1,4 +1,4 @@
-// The belts between threads: bounded, lock-free, one producer, one consumer.
+// The queues between threads: bounded, lock-free, one producer, one consumer.
 #pragma once
 
 #include <atomic>
@@ -12,25 +12,25 @@ namespace mocap {
 
 /// Policy for a producer that finds its queue full.
 enum class Overflow {
-  kWait,       ///< The producer waits: nothing is lost. For takes that are evaluated.
-  kDropOldest  ///< The stalest item goes and is counted. For live cameras.
+  kWait,       ///< The producer waits: nothing is lost. For recorded takes.
+  kDropOldest  ///< The oldest item is dropped and counted. For live cameras.
 };
 
-/// Hands items from one thread to another in order, without a lock and without copying them.
+/// Passes items from one thread to another in order, without locking or copying.
 ///
-/// Items live in slots that circulate: the producer fills back() and pushes it, the consumer pops
-/// and reads front(), and each keeps one slot for itself, so that memory inside an item is reused
-/// for ever. Every cell of the ring holds a slot at all times; pushing and popping exchange the own
-/// slot for the cell's in one atomic step, which is what lets a producer take the oldest item back
-/// while the consumer reaches for it.
+/// Items live in slots that circulate. The producer fills back() and pushes it; the consumer pops
+/// and reads front(). Each keeps one slot for itself, so that the memory of items is reused. Every
+/// cell of the ring always holds a slot. Pushing and popping swap the thread's own slot with the
+/// cell's in one atomic step. This allows a producer to take the oldest item back while the
+/// consumer reaches for it.
 ///
 /// back, Push: producer only. front, TryPop: consumer only. Close and the rest: any thread.
 template <typename T>
 class SpscQueue {
  public:
-  /// @param consumer_bell  rung at each push and at closing; may be shared by several queues that
-  ///                       one thread reads. Borrowed for the queue's life.
-  /// @param item           what every slot holds at first, so that its memory is there.
+  /// @param consumer_bell  rung at each push and on closing; several queues with the same consumer
+  ///                       may share it. Borrowed for the queue's life.
+  /// @param item           initial content of every slot, so that its memory is allocated.
   SpscQueue(std::size_t capacity, Overflow overflow, Doorbell& consumer_bell, const T& item = T())
       : overflow_(overflow),
         slots_(capacity + 2, item),
@@ -43,7 +43,7 @@ class SpscQueue {
       cells_[i].store(Pack(0, i), std::memory_order_relaxed);
   }
 
-  /// The item to fill before Push; holds what some earlier item left.
+  /// The item to fill before Push. It contains the data of an earlier item.
   T& back() { return slots_[producer_slot_]; }
 
   /// Hands back() over. On a closed queue the item is discarded.
@@ -60,12 +60,12 @@ class SpscQueue {
     consumer_bell_.Ring();
   }
 
-  /// Takes the oldest item into front(). @return false when there is none now.
+  /// Takes the oldest item into front(). @return false if there is none now.
   bool TryPop() {
     for (;;) {
       const std::uint64_t published = published_.load(std::memory_order_acquire);
       if (popped_ == published) return false;
-      // Items further back than the ring is long have been overwritten.
+      // Items older than the length of the ring have been overwritten.
       if (published - popped_ > cells_.size()) popped_ = published - cells_.size();
       std::atomic<std::uint64_t>& cell = cells_[popped_ % cells_.size()];
       std::uint64_t value = cell.load(std::memory_order_acquire);
@@ -77,34 +77,35 @@ class SpscQueue {
         if (overflow_ == Overflow::kWait) producer_bell_.Ring();
         return true;
       }
-      // The producer took this one back a moment ago.
+      // The producer has just taken this one back.
       ++popped_;
     }
   }
 
-  /// The item popped last; the consumer's until its next TryPop.
+  /// The item popped last. It belongs to the consumer until its next TryPop.
   T& front() { return slots_[consumer_slot_]; }
 
-  /// Ends the flow from either end: what was pushed can still be popped, nothing more gets in.
+  /// Closes the queue, from either end. Items already pushed can still be popped; no more are
+  /// accepted.
   void Close() {
     closed_.store(true, std::memory_order_release);
     consumer_bell_.Ring();
     producer_bell_.Ring();
   }
-  /// Once true, a TryPop that finds nothing is final.
+  /// Once true, a failed TryPop is final.
   bool closed() const { return closed_.load(std::memory_order_acquire); }
   /// Items that were handed over so far.
   std::int64_t pushed() const {
     return static_cast<std::int64_t>(published_.load(std::memory_order_acquire));
   }
   std::size_t capacity() const { return cells_.size(); }
-  /// More than these cannot be held.
+  /// Upper bound of the capacity.
   static constexpr std::size_t kMostCapacity = 60'000;
-  /// Items that went to make room.
+  /// Items dropped to make room.
   std::int64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  // A cell: the item's number, counted from 1, and its slot; number 0 marks an empty slot.
+  // A cell: the item's number, counted from 1, and its slot. Number 0 marks an empty slot.
   static constexpr int kSlotBits = 16;
   static constexpr std::uint64_t kSlotMask = (std::uint64_t{1} << kSlotBits) - 1;
   static std::uint64_t Pack(std::uint64_t number, std::size_t slot) {
@@ -124,7 +125,7 @@ class SpscQueue {
   const Overflow overflow_;
   std::vector<T> slots_;
   std::vector<std::atomic<std::uint64_t>> cells_;
-  // The producer's, the consumer's, and what both touch, each on a cache line of its own.
+  // The producer's data, the consumer's data and shared data are on separate cache lines.
   alignas(64) std::size_t producer_slot_;
   std::uint64_t pushed_ = 0;
   alignas(64) std::size_t consumer_slot_;

@@ -11,13 +11,13 @@ namespace mocap {
 enum class Stage {
   kSegment,  ///< One camera's frame.
   kCarve,    ///< One set.
-  kLabel,    ///< From voxels to measured points.
-  kFilter,   ///< From points to a pose.
+  kLabel,    ///< From voxels to measurements.
+  kFilter,   ///< From measurements to a pose.
   kPublish,  ///< Handing the pose on.
-  kTotal,    ///< A set's work until there is a pose: its slowest segmentation, carving, tracking.
-  kLatency,  ///< From capture to the pose having been handed on; from the set's last arrival when a
-             ///< recording is read as fast as it can be.
-  kSpread    ///< How far the times in a set lie apart.
+  kTotal,    ///< A set's work until there is a pose: slowest segmentation, carving, tracking.
+  kLatency,  ///< From capture to the pose having been handed on; from the set's last arrival if a
+             ///< recording is read at full speed.
+  kSpread    ///< Range of the capture times in a set.
 };
 inline constexpr int kStageCount = 8;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames = {
@@ -25,11 +25,11 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames = {
 
 /// The origin of latency.
 enum class LatencyOrigin {
-  kCapture,  ///< The frames' own time: cameras, and recordings in real time.
-  kArrival   ///< The arrival of a set's last frame: recordings that keep their old times.
+  kCapture,  ///< The frames' capture times: cameras, and recordings in real time.
+  kArrival   ///< The arrival of a set's last frame: recordings that keep their original times.
 };
 
-/// One recorder a stage.
+/// One recorder per stage.
 class StageRecorders {
  public:
   LatencyRecorder& operator[](Stage stage) { return recorders_[static_cast<std::size_t>(stage)]; }
@@ -41,7 +41,7 @@ class StageRecorders {
   std::array<LatencyRecorder, kStageCount> recorders_;
 };
 
-/// Their state at one moment.
+/// Snapshot of all recorders.
 class StageHistograms {
  public:
   StageHistograms() = default;

@@ -33,7 +33,7 @@ bool Synchronizer::Offer(int camera, std::int64_t capture_ns, std::uint64_t sequ
 void Synchronizer::StartAnew(Camera& camera, std::int64_t capture_ns) {
   camera.has_last = false;
   camera.period = {};
-  // One stamp that was wrong leaves alone what the other cameras say.
+  // A single wrong stamp does not discard what the other cameras say.
   if (capture_ns < set_ns_ - kClockStepNs) set_ns_ = kLongAgoNs;
   if (capture_ns < newest_ns_ - kClockStepNs) newest_ns_ = capture_ns;
 }
@@ -76,7 +76,7 @@ Synchronizer::Verdict Synchronizer::Decide() {
 }
 
 std::int64_t Synchronizer::PeriodNs() const {
-  // The fastest camera sets the pace: a set of every other frame is a set nonetheless.
+  // The fastest camera sets the pace. A slower camera still joins some sets.
   std::int64_t shortest_ns = 0;
   for (const Camera& camera : cameras_) {
     const std::int64_t period_ns = camera.period.period_ns();
@@ -103,7 +103,7 @@ Synchronizer::Verdict Synchronizer::LetGo(int camera) {
 
 Synchronizer::Verdict Synchronizer::FormSet(std::int64_t reference_ns,
                                             std::int64_t half_period_ns) {
-  // One camera shows no volume, unless the studio has no more.
+  // One camera gives no volume, unless the studio has only one.
   const std::size_t fewest = std::min<std::size_t>(2, cameras_.size());
   const std::int64_t end_ns = reference_ns + half_period_ns;
   const std::size_t count = std::ranges::upper_bound(times_, end_ns) - times_.begin();

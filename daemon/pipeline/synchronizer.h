@@ -1,4 +1,4 @@
-// Which frames of the cameras belong together.
+// Finds the frames of the cameras that belong together.
 #pragma once
 
 #include <cstdint>
@@ -9,83 +9,83 @@
 
 namespace mocap {
 
-/// State of a camera that has no frame at its front.
+/// State of a camera that has no front.
 enum class Expectation {
-  kNone,      ///< It is lost or has ended: sets go on without it.
-  kPossible,  ///< It may deliver: sets wait for it with patience.
+  kNone,      ///< It is lost or has ended: sets do without it.
+  kPossible,  ///< It may deliver: sets wait for it, up to a limit.
   kCertain    ///< A frame is under way: sets wait for it.
 };
 
-/// Groups frames by capture time, from the oldest frame that each camera still offers: its front.
+/// Groups frames by capture time. The oldest unprocessed frame of each camera is its front.
 ///
-/// The fronts' lower median sets the time. Fronts more than half a period older cannot join it, nor
-/// those whose set has gone: the stalest is let go. Once none is, the fronts within half a period
-/// are the set; a later front waits for its own set, and so a camera may miss frames, run at half
-/// the rate or drift. Cameras that are lost, have ended or are late are gone on without;
-/// a late one is not waited for again before it has delivered. Unless a camera is late, decisions
-/// depend on the stamps alone, not on when they are asked for. A clock that was put back begins
-/// anew: what went before says nothing about its frames.
+/// The lower median of the fronts sets the reference time. Fronts more than half a period older,
+/// and fronts whose set has gone, cannot join a set; the oldest of them is dropped. When there are
+/// none, the fronts within half a period form the set. A later front waits for its own set, so a
+/// camera may miss frames, run at half the rate or drift. Sets do without cameras that are lost,
+/// have ended or are late. A late camera is not waited for again until it has delivered. Unless a
+/// camera is late, decisions depend on the timestamps alone, not on when they are requested. A
+/// clock that was put back restarts the synchronization.
 ///
-/// Knows times only; the pictures stay with the caller. Thread-bound; allocates nothing after
+/// Handles times only; pictures stay with the caller. Thread-bound. Allocates nothing after
 /// construction.
 class Synchronizer {
  public:
   static constexpr double kWaitForever = std::numeric_limits<double>::infinity();
-  /// Times that go back farther are those of a clock that was put right.
+  /// Larger steps back mean that the clock was set.
   static constexpr std::int64_t kClockStepNs = 1'000'000'000;
 
-  /// @param nominal_period_ns  until the stamps tell better.
-  /// @param patience_periods   how far the other cameras' times may run ahead of a set that still
-  ///                           lacks a camera that may deliver.
+  /// @param nominal_period_ns  used until it can be estimated.
+  /// @param patience_periods   how far the other cameras may be ahead of a set that still lacks a
+  ///                           camera that may deliver.
   Synchronizer(int cameras, std::int64_t nominal_period_ns, double patience_periods);
 
-  /// Gives a camera its front; it must have none. A time that is not later than the camera's last
-  /// one is refused and counted late, unless it starts anew.
+  /// Gives a camera its front; it must have none. A time not later than the camera's previous one
+  /// is refused and counted as late, unless the clock was put back.
   /// @param sequence  the camera's count of its frames.
   /// @return whether the front was taken.
   bool Offer(int camera, std::int64_t capture_ns, std::uint64_t sequence);
-  /// Whether a frame lies so far before the camera's last one that its clock was put back.
+  /// Whether a frame is so much older than the camera's last one that its clock was put back.
   bool StartsAnew(int camera, std::int64_t capture_ns) const {
     const Camera& offering = cameras_[camera];
     return offering.has_last && capture_ns < offering.last_ns - kClockStepNs;
   }
   bool has_front(int camera) const { return cameras_[camera].has_front; }
-  /// Lets go of a camera's front if it is older. @return whether it was.
+  /// Drops a camera's front if it is older. @return whether it was.
   bool LetGoBefore(int camera, std::int64_t capture_ns);
   void Expect(int camera, Expectation expectation) { cameras_[camera].expectation = expectation; }
-  /// Tells of the newest frame that any camera has taken, wherever that frame is.
+  /// Notes the newest frame that any camera has taken, even if it has not been offered yet.
   void NoteNewest(std::int64_t capture_ns);
-  /// Likewise, of the newest frame of one camera: a front of a time that it has left goes.
+  /// Notes the newest frame of one camera. A front from before a clock step is dropped.
   void NoteNewest(int camera, std::int64_t capture_ns);
 
   enum class Verdict {
-    kWait,   ///< Some camera's front is needed first.
-    kLetGo,  ///< camera() has lost its front: it is too old to find a set.
-    kSet,    ///< The members make a set; they have lost their fronts.
+    kWait,   ///< The front of some camera is needed first.
+    kLetGo,  ///< The front of camera() was dropped: too old for any set.
+    kSet,    ///< The members form a set. Their fronts are taken.
   };
   /// Takes the next decision. Call again until kWait.
   Verdict Decide();
 
-  /// After kLetGo: whose front went.
+  /// After kLetGo: whose front was dropped.
   int camera() const { return let_go_; }
-  /// After kSet: for each camera whether it is in.
+  /// After kSet: for each camera whether it is a member.
   const std::vector<bool>& members() const { return members_; }
-  /// After kSet: the middle one of the members' times.
+  /// After kSet: the median of the members' times.
   std::int64_t set_ns() const { return set_ns_; }
-  /// After kSet: how far the members' times lie apart.
+  /// After kSet: range of the members' times.
   std::int64_t spread_ns() const { return spread_ns_; }
-  /// The period by the stamps so far: that of the fastest camera.
+  /// The estimated period: that of the fastest camera.
   std::int64_t PeriodNs() const;
-  /// Fronts refused or let go, by camera.
+  /// Fronts refused or dropped, per camera.
   std::int64_t late(int camera) const { return cameras_[camera].late; }
 
  private:
-  /// Before any frame, yet safe to subtract from.
+  /// Earlier than any frame, yet safe to subtract from.
   static constexpr std::int64_t kLongAgoNs = std::numeric_limits<std::int64_t>::min() / 2;
 
   struct Camera {
     bool has_front = false;
-    bool given_up = false;  ///< Sets have gone on without it since its last front.
+    bool given_up = false;  ///< Sets were formed without it since its last front.
     Expectation expectation = Expectation::kPossible;
     std::int64_t front_ns = 0;
     bool has_last = false;

@@ -1,5 +1,4 @@
-// Where recordings and previews take things out of the pipeline's threads, without ever holding
-// them up.
+// Lets recordings and previews copy data out of the pipeline's threads without blocking them.
 #pragma once
 
 #include <atomic>
@@ -18,40 +17,40 @@
 
 namespace mocap {
 
-/// Hands copies to a recording while one is on, by a queue of its own; when that is full, the
-/// oldest item goes and is counted.
+/// Passes copies to a recording while it runs, through its own queue. If that is full, the oldest
+/// item is dropped and counted.
 ///
-/// Offer: one thread of the pipeline; it neither waits nor allocates once items have their size.
-/// Hold: any. The rest: the recording's.
+/// Offer: one thread of the pipeline; it neither waits nor allocates once items have grown. Hold:
+/// any thread. The rest: the recording's thread.
 template <typename Item>
 class Tap {
  public:
   using Queue = SpscQueue<Item>;
 
-  /// Lets `fill` write the copy into an item that is used again and again, if a recording is on.
-  /// @param fill  returns whether there is something to hand over.
+  /// If a recording is on, lets `fill` write the copy into a reused item.
+  /// @param fill  returns whether there is an item to push.
   template <typename Fill>
   void Offer(Fill fill) {
     if (!open_.load(std::memory_order_relaxed)) return;
-    // Each side raises its own flag before it looks at the other's, in one order for all threads:
-    // Close cannot miss a copy that is under way.
+    // Each side raises its own flag before it reads the other's, sequentially consistent. So Close
+    // cannot miss a copy in progress.
     in_use_.store(true);
     if (open_.load() && fill(queue_->back())) queue_->Push();
     in_use_.store(false);
   }
 
-  /// Whether nothing should be done for now with what is handed over, as long as there is room for
-  /// it: the pipeline needs the time.
+  /// Sets whether the recipient should leave the items in the queue while there is room, because
+  /// the pipeline needs the processor.
   void Hold(bool is_held) { held_.store(is_held, std::memory_order_relaxed); }
   bool is_held() const { return held_.load(std::memory_order_relaxed); }
 
-  /// Begins. @param capacity  how many items can wait. @param item  what each is made of at first.
-  /// @param bell  rung for each; borrowed until the next Open.
+  /// Opens the tap. @param capacity  of the queue. @param item  initial content of the items.
+  /// @param bell  rung for each item; borrowed until the next Open.
   void Open(std::size_t capacity, const Item& item, Doorbell& bell) {
     queue_ = std::make_unique<Queue>(capacity, Overflow::kDropOldest, bell, item);
     open_.store(true);
   }
-  /// Ends; what waits can still be taken out.
+  /// Closes the tap. Queued items can still be taken out.
   void Close() {
     open_.store(false);
     while (in_use_.load()) std::this_thread::yield();
@@ -60,7 +59,7 @@ class Tap {
   /// @pre  Open was called.
   Queue& queue() { return *queue_; }
   const Queue& queue() const { return *queue_; }
-  /// Gives the memory back. @pre  closed.
+  /// Frees the memory. @pre  closed.
   void Free() { queue_.reset(); }
 
  private:
@@ -70,7 +69,7 @@ class Tap {
   std::unique_ptr<Queue> queue_;
 };
 
-/// A frame's copy on its way to a recording.
+/// A copy of a frame for a recording.
 struct TappedFrame {
   Image<Bgr> image;
   std::int64_t capture_ns = 0;
@@ -80,12 +79,12 @@ struct TappedFrame {
 };
 using FrameTap = Tap<TappedFrame>;
 
-/// Copies a frame; one of another size than the items' is none of this camera's.
+/// Copies a frame. @return  false if its size differs from that of the items.
 bool CopyFrame(const Frame& from, TappedFrame& to);
-/// Copies pixels between pictures of one size. @return  false where they are not.
+/// Copies pixels between pictures of equal size. @return  false if the sizes differ.
 bool CopyPixels(ImageView<const Bgr> from, Image<Bgr>& to);
 
-/// A picture and what was segmented in it, on their way to be looked at.
+/// A picture and its segmentation, for viewing.
 struct SeenFrame {
   Image<Bgr> image;
   Silhouette silhouette;
@@ -93,14 +92,14 @@ struct SeenFrame {
   std::int64_t capture_ns = 0;
 };
 using PreviewTap = Tap<SeenFrame>;
-/// More pictures a second are not looked at.
+/// Maximum rate of pictures for viewing.
 inline constexpr double kPreviewHz = 5;
 
 /// A message as it was published.
 struct TappedMessage {
   std::string channel;
   std::vector<std::uint8_t> bytes;
-  std::int64_t utime = 0;  ///< When, on the timeline [us].
+  std::int64_t utime = 0;  ///< Of publishing, on the timeline [us].
 };
 using MessageTap = Tap<TappedMessage>;
 

@@ -16,7 +16,7 @@ constexpr std::size_t kLongestThreadName = 15;
 void ThreadGroup::Launch(const std::string& name, std::function<void()> body) {
   threads_.emplace_back([this, name, body = std::move(body)] {
     pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-    // Whether they may is known by now; without it, frames are only more often late.
+    // Permission was tested at the start. Without it, frames are only late more often.
     if (options_.priority > 0) {
       TakePriority(options_.priority);
     } else if (options_.in_long_turns) {

@@ -12,12 +12,12 @@ namespace mocap {
 
 /// How the threads of a frame path are scheduled.
 struct ThreadOptions {
-  int priority = 0;             ///< SCHED_FIFO; 0: as everybody.
-  std::vector<int> processors;  ///< That the threads keep to; empty: all.
-  bool in_long_turns = false;   ///< Throughput counts, and not latency.
+  int priority = 0;             ///< SCHED_FIFO; 0: normal scheduling.
+  std::vector<int> processors;  ///< For the threads; empty: all.
+  bool in_long_turns = false;   ///< For throughput instead of latency.
 };
 
-/// Threads that end together: the first that fails stops all. RequestStop, is_stopped: any thread.
+/// Threads that end together: the first failure stops all. RequestStop, is_stopped: any thread.
 class ThreadGroup {
  public:
   explicit ThreadGroup(ThreadOptions options) : options_(std::move(options)) {}
@@ -25,15 +25,15 @@ class ThreadGroup {
   ThreadGroup(const ThreadGroup&) = delete;
   ThreadGroup& operator=(const ThreadGroup&) = delete;
 
-  /// @param name  at most 15 characters of it are seen.
+  /// @param name  cut to 15 characters.
   void Launch(const std::string& name, std::function<void()> body);
-  /// Runs something; what it throws stops the group. Any thread.
+  /// Runs a function; an exception from it stops the group. Any thread.
   void Guard(const std::function<void()>& body);
   void RequestStop() { stop_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stop_.load(std::memory_order_relaxed); }
-  /// Waits for all in the order in which they were launched. @throws what the first failed with.
+  /// Waits for all, in launch order. @throws what the first failure threw.
   void Join();
-  /// Stops all and waits.
+  /// Stops all threads and waits for them.
   void End();
 
  private:
@@ -41,7 +41,7 @@ class ThreadGroup {
   std::vector<std::thread> threads_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_failed_{false};
-  std::exception_ptr failure_;  ///< Written by the first to fail, read after joining.
+  std::exception_ptr failure_;  ///< Written by the first failure, read after joining.
 };
 
 }  // namespace mocap

@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-/// Adds a body to a box, if it is known where that is.
+/// Extends a box by a body, if its position is known.
 void Extend(const CaptureResult& result, Eigen::AlignedBox3d& box_W) {
   const bool is_known =
       result.state == CaptureState::kTracking || result.state == CaptureState::kAcquiring;
@@ -17,11 +17,11 @@ void Extend(const CaptureResult& result, Eigen::AlignedBox3d& box_W) {
   box_W.extend(result.points_W.rowwise().maxCoeff());
 }
 
-/// Of the box around everybody: what a camera has to look at to see as much of all as it can.
+/// Center of the box around all people: cameras that look there see as much of them as possible.
 std::optional<Vector3> MiddleOf(const PeopleCapture& people) {
   Eigen::AlignedBox3d box_W;
   for (const PersonView& person : people.people()) Extend(person.capture->result(), box_W);
-  // Nobody is counted among the people while being measured.
+  // A person being measured is not yet among the people.
   if (people.people().empty()) Extend(people.first().result(), box_W);
   return box_W.isEmpty() ? std::nullopt : std::optional<Vector3>(box_W.center());
 }
@@ -102,7 +102,7 @@ void TrackStage::Process(const CarvedSet& set) {
   sets_.fetch_add(1, std::memory_order_relaxed);
 }
 
-// A clock that is put back does not take the person back.
+// When the clock is put back, the tracker's time does not go back.
 std::int64_t TrackStage::Onward(std::int64_t capture_ns) {
   if (last_ns_ && capture_ns + shift_ns_ < *last_ns_) shift_ns_ = *last_ns_ - capture_ns;
   last_ns_ = capture_ns + shift_ns_;

@@ -1,4 +1,4 @@
-// From voxel grids to poses that are handed on.
+// Turns voxel grids into poses and hands them on.
 #pragma once
 
 #include <array>
@@ -15,23 +15,23 @@
 
 namespace mocap {
 
-/// Tracks set after set and hands each on. One thread; counters: any.
+/// Tracks each set and hands it on. For one thread; counters: any.
 class TrackStage : private UpdateObserver {
  public:
-  /// @param person  told where he is, for heads that follow; may be null.
+  /// @param person  receives the subject position, for pan-tilt heads; may be null.
   TrackStage(PeopleCapture people, LatencyOrigin origin, PoseSink& sink, StageRecorders& recorders,
              std::shared_ptr<SubjectPosition> person = nullptr);
 
   ~TrackStage();
 
   void Process(const CarvedSet& set);
-  /// From the next set on, follows a person of these sizes; without sizes, measures whoever is
-  /// there. Any thread.
-  /// @param subject  without a name nobody gets one.
+  /// From the next set on, tracks a person of these sizes. Without sizes, measures those who are
+  /// present. Any thread.
+  /// @param subject  if its name is empty, nobody is named.
   void ChangeSubject(const std::optional<KnownPerson>& subject);
-  /// From the next set on, whoever has the sizes of one of these people gets his name. Any thread.
+  /// From the next set on, a person whose sizes match one of these gets that name. Any thread.
   void KnowPeople(const std::vector<KnownPerson>& people);
-  /// From the next set on, whoever has this number has a name. One thread at a time.
+  /// From the next set on, names the person with this number. One thread at a time.
   void NamePerson(int id, const std::string& name);
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
@@ -50,14 +50,14 @@ class TrackStage : private UpdateObserver {
   PoseSink& sink_;
   StageRecorders& recorders_;
   const std::shared_ptr<SubjectPosition> person_;
-  // Owned, until they are taken.
+  // Owned until the tracking thread takes them.
   std::atomic<const Subject*> next_subject_{nullptr};
   std::atomic<KnownPeople*> next_known_{nullptr};
   std::atomic<NamedPeople*> next_names_{nullptr};
-  std::int64_t mark_ns_ = 0;                ///< When the stage before had ended.
-  std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, of this update.
+  std::int64_t mark_ns_ = 0;                ///< When the previous stage ended.
+  std::array<std::int64_t, 2> stage_ns_{};  ///< By UpdateStage, for this update.
   std::int64_t shift_ns_ = 0;               ///< From capture to the tracker's time.
-  std::optional<std::int64_t> last_ns_;     ///< Of the tracker's time.
+  std::optional<std::int64_t> last_ns_;     ///< Of the last set, in the tracker's time.
   std::atomic<std::int64_t> sets_{0};
   std::atomic<CaptureState> state_{CaptureState::kSearching};
 };
