@@ -5,12 +5,12 @@
 
 namespace mocap {
 
-/// Messages heard lately.
+/// Recent observations of the message channels.
 struct ChannelStatus {
   bool reaches_nobody = false;  ///< Messages stay in this process.
-  bool other_sender = false;    ///< Somebody else sends on the same channels.
-  /// How long none of the daemon's own messages came back, though it sends them; 0: they do, or
-  /// nothing is known of that.
+  bool other_sender = false;    ///< Another sender uses the same channels.
+  /// How long none of the daemon's own messages came back although it sends them; 0: they do, or it
+  /// is unknown.
   std::int64_t silent_ns = 0;
 };
 

@@ -14,29 +14,29 @@
 namespace mocap {
 namespace {
 
-/// A camera that gives less than this share of its frames is named.
+/// A camera that delivers less than this share of its frames is reported.
 constexpr double kGoodRate = 0.9;
-/// Cameras further apart than this share of a period blur whoever moves.
+/// Exposures further apart than this share of a period blur moving people.
 constexpr double kWideSpread = 0.25;
-/// Silhouettes that lie farther off were not made by the stance of a person.
+/// The stance of a person cannot explain a larger silhouette shift.
 constexpr double kMoved_px = 2;
-/// A tripod that was touched.
+/// The tripod was touched.
 constexpr double kNudged_px = 0.75;
-/// Beyond this, colours are no longer those that were learned.
+/// Beyond this, colours no longer match the background.
 constexpr double kDarkest = 0.6, kBrightest = 1.5;
 
-/// A report that nobody renewed for so long is none.
+/// An older report is out of date.
 constexpr std::int64_t kOld = 5'000'000'000;
-/// So long a disk may take.
+/// Maximum response time of a disk.
 constexpr std::int64_t kDiskStall = 5'000'000'000;
-/// So long nothing may come before that is told.
+/// A silence is reported after this time.
 constexpr std::int64_t kSilence = 2'500'000'000;
-/// A camera whose frames find no set more often than this is named.
+/// A camera that misses sets more often than this is reported.
 constexpr double kMostLate = 0.2;
 
 using List = std::vector<std::string>;
 
-/// What makes all else that is told doubtful.
+/// Faults that make all other lines doubtful.
 void ComplainOfReport(const ServiceReport& report, List& list) {
   if (report.age_ns > kOld) {
     list.push_back(
@@ -122,20 +122,20 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
   }
 }
 
-/// What a camera shall give a second.
+/// Expected frame rate of a camera.
 double FpsOf(const ServiceReport& report, std::size_t camera) {
   const bool has_its_own = camera < report.camera_fps.size() && report.camera_fps[camera] > 0;
   return has_its_own ? report.camera_fps[camera] : report.fps_nominal;
 }
 
-/// Such a camera is told with the one that triggers it.
+/// Such a camera is reported with the one that triggers it.
 bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
   const CameraStatus& camera = report.now.status.cameras[i];
   return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
          report.now.frames_per_second[i] == 0;
 }
 
-/// Cameras that are there and give nothing, all of them: what they share is to blame.
+/// All connected cameras are silent: something that they share is to blame.
 void ComplainOfSilence(const ServiceReport& report, List& list) {
   if (report.now.window_ns < kSilence) return;
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
@@ -148,7 +148,7 @@ void ComplainOfSilence(const ServiceReport& report, List& list) {
   }
 }
 
-/// Nobody is carved from one camera's pictures, sets or not.
+/// Carving needs two cameras, whether there are sets or not.
 void ComplainOfOneAlone(const ServiceReport& report, List& list) {
   const auto& rates = report.now.frames_per_second;
   const auto gives = [](double rate) { return rate > 0; };
@@ -161,7 +161,7 @@ void ComplainOfOneAlone(const ServiceReport& report, List& list) {
 }
 
 void ComplainOfSets(const ServiceReport& report, List& list) {
-  // Sets that are left out have come about; ComplainOfTime tells of them.
+  // Sets that were dropped had been formed; ComplainOfTime reports them.
   if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
   const PipelineStatus& status = report.now.status;
   if (status.sets_complete + status.sets_partial > status.sets_tracked) {
@@ -201,7 +201,7 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   }
 }
 
-/// Every camera delivers, and yet sets lack some.
+/// Every camera delivers, but sets are incomplete.
 void ComplainOfMatching(const ServiceReport& report, List& list) {
   const StatusReport& now = report.now;
   if (now.late_per_second.size() != now.status.cameras.size()) return;
@@ -229,7 +229,7 @@ void ComplainOfMatching(const ServiceReport& report, List& list) {
   }
 }
 
-/// Cameras fall silent with the one that triggers them: one line tells of them all.
+/// Cameras fall silent with the one that triggers them: one line reports all.
 void ComplainOfTriggers(const ServiceReport& report, List& list) {
   const auto& cameras = report.now.status.cameras;
   for (std::size_t m = 0; m < cameras.size(); ++m) {
@@ -277,7 +277,7 @@ void ComplainOfPicture(const CameraStatus& camera, List& list) {
   }
 }
 
-/// Names the camera that disagrees most: one that was bumped makes the others disagree a little.
+/// Names the camera that disagrees most: a bumped one makes the others disagree a little.
 void ComplainOfPlace(const PipelineStatus& status, List& list) {
   const auto off_px = [](const CameraStatus& camera) {
     const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;

@@ -1,4 +1,4 @@
-// Whether all is good, and what helps where it is not.
+// Whether all is good, and otherwise what helps.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace mocap {
 
-/// Says what is not as it should be and what helps, the worst first; empty when all is good.
-/// docs/operating.md has a line on each.
+/// Lists faults and their remedies, the worst first; empty if all is good. docs/operating.md
+/// explains each line.
 std::vector<std::string> Diagnostics(const ServiceReport& report);
 
 /// "5 s", "12 min", "3 h", "9 days".

@@ -1,4 +1,4 @@
-// Somebody who is followed, as the service tells of him.
+// A tracked person, as the service reports it.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace mocap {
 
 struct FollowedPerson {
   int id = 0;             ///< As on MOCAP_PEOPLE.
-  std::string name = {};  ///< Empty: not known.
-  double certainty = 1;   ///< That the name is his, 0 to 1; 1 where somebody told.
+  std::string name = {};  ///< Empty: unknown.
+  double certainty = 1;   ///< That the name is right, 0 to 1; 1 if it was given.
   CaptureState state = CaptureState::kSearching;
   Vector3 torso_W = Vector3::Zero();  ///< [mm]
   double residual_mm = 0;             ///< Meaningful while tracking.
   BodySizes sizes = {};
-  std::int64_t since_ns = 0;  ///< When he was first there, by the steady clock.
+  std::int64_t since_ns = 0;  ///< First seen, by the steady clock.
 };
 
-/// Those who are tracked.
+/// Those who are being tracked.
 std::vector<FollowedPerson> Tracked(std::vector<FollowedPerson> people);
-/// The one who is meant: by number, or the only one.
-/// @throws SetupError  when nobody has the number, or none is told of several; it lists who is
-/// there.
-/// @pre  somebody is there.
+/// The person with this number, or the only one.
+/// @throws SetupError  if nobody has the number, or none is given and there are several; it lists
+/// them.
+/// @pre  `people` is not empty.
 const FollowedPerson& ChoosePerson(std::span<const FollowedPerson> people, std::optional<int> id);
 
 /// "person 2", "person 2 (anna)".

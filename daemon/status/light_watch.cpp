@@ -3,7 +3,7 @@
 namespace mocap {
 namespace {
 
-/// Statuses that a sudden change may take.
+/// Statuses that a sudden change may span.
 constexpr std::size_t kSudden = 3;
 constexpr std::int64_t kNewsNs = 60'000'000'000;
 

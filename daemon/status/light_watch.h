@@ -1,4 +1,4 @@
-// Whether the light in the studio changed all of a sudden.
+// Detects sudden changes of the light in the studio.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@ namespace mocap {
 
 /// A sudden change of light.
 struct LightChange {
-  std::int64_t time_ns = 0;          ///< As it was noticed, by the clock of Add.
-  std::vector<std::string> cameras;  ///< That saw it.
-  double factor = 1;                 ///< By which the first of them got brighter.
+  std::int64_t time_ns = 0;          ///< When it was noticed, by the clock of Add.
+  std::vector<std::string> cameras;  ///< Those that saw it.
+  double factor = 1;                 ///< The increase of brightness in the first of them.
 };
 
 /// Compares each camera's light with that of some seconds ago: lamps that are switched, the sun
-/// that comes out. What changes slowly is followed by the cameras' threads and not told.
+/// that comes out. The cameras' threads compensate slow changes, which are not reported.
 class LightWatch {
  public:
-  /// How much brighter or darker it has to get.
+  /// Minimum change of brightness, up or down.
   static constexpr double kSuddenFactor = 1.15;
 
-  /// Adds the status of this moment; wanted every second.
-  /// @return  the latest change, while it is news.
+  /// Adds the present status; call every second.
+  /// @return  the latest change, while it is recent.
   std::optional<LightChange> Add(const PipelineStatus& status, std::int64_t now_ns);
 
  private:
   struct Seen {
     double light = 0;      ///< 0: the camera does not stream.
-    int replacements = 0;  ///< What the light is compared with.
+    int replacements = 0;  ///< Identifies the background that the light is relative to.
   };
   static std::vector<Seen> SeenIn(const PipelineStatus& status);
 

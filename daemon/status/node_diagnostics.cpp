@@ -10,9 +10,9 @@
 namespace mocap {
 namespace {
 
-/// More silhouettes than this share are not lost without a reason.
+/// A larger share of lost silhouettes has a cause.
 constexpr double kMostLost = 0.001;
-/// A clock that may be off by more is not kept well enough.
+/// A clock with a larger possible error is not kept well enough.
 constexpr double kMostError_ms = 5;
 
 using List = std::vector<std::string>;

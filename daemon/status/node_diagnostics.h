@@ -1,4 +1,4 @@
-// What is wrong with the camera nodes of a studio, and what helps.
+// Faults of a studio's camera nodes, and their remedies.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace mocap {
 
-/// As Diagnostics() has it. @param lcm_url  by which nodes are heard.
+/// As Diagnostics(). @param lcm_url  the address at which nodes are heard.
 std::vector<std::string> NodeDiagnostics(const NodesReport& report, const std::string& lcm_url);
 
-/// Whether a node of that name cannot be heard, or its times cannot be used: its cameras are told
+/// Whether this node cannot be heard, or its times cannot be used. Its cameras are then reported
 /// with it.
 bool IsOfLostNode(const NodesReport& report, const std::string& node);
 

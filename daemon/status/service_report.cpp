@@ -125,7 +125,7 @@ std::string CameraTable(const ServiceReport& report) {
   return text;
 }
 
-// How sure it is, of a name that the sizes tell.
+// Adds the certainty if the name was recognized by the sizes.
 std::string NameText(const FollowedPerson& person) {
   if (person.name.empty()) return {};
   const std::string text = "  " + Printable(person.name);
@@ -210,7 +210,7 @@ std::string TrackingText(const ServiceReport& report) {
   return text;
 }
 
-/// Of a node, which does not track.
+/// For a node, which does not track.
 std::string SendingText(const ServiceReport& report) {
   return Line("node", report.node) +
          Line("silhouettes",

@@ -1,4 +1,4 @@
-// How the whole service does, and whether that is good.
+// The status of the whole service, and whether it is good.
 #pragma once
 
 #include <cstdint>
@@ -17,59 +17,59 @@
 
 namespace mocap {
 
-/// How well the body fits at the moment.
+/// The present fit of the body.
 struct Fit {
   double residual_mm = 0;  ///< Meaningful while tracking.
   int voxels = 0;
 };
 
-/// Something that was made once and gets old: the calibration, the pictures of the empty studio.
+/// Something that was made once and ages: the calibration, the background.
 struct Made {
-  std::string where;        ///< A file or folder, or what else it comes from.
+  std::string where;        ///< A file, folder or other origin.
   std::int64_t made_s = 0;  ///< Since the Unix epoch; 0: unknown.
 };
 
-/// The fate of messages: sent, failed, not received.
+/// What happens to messages: sent, failed, not received.
 struct Delivery {
-  std::string problem;  ///< Why they cannot be sent at present; empty: they can.
+  std::string problem;  ///< Why they cannot be sent now; empty: they can.
   ChannelStatus channel;
 };
 
-/// Everything that is told of the service when somebody asks.
+/// Everything that the service reports on request.
 struct ServiceReport {
   StatusReport now;
   Fit fit;
-  std::vector<FollowedPerson> people;  ///< In the order of their numbers.
-  std::int64_t people_ns = 0;          ///< When that was, by the steady clock.
+  std::vector<FollowedPerson> people;  ///< Sorted by number.
+  std::int64_t people_ns = 0;          ///< Time of `people`, by the steady clock.
   std::string studio;
   double fps_nominal = 0;
-  std::vector<double> camera_fps;  ///< Of those that have their own; 0 or none: fps_nominal.
+  std::vector<double> camera_fps;  ///< Of each camera; 0 or absent: fps_nominal.
   std::string lcm_url;
-  std::int64_t epoch_s = 0;  ///< When this was.
+  std::int64_t epoch_s = 0;  ///< Time of this report.
   std::int64_t up_ns = 0;    ///< Since the start.
   Made calibration;
   Made background;
   std::optional<LightChange> light_change;
   RecordingStatus recording;
-  std::filesystem::path takes;  ///< Where recordings go.
-  std::int64_t bytes_free = 0;  ///< There.
+  std::filesystem::path takes;  ///< Folder for recordings.
+  std::int64_t bytes_free = 0;  ///< In that folder.
   double keep_free_mb = 0;
-  std::string takes_problem;       ///< Why none can be written there; empty: they can.
-  std::string metrics_problem;     ///< The file of figures that cannot be written.
-  std::int64_t disk_stall_ns = 0;  ///< How long the disk has been asked and has not answered.
-  bool log_fails = false;          ///< Messages are lost.
-  std::int64_t age_ns = 0;         ///< How long ago this was, when somebody asks.
+  std::string takes_problem;       ///< Why takes cannot be written; empty: they can.
+  std::string metrics_problem;     ///< Why the metrics file cannot be written.
+  std::int64_t disk_stall_ns = 0;  ///< How long the disk has not answered a request.
+  bool log_fails = false;          ///< Log messages are lost.
+  std::int64_t age_ns = 0;         ///< Age of the report when it is requested.
   Delivery delivery;
   std::vector<CutOffTake> cut_off;
-  std::string node;   ///< The name of this node; empty: it is none.
-  NodesReport nodes;  ///< Of a studio.
+  std::string node;   ///< The name of this node; empty: not a node.
+  NodesReport nodes;  ///< A studio's nodes.
 };
 
-/// One line for people: the state, rate, latency, cameras, and the first complaint.
+/// One line: state, rate, latency, cameras, and the first diagnostic.
 std::string ReportLine(const ServiceReport& report);
-/// A page for people.
+/// A page of text.
 std::string ReportText(const ServiceReport& report);
-/// What the cameras see of the empty studio, when that was learned, and in what light.
+/// The background's origin and age, and the present light.
 std::string BackgroundText(const ServiceReport& report);
 /// One JSON object.
 std::string ReportJson(const ServiceReport& report);

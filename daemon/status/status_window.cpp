@@ -40,7 +40,7 @@ StatusReport StatusWindow::Add(PipelineStatus status, std::int64_t now_ns) {
   return report;
 }
 
-// The oldest status after which a camera was not lost any more; the newest, where it was lost then.
+// The oldest status since the camera was last lost; the newest, if it was lost then.
 const StatusWindow::Past& StatusWindow::SinceLost(std::size_t camera) const {
   const auto is_lost = [camera](const Past& past) {
     return past.status.cameras[camera].state == CameraState::kLost;

@@ -1,4 +1,4 @@
-// Rates and percentiles of the last seconds.
+// Rates and percentiles over the last seconds.
 #pragma once
 
 #include <cstddef>
@@ -12,24 +12,24 @@ namespace mocap {
 
 /// Counters since the start, with rates and timings of the last seconds.
 struct StatusReport {
-  PipelineStatus status;       ///< Counters; its timings are since the start.
+  PipelineStatus status;       ///< Counters; its timings cover the time since the start.
   StageHistograms recent;      ///< Timings within the window.
-  std::int64_t window_ns = 0;  ///< How far back "lately" goes; 0: nothing can be said of it.
+  std::int64_t window_ns = 0;  ///< Length of the window of "lately"; 0: no window yet.
   double sets_per_second = 0;
   std::int64_t sets_complete_lately = 0;
   std::int64_t sets_partial_lately = 0;
   std::int64_t sets_dropped_lately = 0;
-  std::vector<double> frames_per_second;  ///< By camera; of one that was lost, since it came back.
-  std::vector<bool> returns;              ///< Likewise: it was lost at the last status.
-  std::vector<double> late_per_second;    ///< Likewise: those that found no set.
+  std::vector<double> frames_per_second;  ///< Per camera; since it came back if it was lost.
+  std::vector<bool> returns;              ///< Per camera: it was lost at the last status.
+  std::vector<double> late_per_second;    ///< Per camera: frames that matched no set.
 };
 
-/// Remembers a pipeline's status for some seconds, to tell what is new.
+/// Keeps a pipeline's statuses of some seconds, to compute rates.
 class StatusWindow {
  public:
   static constexpr std::size_t kStatuses = 5;
 
-  /// Adds the status of this moment; wanted every second.
+  /// Adds the present status; call every second.
   StatusReport Add(PipelineStatus status, std::int64_t now_ns);
 
  private:
