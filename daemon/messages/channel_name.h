@@ -1,12 +1,12 @@
-// Names of LCM channels as LCM's subscriptions want them.
+// Escapes names of LCM channels for subscriptions.
 #pragma once
 
 #include <string>
 
 namespace mocap {
 
-/// LCM takes the channels of a subscription for a regular expression, in which a dot stands for
-/// anything: gives one that means a text as it is.
+/// LCM treats the channel of a subscription as a regular expression, where a dot matches anything.
+/// Returns a pattern that matches exactly this text.
 std::string ChannelPattern(const std::string& text);
 
 }  // namespace mocap

@@ -12,18 +12,18 @@
 namespace mocap {
 namespace {
 
-/// Statuses that may still be on their way.
+/// Maximum number of statuses in transit.
 constexpr std::size_t kRemembered = 64;
 /// Statuses come every second.
 constexpr std::int64_t kSilenceNs = 4'000'000'000;
 constexpr std::int64_t kOtherIsNewsNs = 5'000'000'000;
-/// A way in that hears nothing is opened anew so often.
+/// A connection that receives nothing is reopened at this interval.
 constexpr std::chrono::seconds kReopen{10};
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::int64_t kFirstPauseNs = 1'000'000'000;
 constexpr std::int64_t kLongestPauseNs = 60'000'000'000;
 
-/// A status' time stands behind the type's fingerprint.
+/// A status starts with the type's fingerprint, then its time.
 std::int64_t TimeIn(const lcm::ReceiveBuffer& message) {
   constexpr std::uint32_t kEnd = 16;
   constexpr std::int64_t kNone = -1;
@@ -110,7 +110,7 @@ void ChannelWatch::AskServer() {
     if (since_ns < pause_ns) continue;
     tried_ns = SteadyNs();
     if (!TcpServerAnswers(address_)) continue;
-    // What answers and takes no messages is asked less and less often.
+    // A server that answers but accepts no messages is asked ever less often.
     pause_ns = std::min(2 * pause_ns, kLongestPauseNs);
     sender_.TryAgain();
   }

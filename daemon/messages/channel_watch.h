@@ -1,4 +1,4 @@
-// Whether the daemon's messages arrive, and whether somebody else sends on its channels.
+// Checks whether the daemon's messages arrive, and whether others send on its channels.
 #pragma once
 
 #include <atomic>
@@ -18,10 +18,10 @@
 
 namespace mocap {
 
-/// Tells one's own statuses from others' by their times. Thread-safe.
+/// Distinguishes own statuses from those of others by their times. Thread-safe.
 class StatusRegister {
  public:
-  /// Before it is sent.
+  /// Call before sending.
   void NoteSent(std::int64_t utime, std::int64_t now_ns);
   void NoteHeard(std::int64_t utime, std::int64_t now_ns);
   ChannelStatus Status(std::int64_t now_ns) const;
@@ -35,16 +35,16 @@ class StatusRegister {
   std::int64_t other_ns_ = kNever;
 };
 
-/// Hears the daemon's own status channel in a thread of its own; opens the way in anew when nothing
-/// is heard, because a route may have changed. Where LCM needs a server, asks whether that answers
-/// after it was lost.
+/// Listens to the daemon's own status channel in its own thread. Reopens the connection when it
+/// receives nothing, because a route may have changed. If LCM needs a server and lost it, asks
+/// whether it answers again.
 class ChannelWatch {
  public:
   /// @param sender  borrowed for the watch's life.
   ChannelWatch(const LcmConfig& config, LcmSender& sender);
   ~ChannelWatch();
 
-  /// A status is about to be sent.
+  /// Call before a status is sent.
   void NoteSent(std::int64_t utime);
   ChannelStatus Status() const;
 
@@ -55,8 +55,8 @@ class ChannelWatch {
   LcmSender& sender_;
   StatusRegister register_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;                   ///< Of AskServer.
-  std::optional<LcmListener> listener_;  ///< Ends before what it tells.
+  std::thread thread_;                   ///< Runs AskServer.
+  std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.
 };
 
 }  // namespace mocap

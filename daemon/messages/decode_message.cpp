@@ -8,7 +8,7 @@ constexpr std::size_t kNumber = 8;  ///< int64_t, double
 constexpr std::size_t kPoint = 3 * kNumber;
 constexpr std::size_t kPoints = 23;
 
-/// Walks over a message's fields without keeping them.
+/// Skips over a message's fields without storing them.
 class Skimmer {
  public:
   explicit Skimmer(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -19,7 +19,7 @@ class Skimmer {
     sound_ = sound_ && bytes <= rest_.size();
     if (sound_) rest_ = rest_.subspan(bytes);
   }
-  /// A count of what takes at least so many bytes each; 0 once something is wrong.
+  /// Reads a count of items of at least `least_bytes` each; 0 once something is wrong.
   std::size_t Count(std::size_t least_bytes) {
     if (rest_.size() < 4) sound_ = false;
     if (!sound_) return 0;
@@ -29,7 +29,7 @@ class Skimmer {
     sound_ = count >= 0 && static_cast<std::size_t>(count) <= rest_.size() / least_bytes;
     return sound_ ? static_cast<std::size_t>(count) : 0;
   }
-  /// A text with the zero at its end.
+  /// A text with its terminating zero.
   void Text() {
     const std::size_t length = Count(1);
     sound_ = sound_ && length > 0;
@@ -44,7 +44,7 @@ class Skimmer {
   bool sound_ = true;
 };
 
-/// The paper's numbers, joint angles, points with their deviation, residual and voxels.
+/// The paper's values, joint angles, points with their deviations, residual and voxels.
 void SkipPerson(Skimmer& skimmer) {
   skimmer.Skip(2 * kPoint + 17 * kNumber);
   skimmer.Skip(kNumber * skimmer.Count(kNumber));
@@ -71,7 +71,7 @@ void SkipBody(Skimmer& skimmer) {
 
 bool HasSoundCounts(const pose_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
-  // Times and number, state.
+  // Times and frame number, state.
   skimmer.Skip(kHash + 4 * kNumber + 1);
   SkipPerson(skimmer);
   skimmer.Skip(skimmer.Count(1));
@@ -80,7 +80,7 @@ bool HasSoundCounts(const pose_t&, std::span<const std::uint8_t> bytes) {
 
 bool HasSoundCounts(const people_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
-  // Times and number.
+  // Times and frame number.
   skimmer.Skip(kHash + 4 * kNumber);
   const std::size_t people = skimmer.Count(2 * kPoint + 17 * kNumber);
   for (std::size_t i = 0; skimmer.sound() && i < people; ++i) {
@@ -153,7 +153,7 @@ bool HasSoundCounts(const preview_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
   skimmer.Skip(kHash + kNumber);
   skimmer.Text();
-  // Where the camera stands, and three sizes.
+  // The camera's pose, and three sizes.
   skimmer.Skip(4 * kPoint + 3 * 4);
   skimmer.Skip(skimmer.Count(1));
   skimmer.Skip(4 * skimmer.Count(4));
@@ -162,7 +162,7 @@ bool HasSoundCounts(const preview_t&, std::span<const std::uint8_t> bytes) {
 
 bool HasSoundCounts(const voxels_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
-  // Times, origin, edge, sizes.
+  // Times, origin, edge length, sizes.
   skimmer.Skip(kHash + 2 * kNumber + kPoint + kNumber + 3 * 4);
   skimmer.Skip(4 * skimmer.Count(4));
   skimmer.Skip(skimmer.Count(1));
@@ -188,7 +188,7 @@ bool HasSoundCounts(const node_t&, std::span<const std::uint8_t> bytes) {
   skimmer.Skip(kHash + 2 * kNumber);
   skimmer.Text();
   skimmer.Skip(kNumber);
-  // Version, host, who keeps the clock.
+  // Version, host, program that keeps the clock.
   skimmer.Texts(3);
   skimmer.Skip(1 + kNumber);
   skimmer.Texts(3 * skimmer.Count(3 * 4));

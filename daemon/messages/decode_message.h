@@ -1,4 +1,4 @@
-// Messages from the network, which may be anything.
+// Decodes messages from the network, which may contain anything.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace mocap {
 
-/// Whether the lengths and counts in a message's bytes fit into it. Generated decoders believe a
-/// count, and take the memory for it, before they look whether anything follows.
+/// Whether the lengths and counts in a message fit into its bytes. Generated decoders trust a count
+/// and allocate memory for it before they check whether data follows.
 bool HasSoundCounts(const pose_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const body_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const people_t& kind, std::span<const std::uint8_t> bytes);
@@ -33,7 +33,7 @@ bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const silhouette_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const node_t& kind, std::span<const std::uint8_t> bytes);
 
-/// Decodes a message; empty for what is none of its type.
+/// Decodes a message; empty if it is not a valid one of this type.
 template <typename Message>
 std::optional<Message> DecodeMessage(std::span<const std::uint8_t> bytes) {
   std::optional<Message> message(std::in_place);

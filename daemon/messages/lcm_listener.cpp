@@ -33,7 +33,7 @@ void LcmListener::Run() {
   pthread_setname_np(pthread_self(), name_.c_str());
   const bool needs_route = ParseLcmUrl(url_).provider == LcmProvider::kMulticast;
   while (!stop_.load()) {
-    // LCM would tell in many lines that there is no way in.
+    // Without a route, LCM would print many lines.
     std::unique_ptr<lcm::LCM> lcm;
     if (!needs_route || HasMulticastRoute()) lcm = std::make_unique<lcm::LCM>(url_);
     const bool is_open = lcm && lcm->good();

@@ -1,4 +1,4 @@
-// A way in that stays open.
+// A receiving connection that stays open.
 #pragma once
 
 #include <atomic>
@@ -10,18 +10,18 @@
 
 namespace mocap {
 
-/// Hears LCM's messages in a thread of its own, and opens the way in anew when nothing is heard:
-/// routes come, go and change while a program runs.
+/// Receives LCM messages in its own thread, and reopens the connection when none come: routes come,
+/// go and change while a program runs.
 class LcmListener {
  public:
   /// Both are called from the thread.
   struct Calls {
-    std::function<void(lcm::LCM&)> subscribe;  ///< Each time that the way in was opened.
-    std::function<bool()> hears;  ///< Some 20 times a second: whether messages come as they should.
+    std::function<void(lcm::LCM&)> subscribe;  ///< After each opening.
+    std::function<bool()> hears;  ///< Some 20 times a second: whether messages come as expected.
   };
 
   /// @param name    of the thread, at most 15 characters.
-  /// @param reopen  after so long without.
+  /// @param reopen  after this time without messages.
   LcmListener(std::string name, std::string url, std::chrono::nanoseconds reopen, Calls calls);
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;

@@ -14,7 +14,7 @@ bool LcmSender::Send(const std::string& channel, const void* data, std::size_t s
   errno = 0;
   const int result = lcm_.publish(channel, data, static_cast<unsigned>(size));
   const int error = errno;
-  // A log that cannot be written is told by errno alone.
+  // For a log, only errno reveals that writing failed.
   const bool has_failed = result != 0 || (provider_ == LcmProvider::kFile && error != 0);
   if (!has_failed) return true;
   if (provider_ == LcmProvider::kTcp) is_down_.store(true, std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// Messages on their way out, and whether they got there.
+// Sends messages, and records failures.
 #pragma once
 
 #include <atomic>
@@ -10,22 +10,22 @@
 
 namespace mocap {
 
-/// How sending went since the start.
+/// Result of sending since the start.
 struct SendStatus {
   std::int64_t failed = 0;          ///< Messages that could not be sent.
   std::int64_t last_failed_ns = 0;  ///< By the steady clock; 0: never.
   int error = 0;                    ///< errno of the last one.
 };
 
-/// Hands messages to LCM, which tells of a failure by what it returns alone. Thread-safe.
+/// Passes messages to LCM, which reports failures only by return value. Thread-safe.
 class LcmSender {
  public:
   /// @param lcm  borrowed for the sender's life.
   LcmSender(lcm::LCM& lcm, LcmProvider provider) : lcm_(lcm), provider_(provider) {}
 
-  /// @return  whether it was sent, as far as can be told here.
+  /// @return  whether it was sent, as far as known here.
   bool Send(const std::string& channel, const void* data, std::size_t size);
-  /// Encodes and sends. @param bytes  the memory to encode into.
+  /// Encodes and sends. @param bytes  buffer to encode into.
   template <typename Message, typename Bytes>
   bool Send(const std::string& channel, const Message& message, Bytes& bytes) {
     bytes.resize(static_cast<std::size_t>(message.getEncodedSize()));
@@ -34,8 +34,8 @@ class LcmSender {
   }
   SendStatus Status() const;
 
-  /// Whether the server of "tcpq" was lost. Nothing is sent then until TryAgain: LCM would connect
-  /// anew for each message, which takes its time, and say so in three lines.
+  /// Whether the server of "tcpq" was lost. Nothing is sent then until TryAgain: LCM would
+  /// reconnect for each message, which is slow, and print three lines.
   bool is_down() const { return is_down_.load(std::memory_order_relaxed); }
   void TryAgain() { is_down_.store(false, std::memory_order_relaxed); }
 

@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-/// Mark, number, time, lengths of channel and data; each with its highest byte first.
+/// Mark, number, time, lengths of channel and data; all big-endian.
 constexpr std::int64_t kHead = 28;
 constexpr std::array<char, 4> kMark = {'\xed', '\xa1', '\xda', '\x01'};
 constexpr std::int64_t kLongestChannel = 255;
@@ -35,7 +35,7 @@ LogReader::LogReader(const std::filesystem::path& file) {
 bool LogReader::ReadAt(std::int64_t place, void* to, std::size_t bytes) {
   if (place > size_ - static_cast<std::int64_t>(bytes)) return false;
   in_.clear();
-  // Without need a seek would throw away what was read ahead.
+  // An unneeded seek would discard the read-ahead buffer.
   if (in_.tellg() != place) in_.seekg(place);
   return static_cast<bool>(in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)));
 }
@@ -49,7 +49,7 @@ std::int64_t LogReader::NextMark(std::int64_t from) {
   std::string chunk;
   const std::string_view mark(kMark.data(), kMark.size());
   for (std::int64_t place = from; place < size_; place += kChunk) {
-    // Marks may lie across the end of a chunk.
+    // A mark may cross the end of a chunk.
     const auto bytes =
         std::min<std::int64_t>(size_ - place, static_cast<std::int64_t>(kChunk + mark.size() - 1));
     chunk.resize(static_cast<std::size_t>(bytes));
@@ -70,7 +70,7 @@ bool LogReader::ReadEvent(std::int64_t place, LoggedMessage& message) {
   const std::int64_t rest = size_ - place - kHead;
   if (channel <= 0 || channel > kLongestChannel || data < 0 || channel > rest - data) return false;
   const std::int64_t end = place + kHead + channel + data;
-  // Where no event follows, this one's lengths are wrong if it reaches over another.
+  // If no event follows, and this one overlaps another, its lengths are wrong.
   if (end != size_ && !IsMark(end) && NextMark(place + 1) < end) return false;
   message.channel.resize(static_cast<std::size_t>(channel));
   message.bytes.resize(static_cast<std::size_t>(data));

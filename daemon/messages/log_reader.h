@@ -1,4 +1,4 @@
-// An LCM log as it may have become: cut off, damaged in the middle, with messages of others.
+// Reads LCM logs that may be cut off, damaged, or contain others' messages.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,25 @@ namespace mocap {
 /// One message of a log.
 struct LoggedMessage {
   std::int64_t number = 0;
-  std::int64_t utime = 0;  ///< When it was logged, whatever clock that was by.
+  std::int64_t utime = 0;  ///< Time of logging, by the logger's clock.
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };
 
-/// Reads the events of a log, one after the other.
+/// Reads the events of a log in order.
 ///
-/// LCM's own reader believes the lengths that it finds and ends at the first wrong one. Here an
-/// event counts where it is whole and does not reach over another; what is none is passed over, up
-/// to the next mark of an event, and counted.
+/// LCM's own reader trusts the lengths that it reads and stops at the first wrong one. Here an
+/// event is valid if it is complete and does not overlap another. Anything else is skipped and
+/// counted, up to the mark of the next event.
 class LogReader {
  public:
-  /// @throws SetupError  when the file cannot be read.
+  /// @throws SetupError  if the file cannot be read.
   explicit LogReader(const std::filesystem::path& file);
 
-  /// Gives the next message; false at the end. Memory of `message` is reused.
+  /// Reads the next message; false at the end. Memory of `message` is reused.
   bool Next(LoggedMessage& message);
 
-  /// Counts of passed-over parts so far.
+  /// Bytes and number of the parts skipped so far.
   std::int64_t damaged_bytes() const { return damaged_bytes_; }
   std::int64_t damaged_places() const { return damaged_places_; }
 
@@ -43,7 +43,7 @@ class LogReader {
 
   std::ifstream in_;
   std::int64_t size_ = 0;
-  std::int64_t place_ = 0;  ///< Of the next event.
+  std::int64_t place_ = 0;  ///< Offset of the next event.
   std::int64_t damaged_bytes_ = 0, damaged_places_ = 0;
 };
 

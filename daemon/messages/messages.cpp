@@ -17,7 +17,7 @@ void CopyVector(const From& from, double (&to)[3]) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
 }
 
-/// Writes lengths of runs that alternate between empty and occupied, empty first.
+/// Writes run lengths that alternate between empty and occupied, empty first.
 class RunWriter {
  public:
   explicit RunWriter(std::vector<std::int32_t>& runs) : runs_(runs) { runs_.assign(1, 0); }
@@ -63,7 +63,7 @@ stage_timing_t TimingOf(Stage stage, const LatencyHistogram& histogram) {
   return timing;
 }
 
-/// What pose_t and people_t tell of a set.
+/// Fields that pose_t and people_t share for a set.
 template <typename Message>
 void FillSet(const TrackedSet& set, int cameras, Message& message) {
   message.utime = set.capture_ns / kNsPerUs;
@@ -74,7 +74,7 @@ void FillSet(const TrackedSet& set, int cameras, Message& message) {
   for (int i = 0; i < cameras; ++i) message.camera_used[i] = set.cameras >> i & 1;
 }
 
-/// What pose_t and person_t tell of a person.
+/// Fields that pose_t and person_t share for a person.
 template <typename Message>
 void FillPerson(const CaptureResult& result, const BodyModel& body, Message& message) {
   const bool has_pose = result.state != CaptureState::kSearching;

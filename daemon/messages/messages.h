@@ -1,4 +1,4 @@
-// From the pipeline's values to LCM messages.
+// Converts the pipeline's values to LCM messages.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,19 @@
 
 namespace mocap {
 
-/// Fills everything but publish_utime. While searching there is no pose, and its numbers are 0.
-/// @param cameras  of the studio. The message's memory is reused.
+/// Fills all fields but publish_utime. While searching there is no pose: its numbers are 0.
+/// @param cameras  number in the studio. The message's memory is reused.
 void FillPose(const TrackedSet& set, int cameras, pose_t& message);
 
-/// The same of everybody.
+/// Likewise for all people.
 void FillPeople(const TrackedSet& set, int cameras, people_t& message);
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 
-/// Fills everything but the labels.
+/// Fills all fields but the labels.
 void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
                    voxels_t& message);
-/// With the labels of the parts of all bodies.
+/// Adds the labels of the parts of all bodies.
 void FillVoxels(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
                 std::span<const BodyInPlace> bodies, voxels_t& message);
 void FillVoxels(const TrackedSet& set, voxels_t& message);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kConnectTimeoutMs = 1000;
 
-/// Keeps what the LCM library says of a failure, in many lines, off standard error: ours is one.
+/// Suppresses the many lines that the LCM library prints on a failure: our error is one line.
 class QuietStandardError {
  public:
   QuietStandardError() : saved_(dup(STDERR_FILENO)) {
@@ -62,14 +62,14 @@ bool Connects(const addrinfo& place) {
   return getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
 }
 
-/// What LCM itself would find out at the first message only.
+/// LCM itself would only notice at the first message.
 void RequireServer(const std::string& url, const LcmUrl& address) {
   if (address.provider != LcmProvider::kTcp || TcpServerAnswers(address)) return;
   throw SetupError("lcm.url: no server answers at " + url +
                    "; start lcm-tcpq-server first, or use udpm://239.255.76.67:7667?ttl=0");
 }
 
-/// Looks whether a log can be written, without making it.
+/// Checks whether a log can be written, without creating it.
 void RequireWritable(const std::string& url, const std::filesystem::path& file) {
   std::error_code error;
   const bool is_there = std::filesystem::exists(file, error);
@@ -98,7 +98,7 @@ bool HasMulticastRoute() {
 
 bool TcpServerAnswers(const LcmUrl& address) {
   addrinfo wanted{};
-  wanted.ai_family = AF_INET;  // LCM speaks no other.
+  wanted.ai_family = AF_INET;  // LCM supports IPv4 only.
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &wanted, &found)) {

@@ -1,4 +1,4 @@
-// Ways in and out of LCM.
+// Opens LCM connections.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -9,26 +9,26 @@
 
 namespace mocap {
 
-/// Opens a way to publish.
-/// @throws SetupError  when there is none; without a multicast route it names the command that adds
-///                     one.
+/// Opens a connection for publishing.
+/// @throws SetupError  if none is possible. Without a multicast route it names the command that
+/// adds one.
 std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
 
-/// Opens a second way to the same listeners, for a thread that comes after all other programs: LCM
-/// locks a connection while it sends, and whoever waits for that thread to go on waits as long.
-/// Empty for what has one way alone: a server, a log, this process. @throws SetupError
+/// Opens a second connection to the same listeners, for a thread of low priority. LCM locks a
+/// connection while it sends, so a shared one would make others wait for that thread. Null if only
+/// one is possible: a server, a log, this process. @throws SetupError
 std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url);
 
-/// Looks whether OpenLcm would succeed, and leaves no file and no message. @throws SetupError
+/// Checks whether OpenLcm would succeed; leaves no file and no message. @throws SetupError
 void CheckLcm(const std::string& url);
 
-/// What to tell a person where nothing is heard at an address.
+/// The message for a person if nothing is heard at an address.
 std::string SilenceText(const std::string& url);
 
-/// Whether the kernel knows where to send LCM's multicast.
+/// Whether the kernel has a route for LCM's multicast.
 bool HasMulticastRoute();
 
-/// Whether a server accepts connections there. Waits for a second at most.
+/// Whether a server accepts connections there. Waits for at most a second.
 bool TcpServerAnswers(const LcmUrl& address);
 
 }  // namespace mocap

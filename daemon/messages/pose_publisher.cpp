@@ -49,7 +49,7 @@ void PosePublisher::OnSet(const TrackedSet& timeline_set) {
   const TrackedSet set = InTimeOfDay(timeline_set);
   const std::int64_t now_ns = SteadyNs();
   const bool body_is_due = body_pacer_.IsDue(now_ns);
-  // Before the pose, which is of the new sizes already.
+  // Before the pose, which already has the new sizes.
   if (set.result.body_changed || body_is_due) {
     FillBody(set.body, set.capture_ns / 1000, body_);
     Publish(body_channel_, body_);

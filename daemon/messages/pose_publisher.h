@@ -1,4 +1,4 @@
-// Poses, body, voxels and status on LCM.
+// Publishes poses, body, voxels and status on LCM.
 #pragma once
 
 #include <atomic>
@@ -23,28 +23,28 @@
 
 namespace mocap {
 
-/// Publishes poses, bodies, voxels and how the service does, each on its channel. OnSet: one
-/// thread; PublishStatus: one thread, the same or another.
+/// Publishes poses, bodies, voxels and the service's status, each on its channel. OnSet: one
+/// thread. PublishStatus: one thread, the same or another.
 class PosePublisher : public PoseSink {
  public:
   /// @param lcm      borrowed for the publisher's life.
-  /// @param cameras  of the studio.
-  /// @param times    of the sets; those of the present are published as the host's time of day.
+  /// @param cameras  number in the studio.
+  /// @param times    kind of capture times; present ones are published as the host's time of day.
   PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras,
                 CaptureTimes times = CaptureTimes::kPresent);
 
   void OnSet(const TrackedSet& set) override;
-  /// From now on, what OnSet publishes is offered to the tap as well; borrowed for the publisher's
-  /// life. Before the first OnSet.
+  /// From now on, also offers to the tap what OnSet publishes; borrowed for the publisher's life.
+  /// Call before the first OnSet.
   void Tap(MessageTap& tap) { tap_ = &tap; }
   void PublishStatus(const ServiceReport& report);
-  /// From now on, each status is followed by what the studio is. Before the first PublishStatus.
+  /// From now on, each status is followed by a description of the studio. Call before the first
+  /// PublishStatus.
   void Describe(const std::string& studio, std::span<const CameraCalibration> cameras);
-  /// From now on, the watch knows the statuses that are this daemon's own; borrowed. Before the
-  /// first PublishStatus.
+  /// From now on, reports own statuses to the watch; borrowed. Call before the first PublishStatus.
   void Watch(ChannelWatch& watch) { watch_ = &watch; }
   LcmSender& sender() { return sender_; }
-  /// How often voxels are published from now on. Any thread.
+  /// Sets the rate of voxels from now on. Any thread.
   void SetVoxelsHz(double hz) { voxels_hz_.store(hz, std::memory_order_relaxed); }
 
  private:
@@ -56,7 +56,7 @@ class PosePublisher : public PoseSink {
   LcmSender sender_;
   ChannelWatch* watch_ = nullptr;
   MessageTap* tap_ = nullptr;
-  std::vector<std::uint8_t> bytes_;  ///< Of the message that goes out.
+  std::vector<std::uint8_t> bytes_;  ///< Of the outgoing message.
   std::vector<std::uint8_t> status_bytes_;
   const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_, voxels_channel_,
       status_channel_, service_channel_, studio_channel_;
@@ -66,7 +66,7 @@ class PosePublisher : public PoseSink {
   Pacer voxels_pacer_;
   double paced_voxels_hz_;
   std::atomic<double> voxels_hz_;
-  std::vector<int> known_;  ///< Who was in the last set.
+  std::vector<int> known_;  ///< Numbers of the people in the last set.
   // Kept so that their memory is reused.
   pose_t pose_;
   body_t body_;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kQueued = 1;
 constexpr int kJpegQuality = 75;
 
-/// Everybody's; of nobody, that of whoever is being measured.
+/// All people's; without any, that of the person being measured.
 void CopyBodies(const TrackedSet& set, std::vector<SeenBodies::Body>& bodies) {
   const bool is_measured = set.people.empty() && set.result.state != CaptureState::kSearching;
   bodies.resize(is_measured ? 1 : set.people.size());
@@ -77,7 +77,7 @@ void PreviewPublisher::Run() {
   OpenOrClose();
 }
 
-// Whoever no longer looks is noticed at the next picture.
+// A viewer's leaving is noticed at the next picture.
 void PreviewPublisher::OpenOrClose() {
   const bool is_wanted = SteadyNs() < look_until_ns_.load();
   if (is_wanted == is_open_) return;

@@ -1,4 +1,4 @@
-// What cameras and carving see, for whoever looks at the studio; made beside the frames' way.
+// Publishes camera pictures and carved voxels for viewers, outside the frame path.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@
 
 namespace mocap {
 
-/// A tracked set's voxels and bodies on their way to be looked at.
+/// A tracked set's voxels and bodies for viewing.
 struct SeenBodies {
   struct Body {
     std::optional<BodyModel> model;
@@ -38,13 +38,12 @@ struct SeenBodies {
 };
 
 /// Publishes each camera's picture with its silhouette, and the voxels with their parts, while
-/// somebody looks: in a thread of its own that comes after everything else. While nobody does, it
-/// costs nothing.
+/// somebody watches. It runs in its own thread of low priority. Without viewers it costs nothing.
 ///
-/// OnSet: the pipeline's last thread. Look: any.
+/// OnSet: the pipeline's last thread. Look: any thread.
 class PreviewPublisher : public PoseSink {
  public:
-  /// Pictures of each camera a second, and voxels, at most.
+  /// Maximum rate of pictures per camera, and of voxels.
   static constexpr double kHz = kPreviewHz;
   static constexpr int kWidest_px = 400;
 
@@ -53,10 +52,10 @@ class PreviewPublisher : public PoseSink {
                    const std::vector<CameraCalibration>& cameras, CaptureTimes times);
   ~PreviewPublisher() override;
 
-  /// Where the pipeline's cameras leave what they see.
+  /// The pipeline's cameras offer their pictures here.
   std::deque<PreviewTap>& taps() { return taps_; }
   void OnSet(const TrackedSet& set) override;
-  /// Somebody looks for so long from now on.
+  /// Publishes for this duration from now on.
   void Look(std::chrono::seconds duration);
 
  private:

@@ -1,4 +1,4 @@
-// Pictures and silhouettes made smaller by a whole factor, for people who look.
+// Reduces pictures and silhouettes by an integer factor, for viewers.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,19 @@
 
 namespace mocap {
 
-/// The least factor by which a picture becomes no wider than `widest_px`.
+/// The smallest factor by which a picture becomes no wider than `widest_px`.
 int ReductionFor(int width_px, int widest_px);
 
-/// Averages squares of `factor` pixels; what is left at the right and lower border is left out.
-/// @param reduced  overwritten; its memory is used again.
+/// Averages squares of `factor` pixels. Incomplete squares at the right and lower border are
+/// omitted.
+/// @param reduced  overwritten; its memory is reused.
 void ReducePicture(ImageView<const Bgr> picture, int factor, Image<Bgr>& reduced);
 
-/// Writes a silhouette, reduced likewise, as lengths of runs, row after row: empty first, then
-/// covered and empty in turns. A square is covered where at least half of it is.
+/// Writes a silhouette, reduced likewise, as run lengths, row after row: empty and covered runs
+/// alternate, empty first. A square counts as covered if at least half of it is.
 void ReduceSilhouette(const Silhouette& silhouette, int factor, std::vector<std::int32_t>& runs);
 
-/// Reads such runs. Runs beyond the picture are left out.
+/// Reads such runs. Runs beyond the picture are ignored.
 Silhouette SilhouetteFromRuns(const std::vector<std::int32_t>& runs, int width, int height);
 
 }  // namespace mocap

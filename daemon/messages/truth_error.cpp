@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-/// Pairs of indices: the model's point, the simulation's.
+/// Pairs of indices: the model's point, the simulation's point.
 std::vector<std::pair<int, int>> CommonPoints() {
   std::vector<std::pair<int, int>> common;
   for (int i = 0; i < kPointCount; ++i) {

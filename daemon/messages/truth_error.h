@@ -1,4 +1,4 @@
-// How far a tracked set is from the truth.
+// Compares a tracked set with ground truth.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace mocap {
 
-/// Mean distance of the set's points from their true places [mm].
+/// Mean distance of the set's points from their true positions [mm].
 using TruthError = std::function<double(const TrackedSet& set)>;
 
-/// Compares the joints that the simulation and the body's model have in common, by name.
+/// Compares the joints that the simulation and the body model share, by name.
 TruthError SimulatedTruthError(const SimulatedStudioOptions& options);
 
 }  // namespace mocap
