@@ -11,12 +11,12 @@
 namespace mocap {
 namespace {
 
-// How their processes and their units of systemd begin. The most exact first: where PTP runs, it is
-// what counts.
+// Prefixes of their processes and systemd units, the most accurate first: where PTP runs, it
+// decides.
 constexpr std::array<const char*, 5> kKeepers = {"phc2sys", "ptp4l", "chrony", "ntp",
                                                  "systemd-timesyn"};
 
-// Units count as well, for a service may be forbidden to see other users' processes.
+// Units count too, because a service may not be allowed to see other users' processes.
 constexpr const char* kUnits = "/sys/fs/cgroup/system.slice";
 
 std::string FirstLine(const std::filesystem::path& file) {
@@ -26,7 +26,7 @@ std::string FirstLine(const std::filesystem::path& file) {
   return line;
 }
 
-/// The names of all processes, and of all services, that can be seen.
+/// The names of all visible processes and services.
 std::vector<std::string> RunningPrograms() {
   std::vector<std::string> names;
   std::error_code error;

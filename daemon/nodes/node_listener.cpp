@@ -16,20 +16,20 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::seconds kReopen{2};
-/// Silhouettes that wait in LCM while this thread does not run.
+/// Maximum queue in LCM while this thread does not run.
 constexpr int kMostWaiting = 256;
-/// A stranger is told for so long.
+/// How long an unknown sender is reported.
 constexpr std::int64_t kLatelyNs = 3'000'000'000;
 constexpr std::size_t kLongestName = 64;
-/// Times and a camera's counts beyond are none.
+/// Larger times and camera counts are invalid.
 constexpr std::int64_t kMostNs = std::int64_t{1} << 61;
 
-/// And no node sends so many silhouettes; sums of what is missing stay numbers.
+/// No node sends this many silhouettes. It keeps sums of missing ones finite.
 constexpr std::int64_t kMostMessages = std::int64_t{1} << 40;
 
 bool IsTime(std::int64_t ns) { return ns >= 0 && ns < kMostNs; }
 
-/// Whether the numbers are such as a node sends.
+/// Whether the numbers are plausible for a node.
 bool IsSound(const silhouette_t& message) {
   return IsTime(message.capture_ns) && IsTime(message.sent_ns) && message.number >= 0 &&
          message.number < kMostMessages && IsTime(message.sequence) && IsTime(message.segment_ns) &&
@@ -125,7 +125,7 @@ void NodeListener::OnSilhouette(std::span<const std::uint8_t> bytes) {
   if (is_usable) Deliver(*message, *camera);
 }
 
-/// @return  how many silhouettes before this one did not come.
+/// @return  the number of missing silhouettes before this one.
 std::int64_t NodeListener::CountMissed(const silhouette_t& message, Camera& camera) {
   const bool is_first = std::exchange(camera.session, message.session) != message.session;
   const std::int64_t missed = is_first ? 0 : message.number - camera.next_number;

@@ -1,4 +1,4 @@
-// What the nodes of a studio send.
+// Receives what a studio's nodes send.
 #pragma once
 
 #include <cstdint>
@@ -24,27 +24,26 @@
 
 namespace mocap {
 
-/// Hears the nodes in a thread of its own and hands each camera's silhouettes to its source. What
-/// comes from strangers, or from a node whose clock is off, goes no further, and is told.
+/// Listens to the nodes in its own thread, and passes each camera's silhouettes to its source.
+/// Messages of unknown senders, or of nodes with a wrong clock, are not passed on, but reported.
 ///
-/// Report: any thread; what is public for tests: one thread, while Listen has not been called.
+/// Report: any thread. Members that are public for tests: one thread, before Listen.
 class NodeListener {
  public:
-  /// @param cameras      those of the nodes at least. @pre  every camera that a node has is among
-  /// them.
+  /// @param cameras      at least those of the nodes. @pre  it contains every camera of a node.
   /// @param time_of_day  the clock here [ns].
   NodeListener(const Config& config, std::span<const CameraCalibration> cameras,
                std::function<std::int64_t()> time_of_day = TimeOfDayNs);
 
   void Listen();
-  /// The source of a node's camera; it must not outlive the listener.
+  /// Opens the source of a node's camera. It must not outlive the listener.
   std::unique_ptr<SilhouetteSource> Open(const CameraCalibration& camera, int rays);
   NodesReport Report();
 
-  /// Take a message from the network, which may be anything.
+  /// Handle a message from the network, which may contain anything.
   void OnSilhouette(std::span<const std::uint8_t> bytes);
   void OnNode(std::span<const std::uint8_t> bytes);
-  /// Tells each camera's source whether its node is there.
+  /// Tells each camera's source whether its node is connected.
   void LookRound();
 
  private:
@@ -72,11 +71,11 @@ class NodeListener {
   const LcmConfig lcm_;
   const std::function<std::int64_t()> time_of_day_;
   std::int64_t heard_ns_ = 0;
-  std::mutex mutex_;  ///< Of the records, and of the strangers.
+  std::mutex mutex_;  ///< Guards the records and the strangers.
   std::deque<Node> nodes_;
-  std::string stranger_;                 ///< Who sent last that is not known here,
-  std::int64_t stranger_ns_ = 0;         ///< and when.
-  std::optional<LcmListener> listener_;  ///< Ends before what it tells.
+  std::string stranger_;                 ///< Last unknown sender,
+  std::int64_t stranger_ns_ = 0;         ///< and its time.
+  std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.
 };
 
 }  // namespace mocap

@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 constexpr std::int64_t kSliceNs = 250'000'000;
-/// Every camera of a node that is heard again has been heard by then.
+/// By then, every camera of a node that returned has been heard.
 constexpr std::int64_t kReturnNs = 500'000'000;
 
 }  // namespace
@@ -50,7 +50,7 @@ bool NodeRecord::Take(const silhouette_t& message, std::int64_t missed, std::int
   report_.lost += missed;
   const bool is_usable = NoteHeard(transit_ns, message.clock_set_ns, now_ns);
   received_.Add(1, now_ns);
-  // What went by while nothing was heard is no loss of the present.
+  // Losses during an outage are not present losses.
   if (now_ns - returned_ns_ > kReturnNs) lost_.Add(missed, now_ns);
   bytes_ += message.getEncodedSize();
   transit_.Add(LatencyBuckets::IndexOf(transit_ns), 1);

@@ -1,4 +1,4 @@
-// What is known of one node.
+// Statistics of one node.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace mocap {
 
-/// Counts events of about the last second.
+/// Counts events of roughly the last second.
 class RecentCount {
  public:
   void Add(std::int64_t count, std::int64_t now_ns);
@@ -31,32 +31,32 @@ class RecentCount {
   std::array<Slice, 5> slices_;
 };
 
-/// Keeps the account of one node. Times: by the steady clock, but for `transit`. Thread-bound.
+/// The statistics of one node. Times are by the steady clock, except `transit`. Thread-bound.
 class NodeRecord {
  public:
-  /// Nothing may be heard for so long before a node is taken for lost.
+  /// A node that is silent for longer is considered lost.
   static constexpr std::int64_t kSilenceNs = 1'000'000'000;
 
-  /// @param cameras  that the node shall have.
+  /// @param cameras  that the node should have.
   NodeRecord(std::string name, const std::vector<CameraCalibration>& cameras);
 
   const std::string& name() const { return report_.name; }
 
-  /// Takes a silhouette's account. @param transit_ns  as NodeClock::Take.
-  /// @param missed  silhouettes of the camera before this one that never came.
+  /// Records a silhouette. @param transit_ns  as in NodeClock::Take.
+  /// @param missed  silhouettes of the camera before this one that never arrived.
   /// @return  whether the silhouette can be used.
   bool Take(const silhouette_t& message, std::int64_t missed, std::int64_t transit_ns,
             std::int64_t now_ns);
   void Take(const node_t& message, std::int64_t transit_ns, std::int64_t now_ns);
 
-  /// Whether it can be heard, and its times be used.
+  /// Whether it can be heard and its times can be used.
   bool IsConnected(std::int64_t now_ns) const;
   NodeReport Report(std::int64_t now_ns) const;
 
  private:
   bool NoteHeard(std::int64_t transit_ns, std::int64_t set_ns, std::int64_t now_ns);
 
-  std::map<std::string, std::string> calibrations_;  ///< The text of each camera's, by name.
+  std::map<std::string, std::string> calibrations_;  ///< Each camera's as text, by name.
   const std::string host_;
   NodeReport report_;
   NodeClock clock_;

@@ -12,7 +12,7 @@ constexpr int kWordBits = 64;
 
 int TilesAlong(int pixels) { return (pixels + kTile_px - 1) / kTile_px; }
 
-/// Appends numbers of any size, seven bits a byte.
+/// Appends numbers of any size, seven bits per byte.
 class Writer {
  public:
   explicit Writer(std::vector<std::uint8_t>& bytes) : bytes_(bytes) { bytes_.clear(); }
@@ -28,7 +28,7 @@ class Writer {
   std::vector<std::uint8_t>& bytes_;
 };
 
-/// Reads what Writer wrote. After the first number that cannot be, all are 0.
+/// Reads the output of Writer. After the first invalid number, all are 0.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -62,7 +62,7 @@ class Reader {
   bool is_sound_ = true;
 };
 
-/// The next pixel from `x` on that is set, or is not; `width` when there is none.
+/// Returns the next pixel from `x` on that is set (or not set); `width` if there is none.
 int Find(const std::uint64_t* row, int x, int width, bool is_set) {
   while (x < width) {
     const std::uint64_t word = is_set ? row[x / kWordBits] : ~row[x / kWordBits];

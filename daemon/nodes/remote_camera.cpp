@@ -27,7 +27,7 @@ SilhouetteSource::Outcome RemoteCamera::Next(const std::atomic<std::int64_t>& wa
   return Outcome::kFrame;
 }
 
-// Waits for a silhouette, or until the listener has looked round.
+// Waits for a silhouette, or for the listener's next check.
 bool RemoteCamera::Await() {
   const int seen = inbox_.bell.count();
   if (inbox_.queue.TryPop()) return true;

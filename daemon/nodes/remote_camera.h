@@ -1,4 +1,4 @@
-// A camera whose driver is at another computer.
+// A camera whose driver is on another computer.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace mocap {
 
-/// A silhouette as it came, its times on the timeline of this program.
+/// A silhouette as received, with times on this program's timeline.
 struct ReceivedSilhouette {
   std::vector<std::uint8_t> packed;
   PanTiltAngles angles;
@@ -28,23 +28,23 @@ struct ReceivedSilhouette {
   double nudged_px = 0;
 };
 
-/// What comes in for one camera. The listener's thread fills it, the camera's thread takes it out.
+/// Input for one camera. The listener's thread fills it, the camera's thread empties it.
 struct RemoteInbox {
   RemoteInbox(const CameraCalibration& of, std::string of_node)
       : calibration(of), node(std::move(of_node)) {}
 
   const CameraCalibration calibration;
   const std::string node;
-  Doorbell bell;  ///< Rung for each silhouette, and some times a second without.
+  Doorbell bell;  ///< Rung for each silhouette, and otherwise a few times a second.
   SpscQueue<ReceivedSilhouette> queue{8, Overflow::kDropOldest, bell};
-  /// Whether its node can be heard, and its times can be used.
+  /// Whether its node can be heard and its times can be used.
   std::atomic<bool> is_connected{false};
 };
 
-/// Unpacks what its inbox holds.
+/// Unpacks the silhouettes in its inbox.
 class RemoteCamera : public SilhouetteSource {
  public:
-  /// @param inbox  borrowed for life; of no other camera. @param rays  of an outline, at the most.
+  /// @param inbox  borrowed for life; not shared. @param rays  maximum number per outline.
   RemoteCamera(RemoteInbox& inbox, int rays) : inbox_(inbox), rays_(rays) {}
 
   void Start() override {}

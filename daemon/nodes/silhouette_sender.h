@@ -1,4 +1,4 @@
-// What a camera node tells its studio.
+// Sends a camera node's data to its studio.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace mocap {
 
-/// Publishes silhouettes, and how the node does. OnSilhouette: one thread; Tell: another.
+/// Publishes silhouettes and the node's status. OnSilhouette: one thread; Tell: another.
 class SilhouetteSender : public SilhouetteSink {
  public:
   /// @param sender  borrowed for life. @param cameras  of the node.
@@ -24,13 +24,13 @@ class SilhouetteSender : public SilhouetteSink {
                    std::span<const CameraCalibration> cameras);
 
   void OnSilhouette(int camera, const SegmentedFrame& frame) override;
-  /// Tells of the node, if that is due.
+  /// Publishes the node's status, if due.
   void Tell(const std::vector<CameraStatus>& cameras, const std::vector<std::string>& complaints);
 
  private:
   LcmSender& sender_;
   const std::string silhouette_channel_, node_channel_;
-  std::vector<silhouette_t> messages_;  ///< One a camera; their memory is reused.
+  std::vector<silhouette_t> messages_;  ///< One per camera; their memory is reused.
   std::vector<std::uint8_t> bytes_, node_bytes_;
   node_t node_;
   Pacer node_pacer_;

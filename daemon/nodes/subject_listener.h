@@ -1,4 +1,4 @@
-// Where the people are, as the studio tells its nodes.
+// Receives the positions of people from the studio.
 #pragma once
 
 #include <atomic>
@@ -13,23 +13,23 @@
 
 namespace mocap {
 
-/// Tells a node's heads where those are whom the studio follows, by its MOCAP_PEOPLE.
+/// Tells a node's pan-tilt heads where the people are, from the studio's MOCAP_PEOPLE.
 class SubjectListener {
  public:
-  /// @param lcm  of the studio.
+  /// @param lcm  the studio's.
   SubjectListener(const LcmConfig& lcm, std::shared_ptr<SubjectPosition> position);
 
   void Listen();
-  /// Takes a message from the network, which may be anything; public for tests.
+  /// Handles a message from the network, which may contain anything; public for tests.
   void OnPeople(std::span<const std::uint8_t> bytes);
-  /// Whether the studio was heard lately; forgets where people are when it was not.
+  /// Whether the studio was heard recently; if not, forgets the positions.
   bool Hears();
 
  private:
   const LcmConfig lcm_;
   const std::shared_ptr<SubjectPosition> position_;
   std::int64_t heard_ns_ = 0;
-  std::optional<LcmListener> listener_;  ///< Ends before what it tells.
+  std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.
 };
 
 }  // namespace mocap
