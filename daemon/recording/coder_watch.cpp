@@ -13,7 +13,7 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{20};
-/// What was measured is forgotten when nothing has waited for so long.
+/// Measurements are discarded when nothing has waited for this long.
 constexpr std::int64_t kForgetNs = 1'000'000'000;
 
 }  // namespace
@@ -31,7 +31,7 @@ bool Coder::IsHalfFull() const {
 bool Urgency::Update(std::int64_t waiting, std::int64_t done, std::int64_t now_ns) {
   const bool has_moved = done != last_done_;
   last_done_ = done;
-  // One frame that is being coded is nobody's fault, as long as it is another one each time.
+  // A single frame being coded is normal, if it is another one each time.
   const bool is_behind = waiting > 1 || (waiting == 1 && !has_moved);
   if (!is_behind) {
     behind_since_ns_ = 0;
@@ -94,7 +94,7 @@ void CoderWatch::Look(std::int64_t now_ns, std::int64_t passed_ns) {
 
 void CoderWatch::Move(Coder& coder, State& state, std::int64_t now_ns) const {
   if (!can_return_) return;
-  // Once the end is known, somebody waits for it.
+  // Once the queue is closed, a caller waits for it.
   const bool is_urgent = state.urgency.Update(coder.Waiting(), coder.done.load(), now_ns) ||
                          coder.tap->queue().closed();
   if (is_urgent == state.is_forward) return;

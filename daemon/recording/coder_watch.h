@@ -1,4 +1,4 @@
-// When threads that code frames have to come forward, and why frames were lost.
+// Schedules the threads that code frames, and finds out why frames were dropped.
 #pragma once
 
 #include <atomic>
@@ -13,28 +13,28 @@
 
 namespace mocap {
 
-/// A thread that codes one camera's frames, as those see it who watch it.
+/// A thread that codes one camera's frames, as its watch sees it.
 struct Coder {
   FrameTap* tap = nullptr;
   std::thread thread;
-  std::atomic<pid_t> id{0};           ///< The kernel's; 0: it has not begun.
-  std::atomic<std::int64_t> done{0};  ///< Frames that were taken out of the queue and dealt with.
+  std::atomic<pid_t> id{0};           ///< The kernel's; 0: not started.
+  std::atomic<std::int64_t> done{0};  ///< Frames taken out of the queue and processed.
 
-  /// Frames in memory, the one that is being coded among them. @pre  the tap was opened.
+  /// Frames in memory, including the one being coded. @pre  the tap was opened.
   std::int64_t Waiting() const;
-  /// Whether memory is short.
+  /// Whether memory is getting short.
   bool IsHalfFull() const;
 };
 
-/// Whether one coder has fallen behind so far that it should not wait for idle time any longer.
+/// Whether a coder is so far behind that it should no longer wait for idle time.
 class Urgency {
  public:
-  /// Frames may wait for so long until nobody else wants the processor.
+  /// How long frames may wait for an idle processor.
   static constexpr std::int64_t kPatienceNs = 100'000'000;
-  /// A coder that has caught up stays forward for so long: what kept it back may still be there.
+  /// A coder that has caught up keeps its priority for this long: the cause may persist.
   static constexpr std::int64_t kCalmNs = 1'000'000'000;
 
-  /// Takes the state of this moment; wanted some dozens of times a second.
+  /// Takes the present state; call some dozens of times a second.
   bool Update(std::int64_t waiting, std::int64_t done, std::int64_t now_ns);
 
  private:
@@ -44,16 +44,16 @@ class Urgency {
   std::int64_t calm_since_ns_ = 0;    ///< 0: something waits.
 };
 
-/// Looks after the coders of a recording in a thread of its own: they code when nobody else wants
-/// the processor (SCHED_IDLE), and like everybody else as soon as frames have waited.
+/// Watches the coders of a recording in its own thread. They run when the processor is otherwise
+/// idle (SCHED_IDLE), and with normal priority as soon as frames have waited.
 class CoderWatch {
  public:
   /// @param coders      borrowed for the watch's life; their taps are open.
-  /// @param can_return  whether a thread that went behind may come forward again.
+  /// @param can_return  whether a thread's priority may be raised again.
   CoderWatch(std::vector<Coder*> coders, bool can_return);
   ~CoderWatch();
 
-  /// Why frames were lost; empty: none were.
+  /// Why frames were dropped; empty: none were.
   std::optional<LossCause> cause() const;
 
  private:
@@ -73,7 +73,7 @@ class CoderWatch {
   const std::vector<Coder*> coders_;
   const bool can_return_;
   std::vector<State> states_;
-  CodingTime time_;  ///< Since frames have waited.
+  CodingTime time_;  ///< Since frames have been waiting.
   std::int64_t idle_ns_ = 0;
   mutable std::mutex mutex_;
   std::optional<LossCause> cause_;

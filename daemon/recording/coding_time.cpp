@@ -12,7 +12,7 @@ std::optional<ThreadTimes> ReadThreadTimes(pid_t thread) {
 }
 
 LossCause CauseOf(const CodingTime& time, int processors) {
-  /// A share of the time that is more than chance.
+  /// A larger share of the time is no coincidence.
   constexpr double kMuch = 0.4;
   const auto all_ns = static_cast<double>(time.all_ns());
   if (all_ns <= 0) return LossCause::kUnknown;
@@ -21,7 +21,7 @@ LossCause CauseOf(const CodingTime& time, int processors) {
   };
   if (share(time.blocked_ns) > kMuch) return LossCause::kDisk;
   if (share(time.held_ns) > kMuch) return LossCause::kPoses;
-  // Threads that are many enough keep each other from the processor.
+  // Coders that are numerous enough keep each other from the processor.
   const double own = static_cast<double>(time.ran_ns) /
                      (static_cast<double>(time.wall_ns) * static_cast<double>(processors));
   const bool take_all = time.wall_ns > 0 && own > kMuch;

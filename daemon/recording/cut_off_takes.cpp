@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-/// What can be seen there; what others put there or take away meanwhile stops nothing.
+/// The visible files. Tolerates concurrent changes by others.
 std::vector<std::filesystem::path> FilesIn(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
@@ -31,7 +31,7 @@ std::optional<CutOffTake> Describe(const std::filesystem::path& folder) {
       first_ns = std::min(first_ns, table.rows.front().timestamp_ns);
       take.last_ns = std::max(take.last_ns, table.rows.back().timestamp_ns);
     } catch (const std::runtime_error&) {
-      // A camera that had not delivered a frame by then, or what may not be read.
+      // The camera had not delivered a frame yet, or the table cannot be read.
     }
   }
   if (take.last_ns == 0) return {};

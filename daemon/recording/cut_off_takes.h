@@ -1,4 +1,4 @@
-// Takes that earlier runs of the daemon could not complete.
+// Finds takes that earlier runs of the daemon could not complete.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace mocap {
 
-/// A take whose recording ended with the daemon's life.
+/// A take whose recording ended when the daemon died.
 struct CutOffTake {
   std::filesystem::path folder;  ///< Its name ends in .partial.
   std::int64_t duration_ns = 0;
-  std::int64_t last_ns = 0;  ///< Capture of its last frame.
+  std::int64_t last_ns = 0;  ///< Capture time of its last frame.
 };
 
-/// Finds them in the folder of takes, in the order of their names; damaged ones are left out.
+/// Finds them in the folder of takes, sorted by name. Damaged ones are omitted.
 std::vector<CutOffTake> FindCutOffTakes(const std::filesystem::path& takes);
 
 }  // namespace mocap

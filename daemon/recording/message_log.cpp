@@ -11,7 +11,7 @@ MessageLog::MessageLog(const std::filesystem::path& file)
 }
 
 void MessageLog::Write(const TappedMessage& message) {
-  // The library takes what it only reads as if it could write.
+  // The library takes non-const pointers, but only reads.
   lcm_eventlog_event_t event{.eventnum = 0,
                              .timestamp = message.utime,
                              .channellen = static_cast<std::int32_t>(message.channel.size()),

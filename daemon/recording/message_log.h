@@ -1,4 +1,4 @@
-// An LCM log that opens up to the last message that was written, whatever happens.
+// An LCM log that stays readable up to the last written message, whatever happens.
 #pragma once
 
 #include <lcm/eventlog.h>
@@ -10,13 +10,13 @@
 
 namespace mocap {
 
-/// Writes what lcm-logger would. Thread-bound.
+/// Writes a log like lcm-logger's. Thread-bound.
 class MessageLog {
  public:
-  /// @throws std::runtime_error  here and below, when it cannot be written.
+  /// @throws std::runtime_error  here and below, if it cannot be written.
   explicit MessageLog(const std::filesystem::path& file);
   void Write(const TappedMessage& message);
-  /// Hands what was written to the system.
+  /// Passes written data to the operating system.
   void Flush();
 
  private:

@@ -23,8 +23,7 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
     const std::scoped_lock lock(mutex_);
     last = std::move(recording_);
   }
-  // It gives the taps back before the next takes them; nobody waits for that to know how things
-  // are.
+  // It releases the taps before the next one takes them, outside mutex_: Status does not wait.
   last.reset();
   auto recording = std::make_shared<Recording>(folder, config, studio_, people, taps_);
   const std::scoped_lock lock(mutex_);

@@ -10,20 +10,20 @@
 
 namespace mocap {
 
-/// Holds the studio's taps and the recording that is on, or was last. Thread-safe.
+/// Owns the studio's taps and the current or last recording. Thread-safe.
 class Recorder {
  public:
   explicit Recorder(RecordedStudio studio);
 
-  /// Where the pipeline's threads leave what they have; for the recorder's life.
+  /// The pipeline's threads offer their data here; valid for the recorder's life.
   RecordingTaps& taps() { return taps_; }
 
-  /// Begins a take. @return its folder to be.
-  /// @throws SetupError, std::runtime_error  as Recording, and when one is on already.
+  /// Begins a take. @return the folder that it will have.
+  /// @throws SetupError, std::runtime_error  as Recording, or if one is running.
   std::filesystem::path Start(const std::string& name, const RecordingConfig& config,
                               std::span<const RecordedPerson> people);
-  /// Ends it. @return how it went, also when it has ended by itself.
-  /// @throws std::runtime_error  when there is none.
+  /// Ends it. @return its result, also if it has ended by itself.
+  /// @throws std::runtime_error  if there is none.
   RecordingStatus Stop();
   RecordingStatus Status() const;
 
@@ -35,7 +35,7 @@ class Recorder {
   std::shared_ptr<Recording> recording_;
 };
 
-/// Where takes go: as configured, or `takes` in the folder for state.
+/// Folder of takes: as configured, or `takes` in the folder for state.
 std::filesystem::path TakesFolder(const RecordingConfig& config);
 
 }  // namespace mocap

@@ -62,7 +62,7 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
   return description;
 }
 
-/// Looks before anything is made.
+/// Checks before anything is created.
 const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
                                       const RecordingConfig& config) {
   std::error_code error;
@@ -84,16 +84,16 @@ double BufferFor(const RecordingConfig& config, double memory_mb) {
   return std::min(config.buffer_mb, memory_mb / 2);
 }
 
-/// One camera's part.
+/// State of one camera.
 struct Recording::Line {
   Coder coder;
   Doorbell bell;
   std::optional<SafeFile> video, table;
   std::atomic<std::int64_t> frames{0};
   std::atomic<std::int64_t> refused{0};  ///< Times that did not increase.
-  std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever made them.
-  std::atomic<std::int64_t> dropped{0};  ///< Had no room in memory.
-  // The camera's thread only:
+  std::atomic<std::int64_t> missing{0};  ///< Gaps in the camera's count, whatever the cause.
+  std::atomic<std::int64_t> dropped{0};  ///< No room in memory.
+  // Used by the camera's thread only:
   std::optional<std::uint64_t> next_sequence;
   std::int64_t last_ns = -1;
 };
@@ -120,7 +120,7 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
     lines_[i]->coder.thread = std::thread([this, i] { RunCamera(i); });
   }
   backgrounds_.wait();
-  // A take opens only with its description, its calibration and the empty studio.
+  // A take opens only with its description, calibration and background.
   Guard([&] { SyncFileSystem(partial_); });
   Begin();
   if (has_failed_.load()) {
@@ -130,7 +130,7 @@ Recording::Recording(const std::filesystem::path& folder, const RecordingConfig&
   }
 }
 
-// The name is free for another attempt.
+// Frees the name for another attempt.
 void Recording::Discard() {
   CloseFiles();
   std::error_code error;
@@ -141,7 +141,7 @@ void Recording::Prepare(std::span<const RecordedPerson> people) {
   const TakeLayout layout{partial_};
   if (!studio_.config_text.empty()) WriteText(layout.Config(), studio_.config_text);
   for (const RecordedPerson& person : people) {
-    // Sizes of the take itself are for whoever is in it.
+    // Sizes stored for the whole take apply to whoever is in it.
     const std::filesystem::path file =
         people.size() == 1 ? layout.Subject() : layout.Subject(person.id);
     MakeFolder(file.parent_path());
@@ -219,7 +219,7 @@ void Recording::RunCamera(std::size_t camera) {
   const RecordedCamera& recorded = studio_.cameras[camera];
   const std::string name = "rec " + recorded.calibration.name;
   pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
-  // Somebody waits for this.
+  // The caller waits for this.
   Guard([&] {
     std::int64_t time_ns = 0;
     recorded.background.ForEach([&](const BackgroundFrame& frame) {
@@ -229,7 +229,7 @@ void Recording::RunCamera(std::size_t camera) {
   });
   backgrounds_.count_down();
   begun_.wait();
-  // A thread that could not come forward again would have to wait for as long as others have work.
+  // A thread whose priority cannot be raised again would have to wait while others have work.
   if (can_return_) GoBehind(name);
   lines_[camera]->coder.id.store(gettid());
   Guard([&] { WriteFrames(camera); });
@@ -242,7 +242,7 @@ void Recording::WriteFrames(std::size_t camera) {
   while (true) {
     const int seen = line.bell.count();
     const bool is_closed = queue.closed();
-    // Poses come first, as long as no frame is lost for them.
+    // Poses have priority as long as no frame is dropped for them.
     if (coder.tap->is_held() && !is_closed && !coder.IsHalfFull()) {
       std::this_thread::sleep_for(kHeldTick);
       continue;
@@ -291,7 +291,7 @@ void Recording::RunKeeper() {
   taps_.messages.Free();
 }
 
-// Nothing is lost any more, and somebody waits for the rest.
+// No more frames are dropped, and the caller waits for the rest.
 void Recording::EndWatch() {
   const std::scoped_lock lock(mutex_);
   last_cause_ = watch_->cause();
@@ -324,7 +324,7 @@ void Recording::KeepSafe() {
   for (const auto& line : lines_) {
     line->video->Sync();
     line->table->Sync();
-    // Nobody reads it soon; the memory is worth more to others.
+    // Nobody reads it soon. Others need the page cache more.
     line->video->Forget();
   }
   safe_log_->Sync();
@@ -364,7 +364,7 @@ void Recording::Complete() {
   state_ = has_failed_.load() ? RecordingStatus::State::kFailed : RecordingStatus::State::kComplete;
 }
 
-// A take that is removed while its files are open would go on filling the disk.
+// A removed take with open files would keep filling the disk.
 void Recording::CloseFiles() {
   writer_.reset();
   log_.reset();

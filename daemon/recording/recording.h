@@ -1,4 +1,4 @@
-// One take being recorded while tracking goes on.
+// Records one take while tracking continues.
 #pragma once
 
 #include <atomic>
@@ -28,73 +28,72 @@
 
 namespace mocap {
 
-/// Facts about a camera that a recording needs.
+/// What a recording needs to know of a camera.
 struct RecordedCamera {
   CameraCalibration calibration;
   BackgroundSource background;
 };
 
-/// The studio as a recording sees it.
+/// What a recording needs to know of the studio.
 struct RecordedStudio {
   std::string name;
   double fps_nominal = 30;
   std::vector<RecordedCamera> cameras;
-  std::string config_text;  ///< Kept in the take; empty: there is none.
+  std::string config_text;  ///< Stored in the take; empty: none.
   CaptureTimes times = CaptureTimes::kPresent;
 };
 
-/// Where the pipeline's threads leave what they have, in the order of the cameras.
+/// The pipeline's threads offer their data here, in the order of the cameras.
 struct RecordingTaps {
   std::deque<FrameTap> frames;
   MessageTap messages;
 };
 
-/// How a recording does, or did.
+/// The status of a current or past recording.
 struct RecordingStatus {
   enum class State { kNone, kRunning, kComplete, kFailed };
   State state = State::kNone;
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
-  std::int64_t frames = 0;         ///< Written, of all cameras.
-  std::int64_t waiting = 0;        ///< In memory, likewise: what a kill would cost.
-  std::int64_t dropped = 0;        ///< Came from the cameras and had no room in memory, likewise.
-  std::optional<LossCause> cause;  ///< Of the latest that were dropped.
+  std::int64_t frames = 0;         ///< Written, all cameras.
+  std::int64_t waiting = 0;        ///< In memory, all cameras: lost if the process is killed.
+  std::int64_t dropped = 0;        ///< Captured, but without room in memory; all cameras.
+  std::optional<LossCause> cause;  ///< Of the latest drops.
   std::string problem;             ///< Why it ended by itself.
 };
 
-/// How much of a computer's memory frames may take while they wait: what is configured, but no more
-/// than half of it.
+/// Memory for waiting frames: as configured, but no more than half of the computer's memory.
 double BufferFor(const RecordingConfig& config, double memory_mb);
 
-/// Somebody who is in the room when a recording begins.
+/// A person in the room when a recording begins.
 struct RecordedPerson {
   int id = 0;        ///< As on MOCAP_PEOPLE.
   std::string name;  ///< Empty: none.
   BodySizes sizes;
 };
 
-/// Records until Stop, until the disk is nearly full or until something cannot be written.
+/// Records until Stop, until the disk is nearly full, or until writing fails.
 ///
-/// One thread a camera codes and writes, when nobody else wants the processor or frames have
-/// waited; one writes messages, keeps what is written safe from a loss of power and completes the
-/// take. Frames wait in memory as long as there is room. A camera that cannot be written ends the
-/// recording; what the others have by then is written still.
+/// One thread per camera codes and writes, when the processor is idle or frames have waited.
+/// Another one writes messages, syncs files against power loss and completes the take. Frames wait
+/// in memory while there is room. If a camera's file cannot be written, the recording ends; frames
+/// that the others already have are still written.
 class Recording {
  public:
-  /// Stores what a take needs to be opened, whatever comes, and begins: frames are kept from the
+  /// Stores what is needed to open the take in any event, then begins: frames are kept from the
   /// return on.
-  /// @param folder   of the take to be. @param people  whose sizes are known.
+  /// @param folder   of the future take. @param people  those whose sizes are known.
   /// @param taps     borrowed for the recording's life.
-  /// @throws SetupError          when the folder cannot be made, or there is too little room.
-  /// @throws std::runtime_error  when something cannot be written; nothing is left then, unless it
-  /// is frames.
+  /// @throws SetupError          if the folder cannot be created, or space is short.
+  /// @throws std::runtime_error  if something cannot be written. Then nothing is left, except when
+  /// there are frames.
   Recording(const std::filesystem::path& folder, const RecordingConfig& config,
             const RecordedStudio& studio, std::span<const RecordedPerson> people,
             RecordingTaps& taps);
   /// Stops.
   ~Recording();
 
-  /// Writes what waits and completes the take, which takes its time.
+  /// Writes waiting frames and completes the take. This takes time.
   void Stop();
   /// Any thread.
   RecordingStatus Status() const;
@@ -130,21 +129,21 @@ class Recording {
   std::optional<SafeFile> safe_log_;
   std::vector<std::unique_ptr<Line>> lines_;
   Doorbell keeper_bell_;
-  std::latch backgrounds_;  ///< Counted down by each camera whose empty studio is stored.
+  std::latch backgrounds_;  ///< Counted down when a camera's background is stored.
   std::latch begun_{1};     ///< Frames are kept from here on.
   std::int64_t begin_ns_ = 0;
-  /// From capture times to those of the take: the time of day as it was when the take began.
+  /// From capture times to the take's times: the time of day as of its beginning.
   std::int64_t time_of_day_ahead_ns_ = 0;
   std::atomic<std::int64_t> end_ns_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_failed_{false};
-  mutable std::mutex mutex_;  ///< Of what follows.
+  mutable std::mutex mutex_;  ///< Guards what follows.
   RecordingStatus::State state_ = RecordingStatus::State::kRunning;
-  std::filesystem::path place_;  ///< Where the take is by now.
+  std::filesystem::path place_;  ///< Present folder of the take.
   std::string problem_;
   std::optional<LossCause> last_cause_;
   std::optional<CoderWatch> watch_;  ///< While coders run.
-  const bool can_return_;            ///< Whether threads may go behind and come forward again.
+  const bool can_return_;  ///< Whether threads may lower their priority and raise it again.
   std::thread keeper_;
 };
 

@@ -1,4 +1,4 @@
-// Keeping what is written safe from a loss of power.
+// Protects written files from power loss.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,15 @@
 
 namespace mocap {
 
-/// A file that somebody else writes, held open so that it can be kept safe. Thread-bound.
+/// A file that others write, held open for syncing. Thread-bound.
 class SafeFile {
  public:
-  /// @throws std::runtime_error  when it cannot be opened.
+  /// @throws std::runtime_error  if it cannot be opened.
   explicit SafeFile(std::filesystem::path file);
 
-  /// Waits until what was written so far is on the disk. @throws std::runtime_error  when it is
-  /// not.
+  /// Waits until everything written so far is on the disk. @throws std::runtime_error  on failure.
   void Sync() const;
-  /// Gives back the memory that the system keeps of it.
+  /// Drops its pages from the system's cache.
   void Forget() const;
 
  private:
@@ -24,8 +23,8 @@ class SafeFile {
   FileDescriptor descriptor_;
 };
 
-/// Waits until all that was written to a folder's file system, names included, is on the disk.
-/// @throws std::runtime_error  when it is not.
+/// Waits until everything written to a folder's file system, including names, is on the disk.
+/// @throws std::runtime_error  on failure.
 void SyncFileSystem(const std::filesystem::path& folder);
 
 }  // namespace mocap
