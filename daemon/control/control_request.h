@@ -19,17 +19,17 @@ struct RecordStopRequest {};
 struct SubjectNewRequest {};
 struct SubjectSaveRequest {
   std::string name;
-  std::optional<int> person = {};  ///< Whose sizes, by number; empty: of the only one.
+  std::optional<int> person = {};  ///< Number of the person; empty: the only one.
 };
 struct SubjectLoadRequest {
   std::string name;
 };
 struct SubjectListRequest {};
 struct BackgroundLearnRequest {
-  bool anyway = false;  ///< Also where somebody is believed to be in the room.
+  bool anyway = false;  ///< Even if somebody seems to be in the room.
 };
 struct BackgroundStatusRequest {};
-/// Somebody looks: pictures and voxels are wanted for the next seconds.
+/// A viewer wants pictures and voxels for the next seconds.
 struct LookRequest {};
 
 using ControlRequest =
@@ -37,30 +37,30 @@ using ControlRequest =
                  SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest,
                  BackgroundLearnRequest, BackgroundStatusRequest, LookRequest>;
 
-/// How it went, with the exit status of a program that asked.
+/// The outcome, with the exit status for a program that asked.
 enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
 
 struct ControlReply {
   ControlOutcome outcome = ControlOutcome::kDone;
-  std::string text;  ///< For people, or JSON where that was asked for.
+  std::string text;  ///< For people, or JSON if requested.
 };
 
 /// Longer requests and replies are refused.
 inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
-/// Understands "status [json]", "reload", "record start NAME", "record stop", "subject new",
-/// "subject save NAME [NUMBER]", "subject load NAME", "subject list", "background learn [anyway]",
+/// Parses "status [json]", "reload", "record start NAME", "record stop", "subject new", "subject
+/// save NAME [NUMBER]", "subject load NAME", "subject list", "background learn [anyway]",
 /// "background status" and "look"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
-/// Names become files: letters, digits, dots, underscores and hyphens. They do not begin with a dot
-/// or hyphen, nor end in ".partial", which marks takes that are not complete.
+/// Whether a name can be a file name: letters, digits, dots, underscores and hyphens. It must not
+/// begin with a dot or hyphen, or end in ".partial", which marks incomplete takes.
 bool IsFileName(std::string_view name);
 
-/// A reply as it is sent: "done", "failed" or "wrong", a line's end, the text.
+/// The reply on the wire: "done", "failed" or "wrong", a newline, the text.
 std::string EncodeReply(const ControlReply& reply);
-/// Empty when it is none.
+/// Empty if it is not a reply.
 std::optional<ControlReply> DecodeReply(std::string_view message);
 
 }  // namespace mocap

@@ -25,11 +25,11 @@ namespace {
 
 constexpr const char* kSystemSocket = "/run/mocapd/control";
 constexpr int kWaitingClients = 8;
-/// A client that connects and says nothing holds up the others no longer.
+/// A client that connects and sends nothing delays the others no longer than this.
 constexpr timeval kClientPatience{1, 0};
-/// The background of six cameras is stored before a recording is said to have begun.
+/// The backgrounds of all cameras are stored before a recording is reported as begun.
 constexpr timeval kReplyPatience{60, 0};
-/// A status is only behind other requests.
+/// A status waits only for other requests.
 constexpr timeval kStatusPatience{15, 0};
 constexpr mode_t kOwnerAndGroup = 0660;
 
@@ -67,7 +67,7 @@ FileDescriptor Listen(const std::filesystem::path& path) {
   if (WithAddress(connect, NewSocket().get(), address) == 0) {
     throw SetupError(path.string() + ": another mocapd answers there");
   }
-  // What an earlier run left behind, which a kill gives no time to take away.
+  // Left by an earlier run that was killed.
   if (std::filesystem::is_socket(path, error)) std::filesystem::remove(path, error);
   FileDescriptor listener = NewSocket();
   if (WithAddress(bind, listener.get(), address) != 0 || chmod(path.c_str(), kOwnerAndGroup) != 0 ||

@@ -1,4 +1,4 @@
-// The local socket over which the running daemon is told what to do: one packet asks, one answers.
+// The local socket that controls the running daemon: one packet asks, one answers.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,21 @@
 
 namespace mocap {
 
-/// Where the socket lies: as configured, or `control` in systemd's RUNTIME_DIRECTORY, or in
-/// XDG_RUNTIME_DIR/mocapd; empty where none of these is.
+/// The socket's path: as configured, or `control` in systemd's RUNTIME_DIRECTORY, or in
+/// XDG_RUNTIME_DIR/mocapd; empty if none is set.
 std::filesystem::path ControlSocketOf(const std::filesystem::path& configured);
 
-/// Looks whether a control socket can be made there, without making one. @throws SetupError
+/// Checks whether a control socket can be created, without doing so. @throws SetupError
 void RequireSocketPlace(const std::filesystem::path& socket);
 
-/// Answers requests in a thread of its own, one after the other. Whoever may write to the socket
-/// may control: owner and group.
+/// Answers requests one at a time in its own thread. Owner and group may write to the socket, and
+/// so may control.
 class ControlServer {
  public:
   using Handler = std::function<ControlReply(const ControlRequest&)>;
 
-  /// @param handler  called from the server's thread; may take its time.
-  /// @throws SetupError  when the socket cannot be made, or another daemon answers there.
+  /// @param handler  called from the server's thread; may be slow.
+  /// @throws SetupError  if the socket cannot be created, or another daemon answers there.
   ControlServer(const std::filesystem::path& socket, Handler handler);
   ~ControlServer();
 
@@ -36,14 +36,14 @@ class ControlServer {
   const std::filesystem::path path_;
   const Handler handler_;
   FileDescriptor listener_;
-  FileDescriptor stop_;  ///< Becomes readable when the thread shall end.
+  FileDescriptor stop_;  ///< Becomes readable when the thread must end.
   std::thread thread_;
 };
 
-/// Asks the daemon. @param socket  empty: the system's daemon, or the user's own.
-/// @throws std::runtime_error  when no daemon answers; SetupError when it may not be asked.
+/// Asks the daemon. @param socket  empty: that of the system's daemon, or the user's own.
+/// @throws std::runtime_error  if no daemon answers; SetupError if access is denied.
 ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& request);
-/// The same; what keeps the daemon from answering is told in the reply.
+/// The same; the reply reports why the daemon cannot answer.
 ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request);
 
 }  // namespace mocap

@@ -12,19 +12,19 @@
 namespace mocap {
 namespace {
 
-/// What another computer says is told so far.
+/// Limit for quoting another computer's output.
 constexpr std::size_t kMostCharactersTold = 200;
 
 std::string Seconds(std::chrono::milliseconds time) {
   return fmt::format("{:g} s", static_cast<double>(time.count()) / 1e3);
 }
 
-/// What the command itself says about it is best: ssh's last line tells what to mend.
+/// The command's own words are best: ssh's last line tells what to fix.
 std::string InItsWords(const ProgramRun& run, const std::string& otherwise) {
   return run.last_words.empty() ? otherwise : Shortened(run.last_words, kMostCharactersTold);
 }
 
-/// Of a run whose output is no reply.
+/// For a run whose output is not a reply.
 std::string WhyNoReply(const ProgramRun& run) {
   if (run.output.empty()) return InItsWords(run, "gave no answer");
   const std::string first_line = run.output.substr(0, run.output.find('\n'));
@@ -61,8 +61,7 @@ RemoteAnswer RemoteControl::Ask(const std::string& request,
   MOCAP_CHECK(request.size() <= kLongestRequest);
   const ProgramRun run =
       RunOtherProgram(command_, request, {.patience = patience, .longest_output = kLongestReply});
-  // A connection that broke in the middle of a reply leaves a part of it, and a status that says
-  // so.
+  // A connection that broke during a reply leaves a part of it, and a nonzero status.
   if (run.end != ProgramRun::End::kExited || run.number != 0)
     return {{}, node_ + ": " + WhyItFailed(run, command_[0], patience)};
   std::optional<ControlReply> reply = DecodeReply(run.output);
