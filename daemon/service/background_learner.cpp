@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kFrames = 50;
 constexpr std::size_t kFewestFrames = 10;
-/// Of the videos that are kept; nobody plays them.
+/// Of the stored videos; nobody plays them.
 constexpr double kFps = 10;
 constexpr std::size_t kFramesQueued = 8;
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
@@ -29,15 +29,15 @@ constexpr std::chrono::milliseconds kPause{5};
 
 }  // namespace
 
-/// One camera's part of looking around.
+/// One camera's part of the observation.
 struct BackgroundLearner::Look {
-  Doorbell bell;  ///< Nobody waits for it: frames are fetched.
+  Doorbell bell;  ///< Nobody waits for it: frames are polled.
   ChangeMeter meter;
   std::vector<BackgroundFrame> frames;
   double changed = 0;
-  std::int64_t due_ns = 0;  ///< Capture of the next one that is wanted.
+  std::int64_t due_ns = 0;  ///< Earliest capture time of the next frame to use.
 
-  /// Takes frames that are evenly spread over a length of time.
+  /// Uses frames that are spread evenly over `length_ns`.
   void Take(const TappedFrame& frame, std::int64_t length_ns) {
     if (frame.capture_ns < due_ns || frames.size() == kFrames) return;
     due_ns = frame.capture_ns + length_ns / static_cast<std::int64_t>(kFrames + 1);
@@ -100,7 +100,7 @@ std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds
   while (!stop_.load() && !std::ranges::all_of(looks, is_done) &&
          SteadyNs() - begin_ns < length_ns + kPatienceNs) {
     for (std::size_t i = 0; i < cameras; ++i) {
-      // More may come as fast as they are taken.
+      // Bounded, because frames may arrive as fast as they are taken.
       for (std::size_t n = 0; n < kFramesQueued && taps_[i].queue().TryPop(); ++n) {
         looks[i].Take(taps_[i].queue().front(), length_ns);
       }

@@ -1,4 +1,4 @@
-// Learns what the empty studio looks like while the cameras run.
+// Learns the background while the cameras run.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace mocap {
 
-/// Each camera's knowledge of the empty studio. Thread-safe.
+/// The present background of each camera. Thread-safe.
 class KnownBackgrounds {
  public:
   explicit KnownBackgrounds(std::vector<BackgroundSource> sources) : sources_(std::move(sources)) {}
@@ -27,27 +27,27 @@ class KnownBackgrounds {
   std::vector<BackgroundSource> sources_;
 };
 
-/// Where it is learned, and for whom.
+/// What learning works on, and where it stores the result.
 struct LearningPlace {
   std::vector<CameraCalibration> cameras;
-  std::filesystem::path folder;  ///< Keeps the pictures for the next start.
-  std::string refusal;           ///< Why nothing can be learned here; empty: it can.
+  std::filesystem::path folder;  ///< Stores the pictures for the next start.
+  std::string refusal;           ///< Why learning is impossible here; empty: it is possible.
 };
 
-/// Looks at the studio for some seconds and has the frame path go on with what was seen; no frame
+/// Observes the studio for some seconds and makes the frame path use the new background. No frame
 /// is lost meanwhile. Learn: one thread at a time.
 class BackgroundLearner {
  public:
-  /// @param taps  one a camera, offered every frame; borrowed, as is the path.
+  /// @param taps  one per camera, offered every frame; borrowed, like the path.
   BackgroundLearner(FramePath& path, std::deque<FrameTap>& taps, KnownBackgrounds& known,
                     LearningPlace place);
 
-  /// Learns, keeps and uses what the cameras see. @return  one line a camera.
-  /// @param anyway  also while somebody is tracked: what is taken for a person may be furniture.
-  /// @throws std::runtime_error  when somebody moves in the room or is tracked, or a camera
-  /// delivers nothing; SetupError when the studio has nothing to learn. What was known holds then.
+  /// Learns, stores and applies the background. @return  one line per camera.
+  /// @param anyway  also while somebody is tracked: the "person" may be furniture.
+  /// @throws std::runtime_error  if somebody moves in the room or is tracked, or a camera delivers
+  /// nothing; SetupError if the studio has no background to learn. Then the old one stays.
   std::string Learn(bool anyway, double seconds = 4);
-  /// Has Learn give up, now and from now on: the daemon ends. Any thread.
+  /// Makes Learn give up, now and in future, because the daemon ends. Any thread.
   void RequestStop() { stop_.store(true); }
 
  private:

@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-/// A remark that counts something is the same remark when it has counted on.
+/// A remark with a counter is the same remark when only the number changed.
 std::string WithoutDigits(std::string text) {
   std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
   return text;

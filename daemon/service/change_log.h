@@ -1,4 +1,4 @@
-// Logs changes, not the course of things.
+// Logs changes of the status.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace mocap {
 
-/// Logs how a status differs from the one before: the state, cameras that go and come back, what
-/// their drivers remark, sets that begin to be dropped.
+/// Logs how a status differs from the previous one: the state, cameras lost and back, remarks of
+/// their drivers, sets being dropped.
 class ChangeLog {
  public:
   void Add(const PipelineStatus& status);
@@ -19,7 +19,7 @@ class ChangeLog {
   void TellRemarks(const CameraStatus& camera);
   void CompareCameras(const PipelineStatus& before, const PipelineStatus& now);
 
-  /// Calls without a drop after which being behind is over.
+  /// Calls without a drop after which the overload counts as over.
   static constexpr int kCallsToRecover = 50;
 
   std::optional<PipelineStatus> last_;

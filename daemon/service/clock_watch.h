@@ -1,4 +1,4 @@
-// A host's clock that is set while the service runs.
+// Notices when the host's clock is set while the service runs.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,14 @@
 
 namespace mocap {
 
-/// Tells of each step of the host's time of day once.
+/// Reports each step of the host's time of day once.
 class ClockWatch {
  public:
-  /// Smaller steps are told when they have added up.
+  /// Smaller steps are reported when their sum reaches this.
   static constexpr std::int64_t kLeastNs = 10'000'000;
 
-  /// @param ahead_ns  how far the time of day is ahead of the timeline.
-  /// @return what to log; empty: nothing has happened.
+  /// @param ahead_ns  time of day minus timeline.
+  /// @return the message to log; empty: no step.
   std::string Add(std::int64_t ahead_ns);
 
  private:

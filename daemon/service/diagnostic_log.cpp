@@ -7,9 +7,9 @@
 namespace mocap {
 namespace {
 
-/// What does not last so long is told to whoever asks, and not to the log.
+/// Shorter diagnostics appear in the status, but not in the log.
 constexpr std::int64_t kLastingNs = 2'000'000'000;
-/// A complaint that has been away for so long begins anew.
+/// A diagnostic that was absent for this long counts as new.
 constexpr std::int64_t kGoneNs = 10'000'000'000;
 constexpr std::int64_t kToldAgainNs = 900'000'000'000;
 

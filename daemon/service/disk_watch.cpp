@@ -40,7 +40,7 @@ struct DiskWatch::Shared {
   std::optional<DiskErrand> next;
   std::optional<DiskFindings> findings;
   bool is_over = false;
-  std::int64_t begun_ns = 0;  ///< 0: nothing is under way.
+  std::int64_t begun_ns = 0;  ///< 0: none is running.
 };
 
 DiskWatch::DiskWatch(Run run)
@@ -60,7 +60,7 @@ DiskWatch::~DiskWatch() {
 void DiskWatch::Send(DiskErrand errand) {
   {
     const std::scoped_lock lock(shared_->mutex);
-    // Figures are written seldom, and not forgotten for an errand that has none.
+    // Metrics are written rarely, so an errand without any does not discard them.
     if (shared_->next && errand.metrics.empty()) {
       errand.metrics = shared_->next->metrics;
       errand.metrics_text = shared_->next->metrics_text;

@@ -1,4 +1,4 @@
-// Asks the disk in a thread that nothing waits for.
+// Accesses the disk in a thread that nothing waits for.
 #pragma once
 
 #include <cstdint>
@@ -14,43 +14,42 @@
 
 namespace mocap {
 
-/// What shall be looked at and written.
+/// What to check and write.
 struct DiskErrand {
   std::filesystem::path takes;
-  std::filesystem::path background;  ///< Empty: it has no files of its own.
-  std::vector<CutOffTake> cut_off;   ///< As far as they were there.
+  std::filesystem::path background;  ///< Empty: the background has no files.
+  std::vector<CutOffTake> cut_off;   ///< As found at the start.
   std::filesystem::path metrics;     ///< Empty: nothing is written.
   std::string metrics_text;
 };
 
-/// Findings.
+/// Results of an errand.
 struct DiskFindings {
   std::int64_t bytes_free = 0;  ///< For takes.
-  std::string takes_problem;    ///< Why none can be written; empty: they can.
+  std::string takes_problem;    ///< Why takes cannot be written; empty: they can.
   std::int64_t background_made_s = 0;
-  std::vector<CutOffTake> cut_off;  ///< Those that still are there.
+  std::vector<CutOffTake> cut_off;  ///< Those that still exist.
   bool could_write_metrics = true;
 };
 
 DiskFindings RunErrand(const DiskErrand& errand);
 
-/// Runs errands in a thread of its own: a disk that stalls holds up nothing but these.
-/// Thread-safe.
+/// Runs errands in its own thread: a stalled disk delays nothing else. Thread-safe.
 class DiskWatch {
  public:
   using Run = std::function<DiskFindings(const DiskErrand&)>;
 
   explicit DiskWatch(Run run = RunErrand);
-  /// Waits for nothing that stalls.
+  /// Does not wait for a stalled disk.
   ~DiskWatch();
 
-  /// Wants this done next; replaces what was wanted and not begun.
+  /// Queues an errand; replaces one that was queued but not begun.
   void Send(DiskErrand errand);
-  /// What the last errand that came to its end found; empty before the first.
+  /// Results of the last completed errand; empty before the first.
   std::optional<DiskFindings> Findings() const;
-  /// How long the errand that is under way has been; 0: none is.
+  /// Duration of the running errand so far; 0: none.
   std::int64_t UnderWayNs(std::int64_t now_ns) const;
-  /// Waits until an errand has come to its end, but no longer than that.
+  /// Waits until an errand has completed, but for no longer than `most_ns`.
   void WaitForFindings(std::int64_t most_ns) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-/// What nothing on a frame's way depends on.
+/// Keys that do not affect the frame path.
 bool CanChangeLive(const std::string& key) {
   return key == "lcm.voxels_hz" || key.starts_with("metrics.") || key.starts_with("recording.");
 }

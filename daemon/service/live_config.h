@@ -1,4 +1,4 @@
-// The configuration of a running daemon, and what of a new one can be taken over without a gap.
+// The configuration of a running daemon, and which changes it can apply without interruption.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace mocap {
 
-/// Outcome of reading the configuration again.
+/// Result of reading the configuration again.
 struct ReloadResult {
-  std::vector<std::string> applied;       ///< Keys that changed and now hold.
-  std::vector<std::string> need_restart;  ///< Keys that differ from what the daemon runs with.
+  std::vector<std::string> applied;       ///< Keys that changed and are now in force.
+  std::vector<std::string> need_restart;  ///< Keys that differ from those in force.
 };
 
-/// Remembers what the daemon was started with. Thread-bound.
+/// Keeps the configuration that the daemon was started with. Thread-bound.
 class LiveConfig {
  public:
   /// @param file  none: the defaults, which cannot be reloaded. @throws SetupError
@@ -24,12 +24,11 @@ class LiveConfig {
 
   /// The configuration in force.
   const Config& config() const { return config_; }
-  /// The file's text as it was read at the start.
+  /// The text of the file as read at the start.
   const std::string& text() const { return started_with_; }
 
-  /// Reads the file again and takes over what can be changed while frames flow; the rest of
-  /// config() stays as it was. @throws SetupError  for a file that is wrong; nothing has changed
-  /// then.
+  /// Reads the file again and applies what can change while frames flow; the rest of config()
+  /// stays. @throws SetupError  for an invalid file; then nothing has changed.
   ReloadResult Reload();
 
  private:

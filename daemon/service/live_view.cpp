@@ -20,7 +20,7 @@ void LiveView::OnSet(const TrackedSet& set) {
   if (lock) TakePeople(set.people);
 }
 
-// Both are in the order of the numbers. Nothing is allocated once there is room for all.
+// Both lists are sorted by number. Allocates nothing once there is room for all.
 void LiveView::TakePeople(std::span<const PersonView> people) {
   const auto is_gone = [&](const FollowedPerson& person) {
     return std::ranges::find(people, person.id, &PersonView::id) == people.end();

@@ -1,4 +1,4 @@
-// The running system as a person at the terminal sees it.
+// The state of the running system, for people at a terminal.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,8 @@
 
 namespace mocap {
 
-/// Keeps the latest figures of the last thread for whoever asks. OnSet: the pipeline's thread; the
-/// rest: any.
+/// Keeps the latest results of the tracking thread for other threads. OnSet: the pipeline's thread;
+/// the rest: any.
 class LiveView : public PoseSink {
  public:
   /// @param error  may be empty.
@@ -25,9 +25,9 @@ class LiveView : public PoseSink {
 
   void OnSet(const TrackedSet& set) override;
   Fit fit() const;
-  /// Who is followed, in the order of their numbers.
+  /// The tracked people, sorted by number.
   std::vector<FollowedPerson> people() const;
-  /// One line without its end: state, rate, latency, residual, voxels, error.
+  /// One line without newline: state, rate, latency, residual, voxels, error.
   std::string Line(const StatusReport& report) const;
 
  private:
@@ -42,7 +42,7 @@ class LiveView : public PoseSink {
   std::atomic<int> voxels_{0};
   std::atomic<int> count_{0};
 
-  mutable std::mutex mutex_;  ///< Tried, never waited for, by the pipeline.
+  mutable std::mutex mutex_;  ///< The pipeline tries it, but never waits.
   std::vector<FollowedPerson> people_;
 };
 

@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-/// Writes one metric after the other; a family's head comes before its first sample.
+/// Writes metrics in order. A family's header precedes its first sample.
 class MetricsWriter {
  public:
   void Family(std::string_view name, std::string_view type, std::string_view help) {

@@ -1,4 +1,4 @@
-// Figures for Prometheus, by way of a text file that its node exporter collects.
+// Metrics for Prometheus, in a text file that its node exporter collects.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace mocap {
 /// The report in Prometheus' text format.
 std::string MetricsText(const ServiceReport& report);
 
-/// Puts such a text into a file in one step. @return whether that worked.
+/// Replaces a file by this text atomically. @return whether that succeeded.
 bool WriteMetrics(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace mocap

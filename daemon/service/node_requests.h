@@ -1,4 +1,4 @@
-// What is asked of a studio is asked of its nodes as well.
+// Forwards requests to a studio's nodes.
 #pragma once
 
 #include <chrono>
@@ -11,22 +11,22 @@
 
 namespace mocap {
 
-/// Reaches the nodes of a studio, all at the same time. Look: one thread; the rest: any.
+/// Sends requests to all nodes of a studio at once. Look: one thread; the rest: any.
 class NodeRequests {
  public:
   explicit NodeRequests(const std::vector<StudioNode>& nodes);
 
-  /// What each node answered, in their order.
+  /// The nodes' answers, in the order of the nodes.
   struct Answers {
     std::vector<std::string> nodes;  ///< Their names.
     std::vector<RemoteAnswer> answers;
 
-    /// Why the first that did not do it did not: one line with its name; empty: all have.
+    /// Why the first node that failed did so: one line with its name; empty: none failed.
     std::string Problem() const;
-    /// What those that answered said, a line each with the node's name.
+    /// What the nodes that answered said, one line each, with the node's name.
     std::string Text() const;
   };
-  /// Under way; asking has begun.
+  /// A request in progress.
   class Asked {
    public:
     Answers Wait();
@@ -37,9 +37,9 @@ class NodeRequests {
     std::vector<std::future<RemoteAnswer>> futures_;
   };
 
-  /// Asks all nodes. @param patience  with each.
+  /// Asks all nodes. @param patience  for each.
   Asked Ask(const std::string& request, std::chrono::milliseconds patience) const;
-  /// Tells the nodes that somebody looks, and does not wait for what they say.
+  /// Tells the nodes that somebody watches, without waiting for their answers.
   void Look();
 
   bool empty() const { return controls_.empty() && unreachable_.empty(); }

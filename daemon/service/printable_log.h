@@ -1,4 +1,4 @@
-// Log lines that stay lines, whatever they quote.
+// Keeps each log message on one line, whatever it quotes.
 #pragma once
 
 #include <spdlog/formatter.h>
@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-/// Makes a format of spdlog in which %* is the message without control characters.
+/// Makes an spdlog formatter in which %* is the message without control characters.
 std::unique_ptr<spdlog::formatter> PrintableLogFormat(const std::string& pattern);
 
 }  // namespace mocap

@@ -38,18 +38,18 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{200};
-/// How long an end may take that waits for cameras alone, and one that has a take to complete;
-/// systemd waits a little longer.
+/// Time limits for shutdown: waiting only for cameras, and completing a take. systemd waits a
+/// little longer.
 constexpr std::chrono::seconds kEndPatience{5};
 constexpr std::chrono::seconds kTakePatience{15};
 constexpr std::chrono::seconds kGrace{5};
-/// What the slowest disk that is worth its name takes a second.
+/// Write rate of the slowest acceptable disk, per second.
 constexpr double kSlowDisk_mb = 20;
 
-/// Large blocks go back to the system when they are freed. By default glibc takes the first of them
-/// for a sign to keep such blocks in the heap, where a small one behind them holds their memory for
-/// ever: pictures of the empty studio and the frames of recordings come and go for days. So does
-/// what lies free at the end of a heap, of which each thread that codes a recording has its own.
+/// Makes glibc return large blocks to the system when they are freed. By default, it keeps such
+/// blocks in the heap after the first is freed, where a small block behind them pins their memory
+/// for ever. Backgrounds and recorded frames come and go for days. The same applies to free memory
+/// at the end of a heap; each coding thread has its own heap.
 void ReturnLargeBlocks() {
   constexpr int kLarge = 768 << 10;
   constexpr int kMostFreeAtTheEnd = 128 << 10;
@@ -57,7 +57,7 @@ void ReturnLargeBlocks() {
   mallopt(M_TRIM_THRESHOLD, kMostFreeAtTheEnd);
 }
 
-/// Everything that becomes of a tracked set.
+/// Passes tracked sets to all recipients.
 class Outlet : public PoseSink {
  public:
   Outlet(PosePublisher& publisher, LiveView& view, PreviewPublisher& preview)
@@ -74,7 +74,7 @@ class Outlet : public PoseSink {
   PreviewPublisher& preview_;
 };
 
-/// Answers from the beginning on; what is there to be asked comes later.
+/// Answers from the start; the object that handles requests comes later.
 class ControlDesk {
  public:
   explicit ControlDesk(const std::filesystem::path& socket) {
@@ -83,7 +83,7 @@ class ControlDesk {
         socket, [this](const ControlRequest& request) { return Answer(request); });
   }
   void Open(ServiceControl& control) { control_.store(&control); }
-  /// Waits for the request that is being answered. @pre  before what Open was given ends.
+  /// Waits for the request in progress. @pre  the object given to Open still exists.
   void Close() { server_.reset(); }
 
  private:
@@ -97,7 +97,7 @@ class ControlDesk {
   std::unique_ptr<ControlServer> server_;
 };
 
-/// Closes the desk before what it leads to is gone, also when an error leads there.
+/// Closes the desk before its target is destroyed, also on an exception.
 class OpenDesk {
  public:
   OpenDesk(ControlDesk& desk, ServiceControl& control) : desk_(desk) { desk_.Open(control); }
@@ -109,19 +109,19 @@ class OpenDesk {
   ControlDesk& desk_;
 };
 
-/// How long completing a take may take.
+/// Time limit for completing a take.
 std::chrono::seconds TakePatience(const RecordingConfig& config) {
   return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
 }
 
-/// A node's own statuses go where they are not taken for the studio's.
+/// A node's own statuses use a separate prefix, so that they do not pass for the studio's.
 LcmConfig OwnChannels(const Config& config) {
   LcmConfig lcm = config.lcm;
   if (config.role == Role::kNode) lcm.prefix += config.node.name + "_";
   return lcm;
 }
 
-/// Runs until there is nothing more to do.
+/// Runs until there is nothing left to do.
 void RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
                      std::optional<double> seconds) {
   const std::int64_t end_ns = seconds ? SteadyNs() + std::llround(*seconds * 1e9)
@@ -160,7 +160,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   publisher.Describe(studio.name, cameras);
   std::optional<LcmSender> beside;
   if (prepared.preview_lcm) beside.emplace(*prepared.preview_lcm, LcmProvider::kMulticast);
-  // Pictures of nodes go to whoever looks at the studio.
+  // Pictures of nodes go to the studio's viewers.
   PreviewPublisher preview(beside ? *beside : publisher.sender(), config.lcm, cameras,
                            studio.times);
   Outlet outlet(publisher, view, preview);
@@ -212,7 +212,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   allow(is_recording());
   manager.Stopping(patience + kGrace);
   learner.RequestStop();
-  // A recording may be about to begin, or to end.
+  // A recording may be starting or ending.
   desk.Close();
   allow(is_recording());
   if (is_recording()) recorder.Stop();

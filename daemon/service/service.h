@@ -1,4 +1,4 @@
-// The daemon from its configuration to its last message.
+// Runs the daemon from its configuration to its last message.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace mocap {
 
-/// Captures and publishes until the source ends, a signal comes or the time is over; SIGHUP reads
-/// the configuration again.
+/// Captures and publishes until the source ends, a signal comes or the time is over. SIGHUP reloads
+/// the configuration.
 /// @param file     the configuration; without one, the simulated studio.
-/// @param seconds  how long to run at most.
-/// @throws SetupError  when the studio, its cameras or LCM cannot be used as configured.
+/// @param seconds  maximum run time.
+/// @throws SetupError  if the studio, its cameras or LCM cannot be used as configured.
 void RunService(const std::optional<std::filesystem::path>& file, std::optional<double> seconds);
 
 }  // namespace mocap

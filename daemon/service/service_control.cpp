@@ -13,9 +13,9 @@
 namespace mocap {
 namespace {
 
-/// Whoever goes on looking asks again within it.
+/// A viewer that keeps watching asks again within this time.
 constexpr std::chrono::seconds kLook{10};
-/// So long a node may take to answer, and one that begins or completes a take, or learns a
+/// Time limits for a node's answer: usually, and for beginning or completing a take or learning a
 /// background.
 constexpr std::chrono::seconds kPatience{10}, kTakePatience{60};
 
@@ -72,7 +72,7 @@ Config ServiceControl::config() {
 
 std::string ServiceControl::Do(const StatusRequest& request) {
   const std::scoped_lock lock(report_mutex_);
-  // Who has just begun or ended a recording wants to see that.
+  // Includes a recording that has just begun or ended.
   report_.recording = parts_.recorder.Status();
   report_.age_ns = SteadyNs() - report_ns_;
   return request.as_json ? ReportJson(report_) : ReportText(report_);
@@ -92,7 +92,7 @@ std::string ServiceControl::Do(const RecordStartRequest& request) {
   const NodeRequests::Answers answers =
       nodes_.Ask("record start " + request.name, kTakePatience).Wait();
   if (const std::string problem = answers.Problem(); !problem.empty()) {
-    // A take without some of its cameras is none.
+    // A take that lacks some of its cameras is useless.
     NodeRequests::Asked stopping = nodes_.Ask("record stop", kTakePatience);
     parts_.recorder.Stop();
     stopping.Wait();

@@ -1,4 +1,4 @@
-// Carries out requests to the running daemon.
+// Handles requests to the running daemon.
 #pragma once
 
 #include <mutex>
@@ -17,11 +17,11 @@
 
 namespace mocap {
 
-/// The parts of the running daemon that requests reach. Borrowed.
+/// The parts of the running daemon that requests use. Borrowed.
 struct ServiceParts {
   LiveConfig& config;
   FramePath& path;
-  Pipeline* pipeline;  ///< The path, where it tracks; null at a node.
+  Pipeline* pipeline;  ///< The path, if it tracks; null at a node.
   PosePublisher& publisher;
   PreviewPublisher& preview;
   LiveView& view;
@@ -32,16 +32,16 @@ struct ServiceParts {
 /// Answers requests. Thread-safe.
 class ServiceControl {
  public:
-  /// Whoever is kept is known by his sizes from now on.
+  /// People whose sizes are stored are recognized from now on.
   ServiceControl(const ServiceParts& parts, Subjects subjects);
 
-  /// @throws SetupError for what was asked wrongly, std::runtime_error for what failed.
+  /// @throws SetupError for a wrong request, std::runtime_error for a failure.
   ControlReply Answer(const ControlRequest& request);
-  /// Takes the report that is given until the next one.
+  /// Sets the report to give until the next one.
   void SetReport(const ServiceReport& report);
   /// Reads the configuration again. @throws SetupError
   std::string Reload();
-  /// What holds at present. Waits for no file.
+  /// The configuration in force. Waits for no file.
   Config config();
 
  private:
@@ -67,7 +67,7 @@ class ServiceControl {
   NodeRequests nodes_;
   std::mutex report_mutex_;
   ServiceReport report_;
-  std::int64_t report_ns_ = 0;  ///< When it was given, by the steady clock.
+  std::int64_t report_ns_ = 0;  ///< When it was set, by the steady clock.
   std::mutex reload_mutex_;     ///< Held while a file is read.
   std::mutex config_mutex_;
   Config config_;

@@ -44,14 +44,14 @@ ServiceLog::ServiceLog() : failed_ns_(std::make_shared<std::atomic<std::int64_t>
       "mocapd", sinks.begin(), sinks.end(), spdlog::thread_pool(),
       spdlog::async_overflow_policy::overrun_oldest);
   logger->flush_on(spdlog::level::info);
-  // It would say so on standard error, every second.
+  // Otherwise spdlog would report it on standard error every second.
   logger->set_error_handler(
       [failed_ns = failed_ns_](const std::string&) { failed_ns->store(SteadyNs()); });
   spdlog::set_default_logger(std::move(logger));
   if (!problem.empty()) spdlog::warn("there is no log file: {}", problem);
 }
 
-// What is still to be written is, before the program says its last.
+// Writes what is queued before the program's last words.
 ServiceLog::~ServiceLog() { spdlog::shutdown(); }
 
 bool ServiceLog::Fails(std::int64_t now_ns) const {

@@ -1,4 +1,4 @@
-// Where the daemon's messages go.
+// The daemon's log.
 #pragma once
 
 #include <atomic>
@@ -7,9 +7,9 @@
 
 namespace mocap {
 
-/// Opens the log for its life: standard error, which is the journal under systemd, and a file where
-/// there is a place. A thread of its own writes, so that a disk or a reader that stalls holds up
-/// nothing; what finds no room meanwhile is lost, the oldest first.
+/// Opens the log for its lifetime: standard error (the journal under systemd), and a file if there
+/// is a folder for logs. A separate thread writes, so that a stalled disk or reader blocks nothing.
+/// If the queue is full, the oldest messages are lost.
 class ServiceLog {
  public:
   ServiceLog();
@@ -17,8 +17,8 @@ class ServiceLog {
   ServiceLog(const ServiceLog&) = delete;
   ServiceLog& operator=(const ServiceLog&) = delete;
 
-  /// Whether there is no file for it where there is a place, or a message could not be written
-  /// during the last minute. Any thread.
+  /// Whether its file could not be opened, or a message could not be written during the last
+  /// minute. Any thread.
   bool Fails(std::int64_t now_ns) const;
 
  private:

@@ -24,7 +24,7 @@ void ServiceManager::Ready() {
 void ServiceManager::Say(const std::string& line) {
   if (line == line_) return;
   line_ = line;
-  // A line's end would begin another assignment.
+  // A newline would begin another assignment.
   Notify("STATUS=" + Printable(line));
 }
 

@@ -1,4 +1,4 @@
-// Notifies systemd; does nothing where it does not listen.
+// Notifies systemd, if it listens.
 #pragma once
 
 #include <atomic>
@@ -7,20 +7,20 @@
 
 namespace mocap {
 
-/// Speaks systemd's notification protocol. Main thread; a reload may have another.
+/// Speaks systemd's notification protocol. For the main thread; a reload may run in another.
 class ServiceManager {
  public:
-  /// The service has begun its work.
+  /// The service is working.
   void Ready();
   bool is_ready() const { return is_ready_.load(); }
-  /// One line for people, as `systemctl status` shows it; sent when it has changed.
+  /// Sets the line that `systemctl status` shows; sent when it has changed.
   void Say(const std::string& line);
-  /// Frames move; without this for the unit's WatchdogSec the service is restarted.
+  /// Call while frames move. Without it for the unit's WatchdogSec, systemd restarts the service.
   void FeedWatchdog();
-  /// Around a reload; before the service is ready, systemd hears of readiness alone.
+  /// Call around a reload. Before the service is ready, systemd is told of readiness only.
   void BeginReload();
   void EndReload();
-  /// @param most  how long that may take.
+  /// @param most  maximum duration of stopping.
   void Stopping(std::chrono::microseconds most);
 
  private:

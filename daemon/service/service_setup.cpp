@@ -17,7 +17,7 @@ namespace {
 
 Made MadeBy(const std::filesystem::path& file) { return {file.string(), WrittenAt(file)}; }
 
-/// A calibration may tell when it was made: a copy is no younger.
+/// A calibration may contain its date, which a copy keeps.
 Made CalibrationMadeBy(const std::filesystem::path& file) {
   Made made = MadeBy(file);
   const CalibrationRecord record = LoadCalibrationRecord(file);
@@ -33,7 +33,7 @@ Made CalibrationOf(const Config& config) {
   return {"the simulated studio's own", 0};
 }
 
-/// The folder has to be there: whoever collects figures has made it.
+/// The folder must exist already: the collector of the metrics makes it.
 void RequireMetricsPlace(const std::filesystem::path& file) {
   if (file.empty()) return;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -90,13 +90,13 @@ void CheckConfig(const Config& config) {
   PrepareRealtime(config.service.realtime);
   CheckLcm(config.lcm.url);
   const PreparedService prepared = Prepare(config);
-  // Pictures that are painted to order cannot be wrong, and take their time.
+  // Simulated pictures cannot be wrong, and rendering takes time.
   if (config.source.driver == "simulated") return;
   LearnBackgrounds(prepared.studio.cameras, config.segmentation);
 }
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps) {
-  // A recording that is read as fast as it can be has old times, and can wait.
+  // A recording that is read at full speed has old times, and can wait.
   const bool can_wait = config.source.driver == "take" && config.source.rate == ReplayRate::kFast;
   return {.segmentation = config.segmentation,
           .voxel_mm = config.voxel_mm,
@@ -124,7 +124,7 @@ RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& kn
                           .config_text = config_text,
                           .times = studio.times};
   for (std::size_t i = 0; i < studio.cameras.size() && studio.cameras[i].driver; ++i) {
-    // What is known by the time of the recording, not now.
+    // The background at the time of the recording, not the present one.
     const auto read = [&known, i](const BackgroundSource::Visit& visit) {
       known.Of(i).ForEach(visit);
     };

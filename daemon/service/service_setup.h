@@ -1,4 +1,4 @@
-// From a configuration and an opened studio to what the daemon's parts are made of.
+// Makes the daemon's parts from a configuration and an opened studio.
 #pragma once
 
 #include <deque>
@@ -19,45 +19,46 @@
 
 namespace mocap {
 
-/// The parts of the daemon that exist before its first camera is started.
+/// The parts of the daemon that exist before the first camera starts.
 struct PreparedService {
   BodyTable body;
   std::unique_ptr<lcm::LCM> lcm;
-  std::unique_ptr<lcm::LCM> preview_lcm;  ///< Empty: previews go the way of all else.
+  std::unique_ptr<lcm::LCM> preview_lcm;  ///< Null: previews use `lcm`.
   Studio studio;
-  std::filesystem::path socket;  ///< Empty: it is not controlled.
+  std::filesystem::path socket;  ///< Empty: no control socket.
 };
 
-/// Opens and looks at all that a configuration names, cameras that answer excepted: the one way to
-/// a start. @throws SetupError
+/// Opens and checks everything that a configuration names, except whether cameras answer. Every
+/// start uses this. @throws SetupError
 PreparedService PrepareService(const Config& config);
 
-/// Looks whether RunService could begin, with cameras that answer: what it refuses is refused here,
-/// with the same words. Makes no file and no socket, and sends nothing. @throws SetupError
+/// Checks whether RunService could start, including whether cameras answer. Rejects what RunService
+/// rejects, with the same messages. Creates no file and no socket, and sends nothing. @throws
+/// SetupError
 void CheckConfig(const Config& config);
 
-/// Looks whether files can be written where the configuration wants them. @throws SetupError
+/// Checks whether files can be written where the configuration wants them. @throws SetupError
 void RequirePlaces(const Config& config);
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps);
 
 KnownBackgrounds KnownBackgroundsOf(const Studio& studio);
 
-/// What a recording needs to know before the cameras are handed to the pipeline.
+/// Collects what a recording needs before the cameras go to the pipeline.
 /// @param known  borrowed for the recordings' lives.
 RecordedStudio RecordedStudioOf(const Studio& studio, const KnownBackgrounds& known,
                                 const std::string& config_text);
 
-/// Where the empty studio is learned on command, and whether it can be.
+/// Where the background is learned on request, and whether this is possible.
 LearningPlace LearningPlaceFor(const Config& config, const Studio& studio);
 
-/// What a report says from the beginning to the end.
+/// The constant part of a report.
 ServiceReport ReportAbout(const Config& config, const Studio& studio);
 
-/// When the pictures of the empty studio were made, as far as that is known.
+/// Age and origin of the background, as far as known.
 Made BackgroundOf(const Config& config);
 
-/// The truth is known where the person is simulated.
+/// Compares with the truth if the person is simulated.
 TruthError TruthFor(const SourceConfig& source);
 
 }  // namespace mocap

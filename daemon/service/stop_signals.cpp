@@ -61,7 +61,7 @@ void StopSignals::Run() {
   }
 }
 
-// `timeout` sends every signal twice: to the program and to its group.
+// `timeout` sends each signal twice: to the program and to its group.
 void StopSignals::NoteStop() {
   constexpr std::int64_t kSameNs = 500'000'000;
   if (!stop_.exchange(true)) {
@@ -71,7 +71,7 @@ void StopSignals::NoteStop() {
   }
 }
 
-// Nothing that could hang as well: no destructors, no log.
+// Uses nothing that could hang too: no destructors, no log.
 void StopSignals::EndNow() const {
   const char* line = "mocapd: ended without waiting for what hangs\n";
   if (is_starting_.load()) line = "mocapd: ended while it was starting\n";

@@ -1,4 +1,4 @@
-// Signals, heard whatever the main thread is at.
+// Handles signals, whatever the main thread is doing.
 #pragma once
 
 #include <atomic>
@@ -10,28 +10,28 @@
 
 namespace mocap {
 
-/// Holds back SIGINT, SIGTERM and SIGHUP from all threads that start afterwards, and has SIGPIPE
-/// ignored: whoever reads our log may go away. Call first in main.
+/// Blocks SIGINT, SIGTERM and SIGHUP in all threads started afterwards, and ignores SIGPIPE: the
+/// reader of our log may disappear. Call first in main.
 void HoldSignals();
 
-/// Waits for signals in a thread of its own. The first SIGINT or SIGTERM asks the daemon to end;
-/// when that takes longer than it may, or with the second, the program ends at once.
+/// Waits for signals in its own thread. The first SIGINT or SIGTERM asks the daemon to end. If that
+/// exceeds its time limit, or a second signal comes, the program ends at once.
 class StopSignals {
  public:
-  /// How long an end may take that loses nothing: while the daemon starts.
+  /// Time limit for an end that loses nothing: while the daemon starts.
   static constexpr std::chrono::milliseconds kStartPatience{1500};
 
   /// @pre  HoldSignals was called.
   StopSignals();
   ~StopSignals();
 
-  /// Becomes true when the daemon shall end.
+  /// Becomes true when the daemon must end.
   const std::atomic<bool>& stop() const { return stop_; }
-  /// Sleeps for a while, or until a signal comes.
+  /// Sleeps for this time, or until a signal comes.
   void Wait(std::chrono::nanoseconds most);
-  /// Whether SIGHUP has come since it was last asked.
+  /// Whether SIGHUP has come since the last call.
   bool TakeReload() { return reload_.exchange(false); }
-  /// From now on an end may take so long. @param has_take  whether it has a take to complete.
+  /// Sets the time limit for an end. @param has_take  whether there is a take to complete.
   void Allow(std::chrono::nanoseconds patience, bool has_take) {
     patience_ns_.store(patience.count());
     has_take_.store(has_take);
@@ -49,7 +49,7 @@ class StopSignals {
   std::atomic<std::int64_t> patience_ns_{std::chrono::nanoseconds(kStartPatience).count()};
   std::atomic<bool> is_starting_{true};
   std::atomic<bool> has_take_{false};
-  std::int64_t stop_ns_ = 0;  ///< The thread's: when the first came.
+  std::int64_t stop_ns_ = 0;  ///< Used by the thread: time of the first signal.
   std::mutex mutex_;
   std::condition_variable news_;
   bool has_news_ = false;

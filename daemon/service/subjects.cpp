@@ -34,7 +34,7 @@ std::vector<KnownPerson> Subjects::Known() const {
     try {
       known.push_back({name, Load(name)});
     } catch (const SetupError&) {
-      // `mocap subject list` tells of it.
+      // `mocap subject list` reports it.
     }
   }
   return known;

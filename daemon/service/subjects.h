@@ -1,4 +1,4 @@
-// The people whose sizes are kept.
+// The people whose sizes are stored.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 
 namespace mocap {
 
-/// One file a person in a folder, which is made when it is needed. Thread-bound.
+/// One file per person, in a folder that is created when needed. Thread-bound.
 class Subjects {
  public:
   explicit Subjects(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Keeps sizes under a name, in place of what was there. @throws std::runtime_error
+  /// Stores sizes under a name, replacing older ones. @throws std::runtime_error
   void Save(const std::string& name, const BodySizes& sizes) const;
-  /// @throws SetupError  when there is none, or its file is damaged.
+  /// @throws SetupError  if there are none, or their file is damaged.
   BodySizes Load(const std::string& name) const;
-  /// All but those whose files are damaged, by name.
+  /// All except those with damaged files, sorted by name.
   std::vector<KnownPerson> Known() const;
-  /// Names in order.
+  /// Sorted names.
   std::vector<std::string> Names() const;
 
  private:

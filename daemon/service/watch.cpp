@@ -20,9 +20,9 @@ namespace {
 
 constexpr double kStatusHz = 1;
 constexpr double kMetricsHz = 0.2;
-/// The first report waits so long for what the disk tells.
+/// How long the first report waits for the disk.
 constexpr std::int64_t kDiskPatienceNs = 1'000'000'000;
-/// A message that could not be sent is told for so long.
+/// How long a failed message is reported.
 constexpr std::int64_t kLatelyNs = 3'000'000'000;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The main thread's part while the pipeline runs: status, log, systemd, the line on the terminal.
+// The main thread's work while the pipeline runs: status, log, systemd, terminal line.
 #pragma once
 
 #include <unistd.h>
@@ -26,25 +26,25 @@
 
 namespace mocap {
 
-/// Whom the main thread tells, and whom it asks. Borrowed.
+/// Where the main thread reports to, and what it queries. Borrowed.
 struct WatchParts {
   ServiceControl& control;
   ServiceManager& manager;
   const ChannelWatch& channels;
   const ServiceLog& log;
-  NodeListener* nodes;            ///< Of a studio; else null.
-  SilhouetteSender* silhouettes;  ///< Of a node; else null.
+  NodeListener* nodes;            ///< At a studio; otherwise null.
+  SilhouetteSender* silhouettes;  ///< At a node; otherwise null.
 };
 
-/// Looks at the running daemon some times a second and tells of it. Nothing here waits for a disk.
+/// Checks the running daemon some times a second and reports on it. Never waits for a disk.
 class Watch {
  public:
   Watch(const ServiceParts& parts, const WatchParts& around, ServiceReport about);
 
   void Tick();
-  /// Has the configuration read again, in a thread of its own.
+  /// Reloads the configuration in its own thread.
   void Reload();
-  /// Says what has come of it all.
+  /// Logs the final summary.
   void Conclude();
 
  private:
@@ -63,7 +63,7 @@ class Watch {
   ProgressWatch progress_;
   ChangeLog log_;
   DiagnosticLog complaints_;
-  std::vector<std::string> told_;  ///< What was not good at the last report.
+  std::vector<std::string> told_;  ///< Diagnostics of the last report.
   StatusWindow window_;
   LightWatch light_;
   ClockWatch clock_;
