@@ -28,23 +28,23 @@ int Fail(const CLI::App& app, std::string message, int status) {
   return status;
 }
 
-/// The program with the subcommand that was begun, as one would type it.
+/// The program with its subcommands, as typed.
 std::string CommandOf(const CLI::App& app) {
   std::string command = app.get_name();
   for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
   return command;
 }
 
-/// Opens /dev/null for each of the standard files that was closed: what is opened later must not
-/// take its number, and with it what is printed.
+/// Opens /dev/null for each standard file that was closed. Otherwise a file opened later would get
+/// its number, and with it the printed output.
 void OpenStandardFiles() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free number is taken, which is this one.
+    // open() returns the lowest free number, which is this one.
     if (fcntl(file, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) return;
   }
 }
 
-/// What was printed has to have got there, or it was not done.
+/// Output that did not arrive is a failure.
 int FinishOutput(const CLI::App& app) {
   std::cout.flush();
   errno = 0;

@@ -1,13 +1,13 @@
-// How a program of ours ends: exit status and the one line of an error.
+// Runs a program and reports errors: exit status and one line.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace mocap {
 
-/// Parses the command line, which runs what it asks for, and turns whatever goes wrong into one
-/// line on standard error and an exit status: 0 done, 1 failed while running, 2 the command line, a
-/// configuration or an input file is wrong.
+/// Parses the command line, which runs the requested command. Turns any error into one line on
+/// standard error and an exit status: 0 success, 1 failed while running, 2 invalid command line,
+/// configuration or input file.
 int RunProgram(CLI::App& app, int argc, char** argv);
 
 }  // namespace mocap

@@ -29,9 +29,9 @@ bl_info = {
 PORT = 39539
 PERIOD_S = 1 / 60
 MOST_NESTED = 4
-SHORTEST_BONE = 0.01  # Blender removes bones of no length.
+SHORTEST_BONE = 0.01  # Blender removes bones of zero length.
 
-# Each bone's parent, which stands before it.
+# The parent of each bone; parents come first.
 PARENTS = {
     "Hips": None, "Spine": "Hips", "Chest": "Spine", "Neck": "Chest", "Head": "Neck",
     "LeftShoulder": "Chest", "LeftUpperArm": "LeftShoulder", "LeftLowerArm": "LeftUpperArm", "LeftHand": "LeftLowerArm",
@@ -39,8 +39,7 @@ PARENTS = {
     "LeftUpperLeg": "Hips", "LeftLowerLeg": "LeftUpperLeg", "LeftFoot": "LeftLowerLeg",
     "RightUpperLeg": "Hips", "RightLowerLeg": "RightUpperLeg", "RightFoot": "RightLowerLeg",
 }
-# Where a bone is drawn to, which turns nothing: the next joint, or for the last of a limb a direction and a share of the bone
-# before it.
+# Where a bone is drawn to, without effect on its rotation: the next joint, or at the end of a limb a direction and a share of the bone before.
 NEXT = {"Hips": "Spine", "Spine": "Chest", "Chest": "Neck", "Neck": "Head", "LeftShoulder": "LeftUpperArm",
         "LeftUpperArm": "LeftLowerArm", "LeftLowerArm": "LeftHand", "RightShoulder": "RightUpperArm",
         "RightUpperArm": "RightLowerArm", "RightLowerArm": "RightHand", "LeftUpperLeg": "LeftLowerLeg",
@@ -48,7 +47,7 @@ NEXT = {"Hips": "Spine", "Spine": "Chest", "Chest": "Neck", "Neck": "Head", "Lef
 ENDS = {"Head": (Vector((0, 0, 1)), 1.5), "LeftHand": (Vector((1, 0, 0)), 0.7), "RightHand": (Vector((-1, 0, 0)), 0.7),
         "LeftFoot": (Vector((0, -1, 0)), 0.5), "RightFoot": (Vector((0, -1, 0)), 0.5)}
 
-# Unity is left-handed with x right, y up and z forward; here x is the person's left and y is behind.
+# Unity is left-handed with x right, y up and z forward. Here x is the person's left and y points backwards.
 BLENDER_FROM_UNITY = Matrix(((-1, 0, 0), (0, 0, -1), (0, 1, 0)))
 
 
@@ -99,7 +98,7 @@ class Receiver:
         self.is_tracked = False
         self.time_s = 0.0
         self.coming = {}
-        self.pose = None  # Each bone's transform from its parent, in Blender's axes.
+        self.pose = None  # The transform of each bone from its parent, in Blender's axes.
         self.pose_time_s = None
 
     def close(self):
@@ -117,7 +116,7 @@ class Receiver:
                 for address, arguments in osc_messages(packet):
                     self.take(address, arguments)
             except (ValueError, struct.error):
-                continue  # Somebody else's.
+                continue  # From another sender.
 
     def take(self, address, arguments):
         if address == "/VMC/Ext/OK":
@@ -213,7 +212,7 @@ class LiveBody:
         armature = bpy.data.objects.get(self.armature_name or "")
         if not has_bones(armature):
             if bpy.context.mode != "OBJECT":
-                return False  # Somebody is editing; bones are made in edit mode too.
+                return False  # Somebody is editing. Making bones needs edit mode, too.
             armature = make_armature(pose)
             self.armature_name = armature.name
         apply_pose(armature, pose)

@@ -13,7 +13,7 @@ SHORT_MAGIC, FRAGMENT_MAGIC = 0x4C433032, 0x4C433033  # "LC02", "LC03"
 SHORT_HEADER = struct.Struct(">II")  # magic, number
 FRAGMENT_HEADER = struct.Struct(">IIIIHH")  # magic, number, size, offset, piece, pieces
 LONGEST_CHANNEL = 63
-# As LCM's own receiver: what is begun and never ended must not fill the memory.
+# The limits of LCM's own receiver: incomplete messages must not fill the memory.
 MOST_SENDERS, MOST_BYTES = 1000, 1 << 24
 RECEIVE_BUFFER = 4 << 20
 
@@ -25,7 +25,7 @@ class Begun:
     """A message of which pieces have come."""
     number: int
     data: bytearray
-    has_come: bytearray  # of each piece: 1 where it has
+    has_come: bytearray  # per piece: 1 if received
     missing: int
     channel: str | None = None
 
@@ -117,7 +117,7 @@ def open_socket(group: str, port: int) -> socket.socket:
     if hasattr(socket, "SO_REUSEPORT"):
         udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
     udp.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER)
-    # Elsewhere than on Linux a group cannot be bound to.
+    # Outside of Linux, a group cannot be bound to.
     udp.bind((group if hasattr(socket, "SO_REUSEPORT") else "", port))
     udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
                    struct.pack("=4sL", socket.inet_aton(group), socket.INADDR_ANY))

@@ -21,7 +21,7 @@ POINT_NAMES: tuple[str, ...] = (
 STATES = ("searching", "acquiring", "tracking", "lost")
 TRACKING = "tracking"
 
-LATEST_US = 4 * 10**15  # What is later is no time of day.
+LATEST_US = 4 * 10**15  # A larger value is not a time of day.
 
 Message = TypeVar("Message")
 
@@ -66,7 +66,7 @@ class Body:
     stature_mm: float
     sizes_mm: dict[str, float]
     joint_names: tuple[str, ...]
-    joint_parents: np.ndarray  #: of each joint, a parent before its children; -1: the torso
+    joint_parents: np.ndarray  #: parent of each joint, which comes before it; -1: the torso
     joint_axes: np.ndarray  #: n x 3, unit vectors
     joint_places_mm: np.ndarray  #: n x 3, a point on each axis
     joint_limits_rad: np.ndarray  #: n x 2
@@ -88,15 +88,15 @@ class Pose:
     utime: int  #: of capture, microseconds since the Unix epoch
     frame: int  #: number of the frame set
     state: str  #: "searching", "acquiring", "tracking" or "lost"
-    person: int | None  #: who it is, among several people
-    name: str  #: under which the person's sizes were saved; empty: none
+    person: int | None  #: number of the person, if there are several
+    name: str  #: name under which the person's sizes were saved; empty: none
     body: Body | None  #: None: not tracked
     torso_mm: np.ndarray  #: 3
     torso_rotation: np.ndarray  #: 3 x 3, from the torso's frame to the studio's
     joints_rad: np.ndarray  #: n, in the order of body.joint_names
     points_mm: np.ndarray  #: 23 x 3, in the order of POINT_NAMES
     points_std_mm: np.ndarray  #: 23
-    residual_mm: float  #: how far the body lies from what the cameras see, on the average
+    residual_mm: float  #: mean distance between the body and the observations
 
     @property
     def is_tracked(self) -> bool:

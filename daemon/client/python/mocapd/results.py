@@ -38,7 +38,7 @@ class Result:
     theta_rad: np.ndarray  #: n x 16, the angles of the paper's Table 1
     points_mm: np.ndarray  #: n x 23 x 3, in the order of POINT_NAMES
     residual_mm: np.ndarray  #: n
-    joint_names: tuple[str, ...] = ()  #: of a log; poses.csv has the paper's angles alone
+    joint_names: tuple[str, ...] = ()  #: of a log; poses.csv has only the paper's angles
     joints_rad: np.ndarray = dataclasses.field(default_factory=lambda: np.empty((0, 0)))  #: n x joint_names
 
     def __len__(self) -> int:
@@ -131,7 +131,7 @@ def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Res
         return {f"person-{number}": read_result(folder / f"person-{number}") for number in numbers}
     results: dict[str, Result] = {}
     for number, (name, result) in _read_people_log(folder, prefix).items():
-        # Two may have had the same name one after the other.
+        # Two people may have had the same name, one after the other.
         results[name if name and name not in results else f"person-{number}"] = result
     return results
 
@@ -219,7 +219,7 @@ class _Rows:
             if pose is None:
                 continue
             for column, value in zip(columns, pose):
-                # Joints of another body, which the person had before, have no column.
+                # Joints of a body that the person had before have no column.
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
