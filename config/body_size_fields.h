@@ -9,7 +9,7 @@
 namespace mocap {
 
 struct BodySizeField {
-  std::string_view name;  ///< Without its unit, millimetres.
+  std::string_view name;  ///< Without the unit, which is millimetres.
   double BodySizes::*value;
 };
 

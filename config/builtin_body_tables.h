@@ -1,4 +1,4 @@
-// The body tables of config/body, put into the library when it is built.
+// The body tables of config/body, compiled into the library.
 #pragma once
 
 #include <span>

@@ -17,8 +17,8 @@
 namespace mocap {
 namespace {
 
-// Enough for the statistics of a still picture; an hour of it would not fit into memory. A head
-// needs all it has.
+// Enough for the statistics of a static view; an hour of it would not fit into memory. A camera on
+// a pan-tilt head needs all frames.
 constexpr std::size_t kMostStillFrames = 200;
 
 void ReadBackground(const std::filesystem::path& file, const CameraCalibration& camera,
@@ -39,14 +39,14 @@ void ReadBackground(const std::filesystem::path& file, const CameraCalibration& 
   }
 }
 
-/// The folder itself, where a link leads to one, without a slash at its end.
+/// The folder itself: links are resolved, and a trailing slash is removed.
 std::filesystem::path Behind(const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::weakly_canonical(folder, error);
   return PlainFolder(error ? folder : target);
 }
 
-/// A folder that is taken away must not be somebody's.
+/// The folder will be deleted, so it must not contain anything else.
 void RequirePicturesOnly(const std::filesystem::path& folder) {
   if (!IsThere(folder)) return;
   RequireFolder(folder, "a folder for pictures of the empty studio");
@@ -80,7 +80,7 @@ VideoReader OpenCameraVideo(const std::filesystem::path& file, const CameraCalib
   return video;
 }
 
-// Angles and a head belong together: one without the other would be wrong in silence.
+// Angles require a pan-tilt head and vice versa: a mismatch would be wrong silently.
 TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibration& camera) {
   TakeTable table = ReadTakeTable(file);
   if (camera.head && !table.has_angles) {

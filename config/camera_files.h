@@ -1,4 +1,4 @@
-// The recorded files of one camera, held against its calibration.
+// Opens one camera's recorded files, and checks them against its calibration.
 #pragma once
 
 #include <filesystem>
@@ -10,28 +10,28 @@
 
 namespace mocap {
 
-/// Opens a video. @throws SetupError  also when its pictures have another size than the camera's.
+/// Opens a video. @throws SetupError  also if its picture size differs from the camera's.
 VideoReader OpenCameraVideo(const std::filesystem::path& file, const CameraCalibration& camera);
 
-/// Reads a table. @throws SetupError  also when a head has no angles, or the other way round.
+/// Reads a table. @throws SetupError  also if a pan-tilt head has no angles, or vice versa.
 TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibration& camera);
 
-/// Makes sure that a camera's pictures of the empty studio are there; reads them when asked, one by
-/// one, in any thread.
-/// @param table  of its angles; looked at for a camera on a head only.
+/// Checks that a camera's background pictures exist. The source reads them on demand, one by one,
+/// in any thread.
+/// @param table  of angles; used only for a camera on a pan-tilt head.
 /// @throws SetupError  naming the file.
 BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
                                       const std::filesystem::path& table,
                                       const CameraCalibration& camera);
 
-/// Makes an empty folder beside that of the empty studio, in which the next one is written.
+/// Creates an empty folder beside the background's folder, for the next background.
 /// @param folder  may end with a slash, and may be a link.
-/// @throws SetupError  when there is something else than pictures in either, which would be taken
-/// away, or it cannot be made.
+/// @throws SetupError  if either contains anything but pictures, which would be deleted, or it
+/// cannot be created.
 std::filesystem::path BeginBackground(const std::filesystem::path& folder);
 
-/// Puts what BeginBackground made in the folder's place in one step, and takes the old one away.
-/// @throws SetupError, std::runtime_error  when that cannot be.
+/// Replaces the folder by the one from BeginBackground in one step, and deletes the old one.
+/// @throws SetupError, std::runtime_error  if that fails.
 void ReplaceBackground(const std::filesystem::path& folder, const std::filesystem::path& with);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// Every number that a person may change, with its default.
+// All settings, with their defaults.
 #pragma once
 
 #include <array>
@@ -17,18 +17,17 @@
 
 namespace mocap {
 
-/// How fast a recording is replayed: at its own times, or as fast as it is read.
+/// Replay speed of a recording: real time, or as fast as it is read.
 enum class ReplayRate { kRealtime, kFast };
 
-/// What this mocapd does of the work.
+/// The part of the work that this mocapd does.
 enum class Role {
   kAlone,  ///< All of it.
-  kNode,   ///< It has cameras, and sends their silhouettes to a studio.
-  kStudio  ///< It carves and tracks by the silhouettes of nodes, and of its own cameras if it has
-           ///< any.
+  kNode,   ///< Has cameras, and sends their silhouettes to a studio.
+  kStudio  ///< Carves and tracks from the silhouettes of nodes, and of its own cameras if any.
 };
 
-/// [node]: this computer as a part of a studio.
+/// [node]: this computer as part of a studio.
 struct NodeConfig {
   std::string name;
   std::vector<std::string> cameras;  ///< Of a take or the simulated studio; empty: all.
@@ -38,10 +37,10 @@ struct NodeConfig {
 struct StudioNode {
   std::string name;
   std::vector<std::string> cameras;
-  std::vector<std::string> control;  ///< The command that reaches its mocapd; empty: it cannot be.
+  std::vector<std::string> control;  ///< Command that reaches its mocapd; empty: unreachable.
 };
 
-/// [source]: where frames come from.
+/// [source]: the origin of frames.
 struct SourceConfig {
   std::string driver = "simulated";  ///< "take", "simulated", "v4l2", "aravis", "none".
   std::filesystem::path take;
@@ -55,8 +54,8 @@ struct SourceConfig {
   int cameras = 6;
   int width_px = 640, height_px = 480;
   std::uint64_t seed = 1;
-  double losses_per_minute = 0;  ///< How often each camera fails for two seconds.
-  bool follow = false;           ///< Cameras are on heads, which keep the person in view.
+  double losses_per_minute = 0;  ///< Rate at which each camera fails, for two seconds each.
+  bool follow = false;           ///< Cameras are on pan-tilt heads, which keep the person in view.
   // For "simulated" and live cameras:
   double fps = 30;
 };
@@ -66,24 +65,24 @@ inline bool IsLive(const SourceConfig& source) {
   return source.driver == "v4l2" || source.driver == "aravis";
 }
 
-/// [lcm]: where poses go.
+/// [lcm]: the destination of poses.
 struct LcmConfig {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix;
   double voxels_hz = 0;  ///< 0: voxels are not published.
 };
 
-/// What turns a live camera.
+/// Kind of a live camera's pan-tilt head.
 enum class HeadKind { kNone, kFixed, kV4l2, kUvc };
 
-/// A camera's head.
+/// A camera's pan-tilt head.
 struct HeadConfig {
   HeadKind kind = HeadKind::kNone;
-  std::string device;    ///< Of one on USB: serial number, port or bus.
-  PanTiltAngles angles;  ///< Of one that is fixed.
-  double delay_ms = 0;   ///< By which readings lag behind.
+  std::string device;    ///< For a head on USB: serial number, port or bus.
+  PanTiltAngles angles;  ///< For a fixed head.
+  double delay_ms = 0;   ///< Delay of its readings.
   bool follow = false;   ///< It keeps the person in view.
-  /// How far the studio lets it turn: least and most [rad]. Empty: as far as it can.
+  /// Range of turning that the studio permits: minimum and maximum [rad]. Empty: its full range.
   std::optional<std::array<double, 2>> pan_range_rad;
   std::optional<std::array<double, 2>> tilt_range_rad;
 };
@@ -93,7 +92,7 @@ struct CameraConfig {
   std::string name;
   std::string device;
   std::optional<double> fps;                  ///< Empty: source.fps.
-  std::optional<std::array<int, 2>> size_px;  ///< Empty: what the calibration says.
+  std::optional<std::array<int, 2>> size_px;  ///< Empty: as in the calibration.
   HeadConfig head;
   V4l2Settings v4l2;      ///< For source.driver "v4l2".
   AravisSettings aravis;  ///< For source.driver "aravis".
@@ -101,8 +100,8 @@ struct CameraConfig {
 
 struct Config {
   Role role = Role::kAlone;
-  NodeConfig node;                ///< Of role kNode.
-  std::vector<StudioNode> nodes;  ///< Of role kStudio.
+  NodeConfig node;                ///< For role kNode.
+  std::vector<StudioNode> nodes;  ///< For role kStudio.
   std::filesystem::path calibration;
   std::filesystem::path
       background;  ///< Folder with the live cameras' pictures of the empty studio.
@@ -111,7 +110,7 @@ struct Config {
   SegmentationOptions segmentation;
   TrackerKind tracker = TrackerKind::kSurface;
   std::string body = "full";  ///< "mikic2003", "full", or the path of a table.
-  int people = 4;             ///< Followed at once, at the most.
+  int people = 4;             ///< Maximum number tracked at once.
   LcmConfig lcm;
   std::vector<CameraConfig> cameras;
   ServiceConfig service;

@@ -65,7 +65,7 @@ void CheckMulticastOption(const std::string& url, const Option& option, bool has
        "has the unknown option " + std::string(option.key) + "; ttl or recv_buf_size is wanted");
 }
 
-/// "HOST:PORT" into the address; what is missing stays LCM's default.
+/// Parses "HOST:PORT". Missing parts keep LCM's defaults.
 void ReadPlace(const std::string& url, std::string_view place, LcmUrl& address) {
   if (place.empty()) return;
   const std::size_t colon = place.rfind(':');

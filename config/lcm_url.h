@@ -1,4 +1,4 @@
-// [lcm] url: what it asks for, looked at before LCM does, which passes over most mistakes.
+// Checks [lcm] url before LCM does, which ignores most mistakes.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@ namespace mocap {
 
 enum class LcmProvider {
   kMulticast,  ///< "udpm", "mpudpm".
-  kTcp,        ///< "tcpq": by way of a server.
+  kTcp,        ///< "tcpq": through a server.
   kFile,       ///< "file": an LCM log.
-  kMemory      ///< "memq": this process alone.
+  kMemory      ///< "memq": this process only.
 };
 
 struct LcmUrl {
   LcmProvider provider = LcmProvider::kMulticast;
-  std::string host;         ///< Of kMulticast and kTcp; LCM's default where the URL has none.
+  std::string host;         ///< For kMulticast and kTcp; LCM's default if the URL has none.
   std::uint16_t port = 0;   ///< Likewise.
-  std::string file;         ///< Of kFile.
-  bool is_written = false;  ///< Of kFile: it is written, not read.
-  double speed = 1;         ///< Of a log that is read: 0 as fast as can be.
+  std::string file;         ///< For kFile.
+  bool is_written = false;  ///< For kFile: written instead of read.
+  double speed = 1;         ///< For reading a log: 0 is full speed.
 };
 
-/// Takes an LCM address apart.
-/// @throws SetupError  that says what is wrong in it and what is wanted, without naming the key.
+/// Parses an LCM address.
+/// @throws SetupError  with the error and what is expected, but without the key.
 LcmUrl ParseLcmUrl(const std::string& url);
 
 }  // namespace mocap

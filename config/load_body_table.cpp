@@ -17,7 +17,7 @@ constexpr std::array<const char*, kSegmentCount> kSegmentNames = {
     "thigh_r",    "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r",      "shoulder_l",
     "shoulder_r", "hand_l",      "hand_r",      "foot_l",      "foot_r"};
 
-// Row of a joint by its name; -1 for "", the torso.
+// Index of a joint by its name; -1 for "", the torso.
 int FindJoint(TomlSection& section, const std::string& key, const std::vector<JointAxis>& joints) {
   const std::string name = section.Text(key);
   if (name.empty()) return -1;

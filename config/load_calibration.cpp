@@ -22,7 +22,7 @@ Matrix3 ReadRotation(TomlSection& camera) {
   if (R.determinant() < 0) {
     camera.Fail("rotation", "is a reflection; a rotation, whose determinant is +1, is wanted");
   }
-  // Inverses are taken by transposing, so digits that a person left out are put back.
+  // The inverse is taken as the transpose, so rounded digits must be corrected.
   return NearestRotation(R);
 }
 

@@ -95,7 +95,7 @@ LcmConfig ReadLcm(TomlSection section) {
   return lcm;
 }
 
-// `body` names a table, or is a section that chooses the tracker as well.
+// `body` names a table, or is a section that also selects the tracker.
 void ReadBody(TomlSection& root, const std::filesystem::path& file, Config& config) {
   if (root.IsTable("body")) {
     TomlSection section = *root.Section("body");

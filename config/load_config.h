@@ -1,4 +1,4 @@
-// The one reader of configuration, calibration and body tables.
+// Reads configuration, calibration and body tables.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,26 @@
 
 namespace mocap {
 
-/// Reads the daemon's TOML. Relative paths are made relative to the file.
-/// @throws SetupError  naming file, line and key, what was found and what is wanted; unknown keys
-/// too.
+/// Reads the daemon's TOML. Relative paths are resolved against the file's folder.
+/// @throws SetupError  with file, line, key, found value and what is expected; also for unknown
+/// keys.
 Config LoadConfig(const std::filesystem::path& file);
 
-/// Reads calibration.toml, cameras in the order of the file.
-/// @throws SetupError  also for a rotation that is none, a lens that cannot be, a picture without
+/// Reads calibration.toml; cameras are in the order of the file.
+/// @throws SetupError  also for an invalid rotation, impossible intrinsics, or a picture without
 /// size.
 std::vector<CameraCalibration> LoadCalibration(const std::filesystem::path& file);
-/// The same of its text. @param name  what messages call it.
+/// The same from text. @param name  used for the text in messages.
 std::vector<CameraCalibration> ParseCalibration(std::string_view text, const std::string& name);
 
-/// Reads what calibration.toml says of itself. @throws SetupError
+/// Reads the metadata of calibration.toml. @throws SetupError
 CalibrationRecord LoadCalibrationRecord(const std::filesystem::path& file);
 
-/// A tracker as users call it.
+/// A tracker and its name for users.
 struct NamedTracker {
   std::string name;
   TrackerKind kind;
-  std::string body;  ///< The table that it runs on unless another is chosen.
+  std::string body;  ///< The table that it uses by default.
 };
 
 /// All trackers, the default first.

@@ -3,11 +3,11 @@
 namespace mocap {
 namespace {
 
-// As many as the kernel's plain sets of processors hold.
+// The capacity of the kernel's cpu_set_t.
 constexpr int kHighestProcessor = 1023;
-// A socket's name has to fit into an address of the kernel's.
+// A socket's path must fit into a sockaddr_un.
 constexpr std::size_t kLongestSocket = 100;
-// Above this are the kernel's own threads.
+// The kernel's own threads are above this.
 constexpr int kHighestPriority = 49;
 
 RecordingConfig ReadRecording(TomlSection section, const std::filesystem::path& file) {

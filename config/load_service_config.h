@@ -8,8 +8,8 @@
 
 namespace mocap {
 
-/// Reads [control], [recording], [metrics] and [realtime] of the daemon's file. Paths are meant
-/// from where the file lies. @throws SetupError
+/// Reads [control], [recording], [metrics] and [realtime] of the daemon's file. Relative paths are
+/// resolved against the file's folder. @throws SetupError
 ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& file);
 
 }  // namespace mocap

@@ -36,7 +36,7 @@ std::unique_ptr<PanTilt> MakeHead(const CameraConfig& camera) {
   return std::make_unique<V4l2PanTilt>(camera.device, delay);
 }
 
-/// Puts the camera on its head.
+/// Mounts the camera on its pan-tilt head.
 void Mount(const CameraConfig& camera, const std::shared_ptr<SubjectPosition>& person,
            LiveCamera& live) {
   if (camera.head.kind == HeadKind::kNone) return;
@@ -54,7 +54,7 @@ void Mount(const CameraConfig& camera, const std::shared_ptr<SubjectPosition>& p
   live.driver = std::move(mounted);
 }
 
-/// Angles and a head belong together: one without the other would be wrong in silence.
+/// Calibrated angles require a pan-tilt head and vice versa: a mismatch would be wrong silently.
 void RequireHeadOrNone(const LiveCamera& live, const std::filesystem::path& calibration) {
   const bool is_calibrated = live.calibration->head.has_value();
   if (is_calibrated == (live.head != nullptr)) return;
@@ -104,7 +104,7 @@ CameraRequest RequestFor(const Config& config, const CameraConfig& camera,
   return request;
 }
 
-/// The one camera whose strobe can be on the other end of this one's trigger.
+/// The only camera whose strobe can be wired to this one's trigger.
 std::string MasterOf(const Config& config, const CameraConfig& camera) {
   if (config.source.driver != "aravis" || !camera.aravis.waits_for_line()) return "";
   const auto has_strobe = [](const CameraConfig& other) { return !other.aravis.strobe.empty(); };

@@ -1,4 +1,4 @@
-// Live cameras: from [[cameras]] to drivers.
+// Opens live cameras: from [[cameras]] to drivers.
 #pragma once
 
 #include <memory>
@@ -16,27 +16,27 @@
 
 namespace mocap {
 
-/// One of [[cameras]], its driver not started yet.
+/// One of [[cameras]]; its driver is not started yet.
 struct LiveCamera {
   std::string name;
   CameraRequest request;
   std::optional<CameraCalibration> calibration;
   std::unique_ptr<CameraDriver> driver;
-  PanTilt* head = nullptr;  ///< The driver's; null: it has none.
-  PanTiltLimits range;      ///< How far the studio lets it turn, beside its own limits.
-  std::string waits_for;    ///< The camera that triggers it; empty: none that is known.
+  PanTilt* head = nullptr;  ///< Owned by the driver; null: none.
+  PanTiltLimits range;      ///< Range that the studio permits, besides the head's own limits.
+  std::string waits_for;    ///< The camera that triggers it; empty: none known.
 };
 
-/// Makes the drivers of all live cameras. A studio may be looked at before it is calibrated:
-/// without the calibration's file, cameras come without one.
-/// @param person       where he will be told to be, for the heads that follow; null: none does.
-/// @throws SetupError  when source.driver is no live one, the calibration has no camera of a name,
-/// or its pictures another size.
+/// Creates the drivers of all live cameras. Without a calibration file, cameras have no
+/// calibration, so that a studio can be viewed before it is calibrated.
+/// @param person       source of the subject position, for heads that follow; null: none follows.
+/// @throws SetupError  if source.driver is not a live one, or the calibration lacks a camera or has
+/// another picture size for it.
 std::vector<LiveCamera> OpenLiveCameras(const Config& config,
                                         const std::shared_ptr<SubjectPosition>& person = nullptr);
 
-/// Opens all live cameras with their calibration and their pictures of the empty studio.
-/// @throws SetupError  also when one of these is missing.
+/// Opens all live cameras with their calibrations and backgrounds.
+/// @throws SetupError  also if one of these is missing.
 Studio OpenLiveStudio(const Config& config);
 
 }  // namespace mocap

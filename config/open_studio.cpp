@@ -41,7 +41,7 @@ Studio OpenTakeAsSource(const Config& config) {
                       .loop = source.loop,
                       .in_memory = source.in_memory,
                       .cameras = config.node.cameras};
-  // Nodes that replay one take show the same moment.
+  // Nodes that replay the same take are in step.
   if (config.role == Role::kNode) options.begin_ns = [] { return std::int64_t{0}; };
   Studio studio = OpenTake(source.take, options);
   RequireRoom(CalibrationsOf(studio), config.voxel_mm,
@@ -49,7 +49,7 @@ Studio OpenTakeAsSource(const Config& config) {
   return studio;
 }
 
-/// Keeps the cameras named, in that order; all where none is.
+/// Keeps the named cameras, in that order; all if none is named.
 void Keep(const std::vector<std::string>& names, Studio& studio) {
   if (names.empty()) return;
   std::vector<StudioCamera> kept;
@@ -80,7 +80,7 @@ Studio OpenOwnCameras(const Config& config) {
   return studio;
 }
 
-/// Adds those of the nodes, which have no drivers here.
+/// Adds the nodes' cameras, which have no drivers here.
 void AddNodes(const Config& config, Studio& studio) {
   const std::vector<CameraCalibration> calibrations = LoadCalibration(config.calibration);
   for (const StudioNode& node : config.nodes) {

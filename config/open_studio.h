@@ -1,4 +1,4 @@
-// From names in a file to cameras that deliver.
+// Opens the cameras that a configuration names.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace mocap {
 
-/// Gives the simulated studio that the configuration names, in real time.
+/// Options of the simulated studio that the configuration describes, in real time.
 SimulatedStudioOptions LiveSimulation(const SourceConfig& source);
 
 /// The cameras' calibrations, in their order.
 std::vector<CameraCalibration> CalibrationsOf(const Studio& studio);
 
-/// Opens whatever source the configuration names.
+/// Opens the source that the configuration names.
 Studio OpenStudio(const Config& config);
 
 struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
-  bool in_memory = false;            ///< Decodes the whole take at once.
+  bool in_memory = false;            ///< Decodes the whole take in advance.
   std::vector<std::string> cameras;  ///< Empty: all.
-  /// In real time, tells when the first frame of all cameras is captured, those that are not opened
-  /// among them; null: when the first camera starts.
+  /// In real time, gives the capture time of the first frame of all cameras, including those that
+  /// are not opened. Null: the start of the first camera.
   std::function<std::int64_t()> begin_ns = nullptr;
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background. A camera that delivered
-/// nothing while the take was recorded is left out, unless it is named.
-/// @throws SetupError  when a part is missing or damaged; a video that was cut off opens up to its
-/// last whole frame, and one frame at least is wanted.
+/// nothing during the recording is omitted, unless it is named.
+/// @throws SetupError  if a part is missing or damaged. A video that was cut off opens up to its
+/// last complete frame; it must have at least one.
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
 
 }  // namespace mocap

@@ -16,10 +16,10 @@
 namespace mocap {
 namespace {
 
-/// A rate that is so many times another than the nominal one is wrong, or worth a word.
+/// A rate that differs from the nominal one by these factors is wrong, or worth a remark.
 constexpr double kRefusedTimes = 50, kDoubtfulTimes = 4;
 
-/// What take.toml says that replaying needs; it may say more.
+/// The part of take.toml that replaying needs; it may contain more.
 struct TakeHeader {
   std::string name;
   double fps_nominal = 0;
@@ -48,15 +48,15 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What somebody took for nanoseconds, who is that many times off; empty: something else.
+/// The unit that was mistaken for nanoseconds, for times wrong by this factor; empty: none.
 const char* UnitOf(double times) {
   if (times > 3e2 && times < 3e3) return "microseconds";
   if (times > 3e5 && times < 3e6) return "milliseconds";
   return times > 3e8 && times < 3e9 ? "seconds" : "";
 }
 
-/// Holds a table's times against the rate that take.toml tells.
-/// @throws SetupError  when they cannot be nanoseconds.
+/// Compares a table's times with the rate in take.toml.
+/// @throws SetupError  if they cannot be nanoseconds.
 void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesystem::path& file,
                 std::vector<std::string>& remarks) {
   if (table.is_cut_off) {
@@ -78,13 +78,13 @@ void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesyste
   if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());
 }
 
-/// A camera that had delivered nothing by the end of the recording.
+/// The camera had delivered nothing by the end of the recording.
 bool IsSilent(const TakeLayout& layout, const std::string& name) {
   return HoldsNoRows(layout.Table(name)) || HoldsNoFrame(layout.Video(name));
 }
 
-// The cameras to open, in the take's order whatever the order of the wish. Whoever names a silent
-// one hears of it when it is opened.
+// The cameras to open, always in the take's order. A silent camera that is named causes an error
+// when it is opened.
 std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std::string>& wanted,
                                 const TakeLayout& layout) {
   std::string all;
@@ -153,7 +153,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   }
   const bool realtime = options.rate == ReplayRate::kRealtime;
   studio.times = realtime ? CaptureTimes::kPresent : CaptureTimes::kRecorded;
-  // Whoever shares the time line may replay other cameras of the take.
+  // Those who share the timeline may replay other cameras of the take.
   std::vector<TakeTable> spanned = tables;
   if (options.begin_ns) {
     for (const std::string& name : Choose(header, {}, layout)) {

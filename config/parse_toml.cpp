@@ -10,12 +10,11 @@ namespace mocap {
 namespace {
 
 constexpr std::size_t kMostBytes = 4 << 20;
-constexpr int kMostParts = 16;     ///< Of a key.
-constexpr int kMostBrackets = 16;  ///< Within each other.
+constexpr int kMostParts = 16;     ///< In a key.
+constexpr int kMostBrackets = 16;  ///< Nested.
 constexpr std::size_t kLongestReason = 160;
 
-/// Walks over TOML and measures how deep its tables lie in each other, no deeper than the parser
-/// would have them.
+/// Scans TOML and measures the nesting of its tables, never deeper than the parser would.
 class DepthGuard {
  public:
   DepthGuard(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
@@ -49,7 +48,7 @@ class DepthGuard {
     }
   }
 
-  // Leaves what stands behind the string. One that does not end is the parser's to refuse.
+  // Skips a string. An unterminated one is left for the parser to reject.
   void SkipString(char quote) {
     const std::string three(3, quote);
     const bool has_lines = rest_.starts_with(three);
@@ -62,7 +61,7 @@ class DepthGuard {
       if (is_escape && rest_[1] == '\n') ++line_;
       rest_.remove_prefix(is_escape ? 2 : 1);
     }
-    // Up to two quotes may belong to the text before the three.
+    // Up to two quotes before the closing three may belong to the text.
     for (int i = 0; i < (has_lines ? 5 : 1) && rest_.starts_with(quote); ++i) {
       rest_.remove_prefix(1);
     }
@@ -78,7 +77,7 @@ class DepthGuard {
   int line_ = 1, dots_ = 0, brackets_ = 0;
 };
 
-/// Lines as the parser wants them.
+/// Converts line endings to those that the parser accepts.
 std::string WithLineFeeds(std::string_view text) {
   std::string plain;
   plain.reserve(text.size());

@@ -1,4 +1,4 @@
-// The one way from text to TOML, whoever wrote the text.
+// The only TOML parser entry point; accepts text from any origin.
 #pragma once
 
 #include <toml++/toml.h>
@@ -9,18 +9,18 @@
 
 namespace mocap {
 
-/// Parses TOML, also with a byte order mark and with any ends of lines.
+/// Parses TOML, also with a byte order mark and with any line endings.
 ///
-/// The parser keeps its tables by recursion, so that a key of very many parts would end the
-/// program: what nests deeper than any file of ours is refused before.
-/// @param name  what messages call the text.
-/// @throws SetupError  naming the line.
+/// The parser handles nested tables by recursion, so that a key with very many parts would crash
+/// the program. Deeper nesting than in any file of ours is rejected beforehand.
+/// @param name  used for the text in messages.
+/// @throws SetupError  with the line.
 toml::table ParseToml(std::string_view text, const std::string& name);
 
-/// Reads and parses a file. @throws SetupError  also when it cannot be read or is too large.
+/// Reads and parses a file. @throws SetupError  also if it cannot be read or is too large.
 toml::table ParseTomlFile(const std::filesystem::path& file);
 
-/// Reads the text of a TOML file. @throws SetupError  when it cannot be read or is too large.
+/// Reads the text of a TOML file. @throws SetupError  if it cannot be read or is too large.
 std::string ReadTomlText(const std::filesystem::path& file);
 
 }  // namespace mocap

@@ -14,7 +14,7 @@ constexpr double kLongestExposure_us = 1e6;
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 constexpr double kMostGain = 1e6;
 constexpr double kMostFocus = 1e6;
-// Of a packet with its heads.
+// Packet size including headers.
 constexpr int kLeastPacket = 576, kLargestPacket = 16000;
 constexpr double kLongestDelay_us = 1e4;
 

@@ -9,9 +9,10 @@
 
 namespace mocap {
 
-/// Reads [[cameras]]: what all cameras have, and the settings of the driver named. Where that is no
-/// live one, all settings are known, so that a studio can be replayed without taking them out.
-/// @throws SetupError  also for two cameras of one name or device.
+/// Reads [[cameras]]: the common settings, and those of the named driver. If the driver is not a
+/// live one, the settings of all drivers are accepted, so that a studio can be replayed without
+/// removing them.
+/// @throws SetupError  also for two cameras with the same name or device.
 std::vector<CameraConfig> ReadCameras(TomlSection& root, const std::string& driver);
 
 }  // namespace mocap

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 16;
 
-/// The name is part of channels' names.
+/// Names become part of channel names.
 std::string ReadName(TomlSection& section) {
   const std::string name = section.Text("name");
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };

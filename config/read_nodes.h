@@ -1,4 +1,4 @@
-// Several computers: what a node is, and which nodes a studio has.
+// Configuration of several computers: a node itself, and the nodes of a studio.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace mocap {
 
-/// Reads `role`, [node] and [[nodes]]. @throws SetupError  also for what belongs to another role,
-/// and for two nodes or cameras of one name.
+/// Reads `role`, [node] and [[nodes]]. @throws SetupError  also for settings of another role, and
+/// for two nodes or cameras with the same name.
 void ReadRole(TomlSection& root, Config& config);
 
 }  // namespace mocap

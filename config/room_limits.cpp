@@ -10,10 +10,10 @@
 namespace mocap {
 namespace {
 
-/// Cameras nearer to each other look from one place: their lengths are metres.
+/// Cameras that are closer together look from one place: their unit is metres.
 constexpr double kNearest_mm = 100;
 constexpr double kLargestRoom_mm = 200e3;
-/// A bit each: a gigabyte.
+/// One bit each: a gigabyte.
 constexpr double kMostVoxels = 8e9;
 
 std::string Text(const char* format, double a, double b = 0, double c = 0) {

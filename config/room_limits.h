@@ -1,4 +1,4 @@
-// How large a room the cameras may look at: what is carved has to fit into memory.
+// Limits the size of the room: its voxels must fit into memory.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace mocap {
 
-/// Makes sure that calibrated cameras can carve a room in voxels of a size.
+/// Checks that calibrated cameras can carve a room with voxels of this size.
 /// @param where  the calibration's file, for messages.
-/// @throws SetupError  for a room that no studio has, as of a calibration in metres, and for more
-/// voxels than memory is spent on.
+/// @throws SetupError  for an implausible room, such as from a calibration in metres, and for more
+/// voxels than the memory limit permits.
 void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
                  const std::string& where);
 

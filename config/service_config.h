@@ -1,4 +1,4 @@
-// What a person may change about the daemon as a service: control, recording, metrics, priority.
+// Settings of the daemon as a service: control, recording, metrics, priority.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +8,29 @@
 
 namespace mocap {
 
-/// [control]: how the running daemon is told what to do.
+/// [control]: how the running daemon receives requests.
 struct ControlConfig {
-  std::filesystem::path socket;  ///< Empty: `control` in the folder that systemd or XDG gives.
+  std::filesystem::path socket;  ///< Empty: `control` in the runtime folder of systemd or XDG.
 };
 
-/// [recording]: where takes go and how.
+/// [recording]: destination and format of takes.
 struct RecordingConfig {
-  std::filesystem::path folder;  ///< Empty: `takes` in the daemon's folder for state.
+  std::filesystem::path folder;  ///< Empty: `takes` in the daemon's state folder.
   VideoCodec codec = VideoCodec::kHuffYuv;
-  double buffer_mb = 256;     ///< Frames that wait for the disk, of all cameras.
-  double keep_free_mb = 500;  ///< A recording ends in good order when the disk has less.
+  double buffer_mb = 256;     ///< Memory for frames that wait for the disk, all cameras.
+  double keep_free_mb = 500;  ///< A recording ends properly when less is free.
 };
 
-/// [metrics]: figures for a program that collects them.
+/// [metrics]: metrics for a program that collects them.
 struct MetricsConfig {
   std::filesystem::path file;  ///< In Prometheus' text format; empty: none.
 };
 
-/// [realtime]: what lets frames go before everything else on a busy machine.
+/// [realtime]: gives frames precedence on a busy machine.
 struct RealtimeConfig {
-  int priority = 0;             ///< Of the frame path, SCHED_FIFO; 0: as everybody.
+  int priority = 0;             ///< Of the frame path, SCHED_FIFO; 0: normal scheduling.
   bool lock_memory = false;     ///< Nothing is paged out.
-  std::vector<int> processors;  ///< That the frame path keeps to; empty: all.
+  std::vector<int> processors;  ///< For the frame path; empty: all.
 };
 
 struct ServiceConfig {

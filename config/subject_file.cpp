@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-// Of any part of any person.
+// For all parts of all people.
 constexpr double kSmallest_mm = 10;
 constexpr double kLargest_mm = 1500;
 

@@ -1,4 +1,4 @@
-// A person's sizes in a file, so that they need not be measured again.
+// Stores a person's sizes in a file, so that they need not be measured again.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace mocap {
 
-/// Reads a subject's TOML: [sizes] as in body.toml of a result; other keys are allowed.
-/// @throws SetupError  naming file, line and key.
+/// Reads a subject's TOML: [sizes] as in a result's body.toml. Other keys are allowed.
+/// @throws SetupError  with file, line and key.
 BodySizes LoadSubject(const std::filesystem::path& file);
 
-/// Writes it, in one step: there is the old file or the new one.
-/// @throws std::runtime_error  when it cannot be written.
-/// @param name  of the person, to be read by people; empty: none.
+/// Writes the file atomically: there is either the old file or the new one.
+/// @throws std::runtime_error  if it cannot be written.
+/// @param name  of the person, as a note for readers; empty: none.
 void SaveSubject(const std::filesystem::path& file, const BodySizes& sizes,
                  const std::string& name = {});
 

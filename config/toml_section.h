@@ -1,5 +1,5 @@
-// Strict reading of TOML: each value is asked for by name and kind, and what nobody asked for is an
-// error. Messages name file, line and key.
+// Strict reading of TOML: each value is requested by name and type. Keys that nobody requested are
+// errors. Messages contain file, line and key.
 #pragma once
 
 #include <toml++/toml.h>
@@ -17,17 +17,17 @@
 
 namespace mocap {
 
-/// Gives a path in a file as meant from where the file lies; an empty one stays empty.
+/// Resolves a path in a file against the file's folder. An empty path stays empty.
 std::filesystem::path Resolved(const std::filesystem::path& file, const std::string& path);
 
-/// One table of a TOML file. Without a fallback a key must be there.
+/// One table of a TOML file. A key without a fallback is required.
 ///
-/// Every function throws SetupError for a value of the wrong kind or out of range.
+/// Every function throws SetupError for a value of the wrong type or out of range.
 class TomlSection {
  public:
-  /// Reads a whole file. @throws SetupError  when it is missing or is no TOML.
+  /// Reads a whole file. @throws SetupError  if it is missing or not TOML.
   static TomlSection ReadFile(const std::filesystem::path& file);
-  /// Reads TOML that is not a file. @param name  what messages call it.
+  /// Reads TOML from text. @param name  used for the text in messages.
   static TomlSection ReadText(std::string_view text, const std::string& name);
 
   bool Has(std::string_view key) const { return table_->contains(key); }
@@ -42,28 +42,28 @@ class TomlSection {
                              std::optional<std::int64_t> fallback = {});
   bool Flag(const std::string& key, std::optional<bool> fallback = {});
   std::string Text(const std::string& key, std::optional<std::string> fallback = {});
-  /// A text that is one of `choices`; gives its place among them.
+  /// Reads a text that must be one of `choices`; returns its index.
   std::size_t Choice(const std::string& key, const std::vector<std::string>& choices,
                      std::optional<std::size_t> fallback = {});
   std::vector<std::string> Texts(const std::string& key);
   std::vector<double> Numbers(const std::string& key, std::size_t count);
-  /// As many numbers as one of two counts.
+  /// Reads an array whose length is one of the two.
   std::vector<double> Numbers(const std::string& key, std::size_t few, std::size_t many);
-  /// All numbers of an array, or of its rows; none when the key is not there.
+  /// All numbers of an array, or of its rows; none if the key is missing.
   std::vector<double> AllNumbers(const std::string& key);
-  /// Whole numbers within bounds, as many as there are; none when the key is not there.
+  /// Any number of integers within bounds; none if the key is missing.
   std::vector<int> Integers(const std::string& key, int min, int max);
   Vector3 Vector(const std::string& key);
   Matrix3 Matrix(const std::string& key);
   bool IsTable(const std::string& key) const;
-  /// A table in this one; empty when it is not there.
+  /// A table in this one; empty if missing.
   std::optional<TomlSection> Section(const std::string& key);
-  /// An array of tables; empty when it is not there.
+  /// An array of tables; empty if missing.
   std::vector<TomlSection> Sections(const std::string& key);
 
-  /// @throws SetupError  for the first key that was never asked for.
+  /// @throws SetupError  for the first key that was never requested.
   void RejectUnknownKeys() const;
-  /// Gives "file:line: key", for messages.
+  /// Returns "file:line: key", for messages.
   std::string Where(const std::string& key) const;
   /// Throws: `file:line: key what`.
   [[noreturn]] void Fail(const std::string& key, const std::string& what) const;
