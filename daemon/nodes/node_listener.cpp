@@ -24,7 +24,7 @@ constexpr std::size_t kLongestName = 64;
 /// Larger times and camera counts are invalid.
 constexpr std::int64_t kMostNs = std::int64_t{1} << 61;
 
-/// No node sends this many silhouettes. It keeps sums of missing ones finite.
+/// No node sends this many silhouettes. It bounds the sum of missing ones.
 constexpr std::int64_t kMostMessages = std::int64_t{1} << 40;
 
 bool IsTime(std::int64_t ns) { return ns >= 0 && ns < kMostNs; }
