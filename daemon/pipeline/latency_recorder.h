@@ -10,7 +10,8 @@
 
 namespace mocap {
 
-/// Buckets of durations, each 1/32 of an octave wide. From 128 ns on, the error is at most 3 %.
+/// Buckets of durations, each 1/32 of an octave wide but at least 128 ns. From 4.1 us on, the error
+/// is at most 3 %.
 struct LatencyBuckets {
   static constexpr int kUnitBits = 7;  ///< Durations count in units of 128 ns.
   static constexpr std::uint64_t kPerOctave = 32;

@@ -24,8 +24,8 @@ struct SegmentedFrame {
   std::uint64_t sequence = 0;
   std::int64_t arrival_ns = 0;  ///< When the driver delivered it, on the timeline.
   std::int64_t segment_ns = 0;  ///< Duration of segmentation.
-  /// Most of the picture differs from the background, or the camera looks elsewhere. A person is
-  /// then not visible, or not where calibration puts them.
+  /// More than a third of the picture differs from the background, or the camera looks elsewhere. A
+  /// person is then not visible, or not where calibration puts them.
   bool is_blind = false;
   double light = 1;      ///< Brightness relative to the learned background.
   double nudged_px = 0;  ///< Shift of the picture relative to the learned background.
