@@ -19,7 +19,7 @@
 
 namespace mocap {
 
-/// Where a pose puts every axis and segment, in the world frame.
+/// Position of every axis and segment in the world frame, for one pose.
 struct Posture {
   RigidTransform X_WT;
   std::array<RigidTransform, kMaxJoints>
@@ -28,7 +28,7 @@ struct Posture {
   std::array<Vector3, kMaxJoints> point_W;  ///< A point on each axis.
 };
 
-/// A person's body: a table with sizes.
+/// A person's body: a joint table with sizes.
 class BodyModel {
  public:
   BodyModel(BodyTable table, const BodySizes& sizes);
@@ -37,38 +37,38 @@ class BodyModel {
   const BodySizes& sizes() const { return sizes_; }
   int joint_count() const { return static_cast<int>(table_.joints.size()); }
   int dof() const { return kTorsoDof + joint_count(); }
-  /// Takes new sizes; the chain stays.
+  /// Replaces the sizes; the chain stays the same.
   void Resize(const BodySizes& sizes);
 
-  /// The 23 points and further joints at the reference configuration, p_TQ; 3 × 29 [mm].
+  /// The 23 points and the further joints at the reference configuration, p_TQ; 3 × 29 [mm].
   const BodyPlaces& reference_points_T() const { return reference_points_T_; }
-  /// The flesh at the reference configuration.
+  /// The capsules at the reference configuration.
   const std::vector<Capsule>& shape() const { return shape_; }
-  /// Row of the last axis that moves a point; -1: only the torso does.
+  /// Returns the row of the last axis that moves a point; -1 if only the torso moves it.
   int CarrierOf(Point point) const;
 
-  /// Puts every axis in its place for a pose. Eqs. (10)–(12).
+  /// Computes the position of every axis for a pose. Eqs. (10)–(12).
   Posture PostureAt(const PoseState& pose) const;
-  /// Puts some axes of a posture in their places anew, where the others stayed.
-  /// @param rows  of the axes that moved and all that they move; parents before their children.
+  /// Recomputes some axes of a posture; all others stay.
+  /// @param rows  the axes that moved and all axes they carry; parents before children.
   void MoveAxes(const PoseState& pose, std::span<const int> rows, Posture& posture) const;
-  /// Puts the flesh in its place, in the order of shape(); keeps the memory of `posed`.
+  /// Places the capsules in the world, in the order of shape(); reuses the memory of `posed`.
   void PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const;
-  /// Predicts where the 23 points lie; 3 × 23, column i is p_WQ of point i [mm]. Eq. (13).
+  /// Predicts the positions of the 23 points; 3 × 23, column i is p_WQ of point i [mm]. Eq. (13).
   BodyPoints PointsAt(const Posture& posture) const;
-  /// Differentiates a point fixed to the segment that axis `carrier` moves, by a PoseStep; Eqs.
-  /// (17)–(21).
-  /// @param p_WQ  where the point is now.
+  /// Differentiates a point by a PoseStep; the point is fixed to the segment that axis `carrier`
+  /// moves. Eqs. (17)–(21).
+  /// @param p_WQ  current position of the point.
   /// @param J_point_by_step  3 × dof, overwritten [mm/mm, mm/rad].
   void PointJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
                      Eigen::Ref<Eigen::Matrix<double, 3, Eigen::Dynamic>> J_point_by_step) const;
 
-  /// Differentiates how far such a point lies along a direction: one row n^T of PointJacobian, as a
-  /// column.
+  /// Differentiates the position of such a point along a direction: one row n^T of PointJacobian,
+  /// as a column.
   void DirectionalJacobian(const Posture& posture, int carrier, const Vector3& p_WQ,
                            const Vector3& direction_W, PoseStep& J_by_step) const;
 
-  /// Reads the paper's 23 numbers off a pose; angles that the table lacks are 0. Table 1.
+  /// Converts a pose to the paper's 23 numbers; angles that the table lacks are 0. Table 1.
   PaperState PaperStateOf(const PoseState& pose) const;
 
  private:

@@ -1,4 +1,4 @@
-// §5, §6: the names of body parts and of the 23 measured points. Enumerators keep the paper's
+// §5, §6: names of the body parts and of the 23 measured points. Enumerators keep the paper's
 // numbers.
 #pragma once
 
@@ -22,8 +22,8 @@ enum class BodyPart {
 };
 inline constexpr int kBodyPartCount = 10;
 
-/// The 23 points of Table 2, the first ten of which are the parts' centroids; and after them the
-/// joints that the paper's body lacks.
+/// The 23 points of Table 2, followed by the joints that the paper's body lacks. The first ten
+/// points are the centroids of the parts.
 enum class Point {
   kTorso = 0,
   kHead,
@@ -48,14 +48,14 @@ enum class Point {
   kKneeR,
   kFootL,
   kFootR,
-  kClavicleL,  ///< Where the collar bone meets the breast bone.
+  kClavicleL,  ///< Sternoclavicular joint.
   kClavicleR,
   kWristL,
   kWristR,
   kAnkleL,
   kAnkleR
 };
-inline constexpr int kPointCount = 23;  ///< Of Table 2.
+inline constexpr int kPointCount = 23;  ///< Number of points in Table 2.
 inline constexpr int kPlaceCount = 29;
 
 inline constexpr std::array<std::string_view, kPointCount> kPointNames = {

@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-// People are taller than their bodies by shoes and hair: some 20 and 15 mm.
+// Shoes and hair make people taller than their bodies by about 20 and 15 mm.
 constexpr double kSole_mm = 20;
 constexpr double kHair_mm = 15;
 
@@ -22,9 +22,9 @@ class ShapeBuilder {
         {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b, ends_at_b});
   }
 
-  // The chest is deeper than the waist, and the shoulder blades lie behind. The shoulder's flesh
-  // reaches some 65 mm above the joint (Rab, Petuskey, Bagley 2002). What a person has more
-  // than others of that stature lies in front: the back stays at the spine.
+  // The chest is deeper than the waist, and the shoulder blades lie behind. Soft tissue reaches
+  // about 65 mm above the shoulder joint (Rab, Petuskey, Bagley 2002). Depth above the average for
+  // the stature is added in front: the back stays at the spine.
   void AddTrunk() {
     const BodySizes& s = sizes_;
     const double radius = s.torso_depth / 2;
@@ -45,7 +45,7 @@ class ShapeBuilder {
     }
   }
 
-  // A skull that is deeper than broad, the jaw before and below it, and the neck.
+  // The skull, deeper than broad; the jaw, in front of it and below it; and the neck.
   void AddHead() {
     const BodySizes& s = sizes_;
     const double width = s.head_width;
@@ -81,8 +81,8 @@ class ShapeBuilder {
     Add(lower, hand, wrist, fingers, lower_radius, hand_radius, true);
   }
 
-  // The thigh's flesh lies before the line from hip to knee, the calf's behind that from knee to
-  // ankle. Foot length and breadth as shares of the stature: Winter 2009, Fig. 4.1.
+  // The thigh bulges in front of the line from hip to knee, the calf behind that from knee to
+  // ankle. Foot length and breadth are shares of the stature: Winter 2009, Fig. 4.1.
   void AddLeg(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
               Segment foot, Point hip_point, Point knee_point, Point ankle_point,
               Point foot_point) {
@@ -167,7 +167,7 @@ PosedCapsule::SegmentDistance PosedCapsule::DistanceTo(const Vector3& from_W,
   share = std::clamp((dot * on_segment - c) / core_sq, 0.0, 1.0);
   const Vector3 core_W = a_W + share * core;
   Vector3 segment_W = from_W + on_segment * along;
-  // A taper's surface is nearest a little beside the place that is nearest to its core.
+  // The nearest point of a tapered surface lies slightly beside the point nearest to its core.
   const bool inside_both = share > 0 && share < 1 && on_segment > 0 && on_segment < 1;
   if (inside_both && radius_a_mm != radius_b_mm) {
     const double slope = (radius_b_mm - radius_a_mm) * dot / core_sq;

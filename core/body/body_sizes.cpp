@@ -3,8 +3,8 @@
 namespace mocap {
 namespace {
 
-// Joints between the shoulders, as a share of the width between these; in the forearm with the
-// hand, and above the sole (Winter 2009, Fig. 4.1: 0.146 of 0.254, and 0.039 of 0.285).
+// The clavicle joint, as a share of the shoulder width; the wrist, of the forearm with hand; the
+// ankle, of the calf above the sole (Winter 2009, Fig. 4.1: 0.146 of 0.254, and 0.039 of 0.285).
 constexpr double kClavicleAside = 0.07;
 constexpr double kWristShare = 0.575;
 constexpr double kAnkleHeight = 0.137;
@@ -13,9 +13,9 @@ constexpr double kAnkleHeight = 0.137;
 
 BodySizes AverageSizes(double stature_mm) {
   const double h = stature_mm;
-  // A child's legs are shorter (Bogin and Varela-Silva 2010), and its head is nearly as large as an
-  // adult's (195 mm at 1.15 m, 228 mm at 1.755 m: Snyder et al. 1977, ANSUR). Limbs are as wide as
-  // their circumferences make them (ANSUR, Gordon et al. 1989).
+  // Children have shorter legs (Bogin and Varela-Silva 2010). Their heads are nearly as large as an
+  // adult's (195 mm at 1.15 m, 228 mm at 1.755 m: Snyder et al. 1977, ANSUR). Limb widths follow
+  // from circumferences (ANSUR, Gordon et al. 1989).
   const double childhood = std::clamp((1600 - h) / 500, 0.0, 1.0);
   const double leg_share = 1 - 0.07 * childhood;
   const double head = 228 + 0.0545 * (h - 1755);

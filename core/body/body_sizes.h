@@ -1,4 +1,4 @@
-// §5: the sizes of a person's parts and where they put the joints.
+// §5: sizes of a person's body parts, and the joint positions that follow from them.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-/// A person's sizes [mm]: full sizes, the paper's 2λ.
+/// A person's sizes [mm]. These are full sizes, the paper's 2λ.
 struct BodySizes {
   double torso = 0;  ///< Hip line to neck.
   double torso_width = 0;
@@ -27,7 +27,7 @@ struct BodySizes {
   double shoulder_width = 0;  ///< Joint to joint.
   double hip_width = 0;       ///< Joint to joint.
 
-  /// Sole to vertex when standing upright.
+  /// Height from sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
 
   bool operator==(const BodySizes&) const = default;
@@ -35,46 +35,46 @@ struct BodySizes {
 
 using SizeMember = double BodySizes::*;
 
-/// Who is stout is so all over: as shares of what is average, these widths correlate among people
-/// by some 0.75 (circumferences of limbs, depths and breadths of the trunk; ANSUR, Gordon et al.
-/// 1989).
+/// Widths that are correlated: a stout person is stout all over. As shares of the average, they
+/// correlate among people by about 0.75 (circumferences of limbs, depths and breadths of the trunk;
+/// ANSUR, Gordon et al. 1989).
 inline constexpr std::array<SizeMember, 6> kStoutWidths = {
     &BodySizes::torso_width,     &BodySizes::torso_depth, &BodySizes::upper_arm_width,
     &BodySizes::lower_arm_width, &BodySizes::thigh_width, &BodySizes::calf_width};
 inline constexpr double kWidthCorrelation = 0.75;
 
-/// The sizes of an average adult of a stature [mm].
+/// Returns the sizes of an average adult of a given stature [mm].
 ///
-/// Segment lengths after Drillis and Contini (1966) as in Winter, Biomechanics and Motor Control of
-/// Human Movement, 4th ed. (2009), Fig. 4.1; joint-to-joint widths and thicknesses after the same
-/// and de Leva (1996).
+/// Segment lengths follow Drillis and Contini (1966) as in Winter, Biomechanics and Motor Control
+/// of Human Movement, 4th ed. (2009), Fig. 4.1. Joint-to-joint widths and thicknesses follow the
+/// same source and de Leva (1996).
 BodySizes AverageSizes(double stature_mm);
 
 using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
 
-/// The same with the joints that follow them.
+/// The 23 points and the joints that follow them.
 using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
 
-/// Where joints lie behind the middle of the trunk's flesh and below the neck, as shares of the
-/// torso's length. The default is people's; with zeros joints lie in the middle, as in the paper's
-/// Fig. 3.
+/// Offsets of the joints behind the middle of the trunk and below the neck, as shares of the
+/// torso's length. The defaults are anatomical. With zeros the joints lie in the middle, as in the
+/// paper's Fig. 3.
 ///
-/// The spine runs behind the trunk's middle, the hip joints a little behind it. The joint of a
-/// shoulder whose arm hangs lies 0.08 of the stature below C7/T1: Winter's (2009, Fig. 4.1)
-/// shoulder less 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The upper
-/// end of the breast bone lies 0.05 below C7/T1 (de Leva 1996).
+/// The spine runs behind the middle of the trunk, the hip joints slightly behind it. With the arm
+/// hanging, the shoulder joint lies 0.08 of the stature below C7/T1: Winter's (2009, Fig. 4.1)
+/// shoulder minus 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The upper
+/// end of the breastbone lies 0.05 below C7/T1 (de Leva 1996).
 struct JointPlacement {
   double neck_behind = 0.06;
   double hip_behind = 0.03;
   double shoulder_behind = 0.03;
   double shoulder_below_neck = 0.245;
   double clavicle_below_neck = 0.153;
-  /// The head's centre leans forward of C7/T1 by this share of its height above it.
+  /// Forward offset of the head's centre from C7/T1, as a share of its height above C7/T1.
   double head_forward = 0.35;
 };
 
-/// Points and joints at the reference configuration in the torso's frame; 3 × 29, column i is p_TQ
-/// of point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
+/// Computes points and joints at the reference configuration, in the torso's frame; 3 × 29, column
+/// i is p_TQ of point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
 BodyPlaces ReferencePoints(const BodySizes& sizes, const JointPlacement& placement);
 
 }  // namespace mocap

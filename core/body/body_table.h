@@ -11,7 +11,7 @@
 
 namespace mocap {
 
-/// One axis of rotation: a row of the body table. A parent stands before its children.
+/// One axis of rotation: a row of the body table. Parents precede their children.
 struct JointAxis {
   std::string name;
   int paper_angle = 0;  ///< 1..16 as in Table 1; 0: an axis that the paper's body lacks.
@@ -19,15 +19,15 @@ struct JointAxis {
   Vector3 axis_T = Vector3::UnitX();  ///< Unit vector, at the reference configuration.
   Point at = Point::kTorso;           ///< The joint that the axis passes through.
   double min_rad = 0, max_rad = 0;
-  /// Where the joint rests, and how far it strays from there [rad]: a prior for angles that voxels
-  /// hardly show. With a spread of 0 there is none.
+  /// Mean and standard deviation of a prior [rad], for angles that voxels hardly show. A standard
+  /// deviation of 0 means no prior.
   double rest_rad = 0, rest_std_rad = 0;
-  /// For a collar bone: how much higher it rests once the arm that it carries is level; as much
-  /// again when the arm is overhead.
+  /// For a collarbone: rise of the rest angle when the arm that it carries is level. An overhead
+  /// arm adds the same amount again.
   double rise_rad = 0;
 };
 
-/// Segments that are moved as one; a table may move several by the same axis.
+/// Rigid segments. A table may move several of them by the same axis.
 enum class Segment {
   kTorso = 0,
   kPelvis,
@@ -49,7 +49,7 @@ enum class Segment {
 };
 inline constexpr int kSegmentCount = 17;
 
-/// The chain: what `--body` chooses. Same code for every table.
+/// The kinematic chain, as selected by `--body`. The code is the same for every table.
 struct BodyTable {
   std::string name;
   std::vector<JointAxis> joints;
@@ -57,7 +57,7 @@ struct BodyTable {
   std::array<int, kSegmentCount>
       carrier{};  ///< Row of the last axis that moves each segment; -1: the torso itself.
 
-  /// Whether the axis of a row moves a segment.
+  /// Whether the axis in a row moves a segment.
   bool Carries(int row, Segment segment) const {
     int axis = carrier[static_cast<int>(segment)];
     while (axis > row) axis = joints[axis].parent;

@@ -3,18 +3,18 @@
 namespace mocap {
 namespace {
 
-// How high an arm points in the frame that carries the girdle: -1 hanging, 0 level, 1 overhead.
+// Sine of an arm's elevation in the frame that carries the girdle: -1 hanging, 0 level, 1 overhead.
 struct Elevation {
   double sine;
   JointAngles J_by_angle;
 };
 
-// Of what points along `direction_T` at the reference configuration, by the axes from `first` on.
+// Computes the elevation of a reference direction that is moved by the axes from `first` on.
 Elevation ElevationOf(const BodyTable& table, int first, Segment segment,
                       const Vector3& direction_T, const JointAngles& theta) {
   Elevation elevation{0, JointAngles::Zero(theta.size())};
   Vector3 direction = direction_T;
-  // Innermost last: what lies further out turns direction and derivatives alike.
+  // From the outermost axis inwards: each turns direction and derivatives so far.
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxJoints> J(3, theta.size());
   J.setZero();
   for (int row = table.carrier[static_cast<int>(segment)]; row >= first;

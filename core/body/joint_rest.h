@@ -1,4 +1,4 @@
-// Beyond the paper: where joints rest.
+// Beyond the paper: rest angles of the joints.
 #pragma once
 
 #include "core/body/body_table.h"
@@ -6,13 +6,13 @@
 
 namespace mocap {
 
-/// Where a joint rests at a pose.
+/// Rest angle of a joint, for one pose.
 struct JointRest {
   double rest_rad;
-  JointAngles J_by_angle;  ///< How that changes with every joint's angle [rad/rad].
+  JointAngles J_by_angle;  ///< Derivative of rest_rad by every joint angle [rad/rad].
 };
 
-/// Finds where the joint of a row rests. A collar bone rises with the arm that it carries.
+/// Computes the rest angle of the joint in a row. A collarbone rises with the arm that it carries.
 JointRest RestOf(const BodyTable& table, int row, const JointAngles& theta);
 
 }  // namespace mocap

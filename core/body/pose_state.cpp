@@ -5,7 +5,7 @@ namespace mocap {
 void PoseState::Add(const PoseStep& step) {
   X_WT.p += step.head<3>();
   X_WT.R = ExpRotation(step.segment<3>(3)) * X_WT.R;
-  // Products of many rotations drift off the sphere; a quaternion brings them back for little.
+  // Products of many rotations lose orthogonality; a normalized quaternion restores it cheaply.
   X_WT.R = Eigen::Quaterniond(X_WT.R).normalized().toRotationMatrix();
   theta += step.tail(theta.size());
 }

@@ -7,7 +7,7 @@
 namespace mocap {
 namespace {
 
-// By the numbers and signs of Table 1.
+// Uses the numbers and signs of Table 1.
 double DegreesOf(const Stance& stance, int paper_angle) {
   switch (paper_angle) {
     case 3:

@@ -1,4 +1,4 @@
-// §5: joint angles as a person would describe them, for starting points of a fit.
+// §5: joint angles in everyday terms, for the starting points of a fit.
 #pragma once
 
 #include "core/body/body_table.h"
@@ -8,9 +8,9 @@ namespace mocap {
 
 /// An arm [degrees].
 struct ArmStance {
-  double raise = -75;  ///< -90 hangs, 0 points sideways.
-  double forward = 0;  ///< Swung to the front.
-  double twist = 0;    ///< Turned in about its own axis.
+  double raise = -75;  ///< -90: hanging; 0: pointing sideways.
+  double forward = 0;  ///< Swing to the front.
+  double twist = 0;    ///< Inward rotation about its own axis.
   double elbow = 15;   ///< Flexion.
 };
 
@@ -21,14 +21,14 @@ struct LegStance {
   double knee = 10;   ///< Flexion.
 };
 
-/// A body upright, arms and legs as given.
+/// An upright body with given arms and legs.
 struct Stance {
   ArmStance arm_l{}, arm_r{};
   LegStance leg_l{}, leg_r{};
 };
 
-/// The angles of a table's joints in a stance; axes that the paper's body lacks are at rest, collar
-/// bones as high as the arms have them.
+/// Computes the joint angles of a stance. Axes that the paper's body lacks are at rest; collarbones
+/// follow the elevation of the arms.
 JointAngles AnglesOf(const Stance& stance, const BodyTable& table);
 
 }  // namespace mocap
