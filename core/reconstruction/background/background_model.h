@@ -1,4 +1,4 @@
-// §4: what the empty studio looks like to one camera.
+// §4: appearance of the empty studio to one camera.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace mocap {
 
-/// A picture of the empty studio and where the head pointed.
+/// A picture of the empty studio, with the angles of the pan-tilt head.
 struct BackgroundFrame {
   Image<Bgr> image;
   PanTiltAngles angles;
@@ -25,18 +25,18 @@ class BackgroundModel {
  public:
   virtual ~BackgroundModel() = default;
 
-  /// Turns to where the head points, and gives what the camera would see there of the empty studio,
-  /// at half the resolution. Holds until the next call.
-  /// @param displacement  of the camera's picture from where the calibration and the head say.
+  /// Turns to the head's angles and returns the expected empty studio at half the resolution. The
+  /// result is valid until the next call.
+  /// @param displacement  of the picture from where the calibration and the head's angles place it.
   virtual const ExpectedHalf& CoarsePass(const PanTiltAngles& angles,
                                          const Displacement& displacement) = 0;
 
-  /// Gives what the camera would see of it at full resolution, weighed, for the pixels that are
-  /// measured. Holds until the next call.
+  /// Returns the expected empty studio at full resolution, weighed, for the measured pixels. The
+  /// result is valid until the next call.
   virtual const ExpectedPicture& Expect(const RegionOfInterest& roi,
                                         const Conditions& conditions) = 0;
 
-  /// Thresholds that a share of the training pixels stays within.
+  /// Thresholds that a given share of the training pixels stays within.
   const DistortionThresholds& thresholds() const { return thresholds_; }
 
  protected:
@@ -49,12 +49,12 @@ class BackgroundModel {
 std::unique_ptr<BackgroundModel> LearnFixedBackground(std::span<const BackgroundFrame> frames,
                                                       double detection_rate);
 
-/// Learns the directions that a camera on a head has been shown, one frame each or more.
+/// Learns the background of a camera on a pan-tilt head, from one or more frames per direction.
 ///
-/// A pixel is compared with the background seen in the same direction, in the frame whose head
-/// angles are nearest: the axes do not pass through the lens, and the nearest frame has the least
+/// A pixel is compared with the background in the same direction, in the frame with the nearest
+/// head angles. The axes do not pass through the lens, and the nearest frame has the least
 /// parallax.
-/// @pre  at least two frames, all of the camera's size; the camera has a head.
+/// @pre  at least two frames, all of the camera's size; the camera has a pan-tilt head.
 std::unique_ptr<BackgroundModel> LearnPanTiltBackground(const CameraCalibration& camera,
                                                         std::span<const BackgroundFrame> frames,
                                                         double detection_rate);

@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-// Below this [grey levels] rounding and the codec make the variation, not the sensor.
+// Below this [grey levels] variation comes from rounding and the codec, not from the sensor.
 constexpr float kLeastSigma = 1.5f;
 
 MOCAP_VECTORIZED
@@ -42,7 +42,7 @@ void AddDistortionsOf(const Bgr* pixels, int count, const std::array<float, 3>& 
     const float total_sq = (z0 - m0) * (z0 - m0) + (z1 - m1) * (z1 - m1) + (z2 - m2) * (z2 - m2);
     const float shift = along / length_sq - 1;
     const float distance_sq = total_sq - shift * shift * length_sq;
-    // When a picture is taken out again, rounding leaves no less than nothing.
+    // After a picture is subtracted again, rounding must not leave negative sums.
     alpha_shift_sq[x] = std::max(alpha_shift_sq[x] + times * shift * shift, 0.0f);
     cd_sq[x] = std::max(cd_sq[x] + times * std::max(distance_sq, 0.0f), 0.0f);
   }
@@ -69,11 +69,10 @@ void ExpectPixels(const SumsOf& sums, int count, float frames, float shift_px, c
     for (int x = 0; x < count; ++x) {
       const float middle = value[x] / frames;
       const float spread = (value_sq[x] / frames - middle * middle) * frames / (frames - 1);
-      // The variation of the chromaticity distortion is the square root of 2 where nothing but σ
-      // acts.
+      // If only σ acts, the variation of the chromaticity distortion is √2.
       const float widening = std::max(std::sqrt(cd_sq[x] / frames / 2), 1.0f);
       const float sigma = std::max(std::sqrt(std::max(spread, 0.0f)), kLeastSigma) * widening;
-      // The error of a σ learned from few frames shows at contours.
+      // The error of a σ that was learned from few frames shows at contours.
       const float shift = shift_px * static_cast<float>(slope[x]);
       mean[x] = std::max(middle, ExpectedPicture::kDarkestMean);
       variance[x] = sigma * sigma + shift * shift;

@@ -1,4 +1,4 @@
-// §4: what is summed up over pictures of the empty studio, pixel by pixel.
+// §4: per-pixel sums over pictures of the empty studio.
 #pragma once
 
 #include <array>
@@ -15,24 +15,24 @@ class BackgroundSums {
  public:
   explicit BackgroundSums(std::size_t pixels);
 
-  /// Empties pixels [begin, begin + count).
+  /// Sets the sums of pixels [begin, begin + count) to zero.
   void Clear(std::size_t begin, std::size_t count);
-  /// Takes another's pixels for its own first ones.
+  /// Copies `count` pixels of another object from `begin` on to this object's first pixels.
   void Copy(const BackgroundSums& from, std::size_t begin, std::size_t count);
 
   /// Adds the colours of consecutive pixels, from `begin` on.
-  /// @param gain   what each channel is multiplied by.
-  /// @param times  1, or −1 to take them out again.
+  /// @param gain   factor for each channel.
+  /// @param times  1, or −1 to subtract them again.
   void AddColors(const Bgr* pixels, int count, const std::array<float, 3>& gain, float times,
                  std::size_t begin);
-  /// Adds how they differ from what is expected at `expected_begin` and on.
+  /// Adds their distortions relative to the expected pixels from `expected_begin` on.
   void AddDistortions(const Bgr* pixels, int count, const std::array<float, 3>& gain, float times,
                       const ExpectedPicture& expected, std::size_t expected_begin,
                       std::size_t begin);
 
-  /// Writes what the first of these pixels, from `begin` on, are taken to be.
-  /// @param frames    how many pictures were added.
-  /// @param shift_px  by how much contours move from one picture to the next.
+  /// Writes the expected appearance of `count` pixels from `begin` on.
+  /// @param frames    number of pictures that were added.
+  /// @param shift_px  shift of contours from one picture to the next.
   void Expect(std::size_t begin, int count, float frames, float shift_px, std::size_t to_begin,
               ExpectedPicture& to) const;
 

@@ -13,18 +13,18 @@ namespace mocap {
 namespace {
 
 constexpr int kFractionBits = 8;
-// A displacement explains differences up to this [grey levels] plus so many gradients.
+// A displacement explains differences up to this [grey levels] plus this many gradients.
 constexpr int kExplained = 4;
 constexpr int kExplainedGradients = 1;
-// The normal equations' lesser eigenvalue [grey levels²]; noise of 2 grey levels then moves the
-// result by a twentieth of a pixel.
+// Limit for the smaller eigenvalue of the normal equations [grey levels²]. Noise of 2 grey levels
+// then shifts the result by 0.05 px.
 constexpr double kLeastEvidence = 2000;
 
 struct Sums {
   std::int64_t xx = 0, xy = 0, yy = 0, xd = 0, yd = 0;
 };
 
-// Adds a row; gradients are doubled.
+// Adds a row. Gradients are doubled.
 MOCAP_VECTORIZED
 void AddRow(const std::uint8_t* live, const std::uint8_t* expected, const float* variance,
             int stride, int gain, int count, Sums& sums) {
@@ -50,7 +50,7 @@ void AddRow(const std::uint8_t* live, const std::uint8_t* expected, const float*
 std::optional<Displacement> MeasureDisplacement(const HalfPicture& live, float gain,
                                                 const ExpectedHalf& expected) {
   MOCAP_CHECK(live.width == expected.mean.width && live.height == expected.mean.height);
-  // The padding and what is beside it have no gradients that mean anything.
+  // Gradients in and beside the padding mean nothing.
   const int margin = HalfPicture::kTile + 1;
   Sums sums;
   const auto fixed_gain = static_cast<int>(std::lround(gain * (1 << kFractionBits)));
@@ -68,7 +68,8 @@ std::optional<Displacement> MeasureDisplacement(const HalfPicture& live, float g
   const double lesser =
       half_trace - std::sqrt(std::max(half_trace * half_trace - normal.determinant(), 0.0));
   if (lesser < kLeastEvidence) return std::nullopt;
-  // A pixel of the half is two wide. What is expected at x is seen at x + displacement.
+  // A pixel of the half picture is two pixels wide. The expected pixel x is seen at x +
+  // displacement.
   const Vector2 moved = -2 * normal.inverse() * right;
   return Displacement{static_cast<float>(moved.x()), static_cast<float>(moved.y())};
 }

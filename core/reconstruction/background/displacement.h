@@ -1,4 +1,4 @@
-// §4: whether a camera was nudged since its background was learned.
+// §4: detects that a camera was nudged after its background was learned.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace mocap {
 
-/// Measures how far a picture lies from what is expected, to a few hundredths of a pixel where it
-/// is less than two pixels.
+/// Measures the displacement of a picture from the expected one. Below two pixels the error
+/// is a few hundredths of a pixel.
 ///
-/// Least squares on brightness and its gradient (Lucas, Kanade 1981), without what differs more
-/// than a small displacement explains: persons.
-/// @param gain  what the picture's green is multiplied by.
-/// @return      nothing where too few contours show it.
+/// Least squares on brightness and its gradient (Lucas, Kanade 1981). Differences that no small
+/// displacement explains, such as people, are left out.
+/// @param gain  factor for the picture's green channel.
+/// @return      nothing if too few contours show the displacement.
 std::optional<Displacement> MeasureDisplacement(const HalfPicture& live, float gain,
                                                 const ExpectedHalf& expected);
 

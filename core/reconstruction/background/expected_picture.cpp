@@ -49,7 +49,7 @@ void WeighGroups(const Source& from, int groups, float shift_sq, WeighedPixels* 
   }
 }
 
-// Mixes pixels with their right and lower neighbours.
+// Interpolates between pixels and their right and lower neighbours.
 MOCAP_VECTORIZED
 void MixPixels(const float* top, const float* bottom, int count, float a, float b, float* to) {
   const float w0 = (1 - a) * (1 - b), w1 = a * (1 - b), w2 = (1 - a) * b, w3 = a * b;
@@ -96,7 +96,7 @@ void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,
                                int begin, int end) {
-  // Beyond the edge, where nothing is known.
+  // Nothing is known beyond the edge.
   const float from_y = static_cast<float>(y) - displacement.y_px;
   const float dx = std::floor(-displacement.x_px), dy = std::floor(from_y);
   const float a = -displacement.x_px - dx, b = from_y - dy;
@@ -114,7 +114,7 @@ void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& 
   for (int x = last; x < end; ++x) forget(x);
   if (first == last) return;
   const std::size_t top = static_cast<std::size_t>(row) * width + first + shift;
-  // Of variations the nearest do.
+  // Variations are the nearest pixel's.
   const std::size_t nearest = top + (a > 0.5f ? 1 : 0) + (b > 0.5f ? width : 0);
   const int count = last - first;
   for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// §4: what a camera would see of the empty studio at this moment.
+// §4: the empty studio as a camera would see it at this moment.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// The variance where nothing is known: anything goes.
+/// Variance where nothing is known: any colour is accepted.
 inline constexpr float kUnknownVariance = 1e8f;
 
 /// The background model of several adjacent pixels, packed for the cache.
@@ -23,34 +23,34 @@ struct WeighedPixels {
   static constexpr float kAlphaWeightUnit = 1.0f / 128;
 
   std::array<Column, 3> mean;           ///< E.
-  std::array<Column, 3> inverse_sigma;  ///< 1/σ; σ is wider where contours shift.
+  std::array<Column, 3> inverse_sigma;  ///< 1/σ; σ is larger where contours shift.
   Column alpha_weight;                  ///< 1/a.
 };
 
-/// The background's colours and their variation, pixel by pixel, in planes of rows without gaps.
+/// The background's colours and their variation per pixel, in planes of rows without gaps.
 ///
 /// Channels are blue, green, red. Horprasert, Harwood, Davis 1999; the variation of the
 /// chromaticity distortion, b, is part of σ.
 struct ExpectedPicture {
-  /// A colour has a direction only away from black.
+  /// Near black, a colour has no direction.
   static constexpr float kDarkestMean = 1;
 
   ExpectedPicture() = default;
   ExpectedPicture(int picture_width, int picture_height);
 
-  /// Writes what pixel `i` looks like; to be weighed.
+  /// Writes the appearance of pixel `i`, which must then be weighed.
   /// @param color, sigma     expected colour and its standard deviation [grey levels].
-  /// @param alpha_variation  standard deviation of the brightness distortion as it was measured, or
-  /// 0: it is never taken for less than what `sigma` causes.
+  /// @param alpha_variation  measured standard deviation of the brightness distortion, or 0. At
+  /// least what `sigma` causes is assumed.
   void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
                 float alpha_variation);
 
-  /// Works out the weights of pixels [begin, end) of a row, and of those in the same groups.
-  /// @param shift_px  how much farther than while learning contours lie from where they belong.
+  /// Computes the weights of pixels [begin, end) of a row, and of the others in their groups.
+  /// @param shift_px  additional shift of contours, compared with learning.
   void Weigh(float shift_px, int y, int begin, int end);
 
-  /// Writes pixels [begin, end) of a row: another picture's, displaced by less than its size. They
-  /// are to be weighed.
+  /// Copies pixels [begin, end) of a row from another picture, displaced by less than its size.
+  /// They must then be weighed.
   void Displace(const ExpectedPicture& from, const Displacement& displacement, int y, int begin,
                 int end);
 
@@ -58,11 +58,12 @@ struct ExpectedPicture {
   int height = 0;
   std::array<std::vector<float>, 3> mean;      ///< E, at least kDarkestMean [grey levels].
   std::array<std::vector<float>, 3> variance;  ///< σ² [grey levels²].
-  std::vector<float> alpha_limit;              ///< 1/a as measured; much where it was not.
+  std::vector<float> alpha_limit;              ///< 1/a as measured; large where it was not.
   std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 
-  /// Leads to a group of pixels, the first of which is the picture's. The next to the right is
-  /// `height` groups on: a person is higher than wide, and memory is read best in one piece.
+  /// Returns one row of a group, from column `group` · 16 and row `y` of the picture. The next
+  /// group to the right follows after `height` rows: people are taller than wide, and contiguous
+  /// memory is read fastest.
   const WeighedPixels* Group(int group, int y) const {
     return &weighed_[static_cast<std::size_t>(group) * height + y];
   }

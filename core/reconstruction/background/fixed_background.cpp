@@ -12,7 +12,7 @@
 namespace mocap {
 namespace {
 
-// So many frames fill the histograms well enough.
+// This many frames fill the histograms well enough.
 constexpr std::size_t kMostHistogramFrames = 16;
 
 class FixedBackground final : public BackgroundModel {
@@ -24,7 +24,7 @@ class FixedBackground final : public BackgroundModel {
         half_(frames[0].image.width(), frames[0].image.height()),
         expected_(frames[0].image.width(), frames[0].image.height()) {
     MOCAP_CHECK(frames.size() >= 2);
-    // Once to see how the light flickered, and once without the flicker.
+    // The first pass measures the flicker of the light, the second learns without it.
     for (int i = 0; i < 2; ++i) {
       SumColors();
       Expect();
@@ -131,7 +131,7 @@ class FixedBackground final : public BackgroundModel {
                              BeginOf(y), BeginOf(y));
   }
 
-  // Each frame is held against what the others alone would have taught.
+  // Compares each frame with the background learned from the others alone.
   void LearnThresholds(double detection_rate) {
     DistortionHistograms histograms;
     const int width = expected_.width;
@@ -153,13 +153,13 @@ class FixedBackground final : public BackgroundModel {
     thresholds_ = histograms.At(detection_rate);
   }
 
-  std::span<const BackgroundFrame> frames_;  // While learning.
+  std::span<const BackgroundFrame> frames_;  // Only while learning.
   std::vector<Conditions> conditions_;
   BackgroundSums sums_;
   ExpectedHalf half_;
   ExpectedPicture expected_;
   bool is_weighed_plainly_ = true;
-  // Made when they are needed.
+  // Allocated on first use.
   ExpectedHalf displaced_half_;
   ExpectedPicture displaced_;
 };

@@ -17,16 +17,16 @@ int RoundUp(int value, int step) { return (value + step - 1) / step * step; }
 constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
 
-// Averages, rounded up.
+// Average, rounded up.
 MOCAP_INLINE std::uint8_t MeanOf(std::uint8_t a, std::uint8_t b) {
   return static_cast<std::uint8_t>((a + b + 1) >> 1);
 }
 
-// Averages a byte of two pixels side by side and of those below.
+// Averages a byte of two neighbouring pixels and of the two below.
 MOCAP_INLINE std::uint8_t MeanOfFour(const std::uint8_t* top, const std::uint8_t* bottom) {
   const std::uint8_t a = top[0], b = top[3], c = bottom[0], d = bottom[3];
   const std::uint8_t ab = MeanOf(a, b), cd = MeanOf(c, d);
-  // Rounded up twice, it is one too many: first a pair's mean, then that of both.
+  // Rounding up twice gives one too many if a pair's mean and the mean of both are rounded.
   const std::uint8_t excess = ((a ^ b) | (c ^ d)) & (ab ^ cd) & 1;
   return static_cast<std::uint8_t>(MeanOf(ab, cd) - excess);
 }
@@ -34,8 +34,8 @@ MOCAP_INLINE std::uint8_t MeanOfFour(const std::uint8_t* top, const std::uint8_t
 using Bytes = std::uint8_t __attribute__((vector_size(16)));
 using Shorts = std::uint16_t __attribute__((vector_size(16)));
 
-// Averages the bytes of two rows, whatever their channel: byte by byte, for twice as many fit into
-// a vector as of their sums. Compilers know the average of bytes in loops only.
+// Averages the bytes of two rows, regardless of channel. Twice as many bytes fit into a vector as
+// sums of them. Compilers recognize the average of bytes only in loops.
 MOCAP_INLINE void AverageBytes(const std::uint8_t* top, const std::uint8_t* bottom, Bytes& first,
                                Bytes& second) {
   alignas(32) std::array<std::uint8_t, 2 * sizeof(Bytes)> means;
@@ -50,16 +50,16 @@ MOCAP_INLINE Shorts FirstHalfOf(Bytes bytes) {
                                                           16, 4, 16, 5, 16, 6, 16, 7, 16));
 }
 
-// Two tiles side by side are halved at once.
+// Two neighbouring tiles are halved at once.
 constexpr int kStrip = 2 * kTile;
 
-// The sums of a strip's columns, channel by channel.
+// Sums of a strip's columns, per channel.
 using Columns = std::array<Shorts, 3>;
 
-// Halves two rows of the picture to eight pixels, and adds these to their columns.
+// Halves two rows of the picture to eight pixels, and adds these to the column sums.
 MOCAP_INLINE void HalveStrip(const std::uint8_t* top, const std::uint8_t* bottom, std::uint8_t* b,
                              std::uint8_t* g, std::uint8_t* r, Columns& columns) {
-  // The last vector ends where the last pixel does: nothing is read behind the picture.
+  // The last vector ends with the last pixel: nothing is read beyond the picture.
   constexpr int kLast = 6 * kStrip - 3 - 2 * static_cast<int>(sizeof(Bytes));
   Bytes x, y, z, unused;
   AverageBytes(top, bottom, x, y);
@@ -80,19 +80,19 @@ MOCAP_INLINE void HalveStrip(const std::uint8_t* top, const std::uint8_t* bottom
   columns[2] += FirstHalfOf(red);
 }
 
-// Where tiles that lie side by side are halved to, channel by channel.
+// Destination of neighbouring halved tiles, per channel.
 struct Halves {
   std::array<std::uint8_t*, 3> color;
   std::array<float*, 3> tile_mean;
-  int width;  // From a row of pixels to the next.
+  int width;  // From one row of pixels to the next.
 };
 
-// Halves whole tiles, two or more.
+// Halves two or more whole tiles.
 MOCAP_VECTORIZED
 void HalveTiles(const std::uint8_t* from, std::ptrdiff_t stride, int count, const Halves& to) {
   const auto [b, g, r] = to.color;
   const int width = to.width;
-  // The last two tiles, if their number is odd, have one in common with those before.
+  // If the number of tiles is odd, the last pair overlaps the one before.
   for (int end = 2; end < count + 2; end += 2) {
     const int tile = std::min(end, count) - 2;
     Columns columns{};
@@ -143,7 +143,7 @@ void AverageVariances(const float* variance, const std::uint8_t* slope, int widt
         (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
 }
 
-// Mixes pixels with their right and lower neighbours; weights are of 256.
+// Interpolates between pixels and their right and lower neighbours; weights sum to 256.
 MOCAP_VECTORIZED
 void MixPixels(const std::uint8_t* top, const std::uint8_t* bottom, int count,
                const std::array<int, 4>& weights, std::uint8_t* to) {
@@ -154,7 +154,7 @@ void MixPixels(const std::uint8_t* top, const std::uint8_t* bottom, int count,
         (w0 * top[x] + w1 * top[x + 1] + w2 * bottom[x] + w3 * bottom[x + 1] + 128) >> 8);
 }
 
-// Halves a tile; the picture may lack some of it.
+// Halves a tile, which may extend beyond the picture.
 void HalveTile(ImageView<const Bgr> image, int row, int column, HalfPicture& half) {
   std::array<int, 3> sums{};
   for (int y = row * kTile; y < std::min((row + 1) * kTile, image.height() / 2); ++y) {
@@ -206,7 +206,7 @@ void ExpectedHalf::Finish() {
 
 void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
   Halve(picture, mean);
-  // The padding continues the picture: its edge is no contour.
+  // The padding repeats the picture's edge, so that the edge is no contour.
   std::vector<float> brightness(mean.size());
   for (int y = 0; y < mean.height; ++y) {
     for (int x = 0; x < mean.width; ++x) {

@@ -1,4 +1,4 @@
-// §4: pictures at half the resolution, to see quickly where something may be.
+// §4: pictures at half the resolution, for a fast search for changes.
 #pragma once
 
 #include <array>
@@ -18,10 +18,9 @@ struct TileRun {
   int end = 0;
 };
 
-/// A picture at half the resolution in planes: blue, green, red, each pixel the mean of four.
+/// A picture at half the resolution, in planes: blue, green, red. Each pixel is the mean of four.
 ///
-/// It is cut into tiles of kTile × kTile pixels, and padded with zeros to whole tiles of the full
-/// picture.
+/// It consists of tiles of kTile × kTile pixels. Zeros pad it to whole tiles of the full picture.
 struct HalfPicture {
   /// Side of a tile, in pixels of this picture.
   static constexpr int kTile = 4;
@@ -29,7 +28,7 @@ struct HalfPicture {
   static constexpr int kTile_px = 2 * kTile;
 
   HalfPicture() = default;
-  /// Makes room for the half of a picture of so many pixels.
+  /// Allocates the half of a picture of the given size.
   HalfPicture(int full_width, int full_height);
 
   int tile_columns() const { return width / kTile; }
@@ -46,46 +45,46 @@ struct HalfPicture {
 
   int width = 0;
   int height = 0;
-  /// Row by row, and a tile's side longer: two tiles are read at once where one is left.
+  /// Row by row, plus one tile side: a single last tile is read as a pair.
   std::array<std::vector<std::uint8_t>, 3> color;
   /// Means of the tiles, row by row.
   std::array<std::vector<float>, 3> tile_mean;
 };
 
-/// The half of what a camera would see of the empty studio.
+/// The expected empty studio at half the resolution.
 class ExpectedHalf {
  public:
   ExpectedHalf() = default;
-  /// Makes room for the half of a picture of so many pixels, of which nothing is known.
+  /// Allocates the half of a picture of the given size; all pixels are unknown.
   ExpectedHalf(int full_width, int full_height);
 
   /// Takes colours and slopes from a picture at full resolution.
   void LearnFrom(ImageView<const Bgr> picture);
 
-  /// Takes another half's pixels, displaced by less than its size. They are to be averaged.
+  /// Copies another half's pixels, displaced by less than its size. Finish() must follow.
   void Displace(const ExpectedHalf& from, const Displacement& displacement);
 
   /// Averages the tiles and lists the steep pixels, after pixels were written.
   void Finish();
 
-  // Pixels go on for a tile's side, as those of `mean` do.
+  // The planes extend by a tile side, as those of `mean` do.
   HalfPicture mean;
   /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
   std::vector<float> variance;
-  /// How steep the picture is [grey levels per pixel of the half picture].
+  /// Slope of the picture [grey levels per pixel of the half picture].
   std::vector<std::uint8_t> slope;
   /// Means of the tiles, row by row.
   std::vector<float> tile_variance, tile_slope_sq;
-  /// Every so many of those pixels that lie on steep contours and are known.
+  /// Every kSteepStep-th of those pixels that are known and lie on steep contours.
   std::vector<std::int32_t> steep;
   /// CoarseScan's distance() and shift_px() of pictures of the empty studio.
   float usual_distance = 0;
   float usual_shift_px = 0;
 
  private:
-  // Contours steeper than this [grey levels per pixel of the half] show how far they moved.
+  // Steeper contours than this [grey levels per pixel of the half] show how far they moved.
   static constexpr int kSteep = 15;
-  // Every so many pixels are enough; few pictures are a multiple of that wide.
+  // A sample of the pixels is enough. Few pictures have a width that is a multiple of this.
   static constexpr std::size_t kSteepStep = 7;
 
   std::vector<std::uint16_t> sums_;
@@ -96,12 +95,12 @@ class ExpectedHalf {
 void Halve(ImageView<const Bgr> image, HalfPicture& half);
 
 /// Halves some tiles of a picture and averages them.
-/// @param half  made for pictures of that size.
+/// @param half  allocated for pictures of that size.
 void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half);
 
-/// Measures how steep the brightness of a picture is on its steeper side: an edge is as steep as
-/// its step, not half of it.
-/// @param brightness  of `width` × `height` pixels.
+/// Measures the slope of the brightness on the steeper side of each pixel: an edge counts with its
+/// full step, not with half of it.
+/// @param brightness  `width` × `height` pixels.
 std::vector<std::uint8_t> SlopeOf(const std::vector<float>& brightness, int width, int height);
 
 }  // namespace mocap

@@ -16,20 +16,20 @@
 namespace mocap {
 namespace {
 
-// Directions are looked up at the corners of such cells and interpolated within. Runs begin at
-// them.
+// Directions are computed at the corners of these cells and interpolated within. Runs begin at
+// corners.
 constexpr int kCell_px = 8;
 static_assert(HalfPicture::kTile_px % kCell_px == 0);
-// Beyond this, and unless the floor is nearer, everything is taken to be so far away. Half as much
-// or twice as much moves a pixel by a third of a pixel at most, from one learned view to the next.
+// Assumed distance of everything unless the floor is nearer. Half or twice this distance moves a
+// pixel by a third of a pixel at most, from one learned view to the next.
 constexpr double kRoomDepth_mm = 6000;
 constexpr int kMostViews = 4;
 constexpr double kSameDirection_rad = 1e-4;
 constexpr float kLeastSigma = 1.5f;
-// Slopes [grey levels per pixel] that show noise alone, and those that show how contours shift.
+// Slopes [grey levels per pixel]: flatter ones show noise alone, steeper ones shifts of contours.
 constexpr int kFlat = 4;
 constexpr int kSteep = 20;
-// From the median to the standard deviation of a normal distribution.
+// Ratio of the standard deviation to the median, for absolute values of a normal distribution.
 constexpr float kDeviationPerMedian = 1.4826f;
 
 float Median(std::vector<float>& values) {
@@ -55,7 +55,7 @@ MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, f
   }
 }
 
-// Gives what was drawn its variance, which is the same in all channels, and the rest none.
+// Sets the variance of drawn pixels, the same in all channels, and marks the others as unknown.
 MOCAP_VECTORIZED
 void FinishDrawn(const std::uint8_t* is_known, int count, float variance, float* mean,
                  float* variances) {
@@ -98,15 +98,15 @@ class PanTiltBackground final : public BackgroundModel {
   }
 
  private:
-  // A view that shows a part of the present picture, and where in it the corners of the cells lie.
+  // A view that covers part of the present picture, with the positions of the cell corners in it.
   struct Source {
     std::size_t view = 0;
     bool is_projected = false;
-    // Not a number where the view does not reach.
+    // NaN where the view does not reach.
     std::vector<float> nodes_x, nodes_y;
   };
 
-  // Frames of one direction become one view, their mean.
+  // Merges frames of one direction into one view, their mean.
   void CollectViews(std::span<const BackgroundFrame> frames) {
     std::vector<bool> taken(frames.size());
     for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -146,7 +146,7 @@ class PanTiltBackground final : public BackgroundModel {
             NormalizedFromPixel(camera_.lens, Vector2(column * kCell_px, row * kCell_px)));
   }
 
-  // Draws what is known of a view from the others, and compares it.
+  // Draws what the other views know of a view, and compares the two.
   void LookFrom(std::size_t v, CoarseScan& scan) {
     TurnTo(views_[v].angles, {}, v);
     scan.Compare(half_, images_[v].view());
@@ -155,7 +155,7 @@ class PanTiltBackground final : public BackgroundModel {
     Expect(everything, {});
   }
 
-  // How far two views of the same place differ: by noise everywhere, and by what is left of the
+  // Learns how far two views of the same place differ: by noise everywhere, and by residual
   // parallax where the picture is steep.
   void LearnVariation() {
     CoarseScan scan;
@@ -211,8 +211,8 @@ class PanTiltBackground final : public BackgroundModel {
     half_.Finish();
   }
 
-  // Where in a source's view the corners of the cells of a picture from X_CW_ lie. Views are as
-  // large and nearly as upright as the picture, so that it is displaced as they are.
+  // Finds the cell corners of a picture from X_CW_ in a source's view. Views have nearly the size
+  // and orientation of the picture, so the picture's displacement applies to them too.
   void ProjectNodes(Source& source) {
     source.is_projected = true;
     source.nodes_x.assign(directions_.size(), std::numeric_limits<float>::quiet_NaN());
@@ -235,8 +235,9 @@ class PanTiltBackground final : public BackgroundModel {
     }
   }
 
-  // Finds the places in a source's view of the cells [first, end) of a row; a cell is so many
-  // pixels wide, the first of which is so far into it. Returns whether all lie in the view.
+  // Finds the positions of cells [first, end) of a row in a source's view. A cell is `width` pixels
+  // wide; the first of them lies at the fraction `into` of the cell. Returns whether all lie in the
+  // view.
   template <int width>
   bool FindPlaces(Source& source, float y, float into, int first, int end, float last_x,
                   float last_y) {
@@ -249,7 +250,7 @@ class PanTiltBackground final : public BackgroundModel {
     Mix(&source.nodes_y[top], &source.nodes_y[top + node_columns_], count, b, cells_y_.data());
     SpreadCells<width>(cells_x_.data(), end - first, into, places_x_.data());
     SpreadCells<width>(cells_y_.data(), end - first, into, places_y_.data());
-    // Also false for what is not a number.
+    // Also false for NaN.
     const auto lies_within = [](const std::vector<float>& cells, int n, float last) {
       return std::all_of(cells.begin(), cells.begin() + n,
                          [last](float place) { return place >= 0 && place < last; });
@@ -257,9 +258,9 @@ class PanTiltBackground final : public BackgroundModel {
     return lies_within(cells_x_, count, last_x) && lies_within(cells_y_, count, last_y);
   }
 
-  // Calls draw(begin, count) for the runs of pixels that are not known yet and whose places lie in
-  // the view, up to (last_x, last_y); they are known then. Returns whether all are.
-  // @param has_all  whether none is known and the view has all.
+  // Calls draw(begin, count) for runs of unknown pixels whose positions lie in the view, up to
+  // (last_x, last_y), and marks them as known. Returns whether all pixels are known.
+  // @param has_all  no pixel is known yet and the view covers all of them.
   template <typename Function>
   bool DrawUnknown(bool has_all, const ViewPlaces& places, float last_x, float last_y, int count,
                    Function draw) {
@@ -271,7 +272,7 @@ class PanTiltBackground final : public BackgroundModel {
     int known = 0;
     for (int i = 0; i < count;) {
       const int begin = i;
-      // Also false for what is not a number.
+      // Also false for NaN.
       while (i < count && !is_known_[i] && places.x[i] >= 0 && places.y[i] >= 0 &&
              places.x[i] < last_x && places.y[i] < last_y)
         is_known_[i++] = 1;
@@ -337,7 +338,7 @@ class PanTiltBackground final : public BackgroundModel {
   CameraCalibration camera_;
   SensorPlaneTable table_;
   std::vector<BackgroundView> views_;
-  std::vector<Image<Bgr>> images_;  // Of the views, while learning.
+  std::vector<Image<Bgr>> images_;  // Of the views; only while learning.
   float variance_ = kLeastSigma * kLeastSigma;
   float shift_px_ = 0;
 

@@ -10,7 +10,7 @@ PackedPixel Pack(std::uint8_t b, std::uint8_t g, std::uint8_t r, std::uint8_t sl
   return b | g << 8 | r << 16 | static_cast<PackedPixel>(slope) << 24;
 }
 
-// Signed, because processors convert no other whole numbers.
+// Signed, because processors convert no unsigned integers.
 inline float ByteOf(PackedPixel p, int shift) {
   return static_cast<float>(static_cast<int>(p >> shift & 255));
 }

@@ -1,4 +1,4 @@
-// §4: a background seen in one direction, drawn as it looks from another.
+// §4: draws a background that was seen in one direction as seen from another.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ namespace mocap {
 /// Blue, green, red and the slope of one pixel, from the lowest byte up.
 using PackedPixel = std::uint32_t;
 
-/// The empty studio as it was seen in one direction, at full and at half the resolution.
+/// The empty studio as seen in one direction, at full and at half the resolution.
 struct BackgroundView {
-  /// @param image  of a whole camera picture.
+  /// @param image  a whole camera picture.
   BackgroundView(const PanTiltAngles& view_angles, const RigidTransform& X_CW_of_view,
                  const Image<Bgr>& image);
 
@@ -26,19 +26,19 @@ struct BackgroundView {
   std::vector<PackedPixel> pixels, half;
 };
 
-/// Places in a view [pixels of the full picture], of consecutive pixels of a row.
+/// Positions in a view [pixels of the full picture], for consecutive pixels of a row.
 struct ViewPlaces {
   const float* x = nullptr;
   const float* y = nullptr;
 };
 
-/// Draws pixels between those of a view.
-/// @pre  the places lie in the view, not on its last column or row.
+/// Draws pixels by interpolating between those of a view.
+/// @pre  the positions lie in the view, not on its last column or row.
 void DrawBetween(const BackgroundView& view, const ViewPlaces& places, int count,
                  const std::array<float*, 3>& color, std::uint8_t* slope);
 
-/// Draws pixels of a half: the view's nearest, for slopes make up for what that shifts.
-/// @pre  the places lie in the view.
+/// Draws pixels of a half picture from the view's nearest ones; slopes allow for the shift.
+/// @pre  the positions lie in the view.
 void DrawNearest(const BackgroundView& view, const ViewPlaces& places, int count,
                  const std::array<std::uint8_t*, 3>& color, std::uint8_t* slope);
 

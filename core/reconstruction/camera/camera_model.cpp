@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kMaxNewtonSteps = 50;
 
-// c0 + c1 s + c2 s² + …
+// Evaluates c0 + c1 s + c2 s² + …
 double Evaluate(std::span<const double> coefficients, double s) {
   double value = 0;
   for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) value = value * s + *c;
   return value;
 }
 
-// Where a polynomial changes sign within (0, limit), in ascending order: between two neighbouring
-// extrema there is at most one such place.
+// Finds the sign changes of a polynomial within (0, limit), in ascending order. Between two
+// neighbouring extrema there is at most one.
 std::vector<double> SignChanges(std::span<const double> coefficients, double limit) {
   if (coefficients.size() < 2) return {};
   std::vector<double> derivative;
@@ -57,8 +57,8 @@ void AddProduct(double factor, std::size_t shift, std::span<const double> polyno
   for (std::size_t i = 0; i < polynomial.size(); ++i) sum[i + shift] += factor * polynomial[i];
 }
 
-// A radial function f(r) = r N(r²) / D(r²) as far out as it rises: where it turns back, or has a
-// pole, a lens shows nothing. N and D begin with 1; without k of D it is a polynomial.
+// A radial function f(r) = r N(r²) / D(r²), used as far as it rises. Where it turns back or has a
+// pole, a lens shows nothing. N and D begin with 1. Without coefficients of D it is a polynomial.
 class RadialFunction {
  public:
   explicit RadialFunction(std::span<const double> numerator,
@@ -84,7 +84,7 @@ class RadialFunction {
     return Evaluate(rise_, r * r) / (d * d);
   }
 
-  // The first radius within `limit` beyond which it no longer rises; `limit` if there is none.
+  // The first radius within `limit` where it stops rising; `limit` if there is none.
   double TurningRadius(double limit) const {
     const std::vector<double> turns = SignChanges(rise_, limit * limit);
     double turning = turns.empty() ? limit : std::sqrt(turns.front());
@@ -94,7 +94,7 @@ class RadialFunction {
   }
 
   bool RisesUpTo(double r) const {
-    // Most directions are settled by the falling terms alone.
+    // The negative terms alone decide most directions.
     if (LowestUpTo(rise_, r) > 0 && LowestUpTo(denominator_, r) > 0) return true;
     return TurningRadius(r) >= r;
   }
@@ -121,7 +121,7 @@ class RadialFunction {
     return denominator_.size() == 1 ? 1 : Evaluate(denominator_, r * r);
   }
 
-  // A bound from below on a polynomial in r² within (0, r).
+  // A lower bound on a polynomial in r² within (0, r).
   static double LowestUpTo(std::span<const double> polynomial, double r) {
     double falling = 0;
     for (std::size_t i = polynomial.size(); i-- > 0;)
@@ -143,8 +143,8 @@ Vector2 FromPixel(const Matrix3& K, const Vector2& pixel) {
   return {(pixel.x() - K(0, 2) - K(0, 1) * y) / K(0, 0), y};
 }
 
-// Xd from Xu: the real root of κ1 Xd³ + Xd − Xu that goes to Xu as κ1 goes to 0, in the closed form
-// that does not cancel.
+// Xd from Xu: the real root of κ1 Xd³ + Xd − Xu that tends to Xu as κ1 tends to 0, in a closed form
+// without cancellation.
 std::optional<double> TsaiDistortedRadius(double kappa1, double undistorted) {
   if (kappa1 == 0) return undistorted;
   const double scale = std::sqrt(3 * std::abs(kappa1));
@@ -201,7 +201,7 @@ std::optional<Vector2> Unproject(const OpenCvLens& lens, const Vector2& pixel) {
   const double radius = distorted.norm();
   const double turning = radial.TurningRadius(kFarthestNormalized);
   const std::optional<double> r = radial.Invert(radius, kFarthestNormalized);
-  // Near the rim the tangential terms may still pull a pixel into the picture.
+  // Near the rim, tangential terms may still pull a pixel into the picture.
   Vector2 n = radius > 0 ? Vector2(distorted * (r.value_or(turning) / radius)) : distorted;
   for (int i = 0; i < kMaxNewtonSteps; ++i) {
     const double h = 1e-6;

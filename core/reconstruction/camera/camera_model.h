@@ -1,8 +1,7 @@
-// §4: the camera. Lens models map between the undistorted sensor plane, divided by the focal length
-// (Xu/f, Yu/f), and pixels; the pose X_CW is kept apart from them, so that a lens serves every pan
-// and tilt.
+// §4: the camera. Lens models map between pixels and the undistorted sensor plane, divided by the
+// focal length (Xu/f, Yu/f). The pose X_CW is separate, so that one lens serves every pan and tilt.
 //
-// Camera frame: x right, y down, z forward. Pixel centres lie at whole numbers.
+// Camera frame: x right, y down, z forward. Pixel centres lie at integers.
 #pragma once
 
 #include <array>
@@ -42,35 +41,35 @@ struct FisheyeLens {
 
 using Lens = std::variant<TsaiLens, OpenCvLens, FisheyeLens>;
 
-/// Maps undistorted sensor-plane coordinates (Xu/f, Yu/f) to a pixel. Empty where the lens shows no
-/// such direction (its radius has turned back).
+/// Maps undistorted sensor-plane coordinates (Xu/f, Yu/f) to a pixel. Empty where the lens does not
+/// show this direction (its radius has turned back).
 std::optional<Vector2> PixelFromNormalized(const Lens& lens, const Vector2& normalized);
 
 /// Maps a pixel to undistorted sensor-plane coordinates (Xu/f, Yu/f); the inverse of
 /// PixelFromNormalized.
 std::optional<Vector2> NormalizedFromPixel(const Lens& lens, const Vector2& pixel);
 
-/// Gives how far from the axis a lens sees, as a length of (Xu/f, Yu/f); at most tan of 85°, beyond
-/// which the sensor plane is no map of directions any more.
+/// Returns how far from the axis a lens sees, as a length of (Xu/f, Yu/f). At most tan of 85°:
+/// beyond, the sensor plane no longer represents directions.
 double FieldRadius(const Lens& lens);
 
-/// Where a pan-tilt head points at the moment of exposure, as its encoders read [rad].
+/// Angles of a pan-tilt head at the moment of exposure, as its encoders read [rad].
 struct PanTiltAngles {
   double pan_rad = 0;
   double tilt_rad = 0;
   friend bool operator==(const PanTiltAngles&, const PanTiltAngles&) = default;
 };
 
-/// A pan-tilt head: its two axes at pan = tilt = 0, in the world frame, which need not pass through
-/// the lens; and what its encoders' readings mean.
+/// A pan-tilt head: its two axes at pan = tilt = 0, in the world frame, and its encoder
+/// calibration. The axes need not pass through the lens.
 struct PanTiltHead {
   Vector3 pan_axis_W = Vector3::UnitZ();
   Vector3 pan_point_W = Vector3::Zero();
   Vector3 tilt_axis_W = Vector3::UnitX();
   Vector3 tilt_point_W = Vector3::Zero();
-  /// True angle over the encoder's.
+  /// Ratio of the true angle to the encoder's.
   double pan_scale = 1, tilt_scale = 1;
-  /// The encoders' readings at pan = tilt = 0.
+  /// Encoder readings at pan = tilt = 0.
   PanTiltAngles zero{};
 };
 
@@ -81,10 +80,10 @@ struct CameraCalibration {
   int height_px = 0;
   Lens lens;
   RigidTransform X_CW;              ///< At pan = tilt = 0.
-  std::optional<PanTiltHead> head;  ///< Only for a camera on a head.
+  std::optional<PanTiltHead> head;  ///< Only for a camera on a pan-tilt head.
 
-  /// Gives the pose for what the head's encoders read: X_CW M⁻¹ with M = M_pan M_tilt. Without a
-  /// head it is X_CW.
+  /// Returns the pose for given encoder readings: X_CW M⁻¹ with M = M_pan M_tilt. Without a
+  /// pan-tilt head it is X_CW.
   RigidTransform PoseAt(const PanTiltAngles& readings) const;
 };
 

@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kSteps = 12;
 constexpr double kDifference_rad = 1e-5;
-// Far from the middle the tangent overshoots.
+// Far from the centre the tangent overshoots.
 constexpr double kLongestStep_rad = 0.4;
-// Against the square of a derivative near 1: keeps steps short where an axis has no effect.
+// Relative to the square of a derivative near 1. Keeps steps short where an axis has no effect.
 constexpr double kDamping = 1e-6;
 
-/// How far to the right and down the camera sees a point [rad].
+/// Angles to the right and down at which the camera sees a point [rad].
 Vector2 OffCenter(const CameraCalibration& camera, const PanTiltAngles& angles,
                   const Vector3& p_WQ) {
   const Vector3 p_CQ = camera.PoseAt(angles) * p_WQ;

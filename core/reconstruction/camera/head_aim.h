@@ -1,4 +1,4 @@
-// §4: cameras on heads. Where a head has to look to see a point.
+// §4: cameras on pan-tilt heads: aiming a head at a point.
 #pragma once
 
 #include "core/geometry.h"
@@ -6,16 +6,15 @@
 
 namespace mocap {
 
-/// Turns a head so that a point comes to the middle of the lens.
+/// Turns a pan-tilt head so that a point comes to the centre of the picture.
 ///
-/// Newton's method on the angles at which the camera sees the point: the head's axes are nearly
-/// those of the picture, so that it settles in a few steps.
+/// Newton's method on the angles at which the camera sees the point. The head's axes are nearly
+/// those of the picture, so it converges in a few steps.
 ///
-/// @param camera  with a head.
+/// @param camera  with a pan-tilt head.
 /// @param p_WQ    the point [mm].
-/// @param from    where the head points now; of several directions the one near to it is found.
-/// @return        what the head's encoders read then. A point on an axis leaves them about where
-///                they are.
+/// @param from    present angles of the head; the solution near them is found.
+/// @return        the encoder readings then. For a point on an axis they stay about the same.
 PanTiltAngles AimAt(const CameraCalibration& camera, const Vector3& p_WQ,
                     const PanTiltAngles& from = {});
 

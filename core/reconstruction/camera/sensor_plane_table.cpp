@@ -12,9 +12,9 @@ namespace {
 constexpr int kDirectionStep_px = 8;
 constexpr double kWidestCell_px = 16;
 constexpr double kNarrowestCell_px = 4;
-// Of the half pixel that a table may err, all but this is left to rounding.
+// A table may err by half a pixel. All but this much is left to rounding.
 constexpr double kWantedError_px = 0.02;
-// Half a gigabyte: far above what any lens needs.
+// Half a gigabyte: far more than any lens needs.
 constexpr double kMostNodes = 1 << 26;
 
 }  // namespace
@@ -24,7 +24,7 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
       height_px_(camera.height_px),
       field_radius_(FieldRadius(camera.lens)) {
   MOCAP_CHECK(width_px_ > 0 && height_px_ > 0 && width_px_ < 32768 && height_px_ < 32768);
-  // Directions of pixel corners, from one step before the picture to one step behind it.
+  // Directions of pixel corners, from one step before the picture to one step after it.
   direction_columns_ = (width_px_ - 1) / kDirectionStep_px + 2;
   direction_rows_ = (height_px_ - 1) / kDirectionStep_px + 2;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
 }
 
 bool SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
-  // One cell on each side beyond the picture.
+  // One extra cell on each side of the picture.
   columns_ = static_cast<int>(std::ceil((high_.x() - low_.x()) / cell)) + 3;
   rows_ = static_cast<int>(std::ceil((high_.y() - low_.y()) / cell)) + 3;
   origin_x_ = static_cast<float>(low_.x() - cell);
@@ -91,11 +91,11 @@ bool SensorPlaneTable::FillNodes(const Lens& lens, double cell) {
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       Vector2 at(low_.x() + (column - 1) * cell, low_.y() + (row - 1) * cell);
-      // A node beyond the rim takes the rim's place: it is a corner of cells that are seen.
+      // A node beyond the rim gets the rim's position, because visible cells have it as a corner.
       const double inside = field_radius_ * (1 - 1e-9);
       if (at.norm() > inside) at *= inside / at.norm();
       const std::optional<Vector2> place = PixelFromNormalized(lens, at);
-      // Two turns so close to each other that only one of two searches finds them.
+      // Two turning points are so close together that only one of two searches finds them.
       if (!place) return false;
       nodes_.push_back({static_cast<float>(place->x()), static_cast<float>(place->y())});
     }
@@ -155,7 +155,7 @@ SensorPlaneTable::Window SensorPlaneTable::InnerWindow() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Window nothing{Vector2::Constant(kInfinity), Vector2::Constant(-kInfinity)};
   Window window{nothing.high, nothing.low};
-  // The last directions may lie beyond the picture.
+  // The last directions may lie outside the picture.
   const int right = (width_px_ - 1) / kDirectionStep_px;
   const int bottom = (height_px_ - 1) / kDirectionStep_px;
   for (int row = 0; row <= bottom; ++row) {
@@ -182,7 +182,7 @@ SensorPlaneTable::Window SensorPlaneTable::WindowOf(int left, int top, int right
   window.high = -window.low;
   bool beyond_the_rim = false;
   for (int row = first_row; row <= last_row; ++row) {
-    // A lens maps the inside of the rectangle into its outline's image.
+    // A lens maps the interior of the rectangle into the image of its outline.
     const bool edge_row = row == first_row || row == last_row;
     const int step = edge_row ? 1 : last_column - first_column;
     for (int column = first_column; column <= last_column; column += step) {

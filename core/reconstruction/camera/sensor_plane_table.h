@@ -9,43 +9,43 @@
 
 namespace mocap {
 
-/// Maps quantised (Xu/f, Yu/f) to pixels, far closer than half a pixel to the exact formula.
+/// Maps quantised (Xu/f, Yu/f) to pixels, with an error far below half a pixel.
 ///
-/// Depends on the lens alone: built once, it serves every pan and tilt. Run time never evaluates a
-/// lens. Mikić et al. 2003, §4. The paper's table has one pixel a cell; here cells are several
-/// pixels wide and interpolated between their corners, so that the table stays in the cache and
-/// what is left of the half pixel is the rounding to a whole pixel. Reentrant.
+/// The table depends on the lens alone. It is built once and serves every pan and tilt; no lens is
+/// evaluated at run time. Mikić et al. 2003, §4. The paper's table has one cell per pixel. Here
+/// cells are several pixels wide and interpolated between their corners, so that the table stays in
+/// the cache. What remains of the half pixel is rounding to a whole pixel. Reentrant.
 class SensorPlaneTable {
  public:
   struct Pixel {
     std::int16_t x = -1;  ///< Negative: outside the picture.
     std::int16_t y = -1;
   };
-  /// A place in the picture, between pixel centres.
+  /// A position in the picture, between pixel centres.
   struct Place {
     float x_px = 0;
     float y_px = 0;
   };
 
-  /// @throws SetupError  when the lens shows nothing in its picture.
+  /// @throws SetupError  if the lens shows nothing in its picture.
   explicit SensorPlaneTable(const CameraCalibration& camera);
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
-  /// Finds the pixel of a direction; outside the picture both coordinates are negative.
+  /// Finds the pixel of a direction. Outside the picture both coordinates are negative.
   Pixel Lookup(double xu_over_f, double yu_over_f) const {
     Place place;
     if (!Locate(static_cast<float>(xu_over_f), static_cast<float>(yu_over_f), place)) return {};
     return PixelAt(place);
   }
 
-  /// Finds where a direction meets the picture's plane, also a little beyond the picture.
-  /// @return  false where the table ends: the place is outside the picture.
+  /// Finds where a direction meets the picture's plane, also slightly outside the picture.
+  /// @return  false outside the table: the position is then outside the picture.
   bool Locate(float xu_over_f, float yu_over_f, Place& place) const {
     const float u = (xu_over_f - origin_x_) * cells_per_unit_;
     const float v = (yu_over_f - origin_y_) * cells_per_unit_;
-    // Also false for what is not a number.
+    // Also false for NaN.
     if (!(u >= 0 && v >= 0 && u < last_column_ && v < last_row_)) return false;
     if (xu_over_f * xu_over_f + yu_over_f * yu_over_f > farthest_sq_) return false;
     const int column = static_cast<int>(u);
@@ -62,7 +62,7 @@ class SensorPlaneTable {
     return true;
   }
 
-  /// Rounds a place to the pixel that holds it; outside the picture both coordinates are negative.
+  /// Rounds a position to its pixel. Outside the picture both coordinates are negative.
   Pixel PixelAt(const Place& place) const {
     const float x = place.x_px + 0.5f;
     const float y = place.y_px + 0.5f;
@@ -72,7 +72,7 @@ class SensorPlaneTable {
     return {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
   }
 
-  /// The table as loops over many directions want it.
+  /// The table in the form that loops over many directions need.
   struct Nodes {
     const Place* nodes = nullptr;
     int columns = 0;
@@ -82,8 +82,8 @@ class SensorPlaneTable {
     float field_radius = 0;
     /// The part of the sensor plane that the picture shows.
     float low_x = 0, low_y = 0, high_x = 0, high_y = 0;
-    /// For each cell a bound on how much the slope of places [px per cell] changes from one cell to
-    /// the next, anywhere within kBendReach_cells of it.
+    /// For each cell: an upper bound on the change of the slope of positions [px per cell] from one
+    /// cell to the next, within kBendReach_cells of it.
     const float* bends_px = nullptr;
   };
   static constexpr int kBendReach_cells = 2;
@@ -108,12 +108,12 @@ class SensorPlaneTable {
     Vector2 low = Vector2::Zero();
     Vector2 high = Vector2::Zero();
   };
-  /// Finds a window that holds every direction seen within a rectangle of the picture, a few
+  /// Finds a window that contains every direction within a rectangle of the picture. It is a few
   /// pixels too wide at most.
   /// @param left, top, right, bottom  the rectangle's outermost pixels, inclusive.
   Window WindowOf(int left, int top, int right, int bottom) const;
-  /// Finds a window that holds nothing but directions in the picture; it is empty, its low side
-  /// above its high one, where the picture shows the lens's rim.
+  /// Finds a window that contains only directions in the picture. It is empty, its low side above
+  /// its high one, if the picture shows the rim of the lens.
   Window InnerWindow() const;
 
  private:
@@ -132,7 +132,7 @@ class SensorPlaneTable {
   int columns_ = 0, rows_ = 0;
   float last_column_ = 0, last_row_ = 0;
   std::vector<Place> nodes_;
-  std::vector<float> bends_px_;  // Of the cell right of and below each node.
+  std::vector<float> bends_px_;  // For the cell right of and below each node.
 
   // Directions of pixel corners, every kDirectionStep_px pixels, for WindowOf.
   int direction_columns_ = 0, direction_rows_ = 0;

@@ -23,11 +23,11 @@ constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
 constexpr int kMajority = kSamples / 2 + 1;
 
-// With this many cameras, one may be wrong about a gap.
+// One camera in this many may be wrong about a gap.
 constexpr int kCamerasPerDoubt = 5;
 
-// Which of eight voxels have a majority of their samples: a byte a sample, a bit a voxel. Halves
-// are added to each other, all voxels at once, in the digits of binary numbers.
+// Finds which of eight voxels have a majority of their samples: one byte per sample, one bit per
+// voxel. Adds all voxels at once, bit-sliced, halving the bytes in each step.
 std::uint8_t Majorities(std::uint64_t samples) {
   static_assert(kSamples == 8 && kMajority == 5);
   const std::uint64_t a = samples >> 32;
@@ -47,7 +47,7 @@ std::uint8_t Majorities(std::uint64_t samples) {
   return static_cast<std::uint8_t>(eights | (fours & (twos | ones)));
 }
 
-// The samples of one voxel, a bit a sample.
+// The samples of one voxel, one bit per sample.
 std::uint8_t SamplesOf(std::uint64_t samples, int voxel) {
   return static_cast<std::uint8_t>((samples >> voxel & 0x0101010101010101) * 0x0102040810204080 >>
                                    56);
@@ -57,8 +57,8 @@ int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1)
 
 }  // namespace
 
-// One descent through the grid. Blocks that all cameras agree on are decided whole; the outcome is
-// that of asking every camera about every sample of every voxel.
+// One descent through the grid. Blocks that all cameras agree on are decided whole. The result is
+// the same as testing every sample of every voxel in every camera.
 class Carver::Walk {
  public:
   explicit Walk(const CarvingOptions& options)
@@ -68,15 +68,15 @@ class Carver::Walk {
   const Eigen::AlignedBox3d& person_box_W() const { return person_box_W_; }
 
  private:
-  // A cube of voxels and what is known of it.
+  // A cube of voxels and what is known about it.
   struct Block {
     Eigen::Vector3i first;  // Within the grid.
     int side = 0;           // [voxels]
     int level = 0;
     int seeing = 0;     // Cameras that have all of it in their silhouette.
-    int undecided = 0;  // Cameras that are yet to be asked: the first in `views`.
+    int undecided = 0;  // Cameras that have not decided yet: the first in `views`.
     std::array<std::uint8_t, kMostViews> views;
-    // Where the view's frame is that holds the block: kLanes · level + octant, or kNoFrame.
+    // Index of the view's frame that contains the block: kLanes · level + octant, or kNoFrame.
     std::array<std::uint8_t, kMostViews> frames;
   };
   static constexpr std::uint8_t kNoFrame = 255;
@@ -149,7 +149,7 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
   }
 }
 
-// Measures the silhouettes of those cameras that see something.
+// Measures the silhouettes of all cameras that see something.
 void Carver::Walk::Prepare(std::span<const CarvingView> views) {
   most_gaps_ = static_cast<int>(views.size()) / kCamerasPerDoubt;
   views_.clear();
@@ -166,7 +166,7 @@ void Carver::Walk::Prepare(std::span<const CarvingView> views) {
   }
 }
 
-// Asks the view at place `i` of a block's about the octants.
+// Tests the octants of a block in its i-th undecided view.
 OctantDecisions Carver::Walk::Judge(const Block& block, int i, float spread, float half,
                                     std::uint8_t& framed) {
   const std::uint8_t view = block.views[i];
@@ -192,7 +192,7 @@ void Carver::Walk::Visit(const Block& block) {
   if (block.side == 2 && VisitSamples(block)) return;
   const int side = block.side / 2;
   const float spread = static_cast<float>(side) / 2 * VoxelMm();
-  // The samples lie closer to the middle than the voxels' corners do.
+  // Samples lie closer to the centre than the corners of the voxels.
   const float half = (static_cast<float>(side) - 1.0f / kSamplesPerSide) / 2 * VoxelMm();
   std::uint8_t alive = OctantsInGrid(block);
   std::array<std::uint8_t, kMostViews> inside, decided, framed;
@@ -213,7 +213,7 @@ void Carver::Walk::Visit(const Block& block) {
     for (int i = 0; i < block.undecided; ++i) {
       const bool is_framed = block.frames[i] == kNoFrame && (framed[i] >> bit & 1);
       octant.seeing += inside[i] >> bit & 1;
-      // Overwritten by the next if it is decided: that is faster than a choice.
+      // The next view overwrites the entry if this one is decided: faster than a branch.
       octant.views[octant.undecided] = block.views[i];
       octant.frames[octant.undecided] =
           is_framed ? static_cast<std::uint8_t>(block.level * OctantFrames::kLanes + bit)
@@ -236,7 +236,7 @@ void Carver::Walk::Fill(const Block& block) {
       for (int i = block.first.x(); i < end.x(); ++i) grid_->Set(i, j, k);
 }
 
-// Decides eight voxels at a time, where all cameras have frames.
+// Decides eight voxels at a time if all cameras have frames.
 bool Carver::Walk::VisitSamples(const Block& block) {
   for (int i = 0; i < block.undecided; ++i)
     if (block.frames[i] == kNoFrame) return false;
@@ -256,7 +256,7 @@ bool Carver::Walk::VisitSamples(const Block& block) {
   return true;
 }
 
-// Its octants are the samples.
+// The octants of a voxel are its samples.
 void Carver::Walk::VisitVoxel(const Block& voxel) {
   std::uint64_t alive = SpreadBits(0xff);
   std::array<SampleDecisions, kMostViews> decisions;
@@ -271,11 +271,11 @@ void Carver::Walk::VisitVoxel(const Block& voxel) {
   Decide(voxel, {decisions.data(), static_cast<std::size_t>(voxel.undecided)}, 1, alive);
 }
 
-// Decides the voxels that are asked for, one or up to eight, by what each of the undecided views
-// knows of the samples.
+// Decides the voxels in `asked`, up to eight, from what each undecided view knows about the
+// samples.
 void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> decisions,
                           std::uint8_t asked, std::uint64_t alive) {
-  // Samples that at least so many more cameras see, and those that so many miss.
+  // Samples that at least n more cameras see, and samples that n cameras miss.
   std::array<std::uint64_t, kMostViews + 1> seen, missed;
   const int needed = std::max(fewest_ - block.seeing, 0);
   const int too_many = most_gaps_ + 1;
@@ -303,7 +303,7 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> d
   }
 }
 
-// Asks the cameras exactly about unknown samples of a voxel, as long as it depends on them.
+// Tests a voxel's unknown samples exactly, as long as the result depends on them.
 bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleDecisions> decisions,
                               int voxel, unsigned agrees, unsigned unknown) const {
   for (; unknown != 0; unknown &= unknown - 1) {
@@ -315,7 +315,7 @@ bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleDecision
   return false;
 }
 
-// Asks those cameras that do not know it yet.
+// Tests a sample exactly in those cameras that have not decided it yet.
 bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions,
                                 int voxel, int sample) const {
   const Vector3 corner_W =
@@ -343,7 +343,7 @@ bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisi
   return seeing >= fewest_;
 }
 
-// Evaluates the plain definition at a place; empty if the camera does not see it.
+// Evaluates the definition at one point; empty if the camera does not see it.
 std::optional<WindowMap::Kind> Carver::Walk::Look(int view, const Vector3& p_W) const {
   const CarvingView& eye = views_[view];
   const Vector3 p_C = eye.X_CW * p_W;

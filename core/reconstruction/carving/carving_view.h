@@ -1,4 +1,4 @@
-// §4: what one camera contributes to a set.
+// §4: one camera's contribution to a set.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,18 +9,18 @@
 
 namespace mocap {
 
-/// Where a camera stood, and what its lens shows. Borrowed.
+/// Pose of a camera, and the table of its lens. Borrowed.
 struct CameraEye {
   const SensorPlaneTable* table = nullptr;
   RigidTransform X_CW;
 
-  /// Whether a place is in the picture.
+  /// Whether a point is in the picture.
   bool Sees(const Vector3& p_W) const {
     const Vector3 p_C = X_CW * p_W;
     return p_C.z() > 0 && table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z()).x >= 0;
   }
-  /// Whether all of a person who fills a box is in the picture. People are round: of the box's
-  /// upright sides the middles count, and not where they meet.
+  /// Whether a person who fills a box is entirely in the picture. People are round: the middles of
+  /// the box's vertical sides count, not its corners.
   bool SeesAllWithin(const Eigen::AlignedBox3d& box_W) const {
     const Vector3 middle_W = box_W.center(), half = box_W.sizes() / 2;
     for (const double up : {-half.z(), half.z()}) {
@@ -33,7 +33,7 @@ struct CameraEye {
   }
 };
 
-/// One camera's outline and where the camera stood at that moment. Borrowed for the call.
+/// One camera's silhouette, and its pose at that moment. Borrowed for the call.
 struct CarvingView {
   const SensorPlaneTable* table = nullptr;
   const Silhouette* silhouette = nullptr;

@@ -52,7 +52,7 @@ void ConvexVolume::Clip(const Vector3& normal, double offset) {
   std::swap(faces_, kept_);
 }
 
-// Puts the points of a cut into an order around their middle.
+// Sorts the points of a cut by their angle around the centroid.
 void ConvexVolume::SortCut(const Vector3& normal) {
   Vector3 middle = Vector3::Zero();
   for (const Cut& cut : cut_) middle += cut.point / static_cast<double>(cut_.size());

@@ -1,4 +1,4 @@
-// §4: a convex piece of space, cut by planes.
+// §4: a convex volume, clipped by planes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,18 +11,18 @@ namespace mocap {
 /// A convex polyhedron that starts as a box. Reuses its memory.
 class ConvexVolume {
  public:
-  /// Starts anew.
+  /// Resets to a box.
   void Reset(const Eigen::AlignedBox3d& box);
 
   /// Keeps the part where normal · x <= offset.
   void Clip(const Vector3& normal, double offset);
 
   bool empty() const { return faces_.ends.empty(); }
-  /// The smallest upright box around what is left.
+  /// Axis-aligned bounding box of what is left.
   Eigen::AlignedBox3d Extent() const;
 
  private:
-  // The corners of face after face.
+  // The corners, face after face.
   struct Faces {
     std::vector<Vector3> corners;
     std::vector<std::size_t> ends;

@@ -10,17 +10,17 @@ namespace mocap {
 namespace {
 
 constexpr int kTile_px = Shading::kTile_px;
-// Farther from a camera the floor is no matter of the studio.
+// Floor farther away than this from a camera does not belong to the studio.
 constexpr double kFarthestMm = 12'000;
 // A place with less than this share of the shade is bright.
 constexpr float kAlike = 0.4f;
 constexpr int kBrightWanted = 2;
-// Half the width of what is too thin to be more than a rim.
+// Half the width of parts that are too thin to be more than a rim.
 constexpr int kThin_px = 2;
-// Of the eight tiles around one.
+// Number of the eight tiles around one.
 constexpr int kNeighboursWanted = 3;
 constexpr int kRounds = 2;
-// Holes of fewer pixels are filled, blobs of a smaller share of the picture dropped.
+// Smaller holes are filled. Blobs with a smaller share of the picture are dropped.
 constexpr int kSmallestHole_px = 20;
 constexpr double kSmallestBlobShare = 0.0005;
 
@@ -38,7 +38,7 @@ std::vector<Vector3> TileDirections(const CameraCalibration& camera) {
   return directions;
 }
 
-// Where a ray from a camera meets the floor.
+// Intersects a ray from a camera with the floor.
 std::optional<Vector3> OnFloor(const RigidTransform& X_WC, const Vector3& direction_C) {
   const Vector3 direction_W = X_WC.R * direction_C;
   if (!(direction_W.z() < 0)) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<Vector3> OnFloor(const RigidTransform& X_WC, const Vector3& direct
   return X_WC.p + depth_mm * direction_W;
 }
 
-// How dark a camera sees a place; empty where somebody may stand before it.
+// Shade of a place in a camera; empty if somebody may hide it.
 std::optional<Shading::Shade> ShadeOf(const ShadedView& view, const Silhouette& people,
                                       const Vector3& place_W) {
   const Vector3 place_C = view.X_CW * place_W;
@@ -63,7 +63,7 @@ std::optional<Shading::Shade> ShadeOf(const ShadedView& view, const Silhouette& 
   return shade;
 }
 
-// Tiles that are set beside one.
+// Counts the tiles around one that are set.
 int CountAround(const Silhouette& tiles, const Shading::DarkTile& tile) {
   int count = 0;
   for (int row = std::max(tile.row - 1, 0); row <= std::min(tile.row + 1, tiles.height() - 1);
@@ -113,7 +113,7 @@ void FloorShadows::FindPeople(std::span<const ShadedView> views) {
   }
 }
 
-// Puts the dark pixels of a view's clothes together.
+// Collects the dark pixels of clothes in a view.
 void FloorShadows::Gather(std::span<const ShadedView> views, std::size_t view) {
   const Shading& shading = *views[view].shading;
   Vote(views, view);
@@ -127,7 +127,8 @@ void FloorShadows::Gather(std::span<const ShadedView> views, std::size_t view) {
   }
 }
 
-// Decides on a view's dark tiles. Those of which the others tell nothing go with their neighbours.
+// Decides on a view's dark tiles. Tiles that the other cameras do not decide follow their
+// neighbours.
 void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
   const Shading& shading = *views[view].shading;
   for (Silhouette* const tiles : {&clothes_, &shadows_})
@@ -161,7 +162,7 @@ void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
   }
 }
 
-// Asks the other cameras how bright the floor is where a dark tile has it.
+// Tests how bright the other cameras see the floor at a dark tile.
 FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std::size_t view,
                                           const Vector3& place_W, Shading::Shade shade) const {
   int bright = 0, dark = 0;
@@ -174,7 +175,7 @@ FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std
   return dark > 0 ? Verdict::kShadow : Verdict::kUnknown;
 }
 
-// Leaves out what is thin.
+// Removes thin parts.
 void FloorShadows::Open() {
   Erode(added_, kThin_px, scratch_);
   Dilate(scratch_, kThin_px, opened_);

@@ -1,4 +1,4 @@
-// Beyond the paper: clothes told from shadows by what all cameras see of the floor.
+// Beyond the paper: distinguishes clothes from shadows by all cameras' views of the floor.
 #pragma once
 
 #include <span>
@@ -15,21 +15,21 @@ namespace mocap {
 
 /// One camera's part in a set. Borrowed for the call.
 struct ShadedView {
-  int camera = 0;  ///< Its place among those that FloorShadows was made for.
+  int camera = 0;  ///< Its index among the cameras that FloorShadows was made for.
   const SensorPlaneTable* table = nullptr;
   RigidTransform X_CW;
   const Shading* shading = nullptr;
   Silhouette* silhouette = nullptr;
-  bool is_completed = false;  ///< The silhouette was.
+  bool is_completed = false;  ///< Whether pixels were added to the silhouette.
 };
 
-/// Completes silhouettes by clothes that are darker than the floor behind them and nothing else.
+/// Completes silhouettes by clothes whose only difference from the floor behind is being darker.
 ///
-/// One picture cannot tell such clothes from a shadow. But a shadow on the floor is a property of
-/// the floor: all cameras that see the place see it dark. A dark pixel whose place on the floor is
-/// as bright as ever in two other cameras, and dark in fewer, shows something that stands before
-/// the floor. What the others tell nothing of goes with what surrounds it; thin rims are left
-/// alone. Of very many cameras 31 others are asked. Thread-bound; reuses its memory.
+/// One picture cannot distinguish such clothes from a shadow. But a shadow lies on the floor: every
+/// camera that sees the place sees it dark. If a dark pixel's place on the floor has its usual
+/// brightness in at least two other cameras, and is dark in fewer, something stands in front of the
+/// floor. If the other cameras do not decide, a tile follows its neighbours. Thin rims are left
+/// out. With very many cameras, 31 others are asked. Thread-bound; reuses its memory.
 class FloorShadows {
  public:
   explicit FloorShadows(std::span<const CameraCalibration> cameras);
@@ -46,9 +46,9 @@ class FloorShadows {
   void Gather(std::span<const ShadedView> views, std::size_t view);
   void Open();
 
-  // Of each camera, the direction of each tile's middle, at depth 1; zero where there is none.
+  // For each camera, the direction of each tile's centre, at depth 1; zero if there is none.
   std::vector<std::vector<Vector3>> directions_C_;
-  std::vector<Silhouette> people_;  // Of each view, the tiles at or beside its silhouette.
+  std::vector<Silhouette> people_;  // For each view, the tiles at or beside its silhouette.
   Silhouette clothes_, shadows_;    // Tiles of the view that is being completed.
   std::vector<Shading::DarkTile> undecided_, joining_;
   Silhouette scratch_, added_, opened_;

@@ -9,11 +9,11 @@ namespace mocap {
 namespace {
 
 constexpr double kVoxel_mm = 20;
-/// With fewer other cameras their hull is too fat to say anything.
+/// The hull of fewer other cameras is too large to be useful.
 constexpr std::size_t kFewestOthers = 2;
-/// Below this they do not see the same thing.
+/// With less overlap, they do not see the same object.
 constexpr double kLeastOverlap = 0.5;
-/// A cube's outline has one and a half times the area of its face, in the mean over directions.
+/// Averaged over directions, a cube's outline has 1.5 times the area of its face.
 const double kHalfOutline = std::sqrt(1.5) / 2;
 
 bool IsOnSurface(const VoxelGrid& grid, int i, int j, int k) {
@@ -35,7 +35,7 @@ void ForEachVoxel(const VoxelGrid& grid, Visit visit) {
   }
 }
 
-/// Sets the square of pixels around a place, as far as it lies in the picture.
+/// Sets the square of pixels around a point, clipped to the picture.
 void PaintSquare(const SensorPlaneTable::Place& center, double half_px, Silhouette& painted) {
   const int left = std::max(0, static_cast<int>(std::ceil(center.x_px - half_px)));
   const int top = std::max(0, static_cast<int>(std::ceil(center.y_px - half_px)));
@@ -48,7 +48,7 @@ void PaintSquare(const SensorPlaneTable::Place& center, double half_px, Silhouet
   }
 }
 
-/// Paints what a camera would see of a hull.
+/// Draws a hull as a camera would see it.
 void PaintHull(const VoxelGrid& hull, const CarvingView& view, Silhouette& painted) {
   painted.Reset(view.silhouette->width(), view.silhouette->height());
   ForEachVoxel(hull, [&](int i, int j, int k) {

@@ -1,4 +1,4 @@
-// §4: whether each camera's silhouette agrees with the hull that the other cameras carve.
+// §4: agreement of each camera's silhouette with the hull that the other cameras carve.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,19 @@
 
 namespace mocap {
 
-/// Holds each camera of a set against the others, 31 of very many: one that was bumped sees the
-/// person beside the place where they put him. Thread-bound; reuses its memory.
+/// Compares each camera of a set with the others (with at most 31 of them). A camera that was
+/// bumped sees the person beside the place where they see him. Thread-bound; reuses its memory.
 class HullAgreement {
  public:
   HullAgreement();
 
-  /// Compares a set's silhouettes with the others' hulls.
-  /// @return  one for each view, until the next call; empty where nothing whole can be compared:
-  /// nobody is there, somebody stands half outside of the picture, or fewer than three cameras see.
+  /// Compares a set's silhouettes with the hulls of the other cameras.
+  /// @return  one for each view, valid until the next call. Empty if no complete silhouettes can be
+  /// compared: nobody is there, somebody is partly outside the picture, or fewer than three cameras
+  /// see him.
   const std::vector<std::optional<SilhouetteShift>>& Measure(std::span<const CarvingView> views);
 
-  /// Where the person is by all cameras together [mm, world]; empty when nobody is.
+  /// Returns the person's position from all cameras [mm, world]; empty if nobody is there.
   std::optional<Vector3> PlaceOf(std::span<const CarvingView> views);
 
  private:

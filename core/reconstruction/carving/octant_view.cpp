@@ -12,38 +12,38 @@ constexpr int kLanes = OctantFrames::kLanes;
 using Lanes = OctantFrames::Lanes;
 using Eye = OctantView::Eye;
 
-// More than the rounding of floats moves a place.
+// More than the rounding of floats moves a point.
 constexpr float kRounding_px = 0.01f;
-// Nearer to the camera than so many times half the side of a cube nothing is told of it.
+// Closer than this many half sides of a cube, a camera decides nothing about it.
 constexpr float kNearest = 4;
-// Makes places positive before they are rounded down, and what lies far away not too large.
+// Keeps positions positive before they are rounded down, and distant ones from overflowing.
 constexpr int kBias_px = 8192;
 constexpr float kFarthest_px = 32768;
-// Four of the largest windows cover so much.
+// Four of the largest windows cover this much.
 constexpr int kWidest_px = 2 * WindowMap::kLargest_px;
 
 constexpr Lanes kSignX = {-1, 1, -1, 1, -1, 1, -1, 1};
 constexpr Lanes kSignY = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr Lanes kSignZ = {-1, -1, -1, -1, 1, 1, 1, 1};
 
-// Four bytes of bits: inside, outside, unseen, gap.
+// Unpacks four bytes of bits: inside, outside, unseen, gap.
 OctantDecisions Unpack(std::uint32_t bits) {
   return {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
           static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 24)};
 }
 
-// The error of a frame that tells nothing.
+// The error of a frame that decides nothing.
 constexpr float kNoFrame_px = 1e6f;
 
-// All bits of a negative number's sign.
+// All bits of the result equal the sign bit.
 MOCAP_INLINE Ints Sign(Ints number) { return number >> 31; }
 
-// By a float's exponent.
+// Uses the exponent of the float.
 MOCAP_INLINE Ints FloorLog2(Ints number) {
   return (reinterpret_cast<Ints>(ToFloats(number)) >> 23) - 127;
 }
 
-// Where nodes of the table, and those right of them, are in the picture.
+// Picture positions of table nodes, and of the nodes to their right.
 struct NodePairs {
   MOCAP_INLINE NodePairs(const SensorPlaneTable::Place* nodes, const Places& places) {
     const Floats a = TwoOf(nodes, places, 0), b = TwoOf(nodes, places, 1);
@@ -60,8 +60,8 @@ struct NodePairs {
   Floats x, y, next_x, next_y;
 
  private:
-  // A node and the next are four numbers: read at once, with those of four lanes on, and transposed
-  // then.
+  // A node and the next are four numbers. They are read at once, together with those of the lane
+  // four further on, and then transposed.
   static MOCAP_INLINE Floats TwoOf(const SensorPlaneTable::Place* nodes, const Places& places,
                                    int lane) {
     float __attribute__((vector_size(16))) low, high;
@@ -73,7 +73,7 @@ struct NodePairs {
 
 struct Rectangles {
   Floats x, y, reach_x, reach_y;
-  // Bits that all lanes start with, and those that are asked for.
+  // Bits that all lanes start with, and lanes that are asked for.
   Ints known, asked;
 };
 
@@ -82,7 +82,7 @@ MOCAP_INLINE Ints RoundedDown(Floats place_px) {
   return TowardsZero(Clamped(biased, 0.0f, kFarthest_px)) - kBias_px;
 }
 
-// How much of the silhouette each rectangle holds.
+// Tests whether rectangles are inside or outside the silhouette.
 MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes& planes) {
   const std::uint32_t* const words = planes.words;
   const int left = planes.left, top = planes.top, right = planes.right, bottom = planes.bottom;
@@ -90,7 +90,7 @@ MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes
   const Ints x0 = RoundedDown(r.x - r.reach_x), x1 = RoundedDown(r.x + r.reach_x);
   const Ints y0 = RoundedDown(r.y - r.reach_y), y1 = RoundedDown(r.y + r.reach_y);
   const Ints side = Most(x1 - x0, y1 - y0) + 1;
-  // Windows of half a rectangle's longer side or more, one in each corner, cover it.
+  // One window in each corner covers the rectangle if its side is half the longer side or more.
   const Ints plane = FloorLog2(Clamped(side - 1, 1, kWidest_px - 1));
   const Ints beyond = 1 - (AllOf(1) << plane);
   const Ints begin = plane * planes.words_per_plane;
@@ -105,7 +105,7 @@ MOCAP_INLINE std::uint32_t JudgeAll(const Rectangles& r, const WindowMap::Planes
   const Ints lasts = LookUp(words, Places(last_column + first_row)) &
                      LookUp(words, Places(last_column + last_row));
   const Ints word = firsts >> (first & 15) & lasts >> (last & 15);
-  // Negative where something is not so.
+  // Negative where a condition is violated.
   const Ints in_picture = x0 | y0 | (width - 1 - x1) | (height - 1 - y1);
   const Ints touches_picture = x1 | y1 | (width - 1 - x0) | (height - 1 - y0);
   const Ints in_region =
@@ -146,7 +146,7 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
   const Ints is_ahead = cz > nearest;
   const Floats per_z = 1 / (is_ahead ? cz : AllOf(nearest));
   const Floats nx = cx * per_z, ny = cy * per_z;
-  // How (Xu/f, Yu/f) changes [1/mm], and how far the cube reaches there.
+  // Derivatives of (Xu/f, Yu/f) [1/mm], and the cube's reach there.
   const Floats d0 = r20 * per_z, d1 = r21 * per_z, d2 = r22 * per_z;
   const Floats u0 = r00 * per_z - nx * d0, u1 = r01 * per_z - nx * d1;
   const Floats u2 = r02 * per_z - nx * d2;
@@ -193,8 +193,8 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
   const Floats growth = grown + half * slant * grown * grown;
   const Floats reach_x = (SizeOf(ax0) + SizeOf(ax1) + SizeOf(ax2)) * growth;
   const Floats reach_y = (SizeOf(ay0) + SizeOf(ay1) + SizeOf(ay2)) * growth;
-  // The slope changes at each side of a cell that lies between, at worst at once and then after
-  // each whole cell, and along the cells.
+  // The slope changes at each cell boundary in between: at worst immediately and then after each
+  // whole cell, and along the cells.
   const Floats error =
       bend * (Most(du, 2 * du - 1) + Most(dv, 2 * dv - 1) + du * dv) + kRounding_px;
   StoreLanes(wx, f.middle[0].data()), StoreLanes(wy, f.middle[1].data());
@@ -213,12 +213,12 @@ std::uint32_t ProjectAll(const Eye& eye, const std::array<float, 3>& middle, flo
                   eye.planes);
 }
 
-// One lane of frames, seen from another place.
+// One lane of frames, evaluated at another point.
 struct Frame {
   float x, y;
   std::array<float, 3> along_x, along_y, depth;
   float reach_x, reach_y, error;
-  std::array<float, 3> offset;  // Of that place from the middle.
+  std::array<float, 3> offset;  // Of that point from the middle.
 
   MOCAP_INLINE
   Frame(const OctantFrames& f, int lane, const std::array<float, 3>& place)
@@ -239,7 +239,7 @@ struct Frame {
   }
 };
 
-// A linear function of a place, there and around it.
+// A linear function of position: its value at a point, and its gradient.
 struct Slope {
   float middle, x, y, z;
   MOCAP_INLINE
@@ -248,7 +248,7 @@ struct Slope {
         x(slope[0]),
         y(slope[1]),
         z(slope[2]) {}
-  // How much more it is in the octants.
+  // Differences to the value in the middle, for the octants.
   MOCAP_INLINE Floats Beside(float spread) const {
     Floats sign_x, sign_y, sign_z;
     LoadLanes(kSignX.data(), sign_x), LoadLanes(kSignY.data(), sign_y);
@@ -271,7 +271,7 @@ std::uint32_t CoarsePassAll(const Eye& eye, const OctantFrames& frames, int lane
       eye.planes);
 }
 
-// Whether all within so far of a frame's place lies well within the planes' region.
+// Whether everything within `half` of a frame's position lies well within the planes' region.
 MOCAP_INLINE bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, float x, float y,
                              float half) {
   const float reach_x = half * f.reach_x + f.error + 1, reach_y = half * f.reach_y + f.error + 1;
@@ -281,10 +281,10 @@ MOCAP_INLINE bool IsInRegion(const WindowMap::Planes& planes, const Frame& f, fl
          y + reach_y < static_cast<float>(planes.bottom);
 }
 
-// A bit of each byte.
+// The lowest bit of each byte.
 constexpr std::uint64_t kEach = 0x0101010101010101;
 
-// The lowest bytes of eight words, then the next, and so on.
+// Sorts bytes: the lowest bytes of eight words first, then the next, and so on.
 MOCAP_INLINE void SortBytes(Ints words, std::array<std::uint64_t, 4>& bytes) {
   static_assert(std::endian::native == std::endian::little);
   using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
@@ -295,8 +295,8 @@ MOCAP_INLINE void SortBytes(Ints words, std::array<std::uint64_t, 4>& bytes) {
   std::memcpy(bytes.data(), &sorted, sizeof sorted);
 }
 
-// The samples of eight voxels, by windows of one pixel or two. Returns whether all of them lie in
-// the region that the planes cover; otherwise nothing is told.
+// Tests the samples of eight voxels by windows of 1 or 2 px. Returns whether all of them
+// lie in the region of the planes; otherwise nothing is decided.
 MOCAP_VECTORIZED
 bool CoarsePassSamplesAll(const WindowMap::Planes& planes, const OctantFrames& frames, int lane,
                           const std::array<float, 3>& middle, float voxel_spread,
@@ -318,7 +318,7 @@ bool CoarsePassSamplesAll(const WindowMap::Planes& planes, const OctantFrames& f
   StoreLanes(z.middle + z.Beside(voxel_spread), voxel_z.data());
   const Floats sample_x = x.Beside(sample_spread), sample_y = y.Beside(sample_spread);
   const Floats sample_z = z.Beside(sample_spread);
-  // A word a sample; in its bytes what is inside, undecided and outside, a bit a voxel.
+  // One word per sample. Its bytes tell inside, undecided and outside, one bit per voxel.
   Ints collected{};
   for (unsigned left_over = asked; left_over != 0; left_over &= left_over - 1) {
     const int voxel = std::countr_zero(left_over);

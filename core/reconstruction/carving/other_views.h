@@ -1,16 +1,16 @@
-// Against which cameras of a set each of them is held.
+// The cameras of a set that each camera is compared with.
 #pragma once
 
 #include <cstddef>
 
 namespace mocap {
 
-/// Of very many cameras so many tell as much as all of them, and what each is held against does not
-/// grow with their number.
+/// Limit for the number of other cameras. This many tell as much as all of a very large number, and
+/// the cost per camera stays bounded.
 inline constexpr std::size_t kMostOthers = 31;
 
-/// Whether a view is among the others that `view` is held against: all of them, or kMostOthers of
-/// them, spread evenly from it on.
+/// Whether `view` is compared with another view: with all of them, or with kMostOthers that are
+/// spread evenly, counted from `view` on.
 constexpr bool IsOther(std::size_t other, std::size_t view, std::size_t views) {
   const std::size_t all = views - 1;
   if (other == view || all <= kMostOthers) return other != view;

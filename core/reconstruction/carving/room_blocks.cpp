@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-// The room is looked at in cubes of so many voxels first.
+// The room is first searched in cubes of this many voxels.
 constexpr int kLargestCube_voxels = 4 * RoomBlocks::kBlock_voxels;
 
 }  // namespace

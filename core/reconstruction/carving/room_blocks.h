@@ -12,43 +12,43 @@
 
 namespace mocap {
 
-/// Finds the blocks of a room that may hold flesh.
+/// Finds the blocks of a room that may contain flesh.
 ///
-/// A camera rules out what lies wholly in its picture and wholly beside the bounding box of its
+/// A camera excludes what lies entirely in its picture and entirely beside the bounding box of its
 /// silhouette. Each side of that box spans a plane with the camera's centre (Mikić et al. 2003,
-/// §4). What is outside of a picture its camera does not judge, for there may be somebody else.
-/// What fewer cameras see than are wanted holds nothing. The floor is at z = 0 with some
-/// tolerance; what no camera looks at within a room's length is left out. Reuses its memory.
+/// §4). A camera does not decide about places outside its picture, because somebody else may be
+/// there. Places that too few cameras see are excluded. The floor is at z = 0 with some tolerance.
+/// Places that no camera views within a room's length are excluded. Reuses its memory.
 class RoomBlocks {
  public:
   /// Side of a block [voxels].
   static constexpr int kBlock_voxels = 16;
 
-  /// @param fewest  cameras that have to see a place.
-  /// @param within  nothing else is looked at [mm, world]; empty: the whole room.
+  /// @param fewest  number of cameras that must see a place.
+  /// @param within  limits the search [mm, world]; empty: the whole room.
   void Find(std::span<const CarvingView> views, int fewest, double voxel_mm,
             const Eigen::AlignedBox3d& within = {});
 
-  /// First voxels of the blocks, from first_voxel(). Without any there is nothing to see.
+  /// First voxels of the blocks, relative to first_voxel(). If empty, there is nothing to see.
   const std::vector<Eigen::Vector3i>& blocks() const { return blocks_; }
-  /// The smallest grid that holds all blocks, as far as they lie in the room. Voxels are counted
+  /// The smallest grid that contains all blocks, as far as they lie in the room. Voxels are counted
   /// from the world's origin.
   const Eigen::Vector3i& first_voxel() const { return first_voxel_; }
   const Eigen::Vector3i& size_voxels() const { return size_voxels_; }
 
  private:
-  // Planes through a camera's centre, with the inside of a window where n · p + d >= 0.
+  // A plane through a camera's centre; the inside of a window is where n · p + d >= 0.
   struct Plane {
     Vector3 n_W;
     double d;
-    double reach;  // Of a cube, per mm of half its side.
+    double reach;  // Reach of a cube, per mm of half its side.
   };
   using Cone = std::array<Plane, 4>;
   struct Eye {
     Plane ahead;
-    Cone picture;      // Holds all that the camera sees,
-    Cone all_picture;  // all of what this holds it sees,
-    Cone box;          // and this the silhouette.
+    Cone picture;      // Contains all that the camera sees,
+    Cone all_picture;  // contains only what it sees,
+    Cone box;          // and contains the silhouette.
   };
 
   static Plane PlaneOf(const RigidTransform& X_CW, const Vector3& normal_C);

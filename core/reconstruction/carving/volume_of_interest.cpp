@@ -3,9 +3,9 @@
 namespace mocap {
 namespace {
 
-// Calibration and the soles leave the floor by less than this.
+// Errors of the calibration, and soles, stay within this distance below the floor.
 constexpr double kBelowFloor_mm = 50;
-// How far ahead of a camera a person may be, and how far beside all that.
+// Greatest distance of a person in front of a camera, and the margin around that.
 constexpr double kReach_mm = 6000;
 constexpr double kMargin_mm = 1000;
 
@@ -22,13 +22,13 @@ void ClipToSilhouette(const CarvingView& view, const PixelBox& box, ConvexVolume
   const bool top_open = box.top == 0;
   const bool right_open = box.right == view.silhouette->width() - 1;
   const bool bottom_open = box.bottom == view.silhouette->height() - 1;
-  // normal · p_C <= 0 in the camera's frame.
+  // Keeps normal · p_C <= 0 in the camera's frame.
   const auto clip = [&](const Vector3& normal_C) {
     volume.Clip(view.X_CW.R.transpose() * normal_C, -normal_C.dot(view.X_CW.p));
   };
   clip({0, 0, -1});
-  // Where the person leaves the picture on one side, what is outside may also be higher or lower
-  // than what is inside, so the neighbouring sides bound nothing either.
+  // If the person leaves the picture on one side, the part outside may extend beyond the
+  // neighbouring sides too. So these sides bound nothing either.
   const bool sideways = left_open || right_open;
   const bool upright = top_open || bottom_open;
   if (!left_open && !upright) clip({-1, 0, window.low.x()});

@@ -11,19 +11,19 @@
 
 namespace mocap {
 
-/// Gives what a camera looks at within a room's length, above the floor, and some of what lies
-/// beside [mm]. Nobody is looked for elsewhere.
+/// Returns the box that a camera views within a room's length, above the floor, with a margin [mm].
+/// Nobody is searched for elsewhere.
 Eigen::AlignedBox3d RoomBefore(const RigidTransform& X_CW);
 
-/// Finds an upright box around the person, in the world frame [mm].
+/// Finds an axis-aligned box around the person, in the world frame [mm].
 ///
-/// Each side of a silhouette's bounding box spans a plane with the camera's centre; the box is the
-/// extent of what lies on the right side of all planes. A side gives no plane where the silhouette
-/// runs out of the picture. The floor is at z = 0 with some tolerance; what no camera looks at
-/// within a room's length is left out. Mikić et al. 2003, §4. Reuses its memory.
+/// Each side of a silhouette's bounding box spans a plane with the camera's centre. The result is
+/// the box around the intersection of all half-spaces. A side where the silhouette leaves the
+/// picture gives no plane. The floor is at z = 0 with some tolerance. Places that no camera views
+/// within a room's length are left out. Mikić et al. 2003, §4. Reuses its memory.
 class VolumeOfInterest {
  public:
-  /// @return  empty when fewer than two silhouettes have pixels or their cones do not meet.
+  /// @return  empty if fewer than two silhouettes have pixels, or if their cones do not intersect.
   std::optional<Eigen::AlignedBox3d> Find(std::span<const CarvingView> views);
 
   /// The silhouettes' bounding boxes in the last set; empty where one has no pixels.

@@ -7,7 +7,7 @@
 namespace mocap {
 namespace {
 
-// The bits of a row's word that lie from `begin` to `end`.
+// The bits of a row's word within [begin, end).
 std::uint64_t BitsWithin(int word, int begin, int end) {
   const int from = std::clamp(begin - 64 * word, 0, 64);
   const int to = std::clamp(end - 64 * word, from, 64);

@@ -1,4 +1,4 @@
-// Cutting a block of cells out of a voxel grid.
+// Copies a block of cells from a voxel grid.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,14 +7,14 @@
 
 namespace mocap {
 
-/// Copies the cells of a grid from the lowest to the highest, both included; reuses the memory of
-/// `block`. @pre they lie within the grid; without any, the block has no voxels.
+/// Copies the cells of a grid from the lowest to the highest, inclusive; reuses the memory of
+/// `block`. Without cells, the block has no voxels. @pre they lie within the grid.
 void CopyBlock(const VoxelGrid& grid, const Eigen::AlignedBox3i& cells, VoxelGrid& block);
 
-/// The cells of a grid that a box touches [mm, world]; empty without any.
+/// Returns the cells of a grid that a box touches [mm, world]; empty if there are none.
 Eigen::AlignedBox3i CellsWithin(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W);
 
-/// Flesh of a grid that lies outside of a block of its cells [litres].
+/// Returns the volume of a grid's voxels outside a block of its cells [litres].
 double LitresBeside(const VoxelGrid& grid, const Eigen::AlignedBox3i& cells);
 
 }  // namespace mocap

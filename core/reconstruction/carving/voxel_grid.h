@@ -13,37 +13,37 @@ namespace mocap {
 /// A block of cubic voxels, one bit each; rows run along x. Voxel (i, j, k) spans origin_W +
 /// voxel_mm * [i..i+1, …].
 ///
-/// Origins are whole multiples of the voxel size, so that the same place falls into the same voxel
-/// in every frame.
+/// Origins are integer multiples of the voxel size. Therefore a place falls into the same voxel in
+/// every frame.
 class VoxelGrid {
  public:
-  /// Sets the extent and empties every voxel; keeps the memory it has.
+  /// Sets the extent and clears every voxel; keeps its memory.
   void Reset(const Eigen::Vector3i& first_voxel, const Eigen::Vector3i& size, double voxel_mm) {
     first_ = first_voxel;
     size_ = size;
     voxel_mm_ = voxel_mm;
     words_per_row_ = (size.x() + 63) / 64;
     const std::size_t words = static_cast<std::size_t>(words_per_row_) * size.y() * size.z();
-    // Whoever moves soon needs a little more.
+    // A person who moves soon needs more.
     if (words > words_.capacity()) words_.reserve(std::bit_ceil(words));
     words_.assign(words, 0);
   }
 
-  /// Gives the memory back; there are no voxels then.
+  /// Frees the memory; there are no voxels then.
   void Release() {
     size_ = Eigen::Vector3i::Zero();
     words_per_row_ = 0;
     std::vector<std::uint64_t>().swap(words_);
   }
-  /// Memory that it keeps.
+  /// Size of the memory that it keeps.
   std::size_t capacity_bytes() const { return words_.capacity() * sizeof(std::uint64_t); }
 
   double voxel_mm() const { return voxel_mm_; }
   const Eigen::Vector3i& size() const { return size_; }
-  /// Index of the first voxel counted from the world's origin.
+  /// Index of the first voxel, counted from the world's origin.
   const Eigen::Vector3i& first_voxel() const { return first_; }
   Vector3 origin_W() const { return first_.cast<double>() * voxel_mm_; }
-  /// The corner that lies across from origin_W().
+  /// The corner opposite to origin_W().
   Vector3 end_W() const { return (first_ + size_).cast<double>() * voxel_mm_; }
   Vector3 CenterOf(int i, int j, int k) const {
     return (first_ + Eigen::Vector3i(i, j, k)).cast<double>() * voxel_mm_ +

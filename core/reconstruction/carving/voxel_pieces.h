@@ -1,4 +1,4 @@
-// §4: what hangs together in a grid.
+// §4: connected components of a grid.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace mocap {
 
-/// The pieces of a grid: voxels that hang together, over corners too. Reuses its memory.
+/// Connected components of a voxel grid; corners connect too. Reuses its memory.
 class VoxelPieces {
  public:
-  /// Voxels of one row without a gap: [begin, end) along x.
+  /// Consecutive voxels of one row: [begin, end) along x.
   struct Run {
     int j, k;
     int begin, end;
@@ -23,12 +23,12 @@ class VoxelPieces {
 
   /// All runs, row by row.
   const std::vector<Run>& runs() const { return runs_; }
-  /// Those of some rows that follow each other in y: [first_j, last_j] of layer k.
+  /// Returns the runs of rows [first_j, last_j] of layer k.
   std::span<const Run> RunsOf(int first_j, int last_j, int k) const {
     return {runs_.data() + row_begins_[k * rows_per_layer_ + first_j],
             runs_.data() + row_begins_[k * rows_per_layer_ + last_j + 1]};
   }
-  /// Voxels of each piece. Pieces are numbered in the order of their first voxels.
+  /// Number of voxels of each piece. Pieces are numbered in the order of their first voxels.
   const std::vector<int>& sizes() const { return sizes_; }
 
  private:
@@ -40,7 +40,7 @@ class VoxelPieces {
   std::vector<Run> runs_;
   int rows_per_layer_ = 0;
   std::vector<int> row_begins_;
-  std::vector<int> parents_;  // One a run: another of the same piece.
+  std::vector<int> parents_;  // For each run: another run of the same piece.
   std::vector<int> sizes_;
 };
 

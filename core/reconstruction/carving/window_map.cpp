@@ -11,13 +11,13 @@ namespace {
 
 using Word = std::uint32_t;
 constexpr int kBits = 32;
-// One after the other they dilate, or erode, by the width of a gap.
+// Applied one after another, they dilate or erode by the width of a gap.
 constexpr std::array<int, 3> kGapSteps_px = {1, 2, 3};
 static_assert(kGapSteps_px[0] + kGapSteps_px[1] + kGapSteps_px[2] == WindowMap::kGap_px);
 
-// Columns follow one another with margins between them, so that one loop shifts all of them. What
-// is shifted out of two columns into the margin between them does not meet there. `stride` words on
-// is what lies to the right.
+// Columns follow one another with margins between them, so that one loop shifts all of them. The
+// bits that two columns shift into their common margin do not meet there. `stride` words further on
+// lies the column to the right.
 
 MOCAP_VECTORIZED
 void DilateAlong(const Word* from, int count, std::ptrdiff_t stride, int step, Word* to) {
@@ -47,7 +47,7 @@ void ErodeAcross(const Word* from, int count, int step, Word* to) {
   for (int i = 0; i < count; ++i) to[i] = from[i] & from[i - step] & from[i + step];
 }
 
-// Lets windows grow to the right, and down.
+// Windows grow to the right, and down.
 MOCAP_VECTORIZED
 void Widen(Word* bits, int count, std::ptrdiff_t stride, int step) {
 #pragma GCC ivdep
@@ -62,7 +62,7 @@ void Heighten(Word* bits, int columns, std::ptrdiff_t stride, int rows, int step
   }
 }
 
-// Joins words of 32 pixels to two columns of 16.
+// Splits words of 32 pixels into two columns of 16.
 MOCAP_VECTORIZED
 void Join(const Word* inside, const Word* outside, int rows, Word* left, Word* right) {
 #pragma GCC ivdep
@@ -135,7 +135,7 @@ void WindowMap::CloseGaps() {
   }
 }
 
-// Empties what is beside the region; or sets it where that is beyond the picture's edge.
+// Clears the margins of the region, or sets them where they are beyond the picture's edge.
 void WindowMap::SetMargins(bool set_beyond_picture, Bits& bits) const {
   const auto filler = [&](bool is_edge) { return set_beyond_picture && is_edge ? ~Word{0} : 0; };
   const Word left = filler(left_ == 0), right = filler(right_ == width_px_ - 1);
@@ -164,13 +164,13 @@ void WindowMap::WritePlanes() {
   }
 }
 
-// Makes windows so much larger.
+// Enlarges windows by `step`.
 void WindowMap::Grow(int step) {
   for (Bits* const bits : {&inside_, &outside_}) {
     Widen(Column(*bits, 0), WordsBetween(), stride_, step);
     Heighten(Column(*bits, 0), columns_, stride_, rows_, step);
   }
-  // Below the region nothing is inside.
+  // Nothing below the region is inside.
   const int lowest = std::min(step, rows_);
   for (int i = 0; i < columns_; ++i) std::fill_n(Column(inside_, i) + rows_ - lowest, lowest, 0);
 }

@@ -1,4 +1,4 @@
-// §4: what square windows hold of a silhouette, which lets the carver decide whole blocks.
+// §4: contents of square windows of a silhouette, so that the carver can decide whole blocks.
 #pragma once
 
 #include <cstddef>
@@ -9,39 +9,37 @@
 
 namespace mocap {
 
-/// Tells of the square windows in a picture whether all of one lies in the silhouette, or all of it
-/// outside the silhouette with its gaps closed.
+/// Tells for square windows whether they lie entirely in the silhouette, or entirely outside the
+/// silhouette with its gaps closed.
 ///
-/// A map is made of planes, one for each size of window, with two bits for each place of the
-/// window's top left pixel: sixteen places make a word, `inside` in its lower half and `outside` in
-/// its upper one. Words that lie one below the other follow one another, for what is looked up at
-/// once is near, and a row lower more often than a word to the right. Thread-bound; reuses its
-/// memory.
+/// There is one plane per window size, with two bits per position of the window's top left pixel.
+/// Sixteen positions make a word, with `inside` in the lower half and `outside` in the upper half.
+/// Words of a column are adjacent: lookups of one block are close together, more often one row down
+/// than one word to the right. Thread-bound; reuses its memory.
 class WindowMap {
  public:
   enum class Kind { kInside, kGap, kOutside };
 
-  /// The windows of the first plane are a pixel; those of each other twice as wide as the one's
-  /// before.
+  /// Windows of the first plane are one pixel wide. Each further plane doubles the width.
   static constexpr int kPlanes = 6;
   static constexpr int kLargest_px = 1 << (kPlanes - 1);
   /// Half the width of the gaps that are closed [px].
   static constexpr int kGap_px = 6;
 
-  /// Planes as loops over many windows want them.
+  /// The planes in the form that loops over many windows need.
   struct Planes {
     const std::uint32_t* words = nullptr;
     int words_per_column = 0, words_per_plane = 0;
-    /// The region beside which all is outside, its last column and row included.
+    /// Everything beside this region is outside; its last column and row are included.
     int left = 0, top = 0, right = -1, bottom = -1;
     int width_px = 0, height_px = 0;  ///< Of the picture.
   };
 
   /// Measures a silhouette.
-  /// @param box  the silhouette's.
+  /// @param box  the silhouette's bounding box.
   void Measure(const Silhouette& silhouette, const PixelBox& box, bool closes_gaps);
 
-  /// Tells what a pixel of the picture is.
+  /// Returns the kind of a pixel of the picture.
   Kind At(int x, int y) const {
     if (x < left_ || x > right_ || y < top_ || y > bottom_) return Kind::kOutside;
     const int column = x - left_;
@@ -57,7 +55,7 @@ class WindowMap {
   }
 
  private:
-  // Columns of words, a bit a pixel of a row, with margins all around.
+  // Columns of words, one bit per pixel of a row, with margins all around.
   using Bits = std::vector<std::uint32_t>;
 
   void Extract(const Silhouette& silhouette);
@@ -65,17 +63,17 @@ class WindowMap {
   void SetMargins(bool set_beyond_picture, Bits& bits) const;
   void WritePlanes();
   void Grow(int step);
-  // The topmost word of a column; of the margins beside them, too.
+  // The topmost word of a column; also of the margins left and right.
   std::uint32_t* Column(Bits& bits, int column) const {
     return bits.data() + (column + 1) * stride_ + kGap_px;
   }
-  // From the topmost word of the first column to the lowest of the last.
+  // From the topmost word of the first column to the lowest word of the last.
   int WordsBetween() const { return columns_ * stride_ - 2 * kGap_px; }
 
   int width_px_ = 0, height_px_ = 0;
   int left_ = 0, top_ = 0, right_ = -1, bottom_ = -1;
   int rows_ = 0, columns_ = 0;
-  int stride_ = 0;  ///< From a column to the next.
+  int stride_ = 0;  ///< From one column to the next.
   Bits inside_, outside_, scratch_;
   std::vector<std::uint32_t> planes_;
 };
