@@ -13,7 +13,7 @@ namespace {
 
 using Word = std::uint64_t;
 
-// The bits of a row's last word that lie beyond the picture.
+// The bits of a row's last word that lie beyond the picture's edge.
 Word BeyondEdge(const Silhouette& s) {
   return s.width() % 64 == 0 ? 0 : ~Word{0} << s.width() % 64;
 }
@@ -33,11 +33,11 @@ void RemoveAll(const Word* from, std::size_t count, Word* to) {
   for (std::size_t i = 0; i < count; ++i) to[i] &= ~from[i];
 }
 
-// At least a row: pictures are 16384 pixels wide at most.
+// At least one row: pictures are 16384 pixels wide at most.
 constexpr int kMostWords = 256;
 
-// Combines each word with those before and after it, pixel by pixel with up to `radius` to the left
-// and right: with all or any of them.
+// Combines each pixel with up to `radius` pixels to the left and right, by AND (`all`) or OR. Works
+// on words; `before` and `next` hold their neighbours.
 template <bool all, int radius>
 MOCAP_INLINE void CombineBeside(const Word* before, const Word* next, std::size_t count,
                                 Word* words) {
@@ -52,7 +52,7 @@ MOCAP_INLINE void CombineBeside(const Word* before, const Word* next, std::size_
   }
 }
 
-// Does so in rows of `per_row` words, which follow one another: a few at a time.
+// Does so in consecutive rows of `per_row` words, a few rows at a time.
 template <bool all>
 MOCAP_INLINE void CombineAlong(Word* words, std::size_t count, std::size_t per_row, int radius) {
   constexpr Word kBeyond = all ? ~Word{0} : 0;
@@ -79,8 +79,7 @@ void AddAllAlong(Word* words, std::size_t count, std::size_t per_row, int radius
   CombineAlong<false>(words, count, per_row, radius);
 }
 
-// Combines each pixel with those of its square neighbourhood; `combine` and `combine_along` do so
-// with words.
+// Combines each pixel with its square neighbourhood. `combine` and `combine_along` do so for words.
 void Filter(const Silhouette& from, int radius, Word beyond,
             void (*combine)(const Word*, std::size_t, Word*),
             void (*combine_along)(Word*, std::size_t, std::size_t, int), Silhouette& to) {

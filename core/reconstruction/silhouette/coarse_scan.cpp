@@ -16,35 +16,36 @@ namespace {
 static_assert(Shading::kTile_px == HalfPicture::kTile_px);
 constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
-// A pixel of the half is so many of the picture's wide.
+// Width of a pixel of the half picture, in pixels of the picture.
 constexpr float kPixel_px = 2;
-// So many tiles are enough for a median.
+// This many tiles are enough for a median.
 constexpr int kSamples = 200;
-// A colour has a ratio to another only away from black [grey levels].
+// Near black, colour ratios mean nothing [grey levels].
 constexpr float kDarkest = 8;
 constexpr float kLargestGain = 4;
-// A value that differs from the median by more than this share is not background.
+// Values that differ from the median by more than this share are not background.
 constexpr float kFlatness = 0.06f;
-// Fewer contours do not tell how far they moved.
+// Fewer contour pixels do not tell how far contours moved.
 constexpr std::size_t kFewestSteep = 50;
 constexpr float kLargestShift_px = 1;
-// Persons, shadows and what is bright from them may cover more than half: standard deviations are
-// read off these shares. Of a normal distribution, they are within such a length in three
-// dimensions, and such a size in one.
+// People, shadows and light reflected by them may cover more than half of the picture. So standard
+// deviations are read at these quantiles. For a normal distribution, the quantiles lie at this
+// length in three dimensions, and at this absolute value in one.
 constexpr double kUndisturbedTiles = 0.4;
 constexpr float kUndisturbedLength = 1.367f;
 constexpr double kUndisturbedContours = 0.25;
 constexpr float kUndisturbedSize = 0.3186f;
-// Less than that much more than usual is usual, and less than that nothing [grey levels, pixels].
+// Up to this factor, a deviation counts as usual. The other two limits are for what is left [grey
+// levels, pixels].
 constexpr float kNotable = 1.5f;
 constexpr float kNegligibleDrift = 0.3f;
 constexpr float kNegligibleShift_px = 0.1f;
-// Drift has no normal distribution: some walls change, others don't.
+// Drift is not normally distributed: some walls change, others do not.
 constexpr float kDriftMargin = 4;
 constexpr float kLargestDrift = 8;
-// A tile is looked at closely when it is brighter, or its colour is another, by more than so many
-// variances; when its pixels differ so many times more than those of most tiles; or when it is
-// nearly too dark for a shadow. So much distance and shift are part of the variance.
+// Limits in variances. A tile is suspicious if it is brighter or tinted by more than these; if its
+// pixels differ by this factor more than those of most tiles; or if it is nearly too dark for a
+// shadow. The last two factors scale distance and shift, which are part of the variance.
 constexpr float kHarmlessGlare = 1.5f;
 constexpr float kHarmlessTint = 1.5f;
 constexpr float kHarmlessChiSquare = 6;
@@ -52,19 +53,20 @@ constexpr float kLeastChiSquare = 0.05f;
 constexpr float kDarkMargin = 0.02f;
 constexpr float kDistanceMargin = 2;
 constexpr float kContourMargin = 2;
-// Fewer tiles than this by themselves are noise.
+// Fewer adjacent tiles are noise.
 constexpr int kFewestTiles = 4;
-// Whole rows move on by so many from one picture to the next: what grows from one side is met soon.
+// From one picture to the next, the whole rows move on by this step, so that they soon meet what
+// grows from one side.
 constexpr int kBandStep = 3;
-// So many tiles around what was suspicious are looked at.
+// Tiles to scan around suspicious ones.
 constexpr int kRegionMargin = 3;
-// And so many around shadows, whose tiles are darker by this share.
+// Tiles to scan around shadows. Tiles of shadows are darker by the share kShade.
 constexpr int kShadowMargin = 1;
 constexpr float kShade = 0.02f;
 
 float Square(float x) { return x * x; }
 
-// Of values that are not negative: two bits at a time, for their bits order them as integers.
+// Quantile of non-negative values, two bits at a time: their bits sort them as integers do.
 MOCAP_VECTORIZED
 float QuantileOf(const float* values, int count, int rank) {
   std::uint32_t result = 0;
@@ -93,7 +95,7 @@ float Quantile(const std::vector<float>& values, double share) {
 
 float Median(const std::vector<float>& values) { return Quantile(values, 0.5); }
 
-// The factor by which a standard deviation has grown, where it has grown notably.
+// Returns the excess of a standard deviation over the usual one, if it is notable.
 float Beyond(float value, float usual, float negligible) {
   const float beyond = std::sqrt(std::max(Square(value) - Square(kNotable * usual), 0.0f));
   return beyond < negligible ? 0 : beyond;
@@ -148,7 +150,7 @@ void CoarseScan::SampleWholeRows() {
   whole_rows_ = looks_.size();
   const int columns = live_.tile_columns();
   const int tiles = static_cast<int>(whole_rows_) * columns;
-  const int step = tiles / kSamples | 1;  // Odd: few pictures are a multiple of that wide.
+  const int step = tiles / kSamples | 1;  // Odd: few pictures have a multiple of it as width.
   samples_.clear();
   for (int i = 0; i < tiles; i += step)
     samples_.push_back(live_.FirstTileOf(looks_[i / columns]) + i % columns);
@@ -178,7 +180,7 @@ void CoarseScan::Take(ImageView<const Bgr> image, std::size_t look) {
   Halve(image, looks_[look], live_);
 }
 
-// By itself a tile is noise. What reaches the region's edge goes on behind it.
+// A single tile is noise. What reaches the region's edge extends beyond it.
 bool CoarseScan::ShowsBesideRegion() const {
   const int words = suspicious_.words_per_row();
   for (int row = 0; row < suspicious_.height(); ++row) {
@@ -225,7 +227,7 @@ float CoarseScan::MeasureGain(const ExpectedHalf& expected_half, int channel) {
     if (IsKnown(expected_half, i) && expected[i] >= kDarkest)
       values_.push_back(live[i] / expected[i]);
   if (values_.empty()) return 1;
-  // Persons and shadows lie mostly to one side of the middle; without them it is found again.
+  // People and shadows lie mostly on one side of the median, so it is computed again without them.
   const float rough = Median(values_);
   std::erase_if(values_, [rough](float v) { return std::abs(v - rough) > kFlatness * rough; });
   const float fine = values_.empty() ? rough : Median(values_);
@@ -258,7 +260,7 @@ float CoarseScan::MeasureShift(const ExpectedHalf& expected) {
       values_.push_back(std::abs(difference) / static_cast<float>(expected.slope[*i]));
     }
   }
-  // In a low picture there may be no whole row at all.
+  // A low picture may contain no whole row.
   const bool is_telling =
       values_.size() * live_.tile_rows() >= kFewestSteep * whole_rows_ && !values_.empty();
   if (!is_telling) return 0;

@@ -1,4 +1,4 @@
-// §4: how a picture as a whole differs from the empty studio, and where a closer look is due.
+// §4: deviation of a whole picture from the empty studio, and the tiles to segment closely.
 #pragma once
 
 #include <array>
@@ -15,42 +15,42 @@
 
 namespace mocap {
 
-/// Compares pictures with what is expected, tile by tile at half the resolution.
+/// Compares pictures with the expected ones, tile by tile at half the resolution.
 ///
-/// Conditions are medians over the picture: whatever covers less than half of what is known of it
-/// does not disturb them. Thread-bound; reuses its memory.
+/// Conditions are medians over the picture. Whatever covers less than half of its known part does
+/// not disturb them. Thread-bound; reuses its memory.
 class CoarseScan {
  public:
-  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  /// @param darkest_shadow  brightness distortion below which nothing is a shadow.
   explicit CoarseScan(float darkest_shadow = 0);
 
-  /// Compares a picture; the results hold until the next one.
+  /// Compares a picture. The results are valid until the next one.
   void Compare(const ExpectedHalf& expected, ImageView<const Bgr> image);
 
-  /// Compares what was suspicious in the picture before, what lies around that, and every
-  /// kBandRows-th row of tiles: other rows in each picture. The rest is taken for background; when
-  /// something shows beside the region, or contours shift, the whole picture is compared.
+  /// Compares the suspicious part of the previous picture, its surroundings, and every kBandRows-th
+  /// row of tiles; these rows change with each picture. The rest counts as background. If something
+  /// appears beside the region, or contours shift, the whole picture is compared.
   void Watch(const ExpectedHalf& expected, ImageView<const Bgr> image);
   static constexpr int kBandRows = 8;
 
-  /// Conditions but for the displacement.
+  /// Conditions without the displacement.
   const Conditions& conditions() const { return conditions_; }
-  /// How far tiles lie from what is expected, in the median [grey levels].
+  /// Median distance of tiles from the expected ones [grey levels].
   float distance() const { return distance_; }
-  /// How far contours lie from where they are expected [pixels].
+  /// Distance of contours from their expected positions [pixels].
   float shift_px() const { return shift_px_; }
-  /// The tiles, of HalfPicture::kTile_px pixels, where something else than background may be: one
-  /// pixel a tile.
+  /// The tiles, of HalfPicture::kTile_px pixels, that may show something else than background: one
+  /// pixel per tile.
   const Silhouette& suspicious() const { return suspicious_; }
   /// The picture at half the resolution.
   const HalfPicture& live() const { return live_; }
-  /// The shade of each tile when it was looked at last; Shading::kUnknown where the empty studio is
-  /// not known.
+  /// The shade of each tile when it was last scanned; Shading::kUnknown if the empty studio is
+  /// unknown there.
   const std::vector<Shading::Shade>& shades() const { return shades_; }
 
  private:
   struct Tiles {
-    // Brightness distortion, and what else differs: all in variances.
+    // Brightness distortion; the other deviations are in variances.
     std::vector<float> alpha, tint, glare, chi_square;
   };
   void Resize(const ExpectedHalf& expected, ImageView<const Bgr> image);
@@ -72,11 +72,11 @@ class CoarseScan {
   void Judge(const ExpectedHalf& expected);
 
   float darkest_shadow_;
-  // What is looked at in this picture; so many whole rows come first.
+  // Runs to scan in this picture. The first `whole_rows_` of them are whole rows.
   std::vector<TileRun> looks_;
   std::size_t whole_rows_ = 0;
-  // Tiles that everything suspicious in the last picture lies well within, and those that have
-  // such tiles all around. Shadows are looked at besides.
+  // Tiles that contain everything suspicious of the last picture with a margin, and those of them
+  // that are surrounded by such tiles. Shadows are scanned in addition.
   Silhouette region_, inner_region_, shadows_;
   bool knows_region_ = false;
   int first_band_ = 0;

@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kPixels = WeighedPixels::kPixels;
 
-// Where what is measured goes, in rows so many numbers apart.
+// Destination of the measurements, in rows `row_step` numbers apart.
 struct Distortions {
   float* alpha_shift;
   std::array<float*, 3> cd;
   float *cd_sq, *alpha_weight, *inverse_sigma;
   int row_step;
 
-  // From a place on.
+  // The same, from a position on.
   MOCAP_INLINE Distortions From(int i) const {
     return {alpha_shift + i,   {cd[0] + i, cd[1] + i, cd[2] + i},
             cd_sq + i,         alpha_weight + i,
@@ -27,7 +27,7 @@ struct Distortions {
   }
 };
 
-// Measures eight pixels, so far into a group.
+// Measures eight pixels, from pixel `k` of a group on.
 MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pixels,
                                 const std::array<float, 3>& gain, const Distortions& to) {
   Ints packed;
@@ -52,8 +52,8 @@ MOCAP_INLINE void MeasurePixels(const WeighedPixels& group, int k, const Bgr* pi
   StoreLanes(w[1], to.inverse_sigma);
 }
 
-// Measures a band of pixels group by group, and fetches the groups of the next band.
-// @param groups  what they are held against: of the first group, the next so many on.
+// Measures a band of pixels group by group, and prefetches the groups of the next band.
+// @param groups  first expected group; the next ones follow in steps of `group_step`.
 MOCAP_VECTORIZED
 void MeasureGroups(const WeighedPixels* groups, int group_step, ImageView<const Bgr> band,
                    const std::array<float, 3>& gain, int ahead, const Distortions& to) {
@@ -73,13 +73,13 @@ void MeasureGroups(const WeighedPixels* groups, int group_step, ImageView<const 
 constexpr int kSmaller = kWindowRadii_px[0], kLarger = kWindowRadii_px[1];
 static_assert(kWindows == 2 && kLarger == kSmaller + 1);
 
-// Values and those to their left and right.
+// Values and their neighbours to the left and right.
 struct Neighbours {
   MOCAP_INLINE explicit Neighbours(const float* values) {
 #pragma GCC unroll 7
     for (int i = -kLarger; i <= kLarger; ++i) LoadLanes(values + i, at[i + kLarger]);
   }
-  // The sum of term(−radius), … term(radius), where `term` is given a value and replaces it.
+  // Sums term(−radius), … term(radius), where `term` gets a value and replaces it.
   template <int radius, typename Term>
   MOCAP_INLINE void Sum(Term term, Floats& sum) const {
     sum = Floats{};
@@ -93,7 +93,7 @@ struct Neighbours {
   Floats at[2 * kLarger + 1];
 };
 
-// Sums within the smaller width, and from there within the larger, which is two pixels more.
+// Sums over the smaller width, and from there over the larger one, which is two pixels wider.
 template <typename Term>
 MOCAP_INLINE void SumBoth(const Neighbours& values, Term term, LineSums::Column& smaller,
                           LineSums::Column& larger) {
@@ -104,7 +104,7 @@ MOCAP_INLINE void SumBoth(const Neighbours& values, Term term, LineSums::Column&
   StoreLanes(sum + first + last, larger.data());
 }
 
-// Sums along lines, `sums` leading to the place of the first in the first of the blocks.
+// Sums along lines. `sums` points to the first line in the first block.
 MOCAP_VECTORIZED
 void SumBlocks(const float* alpha_shift, const std::array<const float*, 3>& cd, int row_step,
                int blocks, int rows, BlockSums* sums) {
@@ -180,7 +180,7 @@ void DistortionScan::MeasureBand(int y) {
   for (const PixelRun& run : roi_->Measured(y)) SumAlong(y, rows, run);
 }
 
-// The picture ends within the last group.
+// Measures the group in which the picture ends.
 void DistortionScan::MeasureLast(int y, int rows) {
   const int group = expected_->width / kPixels, left = group * kPixels;
   for (int row = 0; row < rows; ++row)
@@ -214,7 +214,7 @@ void DistortionScan::RepeatEnds(int y) {
 }
 
 void DistortionScan::SumAlong(int y, int rows, const PixelRun& run) {
-  // Blocks that are judged anywhere lie well within the run.
+  // Blocks with judged pixels lie well within the run.
   const int first = (run.begin + kFloats - 1) / kFloats;
   const int blocks = (run.end + kFloats - 1) / kFloats - first;
   const int x = first * kFloats + kPad, line = y % kSumLines;

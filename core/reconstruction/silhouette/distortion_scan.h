@@ -14,42 +14,42 @@
 
 namespace mocap {
 
-/// Runs down a picture and measures how it differs from what is expected.
+/// Scans a picture from top to bottom and measures its deviation from the expected one.
 ///
-/// The brightness distortion α is the scale that brings the expected colour closest to the pixel's;
-/// the chromaticity distortion CD is the distance that is left, in standard deviations (Horprasert,
-/// Harwood, Davis 1999). One pixel tells a grey trouser leg from a shadow no better than its noise
-/// allows, so both are measured over square windows of two sizes too, together with how rough α is
-/// there: a shadow dims a whole neighbourhood alike, or along a slope, and cloth has a grain of its
-/// own. Thread-bound; reuses its memory.
+/// The brightness distortion α is the scale that brings the expected colour closest to the pixel's.
+/// The chromaticity distortion CD is the remaining distance, in standard deviations (Horprasert,
+/// Harwood, Davis 1999). A single pixel distinguishes a grey trouser leg from a shadow no better
+/// than its noise allows. So both are also measured over square windows of two sizes, together with
+/// the roughness of α. A shadow dims a neighbourhood evenly or along a slope; cloth has a texture.
+/// Thread-bound; reuses its memory.
 class DistortionScan {
  public:
-  /// One row. Each pointer leads to one value a pixel.
+  /// One row. Each pointer has one value per pixel.
   struct Row {
-    const float* alpha_shift = nullptr;    ///< α − 1; also for all that is measured.
+    const float* alpha_shift = nullptr;    ///< α − 1; also valid for all measured pixels.
     const float* cd_sq = nullptr;          ///< CD².
     const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
     const float* inverse_sigma = nullptr;  ///< 1/σ of green.
   };
-  /// Two rows, one below the other; the second may lie below the picture, of which nothing is
-  /// known. Valid until the next two for the pixels that are judged, and for others in the same
-  /// eight, of which nothing is known either.
+  /// Two adjacent rows. The second may lie below the picture; its values mean nothing then. Valid
+  /// until the next two, for judged pixels. Values of other pixels in the same eight mean nothing
+  /// either.
   struct RowPair {
     std::array<Row, 2> rows;
     WindowLines sums{};  ///< For JoinLines().
   };
 
-  /// Starts at the top of a region of interest's frame. All but `gain` are borrowed until the last
-  /// rows.
-  /// @param expected  weighed for the pixels that are measured.
-  /// @param gain      what each of the picture's channels is multiplied by.
+  /// Starts at the top of the frame of a region of interest. All arguments but `gain` are borrowed
+  /// until the last rows.
+  /// @param expected  weighed for the measured pixels.
+  /// @param gain      factor for each of the picture's channels.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
              const std::array<float, 3>& gain, const RegionOfInterest& roi);
 
-  /// Measures the next two rows. Beyond the picture's edge its outermost pixels are repeated.
+  /// Measures the next two rows. The outermost pixels are repeated beyond the picture's edge.
   const RowPair& Next();
 
-  /// α − 1 of the pixels that were measured.
+  /// α − 1 of the measured pixels.
   ImageView<const float> alpha_shift() const {
     return {alpha_shift_.row(0) + kPad, alpha_shift_.width() - kBeside, alpha_shift_.height(),
             alpha_shift_.width()};
@@ -59,11 +59,11 @@ class DistortionScan {
   static constexpr int kPad = kFloats;  // On both sides of the picture.
   static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
   static_assert(kLargestRadius_px <= RegionOfInterest::kMargin_px && kLargestRadius_px <= kPad);
-  // Rows are measured so many at a time: they have the same runs.
+  // Number of rows that are measured at a time: they have the same runs.
   static constexpr int kBand_px = RegionOfInterest::kMargin_px;
   static_assert(kSumLines % kBand_px == 0 && kSumLines >= kPairLines + kBand_px - 1);
 
-  // Of the last lines, padded by kPad.
+  // The last lines, padded by kPad.
   struct Lines {
     Image<float> cd_sq, alpha_weight, inverse_sigma;
     std::array<Image<float>, 3> cd;
@@ -80,7 +80,7 @@ class DistortionScan {
   std::array<float, 3> gain_ = {1, 1, 1};
   int next_ = 0;
   int measured_ = 0;
-  Image<float> alpha_shift_;  // Padded too.
+  Image<float> alpha_shift_;  // Padded by kPad.
   Lines lines_;
   Image<Bgr> last_;  // A band of the group in which the picture ends.
   std::vector<BlockSums> sums_;

@@ -26,7 +26,7 @@ void FindBins(const float* values, int count, float bins_per_unit, int bin_count
 // Three values of each pixel of a row.
 using Line = std::array<std::vector<float>, 3>;
 
-// Per pixel: the length of the colour distance, and brightness distortion in both directions.
+// Per pixel: length of the colour distance, and brightness distortion in both directions.
 MOCAP_VECTORIZED
 void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float* low,
                      float* high) {
@@ -40,7 +40,7 @@ void NormalizePixels(const DistortionScan::Row& row, int count, float* cd, float
   }
 }
 
-// Per window of one size: the same, and the roughness. Writes whole blocks of pixels.
+// Per window of one size: the same and the roughness. Writes whole blocks of pixels.
 template <std::size_t window>
 MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::RowPair& pair, int blocks,
                                        std::array<Line, 2>& lines) {
@@ -62,7 +62,7 @@ MOCAP_VECTORIZED void NormalizeWindows(const DistortionScan::RowPair& pair, int 
   }
 }
 
-// The least value within the window around each pixel, in place.
+// Minimum over the window around each pixel, in place.
 void Erode(int radius, Image<float>& image) {
   const auto width = static_cast<std::size_t>(image.width());
   std::vector<float> line(width);
@@ -74,7 +74,7 @@ void Erode(int radius, Image<float>& image) {
       TakeLesser(line.data(), width - k, row + k);
     }
   }
-  // Rows as they were, as long as they are needed.
+  // Original rows, for as long as they are needed.
   std::vector<std::vector<float>> above(static_cast<std::size_t>(radius) + 1);
   for (int y = 0; y < image.height(); ++y) {
     float* const row = image.row(y);

@@ -1,4 +1,4 @@
-// §4: where the background ends, learned from pictures of the empty studio.
+// §4: limits of the background, learned from pictures of the empty studio.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace mocap {
 struct DistortionThresholds {
   struct Window {
     float cd = 0;         ///< Length of the mean colour distance.
-    float alpha = 0;      ///< Mean brightness distortion, either way.
+    float alpha = 0;      ///< Mean brightness distortion, in both directions.
     float roughness = 0;  ///< Deviation of the brightness distortions from a plane.
   };
   float cd = 0;          ///< Chromaticity distortion of a pixel.
@@ -24,18 +24,18 @@ struct DistortionThresholds {
   std::array<Window, kWindows> windows;
 };
 
-/// Collects the distortions of training frames in histograms and reads thresholds off them.
+/// Collects the distortions of training frames in histograms and derives thresholds.
 ///
-/// Horprasert, Harwood, Davis 1999, §3.2. A pixel is held against the least of the windows that
-/// contain it, as it will be when the camera runs.
+/// Horprasert, Harwood, Davis 1999, §3.2. A pixel counts with the least of the windows that contain
+/// it, as during operation.
 class DistortionHistograms {
  public:
   /// Adds one picture of the empty studio.
-  /// @param expected  learned without that picture, or else its own noise would be part of it.
+  /// @param expected  learned without this picture, or its own noise would be part of it.
   void Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
            const std::array<float, 3>& gain);
 
-  /// Gives the thresholds that a share `detection_rate` of the pixels stays within.
+  /// Returns thresholds that a share `detection_rate` of the pixels stays within.
   /// @pre  0 < detection_rate < 1, and at least one picture was added.
   DistortionThresholds At(double detection_rate) const;
 
@@ -52,7 +52,7 @@ class DistortionHistograms {
   };
 
   struct WindowHistograms {
-    // Takes a row of all three.
+    // Adds a row of all three.
     void Take(const std::array<std::vector<float>, 3>& line, int y);
 
     Histogram cd, alpha, roughness;

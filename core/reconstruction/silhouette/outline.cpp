@@ -9,10 +9,10 @@
 namespace mocap {
 namespace {
 
-// Half the width of the window that the border's direction is read from.
+// Half the width of the window that gives the border's direction.
 constexpr int kWindow_px = 3;
 
-// The silhouette's pixels in a word of a row that have a neighbour outside it.
+// The silhouette's pixels in a word of a row that have a neighbour outside.
 std::uint64_t BorderWord(const Silhouette& silhouette, int y, int word) {
   const std::uint64_t* row = silhouette.row(y);
   const std::uint64_t before = word > 0 ? row[word - 1] >> 63 : 0;
@@ -22,7 +22,7 @@ std::uint64_t BorderWord(const Silhouette& silhouette, int y, int word) {
   return row[word] & ~inner;
 }
 
-// Calls `visit` with the border's words row by row, but without pixels near the picture's edge.
+// Calls `visit` for the words of the border, row by row, without pixels near the picture's edge.
 template <typename Visit>
 void ForEachBorderWord(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
   constexpr int kMargin_px = kWindow_px + 1;
@@ -42,7 +42,7 @@ void ForEachBorderWord(const Silhouette& silhouette, const PixelBox& box, const 
   }
 }
 
-// The pixels of a row within the window around x, a bit each.
+// The pixels of a row within the window around x, one bit each.
 unsigned WindowBits(const Silhouette& silhouette, int x, int y) {
   const std::uint64_t* const row = silhouette.row(y);
   const int begin = x - kWindow_px, end = x + kWindow_px;
@@ -51,8 +51,8 @@ unsigned WindowBits(const Silhouette& silhouette, int x, int y) {
   return static_cast<unsigned>(bits) & ((2u << 2 * kWindow_px) - 1);
 }
 
-// Of the pixels that are set in a row of a window: how many there are, and the sum of their places
-// from the middle.
+// Moments of the set pixels in a row of a window: their number, and the sum of their positions
+// relative to the middle.
 struct RowMoments {
   int count = 0, sum = 0;
 };
@@ -68,7 +68,7 @@ constexpr auto kRowMoments = [] {
   return moments;
 }();
 
-// Out of the silhouette, square to its border; empty where the border has no direction.
+// Outward normal of the silhouette's border; empty where the border has no direction.
 std::optional<Vector2> OutwardAt(const Silhouette& silhouette, int x, int y) {
   int inward_x = 0, inward_y = 0;
   for (int dy = -kWindow_px; dy <= kWindow_px; ++dy) {

@@ -15,21 +15,22 @@ namespace {
 
 using Word = std::uint64_t;
 
-// Pixels of a block lie so close together that they share what is around them.
+// Pixels of a block are so close together that they share their surroundings.
 constexpr int kBlock_px = 2;
-// Where the first begins: blocks that reach over the edge of a tile reach as far on either side.
+// Offset of the first block: blocks that cross the edge of a tile reach equally far on both sides.
 constexpr int kFirst = -1;
 constexpr int kReach_px = 3;
-// Of the rows around a block half tell enough, the outermost among them: counted from its first.
+// Half of the rows around a block are enough, with the outermost among them. Counted from its first
+// row.
 constexpr std::array<int, 4> kRows = {-3, -1, 2, 4};
-// Colours that are closer than this [grey levels] tell nothing.
+// Colours closer than this [grey levels] decide nothing.
 constexpr float kLeastContrast = 4;
-// Pictures are gamma-coded: a pixel half covered by a darker person looks brighter than the middle
-// of the two colours.
+// Pictures are gamma-coded: a pixel half covered by a darker person looks brighter than the mean of
+// the two colours.
 constexpr float kHalfCovered = 0.4f;
 
 constexpr int kWord_px = 64;
-// Eight pixels side by side belong to five blocks; what is around those begins so far before.
+// Eight adjacent pixels belong to five blocks; their surroundings begin this far before.
 constexpr int kBefore_px = kReach_px - kFirst;
 constexpr int kAround_px = 2 * kFloats;
 constexpr int kAroundRows = kBlock_px + 2 * kReach_px;
@@ -38,13 +39,13 @@ static_assert(kFloats + 2 * kBefore_px == kAround_px);
 // Within the frame of a silhouette.
 struct Picture {
   const ExpectedPicture& expected;
-  int left, top;  // Of the frame in what is expected.
+  int left, top;  // Position of the frame in the expected picture.
   ImageView<const Bgr> image;
   std::array<float, 3> gain;
   ImageView<const float> alpha_shift;
 };
 
-// The size of planes of bits: an empty word is between rows, and empty rows are above and below.
+// The size of bit planes, with an empty word between rows and empty rows above and below.
 struct PlaneSize {
   PlaneSize(int width, int height_in)
       : words((width + kWord_px - 1) / kWord_px), height(height_in), stride(words + 1) {}
@@ -65,7 +66,7 @@ struct Planes {
   }
 };
 
-// Writes what is in a silhouette and what is not.
+// Writes the pixels inside a silhouette and those outside.
 void Part(const Silhouette& silhouette, const PlaneSize& size, Word* person, Word* background) {
   const Word last = ~Word{0} >> (size.words * kWord_px - silhouette.width());
   for (int y = 0; y < size.height; ++y) {
@@ -78,7 +79,7 @@ void Part(const Silhouette& silhouette, const PlaneSize& size, Word* person, Wor
   }
 }
 
-// A word's pixels and those beside them.
+// A word's pixels and their neighbours.
 MOCAP_INLINE Word Near(const Word* plane, std::ptrdiff_t stride) {
   const auto column = [=](int word) {
     return plane[word - stride] | plane[word] | plane[word + stride];
@@ -87,7 +88,7 @@ MOCAP_INLINE Word Near(const Word* plane, std::ptrdiff_t stride) {
   return here | here << 1 | here >> 1 | column(-1) >> (kWord_px - 1) | column(1) << (kWord_px - 1);
 }
 
-// Leaves out what is beside the other.
+// Removes pixels beside the other plane.
 MOCAP_VECTORIZED
 void KeepApart(const Word* person, const Word* background, std::ptrdiff_t stride,
                std::ptrdiff_t count, Word* __restrict inside, Word* __restrict outside) {
@@ -97,8 +98,8 @@ void KeepApart(const Word* person, const Word* background, std::ptrdiff_t stride
   }
 }
 
-// The pixels around eight of a row, in every lane from bit kFirstAround on: words lie in memory
-// lowest byte first.
+// The pixels around eight of a row, in every lane from bit kFirstAround on. Words are little-endian
+// in memory.
 constexpr int kFirstAround = 8 - kBefore_px;
 MOCAP_INLINE Ints BitsAround(const Word* row, int pixel) {
   static_assert(std::endian::native == std::endian::little);
@@ -107,10 +108,10 @@ MOCAP_INLINE Ints BitsAround(const Word* row, int pixel) {
   return AllOf(bits);
 }
 
-// Of kAround_px columns, to the left or the right half of them.
+// Sums of the left or right half of kAround_px columns.
 struct Columns {
-  // Sums over rows: of pixels as they are loaded, with minus one in the highest byte, and of the
-  // same without green, which leaves room for more.
+  // Sums over rows: of pixels as they are loaded, with −1 in the highest byte; and of the same
+  // without green, which leaves room for carries.
   Ints colors{}, blue_red{};
   Floats shifts{};
   Ints background_count{};
@@ -125,7 +126,7 @@ struct Columns {
   }
 };
 
-// Sums of columns around the block that each of eight pixels belongs to.
+// Sums of columns around the blocks of eight pixels.
 template <typename Lanes>
 MOCAP_INLINE void SumAround(const Lanes& left, const Lanes& right, Lanes& sums) {
   const Lanes twos = __builtin_shufflevector(left, right, 0, 2, 4, 6, 8, 10, 12, 14) +
@@ -135,8 +136,8 @@ MOCAP_INLINE void SumAround(const Lanes& left, const Lanes& right, Lanes& sums) 
          __builtin_shufflevector(fours, fours, 2, 3, 3, 4, 4, 5, 5, 6);
 }
 
-// The person's colours and the background's brightness around eight pixels: not a number where none
-// is there, so that nothing is told.
+// The person's colours and the background's brightness around eight pixels. NaN if there are none,
+// so that nothing is decided.
 struct Around {
   MOCAP_INLINE Around(const Columns& left, const Columns& right, const std::array<float, 3>& gain) {
     Ints colors, blue_red, background_count;
@@ -155,8 +156,8 @@ struct Around {
   Floats alpha;
 };
 
-// Of eight pixels, as bits of their lanes: where the colours differ enough to tell, and above those
-// what the person covers by half.
+// For eight pixels, as bits of their lanes: whether the colours differ enough; and in the bits
+// above, whether the person covers half of the pixel.
 MOCAP_INLINE Ints CoverOf(const Around& around, const Bgr* pixels, const std::array<float, 3>& gain,
                           const WeighedPixels& expected, int first) {
   Ints packed;
@@ -180,7 +181,7 @@ struct Patch {
   ImageView<const float> alpha_shift;
 };
 
-// Copies what of a patch is in the picture, for one that is not there as a whole.
+// Copies the part of a patch that lies in the picture, for patches at its edge.
 class PatchAtEdge {
  public:
   Patch Copy(const Picture& picture, int left, int top) {
@@ -226,8 +227,8 @@ MOCAP_INLINE Around LookAround(const Patch& patch, const Word* inside, const Wor
   return {left, right, gain};
 }
 
-// Keeps what the person covers by half of eight pixels of a block's rows, where they may be
-// crossed by the outline; leaves those where the colours are alike.
+// Keeps those of eight pixels per row that the person covers by half, where the outline may cross
+// them. Pixels with similar colours stay.
 MOCAP_INLINE void RefinePixels(const Picture& picture, const Around& around, const Patch& patch,
                                const std::array<Word, kBlock_px>& bands, int word, int pixel, int y,
                                ImageView<Word> silhouette) {

@@ -9,12 +9,12 @@
 namespace mocap {
 namespace {
 
-// All of them drift alike when the brightness does.
+// All channels drift alike when the brightness does.
 constexpr float kChannels = 3;
 
 constexpr float Square(float x) { return x * x; }
 
-// Darkness in itself and in units of the background's variation.
+// Darkness, absolute and in units of the background's variation.
 struct Darkness {
   float shift;  // α − 1.
   float normalized;
@@ -34,7 +34,7 @@ struct WindowCriteria {
         margin_sq(Square(margin)) {}
   Darkness dark;
   float per_cd, per_alpha, per_roughness;
-  float margin_sq;  // What exceeds a threshold is doubtful, what does so by the margin clear.
+  float margin_sq;  // Above the threshold is doubtful, above threshold times margin is clear.
 };
 
 struct Criteria {
@@ -43,13 +43,13 @@ struct Criteria {
   float drift;
 };
 
-// Of the windows around eight pixels, as bits.
+// Results for the windows around eight pixels, as bits.
 struct Decision {
   unsigned doubtful, clear;
-  unsigned dark;  // As shadows are, and some clothes.
+  unsigned dark;  // As dark as shadows and some clothes.
 };
 
-// Drift is the same all over a window: averaging does not lessen it, and it makes nothing rough.
+// Drift is constant over a window: averaging does not reduce it, and it adds no roughness.
 template <std::size_t window>
 MOCAP_INLINE Decision JudgeWindows(const WindowDistortions& d, const Floats& alpha_weight,
                                    const Floats& drift_sq, const WindowCriteria& criteria) {
@@ -64,7 +64,7 @@ MOCAP_INLINE Decision JudgeWindows(const WindowDistortions& d, const Floats& alp
           BitsOf(normalized < criteria.dark.normalized)};
 }
 
-// How eight pixels by themselves, and the windows around them, would differ from background.
+// Deviation of eight single pixels, and of the windows around them, from background.
 struct Judgement {
   Floats alpha_weight, drift_sq;
   unsigned clear;
@@ -101,7 +101,7 @@ std::uint8_t* BytesOf(std::uint64_t* words) {
   return reinterpret_cast<std::uint8_t*>(words);
 }
 
-// Where decisions on the pixels of a row go, eight a byte.
+// Destination of the decisions on a row's pixels, eight per byte.
 struct DecisionBytes {
   std::uint8_t *clear_pixels, *dark;
   std::array<std::uint8_t*, kWindows> doubtful, clear;
@@ -117,7 +117,7 @@ struct DecisionBytes {
   }
 };
 
-// Judges the pixels of a run in two rows, or in the first of them.
+// Judges the pixels of a run in two rows, or only in the first.
 MOCAP_VECTORIZED
 void JudgeRun(const DistortionScan::RowPair& pair, const PixelRun& run, const Criteria& criteria,
               const std::array<DecisionBytes, 2>& to, int rows) {
@@ -168,8 +168,8 @@ void PixelClassifier::Classify(const ExpectedPicture& expected, ImageView<const 
     const std::array<DecisionBytes, 2> to = {bytes_of(y), bytes_of(y + rows - 1)};
     for (const PixelRun& run : roi.Judged(y)) JudgeRun(pair, run, criteria, to, rows);
   }
-  // A pixel is background when any of the windows with it is, and may well be foreground when no
-  // window of one size at least is.
+  // A pixel is background if any window that contains it is. It may be foreground if, for at least
+  // one window size, no such window is background.
   foreground_ = clear_pixels_;
   doubtful_ = clear_pixels_;
   for (std::size_t k = 0; k < kWindows; ++k) {

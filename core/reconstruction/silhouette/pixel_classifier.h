@@ -20,38 +20,37 @@ enum class PixelClass : std::uint8_t { kBackground, kShadow, kHighlight, kForegr
 
 /// Decides what each pixel of a picture shows.
 ///
-/// A pixel is background, shadow or highlight when it could be so by itself and lies in some
-/// window, of one size or the other, that could be so as a whole; otherwise it is foreground. What
-/// is not looked at closely is background.
-/// Thread-bound; reuses its memory.
+/// A pixel is background, shadow or highlight if its own colour allows that, and if it lies in some
+/// window, of either size, that allows it as a whole. Otherwise it is foreground. Pixels outside
+/// the region of interest are background. Thread-bound; reuses its memory.
 class PixelClassifier {
  public:
-  /// Factors by which thresholds must be exceeded. They stand for what an empty studio does not
-  /// show: tints of shadows, and the noise that a codec lets through only where something moves.
-  /// Measured on takes with true masks; a tenth more or less serves as well.
+  /// Factors by which thresholds must be exceeded. They allow for effects that an empty studio does
+  /// not show: tinted shadows, and noise that a codec passes only where something moves. Measured
+  /// on takes with true masks; a change by a tenth has little effect.
   static constexpr std::array<float, kWindows> kWindowMargins = {1.1f, 1.35f};
-  /// One pixel alone must differ more, for there are many of them.
+  /// A single pixel must differ more, because there are many of them.
   static constexpr float kPixelMargin = 1.6f;
 
-  /// @param darkest_shadow  the brightness distortion below which nothing is a shadow.
+  /// @param darkest_shadow  brightness distortion below which nothing is a shadow.
   PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow);
 
-  /// Classifies a picture; the results hold until the next one, as long as `expected` does.
-  /// @param expected  weighed under these conditions for the pixels that are measured.
+  /// Classifies a picture. The results are valid until the next one, and as long as `expected`.
+  /// @param expected  weighed under these conditions for the measured pixels.
   void Classify(const ExpectedPicture& expected, ImageView<const Bgr> image,
                 const Conditions& conditions, const RegionOfInterest& roi);
 
-  /// Gives the class of a pixel that was measured.
+  /// Returns the class of a measured pixel.
   PixelClass ClassOf(int x, int y) const;
-  /// Where the class is foreground, within the region of interest's frame.
+  /// Foreground pixels, within the frame of the region of interest.
   const Silhouette& foreground() const { return foreground_; }
-  /// Where background would be as rare as the training frames allow, but not clearly beyond that:
-  /// within the region of interest's frame.
+  /// Pixels that are rare as background in the training frames, but not clearly foreground; within
+  /// the frame of the region of interest.
   const Silhouette& doubtful() const { return doubtful_; }
-  /// Where it is darker than the empty studio by more than noise, be it a shadow or not: within the
-  /// region of interest's frame.
+  /// Pixels darker than the empty studio by more than noise, whether shadow or not; within the
+  /// frame of the region of interest.
   const Silhouette& dark() const { return dark_; }
-  /// α − 1 of every pixel that is measured.
+  /// α − 1 of every measured pixel.
   ImageView<const float> alpha_shift() const { return scan_.alpha_shift(); }
 
  private:

@@ -1,4 +1,4 @@
-// §4: eight pixels of a row side by side, and what is expected there.
+// §4: eight adjacent pixels of a row, and their expected values.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace mocap {
 
-/// Loads eight pixels, the channels of each in the bytes of one number: blue in the lowest, green,
-/// red, and something in the highest.
+/// Loads eight pixels. The channels of each are the bytes of one number: blue in the lowest, then
+/// green and red. The highest byte is undefined.
 MOCAP_INLINE void LoadPixels(const Bgr* from, Ints& pixels) {
   using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints))));
   constexpr int kHalf = sizeof(Bytes) / 2;
@@ -26,19 +26,19 @@ MOCAP_INLINE void LoadPixels(const Bgr* from, Ints& pixels) {
                               22, 22, 23, 24, 25, 25, 26, 27, 28, 28, 29, 30, 31, 31));
 }
 
-/// One channel of pixels that were loaded.
+/// Returns one channel of loaded pixels.
 MOCAP_INLINE Floats ChannelOf(Ints pixels, int channel) {
   return ToFloats(pixels >> 8 * channel & 0xff);
 }
 
-/// Eight values that are kept as so many units.
+/// Loads eight values that are stored as integers, in units of `unit`.
 MOCAP_INLINE Floats LoadShorts(const std::uint16_t* from, float unit) {
   using Shorts = std::uint16_t __attribute__((vector_size(kFloats * sizeof(std::uint16_t))));
   Shorts shorts;
   LoadLanes(from, shorts);
 #ifdef __x86_64__
-  // With zeros between them they are integers: of a conversion GCC 12 makes two halves, and of this
-  // one instruction, where vectors are wide enough.
+  // Interleaved with zeros they are integers. GCC 12 compiles a conversion to two halves, but this
+  // to one instruction, where vectors are wide enough.
   const auto wide = reinterpret_cast<Ints>(__builtin_shufflevector(
       shorts, Shorts{}, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
 #else

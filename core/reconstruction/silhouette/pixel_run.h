@@ -1,4 +1,4 @@
-// §4: stretches of pixels that hang together along a row.
+// §4: runs of adjacent pixels in a row.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ struct PixelRun {
   int end = 0;
 };
 
-/// Finds the first pixel at or after `x` whose bit, turned over by `flip`, is set; `end` if none
-/// is.
+/// Finds the first pixel at or after `x` whose bit, inverted by `flip`, is set; `end` if there is
+/// none.
 inline int FindPixel(const std::uint64_t* row, int x, int end, std::uint64_t flip) {
   if (x >= end) return end;
   int i = x >> 6;
@@ -24,8 +24,7 @@ inline int FindPixel(const std::uint64_t* row, int x, int end, std::uint64_t fli
   return word == 0 ? end : std::min(end, i * 64 + std::countr_zero(word));
 }
 
-/// Calls `visit` with each run of pixels in [begin, end) whose bits, turned over by `flip`, are
-/// set.
+/// Calls `visit` for each run of pixels in [begin, end) whose bits, inverted by `flip`, are set.
 template <typename Visit>
 void ForEachRun(const std::uint64_t* row, int begin, int end, std::uint64_t flip, Visit visit) {
   for (int x = begin;;) {

@@ -21,7 +21,7 @@ void RegionOfInterest::Set(const Silhouette& suspicious, int width, int height) 
   judged_.Clear(kTile_px);
   for (int row = 0; row < rows; ++row)
     judged_.AddRow(words, width, 0, [tiles = tiles_.row(row)](int i) { return tiles[i]; });
-  // Half of a tile is near to one of those above and below.
+  // Each half of a tile is close to the tile above or below.
   measured_.Clear(kMargin_px);
   for (int half = 0; half < 2 * rows; ++half) {
     const int row = half / 2;
@@ -36,7 +36,7 @@ void RegionOfInterest::Set(const Silhouette& suspicious, int width, int height) 
 
 void RegionOfInterest::MeasureFrame() {
   constexpr int kWord_px = 64;
-  // The margin that is scanned around a silhouette is wider than the one that is measured.
+  // The margin that is scanned around a silhouette is wider than the measured one.
   constexpr int kBeside_px = kTile_px;
   const PixelBox tiles = tiles_.BoundingBox().value_or(PixelBox{});
   frame_.left = std::max(tiles.left * kTile_px - kBeside_px, 0) / kWord_px * kWord_px;

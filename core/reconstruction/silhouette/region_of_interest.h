@@ -1,4 +1,4 @@
-// §4: the parts of a picture that are looked at closely.
+// §4: the parts of a picture that are segmented at full resolution.
 #pragma once
 
 #include <span>
@@ -10,37 +10,34 @@
 
 namespace mocap {
 
-/// Whole tiles of a picture, and around them as much as it takes to judge them.
-///
-/// Reuses its memory.
+/// Whole tiles of a picture, with the surroundings that their decisions need. Reuses its memory.
 class RegionOfInterest {
  public:
   static constexpr int kMargin_px = HalfPicture::kTile_px / 2;
 
-  /// Takes in the suspicious tiles and their neighbours.
-  /// @param suspicious     one pixel a tile of HalfPicture::kTile_px pixels.
+  /// Sets the suspicious tiles and their neighbours.
+  /// @param suspicious     one pixel per tile of HalfPicture::kTile_px pixels.
   /// @param width, height  of the picture.
   void Set(const Silhouette& suspicious, int width, int height);
-  /// Takes in the whole picture.
+  /// Sets the whole picture.
   void SetAll(int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// What surrounds all pixels that are measured: whole words of silhouettes, and a tile above and
+  /// A box around all measured pixels: whole words of silhouettes, and one tile more above and
   /// below.
   const PixelBox& frame() const { return frame_; }
-  /// The pixels of a row that are judged, in runs from left to right.
+  /// The judged pixels of a row, in runs from left to right.
   std::span<const PixelRun> Judged(int y) const { return judged_.Row(y); }
-  /// The pixels of a row whose colours count: those that are judged, and kMargin_px pixels more in
-  /// every direction.
+  /// The measured pixels of a row: the judged ones, and kMargin_px more in every direction.
   std::span<const PixelRun> Measured(int y) const { return measured_.Row(y); }
 
  private:
-  // Runs of rows of pixels, so many of which have the same.
+  // Runs per row; `row_px` consecutive pixel rows share the same runs.
   class Runs {
    public:
     void Clear(int row_px);
-    // `word_at` gives the row's tiles, 64 a word.
+    // `word_at` returns the row's tiles, 64 per word.
     template <typename WordAt>
     void AddRow(int words, int width, int margin_px, WordAt word_at);
     std::span<const PixelRun> Row(int y) const {

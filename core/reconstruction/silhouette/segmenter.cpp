@@ -16,11 +16,11 @@ namespace mocap {
 namespace {
 
 constexpr std::size_t kFewestFrames = 8;
-// Holes of fewer pixels are noise, whatever they look like: first in the evidence, then in the
-// refined outline.
+// Smaller holes are noise, whatever their colour: first in the evidence, then in the refined
+// outline.
 constexpr int kSmallestGap_px = 12;
 constexpr int kSmallestHole_px = 20;
-// A camera that moved by less is not worth following, nor one whose contours still do not fit.
+// Smaller movements of a camera are not followed, nor those after which contours still do not fit.
 constexpr float kNudge_px = 0.25f;
 constexpr float kMuchLess = 0.8f;
 
@@ -98,7 +98,7 @@ class Segmenter::Impl {
   // Compares the picture as a whole, and follows a camera that was nudged.
   Conditions CoarsePass(ImageView<const Bgr> image, const PanTiltAngles& angles) {
     const ExpectedHalf& expected = background_->CoarsePass(angles, {});
-    // Where a head turns, the person's place in the last picture says little.
+    // While a head turns, the person's place in the last picture means little.
     if (has_head_)
       coarse_.Compare(expected, image);
     else

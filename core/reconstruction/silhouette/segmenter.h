@@ -15,25 +15,25 @@ namespace mocap {
 
 /// Settings of segmentation.
 struct SegmentationOptions {
-  /// Share of background pixels that shall be called background; thresholds follow from the
+  /// Share of background pixels that are classified as background. Thresholds follow from the
   /// histograms.
   double detection_rate = 0.9999;
   /// Brightness, as a share of the background's, below which nothing is a cast shadow: other lamps
-  /// and the walls light what one lamp does not.
+  /// and the walls light shadows too.
   double darkest_shadow = 0.7;
   /// Blobs smaller than this share of the picture are dropped.
   double smallest_blob_share = 0.0005;
-  /// A blob that is larger than this share of the picture may be a person by itself; of smaller
-  /// ones, those that lie apart from the largest are things that were moved.
+  /// A blob larger than this share of the picture may be a person. Smaller ones that lie apart from
+  /// the largest are moved things.
   double largest_thing_share = 0.02;
 };
 
-/// Separates one camera's person from its background: Horprasert's classes, then clean-up.
+/// Separates the person from the background in one camera: Horprasert's classes, then cleanup.
 ///
-/// Thread-bound: one object a camera thread.
+/// Thread-bound: one object per camera thread.
 class Segmenter {
  public:
-  /// @throws SetupError  when the frames are too few or differ in size from the calibration.
+  /// @throws SetupError  if there are too few frames or their size differs from the calibration.
   Segmenter(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
             const SegmentationOptions& options);
   Segmenter(Segmenter&&) noexcept;
@@ -43,9 +43,9 @@ class Segmenter {
   /// Segments one frame into `silhouette`, whose memory is reused.
   void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette);
 
-  /// What the last picture tells of shadows.
+  /// Shading of the last picture.
   const Shading& shading() const;
-  /// How the last picture as a whole differed from the empty studio.
+  /// Deviation of the last picture as a whole from the empty studio.
   const Conditions& conditions() const;
 
  private:

@@ -7,10 +7,10 @@ namespace mocap {
 namespace {
 
 constexpr int kTile_px = Shading::kTile_px;
-// A few rows tell how dark a tile is.
+// A few rows are enough for the shade of a tile.
 constexpr int kFirstRow = 1, kRowStep = 4;
 
-// Sums up the shades of a tile's dark pixels.
+// Sums the shades of a tile's dark pixels.
 struct Sum {
   float shade = 0;
   int count = 0;

@@ -1,4 +1,4 @@
-// §4: the person's outline in one camera, one bit a pixel.
+// §4: the person's silhouette in one camera, one bit per pixel.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// A rectangle of pixels, its last column and row included.
+/// A rectangle of pixels; its last column and row are included.
 struct PixelBox {
   int left = 0;
   int top = 0;
@@ -18,8 +18,8 @@ struct PixelBox {
   friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
-/// A binary picture, 64 pixels a word; row y begins at word y * words_per_row(), pixel x is bit x %
-/// 64 of word x / 64.
+/// A binary picture with 64 pixels per word. Row y begins at word y * words_per_row(); pixel x is
+/// bit x % 64 of word x / 64.
 class Silhouette {
  public:
   Silhouette() = default;
@@ -29,7 +29,7 @@ class Silhouette {
         words_per_row_((width + 63) / 64),
         words_(static_cast<std::size_t>(words_per_row_) * height) {}
 
-  /// Sets the size and empties every pixel; keeps the memory it has.
+  /// Sets the size and clears every pixel; keeps its memory.
   void Reset(int width, int height) {
     width_ = width;
     height_ = height;
@@ -38,7 +38,7 @@ class Silhouette {
     has_box_ = false;
   }
 
-  /// Makes room for so many pixels.
+  /// Allocates memory for a picture of this size.
   void Reserve(int width, int height) {
     words_.reserve(static_cast<std::size_t>((width + 63) / 64) * height);
   }
@@ -57,15 +57,15 @@ class Silhouette {
   const std::uint64_t* row(int y) const {
     return words_.data() + static_cast<std::size_t>(y) * words_per_row_;
   }
-  /// The smallest box that holds every pixel that is set; empty when none is.
+  /// The smallest box around all set pixels; empty if there are none.
   std::optional<PixelBox> BoundingBox() const { return has_box_ ? box_ : FindBox(); }
-  /// Finds the bounding box while the pixels are at hand, and keeps it until pixels may change:
-  /// with Set(), Reset() or a row() to write to.
+  /// Finds the bounding box while the pixels are in the cache. It is kept until pixels may change
+  /// by Set(), Reset() or a writable row().
   void KeepBox() {
     box_ = FindBox();
     has_box_ = true;
   }
-  /// Share of the pixels that are set.
+  /// Share of set pixels.
   double CoveredShare() const;
   const std::vector<std::uint64_t>& words() const { return words_; }
 

@@ -33,8 +33,8 @@ void Flip(Word* row, int begin, int end) {
   for (int i = begin >> 6; i <= (end - 1) >> 6; ++i) row[i] ^= MaskOf(i, begin, end);
 }
 
-// A blob belongs to the person when it lies within such a share of the person's size, or is so
-// large a share of the largest blob.
+// A blob belongs to the person if its distance is within this share of the person's size, or if its
+// area is this share of the largest blob's.
 constexpr double kReach = 0.5;
 constexpr double kLarge = 0.5;
 
@@ -70,7 +70,7 @@ void SilhouetteCleaner::KeepPerson(int smallest_hole, int smallest_blob, int lar
   Write(silhouette);
 }
 
-// What lies outside reaches around the silhouette, a pixel beyond the picture at least.
+// The outside surrounds the silhouette, by at least one pixel beyond the picture.
 void SilhouetteCleaner::Connect(const Silhouette& silhouette) {
   const auto words = static_cast<std::size_t>(silhouette.words_per_row());
   const int right = static_cast<int>(words) * 64 + 1;
@@ -93,9 +93,8 @@ void SilhouetteCleaner::Connect(const Silhouette& silhouette) {
     if (parts_[i].whole != i) parts_[parts_[i].whole].area += parts_[i].area;
 }
 
-// Lists a row's runs up to `right`, with one where the first begins, and one where another would
-// end.
-// @returns where the next row's begin.
+// Lists a row's runs up to `right`, with one extra run before the first and one after the last.
+// @returns the beginning of the next row's runs.
 int SilhouetteCleaner::CollectRuns(std::span<const Word> row, int right, int first) {
   const auto most = static_cast<std::size_t>(first + right + 2);
   if (runs_.size() < most) runs_.resize(2 * most);
@@ -115,8 +114,8 @@ int SilhouetteCleaner::CollectRuns(std::span<const Word> row, int right, int fir
   return static_cast<int>(run - runs_.data());
 }
 
-// Whether each run touches the one above it that has the same number, and no other of its kind: so
-// it is in most rows, which take little then.
+// Whether each run touches the run above with the same number, and no other of its kind. This holds
+// for most rows, which are then processed fast.
 bool SilhouetteCleaner::GoesOn(const Run* above, const Run* here, int count) {
   for (int i = 1; i < count - 2; ++i)
     if (here[i].end >= above[i + 1].end || above[i].end >= here[i + 1].end) return false;
@@ -127,7 +126,7 @@ void SilhouetteCleaner::Follow(const Run* above, Run* here, int count) {
   for (int i = 2; i < count - 2; ++i) Add(here[i - 1].end, above[i].part, here[i]);
 }
 
-// Blobs touch over corners too.
+// Blobs also connect at corners.
 void SilhouetteCleaner::ConnectRow(const Run* above, Run* here, int count) {
   int first = 1;
   for (int i = 1; i < count - 1; ++i) {
@@ -166,7 +165,7 @@ int SilhouetteCleaner::Join(int a, int b) {
   return parts_[b].whole = a;
 }
 
-// Calls `visit` with the row, the two ends and the part of each run that is not outside.
+// Calls `visit` with the row, both ends and the part of each run that is not outside.
 template <typename Visit>
 void SilhouetteCleaner::ForEachRun(Visit visit) {
   for (int y = 0; y + 1 < static_cast<int>(row_begins_.size()); ++y)
@@ -181,14 +180,14 @@ void SilhouetteCleaner::CountDoubtful(int smallest, const Silhouette& doubtful) 
   bool any = false;
   for (int i = 1; i < static_cast<int>(parts_.size()); ++i)
     any |= parts_[i].whole == i && is_asked(i);
-  if (!any) return;  // As mostly.
+  if (!any) return;  // The usual case.
   ForEachRun([&](int y, int begin, int end, int part) {
     const int hole = WholeOf(part);
     if (is_asked(hole)) parts_[hole].doubtful += CountSet(doubtful.row(y), begin, end);
   });
 }
 
-// Blobs within a hole that is filled, and all that they are filled with, come after it.
+// Blobs within a filled hole, and everything they are filled with, come after it.
 template <typename IsFilled>
 void SilhouetteCleaner::FillHoles(IsFilled is_filled) {
   for (int i = 1; i < static_cast<int>(parts_.size()); ++i) {

@@ -1,4 +1,4 @@
-// §4: what noise leaves in a silhouette is taken out, what it takes from the person is put back.
+// §4: cleanup: removes noise from a silhouette and fills what noise took from the person.
 #pragma once
 
 #include <cstdint>
@@ -9,39 +9,39 @@
 
 namespace mocap {
 
-/// Drops small blobs and fills holes; nothing is eroded, so that thin limbs stay.
+/// Drops small blobs and fills holes. Nothing is eroded, so that thin limbs stay.
 ///
-/// Blobs hang together over corners too, holes do not. What touches the picture's edge is no hole.
-/// Holes are filled first: blobs beside one that is filled, and within it, become one blob.
+/// Blobs also connect at corners, holes do not. A region that touches the picture's edge is no
+/// hole. Holes are filled first: blobs beside a filled hole and within it become one blob.
 /// Thread-bound; reuses its memory.
 class SilhouetteCleaner {
  public:
-  /// Empties blobs of fewer than `smallest` pixels.
+  /// Clears blobs of fewer than `smallest` pixels.
   void DropBlobs(int smallest, Silhouette& silhouette);
 
-  /// Fills holes of fewer than `smallest_hole` pixels, and those of any size that are doubtful for
-  /// two thirds: a leg in front of a wall of its own colour leaves such holes, the gap between an
-  /// arm and the trunk does not. Empties blobs of fewer than `smallest_blob` pixels.
+  /// Fills holes of fewer than `smallest_hole` pixels, and holes of any size if two thirds of them
+  /// are doubtful. A leg in front of a wall of its own colour leaves such holes; the gap between an
+  /// arm and the trunk does not. Clears blobs of fewer than `smallest_blob` pixels.
   void Clean(int smallest_hole, const Silhouette& doubtful, int smallest_blob,
              Silhouette& silhouette);
 
-  /// Fills holes of fewer than `smallest_hole` pixels. Empties blobs of fewer than `smallest_blob`
-  /// pixels, and those of fewer than `largest_thing` that are much smaller than the largest and lie
-  /// apart from it: there is one person, and things that were moved are not part of it.
+  /// Fills holes of fewer than `smallest_hole` pixels. Clears blobs of fewer than `smallest_blob`
+  /// pixels. Also clears blobs of fewer than `largest_thing` pixels that are much smaller than the
+  /// largest and apart from it: there is one person, and moved things do not belong to it.
   void KeepPerson(int smallest_hole, int smallest_blob, int largest_thing, Silhouette& silhouette);
 
  private:
-  // The pixels of one row from where the run before ends, all of one kind. A row's runs take turns:
-  // what lies outside to the left, a blob, a hole, … a blob, what lies outside to the right.
+  // Pixels of one kind in a row, from the end of the previous run. The runs of a row alternate:
+  // outside on the left, a blob, a hole, … a blob, outside on the right.
   struct Run {
     int end;
     int part;
   };
-  // A blob, a hole, or what lies outside. They are numbered in the order of their first pixels,
-  // and what hangs together has the number of its first part.
+  // A blob, a hole, or the outside. Parts are numbered in the order of their first pixels.
+  // Connected parts have the number of the first of them.
   struct Part {
-    int whole;   // What it hangs together with.
-    int around;  // What lies before its first pixel, and all around it.
+    int whole;   // The first part it is connected with.
+    int around;  // The part before its first pixel, which surrounds it.
     int area;
     bool is_blob;
     bool is_set = false;
@@ -67,7 +67,7 @@ class SilhouetteCleaner {
   void Write(Silhouette& silhouette);
 
   std::vector<Run> runs_;
-  std::vector<int> row_begins_;  // And where the last ends.
+  std::vector<int> row_begins_;  // And the end of the last.
   std::vector<Part> parts_;
   std::vector<PixelBox> boxes_;  // Of blobs.
 };

@@ -17,7 +17,7 @@ std::int64_t CountOf(const Silhouette& bits) {
   return count;
 }
 
-// Pixels that are set in `seen` and in `expected` moved by (dx, dy).
+// Counts the pixels that are set in `seen` and in `expected` moved by (dx, dy).
 std::int64_t CommonPixels(const Silhouette& seen, const Silhouette& expected, int dx, int dy) {
   const int words = seen.words_per_row();
   const int whole = dx >= 0 ? dx / 64 : -((-dx + 63) / 64), part = dx - 64 * whole;
@@ -35,7 +35,7 @@ std::int64_t CommonPixels(const Silhouette& seen, const Silhouette& expected, in
   return count;
 }
 
-// All that no shift brings to the picture's edge.
+// The pixels that no shift brings to the picture's edge.
 Silhouette InnerPart(int width, int height) {
   Silhouette inner(width, height);
   for (int y = kFarthest_px; y < height - kFarthest_px; ++y) {
@@ -88,13 +88,13 @@ SilhouetteShift MeasureShift(const Silhouette& silhouette, const Silhouette& exp
       }
     }
   }
-  // Three pixels either way: a single one is at the mercy of the outline's steps.
+  // Three pixels in both directions: one is too sensitive to the outline's steps.
   const auto fraction = [&](int ux, int uy) {
     constexpr int kReach = 3;
     const double low = overlap(best_x - kReach * ux, best_y - kReach * uy);
     const double high = overlap(best_x + kReach * ux, best_y + kReach * uy);
     const double left = best - low, right = best - high;
-    // The overlap falls like a roof: the top is where both slopes meet.
+    // The overlap falls linearly on both sides: the lines meet at the maximum.
     return left + right > 0 ? kReach * (left - right) / (2 * std::max(left, right)) : 0.0;
   };
   const PixelBox box = seen.BoundingBox().value_or(PixelBox{});

@@ -1,4 +1,4 @@
-// §4: how far one silhouette lies from another.
+// §4: the shift between two silhouettes.
 #pragma once
 
 #include "core/geometry.h"
@@ -6,20 +6,20 @@
 
 namespace mocap {
 
-/// Where a silhouette lies against another one.
+/// Position of a silhouette relative to another one.
 struct SilhouetteShift {
   Vector2 shift_px = Vector2::Zero();   ///< To the right and down: seen minus expected.
   double overlap = 0;                   ///< Intersection over union at that shift.
-  Vector2 middle_px = Vector2::Zero();  ///< Of the box around what was seen and compared.
+  Vector2 middle_px = Vector2::Zero();  ///< Centre of the box around the compared part.
 };
 
-/// Finds the shift with the largest overlap, 14 px each way at most, to a fraction of a pixel.
-/// Where one reaches its picture's edge, only what no such shift brings there is compared.
-/// @pre  both are of one size.
+/// Finds the shift with the largest overlap, up to 14 px in each direction, to a fraction of a
+/// pixel. If a silhouette reaches its picture's edge, only pixels that no such shift brings there
+/// are compared.
+/// @pre  both have the same size.
 SilhouetteShift MeasureShift(const Silhouette& silhouette, const Silhouette& expected);
 
-/// Whether a silhouette reaches its picture's edge, so that a part of it may be missing, or is
-/// empty.
+/// Whether a silhouette is empty, or reaches its picture's edge, so that a part may be missing.
 bool TouchesBorder(const Silhouette& silhouette);
 
 }  // namespace mocap

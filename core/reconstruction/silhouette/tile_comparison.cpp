@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kTile = HalfPicture::kTile;
 constexpr float kArea = kTile * kTile;
-// The sum of x² over a tile's pixels, counted from its middle.
+// The sum of x² over a tile's pixels, relative to its centre.
 constexpr float kSpread = kArea * (kArea - 1) / 12;
 
-// Two rows of a tile's side, the second so much farther on: of two tiles side by side, or one below
-// the other.
+// Two rows of a tile's side, the second `step` bytes further on: of two adjacent tiles, or one
+// below the other.
 static_assert(kFloats == 2 * kTile);
 using Row = float __attribute__((vector_size(kTile * sizeof(float))));
 
@@ -40,7 +40,7 @@ MOCAP_INLINE float SumOf(Floats rows) {
   return sums[0] + sums[1];
 }
 
-// How two rows, from such a pixel on, differ.
+// Deviation of two rows from a pixel on, in variances.
 MOCAP_INLINE Floats ChiSquaresOfRows(const TilePixels& tiles, std::ptrdiff_t begin,
                                      std::ptrdiff_t step, const Allowance& allowance,
                                      Floats alphas) {
@@ -56,7 +56,7 @@ MOCAP_INLINE Floats ChiSquaresOfRows(const TilePixels& tiles, std::ptrdiff_t beg
                     allowance.shift_sq * slope * slope);
 }
 
-// The brightness distortion of the pixels of two rows of a tile.
+// The brightness distortion of the pixels in two rows of a tile.
 MOCAP_INLINE Floats AlphasOfRows(const TilePixels& tile, std::ptrdiff_t begin,
                                  const Allowance& allowance) {
   Floats along{}, square = AllOf(1.0f);
@@ -74,7 +74,7 @@ MOCAP_INLINE Floats AlphasOfRows(const TilePixels& tile, std::ptrdiff_t begin,
 MOCAP_VECTORIZED
 void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
                        const float* alphas, float* chi_squares) {
-  const Allowance allowed = allowance;  // As far as the compiler knows, the results may lie there.
+  const Allowance allowed = allowance;  // A copy: the compiler must expect aliasing results.
   for (int i = 0; i < count; i += 2) {
     const bool is_last = i + 1 == count;
     const float left = alphas[i], right = is_last ? left : alphas[i + 1];
@@ -115,13 +115,13 @@ void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
 
 MOCAP_VECTORIZED
 float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance) {
-  // Where the pixels of the upper two rows are, from the tile's middle.
+  // Positions of the pixels of the upper two rows, relative to the tile's centre.
   const Floats right = {-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f};
   const Floats down = {-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f};
   const std::ptrdiff_t lower = 2 * tile.stride;
   const Floats upper_alphas = AlphasOfRows(tile, 0, allowance);
   const Floats lower_alphas = AlphasOfRows(tile, lower, allowance);
-  // A plane over the tile.
+  // Fits a plane to the tile.
   const Floats columns = upper_alphas + lower_alphas;
   const float middle = SumOf(columns) / kArea;
   const float to_right = SumOf(columns * right) / kSpread;

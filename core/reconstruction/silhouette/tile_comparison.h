@@ -1,4 +1,4 @@
-// §4: how much tiles of a picture at half the resolution differ from the empty studio.
+// §4: deviation of tiles from the empty studio, at half the resolution.
 #pragma once
 
 #include <array>
@@ -8,41 +8,40 @@
 
 namespace mocap {
 
-/// How a whole picture differs, which is no difference of any tile.
+/// Deviations of the whole picture, which do not count as a deviation of a tile.
 struct Allowance {
   std::array<float, 3> gain{1, 1, 1};  ///< Of blue, green, red.
-  float drift_sq = 0;                  ///< Part of each variance [grey levels²].
-  float shift_sq = 0;                  ///< So many times a slope's square is, too [pixels²].
+  float drift_sq = 0;                  ///< Added to each variance [grey levels²].
+  float shift_sq = 0;  ///< Multiplies a slope's square, which is also added [pixels²].
 };
 
-/// Pixels of tiles that lie side by side, channel by channel, from the first tile's first on.
-/// Behind the last tile as many can be read.
+/// Pixels of adjacent tiles, per channel, from the first pixel of the first tile on. One more tile
+/// must be readable after the last.
 struct TilePixels {
   std::array<const std::uint8_t*, 3> live, expected;
   const float* variance;
   const std::uint8_t* slope;
-  int stride;  ///< From a row to the next.
+  int stride;  ///< From one row to the next.
 };
 
-/// Measures by how many variances the pixels of tiles differ from what is expected in the mean, but
-/// for their tile's brightness.
+/// Measures the mean squared deviation of tiles' pixels, in variances, relative to their tile's
+/// brightness.
 /// @param alphas  the tiles' brightness distortion.
 void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
                        const float* alphas, float* chi_squares);
 
-/// Means of tiles, channel by channel.
+/// Means of tiles, per channel.
 struct TileMeans {
   std::array<const float*, 3> live, expected;
   const float *variance, *slope_sq;
 };
 
-/// Measures the brightness distortion of tiles, and by how many variances they are coloured
-/// differently or brighter.
+/// Measures the brightness distortion of tiles, and how many variances they are tinted or brighter.
 void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance, float* alphas,
                   float* tints, float* glares);
 
-/// Measures the mean chi-square of a tile's pixels where brightness may change evenly across it, as
-/// at the soft edge of a shadow [variances].
+/// Measures the mean chi-square of a tile's pixels [variances]. Brightness may change evenly across
+/// the tile, as at the soft edge of a shadow.
 float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// §4: distortions summed within windows, eight pixels side by side.
+// §4: distortions summed within windows, for eight adjacent pixels.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace mocap {
 
-/// Half the windows' sides, without the pixel in the middle.
+/// Half the side of each window, without the pixel in the middle.
 inline constexpr std::array<int, 2> kWindowRadii_px = {2, 3};
 inline constexpr std::size_t kWindows = kWindowRadii_px.size();
 inline constexpr int kLargestRadius_px = kWindowRadii_px.back();
 
-/// Of eight pixels of a line: sums along the line within the width of a window around each.
+/// For eight pixels of a line: sums along the line over the width of a window around each.
 struct alignas(32) LineSums {
   using Column = std::array<float, kFloats>;
   Column alpha, alpha_sq;  ///< α − 1 and its square.
@@ -22,19 +22,19 @@ struct alignas(32) LineSums {
   std::array<Column, 3> cd;
 };
 
-/// Of all windows around eight pixels.
+/// For all windows around eight pixels.
 using BlockSums = std::array<LineSums, kWindows>;
-/// So many lines are in the windows around two pixels, one below the other.
+/// Number of lines in the windows around two pixels, one below the other.
 inline constexpr int kPairLines = 2 * kLargestRadius_px + 2;
-/// So many lines of the same eight pixels lie together: lines come a few at a time, some of them
-/// before they are needed.
+/// Number of lines of the same eight pixels that are stored together. Lines come a few at a time,
+/// some of them before they are needed.
 inline constexpr int kSumLines = kPairLines + 4;
 
-/// The sums of the first blocks of two rows, one below the other, and of the lines above and below
-/// that their windows may need: those of the other blocks follow in steps of kSumLines.
+/// The sums of the first blocks of two adjacent rows, and of the lines above and below that their
+/// windows may need. Those of further blocks follow in steps of kSumLines.
 using WindowLines = std::array<const BlockSums*, kPairLines>;
 
-/// How the windows around eight pixels differ.
+/// Deviation of the windows around eight pixels.
 struct WindowDistortions {
   Floats alpha_shift;   ///< Mean of α − 1.
   Floats cd_sq;         ///< Squared length of the mean colour distance.
@@ -43,7 +43,7 @@ struct WindowDistortions {
 
 /// Sums over the lines of a window.
 struct WindowSums {
-  /// Those of one line, so far below the middle.
+  /// The sums of one line, at a distance below the middle.
   MOCAP_INLINE WindowSums(const LineSums& line, float below) {
     LoadLanes(line.alpha.data(), alpha), LoadLanes(line.alpha_sq.data(), alpha_sq);
     LoadLanes(line.moment.data(), along);
@@ -55,21 +55,21 @@ struct WindowSums {
     alpha += line.alpha, alpha_sq += line.alpha_sq, along += line.along, down += line.down;
     cd0 += line.cd0, cd1 += line.cd1, cd2 += line.cd2;
   }
-  /// Counts from a middle that lies so much farther down.
+  /// Moves the middle down by `by`.
   MOCAP_INLINE void MoveMiddle(float by) { down -= by * alpha; }
 
   Floats alpha, alpha_sq, along, down, cd0, cd1, cd2;
 };
 
 /// Measures a window of one size around each of eight pixels.
-/// @param sums          of all its lines.
+/// @param sums          of all lines of the window.
 /// @param alpha_weight  1/a of the pixels.
 template <std::size_t window>
 MOCAP_INLINE void MeasureWindow(const WindowSums& sums, const Floats& alpha_weight,
                                 WindowDistortions& result) {
   constexpr int kSide = 2 * kWindowRadii_px[window] + 1;
   constexpr float kArea = kSide * kSide;
-  // Sum of x² over the window's pixels, counted from its middle.
+  // Sum of x² over the window's pixels, relative to its centre.
   constexpr float kSpread = kArea * (kArea - 1) / 12;
   const auto& [alpha, alpha_sq, along, down, cd0, cd1, cd2] = sums;
   result.alpha_shift = alpha * (1 / kArea);
@@ -79,9 +79,9 @@ MOCAP_INLINE void MeasureWindow(const WindowSums& sums, const Floats& alpha_weig
   result.cd_sq = (cd0 * cd0 + cd1 * cd1 + cd2 * cd2) * (1 / (kArea * kArea));
 }
 
-/// Measures the windows of one size around eight pixels of each of two rows, which have all but the
-/// outermost lines in common.
-/// @param block         of the rows.
+/// Measures the windows of one size around eight pixels of each of two rows. They share all but the
+/// outermost lines.
+/// @param block         index in the rows.
 /// @param alpha_weight  1/a of the pixels.
 template <std::size_t window>
 MOCAP_INLINE void JoinLines(const WindowLines& lines, int block,
