@@ -12,7 +12,7 @@ constexpr double kDerivativeStep = 1e-6;
 constexpr double kLeastDamping = 1e-12;
 constexpr double kMostDamping = 1e12;
 
-// Columns are derivatives by parameters in units of their scale.
+// Computes derivatives by parameters, in units of their scale.
 Eigen::MatrixXd Jacobian(const ResidualFunction& residuals, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& scale, Eigen::Index rows) {
   Eigen::MatrixXd J(rows, x.size());
@@ -61,7 +61,7 @@ LeastSquaresResult MinimizeSquares(const ResidualFunction& residuals, const Eige
       r = next_r;
       damping = std::max(kLeastDamping, damping / 10);
     }
-    // No step of any length leads down: this is the bottom.
+    // No step of any length reduces the cost: this is the minimum.
     if (!lower) result.converged = true;
   }
   return result;

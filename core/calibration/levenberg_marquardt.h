@@ -6,7 +6,7 @@
 
 namespace mocap {
 
-/// Residuals of a parameter vector; the number of them never changes.
+/// Residuals of a parameter vector. Their number never changes.
 using ResidualFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 struct LeastSquaresResult {
@@ -16,11 +16,11 @@ struct LeastSquaresResult {
   bool converged = false;
 };
 
-/// Finds the x near `start` that makes the sum of squared residuals least.
+/// Minimizes the sum of squared residuals, starting from `start`.
 ///
 /// Levenberg–Marquardt with derivatives by central differences, for a few dozen parameters.
-/// @param scale  typical size of a change of each parameter, all above 0; derivatives are taken
-/// over a millionth of it and damping is in its units.
+/// @param scale  typical change of each parameter, all above 0. Derivatives are taken over a
+/// millionth of it, and damping is in its units.
 LeastSquaresResult MinimizeSquares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                                    const Eigen::VectorXd& scale, int most_steps = 200);
 

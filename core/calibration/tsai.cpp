@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t kFewestCoplanar = 8;
 constexpr std::size_t kFewestSpatial = 10;
 constexpr double kFlatShare = 1e-3;
-// Less slant than this and noise of a fraction of a pixel decides about f.
+// With less slant, noise of a fraction of a pixel determines f.
 constexpr double kLeastSlant_rad = 0.03;
 
-/// Points in a frame of their own, with Ty far from 0, and on the sensor in mm from the axis.
+/// Points in a frame of their own in which Ty is far from 0, and on the sensor in mm from the axis.
 struct Problem {
   std::vector<Vector3> p_P;
   std::vector<Vector2> Xd;
@@ -76,13 +76,12 @@ Problem Pose(std::span<const PointDetection> points, const TsaiSensor& sensor) {
   std::size_t highest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Vector2 Xd = (points[i].pixel - sensor.center_px).cwiseProduct(sensor.pitch_mm);
-    // For points in space sx comes out of stage 1.
+    // For non-coplanar points, stage 1 determines sx.
     if (problem.coplanar) Xd.x() /= sensor.sx;
     problem.Xd.push_back(Xd);
     if (std::abs(Xd.y()) > std::abs(problem.Xd[highest].y())) highest = i;
   }
-  // Stage 1 divides by Ty: the origin is the point that lies farthest from the picture's middle
-  // row.
+  // Stage 1 divides by Ty. So the origin is the point farthest from the picture's middle row.
   problem.X_PW.R = axes.transpose();
   problem.X_PW.p = -(axes.transpose() * points[highest].p_W);
   for (const PointDetection& point : points) {
@@ -95,7 +94,7 @@ Problem Pose(std::span<const PointDetection> points, const TsaiSensor& sensor) {
 
 Eigen::VectorXd SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                   const char* reason) {
-  // Columns of equal length: they are millimetres, products of them, and numbers.
+  // Normalizes columns: they are millimetres, products of these, and numbers.
   const Eigen::VectorXd lengths = A.colwise().norm().cwiseMax(1e-300).transpose();
   const Eigen::MatrixXd scaled = A * lengths.cwiseInverse().asDiagonal();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
@@ -107,7 +106,7 @@ Eigen::VectorXd SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorX
 constexpr const char* kNoRotation =
     "the points do not determine the camera's rotation; points spread over the picture are wanted";
 
-// Ty's sign: the point farthest from the axis lies on its own side of it.
+// The sign of Ty puts the point farthest from the axis on its own side of the axis.
 double SignOfTy(const Problem& problem, const Vector3& row1, const Vector3& row2, double Tx,
                 double Ty) {
   std::size_t farthest = 0;
@@ -154,7 +153,7 @@ Camera AlignCoplanar(const Problem& problem, const TsaiSensor& sensor) {
   return camera;
 }
 
-// Tsai 1987, stage 1 for points in space, Eqs. (16)–(19).
+// Tsai 1987, stage 1 for non-coplanar points, Eqs. (16)–(19).
 Camera AlignSpatial(const Problem& problem, const TsaiSensor& sensor) {
   const auto n = static_cast<Eigen::Index>(problem.Xd.size());
   Eigen::MatrixXd A(n, 7);
@@ -201,7 +200,7 @@ void SolveFocalAndDepth(const Problem& problem, Camera& camera) {
   camera.X_CP.p.z() = solution[1];
 }
 
-// For coplanar points the slant's sign is free until f must be positive.
+// For coplanar points, the sign of the slant follows only from f being positive.
 void ChooseSlant(const Problem& problem, Camera& camera) {
   SolveFocalAndDepth(problem, camera);
   if (camera.lens.focal_mm > 0) return;
@@ -214,7 +213,7 @@ void ChooseSlant(const Problem& problem, Camera& camera) {
   SolveFocalAndDepth(problem, camera);
 }
 
-// Parameters: f κ1 Tx Ty Tz, turn about x, y, z, Cx Cy sx; the first ones vary.
+// Parameters: f κ1 Tx Ty Tz, rotation about x, y, z, Cx Cy sx. The first ones vary.
 constexpr int kParameters = 11;
 
 Camera Moved(const Camera& camera, const Eigen::VectorXd& change, const std::vector<int>& free) {
@@ -237,7 +236,7 @@ Eigen::VectorXd Residuals(const Camera& camera, const std::vector<Vector3>& p_P,
     const Vector3 p_C = camera.X_CP * p_P[i];
     std::optional<Vector2> pixel;
     if (p_C.z() > 0) pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
-    // A camera that could not show the points is no candidate.
+    // A camera that could not show the points is not acceptable.
     const Vector2 error =
         pixel ? Vector2(*pixel - points[i].pixel) : Vector2::Constant(HUGE_VAL).eval();
     r.segment<2>(2 * static_cast<Eigen::Index>(i)) = error;
@@ -245,7 +244,7 @@ Eigen::VectorXd Residuals(const Camera& camera, const std::vector<Vector3>& p_P,
   return r;
 }
 
-// Starts again from each result, so that turns stay small.
+// Restarts from each result, so that rotations stay small.
 Camera Refine(Camera camera, const std::vector<int>& free, const Problem& problem,
               std::span<const PointDetection> points) {
   const double depth = camera.X_CP.p.norm();

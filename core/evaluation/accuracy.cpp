@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-// Columns of ScoredPoints. Left and right stand side by side.
+// Columns of ScoredPoints. Left and right are adjacent.
 enum Column {
   kHead,
   kNeck,
@@ -23,7 +23,7 @@ enum Column {
   kFoot = 12
 };
 
-/// Column of the other end of the bone that ends in each point.
+/// Column of the other end of the bone that ends at each point.
 constexpr std::array<int, kScoredPointCount> kBoneStart = {
     kNeck,      kHead, kElbow,    kElbow + 1, kShoulder, kShoulder + 1, kElbow,
     kElbow + 1, kKnee, kKnee + 1, kHip,       kHip + 1,  kKnee,         kKnee + 1};
@@ -36,13 +36,14 @@ Vector3 TorsoAxis(const ScoredPoints& p) {
   return p.col(kNeck) - (p.col(kHip) + p.col(kHip + 1)) / 2;
 }
 
-/// Rows: along the bone that ends in the point, across it as the hips lie, and the third.
+/// Rows: along the bone that ends at the point; across it, close to the hip line; and the third
+/// axis.
 Matrix3 BoneFrame(const ScoredPoints& p, int point) {
   const Vector3 along = (p.col(point) - p.col(kBoneStart[point])).stableNormalized();
   const auto across = [&](const Vector3& v) -> Vector3 { return v - along * along.dot(v); };
   const Vector3 left = p.col(kHip) - p.col(kHip + 1);
   Vector3 second = across(left);
-  // A bone along the hip line leaves no direction across it.
+  // A bone along the hip line needs another reference direction.
   if (second.norm() < 0.2 * left.norm()) second = across(TorsoAxis(p));
   second.stableNormalize();
   Matrix3 rows;
@@ -71,7 +72,7 @@ std::size_t NearestInTime(std::span<const ScoredFrame> truth, std::int64_t time_
   return static_cast<std::size_t>(nearest - truth.begin());
 }
 
-/// Gives each true frame at most one frame of the output.
+/// Matches each true frame with at most one frame of the output.
 struct Match {
   int pose, truth;
 };
@@ -93,7 +94,7 @@ std::vector<Match> MatchByTime(std::span<const ScoredFrame> truth,
   return matches;
 }
 
-/// Mean distance from each point's own mean offset in its bone's frame.
+/// Mean distance of each point from its own mean offset in its bone's frame.
 double Spread(std::span<const FrameError> frames, std::span<const ScoredFrame> truth,
               std::span<const ScoredFrame> output) {
   double sum = 0;

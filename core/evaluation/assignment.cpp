@@ -6,7 +6,7 @@
 namespace mocap {
 namespace {
 
-// Rows and columns of a cost matrix, counted from 1; column 0 holds the row that is looked at.
+// Rows and columns of a cost matrix, counted from 1. Column 0 holds the row that is being added.
 class Matching {
  public:
   explicit Matching(const Eigen::MatrixXd& cost)
@@ -15,7 +15,7 @@ class Matching {
         column_price_(Eigen::VectorXd::Zero(cost.cols() + 1)),
         row_of_(cost.cols() + 1, 0) {}
 
-  // Finds the cheapest way to give one more row a column, others moving on.
+  // Assigns a column to one more row at the least cost; other rows may change columns.
   void Add(int row) {
     const int columns = static_cast<int>(cost_.cols());
     std::vector<double> least(columns + 1, std::numeric_limits<double>::infinity());
@@ -62,7 +62,7 @@ class Matching {
 
 std::vector<int> AssignForMost(const Eigen::MatrixXd& gain) {
   const int rows = static_cast<int>(gain.rows()), columns = static_cast<int>(gain.cols());
-  // A column for each row in which it gains nothing.
+  // Adds one column per row, without gain.
   Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(rows, columns + rows);
   cost.leftCols(columns) = -gain.cwiseMax(0);
   Matching matching(cost);

@@ -1,4 +1,4 @@
-// Who belongs to whom: pairs of the largest sum.
+// Assignment with the largest total gain.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,11 +6,11 @@
 
 namespace mocap {
 
-/// Pairs rows with columns, one to one, so that the sum of what the pairs gain is the largest.
+/// Matches rows with columns, one to one, so that the total gain is largest.
 ///
 /// The Hungarian method with shortest augmenting paths (Jonker and Volgenant 1987), O(n³).
 ///
-/// @param gain  rows × columns; a pair that gains nothing, 0 or less, is none.
+/// @param gain  rows × columns; pairs with a gain of 0 or less are not made.
 /// @return      the column of each row; -1: none.
 std::vector<int> AssignForMost(const Eigen::MatrixXd& gain);
 

@@ -24,7 +24,7 @@ double MeanDistance(const ScoredPoints& a, const ScoredPoints& b) {
   return (a - b).colwise().norm().mean();
 }
 
-// What somebody's following gains over a take: sets in which he is near, the nearer the more.
+// Gain of an assignment over a take: sums closeness over the sets in which both are near.
 double GainOf(const PresenceBySet& person, const PosesBySet& followed) {
   double gain = 0;
   for (const auto& [set, there] : person) {
@@ -35,7 +35,7 @@ double GainOf(const PresenceBySet& person, const PosesBySet& followed) {
   return gain;
 }
 
-// Who follows whom, set by set.
+// Assigns tracked people to true people, set by set.
 class Followers {
  public:
   Followers(std::span<const PresenceBySet> truth, std::span<const PosesBySet> followed)
@@ -48,7 +48,7 @@ class Followers {
     for (const int set : sets) Divide(set);
   }
 
-  /// By set: who follows a true person.
+  /// Returns by set: who tracks a true person.
   const std::map<int, int>& Of(std::size_t person) const { return of_[person]; }
   int phantom_sets() const { return phantom_sets_; }
   int duplicate_sets() const { return duplicate_sets_; }
@@ -57,7 +57,7 @@ class Followers {
   void Divide(int set) {
     const auto people = static_cast<Eigen::Index>(truth_.size());
     const auto others = static_cast<Eigen::Index>(followed_.size());
-    // As many pairs as can be, then the nearest.
+    // As many pairs as possible, then the nearest.
     constexpr double kPair_mm = 10 * kNearMm;
     Eigen::MatrixXd gain = Eigen::MatrixXd::Zero(people, others);
     for (Eigen::Index i = 0; i < people; ++i)
@@ -85,7 +85,7 @@ class Followers {
   int phantom_sets_ = 0, duplicate_sets_ = 0;
 };
 
-// The sets that count: whole in the room for a while.
+// The sets that count: entirely in the room for a while.
 std::vector<int> SettledSets(const PresenceBySet& person, int settle_sets) {
   std::vector<int> settled;
   int whole_since = 0, last = -2;
@@ -107,7 +107,7 @@ int CountSwitches(const std::map<int, int>& by_set) {
   return switches;
 }
 
-// The sets in which one follows a true person, as near as he must.
+// The poses of the sets in which the trunks are near.
 std::vector<ScoredFrame> NearPoses(const PresenceBySet& person, const PosesBySet& followed,
                                    std::span<const int> sets, std::vector<ScoredFrame>& truth) {
   std::vector<ScoredFrame> poses;

@@ -1,4 +1,4 @@
-// §8 for several people: who was followed by whom, how well, and who was followed though nobody was
+// §8 for several people: who was tracked by whom, how well, and who was tracked though nobody was
 // there.
 #pragma once
 
@@ -10,49 +10,49 @@
 
 namespace mocap {
 
-/// Somebody who truly was there in a set.
+/// A person who was really present in a set.
 struct TruePresence {
   ScoredPoints points_W = ScoredPoints::Zero();
   bool whole = false;    ///< All of the body was in the room.
   bool covered = false;  ///< And within the borders of four pictures or more.
 };
 
-/// Of one person, by the number of the set: those in which any part of the body was in the room.
+/// One person, by number of the set: the sets in which any part of the body was in the room.
 using PresenceBySet = std::map<int, TruePresence>;
-/// Of one person, by the number of the set: those in which he was called tracked.
+/// One person, by number of the set: the sets in which the state was tracked.
 using PosesBySet = std::map<int, ScoredPoints>;
 
-/// How well one true person was followed, over the sets in which he was whole in the room, and had
-/// been for a while.
+/// Tracking quality for one true person, over the sets in which the whole person had been in the
+/// room for a while.
 struct PersonAccuracy {
-  int followed_by = -1;              ///< Who follows him best over all; -1: nobody does.
-  DistanceSummary distance_mm = {};  ///< Of that one, where near; the mean is the MPJPE.
+  int followed_by = -1;              ///< Who tracks this person best over all sets; -1: nobody.
+  DistanceSummary distance_mm = {};  ///< For that one, where near; the mean is the MPJPE.
   double mean_angle_rad = 0;         ///< Likewise.
-  int covered_sets = 0;              ///< In which he was covered, too.
-  double covered_share = 0;          ///< Of those: followed by that one,
+  int covered_sets = 0;              ///< In which the person was also covered.
+  double covered_share = 0;          ///< Share of these with tracking by that one,
   double covered_found_share = 0;    ///< and by anybody.
-  int sets_to_first = -1;            ///< From the first covered set until anybody follows him.
-  int longest_lost_sets = 0;         ///< Covered ones on end, after that, in which nobody did.
-  int switches = 0;                  ///< How often it became somebody else who follows him.
+  int sets_to_first = -1;            ///< From the first covered set until anybody tracks.
+  int longest_lost_sets = 0;         ///< Longest run of covered sets, after that, without tracking.
+  int switches = 0;                  ///< How often the one who tracks changed.
 };
 
 struct PeopleAccuracy {
-  std::vector<PersonAccuracy> people = {};  ///< As many as true ones.
+  std::vector<PersonAccuracy> people = {};  ///< One for each true person.
   double mpjpe_mm = 0;                      ///< Over all points of all of them.
-  int phantom_sets = 0;    ///< Sets in which somebody was followed where nobody was, for each.
-  int duplicate_sets = 0;  ///< The same where somebody was whom another one followed.
+  int phantom_sets = 0;                     ///< Tracked people where nobody was, summed over sets.
+  int duplicate_sets = 0;  ///< The same where another one already tracked the person.
 };
 
-/// Compares those who were followed with those who were there.
+/// Compares tracked people with people who were present.
 ///
-/// Of each set, who follows whom is decided one to one, nearest trunks first; farther than
-/// kNearMm nobody follows anybody.
+/// In each set, people are assigned one to one, nearest trunks first. No pair is farther apart than
+/// kNearMm.
 ///
-/// @param settle_sets  errors count from so many sets after somebody had come in.
+/// @param settle_sets  number of sets after a person's entry before errors count.
 PeopleAccuracy MeasurePeople(std::span<const PresenceBySet> truth,
                              std::span<const PosesBySet> followed, int settle_sets);
 
-/// A trunk farther than this from the true one is somebody else's, or nobody's.
+/// A trunk farther than this from the true one belongs to somebody else or to nobody.
 inline constexpr double kNearMm = 500;
 
 }  // namespace mocap

@@ -10,10 +10,10 @@
 namespace mocap {
 namespace {
 
-/// Row i gives the fitted polynomial's value at the window's place i, from the window's values.
+/// Row i computes the fitted polynomial at the window's position i from the window's values.
 Eigen::MatrixXd ProjectionOntoPolynomials(int window, int order) {
   Eigen::MatrixXd powers(window, order + 1);
-  // Places from -1 to 1 keep the powers of the same size.
+  // Positions from -1 to 1 keep the powers at the same magnitude.
   const Eigen::VectorXd place = Eigen::VectorXd::LinSpaced(window, -1, 1);
   powers.col(0).setOnes();
   for (int p = 1; p <= order; ++p) powers.col(p) = powers.col(p - 1).cwiseProduct(place);
@@ -84,7 +84,7 @@ std::optional<Precision> MeasurePrecision(std::span<const std::vector<PoseSample
   for (int a = 0; a < kPaperAngleCount; ++a) {
     result.angle_rad[a] /= result.frames;
     result.mean_angle_rad += result.angle_rad[a] / kPaperAngleCount;
-    // θ7 and θ8 turn the upper arms about themselves.
+    // θ7 and θ8 turn the upper arms about their own axes.
     if (a != 6 && a != 7) without_twist += result.angle_rad[a];
   }
   result.mean_angle_without_twist_rad = without_twist / (kPaperAngleCount - 2);

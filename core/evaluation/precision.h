@@ -1,5 +1,5 @@
-// §8.2: precision: how far the tracking output lies from its own smoothed curve, which stands in
-// for the truth where there is none.
+// §8.2: precision: distance of the tracking output from its own smoothed curve, which replaces the
+// truth where there is none.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,24 +14,24 @@
 
 namespace mocap {
 
-/// The smoother's polynomial order M and its window of 2n + 1 frames; defaults are the paper's.
+/// Polynomial order M and window of 2n + 1 frames; the defaults are the paper's.
 struct SmoothingOptions {
   int order = 3;
   int half_window = 7;
 };
 
-/// Smooths a series: each value becomes that of a polynomial fitted by least squares to the window
-/// centred on it.
+/// Smooths a series: each value is replaced by that of a polynomial, fitted by least squares to the
+/// window around it.
 ///
-/// Savitzky and Golay, 1964; Mikić et al. 2003, §8.2. Within half a window of an end the first or
-/// last whole window's polynomial is read off there, so that a polynomial of the order comes back
-/// unchanged everywhere. A series shorter than the window is one window.
+/// Savitzky and Golay, 1964; Mikić et al. 2003, §8.2. Within half a window from an end, the
+/// polynomial of the first or last whole window is evaluated. So a polynomial of the given order is
+/// reproduced everywhere. A series shorter than the window is one window.
 ///
 /// @param series  equally spaced in time.
 /// @return  as long as the series.
 Eigen::VectorXd SmoothSavitzkyGolay(const Eigen::VectorXd& series, const SmoothingOptions& options);
 
-/// Removes jumps of whole turns between neighbours of a series of angles [rad].
+/// Removes jumps of whole turns between neighbours in a series of angles [rad].
 Eigen::VectorXd UnwrapAngles(const Eigen::VectorXd& angles_rad);
 
 /// One tracked frame.
@@ -42,7 +42,7 @@ struct PoseSample {
 
 /// Mean absolute differences between the output and its smoothed curve.
 struct Precision {
-  int frames = 0;                                    ///< That the means are taken over.
+  int frames = 0;                                    ///< Number of frames in the means.
   std::array<double, kPaperAngleCount> angle_rad{};  ///< θ1 … θ16.
   double mean_angle_rad = 0;
   double mean_angle_without_twist_rad =
@@ -51,8 +51,8 @@ struct Precision {
   double mean_point_mm = 0;
 };
 
-/// Measures precision over unbroken runs of tracked frames. Runs shorter than the window say
-/// nothing of it and are left out; empty when no run is left.
+/// Measures precision over unbroken runs of tracked frames. Runs shorter than the window are left
+/// out; empty if no run is left.
 std::optional<Precision> MeasurePrecision(std::span<const std::vector<PoseSample>> runs,
                                           const SmoothingOptions& options);
 
