@@ -7,7 +7,7 @@
 namespace mocap {
 namespace {
 
-// As shares of a voxel: how far apart a ray is looked at, and how far inside of it.
+// As shares of a voxel: the step along a ray, and the offset of the test line towards the inside.
 constexpr double kStep = 0.8;
 constexpr double kInward = 0.7;
 // Share of a camera's rays, beyond the usual one.
@@ -18,7 +18,7 @@ struct Range {
   double to_mm;
 };
 
-// Where a line runs through a box.
+// Intersects a line with a box.
 std::optional<Range> Within(const Eigen::AlignedBox3d& box, const Vector3& eye,
                             const Vector3& direction) {
   const Vector3 a = (box.min() - eye).cwiseQuotient(direction);
@@ -29,7 +29,7 @@ std::optional<Range> Within(const Eigen::AlignedBox3d& box, const Vector3& eye,
   return Range{from, to};
 }
 
-// The stretch of a ray along the voxels; empty where it misses them.
+// The part of a ray along the voxels; empty if it misses them.
 std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
                                  const Range& in_box) {
   const double step_mm = kStep * cloud.voxel_mm();
@@ -89,7 +89,7 @@ BoundingEdgeFinder::Camera BoundingEdgeFinder::CutRays(const VoxelCloud& cloud,
   return camera;
 }
 
-// Of the better half of the cameras that see the person; what most of them miss was carved away.
+// Lower median over the cameras that see the person; what most cameras miss was carved away.
 double BoundingEdgeFinder::UsualMissingShare() {
   shares_.clear();
   for (const Camera& camera : cameras_)

@@ -1,4 +1,4 @@
-// Beyond the paper: where along a grazing ray the person may be touched.
+// Beyond the paper: the part of a grazing ray where it may touch the person.
 #pragma once
 
 #include <span>
@@ -9,23 +9,23 @@
 
 namespace mocap {
 
-/// The stretch of a grazing ray that lies along the visual hull: somewhere on it the ray touches
-/// the person (Cheung, Baker and Kanade 2003).
+/// The part of a grazing ray along the visual hull. Somewhere on it the ray touches the person
+/// (Cheung, Baker and Kanade 2003).
 struct BoundingEdge {
   Vector3 from_W;
   Vector3 to_W;
-  Vector3 outward_W;  ///< The person's normal where it is touched; unit length.
-  /// The ray misses the hull: what it grazes was carved away, for some camera did not see it.
+  Vector3 outward_W;  ///< The person's normal at the point of contact; unit length.
+  /// The ray misses the hull: another camera did not see what it grazes, so it was carved away.
   bool misses_hull = false;
 };
 
 /// Cuts rays to bounding edges. Reuses its memory.
 class BoundingEdgeFinder {
  public:
-  /// Cuts each ray to its stretch along the voxels. A ray that misses them keeps its whole way
-  /// through the person's box, because a limb may have been carved away that another camera did not
-  /// see; but not where many more of its camera's rays miss than of the others', for then it is the
-  /// camera that errs.
+  /// Cuts each ray to its part along the voxels. A ray that misses them keeps its whole length in
+  /// the person's box, because another camera may have missed a limb, so that it was carved away.
+  /// Such rays are dropped if a camera has many more of them than the others, because then this
+  /// camera is wrong.
   void Find(const VoxelCloud& cloud, std::span<const Outline> outlines,
             const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges);
 

@@ -71,7 +71,7 @@ void ChainEquations::AddTo(UpdateEquations& equations) {
     s << (posture_->point_W[joint] - posture_->X_WT.p).cross(axis_W), axis_W;
     return s;
   };
-  // Parents stand before their children.
+  // Parents precede their children.
   for (int j = static_cast<int>(table_->joints.size()) - 1; j >= 0; --j) {
     const Sum& below = SumOf(j);
     const Wrench s = screw(j);

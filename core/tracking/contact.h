@@ -1,4 +1,4 @@
-// Contacts: places and rays that the body's surface should touch.
+// Contacts: points and rays that the body's surface should touch.
 #pragma once
 
 #include <span>
@@ -9,17 +9,17 @@
 
 namespace mocap {
 
-/// A place on the surface of the voxels (from_W = to_W), or a bounding edge.
+/// A point on the voxels' surface (from_W = to_W), or a bounding edge.
 struct Contact {
   Vector3 from_W;
   Vector3 to_W;
   Vector3 outward_W;  ///< The surface's normal there.
   bool is_edge;
-  bool misses_hull = false;  ///< An edge of what was carved away.
+  bool misses_hull = false;  ///< An edge of something that was carved away.
 };
 
-/// Chooses contacts spread evenly over a frame's surface voxels and bounding edges; keeps the
-/// memory of `contacts`. Voxels come first.
+/// Selects contacts, spread evenly over a frame's surface voxels and bounding edges. Voxels come
+/// first. Reuses the memory of `contacts`.
 void ChooseContacts(const Evidence& evidence, int voxels, int edges,
                     std::vector<Contact>& contacts);
 

@@ -17,30 +17,29 @@ using SlimShape = ContactMatcher::SlimShape;
 using Best = ContactMatcher::Best;
 using Trial = ContactMatcher::Trial;
 
-// A place on the inside of the left leg is no evidence for the right one: surfaces that face
-// square to each other count as this far apart.
+// A point on the inside of the left leg is no evidence for the right leg. Perpendicular surfaces
+// count as this far apart.
 constexpr float kSquare_mm = 40;
-// Lengths are no less, so that nothing is divided by zero.
+// Lower limit for squared lengths, to avoid division by zero.
 constexpr float kLeastSq_mm2 = 1e-3f;
 constexpr float kParallel = 1e-4f;
-// Share of all edges: so many that miss the hull and graze a part tell that its flesh was carved
-// away.
+// Share of all edges. If this many edges miss the hull and graze a part, its flesh was carved away.
 constexpr double kShareThatTells = 1.0 / 60;
 constexpr float kGrazes_mm = 40;
-// More than rounding makes of a distance between boxes.
+// Larger than the rounding error of a distance between boxes.
 constexpr float kRounding_mm = 0.1f;
-// Contacts are sorted by cells of this size; edges longer than that by themselves, for their boxes
-// are large.
+// Contacts are sorted by cells of this size. Longer edges come separately, because their boxes are
+// large.
 constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
 constexpr int kCellBits = 5;
 constexpr int kDigitBits = 9;
 constexpr int kKeyBits = 2 * kDigitBits;
 static_assert(kKeyBits >= 2 + 3 * kCellBits);
-// Blocks that take the same first guess.
+// Number of blocks with the same initial guess.
 constexpr int kFirstTogether = 8;
 
-// The best matches so far of a block's contacts.
+// The best matches so far for a block's contacts.
 struct BestLanes {
   Floats mismatch, distance;
   Ints capsule;
@@ -51,7 +50,7 @@ MOCAP_INLINE void LoadColumns(const std::array<Block::Column, 3>& columns, Float
   LoadLanes(columns[0].data(), x), LoadLanes(columns[1].data(), y), LoadLanes(columns[2].data(), z);
 }
 
-// Closest places of two segments (Ericson 2005, §5.1.9), without branches.
+// Closest points of two segments (Ericson 2005, §5.1.9), without branches.
 MOCAP_INLINE void TryCapsule(const Block& block, const SlimCapsule& capsule, int index,
                              BestLanes& best) {
   const float cx = capsule.core.x(), cy = capsule.core.y(), cz = capsule.core.z();
@@ -82,7 +81,8 @@ MOCAP_INLINE void TryCapsule(const Block& block, const SlimCapsule& capsule, int
   LoadColumns(block.outward, ox, oy, oz);
   const Floats facing = (ox * x + oy * y + oz * z) / (length + 1);
   const Floats value = apart + kSquare_mm * (1 - facing);
-  // Parts that share a joint are as near to what lies beside it: whichever is tried first.
+  // Parts that share a joint are equally near to points beside it: the one with the lower index
+  // wins.
   const Ints is_better =
       (value < best.mismatch) | ((value == best.mismatch) & (index < best.capsule));
   best.capsule = is_better ? Ints{} + index : best.capsule;
@@ -107,7 +107,7 @@ void TryAll(const Trial* trials, int count, const Block* blocks, const SlimCapsu
   }
 }
 
-// By halves, so that no comparison waits for the one before.
+// In a tree, so that no comparison waits for the previous one.
 MOCAP_INLINE float WorstOf(const std::array<float, Block::kContacts>& a) {
   return std::max(std::max(std::max(a[0], a[1]), std::max(a[2], a[3])),
                   std::max(std::max(a[4], a[5]), std::max(a[6], a[7])));
@@ -125,7 +125,7 @@ MOCAP_INLINE bool HasAny(const Ints& lanes) {
   return ((a[0] | a[1]) | (a[2] | a[3])) != 0;
 }
 
-// The capsules whose box is as near to the block's.
+// The capsules whose box is within reach of the block's.
 MOCAP_INLINE std::uint32_t CapsulesWithin(const Block& block, const SlimShape& shape,
                                           float reach_mm) {
   Ints bits = {1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7};
@@ -142,7 +142,7 @@ MOCAP_INLINE std::uint32_t CapsulesWithin(const Block& block, const SlimShape& s
   return UnionOf(within);
 }
 
-// Whether the ball around a capsule is near enough to match one of a block's contacts better.
+// Whether the ball around a capsule is near enough for a better match of one of a block's contacts.
 MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, const Best& best) {
   Floats lx, ly, lz, x, y, z, per_along_sq, mismatch;
   LoadColumns(block.along, lx, ly, lz), LoadColumns(block.from, x, y, z);
@@ -157,8 +157,8 @@ MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, cons
   return HasAny(is_within);
 }
 
-// Lists the capsules that may match a block's contacts better than its favourites do: a mismatch is
-// no less than the gap. Returns how many there are.
+// Lists the capsules that may match a block's contacts better than its favourites: a mismatch is
+// never less than the gap. Returns their number.
 MOCAP_VECTORIZED
 int ListOthers(int begin, int end, const Block* blocks, const SlimShape& shape, const Best* bests,
                Trial* trials) {
@@ -174,9 +174,9 @@ int ListOthers(int begin, int end, const Block* blocks, const SlimShape& shape, 
   return count;
 }
 
-// Rows of cells, one above the other; edges stand behind the other contacts.
+// Sorts by rows of cells, one above the other; edges come after the other contacts.
 std::uint32_t KeyOf(const Contact& contact) {
-  // A number is rounded towards zero.
+  // Conversion rounds towards zero.
   constexpr double kAhead = 1 << 10;
   const Vector3 place = ((contact.from_W + contact.to_W) / (2 * kCell_mm)).array() + kAhead;
   const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
@@ -238,7 +238,7 @@ void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
   has_favourites_ = false;
 }
 
-// Digit by digit, the lowest first.
+// Radix sort, lowest digit first.
 void ContactMatcher::SortByPlace() {
   keys_.clear();
   for (const Contact& contact : contacts_) keys_.push_back(KeyOf(contact));
@@ -257,7 +257,7 @@ void ContactMatcher::SortByPlace() {
   }
 }
 
-// Behind the last contact it is repeated.
+// The last contact is repeated to fill the block.
 void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
   for (int i = 0; i < Block::kContacts; ++i) {
     const Contact& contact =
@@ -278,8 +278,7 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
   }
 }
 
-// What is tried is listed first, for many blocks: a decision after each trial would wait for its
-// outcome.
+// Lists the trials for many blocks first: a decision after each trial would wait for its result.
 void ContactMatcher::MatchBlocks(int begin, int end, float reach_mm) {
   int count = 0;
   for (int b = begin; b < end; ++b) {
@@ -302,7 +301,7 @@ void ContactMatcher::MatchAll(std::span<const PosedCapsule> capsules, double rea
   const int together = std::exchange(has_favourites_, true) ? count : kFirstTogether;
   for (int begin = 0; begin < count; begin += together) {
     const int end = std::min(begin + together, count);
-    // The capsules that explain the neighbours are a first guess.
+    // The capsules that explain the neighbours are the initial guess.
     for (int b = begin; b < end && begin > 0; ++b)
       if (blocks_[b].favourites == 0) blocks_[b].favourites = blocks_[begin - 1].favourites;
     MatchBlocks(begin, end, static_cast<float>(reach_mm));

@@ -10,11 +10,11 @@
 
 namespace mocap {
 
-/// The person as voxels and bounding edges, and the borders beyond which there is no flesh. Reuses
-/// its memory.
+/// The person as voxels and bounding edges, and the silhouette borders that flesh does not cross.
+/// Reuses its memory.
 struct Evidence {
   VoxelCloud cloud;
-  std::vector<Outline> borders;  ///< One a camera; empty of those that are not in.
+  std::vector<Outline> borders;  ///< One per camera; empty for cameras that are missing.
   std::vector<BoundingEdge> edges;
   BoundingEdgeFinder edge_finder;
 

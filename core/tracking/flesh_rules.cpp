@@ -7,8 +7,8 @@
 namespace mocap {
 namespace {
 
-// Flesh gives way, the capsules are rounder than the parts, and what lies on somebody stout sinks
-// in the deeper: as shares of the limb's and the other part's radius.
+// Flesh yields, capsules are rounder than parts, and limbs sink deeper into a stout person. As
+// shares of the limb's and the other part's radius.
 constexpr double kHolds = 0.5;
 constexpr double kGivesWay = 0.5;
 

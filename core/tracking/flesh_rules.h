@@ -1,5 +1,5 @@
-// What holds for any posed body besides touching the surface: bones lie in flesh, and limbs do not
-// run through other parts.
+// Rules for any posed body, besides contacts: bones lie in flesh, and limbs do not intersect other
+// parts.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace mocap {
 
-/// Whether flesh begins higher over the floor than shins do, so that the legs were carved away or
+/// Whether flesh begins higher above the floor than the shins, so that the legs were carved away or
 /// are in the air.
-/// @param lowest_mm  where it begins.
+/// @param lowest_mm  height at which it begins.
 inline bool LacksLegs(double lowest_mm) {
   constexpr double kShinMm = 250;
   return lowest_mm > kShinMm;
@@ -24,7 +24,7 @@ inline bool LacksLegs(double lowest_mm) {
 /// other, a calf into the other leg.
 bool MayOverlap(BodyPart limb, BodyPart other);
 
-/// Places along each core that should lie in flesh, as shares of its length.
+/// Points along each core that should lie in flesh, as shares of its length.
 inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
 
 inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
@@ -34,13 +34,13 @@ inline double RadiusAt(const PosedCapsule& capsule, double share) {
   return capsule.radius_a_mm + share * (capsule.radius_b_mm - capsule.radius_a_mm);
 }
 
-/// Places in columns. Behind the last there may be some that are infinitely far away.
+/// Points in columns. After the last there may be some at infinite distance.
 class PlaceColumns {
  public:
-  /// Takes where those contacts are that are no edges.
+  /// Copies the positions of the contacts that are not edges.
   void Set(std::span<const Contact> contacts);
   int size() const { return size_; }
-  /// The nearest to a place; the first of several. @pre there is one.
+  /// The nearest to a point; the first of several. @pre there is one.
   Vector3 NearestTo(const Vector3& p_W) const;
 
  private:
@@ -48,18 +48,18 @@ class PlaceColumns {
   std::array<std::vector<double>, 3> axes_;
 };
 
-/// The way from a place in the void to the nearest of some places on the flesh's surface; empty for
-/// a place in flesh.
+/// Returns the vector from a point in the void to the nearest of some points on the flesh's
+/// surface; empty for a point in flesh.
 std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& surface_W,
                                   const Vector3& p_W);
 
-/// A bone that lies farther from flesh than this is no worse: the flesh may have been carved away.
+/// Greater distances of a bone from flesh cost no more: the flesh may have been carved away.
 inline constexpr double kMostHollowMm = 100;
 
-/// False where a place on the core of `limb` is too far from `other` to stick in it.
+/// False if a point on the core of `limb` is too far from `other` to intersect it.
 bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other);
 
-/// How deep a place on the core of `limb` sticks in `other`, beyond what flesh gives way [mm].
+/// Depth of a point on the core of `limb` inside `other`, beyond what flesh yields [mm].
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
                     const PosedCapsule::Distance& to_other);
 

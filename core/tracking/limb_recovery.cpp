@@ -14,28 +14,28 @@ constexpr int kEdges = 600;
 constexpr double kReachMm = 150;
 constexpr double kUnexplainedShare = 0.005;
 constexpr double kBetterMm = 0.5;
-// So many stances of a limb, which end this far apart, are looked at closely.
+// Number of a limb's stances to refine, with ends at least this far apart.
 constexpr std::size_t kRefined = 8;
 constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
 constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
-// A limb that ends elsewhere is weighed once the whole body is drawn to the evidence with it, as it
-// is with the present one: until then a place that is right costs up to so much more, and one that
-// is wrong less. So many places are; what one gains must be clear.
+// A moved limb is compared after the whole body was fitted to the evidence with it, as was done
+// with the present one. Before that, a correct position costs up to this much more, a wrong one
+// less. Several positions are tried. The gain must be clear.
 constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 1;
 constexpr std::size_t kDrawn = 2;
 constexpr double kLimbBetterMm = 0.6;
-// Exchanged arms that cost no more than this on top of the present ones may come to cost less once
-// the whole body is drawn to the evidence, as the present one was; what they gain must be clear,
-// because noise would exchange folded arms again and again.
+// Exchanged arms that cost at most this much more than the present ones may cost less once the
+// whole body is fitted, as the present one was. Their gain must be clear, because noise would
+// otherwise exchange folded arms again and again.
 constexpr double kPromisingMm = 4;
 constexpr double kClearlyBetterMm = 1.5;
-// After a search in vain at the least share that is searched; the more is unexplained, the shorter.
+// After a failed search at the least share that triggers one; shorter if more is unexplained.
 constexpr double kLongestRestS = 0.8;
-// A search goes on over some frames where they follow each other fast, so that none comes late:
-// each limb is looked for by itself, and then each pair, which costs as much as two.
+// At high frame rates, a search is spread over several frames, so that no frame is late. Each limb
+// is searched alone, then each pair, which costs as much as two limbs.
 constexpr double kLimbsPerS = 80;
 constexpr double kWholeSearch = 8;
 constexpr int kIterations = 5;

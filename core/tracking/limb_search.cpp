@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 constexpr double kReachMm = 150;
-// A contact that another part comes this near to is no evidence for the limb.
+// A contact this close to another part is no evidence for the limb.
 constexpr double kTakenMm = 20;
 constexpr double kNoiseMm = 40;
 constexpr double kOutlierMm = 45;
@@ -19,7 +19,7 @@ constexpr double kStanceSpreadRad = 0.5;
 constexpr double kVoxelWeight = 0.25;
 constexpr double kHollowWeight = 0.5;
 
-// More axes than a limb may have.
+// More axes than any limb has.
 constexpr int kMostRows = 12;
 using LimbVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
 using LimbMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;

@@ -1,4 +1,4 @@
-// §6.2: one limb against the evidence that the rest of the body leaves open.
+// §6.2: fits one limb to the evidence that the rest of the body leaves open.
 #pragma once
 
 #include <vector>
@@ -9,41 +9,41 @@
 
 namespace mocap {
 
-/// The evidence that a limb explains in a certain stance.
+/// The evidence that a limb explains in one stance.
 struct LimbClaim {
   std::vector<double> distances_mm;  ///< Of each open contact to the limb or the rest of the body.
-  double own_cost_mm = 0;            ///< For lying in the void, and running into other parts.
+  double own_cost_mm = 0;            ///< For lying in the void and intersecting other parts.
 };
 
 /// Fits the joints of one limb while the rest of the body keeps its pose. Reuses its memory.
 class LimbSearch {
  public:
-  /// Turns to a limb; before all else.
+  /// Selects a limb; to be called first.
   /// @param body, evidence, contacts  borrowed until the next Begin.
   /// @param limb_end  the segment at the limb's end: a hand or a foot.
-  /// @param absent    the end of another limb that is to be ignored, or the same.
-  /// @param pose      of the whole body; the limb's angles in it do not matter.
+  /// @param absent    the end of another limb to ignore, or the same.
+  /// @param pose      of the whole body; the limb's own angles do not matter.
   void Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
              Segment limb_end, Segment absent, const PoseState& pose);
 
-  /// Cost of the limb with the angles that it has in `pose` [mm]; comparable between poses that
-  /// differ in this limb alone.
+  /// Returns the cost of the limb with its angles in `pose` [mm]. Costs are comparable between
+  /// poses that differ only in this limb.
   double CostAt(const PoseState& pose);
-  /// The same in parts: what it explains of each contact that is open, and what it costs by itself.
+  /// Returns the same in parts: distances of all open contacts, and the limb's own cost.
   /// @return  valid until the next call.
   const LimbClaim& ClaimAt(const PoseState& pose);
-  /// Cost of two limbs together. @pre each was searched with the other absent.
+  /// Returns the cost of two limbs together. @pre each was searched with the other absent.
   double JointCost(const LimbClaim& limb, const LimbClaim& other) const;
-  /// Improves the limb's angles from those in `pose`.
+  /// Improves the limb's angles, starting from those in `pose`.
   void Refine(PoseState& pose, int iterations);
-  /// Where the limb ends with the angles that it has in `pose`: p_WQ.
+  /// Returns the end of the limb with its angles in `pose`: p_WQ.
   Vector3 TipAt(const PoseState& pose);
-  /// Rows of the joints that move the limb and nothing of the trunk, the limb's end last.
+  /// Rows of the joints that move the limb but not the trunk; the limb's end is last.
   const std::vector<int>& rows() const { return rows_; }
 
  private:
   struct OpenContact {
-    double other_mm;  ///< How far the rest of the body is from it.
+    double other_mm;  ///< Distance from the rest of the body.
     double weight;
   };
   struct Pair {
@@ -60,16 +60,16 @@ class LimbSearch {
   const PlaceColumns* surface_W_ = nullptr;
   std::vector<int> rows_;
   std::vector<int> absent_rows_;
-  std::vector<int> capsules_;         ///< Of the limb, in the body's shape().
-  std::vector<int> other_capsules_;   ///< Of the rest, likewise.
+  std::vector<int> capsules_;         ///< The limb's, as indices into the body's shape().
+  std::vector<int> other_capsules_;   ///< The rest's, likewise.
   std::vector<PosedCapsule> others_;  ///< The rest of the body.
-  std::vector<Pair> overlapping_;   ///< Of posed_ and others_, where they may run into each other.
+  std::vector<Pair> overlapping_;   ///< Indices into posed_ and others_, where they may intersect.
   ContactMatcher open_;             ///< The contacts that the rest of the body does not explain.
-  std::vector<OpenContact> terms_;  ///< Of each of them.
+  std::vector<OpenContact> terms_;  ///< For each of them.
   Posture posture_;
   std::vector<PosedCapsule> posed_;  ///< The limb.
   LimbClaim claim_;
-  // While a search begins.
+  // Only while a search begins.
   std::vector<PosedCapsule> all_;
   std::vector<Contact> contacts_;
 };

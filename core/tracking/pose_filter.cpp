@@ -12,11 +12,11 @@ namespace mocap {
 namespace {
 
 constexpr double kLimitStdRad = 0.01;
-// Steps that are not worth another iteration.
+// Smaller steps are not worth another iteration.
 constexpr double kSmallStepMm = 0.5;
 constexpr double kSmallStepRad = 0.003;
-// Between frames far apart poses are on their way after the usual iterations, and limbs that were
-// not drawn to the end seem lost.
+// If frames are far apart, poses have not converged after the usual iterations, and limbs that have
+// not been fitted completely seem lost.
 constexpr double kFarMm = 10;
 constexpr double kFarRad = 0.1;
 
@@ -37,8 +37,8 @@ void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquatio
   }
 }
 
-// Adds a row's product with itself to the upper triangle. A measurement depends on one chain of
-// joints: most of its row is zero.
+// Adds the outer product of a row with itself to the upper triangle. A measurement depends on one
+// chain of joints: most of its row is zero.
 MOCAP_VECTORIZED
 void AddSquare(const UpdateEquations::Column& row, int dof, double weight,
                UpdateEquations::Column* columns) {
@@ -54,7 +54,7 @@ void AddSquare(const UpdateEquations::Column& row, int dof, double weight,
   }
 }
 
-// Nothing where rounding, or a measurement that is no number, has left no covariance.
+// Empty if rounding or a NaN measurement has made the matrix unusable.
 std::optional<PoseCovariance> InverseOfPositive(const PoseCovariance& matrix) {
   const Eigen::LLT<PoseCovariance> cholesky(matrix);
   if (cholesky.info() != Eigen::Success || !matrix.allFinite()) return std::nullopt;
@@ -190,7 +190,7 @@ void PoseFilter::Update(const BodyTable& table, const Linearize& linearize,
     pose_ = prior;
     return;
   }
-  // The velocity was not measured; it follows the pose as far as the two were correlated.
+  // The velocity was not measured. It follows the pose according to their correlation.
   const PoseCovariance gain = P_vx_ * *prior_information;
   velocity_ += gain * pose_.Minus(prior);
   P_vv_ -= gain * (P_ - *posterior) * gain.transpose();

@@ -11,16 +11,16 @@ namespace {
 
 using Block = SilhouetteBorder::Block;
 constexpr int kRays = SilhouetteBorder::kRays;
-// Which of two rays that are as near is taken: those of even lanes first.
+// Tie-break between equally near rays: even lanes first.
 constexpr std::array<std::uint32_t, kFloats> kOrder = {7, 3, 5, 1, 6, 2, 4, 0};
 constexpr std::array<int, kFloats> kLaneOf = {7, 3, 5, 1, 6, 2, 4, 0};
 
 constexpr double kReachMm = 150;
-// A border that is nearest but runs past the ball, as one that the picture's edge cuts off does,
-// does not tell which side the ball is on.
+// If the nearest border runs past the ball, as at the picture's edge, it does not show on which
+// side the ball is.
 constexpr double kLeastFacing = 0.5;
 
-// The farthest of a lane so far, and its place.
+// The farthest ray per lane so far, with its index.
 struct Farthest {
   Floats along{};
   Ints ray{};
@@ -36,8 +36,8 @@ MOCAP_INLINE void TryRays(const Block& rays, int begin, int first, const Eigen::
   farthest.ray = is_farther ? Ints{} + first : farthest.ray;
 }
 
-// The ray that goes farthest along a line of sight from the same eye, and so passes nearest to its
-// end; -1: all lead away.
+// Finds the ray that goes farthest along a line of sight from the same eye, and so passes nearest
+// to its end; -1: all point away.
 MOCAP_VECTORIZED
 int NearestRay(const Block* blocks, int count, const Eigen::Vector3f& sight) {
   static_assert(kRays == 2 * kFloats);
@@ -49,7 +49,7 @@ int NearestRay(const Block* blocks, int count, const Eigen::Vector3f& sight) {
   const Ints is_farther = b.along > a.along;
   a.along = is_farther ? b.along : a.along;
   a.ray = is_farther ? b.ray : a.ray;
-  // Numbers that are not negative are in the order of their bits; below them stands whose they are.
+  // Non-negative floats sort like their bits; the lower half of the key holds the lane.
   std::array<std::uint32_t, kFloats> bits;
   StoreLanes(a.along, bits.data());
   std::uint64_t best = 0;

@@ -1,4 +1,4 @@
-// Beyond the paper: what reaches over the border of a silhouette.
+// Beyond the paper: flesh outside the border of a silhouette.
 #pragma once
 
 #include <array>
@@ -9,21 +9,21 @@
 
 namespace mocap {
 
-/// How a ball of flesh sticks out of what one camera saw of the person.
+/// How far a ball of flesh extends outside a silhouette of one camera.
 struct Protrusion {
-  Vector3 outward_W;  ///< Out of the silhouette where its border is nearest; unit length.
-  double depth_mm;    ///< How far the ball reaches over the border.
+  Vector3 outward_W;  ///< Outward direction at the nearest border of the silhouette; unit length.
+  double depth_mm;    ///< Distance that the ball extends beyond the border.
 };
 
-/// The border of one silhouette, to hold many balls against. Which of its rays is nearest is found
-/// in single precision, for a block of rays at a time.
+/// The border of one silhouette, for comparison with many balls. The nearest ray is found in single
+/// precision, for a block of rays at a time.
 class SilhouetteBorder {
  public:
-  /// Takes what a camera saw; `outline` is borrowed until the next.
+  /// Sets the outline of a camera; `outline` is borrowed until the next call.
   void SetOutline(const Outline& outline);
 
-  /// Looks for the border's nearest ray, and tells how far a ball lies beyond it.
-  /// @return  empty where the ball lies inside, or where the border is too far off to tell.
+  /// Finds the border's nearest ray and measures how far a ball lies beyond it.
+  /// @return  empty if the ball lies inside, or if the border is too far away to tell.
   std::optional<Protrusion> ProtrusionOf(const Vector3& center_W, double radius_mm) const;
 
   static constexpr int kRays = 16;

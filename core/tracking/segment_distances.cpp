@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-// So many pairs, in columns.
+// A batch of pairs, in columns.
 struct Batch {
   static constexpr int kPairs = 64;
   using Column = std::array<double, kPairs>;
@@ -51,7 +51,7 @@ MOCAP_INLINE void FindLength(const Vectors& from, const Vectors& to, Doubles& le
   TakeRoots(length);
 }
 
-// As PosedCapsule::DistanceTo, but what it does for some is done for all, and then chosen.
+// Like PosedCapsule::DistanceTo, but computes all branches for all pairs and then selects.
 MOCAP_INLINE void FindFour(int i, Batch& batch) {
   constexpr double kLeast = 1e-9;
   Vectors a, core, from, along, between;
@@ -80,7 +80,7 @@ MOCAP_INLINE void FindFour(int i, Batch& batch) {
 
   const auto slides =
       (share > 0) & (share < 1) & (on_segment > 0) & (on_segment < 1) & (taper != 0);
-  // Those that are no edges never do, and stand together.
+  // Contacts that are not edges never slide, and they are adjacent.
   if ((slides[0] | slides[1] | slides[2] | slides[3]) != 0) {
     const Doubles slope = taper * dot / core_sq;
     const Doubles curvature = slant / core_sq / (apart < 1 ? Doubles{} + 1 : apart);
@@ -135,7 +135,7 @@ void FindDistances(std::span<const CapsuleAndSegment> pairs) {
   Batch batch;
   for (std::size_t begin = 0; begin < pairs.size(); begin += Batch::kPairs) {
     const int count = static_cast<int>(std::min<std::size_t>(Batch::kPairs, pairs.size() - begin));
-    // Behind the last pair it is repeated.
+    // The last pair is repeated to fill the vectors.
     for (int i = 0; i < (count + kDoubles - 1) / kDoubles * kDoubles; ++i)
       Fill(pairs[begin + std::min(i, count - 1)], i, batch);
     FindAll(count, batch);

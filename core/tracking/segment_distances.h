@@ -1,4 +1,4 @@
-// How far capsules are from line segments: many at once.
+// Distances between capsules and line segments, many at once.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace mocap {
 
-/// A capsule, a segment, and where their distance is to be written. All are borrowed.
+/// A capsule, a segment, and the destination of their distance. All are borrowed.
 struct CapsuleAndSegment {
   const PosedCapsule* capsule;
   const Vector3* from_W;
@@ -15,7 +15,7 @@ struct CapsuleAndSegment {
   PosedCapsule::SegmentDistance* distance;
 };
 
-/// Finds what PosedCapsule::DistanceTo tells of each, the same numbers up to rounding.
+/// Computes PosedCapsule::DistanceTo for each pair; the results are equal up to rounding.
 void FindDistances(std::span<const CapsuleAndSegment> pairs);
 
 }  // namespace mocap

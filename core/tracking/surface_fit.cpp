@@ -8,14 +8,14 @@
 namespace mocap {
 namespace {
 
-// Geman's and McClure's weight as a factor of the variance.
+// The weight of Geman and McClure, as a factor of the variance.
 double Inflation(double residual, double outlier) {
   const double scaled = residual / outlier;
   return (1 + scaled * scaled) * (1 + scaled * scaled);
 }
 
-// Only the toes of a foot are held: with heels, feet on steps came out 60 mm off and not 25.
-// The elbow is the upper arm's, and the wrist the forearm's.
+// Only the toes of a foot are held: with heels, the error of feet on steps was 60 mm instead of 25.
+// The elbow belongs to the upper arm, the wrist to the forearm.
 bool IsHeldByBorders(const Capsule& capsule, double share) {
   switch (capsule.part) {
     case BodyPart::kCalfL:
@@ -29,7 +29,7 @@ bool IsHeldByBorders(const Capsule& capsule, double share) {
   }
 }
 
-// How much nearer a tapered capsule's surface comes as the core slides along itself.
+// Change of a tapered capsule's surface as the core slides along itself.
 Vector3 LeanOf(const PosedCapsule& capsule, double share) {
   if (share <= 0 || share >= 1) return Vector3::Zero();
   const Vector3 core_W = capsule.b_W - capsule.a_W;
@@ -137,7 +137,7 @@ const std::vector<SurfaceResidual>& SurfaceFit::ResidualsAt(const BodyModel& bod
   residuals_.clear();
   ForEachResidual(body, [&](const SurfaceResidual& residual) { residuals_.push_back(residual); });
   for (SurfaceResidual& residual : residuals_) {
-    // The same as if the contact moved and the body stood still.
+    // Equivalent to a moving contact with a fixed body.
     body.DirectionalJacobian(posture_, body.shape()[residual.capsule].carrier, residual.p_W,
                              residual.normal_W, residual.J_outside_by_step);
   }

@@ -1,7 +1,7 @@
-// Beyond the paper: the body's surface, and not only 23 points, draws the model to the person, as
-// articulated ICP does (Corazza et al. 2010; Horaud et al. 2009). The outlines count most: a visual
-// hull is fatter than the person and has ghost limbs, but the rays of the outlines graze the person
-// and nothing else (Cheung, Baker and Kanade 2003; Gall et al. 2009).
+// Beyond the paper: fits the model's surface, and not only 23 points, to the person, as articulated
+// ICP does (Corazza et al. 2010; Horaud et al. 2009). Outlines have the largest weight: a visual
+// hull is larger than the person and has ghost limbs, but the outlines' rays graze only the person
+// (Cheung, Baker and Kanade 2003; Gall et al. 2009).
 #pragma once
 
 #include <vector>
@@ -19,10 +19,10 @@ namespace mocap {
 struct SurfaceFitOptions {
   int voxels = 250;             ///< Surface voxels used, spread evenly.
   int edges = 600;              ///< Bounding edges used, spread evenly.
-  double reach_mm = 150;        ///< What is farther from the model than this does not count.
+  double reach_mm = 150;        ///< Evidence farther from the model than this is ignored.
   double noise_mm = 23;         ///< Spread of the surface about the model.
   double outlier_mm = 45;       ///< Residuals beyond this lose weight quickly.
-  double independent = 0.3;     ///< Share of the contacts that are news: neighbours err alike.
+  double independent = 0.3;     ///< Share of independent contacts: errors of neighbours are alike.
   double border_noise_mm = 40;  ///< Spread of flesh beyond the silhouettes' borders.
   double void_noise_mm = 50;    ///< Spread of bones about the flesh.
   double void_outlier_mm = 60;
@@ -31,44 +31,45 @@ struct SurfaceFitOptions {
 /// Evidence farther than this from every part belongs to none: hair, a bag, a chair, a shadow.
 inline constexpr double kExplainedMm = 60;
 
-/// How well a posed body explains the evidence. Distances are cut at kExplainedMm, so that what
-/// belongs to something else weighs the same wherever it is.
+/// Quality of the fit of a posed body. Distances are cut at kExplainedMm, so that evidence of
+/// something else has the same weight everywhere.
 struct SurfaceFitQuality {
   double edge_mm = 0;            ///< Mean distance of the bounding edges to the model.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface to the model.
   double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
-  double overlap_mm = 0;         ///< Mean depth to which limbs stick in other parts.
-  double unexplained_share = 0;  ///< Of the edges: what is no part's.
+  double overlap_mm = 0;         ///< Mean depth of limbs inside other parts.
+  double unexplained_share = 0;  ///< Share of the edges that belong to no part.
 
-  /// Weighs the edges most, because hulls lie about surfaces, and fast limbs are carved away.
+  /// Edges have the largest weight, because hulls are wrong about surfaces, and fast limbs are
+  /// carved away.
   double Cost() const { return edge_mm + 0.25 * surface_mm + 0.5 * hollow_mm + overlap_mm; }
 };
 
-/// One contact against the model.
+/// One contact compared with the model.
 struct SurfaceResidual {
-  int capsule;   ///< Of the body's shape().
-  bool is_edge;  ///< Of an outline and not of a voxel.
-  double share;  ///< Along its core.
-  Vector3 p_W;   ///< Where the capsule is drawn to.
-  Vector3
-      normal_W;  ///< Out of the surface; where the capsule tapers it leans and is longer than 1.
+  int capsule;       ///< Index into the body's shape().
+  bool is_edge;      ///< From an outline, not from a voxel.
+  double share;      ///< Position along its core.
+  Vector3 p_W;       ///< Target point of the capsule.
+  Vector3 normal_W;  ///< Outward surface normal; where the capsule tapers, it leans and its length
+                     ///< exceeds 1.
   double outside_mm;
   double variance;             ///< [mm²], larger for outliers.
-  PoseStep J_outside_by_step;  ///< How far the core follows along the normal.
+  PoseStep J_outside_by_step;  ///< Derivative of the core's position along the normal.
 };
 
-/// Draws a body's capsules to what their surface should touch, and its bones out of the void.
+/// Fits a body's capsules to the contacts of their surface, and its bones to the flesh.
 class SurfaceFit {
  public:
   explicit SurfaceFit(const SurfaceFitOptions& options) : options_(options) {}
 
-  /// Takes a new frame; `evidence` is borrowed until the next.
+  /// Sets a new frame; `evidence` is borrowed until the next.
   void SetEvidence(const Evidence& evidence);
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
   void Linearize(const BodyModel& body, const PoseState& pose, UpdateEquations& equations);
   SurfaceFitQuality QualityAt(const BodyModel& body, const PoseState& pose);
-  /// The residuals of the frame's contacts, without those that no part comes near; valid until the
-  /// next call.
+  /// Returns the residuals of the frame's contacts, without those that no part is near; valid until
+  /// the next call.
   const std::vector<SurfaceResidual>& ResidualsAt(const BodyModel& body, const PoseState& pose);
 
  private:
@@ -77,9 +78,9 @@ class SurfaceFit {
   void ForEachResidual(const BodyModel& body, const Visit& visit);
   template <typename Visit>
   void ForEachContact(const Visit& visit);
-  // A ray is content with the part that explains it best, whatever else reaches over it; and one
-  // across a hand that sticks out cuts into it, and does not say which way to draw it back. The
-  // border that is nearest to each part does.
+  // A ray is satisfied by the part that explains it best, whatever else extends over it. A ray
+  // across a protruding hand cuts into the hand and does not show the direction back. The border
+  // nearest to each part does.
   template <typename Visit>
   void ForEachProtrusion(const BodyModel& body, const Visit& visit) const;
   template <typename Visit>
@@ -91,7 +92,7 @@ class SurfaceFit {
   const Evidence* evidence_ = nullptr;
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
-  std::vector<SilhouetteBorder> borders_;  ///< One a camera.
+  std::vector<SilhouetteBorder> borders_;  ///< One per camera.
   Posture posture_;
   std::vector<PosedCapsule> posed_;
   ChainEquations chain_;

@@ -3,7 +3,7 @@
 namespace mocap {
 namespace {
 
-// The person was seen to move so much farther than was foreseen: the fit would not reach.
+// Larger differences between motion and prediction are out of reach of the fit.
 constexpr double kLeapMm = 50;
 constexpr double kStartStdMm = 50;
 constexpr double kStartStdRad = 0.3;

@@ -1,4 +1,4 @@
-// §6: follows a body of known sizes from frame to frame. Fig. 4.
+// §6: tracks a body of known sizes from frame to frame. Fig. 4.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ class Tracker {
   /// Starts with a body at a pose.
   Tracker(const BodyModel& body, const PoseState& pose);
 
-  /// Takes the next frame, `dt_s` after the one before.
+  /// Processes the next frame, `dt_s` after the previous one.
   void Update(const Evidence& evidence, double dt_s);
 
-  /// Takes a frame's evidence without drawing the body to it; `evidence` is borrowed until the
-  /// next.
+  /// Sets a frame's evidence without fitting the body; `evidence` is borrowed until the next.
   void Look(const Evidence& evidence) { surface_fit_.SetEvidence(evidence); }
-  /// Draws the body once more to the evidence of the last frame, as after its sizes have changed.
+  /// Fits the body once more to the evidence of the last frame, for example after a change of
+  /// sizes.
   void Draw() { FitSurface(); }
 
   const BodyModel& body() const { return body_; }
@@ -31,20 +31,21 @@ class Tracker {
   void Resize(const BodySizes& sizes) { body_.Resize(sizes); }
   const PoseFilter& filter() const { return filter_; }
   SurfaceFit& surface_fit() { return surface_fit_; }
-  /// How well the body explained the last frame once it was drawn to its surface.
+  /// Quality of the fit in the last frame.
   const SurfaceFitQuality& quality() const { return quality_; }
 
  private:
-  // Goes with the voxels where they went farther than was foreseen, if that explains them better.
+  // Moves the body with the voxels if they moved farther than predicted and that explains them
+  // better.
   void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
   void FollowSurface(const Evidence& evidence, double dt_s);
-  void FitSurface();  // And its quality.
+  void FitSurface();  // Also measures the quality.
 
   BodyModel body_;
   PoseFilter filter_;
   SurfaceFit surface_fit_;
   LimbRecovery limb_recovery_;
-  std::optional<Vector3> middle_W_;  ///< Of the voxels of the frame before.
+  std::optional<Vector3> middle_W_;  ///< Of the voxels of the previous frame.
   SurfaceFitQuality quality_;
 };
 

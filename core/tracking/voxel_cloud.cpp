@@ -13,13 +13,13 @@ namespace {
 
 using Word = std::uint64_t;
 
-// A piece that is torn off the body is kept from this share of the body on, and this near to it.
+// A detached piece is kept if it is at least this share of the body and at most this far from it.
 constexpr double kPieceShare = 0.005;
 constexpr double kPieceReachMm = 150;
 
-// Bits [begin, begin + count) of a row that has an empty word on each side.
+// Bits [begin, begin + count) of a row with an empty word on each side.
 unsigned BitsOf(const Word* row, int begin, int count) {
-  // A negative number is rounded down.
+  // The shift rounds negative numbers down.
   const Word* const word = row + (begin >> 6);
   const int shift = begin & 63;
   Word bits = word[0] >> shift;
@@ -35,7 +35,7 @@ Word MaskOf(int i, int begin, int end) {
   return mask;
 }
 
-// For each pattern of bits, how many are set, and the sum of their places.
+// For each bit pattern: the number of set bits, and the sum of their positions.
 constexpr int kMostBits = 7;
 struct BitSums {
   int count = 0, places = 0;
@@ -48,17 +48,17 @@ constexpr auto kBitSums = [] {
   return sums;
 }();
 
-// So many places of a line are looked at together.
+// Number of points of a line that are tested together.
 constexpr int kPlaces = 8;
 struct Cells {
   std::array<int, kPlaces> word, x;
 };
-// How rows of bits follow each other.
+// Distances between rows and layers of bits.
 struct Pitch {
   int row, layer;
 };
 
-// Rounded down, of places from the i-th on; none lies before cell -kAhead.
+// Rounds points down, from the i-th on; no point lies before cell -kAhead.
 MOCAP_VECTORIZED
 void FindCells(const VoxelCloud::Places& places, int i, const Pitch& pitch, Cells& cells) {
   constexpr int kAhead = 1 << 10;
@@ -191,7 +191,7 @@ unsigned VoxelCloud::HeldFrom(const Places& places, int i, int end) const {
 }
 
 VoxelCloud::Stretch VoxelCloud::StretchOf(const Places& places, int count) const {
-  // A step more than that, because of rounding.
+  // One step more, because of rounding.
   double begin = 0, end = count;
   for (int axis = 0; axis < 3; ++axis) {
     const double step = places.step[axis];
@@ -223,7 +223,7 @@ int VoxelCloud::LastHeld(const Places& places, const Stretch& stretch) const {
 }
 
 Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {
-  // Wide enough that a normal does not follow the steps of the grid.
+  // Wide enough that normals do not follow the steps of the grid.
   const int radius = std::clamp(static_cast<int>(std::lround(50 / voxel_mm_)), 1, kMargin);
   static_assert(2 * kMargin + 1 <= kMostBits);
   Eigen::Vector3i inward = Eigen::Vector3i::Zero();

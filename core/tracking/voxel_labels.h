@@ -1,4 +1,4 @@
-// Which part of the body each voxel belongs to, for whoever looks at voxels.
+// Assigns voxels to body parts, for viewers.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace mocap {
 
-/// A body and where it is. Borrowed.
+/// A body with its pose. Borrowed.
 struct BodyInPlace {
   const BodyModel& body;
   const PoseState& pose;
 };
 
-/// Labels each voxel of a grid with the part (BodyPart) that is nearest of any body, in the order
-/// of a scan of the grid along x, then y, then z; -1 where none is near.
+/// Labels each voxel of a grid with the nearest part (BodyPart) of any body, in scan order: x, then
+/// y, then z; -1 if none is near.
 void LabelVoxels(const VoxelGrid& grid, std::span<const BodyInPlace> bodies,
                  std::vector<std::int8_t>& labels);
 
