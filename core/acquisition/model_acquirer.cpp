@@ -9,12 +9,12 @@
 namespace mocap {
 namespace {
 
-// A first fit is no body at all when it costs more, or when its bones lie so far from any flesh.
+// A first fit is rejected if it costs more, or if its bones are this far from any flesh.
 constexpr double kWorstCostMm = 34;
 constexpr double kMostHollowMm = 22;
-// Somebody whom other sizes explain so much better is not the person that is known.
+// If other sizes explain somebody better by this much, he is not the known person.
 constexpr double kStrangerBetterMm = 6;
-// So many candidates are followed closely, limbs and all: where the whole effort is made, and else.
+// Number of candidates that are tracked with all limbs: at full effort, and otherwise.
 constexpr std::size_t kFinalists = 3;
 constexpr std::size_t kFewFinalists = 1;
 constexpr double kSettledMm = 3;  // §8.1
@@ -31,7 +31,7 @@ bool FaceApart(const PoseState& a, const PoseState& b) {
   return a.X_WT.R.col(0).dot(b.X_WT.R.col(0)) < -0.3;
 }
 
-// The frame tells of the sizes once more from the pose that they lead to.
+// Measures the sizes in a frame repeatedly, each time from the pose that the new sizes lead to.
 void MeasureIn(Tracker& tracker, SizeRefiner& sizes) {
   const SizeRefiner without_frame = sizes;
   for (int i = 0; i < kSizeIterations; ++i) {
@@ -94,7 +94,7 @@ bool ModelAcquirer::IsStranger(const Evidence& evidence, double effort) {
   return CostOf(best()) > CostOf(stranger.tracker) + kStrangerBetterMm;
 }
 
-// @param measures  whether the sizes are open.
+// @param measures  whether the sizes are unknown.
 ModelAcquirer::Hypothesis ModelAcquirer::Begin(const PoseContest& contest,
                                                const PoseCandidate& candidate,
                                                const Evidence& evidence, bool measures) {
@@ -133,7 +133,7 @@ void ModelAcquirer::Refine(const Evidence& evidence, double dt_s) {
     const bool is_clear = hypotheses_[1].cost_sum > kClearlyBetter * hypotheses_[0].cost_sum;
     if (is_clear || frames_ >= kFramesToDecide) hypotheses_.pop_back();
   }
-  // Somebody who crouches leaves lengths open: what tracking shows of them is taken in later.
+  // The lengths of somebody who crouches stay uncertain: tracking refines them later.
   const bool at_rest = change_mm < kSettledMm || frames_ >= kFramesToDecide;
   settled_ = hypotheses_.size() == 1 && at_rest;
 }

@@ -1,4 +1,4 @@
-// §7: finds a person whom nobody has seen before and measures the body while following it. Fig. 9.
+// §7: finds an unknown person and measures the body while tracking it. Fig. 9.
 #pragma once
 
 #include <optional>
@@ -10,35 +10,35 @@
 
 namespace mocap {
 
-/// Acquires one person: find a pose in the first frame, then follow and refine the sizes until they
-/// stop changing.
+/// Acquires one person: finds a pose in the first frame, then tracks it and refines the sizes until
+/// they stop changing.
 class ModelAcquirer {
  public:
   explicit ModelAcquirer(const BodyTable& table);
 
-  /// Looks for a body.
-  /// @param known   sizes to keep; acquisition is over at once then.
-  /// @param effort  as for PoseContest::Hold. What was found before in vain is tried again.
-  /// @return whether one was found that explains the evidence.
+  /// Searches for a body.
+  /// @param known   sizes to keep; acquisition ends at once then.
+  /// @param effort  as for PoseContest::Hold. Further calls try again what failed before.
+  /// @return whether a body was found that explains the evidence.
   bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort);
 
-  /// Whether a body of other sizes explains the evidence clearly better than the one that was
+  /// Tests whether a body of other sizes explains the evidence clearly better than the one that was
   /// located with known sizes.
   /// @param effort  as above.
   /// @pre Locate has succeeded.
   bool IsStranger(const Evidence& evidence, double effort);
 
-  /// Takes whoever is seen next for somebody else.
+  /// Treats the next person as somebody else.
   void StartOver();
 
-  /// Follows the located body through the next frame and refines its sizes.
+  /// Tracks the located body through the next frame and refines its sizes.
   void Refine(const Evidence& evidence, double dt_s);
 
-  /// Whether the sizes have stopped changing and left is told from right.
+  /// Whether the sizes have stopped changing and left and right are distinguished.
   bool settled() const { return settled_; }
-  /// The likeliest body. @pre Locate has succeeded.
+  /// The most likely body. @pre Locate has succeeded.
   const Tracker& best() const { return hypotheses_.front().tracker; }
-  /// The estimate of its sizes from all frames so far. @pre as above.
+  /// The size estimate from all frames so far. @pre as above.
   const SizeRefiner& sizes() const { return hypotheses_.front().sizes; }
 
  private:
@@ -53,9 +53,9 @@ class ModelAcquirer {
 
   BodyTable table_;
   PoseContest strangers_;
-  std::optional<PoseContest> acquainted_;  ///< With somebody whose sizes are known.
+  std::optional<PoseContest> acquainted_;  ///< For a person of known sizes.
   std::vector<Hypothesis>
-      hypotheses_;  ///< The likeliest first, then the one that faces the other way.
+      hypotheses_;  ///< The most likely first, then the one that faces the opposite way.
   int frames_ = 0;
   bool settled_ = false;
 };

@@ -10,28 +10,28 @@
 namespace mocap {
 namespace {
 
-// The bodies of strangers. Clothes and hulls make everybody stouter: bodies that were as wide as
-// people are would be taken for taller ones.
+// Bodies of strangers. Clothes and hulls make everybody appear stouter. With realistic widths,
+// people would be taken for taller ones.
 constexpr double kSmallestMm = 1080;
 constexpr double kLargestMm = 2080;
 constexpr double kStatureStep = 1.06;
 constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
-// Every third stature is tried, of this build; then its neighbours.
+// Every third stature is tried, with this build; then its neighbours.
 constexpr int kCoarseStep = 3;
 constexpr int kCoarseBuild = 1;
-// How far a pose may be from where it is proposed.
+// Uncertainty of a proposed pose.
 constexpr double kStartStdMm = 100;
 constexpr double kStartStdRad = 0.5;
-// Poses whose points lie nearer than this to each other in the mean are the same.
+// Poses whose points have a smaller mean distance than this are equal.
 constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
 constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
-// The middle of a person who stands, as a share of the height.
+// Height of a standing person's middle, as a share of the stature.
 constexpr double kMiddleShare = 0.55;
 
-// Where a person's middle may be: the flesh's, and if legs were carved away, that of somebody who
-// stands on the floor under it.
+// Possible positions of a person's middle: that of the flesh; and if legs were carved away, that of
+// a person standing on the floor below.
 std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
   std::vector<Vector3> middles_W = {cloud.Centroid()};
   const auto height_mm = [](const Voxel& voxel) { return voxel.center_W.z(); };
@@ -44,11 +44,11 @@ std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
 
 }  // namespace
 
-// With how many samples poses are drawn to the evidence, how far, and how many go on.
+// Number of samples, iterations of the fit, and number of poses that remain.
 struct PoseContest::Round {
   int voxels, edges;
-  Iterations iterations;  ///< Of 0 poses are weighed where they are.
-  double kept;            ///< In a whole search.
+  Iterations iterations;  ///< With 0, poses are compared as they are.
+  double kept;            ///< In a search with full effort.
 };
 
 PoseContest PoseContest::OfStrangers(const BodyTable& table) {
@@ -107,7 +107,7 @@ void PoseContest::Propose(const VoxelCloud& cloud) {
   }
 }
 
-// Bodies next in size may explain the evidence better from the same pose.
+// Bodies of the next size may explain the evidence better in the same pose.
 void PoseContest::ProposeNeighbours() {
   const std::size_t count = std::min(candidates_.size(), kWithNeighbours);
   for (std::size_t i = 0; i < count; ++i) {

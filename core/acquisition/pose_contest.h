@@ -1,5 +1,5 @@
-// Beyond the paper: which of many poses explains the evidence best. All are drawn to it, as in
-// articulated ICP with many starts; most are far off, and few samples tell.
+// Beyond the paper: finds the pose that explains the evidence best. All poses are fitted, as in
+// articulated ICP with many starting points. Most are far off, and few samples show that.
 #pragma once
 
 #include <vector>
@@ -11,49 +11,49 @@
 
 namespace mocap {
 
-/// A pose of one of some bodies.
+/// A pose of one of several bodies.
 struct PoseCandidate {
-  int body = 0;  ///< Which.
+  int body = 0;  ///< Index of the body.
   PoseState pose;
   double cost_mm = 0;
 };
 
-/// Holds poses against frame after frame: those of a library, and the best of the frame before.
+/// Compares poses with frame after frame: those of a library, and the best of the previous frame.
 class PoseContest {
  public:
-  /// Makes a contest among people of all statures and builds.
+  /// Creates a contest among people of all statures and builds.
   static PoseContest OfStrangers(const BodyTable& table);
-  /// Makes a contest among the poses of one person.
+  /// Creates a contest among the poses of one person.
   explicit PoseContest(const BodyModel& body) : PoseContest({body}, 1) {}
 
   const BodyModel& body(int index) const { return bodies_[index]; }
 
-  /// Takes a frame.
-  /// @param effort  share of a whole search, above 0: so many poses are drawn to the evidence.
-  /// @return  the best that differ, the best first; valid until the next call.
+  /// Processes a frame.
+  /// @param effort  share of a full search, above 0: the share of poses that are fitted.
+  /// @return  the best distinct poses, the best first; valid until the next call.
   const std::vector<PoseCandidate>& Hold(const Evidence& evidence, double effort);
 
-  /// Adds a pose to the best of the frame before.
+  /// Adds a pose to the best of the previous frame.
   void Remember(const BodySizes& sizes, const PoseState& pose);
-  /// Forgets the best of the frame before.
+  /// Forgets the best of the previous frame.
   void StartOver() { candidates_.clear(); }
 
  private:
   struct Round;
-  // Bodies of a stature stand together, from the leanest to the stoutest.
+  // Bodies of a stature are adjacent, from the leanest to the stoutest.
   PoseContest(std::vector<BodyModel> bodies, int builds);
 
   void Propose(const VoxelCloud& cloud);
   void ProposeNeighbours();
-  // Draws all to the evidence and keeps the best.
+  // Fits all poses to the evidence and keeps the best.
   void Play(const Evidence& evidence, const Round& round, double effort);
   void KeepDistinct();
 
   std::vector<BodyModel> bodies_;
   int builds_;
-  std::vector<StanceLibrary> libraries_;  ///< Of the bodies.
+  std::vector<StanceLibrary> libraries_;  ///< One for each body.
   std::vector<PoseCandidate> candidates_;
-  std::vector<PoseState> poses_;  ///< While they are proposed.
+  std::vector<PoseState> poses_;  ///< Only while they are proposed.
 };
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// Beyond the paper: what the surface of a posed body tells of the sizes of its parts.
+// Beyond the paper: effect of the sizes on the surface of a posed body.
 #pragma once
 
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace mocap {
 
-/// Differentiates the flesh of a posed body by some of its sizes. Reuses its memory.
+/// Differentiates the capsules of a posed body by some of its sizes. Reuses its memory.
 class SizeJacobian {
  public:
-  /// @param sizes  what to differentiate by.
+  /// @param sizes  the sizes to differentiate by.
   SizeJacobian(const BodyModel& body, std::span<const SizeMember> sizes);
 
-  /// Takes a body of the same table and a pose.
+  /// Sets a body of the same table, and a pose.
   void Update(const BodyModel& body, const PoseState& pose);
-  /// How far the surface comes out along a residual's normal as a size grows [mm/mm].
-  /// @param size  its index among those given to the constructor.
+  /// Returns how far the surface moves outward along a residual's normal as a size grows [mm/mm].
+  /// @param size  index among the sizes given to the constructor.
   double OutwardBySize(const SurfaceResidual& residual, int size) const;
 
  private:
   struct Size {
     SizeMember member;
-    std::vector<PosedCapsule> larger;  ///< The flesh when it is a millimetre larger.
+    std::vector<PosedCapsule> larger;  ///< The capsules with a size that is a millimetre larger.
   };
 
   BodyModel varied_;

@@ -11,12 +11,12 @@ namespace {
 
 struct RefinedSize {
   SizeMember size;
-  double std_share;  // How far people of a stature and build differ.
+  double std_share;  // Standard deviation among people of a stature and build.
 };
 
-// Lengths differ among people of a stature by some three percent, and widths by more (ANSUR, Gordon
-// et al. 1989); clothes and hair come on top. The hips stay where they are: they lie so deep within
-// flesh that contours show nothing of them.
+// Lengths differ among people of a stature by about three percent, and widths by more (ANSUR,
+// Gordon et al. 1989). Clothes and hair add to that. The hips stay unchanged: they lie so deep in
+// flesh that contours do not show them.
 constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::torso_width, 0.12},
                                                    {&BodySizes::torso_depth, 0.15},
@@ -33,15 +33,15 @@ constexpr std::array<RefinedSize, 15> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::calf_width, 0.2},
                                                    {&BodySizes::shoulder_width, 0.08}}};
 
-// How far the stature of the body that was found may be off.
+// Uncertainty of the stature of the body that was found.
 constexpr double kStatureStdShare = 0.04;
 constexpr int kSizes = static_cast<int>(kRefined.size());
 constexpr int kMostUnknowns = kMaxDof + kSizes;
 using Information =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
 using InformationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
-// Cloth hangs outside of the flesh and never inside: evidence beyond a part's surface tells less of
-// the part than evidence within (asymmetric least squares; Newey and Powell 1987).
+// Cloth hangs outside the flesh, never inside. So evidence outside a part's surface has less weight
+// than evidence inside (asymmetric least squares; Newey and Powell 1987).
 constexpr double kClothVariance = 2.5;
 constexpr double kPoseStdMm = 40;
 constexpr double kPoseStdRad = 0.2;
@@ -52,8 +52,8 @@ std::array<SizeMember, kSizes> RefinedMembers() {
   return members;
 }
 
-// Adds a row's product with itself to the lower triangle. A residual depends on one chain of joints
-// and on few sizes: most of its row is zero.
+// Adds the outer product of a row with itself to the lower triangle. A residual depends on one
+// chain of joints and on few sizes: most of its row is zero.
 MOCAP_VECTORIZED
 void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* columns) {
   for (std::ptrdiff_t j = 0; j < count; ++j) {
@@ -65,7 +65,7 @@ void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* c
   }
 }
 
-// The prior's information: the inverse of its covariance.
+// Returns the prior's information: the inverse of its covariance.
 Information PriorOf(const BodySizes& start) {
   const double stature_mm = start.Stature();
   const BodySizes usual = AverageSizes(stature_mm), taller = AverageSizes(stature_mm + 1);

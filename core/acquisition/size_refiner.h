@@ -9,20 +9,20 @@
 
 namespace mocap {
 
-/// Gathers what frame after frame tells of a person's sizes: each frame's residuals are linearised
-/// by pose and sizes together, the pose is marginalised out, and what remains adds up.
+/// Accumulates information about a person's sizes over frames. Each frame's residuals are
+/// linearised by pose and sizes, the pose is marginalised out, and the rest is summed.
 ///
-/// Its prior is centred on the body that was found. Stature may be off by some percent, and each
-/// part differs as far as it does among people of a stature and build (ANSUR, Gordon et al. 1989).
+/// The prior is centred on the body that was found. The stature may be off by a few percent. Each
+/// part varies as it does among people of a stature and build (ANSUR, Gordon et al. 1989).
 class SizeRefiner {
  public:
-  /// @param body  that was found: the centre of the prior.
+  /// @param body  the body that was found: the centre of the prior.
   explicit SizeRefiner(const BodyModel& body);
 
   /// Adds a frame that was fitted well.
   /// @param fit  holds the frame's contacts.
   void Add(const BodyModel& body, SurfaceFit& fit, const PoseState& pose);
-  /// The likeliest sizes by all frames so far.
+  /// Returns the most likely sizes from all frames so far.
   BodySizes Sizes() const;
   int frames() const { return frames_; }
 
@@ -30,7 +30,7 @@ class SizeRefiner {
   BodySizes start_;
   SizeJacobian by_size_;
   Eigen::MatrixXd prior_;        ///< Information without any frame.
-  Eigen::MatrixXd information_;  ///< Of the frames.
+  Eigen::MatrixXd information_;  ///< Information of the frames.
   Eigen::VectorXd vector_;
   int frames_ = 0;
 };

@@ -10,12 +10,12 @@ namespace mocap {
 namespace {
 
 constexpr int kHeadings = 8;
-// Axes that are nearer than this to each other, as a cosine, are one.
+// Axes closer to each other than this, as a cosine, count as one.
 constexpr double kSameAxis = 0.94;
 
 struct LeaningStance {
   Stance stance;
-  double lean_deg = 0;  ///< Of the trunk, forward.
+  double lean_deg = 0;  ///< Forward lean of the trunk.
 };
 
 constexpr ArmStance kForwardArm{.raise = -30, .forward = 70};
@@ -52,7 +52,7 @@ constexpr std::array<LeaningStance, 15> kStances = {{
     {On(kBowingLeg, kBowingLeg), 60},        // bent forward
 }};
 
-// The middle of a posed body's flesh; capsules that overlap count twice where they do.
+// Centroid of a posed body's capsules. Overlaps count twice.
 Vector3 MiddleOfFlesh(const BodyModel& body, const PoseState& pose) {
   std::vector<PosedCapsule> posed;
   body.PoseShape(body.PostureAt(pose), posed);
@@ -83,7 +83,7 @@ void StanceLibrary::Propose(const Vector3& middle_W, const Vector3& up_W,
                             std::vector<PoseState>& poses) const {
   for (int heading = 0; heading < kHeadings; ++heading) {
     const double angle = heading * 2 * EIGEN_PI / kHeadings;
-    // Somebody who lies faces up, down or sideways: what turns is square to the axis.
+    // A person who lies faces up, down or sideways: the rotation is about the axis.
     const Vector3 any_W = std::abs(up_W.z()) < 0.8 ? Vector3::UnitZ() : Vector3::UnitX();
     const Vector3 aside_W = up_W.cross(any_W).normalized();
     const Vector3 left_W = std::cos(angle) * aside_W + std::sin(angle) * up_W.cross(aside_W);

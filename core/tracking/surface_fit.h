@@ -47,12 +47,12 @@ struct SurfaceFitQuality {
 
 /// One contact compared with the model.
 struct SurfaceResidual {
-  int capsule;       ///< Index into the body's shape().
-  bool is_edge;      ///< From an outline, not from a voxel.
-  double share;      ///< Position along its core.
-  Vector3 p_W;       ///< Target point of the capsule.
-  Vector3 normal_W;  ///< Outward surface normal; where the capsule tapers, it leans and its length
-                     ///< exceeds 1.
+  int capsule;   ///< Index into the body's shape().
+  bool is_edge;  ///< From an outline, not from a voxel.
+  double share;  ///< Position along its core.
+  Vector3 p_W;   ///< Target point of the capsule.
+  Vector3
+      normal_W;  ///< Out of the surface; where the capsule tapers it leans and is longer than 1.
   double outside_mm;
   double variance;             ///< [mm²], larger for outliers.
   PoseStep J_outside_by_step;  ///< Derivative of the core's position along the normal.
