@@ -24,7 +24,7 @@ class StanceLibrary {
   struct Entry {
     JointAngles theta;
     Matrix3
-        R_upright;     ///< Lean of the trunk: the torso frame in the frame of an upright body here.
+        R_upright;  ///< Lean of the trunk: torso frame in the frame of a body that stands upright.
     Vector3 middle_T;  ///< Centroid of the flesh.
   };
   std::vector<Entry> entries_;

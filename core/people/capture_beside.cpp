@@ -9,9 +9,9 @@
 namespace mocap {
 namespace {
 
-// Who moves is followed well at 30 Hz; a search catches up sooner where the cameras are faster.
+// At 30 Hz a moving person is tracked well. With faster cameras, a search catches up sooner.
 constexpr std::int64_t kLeastApartNs = 25'000'000;
-// More sightings than come during a search.
+// More observations than arrive during a search.
 constexpr std::int64_t kMostWaiting = 32;
 
 }  // namespace
@@ -45,7 +45,7 @@ void CaptureBeside::Queue::Work() {
       ++taken;
     }
     is_begun = false;
-    // What was pushed just now did not begin work of its own.
+    // An observation that was pushed just now did not begin work of its own.
   } while (has_more() && !is_begun.exchange(true));
 }
 

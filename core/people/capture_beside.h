@@ -1,4 +1,4 @@
-// Beyond the paper: a body is looked for without keeping the others waiting.
+// Beyond the paper: searches for a body without delaying the tracking of others.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,27 @@
 
 namespace mocap {
 
-/// Lets a capture take in sighting after sighting beside its owner's thread: a search for a body
-/// takes longer than a set may. Meanwhile up to 32 sightings are copied and wait; their memory goes
-/// round. Thread-bound.
+/// Lets a capture process observations in another thread than its owner's, because a search takes
+/// longer than one frame set allows. Meanwhile up to 32 observations are copied and wait; their
+/// memory is reused. Thread-bound.
 class CaptureBeside {
  public:
-  /// @param capture  nobody else uses it until HasCaughtUp.
+  /// @param capture  must not be used elsewhere until HasCaughtUp.
   /// @param side     borrowed.
   CaptureBeside(std::shared_ptr<MotionCapture> capture, SideWork& side);
-  /// The capture takes in no more than what it is at.
+  /// The capture finishes only the observation that it is processing.
   ~CaptureBeside();
 
-  /// Copies what a set shows. Leaves it out where the last is younger than tracking needs, and
-  /// where too many wait.
+  /// Copies what a set shows. Skips it if the last one is more recent than tracking needs, or if
+  /// too many wait.
   void See(const Sighting& sighting, std::int64_t capture_ns);
-  /// Whether the capture has taken in all that was seen. Until the next See it may be used then.
+  /// Whether the capture has processed everything. It may then be used until the next See.
   bool HasCaughtUp() const;
 
  private:
   struct Queue;
 
-  std::shared_ptr<Queue> queue_;  // The work that was begun has it, too.
+  std::shared_ptr<Queue> queue_;  // Shared with the work that was begun.
   SideWork& side_;
 };
 

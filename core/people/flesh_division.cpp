@@ -11,9 +11,9 @@
 namespace mocap {
 namespace {
 
-// Nearer than this, a piece that is too small for a person belongs to somebody.
+// A piece too small for a person belongs to a body that is closer than this.
 constexpr double kBesideMm = 300;
-// Cells around a share, so that normals are told from what lies beside it.
+// Cells around a share, so that normals follow from its surroundings.
 constexpr int kMargin = 3;
 constexpr double kNobody = std::numeric_limits<double>::infinity();
 
@@ -66,7 +66,8 @@ void FleshDivision::Divide(const VoxelGrid& grid, std::span<const PosedPerson> p
 }
 
 bool FleshDivision::Touches(std::size_t share, const GrazingRay& ray) const {
-  // As shares of a voxel: how far apart the ray is looked at, and how far inside of it.
+  // As shares of a voxel: the step along the ray, and the offset of the test line towards the
+  // inside.
   constexpr double kStep = 0.8, kInward = 0.7;
   const Claim& claim = claims_[share];
   if (claim.voxels == 0) return false;
@@ -114,8 +115,8 @@ void FleshDivision::ClaimRow(const VoxelGrid& grid, int j, int k,
   }
 }
 
-// Whoever is nearest to a place. What no body explains may be of a limb that was lost: it is for
-// all in whose reach it is.
+// Finds the person nearest to a point. Flesh that no body explains may belong to a lost limb:
+// everybody in reach owns it.
 void FleshDivision::FindOwners(const Vector3& p_W, std::span<const PosedPerson> people) {
   owners_.clear();
   double least_mm = kNobody;
@@ -175,7 +176,7 @@ void FleshDivision::MakeStrangers(int piece) {
   }
 }
 
-// Whose flesh is next to a piece; -1: nobody's.
+// Returns whose flesh is next to a piece; -1: nobody's.
 int FleshDivision::ClaimBeside(const Eigen::AlignedBox3i& cells) const {
   const Eigen::AlignedBox3d box_W = BoxOf(cells, strange_);
   int nearest = -1;

@@ -1,4 +1,4 @@
-// Beyond the paper: whose the voxels of a room are.
+// Beyond the paper: division of a room's voxels among people.
 #pragma once
 
 #include <span>
@@ -15,29 +15,29 @@ namespace mocap {
 /// Flesh that may be somebody's, and everybody's in the same block of cells.
 struct FleshShare {
   VoxelGrid flesh, room;
-  Eigen::AlignedBox3d box_W;  ///< Around `flesh`; empty without any [mm].
+  Eigen::AlignedBox3d box_W;  ///< Around `flesh` [mm]; empty if there is none.
   double litres = 0;
 };
 
-/// Divides the flesh in a room among the people who are known, and finds what is nobody's. Reuses
-/// its memory.
+/// Divides the flesh in a room among the known people, and finds flesh that belongs to nobody.
+/// Reuses its memory.
 ///
-/// A voxel is the person's whose body, as predicted, is nearest to it; one that no body explains is
-/// everybody's in whose reach it is, for it may be of a limb that was lost. What lies out of all
-/// reach is strange; pieces of it that are too small for a person go to who is next to them, if
-/// anybody is. Strangers who touch are told apart by their heads.
+/// A voxel belongs to the person whose predicted body is nearest. If no body explains it, it
+/// belongs to everybody in reach, because it may be part of a lost limb. Flesh out of everybody's
+/// reach is strange. Pieces of it that are too small for a person go to a person next to them, if
+/// there is one. Strangers who touch are separated by their heads.
 class FleshDivision {
  public:
-  /// A piece of this size may be a person whom nobody knows.
+  /// A piece of this size may be an unknown person.
   static constexpr double kLeastStrangerLitres = 20;
 
   void Divide(const VoxelGrid& grid, std::span<const PosedPerson> people);
 
-  /// Whether a ray grazes flesh of a share, or passes through it; strangers' shares come behind the
+  /// Whether a ray grazes flesh of a share or passes through it. Strangers' shares follow the
   /// people's.
   bool Touches(std::size_t share, const GrazingRay& ray) const;
 
-  /// One for each person, in their order.
+  /// One for each person, in the same order.
   const std::vector<FleshShare>& shares() const { return shares_; }
   /// The strange pieces, the largest first.
   const std::vector<FleshShare>& strangers() const { return strangers_; }
@@ -58,7 +58,7 @@ class FleshDivision {
   void Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& share) const;
 
   std::vector<Claim> claims_;    // Of the people, then of strangers.
-  std::vector<int> candidates_;  // Whose boxes a row runs through.
+  std::vector<int> candidates_;  // People whose boxes a row passes through.
   std::vector<int> owners_;      // Of a voxel.
   std::vector<int> guesses_;     // The capsule that explained each person's last voxel.
   VoxelGrid strange_;

@@ -7,13 +7,13 @@
 namespace mocap {
 namespace {
 
-// Surfaces that face square to each other count as this far apart, as in a fit.
+// Perpendicular surfaces count as this far apart, as in a fit.
 constexpr double kSquareMm = 40;
-// A body certainly does not explain a ray beyond this mismatch.
+// Beyond this mismatch a body certainly does not explain a ray.
 constexpr double kSurelyNotMm = 120;
-// Farther than any room is long.
+// Longer than any room.
 constexpr double kFarMm = 30000;
-// A camera that has so many rays of somebody shows him.
+// A camera with this many rays of a person shows that person.
 constexpr int kRaysOfWitness = 6;
 
 bool Passes(const GrazingRay& ray, const Eigen::AlignedBox3d& box_W) {
@@ -69,7 +69,7 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   if (!owner) return;
   shares_[owner->share].own[camera].push_back(ray);
   if (owner->mismatch_mm > kExplainsMm) ShareAmongTouched(ray, camera, *owner, people.size());
-  // What a stranger's body is like nobody knows: it takes no witness from somebody who is known.
+  // A stranger's body is unknown: it takes no witness from a known person.
   const bool is_known = owner->share < people.size();
   const bool is_shared = std::ranges::any_of(passed_, [&](const Passed& passed) {
     return &passed != owner && passed.mismatch_mm <= kSurelyNotMm &&
@@ -78,8 +78,7 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   sole_[owner->share][camera] += !is_shared;
 }
 
-// What no body explains may graze a limb that was lost: it is for all people whose flesh it
-// touches.
+// Rays that no body explains may graze a lost limb: they go to all people whose flesh they touch.
 void OutlineDivision::ShareAmongTouched(const GrazingRay& ray, std::size_t camera,
                                         const Passed& owner, std::size_t people) {
   for (const Passed& passed : passed_) {
@@ -95,7 +94,7 @@ const OutlineDivision::Passed* OutlineDivision::OwnerOf(const GrazingRay& ray,
   const Passed* owner = nullptr;
   for (Passed& passed : passed_) {
     passed.touches = flesh.Touches(passed.share, ray);
-    // What a stranger's body is like nobody knows.
+    // A stranger's body is unknown.
     passed.mismatch_mm =
         passed.share < people.size() ? MismatchOf(ray, people[passed.share]) : kExplainsMm;
     if (!passed.touches && passed.mismatch_mm > kExplainsMm) continue;

@@ -1,4 +1,4 @@
-// Beyond the paper: whose the rays of the outlines are.
+// Beyond the paper: division of the outlines' rays among people.
 #pragma once
 
 #include <span>
@@ -10,27 +10,27 @@
 
 namespace mocap {
 
-/// The rays of one set that somebody has.
+/// One person's rays in a set.
 struct OutlineShare {
-  std::vector<Outline> own;   ///< That graze the person; one outline a camera.
-  std::vector<Outline> near;  ///< That pass near, whomever they graze.
+  std::vector<Outline> own;   ///< Those that graze the person; one outline per camera.
+  std::vector<Outline> near;  ///< Those that pass near, whomever they graze.
   /// Cameras that show the person where nobody else is.
   int witnesses = 0;
 };
 
 /// Divides the rays that graze the people in a room. Reuses its memory.
 ///
-/// A ray is the person's whose flesh it touches; of several, and where it touches none, the one's
-/// whose body, as predicted, it grazes best: it passes near, and faces the same way. Rays that no
-/// body explains are for strangers whom they pass, and for all whose flesh they touch: a limb that
-/// was lost may be anybody's.
+/// A ray belongs to the person whose flesh it touches. If it touches several people's flesh or
+/// none, it belongs to the one whose predicted body it grazes best: it passes near and faces the
+/// same way. Rays that no body explains go to strangers whom they pass, and to all people whose
+/// flesh they touch, because a lost limb may be anybody's.
 class OutlineDivision {
  public:
   /// @param flesh  of the same set, divided among the same people.
   void Divide(std::span<const Outline> outlines, std::span<const PosedPerson> people,
               const FleshDivision& flesh);
 
-  /// One for each person, then one for each stranger, in their order.
+  /// One for each person, then one for each stranger, in the same order.
   const std::vector<OutlineShare>& shares() const { return shares_; }
 
  private:
@@ -48,8 +48,8 @@ class OutlineDivision {
   void CountWitnesses();
 
   std::vector<OutlineShare> shares_;
-  std::vector<std::vector<int>> sole_;  // Rays of each that are nobody else's, by camera.
-  std::vector<Passed> passed_;          // Whose boxes a ray passes through.
+  std::vector<std::vector<int>> sole_;  // Per share and camera: rays that are nobody else's.
+  std::vector<Passed> passed_;          // Shares whose boxes a ray passes through.
 };
 
 }  // namespace mocap

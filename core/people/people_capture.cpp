@@ -18,25 +18,25 @@
 namespace mocap {
 namespace {
 
-// Flesh so near to where a body is expected may be its own; of somebody who is lost, also flesh
-// that is farther away, if it is nobody else's.
+// Flesh this close to a predicted body may be its own. A lost person also gets flesh that is
+// farther away, if it is nobody else's.
 constexpr double kReachMm = 250;
 constexpr double kLostReachMm = 700;
 constexpr double kLostHandicapMm = 250;
-// A limb that was carved away may be so far beside what was foreseen, or beside the flesh.
+// A carved-away limb may be this far from its prediction or from the flesh.
 constexpr double kAsideMm = 100;
-// A person without two such cameras for so long is none.
+// A person without this many witnesses for this long is none.
 constexpr int kFewestWitnesses = 2;
 constexpr double kDoubtedS = 0.2;
-// A newcomer who is not seen for so long has gone.
+// A newcomer who is not seen for this long has left.
 constexpr double kUnseenS = 0.3;
-// Whoever is not shown as a whole for so long is looked for in what is shown.
+// After this time, a person who is not shown completely is searched for anyway.
 constexpr double kWholeWithinS = 0.3;
-// Who was not seen to come is not taken for a person before.
+// Somebody who was not seen entering counts as a person only after this time.
 constexpr double kPatienceS = 1.0;
-// So near to the border of what is covered somebody may just have come in.
+// This close to the border of the covered area, somebody may just have entered.
 constexpr double kBorderMm = 600;
-// Strange flesh that moved by less since the last frame is the same newcomer.
+// Strange flesh that moved less than this since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
 
 double SecondsBetween(std::int64_t before_ns, std::int64_t after_ns) {
@@ -78,15 +78,15 @@ class PeopleCapture::Impl {
 
   const MakeCapture make_;
   const PeopleOptions options_;
-  std::optional<BodySizes> expected_;  // Of whoever comes first.
+  std::optional<BodySizes> expected_;  // For the next person.
   std::string expected_name_;
   std::vector<KnownPerson> known_;
   const std::unique_ptr<MotionCapture> nobody_;
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
-  std::optional<std::int64_t> followed_since_ns_;  // That anybody is.
-  std::vector<PosedPerson> posed_;                 // Of members whose pose is known.
+  std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
+  std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
   VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
@@ -103,22 +103,22 @@ struct PeopleCapture::Impl::Member {
   }
 
   std::shared_ptr<MotionCapture> capture;
-  std::optional<CaptureBeside> beside;  // The capture is at work there, and not to be touched.
-  int id = 0;                           // 0: not yet known for a person.
-  std::string name;                     // Empty: not known.
+  std::optional<CaptureBeside> beside;  // While set, the capture works there and must not be used.
+  int id = 0;                           // 0: not yet confirmed as a person.
+  std::string name;                     // Empty: unknown.
   double certainty = 1;                 // Of the name.
-  BodySizes compared;                   // With those who are known, the last time.
-  bool is_expected = false;             // Whoever comes next is the person of that name.
-  std::optional<Vector3> last_W;        // The middle of the flesh of somebody who is not found yet.
-  std::optional<std::int64_t> waits_since_ns;  // To be looked for.
-  // In from where cameras do not cover, or when others were not followed yet.
+  BodySizes compared;                   // Sizes that were last compared with known people.
+  bool is_expected = false;             // The next person has that name.
+  std::optional<Vector3> last_W;        // Centre of the flesh of a person who is not located yet.
+  std::optional<std::int64_t> waits_since_ns;  // For the search.
+  // Entered from outside the covered area, or when nobody else was tracked yet.
   bool has_come = false;
   std::int64_t seen_ns = 0;
-  std::int64_t vouched_ns = 0;  // When there were witnesses last.
+  std::int64_t vouched_ns = 0;  // Last time with enough witnesses.
   // What this frame shows; null without flesh.
   const FleshShare* flesh = nullptr;
   const OutlineShare* outlines = nullptr;
-  Eigen::AlignedBox3d box_W;  // The person is in it.
+  Eigen::AlignedBox3d box_W;  // Contains the person.
 };
 
 PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
@@ -180,7 +180,7 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   ListPeople();
 }
 
-// Takes over who has been found beside, up to the last set.
+// Takes over people who were located in the other thread, up to the last set.
 void PeopleCapture::Impl::BringBack() {
   for (const auto& member : members_) {
     if (!member->beside || !member->beside->HasCaughtUp()) continue;
@@ -188,7 +188,7 @@ void PeopleCapture::Impl::BringBack() {
   }
 }
 
-// What is beside the box that one person spans is nobody, though the room may hold it.
+// Flesh beside the box of a single person is nobody's, though the grid may contain it.
 void PeopleCapture::Impl::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
                                       UpdateObserver* observer) {
   const Eigen::AlignedBox3i cells = CellsWithin(room.flesh, room.box_W);
@@ -221,7 +221,7 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
   }
 }
 
-// Whether nobody can be there but one, so that nothing needs to be divided.
+// Whether at most one person can be present, so that nothing must be divided.
 bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
   if (options_.most == 1) return true;
   if (members_.size() > 1 || members_.front()->beside) return false;
@@ -246,7 +246,7 @@ void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
   }
 }
 
-// Gives strange flesh to whoever it was before, or to somebody new.
+// Assigns strange flesh to the newcomer it was before, or to a new one.
 void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns) {
   for (std::size_t i = 0; i < flesh_.strangers().size(); ++i) {
     const FleshShare& flesh = flesh_.strangers()[i];
@@ -269,12 +269,12 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
   }
 }
 
-// Whether people may be there whom nobody has seen coming.
+// Whether people may be present who were not seen entering.
 bool PeopleCapture::Impl::IsBeginning(std::int64_t capture_ns) const {
   return !followed_since_ns_ || SecondsBetween(*followed_since_ns_, capture_ns) < kPatienceS;
 }
 
-// Null where there is no room for anybody.
+// Null if no further person can be tracked.
 PeopleCapture::Impl::Member* PeopleCapture::Impl::MemberFor(const Vector3& middle_W) {
   Member* nearest = nullptr;
   double least_mm = kSameMm;
@@ -308,7 +308,7 @@ void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver*
       continue;
     }
     member->capture->Update(sighting, capture_ns, observer);
-    // Who is lost has a second to come back, and may be hidden.
+    // A lost person has a second to return, and may be hidden.
     const bool is_lost = member->capture->result().state == CaptureState::kLost;
     if (is_lost || member->outlines->witnesses >= std::min(kFewestWitnesses, witnesses_wanted_))
       member->vouched_ns = capture_ns;
@@ -332,13 +332,13 @@ void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
   }
   for (const auto& member : members_) {
     if (member->id > 0 || !member->has_pose()) continue;
-    // A phantom needs others; who is alone is told of from the first fit on.
+    // A phantom needs others; a single person is reported from the first fit on.
     const bool is_found = member->capture->result().state == CaptureState::kTracking;
     if (is_found || is_alone) member->id = ++last_id_;
   }
 }
 
-// Names those whose sizes have settled anew.
+// Names people whose sizes have settled again.
 void PeopleCapture::Impl::Recognise() {
   if (known_.empty()) return;
   for (const auto& member : members_) {

@@ -1,4 +1,5 @@
-// Beyond the paper: everybody in the room. One capture a person, and evidence that is shared.
+// Beyond the paper: tracks everybody in the room. There is one capture per person; evidence is
+// divided.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +16,32 @@
 
 namespace mocap {
 
-/// More people are not followed at once.
+/// Upper limit for the number of people.
 inline constexpr int kMostPeople = 8;
 
 struct PeopleOptions {
-  int most = 1;      ///< Followed at once, at the most.
-  int fineness = 1;  ///< Outlines have so many times the rays that one person needs.
-  /// Whoever comes while others are followed is looked for there; borrowed. Null: in Update, so
-  /// that the result depends on the input alone.
+  int most = 1;      ///< Limit for people who are tracked at once.
+  int fineness = 1;  ///< Factor between the outlines' rays and those that one person needs.
+  /// Searches for newcomers while others are tracked; borrowed. Null: Update does so, and the
+  /// result depends on the input alone.
   SideWork* side = nullptr;
 };
 
-/// Somebody who is followed, or was until a moment ago.
+/// A person who is tracked, or was until a moment ago.
 struct PersonView {
-  int id = 0;  ///< From 1; nobody else ever gets it.
+  int id = 0;  ///< From 1; never reused.
   const MotionCapture* capture = nullptr;
-  std::string_view name = {};  ///< Empty: not known. Valid until the next call.
-  double certainty = 1;        ///< That the name is his, 0 to 1; 1 where somebody told.
+  std::string_view name = {};  ///< Empty: unknown. Valid until the next call.
+  double certainty = 1;        ///< Probability of the name, 0 to 1; 1 if it was given.
 };
 
-/// Follows up to so many people through voxel grids, each by a capture of his own. Without a side,
-/// same input, same output, bit for bit. Thread-bound.
+/// Tracks several people through voxel grids, with one capture for each. Without `side`, the same
+/// input gives the same output, bit for bit. Thread-bound.
 ///
-/// While there is one person, the capture gets the evidence as it is. Of several, each gets what
-/// his body, as predicted, explains best. Flesh that nobody explains, large enough for a person and
-/// shown by several cameras where nobody else is, is a newcomer. Whoever lacks two cameras that
-/// show him alone is nobody: hulls of several people hold flesh that belongs to none.
+/// A single person's capture gets the evidence unchanged. Of several people, each gets what his
+/// predicted body explains best. Flesh that nobody explains is a newcomer if it is large enough for
+/// a person and several cameras show it where nobody else is. A person without two cameras that
+/// show him alone is dropped: hulls of several people contain ghosts.
 class PeopleCapture {
  public:
   using MakeCapture = std::function<std::unique_ptr<MotionCapture>()>;
@@ -50,29 +51,29 @@ class PeopleCapture {
   PeopleCapture(PeopleCapture&&) noexcept;
   ~PeopleCapture();
 
-  /// Takes the next frame set.
-  /// @param room        as if there were one person in it. The box is where he would be: of
-  ///                    somebody who is alone nothing else counts.
-  /// @param eyes        of the cameras that are in.
-  /// @param capture_ns  time of exposure; must not go back.
+  /// Processes the next frame set.
+  /// @param room        as for one person. The box is where he would be: nothing else counts for a
+  /// single person.
+  /// @param eyes        of the cameras in the set.
+  /// @param capture_ns  time of exposure; must not decrease.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
   void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
               UpdateObserver* observer = nullptr);
 
-  /// Who is followed, in the order of their appearance.
+  /// Returns the tracked people, in the order of their appearance.
   const std::vector<PersonView>& people() const;
-  /// Whoever has been followed the longest; whoever is looked for while nobody is.
+  /// Returns the person tracked for longest, or the search while nobody is tracked.
   const MotionCapture& first() const;
 
-  /// Forgets everybody: whoever is seen next is measured.
+  /// Forgets everybody: the next people are measured.
   void Forget();
-  /// Takes the sizes of whoever is seen from now on as known, and forgets everybody.
+  /// Sets the sizes of everybody seen from now on as known, and forgets everybody.
   /// @param name  of the person, for people().
   void Expect(const BodySizes& sizes, std::string_view name = {});
-  /// Takes people as known: whoever is measured and is one of them by his sizes has the name from
-  /// then on, until he leaves; nobody has it while in doubt, or while another has it.
+  /// Sets the known people. A measured person who is recognised by his sizes has the name from then
+  /// on, until he leaves. Nobody has it while in doubt, or while another has it.
   void Know(std::vector<KnownPerson> people);
-  /// Gives a name to whoever has a number, until he leaves.
+  /// Gives a name to the person with this number, until he leaves.
   void Call(int id, std::string_view name);
 
  private:

@@ -1,4 +1,4 @@
-// Beyond the paper: a person among others, where he is expected to be.
+// Beyond the paper: one of several people, at the predicted pose.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,28 +8,28 @@
 
 namespace mocap {
 
-/// What is nearer than this to a body, as it is expected, may be its own; what is farther from all
-/// bodies may be of a limb that was lost.
+/// Evidence closer than this to a predicted body may be its own. Evidence farther from all bodies
+/// may belong to a lost limb.
 inline constexpr double kExplainsMm = 80;
 
-/// A body as it is expected in a frame, to hold the evidence of a room against.
+/// A predicted body in a frame, for comparison with the evidence.
 struct PosedPerson {
   std::vector<PosedCapsule> capsules;
-  Eigen::AlignedBox3d box_W;  ///< Around the capsules and all that they may explain [mm].
-  double reach_mm = 0;        ///< Flesh that is farther from every capsule is not the person's.
-  /// Added to the distances of somebody whose place is not known well, so that others come first.
+  Eigen::AlignedBox3d box_W;  ///< Around the capsules and everything they may explain [mm].
+  double reach_mm = 0;        ///< Flesh farther than this from every capsule is not the person's.
+  /// Added to the distances of a person whose position is uncertain, so that others come first.
   double handicap_mm = 0;
 };
 
-/// Puts a body where a pose has it; keeps the memory of `person`.
+/// Sets the capsules for a body and a pose; reuses the memory of `person`.
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
                 PosedPerson& person);
 
-/// A box around flesh and as much beside it, down to the floor: legs may have been carved away.
+/// Returns a box around flesh, with a margin and down to the floor: legs may have been carved away.
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm);
 
-/// Where all of a stranger is, by the flesh that is left: as far beside it as limbs may have been
-/// carved away, and a stride where the legs were.
+/// Returns a box around a whole stranger, given the remaining flesh: wider by the reach of limbs
+/// that may have been carved away, and by a stride where legs were.
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W);
 
 }  // namespace mocap

@@ -5,28 +5,28 @@
 namespace mocap {
 namespace {
 
-// By how much a size differs when one person is measured twice, and among people.
+// Standard deviations of a size between two measurements of one person, and among people.
 struct Spread {
   double again;
   double people;
 };
-// Of the stature's logarithm: shoes, hair and outlines that are cut short, against a population of
-// both sexes (ANSUR). Of the torso's share of the stature, likewise.
+// Of the stature's logarithm: shoes, hair and cut outlines, compared with a population of both
+// sexes (ANSUR). Likewise of the torso's share of the stature.
 constexpr Spread kStature = {0.01, 0.06};
 constexpr Spread kTorsoShare = {0.012, 0.025};
-// How likely somebody is to come whose sizes are not kept, over any one of those whose are.
+// Prior odds of a person without stored sizes, relative to any one person with stored sizes.
 constexpr double kStranger = 0.25;
 
 constexpr double Square(double x) { return x * x; }
 
-// But for a factor that all have in common.
+// Without a common factor.
 double NormalDensity(double x, double deviation) {
   return std::exp(-0.5 * Square(x / deviation)) / deviation;
 }
 
 double TorsoShare(const BodySizes& sizes) { return sizes.torso / sizes.Stature(); }
 
-// How likely it is to measure sizes where those of a person were measured before.
+// Likelihood of measured sizes, given earlier measurements of a person.
 double LikelihoodOf(const BodySizes& measured, const BodySizes& known) {
   // Both were measured.
   const double stature = std::sqrt(2) * kStature.again;
@@ -35,7 +35,7 @@ double LikelihoodOf(const BodySizes& measured, const BodySizes& known) {
          NormalDensity(std::log(TorsoShare(measured) / TorsoShare(known)), torso);
 }
 
-// Likewise of anybody: whoever is as tall as those that are known is where strangers are common.
+// The same for strangers: a stranger as tall as a known person is assumed to be common.
 double LikelihoodOfStranger() {
   const double stature = std::hypot(kStature.people, kStature.again);
   const double torso = std::hypot(kTorsoShare.people, kTorsoShare.again);

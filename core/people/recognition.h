@@ -1,4 +1,4 @@
-// Beyond the paper: who somebody is, by the sizes of his body.
+// Beyond the paper: recognises people by the sizes of their bodies.
 #pragma once
 
 #include <span>
@@ -8,28 +8,28 @@
 
 namespace mocap {
 
-/// Somebody whose sizes were kept.
+/// A person whose sizes were stored.
 struct KnownPerson {
   std::string name;
   BodySizes sizes;
 };
 
-/// Who a measured body most likely is.
+/// The most likely person for a measured body.
 struct Likeness {
-  const KnownPerson* person = nullptr;  ///< Null: rather nobody who is known.
-  double certainty = 0;                 ///< Probability that it is so, 0 to 1.
+  const KnownPerson* person = nullptr;  ///< Null: more likely none of the known people.
+  double certainty = 0;                 ///< Probability of this result, 0 to 1.
 };
 
-/// From here on somebody is called by a name; below, there is doubt.
+/// From this certainty on a person gets a name.
 inline constexpr double kSureOfName = 0.9;
 
-/// Weighs the people who are known against each other and against anybody else, by Bayes' rule.
+/// Compares the known people with each other and with strangers, by Bayes' rule.
 ///
-/// Sizes of one person that are measured twice differ little, those of two people as they differ in
-/// a population (ANSUR, Gordon et al. 1989).
-/// Stature and torso count: limbs are measured less exactly, and widths change with the clothes.
+/// Repeated measurements of one person differ little; sizes of two people differ as in a population
+/// (ANSUR, Gordon et al. 1989). Only stature and torso are used: limbs are measured less exactly,
+/// and widths change with the clothes.
 /// @param measured  sizes that have settled.
-/// @param known     who may be there: not those who are there already. Borrowed.
+/// @param known     people who may be there: not those who are present already. Borrowed.
 Likeness WhoIs(const BodySizes& measured, std::span<const KnownPerson> known);
 
 }  // namespace mocap

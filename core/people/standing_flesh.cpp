@@ -5,8 +5,8 @@
 namespace mocap {
 namespace {
 
-// Two heads stand out over what joins them by as much: shoulders, or hands that meet. Knees do,
-// too, but they are not as high as the head of somebody who sits on the floor.
+// Two heads are this much higher than what connects them: shoulders, or hands that meet. So are
+// knees, but they are lower than the head of somebody who sits on the floor.
 constexpr double kValleyMm = 180;
 constexpr double kLeastHeadMm = 700;
 
@@ -55,7 +55,7 @@ int StandingFlesh::WholeOf(int summit) const {
   return summit;
 }
 
-// Visits the summits that columns beside one belong to.
+// Visits the summits of the columns beside one.
 template <typename Visit>
 void StandingFlesh::ForEachBeside(int column, const Visit& visit) const {
   const int x = column % size_.x(), y = column / size_.x();

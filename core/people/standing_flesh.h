@@ -1,4 +1,4 @@
-// Beyond the paper: people who touch, told apart by their heads.
+// Beyond the paper: separates people who touch, by their heads.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,24 +10,24 @@
 namespace mocap {
 
 /// Divides one connected piece of flesh among the people who stand or sit in it. Seen from above,
-/// each is a summit with a valley around: a flood that falls from above joins two summits where
-/// they meet, but for those that stand out far over that place and have flesh enough for a person
-/// each. A raised arm has too little, and who lies is too low. Reuses its memory.
+/// each is a summit with a valley around. A flood that falls from above joins two summits where
+/// they meet, unless both are much higher than that place and have enough flesh for a person. A
+/// raised arm has too little flesh, and a lying person is too low. Reuses its memory.
 class StandingFlesh {
  public:
-  /// @param runs          the piece's.
-  /// @param grid          that holds it; the floor is at z = 0.
-  /// @param least_litres  that a person has.
+  /// @param runs          of the piece.
+  /// @param grid          that contains it; the floor is at z = 0.
+  /// @param least_litres  minimum for a person.
   void Divide(std::span<const VoxelPieces::Run> runs, const VoxelGrid& grid, double least_litres);
 
-  /// How many people there are, at least one.
+  /// Number of people, at least one.
   int count() const { return count_; }
-  /// Whose the flesh of a column of the grid is: from 0. @pre  the piece has some there.
+  /// Owner of the flesh in a column of the grid, from 0. @pre  the piece has flesh there.
   int OwnerOf(int i, int j) const { return owners_[IndexOf(i, j)]; }
 
  private:
   struct Summit {
-    int whole;  // The summit that it was found to belong to; itself, as long as it stands alone.
+    int whole;  // The summit that it was joined to; itself while it is separate.
     int top;
     int voxels;
   };

@@ -7,7 +7,7 @@
 namespace mocap {
 namespace {
 
-// Of a few cameras, all but one.
+// With few cameras, all but one.
 constexpr int kWitnesses = 4;
 
 }  // namespace

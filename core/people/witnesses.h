@@ -1,4 +1,4 @@
-// Beyond the paper: whether cameras vouch for somebody who is new.
+// Beyond the paper: tests whether enough cameras confirm a newcomer.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,11 +9,11 @@
 
 namespace mocap {
 
-/// How many cameras have to show a newcomer where nobody else is, of so many that are in.
+/// Returns how many of the cameras in a set must show a newcomer where nobody else is.
 int WitnessesWanted(std::size_t cameras);
 
-/// Whether enough cameras have all of a person in their pictures, so that what they show is no part
-/// of him, and would have it if he were so far beside [mm]. Feet stand on the floor.
+/// Whether enough cameras have a whole person in their pictures, so that they do not show only a
+/// part, also after a move by `beside_mm` [mm]. Feet stand on the floor.
 bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
                std::span<const CameraEye> eyes);
 
