@@ -16,8 +16,8 @@ Eigen::AlignedBox3d BoxOf(const Cylinder& cylinder) {
   return {box_W.min().array() - reach_mm, box_W.max().array() + reach_mm};
 }
 
-// The share of cells with a voxel among those that a cylinder has and a smaller one lacks; 0 of
-// none.
+// Share of occupied cells among those that are in the larger cylinder but not in the smaller one; 0
+// if there are none.
 double FullShareBetween(const VoxelCloud& cloud, const Cylinder& smaller, const Cylinder& larger) {
   const Vector3 origin_W = cloud.box_W().min();
   const double voxel_mm = cloud.voxel_mm();
@@ -97,7 +97,7 @@ Cylinder GrowCylinder(const VoxelCloud& cloud, std::span<const int> voxels, cons
     cylinder = FitCylinder(cloud, voxels, grown);
     return true;
   };
-  // A dimension that met the void may grow on once the others have.
+  // A dimension that met void may continue to grow after the others have grown.
   for (bool grows = true; grows;) {
     grows = grow(&Cylinder::half_width_mm, voxel_mm / 2);
     grows = grow(&Cylinder::half_depth_mm, voxel_mm / 2) || grows;

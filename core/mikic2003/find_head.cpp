@@ -50,13 +50,13 @@ class CrustCounter {
   }
 
   int stride_;
-  int margin_;  ///< Empty cells around the cloud's, so that no crust leaves the memory.
+  int margin_;  ///< Margin of empty cells around the cloud's, so that no crust leaves the array.
   Eigen::Vector3i size_;
   std::vector<char> is_surface_;
-  std::vector<std::ptrdiff_t> crust_;  ///< The crust's cells, counted from its centre.
+  std::vector<std::ptrdiff_t> crust_;  ///< Offsets of the crust's cells from its centre.
 };
 
-// What hangs on the head alone is hair, and belongs to it.
+// Adds hair to the head: pieces connected with the head alone.
 void TakeHair(const VoxelCloud& cloud, Labels& labels, HeadFit& head) {
   std::vector<VoxelIndices> rest = ConnectedRegions(cloud, VoxelsLabeled(labels, kUnlabeled));
   for (std::size_t i = 1; i < rest.size(); ++i) {
@@ -80,7 +80,7 @@ std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
   const CrustCounter counter(cloud, crust);
   std::ptrdiff_t most = 0;
   int best = -1;
-  // Voxels are listed from below.
+  // Voxels are listed from the bottom up.
   for (int i = cloud.size() - 1; i >= 0; --i) {
     const Voxel& voxel = cloud.voxels()[i];
     if (voxel.surface || !counter.IsTried(voxel.cell)) continue;

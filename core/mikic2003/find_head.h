@@ -10,16 +10,16 @@
 
 namespace mocap::mikic2003 {
 
-/// Two spheres around a head's centre, and a third that takes in all of the head; radii [mm].
+/// Two spheres around a head's centre, and a third that contains all of the head; radii [mm].
 struct HeadCrust {
   double inner_mm;
   double outer_mm;
   double reach_mm;
 };
 
-/// The crust of a head whose dimensions are known: between its breadth and its length, which lie 13
-/// % below and above their mean, BodySizes::head_width (ANSUR, Gordon et al. 1989), and half a
-/// voxel more either way.
+/// Returns the crust of a head of known dimensions. It lies between the head's breadth and length,
+/// which are 13 % below and above their mean, BodySizes::head_width (ANSUR, Gordon et al. 1989),
+/// and is half a voxel wider on both sides.
 HeadCrust CrustOf(const BodySizes& sizes, double voxel_mm);
 
 /// The crust of any head, for the first frame (§7.1): from the breadth of a child's head, 140 mm
@@ -27,7 +27,7 @@ HeadCrust CrustOf(const BodySizes& sizes, double voxel_mm);
 /// measures 250 mm (ANSUR, Gordon et al. 1989).
 inline constexpr HeadCrust kAnyHead{.inner_mm = 70, .outer_mm = 105, .reach_mm = 150};
 
-/// Where the crust's centre may lie: around the head's prediction.
+/// Region for the crust's centre, around the head's prediction.
 struct SearchRegion {
   Vector3 center_W;
   double radius_mm;
@@ -40,14 +40,14 @@ struct HeadFit {
   VoxelIndices voxels;  ///< "In the sphere of a larger diameter" (Fig. 6 (c)).
 };
 
-/// Finds the centre whose crust holds the most surface voxels, and the head's voxels around it.
+/// Finds the centre whose crust contains the most surface voxels, and the head's voxels around it.
 /// Fig. 6 (a)–(d).
 ///
-/// The paper does not say which places are tried: here the voxels that lie inside the body, the
-/// upper one where two are equally good; of voxels finer than 25 mm (the paper's) one in so many.
-/// Pieces outside of the sphere that hang on the head alone are its hair, and no neck.
+/// The paper does not say which positions are tried. Here they are the voxels inside the body; of
+/// two equally good ones, the upper wins. Of voxels finer than 25 mm (the paper's) only a part is
+/// tried. Pieces outside the sphere that are connected with the head alone are hair, not neck.
 /// @param region  nothing: the whole volume is searched.
-/// @return  nothing when no voxel lies inside the body there.
+/// @return  nothing if no voxel lies inside the body there.
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
                                 const std::optional<SearchRegion>& region);
 

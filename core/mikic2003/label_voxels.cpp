@@ -8,16 +8,16 @@
 namespace mocap::mikic2003 {
 namespace {
 
-// The paper limits the search "to some neighborhood": as far as somebody runs at 4 m/s in 0.1 s.
+// The paper limits the search "to some neighborhood": here 4 m/s for 0.1 s, as a person runs.
 constexpr double kHeadSearchMm = 400;
 
-// Limbs are no cylinders: the template is wider than the limb, so that its rim is not taken for the
-// lower part.
+// Limbs are not cylinders. The template is wider than the limb, so that the limb's rim is not taken
+// for the lower part.
 constexpr double kTemplateShare = 1.5;
-// Of a voxel's place, as of a measured point [mm²].
+// Variance of a voxel's position, as of a measured point [mm²].
 constexpr double kMeasurementVariance = 50.0 * 50.0;
 
-// One part of a limb: the mean and covariance of a solid cylinder whose place is known so well.
+// One part of a limb: mean and covariance of a solid cylinder with an uncertain position.
 class PartDistance {
  public:
   PartDistance(const Vector3& from_W, const Vector3& to_W, double width_mm,
@@ -42,7 +42,7 @@ class PartDistance {
   Matrix3 information_;
 };
 
-// Fig. 7: from the neck through the centroid of what is not the head.
+// Fig. 7: from the neck through the centroid of everything but the head.
 Cylinder LocateTorso(const VoxelCloud& cloud, const BodySizes& sizes, const VoxelIndices& rest,
                      const Vector3& neck_W) {
   const Vector3 down_W = (CentroidOf(cloud, rest) - neck_W).normalized();
@@ -50,8 +50,8 @@ Cylinder LocateTorso(const VoxelCloud& cloud, const BodySizes& sizes, const Voxe
   return FitCylinder(cloud, rest, RoundCylinder(neck_W, down_W, sizes.torso, radius_mm));
 }
 
-// Fig. 8 (f). What lies behind the root, or does not hang on the upper part's end, is the torso's
-// rim, which the template missed, and no limb.
+// Fig. 8 (f). Voxels behind the root, or not connected with the upper part's end, belong to the
+// torso's rim, which the template missed, and not to a limb.
 void LabelLimb(const VoxelCloud& cloud, const BodyModel& body, const VoxelIndices& voxels,
                const Vector3& root_W, int limb, LabeledFrame& frame) {
   const Limb& parts = kLimbs[limb];

@@ -9,33 +9,32 @@
 
 namespace mocap::mikic2003 {
 
-/// Covariances of the predicted centroids of each limb's upper and lower part in turn [mm²].
+/// Covariances of the predicted centroids of each limb's upper and lower part, alternating [mm²].
 using PartCovariances = std::array<Matrix3, 2 * kLimbCount>;
 
-/// Labels a frame's voxels. Fig. 8 (c)–(f): head and torso by their shapes, wherever the prediction
-/// has them; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms and
-/// thighs by templates in the limbs.
+/// Labels a frame's voxels. Fig. 8 (c)–(f): first head and torso by their shapes, independent of
+/// the prediction; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms
+/// and thighs by templates in the limbs.
 ///
 /// @param predicted  Fig. 8 (b).
-/// @return  nothing when there is no head or no torso.
+/// @return  nothing if there is no head or no torso.
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
                                         const PoseState& predicted,
                                         const PartCovariances& part_covariances);
 
-/// Moves a predicted body to the torso that was found, and keeps the angles of its joints. Fig. 8
-/// (d).
+/// Moves a predicted body to the measured torso, and keeps its joint angles. Fig. 8 (d).
 ///
-/// The template is round and does not show which way the chest faces: the torso turns from the
-/// prediction the shortest way.
-/// @param down_W  the torso's axis, from the neck on; unit length.
+/// The template is round and does not show the direction of the chest. So the torso turns from the
+/// prediction by the smallest rotation.
+/// @param down_W  the torso's axis, away from the neck; unit length.
 PoseState MoveToTorso(const BodyModel& body, const PoseState& predicted, const Vector3& neck_W,
                       const Vector3& down_W);
 
 /// Labels each voxel with the limb (0 to 3) whose nearer part has the least Mahalanobis distance.
 /// Fig. 8 (e).
 ///
-/// A part's covariance is that of a solid cylinder of its length and width, and of its prediction:
-/// a part that was not seen for a while is looked for farther away.
+/// A part's covariance is the sum of a solid cylinder's of its length and width, and of its
+/// prediction's. So a part that was not seen for a while is searched for in a larger region.
 /// @return  the voxels of each limb.
 std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,
                                                    std::span<const int> voxels,

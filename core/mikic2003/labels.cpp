@@ -8,7 +8,7 @@ namespace {
 constexpr std::array<std::array<int, 3>, 6> kFaces = {
     {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
-// Takes all voxels that hang together with the first one out of `waiting`.
+// Takes all voxels that are connected with the first one out of `waiting`.
 VoxelIndices TakeRegion(const VoxelCloud& cloud, int first, std::vector<char>& waiting) {
   VoxelIndices region = {first};
   waiting[first] = false;

@@ -1,4 +1,4 @@
-// §6.2: which body part each voxel belongs to.
+// §6.2: assignment of voxels to body parts.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace mocap::mikic2003 {
 
 inline constexpr std::int8_t kUnlabeled = -1;
 
-/// One label a voxel of the cloud: a BodyPart, or kUnlabeled.
+/// One label per voxel of the cloud: a BodyPart, or kUnlabeled.
 using Labels = std::vector<std::int8_t>;
 
 /// Indices of voxels of a cloud.
@@ -21,23 +21,23 @@ using VoxelIndices = std::vector<int>;
 
 inline std::int8_t LabelOf(BodyPart part) { return static_cast<std::int8_t>(part); }
 
-/// Lists the voxels with a label.
+/// Returns the voxels with a label.
 VoxelIndices VoxelsLabeled(const Labels& labels, std::int8_t label);
 
-/// Gives voxels a label.
+/// Sets the label of voxels.
 void SetLabel(std::span<const int> voxels, std::int8_t label, Labels& labels);
 
-/// Mean position of voxels; zero of none.
+/// Returns the mean position of voxels; zero if there are none.
 Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels);
 
-/// Lists those voxels with one of their six neighbours labelled `neighbour`.
+/// Returns those voxels that have a direct neighbour (of six) labelled `neighbour`.
 VoxelIndices BorderWith(const VoxelCloud& cloud, const Labels& labels, std::span<const int> voxels,
                         std::int8_t neighbour);
 
 /// Splits voxels into connected regions (26 neighbours), the largest first.
 std::vector<VoxelIndices> ConnectedRegions(const VoxelCloud& cloud, std::span<const int> voxels);
 
-/// Finds the connected region with the voxel that is nearest to a place; nothing of none.
+/// Finds the connected region with the voxel nearest to a point; empty if there are no voxels.
 VoxelIndices PieceNearest(const VoxelCloud& cloud, std::span<const int> voxels, const Vector3& p_W);
 
 }  // namespace mocap::mikic2003

@@ -12,7 +12,7 @@ namespace mocap::mikic2003 {
 
 inline constexpr int kLimbCount = 4;
 
-/// Proportions of Table 3: how long a part is for each millimetre of the torso's length.
+/// Proportions of Table 3: length of a part per millimetre of the torso's length.
 inline constexpr double kThighPerTorso = 0.9;
 inline constexpr double kCalfPerTorso = 1.0;
 inline constexpr double kUpperArmPerTorso = 0.55;
@@ -24,7 +24,7 @@ struct Limb {
   Point root, joint, end;
   SizeMember upper_length, lower_length;
   SizeMember upper_width, lower_width;
-  double upper_share;  ///< Of a straight limb's length that its upper part takes; by Table 3.
+  double upper_share;  ///< Share of the upper part in a straight limb's length, by Table 3.
 };
 
 inline constexpr double kUpperArmShare =
@@ -46,7 +46,7 @@ inline constexpr std::array<Limb, kLimbCount> kLimbs = {
          &BodySizes::thigh, &BodySizes::calf, &BodySizes::thigh_width, &BodySizes::calf_width,
          kThighShare}};
 
-/// The 23 points of Table 2, p_WQ [mm]. A point of a part with too few voxels is absent.
+/// The 23 points of Table 2, p_WQ [mm]. Points of parts with too few voxels are absent.
 using MeasuredPoints = std::array<std::optional<Vector3>, kPointCount>;
 
 inline std::optional<Vector3>& At(MeasuredPoints& points, Point point) {

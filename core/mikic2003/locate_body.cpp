@@ -12,17 +12,17 @@ namespace mocap::mikic2003 {
 namespace {
 
 constexpr double kAverageStatureMm = 1700;
-// Small templates that are grown.
+// Small templates to be grown.
 constexpr double kSmallTorsoMm = 150, kSmallTorsoRadiusMm = 60;
 constexpr double kSmallLimbMm = 60, kSmallLimbRadiusMm = 30;
-// A template has its part's size where half of the next step would be void.
+// A template has the size of its part if half of the next step would be void.
 constexpr double kSizeShare = 0.5;
-// The torso's voxels are those of a template that grows on while a quarter of a step is flesh: else
-// the trunk's rim holds the limbs together, and there are no four regions (Fig. 11 (f)).
+// The template for the torso's voxels grows while a quarter of a step is flesh. Otherwise the
+// trunk's rim connects the limbs, and there are not four regions (Fig. 11 (f)).
 constexpr double kRimShare = 0.25;
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
-// Less of the body is a stray piece of the torso and no limb: an arm has 0.05 of a body's mass
-// (Winter 2009, Table 4.1), but a part of it may be in the torso's template.
+// A smaller share of the body is a stray piece of the torso and no limb. An arm has 0.05 of a
+// body's mass (Winter 2009, Table 4.1), but a part of it may be in the torso's template.
 constexpr double kLeastLimbShare = 0.025;
 
 const BodySizes kAverage = AverageSizes(kAverageStatureMm);
@@ -37,7 +37,7 @@ Matrix3 CovarianceOf(const VoxelCloud& cloud, std::span<const int> voxels) {
   return covariance / std::max<double>(1, static_cast<double>(voxels.size()));
 }
 
-// From the lowest to the highest place along a direction.
+// Distance between the lowest and the highest position along a direction.
 double ExtentOf(const VoxelCloud& cloud, std::span<const int> voxels, const Vector3& direction_W) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const int voxel : voxels) {
@@ -54,8 +54,8 @@ double HeightOf(const VoxelCloud& cloud) {
   return ExtentOf(cloud, all, Vector3::UnitZ());
 }
 
-// Its length is the extent along the neck. Its width is that of the ball with the same second
-// moments as its middle: the two smaller dimensions are averaged (§5.2).
+// The head's length is its extent along the neck. Its width is that of a ball with the second
+// moments of the head's middle: the two smaller dimensions are averaged (§5.2).
 void MeasureHead(const VoxelCloud& cloud, const HeadFit& head, BodySizes& sizes) {
   const Vector3 up_W = (head.center_W - head.neck_W).normalized();
   sizes.neck = (head.center_W - head.neck_W).norm();
@@ -73,8 +73,7 @@ void MeasureTorso(const Cylinder& torso, BodySizes& sizes) {
   sizes.torso = torso.length_mm;
   sizes.torso_width = 2 * std::max(torso.half_width_mm, torso.half_depth_mm);
   sizes.torso_depth = 2 * std::min(torso.half_width_mm, torso.half_depth_mm);
-  // Fig. 3: joints lie at fixed shares of the torso's width; the shares are those of average
-  // people.
+  // Fig. 3: joints lie at fixed shares of the torso's width, here those of average people.
   sizes.shoulder_width = sizes.torso_width * kAverage.shoulder_width / kAverage.torso_width;
   sizes.hip_width = sizes.torso_width * kAverage.hip_width / kAverage.torso_width;
 }
@@ -103,7 +102,7 @@ std::optional<Regions> FindLimbs(const VoxelCloud& cloud, const Labels& labels) 
   return regions;
 }
 
-// Puts arms before legs and one side before the other; returns the direction of that side.
+// Sorts arms before legs and one side before the other; returns the direction of that side.
 Vector3 SortLimbs(const Cylinder& torso, Regions& regions) {
   const auto along = [&](const Region& region) {
     return torso.axis_W.dot(region.root_W - torso.anchor_W);
@@ -129,8 +128,9 @@ double FarthestFrom(const VoxelCloud& cloud, const Region& region) {
   return farthest_mm;
 }
 
-// Fig. 11 (g): the template of an average upper arm or thigh, and a small one grown in its place. A
-// straight limb does not show where it ends: it is no longer than its share of the limb by Table 3.
+// Fig. 11 (g): places the template of an average upper arm or thigh, then grows a small one there.
+// The end of a straight limb's upper part is not visible: its length is at most its share by Table
+// 3.
 Cylinder GrowUpper(const VoxelCloud& cloud, const Region& region, const Limb& limb) {
   const double longest_mm = limb.upper_share * FarthestFrom(cloud, region);
   const Vector3 axis_W = (CentroidOf(cloud, region.voxels) - region.root_W).normalized();
@@ -144,7 +144,7 @@ Cylinder GrowUpper(const VoxelCloud& cloud, const Region& region, const Limb& li
       longest_mm);
 }
 
-// Fig. 11 (h): of what is left of a limb, the piece closest to the end of its upper part.
+// Fig. 11 (h): from the rest of a limb, takes the piece closest to the end of its upper part.
 VoxelIndices FindLower(const VoxelCloud& cloud, const Labels& labels, const Region& region,
                        const Cylinder& upper) {
   VoxelIndices rest;
@@ -156,7 +156,7 @@ VoxelIndices FindLower(const VoxelCloud& cloud, const Labels& labels, const Regi
 
 double WidthOf(const Cylinder& grown) { return grown.half_width_mm + grown.half_depth_mm; }
 
-// Fig. 11 (h): a template in what is left of the limb, from where it meets the upper part.
+// Fig. 11 (h): grows a template in the rest of the limb, starting where it meets the upper part.
 Cylinder GrowLower(const VoxelCloud& cloud, const Labels& labels, const VoxelIndices& lower,
                    const Limb& limb) {
   const VoxelIndices meeting = BorderWith(cloud, labels, lower, LabelOf(limb.upper));
@@ -177,13 +177,13 @@ void LabelLimb(const VoxelCloud& cloud, const Region& region, int limb, LocatedB
   SetLabel(lower, LabelOf(parts.lower), located.frame.labels);
   located.frame.upper_axes_W[limb] = upper.axis_W;
   BodySizes& sizes = located.sizes;
-  // Both sides are one size: the mean of what they measure.
+  // Both sides have one size: the mean of their measurements.
   sizes.*parts.upper_length += upper.length_mm / 2;
   sizes.*parts.upper_width += WidthOf(upper) / 2;
   sizes.*parts.lower_width += WidthOf(GrowLower(cloud, located.frame.labels, lower, parts)) / 2;
 }
 
-// What is too small to be measured has the length of its proportion to the torso.
+// Parts that are too small to measure get their length from their proportion to the torso.
 void MeasureLowerLengths(const VoxelCloud& cloud, LocatedBody& located) {
   const MeasuredPoints points = MeasurePoints(cloud, located.frame);
   const LengthMeasurements lengths = MeasureLengths(points, located.height_less_head_mm);

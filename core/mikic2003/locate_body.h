@@ -10,7 +10,7 @@
 
 namespace mocap::mikic2003 {
 
-/// A body as the first frame shows it. Which side is left is not known yet (§7.3).
+/// A body in the first frame. Left and right are not distinguished yet (§7.3).
 struct LocatedBody {
   LabeledFrame frame;
   BodySizes sizes;
@@ -19,14 +19,14 @@ struct LocatedBody {
 };
 
 /// Locates head, torso and limbs. Fig. 11 (b)–(i).
-/// @return  nothing when a part is not found: the next frame is then the first.
+/// @return  nothing if a part is not found: the next frame is then the first.
 std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud);
 
-/// Fits the template of an average torso, and grows a small one in its place. Fig. 10 (a)–(d).
+/// Fits the template of an average torso, then grows a small one there. Fig. 10 (a)–(d).
 ///
 /// A grown section is elliptic. Its side lies along the longer axis of the average template's
 /// voxels.
-/// @param voxels  all that are not the head's.
+/// @param voxels  all voxels but the head's.
 Cylinder GrowTorso(const VoxelCloud& cloud, std::span<const int> voxels, const Vector3& neck_W);
 
 }  // namespace mocap::mikic2003

@@ -15,7 +15,7 @@ bool IsEnough(const VoxelCloud& cloud, const VoxelIndices& voxels) {
   return static_cast<double>(voxels.size()) * std::pow(cloud.voxel_mm(), 3) * 1e-6 >= kFewestLitres;
 }
 
-// The mean of the twentieth of the voxels that are farthest by a measure of places.
+// Mean of the twentieth of the voxels with the largest values of `measure`.
 template <typename Measure>
 Vector3 FarthestBy(const VoxelCloud& cloud, VoxelIndices voxels, const Measure& measure) {
   const auto count = static_cast<std::ptrdiff_t>((voxels.size() + kEndShare - 1) / kEndShare);

@@ -1,4 +1,4 @@
-// Fig. 5, Table 2 and Fig. 8 (g): the 23 points that labelled voxels show.
+// Fig. 5, Table 2 and Fig. 8 (g): measures the 23 points from labelled voxels.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ struct LabeledFrame {
 
 /// Measures centroids and ends of the labelled parts. Table 2.
 ///
-/// The paper does not say how ends are taken: here an end is the mean of the twentieth of a part's
-/// voxels that lies farthest. Shoulders and hips are the near ends of upper arms and thighs along
-/// their axes, elbows and knees the far ends; fingertips and feet lie farthest from elbow and knee.
-/// Parts of less than 0.1 litres are not measured.
+/// The paper does not define ends. Here an end is the mean of the farthest twentieth of a part's
+/// voxels. Shoulders and hips are the near ends of upper arms and thighs along their axes, elbows
+/// and knees the far ends. Fingertips and feet are farthest from elbow and knee. Parts of less than
+/// 0.1 litres are not measured.
 MeasuredPoints MeasurePoints(const VoxelCloud& cloud, const LabeledFrame& frame);
 
 }  // namespace mocap::mikic2003

@@ -18,11 +18,11 @@ namespace {
 
 // §8.1: refinement stops when the sum of the changes of lengths falls below this.
 constexpr double kSettledMm = 3;
-// The paper has no loss of track. Here a person is gone whose measured points lie half a limb from
-// the body's, or cannot be measured, for a second.
+// The paper does not define loss of track. Here a person is lost if, for a second, the measured
+// points are half a limb away from the body's, or cannot be measured.
 constexpr double kLostResidualMm = 200;
 constexpr double kLostAfterS = 1;
-// A child of 1.1 m has some 18 litres of flesh; less is nobody.
+// A child of 1.1 m has about 18 litres of flesh; less is nobody.
 constexpr double kLeastLitres = 12;
 
 }  // namespace
@@ -47,7 +47,7 @@ class MikicCapture::Impl {
 
   const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                               UpdateObserver* observer) {
-    // A clock may be put back.
+    // The clock may be set back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     last_ns_ = capture_ns;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
@@ -182,7 +182,7 @@ const CaptureResult& MikicCapture::Update(const Sighting& sighting, std::int64_t
 void MikicCapture::Forget() { impl_->StartOver({}); }
 void MikicCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
 const CaptureResult& MikicCapture::result() const { return impl_->result(); }
-// The filter's own prediction is Fig. 12's, of points; between frames a person stays near.
+// The filter's own prediction is that of points in Fig. 12; between frames a person stays near.
 PoseState MikicCapture::PredictedPose(std::int64_t) const { return impl_->result().pose; }
 const BodyModel& MikicCapture::body() const { return impl_->body(); }
 int MikicCapture::acquisition_frames() const { return impl_->acquisition_frames(); }

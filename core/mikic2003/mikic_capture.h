@@ -7,10 +7,10 @@
 
 namespace mocap::mikic2003 {
 
-/// Checks that a table has the sixteen axes of the paper's Table 1 and no other. @throws SetupError
+/// Checks that a table has exactly the sixteen axes of the paper's Table 1. @throws SetupError
 void RequirePaperAxes(const BodyTable& table);
 
-/// Follows a person as Mikić, Trivedi, Hunter and Cosman (2003) do: by labelled voxels alone,
+/// Tracks a person as Mikić, Trivedi, Hunter and Cosman (2003) do: by labelled voxels alone,
 /// without outlines.
 class MikicCapture : public MotionCapture {
  public:

@@ -8,12 +8,12 @@ namespace mocap::mikic2003 {
 namespace {
 
 constexpr double kSignificant = 0.8;
-// "Usually several iterations"; from the first frame's rough start the way is longer.
+// "Usually several iterations"; the first frame's rough start needs more.
 constexpr int kIterations = 5;
 constexpr int kFirstIterations = 30;
 constexpr double kSlightBendRad = 0.3;
 
-// Limbs start with a slight bend, so that knees and elbows know their way.
+// Limbs start slightly bent, so that knees and elbows bend in the right direction.
 PoseState StartOf(const BodyModel& body, const Matrix3& R_WT, const MeasuredPoints& points) {
   PoseState pose;
   pose.X_WT.R = R_WT;

@@ -1,4 +1,4 @@
-// §7.3: which side of a body is left. Fig. 14.
+// §7.3: distinguishes left from right. Fig. 14.
 #pragma once
 
 #include <array>
@@ -9,23 +9,23 @@
 
 namespace mocap::mikic2003 {
 
-/// Exchanges the points of left and right.
+/// Swaps the points of left and right.
 MeasuredPoints ExchangeSides(const MeasuredPoints& points);
 
-/// A body that is followed in both orientations until one of them fits clearly better.
+/// A body that is tracked in both orientations until one fits clearly better.
 ///
-/// "A significant difference" of the fits is a fifth. Nothing is decided before the sizes have
+/// "A significant difference" of the fits is a fifth. The decision waits until the sizes have
 /// settled: until then both fits are bad.
 class OrientedBody {
  public:
-  /// Adjusts both orientations to the points of the first frame.
+  /// Fits both orientations to the points of the first frame.
   /// @param R_WT    of the torso in one orientation.
-  /// @param points  their sides are those of that orientation.
+  /// @param points  with the sides of that orientation.
   OrientedBody(const BodyModel& body, const Matrix3& R_WT, const MeasuredPoints& points);
 
   void Predict(double dt_s);
-  /// Adjusts what is still possible to the points of a frame.
-  /// @param points  their sides are those of best().
+  /// Fits the remaining orientations to the points of a frame.
+  /// @param points  with the sides of best().
   /// @param may_decide  whether a clear difference counts.
   void Update(const BodyModel& body, const MeasuredPoints& points, bool may_decide);
 

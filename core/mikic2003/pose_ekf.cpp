@@ -9,9 +9,9 @@
 namespace mocap::mikic2003 {
 namespace {
 
-constexpr int kAxis = 3, kAngle = 6, kJoints = 7;  // Places of ω0, θ0, θ1 in the state.
+constexpr int kAxis = 3, kAngle = 6, kJoints = 7;  // Positions of ω0, θ0, θ1 in the state.
 constexpr double kMeasurementStdMm = 50;
-// How fast people move.
+// Speeds of people.
 constexpr double kTorsoMmPerS = 1500;
 constexpr double kTorsoRadPerS = 3;
 constexpr double kJointRadPerS = 6;
@@ -19,7 +19,7 @@ constexpr double kJointRadPerS = 6;
 constexpr double kStartStdMm = 100;
 constexpr double kStartStdRad = 1;
 constexpr double kTurnedRad = 2 * std::numbers::pi / 3;
-// Iterations are linear only over small angles [rad].
+// Iterations are linear only for small angles [rad].
 constexpr double kWidestStep = 0.3;
 constexpr double kStillStep = 0.01;
 
@@ -31,7 +31,7 @@ State StandardDeviations(double torso_mm, double torso_rad, double joint_rad) {
   return std;
 }
 
-// How the axis of any length turns as a unit vector: ∂(ω/|ω|)/∂ω.
+// Derivative of the unit vector of an axis of any length: ∂(ω/|ω|)/∂ω.
 Matrix3 UnitJacobian(const Vector3& axis) {
   const Vector3 unit = axis.normalized();
   return (Matrix3::Identity() - unit * unit.transpose()) / axis.norm();
@@ -39,7 +39,7 @@ Matrix3 UnitJacobian(const Vector3& axis) {
 
 Matrix3 AboutVertical(double angle_rad) { return ExpRotation(angle_rad * Vector3::UnitZ()); }
 
-// Axis and angle of a rotation, the one of two that is nearer to an axis.
+// Axis and angle of a rotation, with the sign that is closer to a given axis.
 Eigen::Vector4d AxisAngleNear(const Matrix3& R, const Vector3& near_axis) {
   const Vector3 rotation = LogRotation(R);
   const double angle = rotation.norm();
@@ -99,7 +99,7 @@ PointJacobian DifferentiatePoint(const BodyModel& body, const State& x, const Po
     J.col(kAxis + i) = rotation * p_TQ;
   }
   J.col(kAngle) = (cosine * unit_hat + sine * unit_hat * unit_hat) * p_TQ;  // Eq. (18)
-  // Eqs. (19)–(21): the point moves square to each of its axes.
+  // Eqs. (19)–(21): the point moves perpendicular to each of its axes.
   for (int row = body.CarrierOf(point); row >= 0; row = body.table().joints[row].parent) {
     J.col(kJoints + body.table().joints[row].paper_angle - 1) =
         posture.axis_W[row].cross(p_WQ - posture.point_W[row]);
@@ -163,7 +163,7 @@ void PoseEkf::TurnFrame() {
         AxisAngleNear(R * TorsoRotation(x.segment<3>(kAxis), x[kAngle]), Vector3::UnitZ());
     return result;
   };
-  // The covariance goes along to first order, by differences of the map.
+  // Propagates the covariance to first order, by finite differences of the map.
   constexpr double kStep = 1e-5;
   StateCovariance J;
   for (int i = 0; i < kStateSize; ++i) {

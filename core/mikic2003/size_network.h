@@ -8,24 +8,24 @@
 
 namespace mocap::mikic2003 {
 
-/// The leaves of Fig. 13 that a frame shows; lengths [mm]. What was not measured is absent.
+/// The leaves of Fig. 13 for one frame; lengths [mm]. Lengths that were not measured are absent.
 struct LengthMeasurements {
   std::optional<double> thigh, calf, upper_arm, lower_arm;  ///< Thm, Cm, UAm, LAm.
-  double height = 0;                                        ///< Of the person, less the head.
+  double height = 0;                                        ///< Of the person, without the head.
 };
 
-/// Takes the lengths of the limbs' parts from measured points: the mean of left and right.
+/// Computes the lengths of the limbs' parts from measured points, as means of left and right.
 LengthMeasurements MeasureLengths(const MeasuredPoints& points, double height_less_head_mm);
 
-/// Estimates lengths from what is measured, what was believed, and known proportions.
+/// Estimates lengths from measurements, earlier estimates and known proportions.
 class SizeNetwork {
  public:
-  /// Computes the mean of every length given all leaves; exact, since all nodes are linear and
-  /// Gaussian. Eq. (22).
+  /// Computes the mean of every length given all leaves. It is exact, because all nodes are linear
+  /// and Gaussian. Eq. (22).
   ///
-  /// Where the measured torso, thigh and calf add up to clearly more than the height, that sum is
-  /// the height: the person does not stand upright. ("Significantly" is 10 %.)
-  /// @param sizes  takes the new lengths.
+  /// If measured torso, thigh and calf are together clearly longer than the height, their sum
+  /// replaces the height: the person does not stand upright. ("Significantly" is 10 %.)
+  /// @param sizes  gets the new lengths.
   /// @return  the sum of the lengths' changes [mm].
   double Update(LengthMeasurements measured, BodySizes& sizes);
 
