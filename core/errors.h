@@ -1,5 +1,5 @@
-// Failures of set-up and of the program itself; weather (a timeout, a torn frame) is a value, never
-// an exception.
+// Failures of set-up and of the program itself. An outage (a timeout, a torn frame) is a value,
+// never an exception.
 #pragma once
 
 #include <cstdio>
@@ -18,7 +18,7 @@ class SetupError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Ends the program with a message: for states that only a bug can reach.
+/// Ends the program with a message, for states that only a bug can reach.
 [[noreturn]] inline void AbortOnBug(const char* condition, const char* file, int line) {
   std::fprintf(stderr, "%s:%d: bug: %s does not hold\n", file, line, condition);
   std::abort();

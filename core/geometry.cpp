@@ -9,7 +9,7 @@ namespace mocap {
 Matrix3 ExpRotation(const Vector3& rotation_vector) {
   const double angle_sq = rotation_vector.squaredNorm();
   const Matrix3 W = Hat(rotation_vector);
-  // Below this the series is exact to the last bit and the quotients are not.
+  // Below this the series is exact to the last bit, the quotients are not.
   if (angle_sq < 1e-8)
     return Matrix3::Identity() + (1 - angle_sq / 6) * W + (0.5 - angle_sq / 24) * W * W;
   const double angle = std::sqrt(angle_sq);
@@ -18,7 +18,7 @@ Matrix3 ExpRotation(const Vector3& rotation_vector) {
 }
 
 Vector3 LogRotation(const Matrix3& R) {
-  // Through the quaternion, whose four branches stay accurate at every angle up to π.
+  // Uses the quaternion, whose four branches are accurate at every angle up to π.
   Eigen::Quaterniond q(R);
   q.normalize();
   if (q.w() < 0) q.coeffs() = -q.coeffs();

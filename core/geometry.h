@@ -1,5 +1,5 @@
-// Rotations and rigid transforms in monogram notation: X_CW takes points of the world W to the
-// camera C, p_WQ is point Q in W, and neighbouring letters match in products. Millimetres and
+// Rotations and rigid transforms in monogram notation: X_CW transforms points from the world W to
+// the camera C, p_WQ is point Q in W. Adjacent letters match in products. Units are millimetres and
 // radians.
 #pragma once
 
@@ -12,26 +12,26 @@ using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 
-/// Makes the matrix of the cross product: Hat(w) v = w × v. Mikić et al. 2003, Eq. (3).
+/// Returns the matrix of the cross product: Hat(w) v = w × v. Mikić et al. 2003, Eq. (3).
 inline Matrix3 Hat(const Vector3& w) {
   Matrix3 m;
   m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
   return m;
 }
 
-/// Turns a rotation vector (axis times angle [rad]) into a rotation matrix. Mikić et al. 2003, Eq.
+/// Converts a rotation vector (axis times angle [rad]) to a rotation matrix. Mikić et al. 2003, Eq.
 /// (7).
 Matrix3 ExpRotation(const Vector3& rotation_vector);
 
-/// Gives the rotation vector [rad], of length at most π, of a rotation matrix; the inverse of
+/// Converts a rotation matrix to its rotation vector [rad] of length at most π; the inverse of
 /// ExpRotation.
 Vector3 LogRotation(const Matrix3& R);
 
-/// Gives the rotation nearest to a matrix that is nearly one, and one itself unchanged.
-/// @param R  with a determinant above 0.
+/// Returns the rotation nearest to a matrix that is almost one; a rotation stays unchanged.
+/// @param R  with a positive determinant.
 Matrix3 NearestRotation(const Matrix3& R);
 
-/// Moves points from one frame to another: p_A = R_AB p_B + p_AB.
+/// Transforms points from one frame to another: p_A = R_AB p_B + p_AB.
 struct RigidTransform {
   Matrix3 R = Matrix3::Identity();
   Vector3 p = Vector3::Zero();
@@ -43,12 +43,12 @@ struct RigidTransform {
   RigidTransform Inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-/// Turns about an axis that need not pass through the origin.
+/// Rotates about an axis that need not pass through the origin.
 ///
 /// @param axis   unit vector.
 /// @param point  any point on the axis [mm].
-/// @return  the transform that turns a body by `angle` [rad], right-handed. Mikić et al. 2003, Eq.
-/// (6).
+/// @return  the transform that rotates a body by `angle` [rad], right-handed. Mikić et al. 2003,
+/// Eq. (6).
 RigidTransform RotationAbout(const Vector3& axis, const Vector3& point, double angle);
 
 }  // namespace mocap

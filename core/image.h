@@ -1,4 +1,4 @@
-// Pixels: a view that borrows and an image that owns.
+// Pixels: a non-owning view and an owning image.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace mocap {
 
-/// One colour pixel as OpenCV and FFmpeg's bgr24 lay it out.
+/// One colour pixel in the layout of OpenCV and FFmpeg's bgr24.
 struct Bgr {
   std::uint8_t b = 0, g = 0, r = 0;
   friend bool operator==(const Bgr&, const Bgr&) = default;
 };
 static_assert(sizeof(Bgr) == 3);
 
-/// Borrows a rectangle of pixels; valid as long as its lender says.
+/// A non-owning rectangle of pixels; valid as long as the owner permits.
 template <typename T>
 class ImageView {
  public:
@@ -24,7 +24,7 @@ class ImageView {
   ImageView(T* data, int width, int height, std::ptrdiff_t stride)
       : data_(data), width_(width), height_(height), stride_(stride) {}
   ImageView(T* data, int width, int height) : ImageView(data, width, height, width) {}
-  /// A view of mutable pixels serves wherever a view of constant ones is wanted.
+  /// Converts a view of mutable pixels to one of constant pixels.
   operator ImageView<const T>() const requires(!std::is_const_v<T>) {
     return {data_, width_, height_, stride_};
   }
@@ -35,7 +35,7 @@ class ImageView {
   bool empty() const { return width_ == 0 || height_ == 0; }
   T* row(int y) const { return data_ + y * stride_; }
   T& operator()(int x, int y) const { return row(y)[x]; }
-  /// A part of it.
+  /// Returns a view of a part.
   ImageView Section(int left, int top, int width, int height) const {
     return {row(top) + left, width, height, stride_};
   }
@@ -47,21 +47,21 @@ class ImageView {
   std::ptrdiff_t stride_ = 0;
 };
 
-/// Calls for memory that is needed soon.
+/// Prefetches memory that is needed soon.
 inline void FetchBytes(const void* from, std::size_t count) {
   constexpr std::size_t kCacheLine = 64;
   for (std::size_t i = 0; i < count; i += kCacheLine)
     __builtin_prefetch(static_cast<const std::uint8_t*>(from) + i);
 }
 
-/// Calls for pixels [begin, end) of a row that are needed soon, if the image has that row: short
-/// stretches of rows end before a processor sees by itself where the next begins.
+/// Prefetches pixels [begin, end) of a row that are needed soon, if the image has that row. Short
+/// pieces of rows end before the processor's own prefetching has found the next.
 template <typename T>
 void FetchPixels(ImageView<const T> image, int y, int begin, int end) {
   if (y < image.height()) FetchBytes(image.row(y) + begin, (end - begin) * sizeof(T));
 }
 
-/// Owns pixels, row after row without gaps.
+/// An owning image, row by row without gaps.
 template <typename T>
 class Image {
  public:

@@ -1,4 +1,4 @@
-// Numbers side by side, for loops whose choices the compiler would make branches of.
+// Small vectors of numbers, for loops whose choices the compiler would turn into branches.
 #pragma once
 
 #include <array>
@@ -13,15 +13,14 @@
 
 #include "core/vectorized.h"
 
-/// Stands before a function that becomes part of vectorized ones, and so has as many versions.
+/// Marks a function that is inlined into vectorized ones, and so has as many versions.
 #define MOCAP_INLINE inline __attribute__((always_inline))
 
 namespace mocap {
 
-/// So many numbers side by side, for what the compiler would make branches of. They live in
-/// registers only, because how they lie in memory depends on the processor: there they are arrays.
-/// How they are handed over depends on it as well: functions that take or give them are
-/// MOCAP_INLINE.
+/// Vectors of numbers, where the compiler would produce branches. They live in registers only,
+/// because their layout in memory depends on the processor; there they are arrays. The calling
+/// convention depends on it too: functions that take or return them are MOCAP_INLINE.
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 inline constexpr int kFloats = 8;
@@ -50,7 +49,7 @@ MOCAP_INLINE void TakeRoots(Lanes& x) {
   LoadLanes(numbers, x);
 }
 
-/// The lesser, or the larger, lane by lane.
+/// The smaller, or the larger number, lane by lane.
 template <typename Lanes>
 MOCAP_INLINE Lanes Least(Lanes a, Lanes b) {
   return a < b ? a : b;
@@ -59,8 +58,7 @@ template <typename Lanes>
 MOCAP_INLINE Lanes Most(Lanes a, Lanes b) {
   return a < b ? b : a;
 }
-/// One number in every lane. GCC 12 would put an integer that is added to zeros into one after the
-/// other.
+/// The same number in every lane. GCC 12 would add an integer to zeros one lane at a time.
 MOCAP_INLINE Floats AllOf(float number) { return Floats{} + number; }
 MOCAP_INLINE Ints AllOf(int number) {
   Ints first{};
@@ -73,7 +71,7 @@ MOCAP_INLINE Floats SizeOf(Floats x) {
 MOCAP_INLINE Ints TowardsZero(Floats x) { return __builtin_convertvector(x, Ints); }
 MOCAP_INLINE Floats ToFloats(Ints x) { return __builtin_convertvector(x, Floats); }
 
-/// All bits that are set in any lane.
+/// Returns all bits that are set in any lane.
 MOCAP_INLINE unsigned UnionOf(Ints bits) {
   using Half = std::int32_t __attribute__((vector_size(sizeof(Ints) / 2)));
   Half united = __builtin_shufflevector(bits, bits, 0, 1, 2, 3) |
@@ -81,7 +79,7 @@ MOCAP_INLINE unsigned UnionOf(Ints bits) {
   united |= __builtin_shufflevector(united, united, 2, 3, 0, 1);
   return static_cast<unsigned>(united[0] | united[1]);
 }
-/// A choice of lanes as bits, the first in the lowest, and back.
+/// Converts selected lanes to bits, the first lane in the lowest bit, and back.
 MOCAP_INLINE Ints PlaceBits() { return Ints{1, 2, 4, 8, 16, 32, 64, 128}; }
 MOCAP_INLINE unsigned BitsOf(Ints choice) {
 #ifdef __SSE2__
@@ -99,12 +97,12 @@ MOCAP_INLINE Ints ChoiceOf(unsigned bits) {
   return (AllOf(static_cast<int>(bits)) & PlaceBits()) == PlaceBits();
 }
 
-/// Where eight numbers of a table are taken from: they go through memory, for to take them out of a
-/// register one by one keeps busy what else shuffles.
+/// Indices of eight table entries. They pass through memory, because extracting them from a
+/// register one by one occupies the units that shuffle.
 struct Places {
   MOCAP_INLINE explicit Places(Ints places) {
     StoreLanes(places, at.data());
-    asm("" : "+m"(at));  // Compilers know that they are still in a register.
+    asm("" : "+m"(at));  // Otherwise compilers know that they are still in a register.
   }
   alignas(32) std::array<std::int32_t, kFloats> at;
 };

@@ -1,4 +1,4 @@
-// The trackers that there are.
+// The available trackers.
 #pragma once
 
 #include <memory>
@@ -7,16 +7,16 @@
 
 namespace mocap {
 
-/// Which tracker follows the person.
+/// Selects the tracker of a person.
 enum class TrackerKind {
   kSurface,    ///< Beyond the paper: the surface of the flesh and the silhouettes' outlines.
   kMikic2003,  ///< The paper's §6 and §7 as published.
 };
 
-/// Checks that a tracker can follow a body. @throws SetupError
+/// Checks that a tracker supports a body. @throws SetupError
 void RequireBodyOf(TrackerKind kind, const BodyTable& table);
 
-/// Makes a tracker for a body. @throws SetupError  when the tracker wants another one.
+/// Creates a tracker for a body. @throws SetupError  if the tracker does not support it.
 std::unique_ptr<MotionCapture> MakeMotionCapture(TrackerKind kind, const BodyTable& table);
 
 }  // namespace mocap

@@ -15,29 +15,29 @@
 namespace mocap {
 namespace {
 
-// A child of 1.1 m has some 18 litres of flesh; less is a stray shadow, or somebody at the edge of
+// A child of 1.1 m has about 18 litres of flesh. Less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
-// More than a first fit may cost: who is followed already, and whose cameras err, is not given up.
+// Higher than the limit for a first fit: errors of cameras should not end tracking.
 constexpr double kLostCostMm = 55;
-// A fit that is worse than this for some frames is tried against a fresh look at the voxels, which
-// must be clearly better.
+// If a fit is worse than this for some frames, it is compared with a new search, which must be
+// clearly better.
 constexpr double kDoubtCostMm = 28;
 constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
-// After a look that found nothing better twice as many frames pass before the next, up to this.
+// After each search without a better result, the wait doubles, up to this number of frames.
 constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
-// The first look at somebody is a whole search; what follows, also where a pose is in doubt, takes
-// about the time that there is.
+// The first search is a full one. Later ones, also for doubtful poses, are limited to about the
+// available time.
 constexpr double kSearchesPerS = 9;
 constexpr double kLeastEffort = 0.1;
-// Sizes come to rest after so many frames that were fitted well.
+// Sizes settle after this many well-fitted frames.
 constexpr int kFramesToRefine = 90;
 
 double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
 
-// Covariance of a point of the body, from that of the joints that move it.
+// Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
                      const Vector3& p_WQ, const PoseCovariance& pose) {
   using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
@@ -65,7 +65,7 @@ class SurfaceCapture::Impl {
 
   const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                               UpdateObserver* observer) {
-    // A clock may be put back.
+    // The clock may be set back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
@@ -92,7 +92,7 @@ class SurfaceCapture::Impl {
 
   const CaptureResult& result() const { return result_; }
   PoseState PredictedPose(std::int64_t capture_ns) const {
-    // Of somebody who was lost before the sizes were known nothing is left but the last pose.
+    // If a person was lost before the sizes were known, only the last pose is left.
     if (!tracker_) return result_.pose;
     const std::int64_t ahead_ns = std::max<std::int64_t>(0, capture_ns - last_ns_.value());
     return tracker_->filter().PredictedPose(static_cast<double>(ahead_ns) * 1e-9);
@@ -167,10 +167,10 @@ class SurfaceCapture::Impl {
     result_.body_changed = true;
   }
 
-  // Sizes that are still young may be what is wrong.
+  // Sizes from few frames may be the cause of a bad fit.
   bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
 
-  // Sizes that are not known yet are not taken for granted, nor is the way that the person faces.
+  // Neither unknown sizes nor the person's heading are taken for granted.
   void LookAgainInDoubt(double dt_s) {
     const double cost_mm = tracker_->quality().Cost();
     if (cost_mm <= kDoubtCostMm) {
@@ -231,12 +231,12 @@ class SurfaceCapture::Impl {
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;
-  bool looks_anew_ = true;  ///< Nobody was looked for yet.
+  bool looks_anew_ = true;  ///< No search was made yet.
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;
   int doubtful_frames_ = 0;
-  int patience_ = kFramesToLose;  ///< Doubtful frames before the next look.
+  int patience_ = kFramesToLose;  ///< Doubtful frames before the next search.
 };
 
 SurfaceCapture::SurfaceCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}

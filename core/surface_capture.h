@@ -1,4 +1,4 @@
-// Beyond the paper: follows a person by the surface of its flesh and the silhouettes' outlines.
+// Beyond the paper: tracks a person by the surface of the flesh and the silhouettes' outlines.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace mocap {
 
-/// Acquires a body, draws it to the surface in every frame, loses it and acquires it again.
+/// Acquires a body, fits it to the surface in every frame, loses it and acquires it again.
 class SurfaceCapture : public MotionCapture {
  public:
   explicit SurfaceCapture(const BodyTable& table);

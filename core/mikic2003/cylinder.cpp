@@ -16,8 +16,7 @@ Eigen::AlignedBox3d BoxOf(const Cylinder& cylinder) {
   return {box_W.min().array() - reach_mm, box_W.max().array() + reach_mm};
 }
 
-// Share of occupied cells among those that are in the larger cylinder but not in the smaller one; 0
-// if there are none.
+// Share of occupied cells among those in the larger but not the smaller cylinder; 0 of none.
 double FullShareBetween(const VoxelCloud& cloud, const Cylinder& smaller, const Cylinder& larger) {
   const Vector3 origin_W = cloud.box_W().min();
   const double voxel_mm = cloud.voxel_mm();
@@ -97,7 +96,7 @@ Cylinder GrowCylinder(const VoxelCloud& cloud, std::span<const int> voxels, cons
     cylinder = FitCylinder(cloud, voxels, grown);
     return true;
   };
-  // A dimension that met void may continue to grow after the others have grown.
+  // A dimension that met void may grow on once the others have.
   for (bool grows = true; grows;) {
     grows = grow(&Cylinder::half_width_mm, voxel_mm / 2);
     grows = grow(&Cylinder::half_depth_mm, voxel_mm / 2) || grows;
