@@ -6,7 +6,7 @@
 namespace mocap {
 namespace {
 
-/// Three rows of the mosaic around the one to fill.
+/// Three rows of the mosaic, around the row to fill.
 struct Rows {
   const std::uint8_t* above;
   const std::uint8_t* here;
@@ -18,7 +18,7 @@ std::uint8_t Mean(int a, int b, int c, int d) {
   return static_cast<std::uint8_t>((a + b + c + d + 2) / 4);
 }
 
-/// What stands at x where the row's own colour (red or blue) is.
+/// The colours at x; `own` is the row's own colour (red or blue).
 struct Colours {
   std::uint8_t own, green, other;
 };

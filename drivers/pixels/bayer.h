@@ -1,4 +1,4 @@
-// Colour out of a sensor behind a mosaic of filters.
+// Interpolation of Bayer mosaics to colour pictures.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace mocap {
 
-/// Where a Bayer pattern has its red pixel, in the first two rows and columns.
+/// Position of the red pixel within the first two rows and columns of a Bayer pattern.
 struct BayerOrder {
   int red_x = 0, red_y = 0;
 };
 
-/// Interpolates the colours that a pixel's filter took away from its nearest neighbours; beyond the
-/// border the picture is mirrored.
+/// Interpolates the missing colours of each pixel from its nearest neighbours. Beyond the border
+/// the picture is mirrored.
 /// @pre  width and height are at least 2; out has the same size.
 void InterpolateBayer(ImageView<const std::uint8_t> mosaic, BayerOrder order, Image<Bgr>& out);
 

@@ -1,4 +1,4 @@
-// Pictures for people: small, and quickly made.
+// Small JPEG pictures for viewers.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace mocap {
 
-/// Makes JPEGs with libjpeg-turbo. One thread at a time.
+/// Encodes JPEGs with libjpeg-turbo. Only one thread may use it at a time.
 class JpegEncoder {
  public:
   JpegEncoder();
 
   /// @param quality  1 to 100.
-  /// @param jpeg     overwritten; its memory is used again.
+  /// @param jpeg     overwritten; its memory is reused.
   void Encode(ImageView<const Bgr> image, int quality, std::vector<std::uint8_t>& jpeg);
 
  private:

@@ -20,7 +20,7 @@ std::size_t StrideOf(const RawPicture& picture) {
 
 std::uint8_t Clamped(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
 
-/// A row of pixels as three planes, brightness and colour differences each a byte a pixel.
+/// A row of pixels as three planes of luma and chroma, one byte per pixel each.
 struct YuvRow {
   explicit YuvRow(int width) : y(width + 1), u(width + 1), v(width + 1) {}
   std::vector<std::uint8_t> y, u, v;
@@ -38,7 +38,7 @@ MOCAP_VECTORIZED void ToBgr(const std::uint8_t* __restrict y, const std::uint8_t
   }
 }
 
-/// Takes two pixels' four bytes apart; `bright` is where the first Y stands, `colour` the U.
+/// Splits four bytes of two pixels. `bright` is the index of the first Y, `colour` that of U.
 template <int bright, int colour>
 inline __attribute__((always_inline)) void Unpack(const std::uint8_t* __restrict in, int pairs,
                                                   std::uint8_t* __restrict y,
@@ -124,7 +124,7 @@ BayerOrder OrderOf(PixelFormat format) {
   }
 }
 
-/// Some cameras fill up the end of their JPEGs; all else that TurboJPEG warns of is false pixels.
+/// Some cameras pad the end of their JPEGs. All other TurboJPEG warnings mean wrong pixels.
 bool IsHarmless(std::string_view warning) {
   return warning.find("extraneous bytes before marker 0xd9") != std::string_view::npos;
 }
@@ -154,7 +154,7 @@ std::size_t LeastBytes(const RawPicture& picture) {
   const auto height = static_cast<std::size_t>(picture.height_px);
   const std::size_t rows =
       picture.format == PixelFormat::kNv12 ? height + (height + 1) / 2 : height;
-  // The last row may lack its gap.
+  // The last row may lack its padding.
   return (rows - 1) * StrideOf(picture) + LeastRowBytes(picture.format, picture.width_px);
 }
 
@@ -184,7 +184,7 @@ class PixelConverter::Impl {
 
   bool Convert(const RawPicture& picture, Image<Bgr>& out) {
     MOCAP_CHECK(picture.width_px >= 2 && picture.height_px >= 2);
-    // What a driver says of its rows may be wrong.
+    // The stride that a driver reports may be wrong.
     if (StrideOf(picture) < LeastRowBytes(picture.format, picture.width_px)) return false;
     if (picture.bytes.size() < LeastBytes(picture)) return false;
     if (out.width() != picture.width_px || out.height() != picture.height_px) {

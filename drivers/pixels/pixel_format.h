@@ -1,4 +1,4 @@
-// Pixels as cameras send them, turned into blue, green and red.
+// Conversion of cameras' pixel formats to BGR.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-/// How a camera lays out its pixels. A Bayer pattern is named by its first two rows.
+/// Pixel layout. A Bayer pattern is named by its first two rows.
 enum class PixelFormat {
   kYuyv,  ///< 4:2:2, two pixels in Y U Y V.
   kUyvy,  ///< 4:2:2, two pixels in U Y V Y; GenICam's YUV422Packed.
@@ -22,28 +22,28 @@ enum class PixelFormat {
   kBayerGrbg,
   kBayerGbrg,
   kBayerBggr,
-  kMjpeg  ///< Each frame a JPEG of its own.
+  kMjpeg  ///< Each frame is a separate JPEG.
 };
 
-/// A frame's bytes, borrowed.
+/// A frame's bytes; not owned.
 struct RawPicture {
   PixelFormat format = PixelFormat::kGrey;
   int width_px = 0, height_px = 0;
-  std::size_t stride_bytes = 0;  ///< From row to row; 0: rows follow each other without gaps.
+  std::size_t stride_bytes = 0;  ///< From row to row; 0: rows have no gaps.
   std::span<const std::uint8_t> bytes;
 };
 
-/// Gives the bytes that a row takes at least; for JPEG 0.
+/// Returns the minimum number of bytes per row; 0 for JPEG.
 std::size_t LeastRowBytes(PixelFormat format, int width_px);
 
-/// Gives the bytes that a picture takes at least; for JPEG 1, since only reading it tells.
+/// Returns the minimum number of bytes per picture; 1 for JPEG, whose size is not known in advance.
 std::size_t LeastBytes(const RawPicture& picture);
 
-/// Gives the bytes a pixel that cross the wire; for JPEG what cameras usually need.
+/// Returns the bytes per pixel on the wire; for JPEG a typical value.
 double TypicalBytesPerPixel(PixelFormat format);
 
-/// Turns pictures into pixels of our own. YUV is taken for BT.601 in video range, as V4L2 and
-/// GenICam have it; colours missing in a Bayer pattern are interpolated linearly. Thread-bound.
+/// Converts pictures to BGR. YUV is taken as BT.601 in video range, as in V4L2 and GenICam. Missing
+/// colours of a Bayer pattern are interpolated linearly. Thread-bound.
 class PixelConverter {
  public:
   PixelConverter();
@@ -52,8 +52,9 @@ class PixelConverter {
   PixelConverter& operator=(PixelConverter&&) noexcept;
 
   /// Converts into `out`, whose memory is reused.
-  /// @return  false for a damaged picture: too few bytes, rows that overlap, or no whole JPEG of
-  /// the size named.
+  ///
+  /// @return  false for a damaged picture: too few bytes, overlapping rows, or not a complete JPEG
+  /// of the given size.
   bool Convert(const RawPicture& picture, Image<Bgr>& out);
 
  private:
