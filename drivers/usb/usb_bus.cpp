@@ -39,7 +39,7 @@ double LinkOf(libusb_device* device) {
   }
 }
 
-/// The ports between the controller and a device, as "2.3"; empty for the controller's own hub.
+/// Ports between the controller and a device, as "2.3"; empty for the root hub.
 std::string PortsTo(libusb_device* device) {
   constexpr int kDeepest = 7;
   std::array<std::uint8_t, kDeepest> ports{};
@@ -52,7 +52,7 @@ std::string PortsTo(libusb_device* device) {
   return text;
 }
 
-/// As "0000:00:14.0": the folder that a bus lies in.
+/// Name of a bus's parent folder, as "0000:00:14.0".
 std::string ControllerOf(const fs::path& buses, const std::string& bus) {
   std::error_code error;
   return fs::canonical(buses / ("usb" + bus), error).parent_path().filename().string();
@@ -90,7 +90,7 @@ std::vector<UsbDevice> UsbBus::Devices() const {
     const std::string bus = std::to_string(libusb_get_bus_number(list[i]));
     const std::string ports = PortsTo(list[i]);
     UsbDevice& found = devices.emplace_back();
-    // A device has to go before its context does.
+    // A device must be released before its context.
     found.device = {list[i], [context = context_](libusb_device* d) { libusb_unref_device(d); }};
     found.port = bus + '-' + ports;
     found.bus = "usb-" + ControllerOf(folders, bus) + '-' + ports;
@@ -118,7 +118,7 @@ std::optional<UsbDevice> FindUsbDevice(const std::string& serial) {
     std::erase_if(devices, [&serial](const UsbDevice& d) { return d.serial != serial; });
     if (devices.size() == 1) return devices.front();
   } catch (const SetupError&) {
-    // Its bus stays unknown.
+    // The bus stays unknown.
   }
   return std::nullopt;
 }

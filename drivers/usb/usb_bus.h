@@ -1,4 +1,4 @@
-// What is plugged into USB, and what comes and goes, by libusb.
+// USB devices and hotplug, through libusb.
 #pragma once
 
 #include <chrono>
@@ -13,28 +13,28 @@ struct libusb_device;
 
 namespace mocap {
 
-/// A USB device while it is plugged in.
+/// A USB device while it is connected.
 struct UsbDevice {
   std::shared_ptr<libusb_device> device;
-  std::string port;    ///< As "1-2.3": the bus and the ports on the way, as the kernel names it.
-  std::string bus;     ///< As "usb-0000:00:14.0-2.3", as V4L2 names it: the controller, the ports.
-  std::string model;   ///< Empty: it tells none.
-  std::string serial;  ///< Likewise.
+  std::string port;        ///< As "1-2.3": bus and ports, as the kernel names it.
+  std::string bus;         ///< As "usb-0000:00:14.0-2.3", as in V4L2: controller and ports.
+  std::string model;       ///< Empty if it reports none.
+  std::string serial;      ///< Empty if it reports none.
   double link_mbit_s = 0;  ///< 0: unknown.
 
-  /// What its bandwidth is shared on: the bus without the ports.
+  /// The controller, whose bandwidth is shared: the bus without the ports.
   std::string controller() const { return bus.substr(0, bus.rfind('-')); }
 };
 
 /// Thread-bound.
 class UsbBus {
  public:
-  /// @param sys  where the kernel tells of devices.
+  /// @param sys  the kernel's device folder (sysfs).
   /// @throws SetupError  when libusb cannot be used.
   explicit UsbBus(std::filesystem::path sys = "/sys");
 
   std::vector<UsbDevice> Devices() const;
-  /// Whether a device came or went since the last call; waits so long for one that does.
+  /// Whether a device came or went since the last call. Waits up to `patience` for one.
   bool HasChanged(std::chrono::milliseconds patience = {});
 
  private:
@@ -43,7 +43,7 @@ class UsbBus {
   std::shared_ptr<libusb_context> context_;
 };
 
-/// Finds the only device with a serial number; nothing as well where USB cannot be asked.
+/// Finds the only device with a serial number; empty also if USB is not accessible.
 std::optional<UsbDevice> FindUsbDevice(const std::string& serial);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// Which heads there are on USB, and which one a name means.
+// Pan-tilt heads on USB, found by name.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// A USB device that pans and tilts.
+/// A USB device that can pan and tilt.
 struct UvcHead {
   UsbDevice usb;
   UvcTerminal terminal;
@@ -17,7 +17,7 @@ struct UvcHead {
 
 std::vector<UvcHead> FindUvcHeads(const UsbBus& bus);
 
-/// Finds the head that a serial number, a port ("1-2.3") or a bus ("usb-0000:00:14.0-2.3") means.
+/// Finds the head with a serial number, a port ("1-2.3") or a bus ("usb-0000:00:14.0-2.3").
 /// @throws SetupError  when there is none, or more than one.
 UvcHead FindUvcHead(const UsbBus& bus, const std::string& name);
 

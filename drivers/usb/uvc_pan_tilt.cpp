@@ -18,12 +18,12 @@ enum UvcRequest : std::uint8_t { kSetCur = 0x01, kGetCur = 0x81, kGetMin = 0x82,
 constexpr std::uint16_t kPanTiltAbsolute = 0x0d << 8;
 constexpr std::uint8_t kToInterface =
     std::uint8_t{LIBUSB_REQUEST_TYPE_CLASS} | std::uint8_t{LIBUSB_RECIPIENT_INTERFACE};
-/// Cameras count in seconds of arc.
+/// UVC angles are in seconds of arc.
 constexpr double kUnit_rad = std::numbers::pi / (180 * 3600);
-/// Cameras answer within a few milliseconds; one that hangs must not hold up its frames for long.
+/// Cameras answer within a few milliseconds. One that hangs must not delay its frames for long.
 constexpr unsigned kPatience_ms = 100;
 
-/// Pan and tilt on their way: two 32-bit integers, the low byte first.
+/// Message with pan and tilt: two 32-bit integers, little-endian.
 using Message = std::array<std::uint8_t, 8>;
 
 double AngleAt(const Message& message, std::size_t at) {
@@ -51,7 +51,7 @@ int Transfer(libusb_device_handle* handle, const UvcTerminal& terminal, UvcReque
       (error == LIBUSB_ERROR_ACCESS ? "; membership of the group video is wanted, as a rule" : ""));
 }
 
-/// Takes the device from the kernel's driver, until it is closed.
+/// Opens the device and detaches the kernel's driver until it is closed.
 std::shared_ptr<libusb_device_handle> Open(const UvcHead& head) {
   libusb_device_handle* opened = nullptr;
   int error = libusb_open(head.usb.device.get(), &opened);

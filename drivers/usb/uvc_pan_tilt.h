@@ -1,4 +1,4 @@
-// A head that is turned by USB's own requests for cameras.
+// Pan-tilt heads controlled by USB Video Class requests.
 #pragma once
 
 #include <chrono>
@@ -15,12 +15,12 @@ struct libusb_device_handle;
 namespace mocap {
 
 /// Reads and sets CT_PANTILT_ABSOLUTE_CONTROL (USB Video Class 1.5), for cameras whose pictures
-/// come another way: by network, SDI or HDMI. The kernel's driver has to let go of the device
-/// meanwhile and gets it back at the end; what streams through V4L2 is turned by V4l2PanTilt.
+/// come by network, SDI or HDMI. The kernel's driver is detached meanwhile and attached again at
+/// the end. For cameras that stream through V4L2, use V4l2PanTilt.
 class UvcPanTilt : public PolledPanTilt {
  public:
   /// @param device  serial number, port or bus of the USB device.
-  /// @param delay   by which a reading lags behind the head.
+  /// @param delay   lag of a reading behind the head.
   UvcPanTilt(std::string device, std::chrono::nanoseconds delay);
   ~UvcPanTilt() override;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kVideoControl = 1;
 constexpr std::uint8_t kClassInterface = 0x24, kInputTerminal = 0x02;
 constexpr int kCamera = 0x0201;
-/// Places in the descriptor of a camera's terminal.
+/// Offsets in the descriptor of a camera terminal.
 constexpr std::size_t kId = 3, kTypeLow = 4, kTypeHigh = 5, kControlSize = 14, kControls = 15;
 /// PanTilt (Absolute): bit 11 of the controls.
 constexpr std::size_t kPanTiltByte = 1;
@@ -25,7 +25,7 @@ bool PansAndTilts(std::span<const std::uint8_t> terminal) {
          (terminal[kControls + kPanTiltByte] & kPanTiltBit) != 0;
 }
 
-/// Descriptors of a class come one behind the other, each with its length in front.
+/// Class descriptors follow each other; each begins with its length.
 std::optional<std::uint8_t> FindTerminalId(std::span<const std::uint8_t> descriptors) {
   while (descriptors.size() >= 2 && descriptors[0] >= 2 && descriptors[0] <= descriptors.size()) {
     const auto descriptor = descriptors.first(descriptors[0]);

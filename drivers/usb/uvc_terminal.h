@@ -1,4 +1,4 @@
-// The part of a USB camera that turns it (USB Video Class 1.5, Camera Terminal).
+// The UVC terminal that turns a USB camera (USB Video Class 1.5, Camera Terminal).
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@ struct libusb_device;
 
 namespace mocap {
 
-/// Where requests to pan and tilt go.
+/// Destination of pan and tilt requests.
 struct UvcTerminal {
   std::uint8_t configuration = 0;  ///< Of the device.
-  std::uint8_t interface = 0;      ///< For video control.
+  std::uint8_t interface = 0;      ///< The video control interface.
   std::uint8_t id = 0;             ///< Within the interface.
 };
 
-/// Finds the terminal of a device that pans and tilts to absolute angles, by its descriptors alone.
+/// Finds the terminal that pans and tilts a device to absolute angles. Reads only the descriptors.
 std::optional<UvcTerminal> FindPanTiltTerminal(libusb_device* device);
 
 }  // namespace mocap
