@@ -1,4 +1,4 @@
-// Where a head pointed, from readings at some moments.
+// Angles of a pan-tilt head at any time, interpolated from its readings.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace mocap {
 
-/// Keeps the last readings and gives the angles between them. Thread-bound.
+/// Keeps the last readings of a head and interpolates between them. Thread-bound.
 class AngleTrack {
  public:
-  /// Seconds of them, at a reading a frame.
+  /// Covers seconds, at one reading per frame.
   static constexpr std::size_t kReadings = 64;
 
-  /// @param time_ns  when the head pointed there; what is not later than the last is passed over.
+  /// @param time_ns  when the head had these angles; a reading not later than the last is ignored.
   void Add(std::int64_t time_ns, const PanTiltAngles& angles);
-  /// Interpolates linearly; before the first and after the last reading their angles hold. Zero
+  /// Interpolates linearly. Before the first and after the last reading their angles hold. Zero
   /// without a reading.
   PanTiltAngles At(std::int64_t time_ns) const;
 

@@ -1,4 +1,4 @@
-// Where a camera's pictures of the empty studio come from.
+// The source of a camera's pictures of the empty studio.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace mocap {
 
-/// Reads them each time that it is asked: all at once, or one after the other where they are too
-/// many to be in memory. Whoever made it says whether several threads may ask.
+/// Reads the pictures on each request: all at once, or one after the other if they do not fit into
+/// memory. Its creator states whether several threads may use it.
 class BackgroundSource {
  public:
   using Frames = std::vector<BackgroundFrame>;
@@ -19,7 +19,7 @@ class BackgroundSource {
 
   BackgroundSource() = default;
 
-  /// @param read  gives all of them.
+  /// @param read  returns all pictures.
   template <typename Read>
   requires(std::is_invocable_r_v<Frames, const Read&> && !std::is_same_v<Read, BackgroundSource>)
       BackgroundSource(Read read)  // NOLINT: whatever gives pictures is a source of them.
@@ -27,7 +27,7 @@ class BackgroundSource {
           for (const BackgroundFrame& frame : read()) visit(frame);
         }) {}
 
-  /// @param read  shows each picture to the visitor, which keeps what it wants.
+  /// @param read  passes each picture to the visitor, which keeps what it needs.
   static BackgroundSource OneByOne(std::function<void(const Visit&)> read) {
     BackgroundSource source;
     source.read_ = std::move(read);

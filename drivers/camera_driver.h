@@ -1,4 +1,4 @@
-// A camera, whatever is behind it: a recording, the simulated studio, V4L2, GigE Vision.
+// Interface of all cameras: recorded, simulated, V4L2, GigE Vision.
 #pragma once
 
 #include <chrono>
@@ -11,50 +11,50 @@
 
 namespace mocap {
 
-/// One picture and what is known of its exposure. The pixels are the driver's and stay valid until
-/// its next Grab.
+/// One picture with its exposure data. The driver owns the pixels; they stay valid until its next
+/// Grab.
 struct Frame {
   ImageView<const Bgr> image;
-  std::int64_t capture_ns = 0;  ///< Middle of the exposure, on the timeline (or a recording's).
-  std::uint64_t sequence = 0;   ///< Counts what the camera took; a gap is what was lost on the way.
+  std::int64_t capture_ns = 0;  ///< Middle of the exposure, on the timeline (or the recording's).
+  std::uint64_t sequence = 0;   ///< Counts the camera's frames; a gap means dropped frames.
   PanTiltAngles angles;         ///< At the moment of exposure; zero without a head.
 };
 
-/// What became of a Grab.
+/// Result of a Grab.
 enum class GrabStatus {
   kFrame,    ///< A frame was handed out.
   kTimeout,  ///< None came in time; try again.
-  kTorn,     ///< A frame came damaged and was dropped; try again.
-  kLost,     ///< The camera is gone; the driver tries to come back on later calls.
+  kTorn,     ///< A damaged frame came and was dropped; try again.
+  kLost,     ///< The camera is gone; later calls try to reconnect.
   kEnd       ///< There will be no more frames.
 };
 
-/// What a live camera tells of itself, for people.
+/// Facts about a live camera, for people.
 struct CameraFacts {
-  std::string device;      ///< Where it was found: a node, an address.
-  std::string bus;         ///< What it shares its bandwidth on; empty: unknown.
-  double link_mbit_s = 0;  ///< What that carries; 0: unknown.
+  std::string device;      ///< Where it was found: device node or address.
+  std::string bus;         ///< The bus that it shares with others; empty: unknown.
+  double link_mbit_s = 0;  ///< Bandwidth of the bus; 0: unknown.
   std::string format;      ///< As the camera names it.
   double bytes_per_frame = 0;
-  double fps = 0;           ///< What the camera agreed to; 0: unknown.
-  std::string time_source;  ///< Where capture times come from.
-  /// What is not as it was asked for or ought to be, one line each, with what to do about it.
+  double fps = 0;           ///< As agreed with the camera; 0: unknown.
+  std::string time_source;  ///< Origin of the capture times.
+  /// Deviations from what was requested or recommended, one line each, with the remedy.
   std::vector<std::string> remarks;
-  std::string damage;  ///< How frames come to be damaged, with what to do; empty: not known.
+  std::string damage;  ///< Why frames get damaged, with the remedy; empty: not known.
 };
 
-/// Pulls frames from one camera. Thread-bound: one thread at a time calls it.
+/// Pulls frames from one camera. Thread-bound: only one thread at a time may call it.
 class CameraDriver {
  public:
   virtual ~CameraDriver() = default;
-  /// Begins to deliver. @throws SetupError when the camera cannot be used as configured.
+  /// Starts delivery. @throws SetupError when the camera cannot be used as configured.
   virtual void Start() = 0;
-  /// Waits for the next frame. Weather is in the status; nothing is thrown.
+  /// Waits for the next frame. Reports outages in the status; throws nothing.
   virtual GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) = 0;
-  /// Ends delivery; the last frame's pixels are no longer valid.
+  /// Ends delivery. The last frame's pixels become invalid.
   virtual void Stop() = 0;
-  /// Tells of the camera as it is since Start; called from the same thread. A driver without
-  /// hardware has nothing to tell.
+  /// Describes the camera as it is since Start; call it from the same thread. A driver without
+  /// hardware returns empty facts.
   virtual CameraFacts Facts() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// The cameras that are connected, for a person who looks for them.
+// List of the connected cameras, for people.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@ namespace mocap {
 
 /// One camera that was found.
 struct ListedCamera {
-  std::string driver;  ///< As `source.driver` names it.
-  std::string device;  ///< What to write as `device`: the name that stays the same longest.
+  std::string driver;  ///< As in `source.driver`.
+  std::string device;  ///< Value for `device`: the name that stays valid longest.
   std::string model;
-  std::string serial;      ///< Empty: it has none.
-  std::string bus;         ///< Or its network address.
+  std::string serial;      ///< Empty if it has none.
+  std::string bus;         ///< Bus, or network address.
   double link_mbit_s = 0;  ///< 0: unknown.
-  /// One line each: a format, its sizes and rates.
+  /// One line per format, with its sizes and rates.
   std::vector<std::string> formats;
-  std::vector<std::string> remarks;  ///< What stands in the way of using it.
+  std::vector<std::string> remarks;  ///< Obstacles to using it.
 };
 
 }  // namespace mocap

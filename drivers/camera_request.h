@@ -1,4 +1,4 @@
-// What every live camera is asked for, whatever its driver.
+// The settings requested from every live camera, independent of its driver.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace mocap {
 
 struct CameraRequest {
   std::string device;  ///< As the configuration names it.
-  /// Size of its pictures; 0: as the camera comes.
+  /// Picture size; 0: the camera's default.
   int width_px = 0, height_px = 0;
   double fps = 30;
 };

@@ -8,9 +8,9 @@
 namespace mocap {
 namespace {
 
-/// As near as a clock that PTP set has to be to the host's. The host may hold its own time by NTP.
+/// A PTP clock is accepted within this distance of the host's, which may follow NTP.
 constexpr std::int64_t kNear_ns = 200'000'000;
-/// As far as one stays trusted: a frame may be held up on the way.
+/// An accepted clock is trusted up to this distance: a frame may be delayed.
 constexpr std::int64_t kFar_ns = 2'000'000'000;
 constexpr int kLeapSecondsSince2017 = 37;
 

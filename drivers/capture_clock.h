@@ -1,4 +1,4 @@
-// From a camera's stamps to the middle of the exposure in the host's time.
+// Conversion of a camera's timestamps to the middle of the exposure in host time.
 #pragma once
 
 #include <cstdint>
@@ -9,36 +9,35 @@
 namespace mocap {
 
 enum class TimeSource {
-  kArrival,      ///< The camera does not stamp: when the frame's first packet came.
+  kArrival,      ///< Arrival of the frame's first packet: the camera has no timestamps.
   kDeviceClock,  ///< The camera's own clock, fitted to the host's.
   kPtp,          ///< The camera's clock is set by PTP.
-  kPtpTai,       ///< So it is, and it counts TAI: ahead of UTC by the leap seconds.
+  kPtpTai,       ///< As kPtp, but counting TAI: ahead of UTC by the leap seconds.
 };
 
 /// Names a source, for people.
 std::string_view Describe(TimeSource source);
 
-/// Finds out when frames were taken.
+/// Computes capture times of frames.
 ///
-/// Cameras stamp the beginning of the exposure and send once it is over, so that a frame's arrival
-/// less its exposure is the least that the host knows. A clock under PTP is taken at its word where
-/// it is near the host's, with or without the leap seconds; any other is fitted. Where the host's
-/// clock was set, it is seen anew whether they are near.
-/// Thread-bound.
+/// Cameras stamp the start of the exposure and send after its end. A frame's arrival minus its
+/// exposure is therefore the host's own estimate of the start. A PTP clock is used directly if it
+/// is near the host's, with or without the leap seconds; any other clock is fitted. After a step of
+/// the host's clock, the distance is checked again. Thread-bound.
 class CaptureClock {
  public:
-  /// @param leap_seconds  TAI less UTC.
+  /// @param leap_seconds  TAI minus UTC.
   CaptureClock(bool has_stamps, int leap_seconds)
       : has_stamps_(has_stamps),
         leap_ns_(leap_seconds * 1'000'000'000LL),
         source_(has_stamps ? TimeSource::kDeviceClock : TimeSource::kArrival) {}
 
-  /// Tells that the camera was away: its clock may have begun anew, or gone on.
+  /// Reports that the camera was away: its clock may have restarted.
   void Doubt() { doubted_ = true; }
 
-  /// Gives the middle of the exposure, on the timeline of the arrival [ns].
-  /// @param ptp_locked  the camera says that it follows a PTP master.
-  /// @param time_of_day_ahead_ns  the host's time of day less the timeline.
+  /// Returns the middle of the exposure, on the timeline of the arrival [ns].
+  /// @param ptp_locked  the camera reports that it follows a PTP master.
+  /// @param time_of_day_ahead_ns  the host's time of day minus the timeline.
   std::int64_t MiddleOfExposure(std::int64_t stamp_ns, std::int64_t arrival_ns,
                                 std::int64_t exposure_ns, bool ptp_locked,
                                 std::int64_t time_of_day_ahead_ns);
@@ -57,7 +56,7 @@ class CaptureClock {
   DeviceClock fit_;
 };
 
-/// TAI less UTC as the kernel was told, or as it has been since 2017.
+/// TAI minus UTC as set in the kernel, or the value valid since 2017.
 int LeapSeconds();
 
 }  // namespace mocap

@@ -8,12 +8,12 @@
 namespace mocap {
 namespace {
 
-/// Reading two clocks takes a moment; a step is larger.
+/// Reading both clocks takes time; a step is larger.
 constexpr std::int64_t kNoise_ns = 100'000;
-/// A reading that was interrupted is taken again, so many times.
+/// Attempts, as a reading may be interrupted.
 constexpr int kReadings = 3;
 constexpr std::int64_t kPrompt_ns = 5'000;
-/// No stamp waits longer to be read.
+/// No stamp waits longer before it is read.
 constexpr std::int64_t kOldestStamp_ns = 10'000'000'000;
 
 std::int64_t BaseOf(const ClockReading& reading) {

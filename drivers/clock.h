@@ -1,4 +1,4 @@
-// What time it is: a timeline that never steps, and the host's time of day beside it.
+// Clocks: a timeline that never steps, and the host's time of day.
 #pragma once
 
 #include <atomic>
@@ -19,16 +19,16 @@ inline std::int64_t SteadyNs() {
 struct ClockReading {
   std::int64_t monotonic_ns = 0;
   std::int64_t time_of_day_ns = 0;  ///< Since the Unix epoch.
-  std::int64_t width_ns = 0;        ///< How far apart the two may have been read.
+  std::int64_t width_ns = 0;        ///< Upper bound of the time between both readings.
 };
 ClockReading ReadClocks();
 
-/// Turns the timeline into the host's time of day and back, and notices when that was set.
+/// Converts between the timeline and the host's time of day, and detects steps of the latter.
 ///
-/// The timeline is the monotonic clock, counted from the Unix epoch as the host had it when this
-/// object was made. All capture times and deadlines of the program are on it, so that no interval
-/// changes when somebody, NTP or a machine that wakes up sets the clock. Linux adjusts the rate of
-/// both clocks alike; they part only where the time of day steps.
+/// The timeline is the monotonic clock, counted from the Unix epoch as known to the host when this
+/// object was created. All capture times and deadlines use it. No interval changes when a user, NTP
+/// or a resume from suspend sets the clock. Linux adjusts the rate of both clocks equally; they
+/// diverge only when the time of day steps.
 ///
 /// Thread-safe; takes no lock and allocates nothing.
 class HostClock {
@@ -36,32 +36,33 @@ class HostClock {
   explicit HostClock(std::function<ClockReading()> read = ReadClocks);
 
   ClockReading Read() const { return read_(); }
-  /// The timeline's time of a moment by the monotonic clock.
+  /// Converts a monotonic time to the timeline.
   std::int64_t FromMonotonic(std::int64_t monotonic_ns) const { return monotonic_ns + base_ns_; }
-  /// How far the time of day is ahead of the timeline: 0 until the clock is set.
+  /// Time of day minus timeline: 0 until the clock is set.
   std::int64_t OffsetNs() { return OffsetNs(read_()); }
   std::int64_t OffsetNs(const ClockReading& now);
-  /// The time of day of a moment on the timeline, as the host's clock is set now.
+  /// Converts a time on the timeline to the time of day, by the current setting of the clock.
   std::int64_t ToTimeOfDay(std::int64_t timeline_ns) { return timeline_ns + OffsetNs(); }
-  /// The timeline's time of a stamp that the host has just made by its time of day, and never in
-  /// the future. Soon after a step the stamp may be of before or of after it: whichever makes it
-  /// younger.
+  /// Converts a time-of-day stamp that the host has just made to the timeline; never returns a
+  /// future time. Soon after a step, the stamp may be from before or after it. The choice that
+  /// makes it younger is used.
   std::int64_t FromRecentTimeOfDay(std::int64_t stamp_ns, const ClockReading& now);
 
  private:
   const std::function<ClockReading()> read_;
   const std::int64_t base_ns_;
   std::atomic<std::int64_t> offset_ns_{0};
-  std::atomic<std::int64_t> offset_before_ns_{0};  ///< Until the last step,
-  std::atomic<std::int64_t> step_noticed_ns_{0};   ///< and when that was, by the monotonic clock.
+  std::atomic<std::int64_t> offset_before_ns_{0};  ///< Offset before the last step.
+  std::atomic<std::int64_t> step_noticed_ns_{0};   ///< Monotonic time when the last step was
+                                                   ///< noticed.
 };
 
 /// The program's clock. Its timeline begins with the first call.
 HostClock& TheHostClock();
 
-/// Where the program's timeline stands [ns].
+/// Current time on the timeline [ns].
 std::int64_t TimelineNs();
-/// Sleeps until a time of the timeline.
+/// Sleeps until a time on the timeline.
 void SleepUntil(std::int64_t timeline_ns);
 
 /// The host's time of day since the Unix epoch, for people, files and messages.

@@ -8,23 +8,23 @@ namespace mocap {
 namespace {
 
 constexpr std::int64_t kSlot_ns = 500'000'000;
-/// Before that, a slope would be made of jitter.
+/// Over a shorter span, the slope would be jitter.
 constexpr std::int64_t kSlopeNeeds_ns = 20'000'000'000;
 constexpr std::int64_t kRecent_ns = 5'000'000'000;
-/// Before that, any frame may be the first that was not held up.
+/// Earlier, no undelayed frame may have come yet.
 constexpr std::int64_t kSettled_ns = 1'000'000'000;
-/// Quartz is within 100 ppm, and both clocks may be at their limit.
+/// Quartz is within 100 ppm; both clocks may be at this limit.
 constexpr double kSteepest = 200e-6;
-/// No frame can come so much too early unless a clock was set …
+/// A frame earlier than this means that a clock was set.
 constexpr std::int64_t kTooEarly_ns = 3'000'000;
 constexpr int kEarlyToBelieve = 3;
-/// … and none comes so late for a second on end.
+/// Frames this late for a whole second mean the same.
 constexpr std::int64_t kTooLate_ns = 500'000'000;
 constexpr int kLateToBelieve = 30;
-/// So late are several on end only where a clock was set, or the machine slept.
+/// Several frames this late mean that a clock was set, or the host slept.
 constexpr std::int64_t kFarTooLate_ns = 5'000'000'000;
 constexpr int kFarTooLateToBelieve = 3;
-/// After a camera was away, its first frame may be held up by as much.
+/// After a camera was away, its first frame may be delayed by this much.
 constexpr std::int64_t kAway_ns = 5'000'000'000;
 
 }  // namespace
@@ -96,7 +96,7 @@ void DeviceClock::Fit() {
   const std::int64_t newest_ns = slot(0).device_ns;
   const std::int64_t span_ns = newest_ns - slot(used_ - 1).device_ns;
   slope_ = span_ns < kSlopeNeeds_ns ? 0 : std::clamp(HullSlope(), -kSteepest, kSteepest);
-  // Where the line lies now, the last seconds know best, whatever is left of an error in the slope.
+  // The last seconds define the current position of the line, despite any error in the slope.
   origin_ns_ = newest_ns;
   base_ns_ = slot(0).offset_ns;
   for (std::size_t age = 1; age < used_ && newest_ns - slot(age).device_ns < kRecent_ns; ++age) {
@@ -109,7 +109,7 @@ double DeviceClock::HullSlope() const {
     return static_cast<double>(b.offset_ns - a.offset_ns) /
            static_cast<double>(b.device_ns - a.device_ns);
   };
-  // The lower hull from left to right; the newest slot comes last.
+  // The lower hull from left to right; the newest slot is last.
   std::array<Point, kSlots> hull;
   std::size_t size = 0;
   for (std::size_t age = used_; age-- > 0;) {

@@ -1,4 +1,4 @@
-// How a camera's own clock runs against the host's.
+// Fit of a camera's clock to the host's.
 #pragma once
 
 #include <array>
@@ -7,28 +7,28 @@
 
 namespace mocap {
 
-/// Learns offset and drift of a camera's clock from when frames were stamped and when they arrived.
+/// Estimates offset and drift of a camera's clock from the stamps and arrival times of its frames.
 ///
-/// Delays on the way only add, so the true line lies just below all points (device time; arrival
-/// minus device time). Of each half second the least delayed frame counts. The line's slope is that
-/// of the edge of the last minute's lower convex hull below its middle, and the last seconds lift
-/// it as far as they allow; neither jitter nor frames that were held up can move it. A clock that
-/// was set or began anew is learned anew, once several frames agree. Some constant delay (reading
-/// out, the wire) remains in the result. Thread-bound; allocates nothing.
+/// Transport delays are never negative, so the true line lies just below all points (device time,
+/// arrival minus device time). The least delayed frame of each half second is kept. The slope is
+/// that of the edge below the middle of the last minute's lower convex hull. The line is then
+/// raised until it touches a point of the last seconds. Neither jitter nor delayed frames can move
+/// it. If the clock was set or restarted, it is learned again once several frames agree. A constant
+/// delay (readout, transport) remains in the result. Thread-bound; allocates nothing.
 class DeviceClock {
  public:
-  /// Tells of a frame. Times since any epoch each [ns].
+  /// Adds a frame. Each time may have its own epoch [ns].
   void Observe(std::int64_t device_ns, std::int64_t arrival_ns);
 
-  /// Whether a frame may well be of the clock that was observed so far.
+  /// Whether a frame is consistent with the clock observed so far.
   bool Fits(std::int64_t device_ns, std::int64_t arrival_ns) const;
 
-  /// Gives the host's time of a device time. @pre  some frame was observed.
+  /// Converts device time to host time. @pre  a frame was observed.
   std::int64_t ToHost(std::int64_t device_ns) const { return device_ns + OffsetAt(device_ns); }
 
-  /// How much the host's clock gains on the device's; 0 until it is known.
+  /// Rate of the host's clock relative to the device's; 0 until known.
   double drift_ppm() const { return slope_ * 1e6; }
-  /// How often the clock was learned anew.
+  /// Number of times that the clock was learned again.
   int restarts() const { return restarts_; }
 
  private:
@@ -46,11 +46,11 @@ class DeviceClock {
   double HullSlope() const;
   const Point& slot(std::size_t age) const { return slots_[(newest_ + kSlots - age) % kSlots]; }
 
-  std::array<Point, kSlots> slots_;  ///< A ring; the least delayed frame of each half second.
+  std::array<Point, kSlots> slots_;  ///< Ring buffer: the least delayed frame of each half second.
   std::size_t newest_ = 0, used_ = 0;
   std::int64_t slot_begin_ns_ = 0;  ///< Device time at which the newest slot begins.
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  std::int64_t origin_ns_ = 0, base_ns_ = 0;  ///< The line: base at the origin, and its slope.
+  std::int64_t origin_ns_ = 0, base_ns_ = 0;  ///< The line: base at the origin, and slope.
   double slope_ = 0;
   int early_ = 0, late_ = 0, far_too_late_ = 0;
   int restarts_ = 0;

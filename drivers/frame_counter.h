@@ -1,13 +1,13 @@
-// Frame numbers that wrap, made to go on.
+// Frame numbers without wrap-around.
 #pragma once
 
 #include <cstdint>
 
 namespace mocap {
 
-/// Turns a camera's own frame numbers into a count that never goes back. GigE Vision counts from 1
-/// to 65535 and over again; cameras with wider numbers are taken as they are. One that starts to
-/// count anew goes on from where it was.
+/// Converts a camera's frame numbers to a count that never decreases. GigE Vision counts from 1 to
+/// 65535 and wraps. Wider numbers are used as they are. If a camera restarts its numbers, the count
+/// continues.
 class FrameCounter {
  public:
   std::uint64_t Next(std::uint64_t id) {
@@ -16,7 +16,7 @@ class FrameCounter {
     last_id_ = id;
     return sequence_;
   }
-  /// The next number means nothing by itself: the camera was opened again.
+  /// Ignores the distance to the next number: the camera was reopened.
   void Forget() { last_id_ = kNone; }
 
  private:

@@ -1,4 +1,4 @@
-// Work that nobody waits for, until somebody does.
+// Background work of lowest priority, until someone waits for it.
 #pragma once
 
 #include <string>
@@ -6,19 +6,20 @@
 
 namespace mocap {
 
-/// Names the calling thread and lets it have the processor when nobody else wants it (SCHED_IDLE):
-/// a thread that is only nicer finishes its slice of some milliseconds before a frame is looked at.
+/// Names the calling thread and moves it to SCHED_IDLE, so that it runs only on an idle processor.
+/// A merely nicer thread would finish its time slice of some milliseconds before a frame is
+/// handled.
 void GoBehind(const std::string& name);
 
-/// Whether a thread that went behind may come forward again: that takes CAP_SYS_NICE, or a limit of
-/// niceness (RLIMIT_NICE) that allows what threads have to begin with.
+/// Whether a SCHED_IDLE thread may be raised again. This requires CAP_SYS_NICE, or a niceness limit
+/// (RLIMIT_NICE) that allows the threads' initial niceness.
 bool MayComeForward();
 
-/// Lets a thread that went behind run as the calling one does.
-/// @return  false where that is not permitted.
+/// Gives such a thread the scheduling of the calling thread.
+/// @return  false if that is not permitted.
 bool BringForward(std::thread& thread);
 
-/// Ends that.
+/// Reverts BringForward.
 void SendBehind(std::thread& thread);
 
 }  // namespace mocap

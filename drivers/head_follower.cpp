@@ -9,10 +9,10 @@
 namespace mocap {
 namespace {
 
-/// A frame that comes a little early counts as well.
+/// A slightly early frame still triggers a step.
 constexpr double kShortestStep_s = 0.09, kLongestStep_s = 0.2;
 
-/// One axis of a step.
+/// Moves one axis by a step.
 double Drawn(double from_rad, double aim_rad, double least_rad, double most_rad, double seconds) {
   const double away_rad = aim_rad - from_rad;
   const double pull_rad = std::max(std::abs(away_rad) - HeadFollower::kSlack_rad, 0.0);
@@ -28,7 +28,7 @@ HeadFollower::HeadFollower(CameraCalibration camera, const PanTiltLimits& range,
 
 void HeadFollower::Follow(PanTilt& head, const PanTiltAngles& now, std::int64_t now_ns) {
   const double seconds = static_cast<double>(now_ns - last_ns_) * 1e-9;
-  // A clock that was put back begins anew.
+  // If the clock was set back, start again.
   if (seconds >= 0 && seconds < kShortestStep_s) return;
   last_ns_ = now_ns;
   const std::optional<Vector3> p_WQ = person_->Told();
@@ -37,7 +37,7 @@ void HeadFollower::Follow(PanTilt& head, const PanTiltAngles& now, std::int64_t 
   const PanTiltAngles next =
       Next(AimAt(camera_, *p_WQ, *told_), head.limits(), std::clamp(seconds, 0.0, kLongestStep_s));
   if (next == *told_) return;
-  // A head that does not answer is away; where it points when it returns, it tells itself.
+  // A head that does not answer is away. When it returns, it reports its angles.
   told_ = head.TurnTo(next) ? std::optional(next) : std::nullopt;
 }
 

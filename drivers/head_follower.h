@@ -1,4 +1,4 @@
-// Heads that keep the person in view.
+// Pan-tilt heads that keep the subject in view.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace mocap {
 
-/// Turns a head after the person as on a slack leash: what is nearly in the middle stays where it
-/// is, and what goes away draws the head along, ten times a second and no faster than pictures stay
-/// sharp. While nobody is followed the head rests. Thread-bound, to the head's thread.
+/// Turns a head after the subject as on a slack leash. It rests while the subject is near the
+/// middle and follows when the subject moves away: ten steps a second, at a speed that keeps
+/// pictures sharp. It rests while nobody is tracked. Bound to the head's thread.
 class HeadFollower {
  public:
-  /// How far from the middle of the picture the person may be.
+  /// Allowed distance of the subject from the middle of the picture.
   static constexpr double kSlack_rad = 0.06;
   static constexpr double kFastest_rad_s = 1.0;
 
   /// @param camera  with a head.
-  /// @param range   how far the studio lets it turn, beside its own limits.
+  /// @param range   range of angles set for the studio, besides the head's limits.
   HeadFollower(CameraCalibration camera, const PanTiltLimits& range,
                std::shared_ptr<const SubjectPosition> person);
 
-  /// Takes a step. @param now  where the head points; @param now_ns  at what time: a frame's.
+  /// Takes a step. @param now  the head's angles; @param now_ns  the time of a frame.
   void Follow(PanTilt& head, const PanTiltAngles& now, std::int64_t now_ns);
 
  private:
@@ -34,7 +34,7 @@ class HeadFollower {
   CameraCalibration camera_;
   PanTiltLimits range_;
   std::shared_ptr<const SubjectPosition> person_;
-  std::optional<PanTiltAngles> told_;  ///< Where the head was told to turn last.
+  std::optional<PanTiltAngles> told_;  ///< Last commanded direction.
   std::int64_t last_ns_ = 0;
 };
 

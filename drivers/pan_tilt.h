@@ -1,4 +1,4 @@
-// Heads that turn cameras.
+// Pan-tilt heads.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// How far a head turns.
+/// Range of a head's angles.
 struct PanTiltLimits {
   PanTiltAngles least, most;
 
@@ -19,28 +19,27 @@ struct PanTiltLimits {
   }
 };
 
-/// Says in a line why a head does not look there, and where it can.
+/// Explains in one line that a head cannot reach these angles, and gives its range.
 std::string OutOfReach(const PanTiltAngles& angles, const PanTiltLimits& limits);
 
-/// A head, whatever turns it. Angles count from the head's own zero, in its own sense; the
-/// calibration's axes say what they mean. Thread-bound, to its camera's thread.
+/// A pan-tilt head with any drive. Angles count from the head's own zero, in its own sense; the
+/// axes in the calibration define them. Bound to the thread of its camera.
 class PanTilt {
  public:
   virtual ~PanTilt() = default;
   /// @throws SetupError  when there is no such head.
   virtual void Start() = 0;
   virtual void Stop() = 0;
-  /// Asks the head where it points; about once a frame.
+  /// Asks the head for its angles; call about once a frame.
   virtual void Update() = 0;
-  /// Gives where it pointed at a moment of the timeline, between what was read before and
-  /// after it.
+  /// Returns the angles at a time on the timeline, interpolated between readings.
   virtual PanTiltAngles At(std::int64_t capture_ns) const = 0;
-  /// Sets off in a direction. @return  false when the head does not reach it, or does not answer.
+  /// Starts to turn. @return  false if the head cannot reach the angles or does not answer.
   virtual bool TurnTo(const PanTiltAngles& angles) = 0;
   virtual PanTiltLimits limits() const = 0;
 };
 
-/// A head that nobody turns.
+/// A head at constant angles.
 class FixedPanTilt : public PanTilt {
  public:
   explicit FixedPanTilt(const PanTiltAngles& angles) : angles_(angles) {}

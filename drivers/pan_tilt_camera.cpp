@@ -15,7 +15,7 @@ void PanTiltCamera::Start() {
 
 GrabStatus PanTiltCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   const GrabStatus status = camera_->Grab(frame, timeout);
-  // A frame was exposed some time ago: this reading and the one before lie around it.
+  // The frame's exposure is in the past, between this reading and the one before.
   head_->Update();
   if (status != GrabStatus::kFrame) return status;
   frame.angles = head_->At(frame.capture_ns);

@@ -1,4 +1,4 @@
-// A camera on a head.
+// A camera on a pan-tilt head.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace mocap {
 
-/// Gives each frame of a camera the angles of its head at the moment of exposure.
+/// Adds to each frame of a camera the angles of its head at the moment of exposure.
 class PanTiltCamera : public CameraDriver {
  public:
-  /// @param follower  keeps the person in view; nothing: the head stays where it is.
+  /// @param follower  keeps the subject in view; without it the head does not turn.
   PanTiltCamera(std::unique_ptr<CameraDriver> camera, std::shared_ptr<PanTilt> head,
                 std::optional<HeadFollower> follower = std::nullopt);
 

@@ -44,7 +44,7 @@ void PolledPanTilt::Update() {
   try {
     Reach();
   } catch (const SetupError&) {
-    // Still away; frames have its last angles meanwhile.
+    // Still away; meanwhile frames keep its last angles.
   }
 }
 

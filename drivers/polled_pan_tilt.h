@@ -1,4 +1,4 @@
-// Heads that have to be asked where they point.
+// Pan-tilt heads that must be polled for their angles.
 #pragma once
 
 #include <chrono>
@@ -12,32 +12,31 @@
 
 namespace mocap {
 
-/// Asks a head once a frame, and goes back to it when it went away.
+/// Polls a head once a frame, and reconnects after it was away.
 class PolledPanTilt : public PanTilt {
  public:
-  /// @param device  as a person named it.
-  /// @param delay   by which a reading lags behind the head.
+  /// @param device  name given by the user.
+  /// @param delay   lag of a reading behind the head.
   PolledPanTilt(std::string device, std::chrono::nanoseconds delay)
       : device_(std::move(device)), delay_(delay) {}
 
   void Start() override;
   void Stop() override;
-  /// Comes back by itself when the head does.
+  /// Reconnects when the head is back.
   void Update() override;
   PanTiltAngles At(std::int64_t capture_ns) const override { return track_.At(capture_ns); }
   bool TurnTo(const PanTiltAngles& angles) override;
   PanTiltLimits limits() const override { return limits_; }
 
  protected:
-  /// @throws SetupError  when there is no such head; then there is nothing to disconnect.
+  /// @throws SetupError  when there is no such head; then nothing needs disconnecting.
   virtual PanTiltLimits Connect() = 0;
   virtual void Disconnect() = 0;
   /// @return  nothing when the head does not answer.
   virtual std::optional<PanTiltAngles> Ask() = 0;
   /// @return  false when the head does not answer.
   virtual bool Send(const PanTiltAngles& angles) = 0;
-  /// Whether a head that is away may just have come back. Without it, it is looked for now and
-  /// then.
+  /// Whether a head that is away may just have come back. By default, retries are only periodic.
   virtual bool MayHaveReturned() { return false; }
 
   const std::string& device() const { return device_; }

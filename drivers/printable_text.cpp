@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-// Letters of Persian, Hindi and others are joined or kept apart by them, and parts of emoji.
+// They join or separate letters in Persian, Hindi and others, and parts of emoji.
 constexpr char32_t kNonJoiner = 0x200c, kJoiner = 0x200d;
 
 std::string Escape(const TextCharacter& character) {
@@ -29,7 +29,7 @@ std::string Shown(const TextCharacter& character) {
 
 TextCharacter TakeCharacter(std::string_view& rest) {
   TextCharacter character{rest.substr(0, 1), {}};
-  // GLib takes a zero byte for the end of the text.
+  // GLib treats a zero byte as the end of the text.
   const gunichar code =
       rest[0] == '\0' ? 0 : g_utf8_get_char_validated(rest.data(), std::ssize(rest));
   if (code < static_cast<gunichar>(-2)) {

@@ -1,4 +1,4 @@
-// Foreign text (names, messages of devices and of the network, files) as it may be shown.
+// Display of untrusted text: names, messages of devices and of the network, files.
 #pragma once
 
 #include <concepts>
@@ -8,32 +8,32 @@
 
 namespace mocap {
 
-/// A character at the front of a text.
+/// First character of a text.
 struct TextCharacter {
   std::string_view bytes;
-  std::optional<char32_t> code;  ///< Empty for a byte that begins no UTF-8.
+  std::optional<char32_t> code;  ///< Empty for a byte that starts no valid UTF-8.
 };
 
-/// Takes the first character off a text, which must not be empty.
+/// Removes and returns the first character of a text, which must not be empty.
 TextCharacter TakeCharacter(std::string_view& rest);
 
-/// Whether a character may go to a terminal or into a log as it is: no control character, no end of
-/// a line or paragraph, none that turns the direction of writing.
+/// Whether a character may be written to a terminal or log unchanged. Control characters, line and
+/// paragraph separators and characters that change the writing direction may not.
 bool IsHarmless(char32_t code);
 
-/// Keeps a text on one line. Control characters and bytes that are no UTF-8 become `\x1b` or
+/// Puts a text on one line. Control characters and bytes that are not UTF-8 become `\x1b` or
 /// `\u{202e}`. Letters of all languages stay.
 std::string Printable(std::string_view text);
 
-/// The same for text of several lines, which stay lines.
+/// Like Printable, but keeps line breaks.
 std::string PrintableLines(std::string_view text);
 
-/// Printable, and no longer than so many characters.
+/// Like Printable, limited to a number of characters.
 std::string Shortened(std::string_view text, std::size_t most_characters);
 
-/// Puts a text in double quotes, as JSON and TOML have them: quotes and backslashes behind a
-/// backslash, U+FFFD for bytes that are no UTF-8.
-/// @param escaped  spells out a character that is not harmless.
+/// Puts a text in double quotes, as in JSON and TOML. Quotes and backslashes are escaped; bytes
+/// that are not UTF-8 become U+FFFD.
+/// @param escaped  returns the escape for a character that is not harmless.
 std::string InDoubleQuotes(std::string_view text, std::string (*escaped)(char32_t));
 
 /// "1 frame", "2 frames".

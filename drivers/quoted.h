@@ -1,4 +1,4 @@
-// Foreign text in messages.
+// Untrusted text in messages.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The cameras of a studio as one source, with what tracking needs to know about each.
+// The cameras of a studio as one source, with the data that tracking needs.
 #pragma once
 
 #include <memory>
@@ -12,30 +12,30 @@
 
 namespace mocap {
 
-/// One camera with its calibration and the way to its picture of the empty studio.
+/// A camera with its calibration and the source of its background.
 struct StudioCamera {
   CameraCalibration calibration;
-  std::unique_ptr<CameraDriver> driver;  ///< Null: it is at another computer.
-  BackgroundSource background;  ///< Read before the driver starts.
-  double fps = 0;               ///< Of its own; 0: the studio's.
-  std::string waits_for = "";   ///< The camera that triggers it; empty: none that is known.
+  std::unique_ptr<CameraDriver> driver;  ///< Null: connected to another computer.
+  BackgroundSource background;           ///< Read before the driver starts.
+  double fps = 0;                        ///< Its own rate; 0: the studio's.
+  std::string waits_for = "";            ///< The camera that triggers it; empty: none known.
 };
 
-/// Which clock the capture times of a studio's frames are of.
+/// The clock of a studio's capture times.
 enum class CaptureTimes {
   kPresent,  ///< The program's timeline.
-  kRecorded  ///< That of the recording, which is read as fast as possible.
+  kRecorded  ///< The recording's; it is read as fast as possible.
 };
 
-/// All cameras, in the order in which the pipeline numbers them: those with drivers come first.
+/// All cameras, in the pipeline's numbering: cameras with drivers come first.
 struct Studio {
   std::string name;
   double fps_nominal = 30;
   std::vector<StudioCamera> cameras;
-  /// To be told where the person is; null: no head follows.
+  /// Receives the subject position; null: no head follows.
   std::shared_ptr<SubjectPosition> person = nullptr;
   CaptureTimes times = CaptureTimes::kPresent;
-  /// What whoever opened it should know, a line each.
+  /// Remarks for the user, one line each.
   std::vector<std::string> remarks = {};
 };
 

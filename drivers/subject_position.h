@@ -1,4 +1,4 @@
-// Where the people are, as tracking tells the heads that follow.
+// Subject position, passed from tracking to the heads that follow.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@
 
 namespace mocap {
 
-/// The middle of whoever is followed, of several people that of all. One writer, any number of
-/// readers; neither waits.
+/// The middle of the subject, or of all subjects. One writer, any number of readers; wait-free.
 class SubjectPosition {
  public:
-  /// @param p_WQ  [mm], within 32 m of the world's origin; nothing while nobody is followed.
+  /// @param p_WQ  [mm], within 32 m of the world's origin; empty while nobody is tracked.
   void Tell(const std::optional<Vector3>& p_WQ) {
     Place place;
     if (p_WQ) place = {true, Rounded(p_WQ->x()), Rounded(p_WQ->y()), Rounded(p_WQ->z())};
@@ -29,7 +28,7 @@ class SubjectPosition {
   }
 
  private:
-  /// One word, so that it is written and read in one piece.
+  /// One word, so that reads and writes are atomic.
   struct alignas(8) Place {
     std::int16_t is_known = 0;
     std::int16_t x_mm = 0, y_mm = 0, z_mm = 0;

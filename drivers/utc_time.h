@@ -1,4 +1,4 @@
-// Moments as text in files: "2026-11-21T20:05:00Z".
+// Times as text in files: "2026-11-21T20:05:00Z".
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace mocap {
 
-/// Writes a moment, to the second. @param epoch_s  since the Unix epoch.
+/// Formats a time, to the second. @param epoch_s  since the Unix epoch.
 std::string UtcText(std::int64_t epoch_s);
 
-/// Reads what UtcText writes; empty for anything else.
+/// Parses the format of UtcText; empty for anything else.
 std::optional<std::int64_t> UtcFromText(const std::string& text);
 
 }  // namespace mocap
