@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-/// Cameras round to their own steps.
+/// Tolerance, as cameras round to their own steps.
 constexpr double kSame = 0.01;
 
 std::string Number(double value) {
@@ -83,7 +83,7 @@ void Negotiation::SetSize() {
   if (request_.width_px > 0) {
     int x = 0, y = 0, width = 0, height = 0;
     arv_camera_get_region(camera_, &x, &y, &width, &height, nullptr);
-    // Writing what is there already would fail on cameras of a single size.
+    // On cameras with a single size, writing fails even if the value is unchanged.
     if (width != request_.width_px || height != request_.height_px) {
       arv_camera_set_region(camera_, 0, 0, request_.width_px, request_.height_px, failure);
     }
@@ -135,7 +135,7 @@ void Negotiation::SetFormat() {
 void Negotiation::SetRate() {
   agreed_.fps = request_.fps;
   GFailure failure;
-  // This switches triggers off as well.
+  // This also disables triggers.
   arv_camera_set_frame_rate(camera_, request_.fps, failure);
   if (!settings_.trigger.empty()) return;
   if (failure.failed()) Remark("its frame rate cannot be set: " + failure.text());
@@ -189,7 +189,7 @@ void Negotiation::SetGain() {
 
 void Negotiation::SetPtp() {
   if (!settings_.ptp) return;
-  // As the standard names them now, and as it did.
+  // The standard's current names, and its former ones.
   constexpr std::pair<const char*, const char*> kNames[] = {{"PtpEnable", "PtpStatus"},
                                                             {"GevIEEE1588", "GevIEEE1588Status"}};
   for (const auto& [enable, status] : kNames) {

@@ -1,4 +1,4 @@
-// Asks a camera for what the configuration wants, and reads back what it agreed to.
+// Configures a camera as requested, and reads back the result.
 #pragma once
 
 #include <arv.h>
@@ -18,16 +18,16 @@ struct AravisAgreement {
   std::string model, serial;
   AravisFormat format = kAravisFormats.back();
   int width_px = 0, height_px = 0;
-  std::size_t payload_bytes = 0;  ///< Of a whole frame.
+  std::size_t payload_bytes = 0;  ///< Size of a whole frame.
   double fps = 0;
   std::int64_t exposure_ns = 0;
   bool has_stamps = false;
-  std::string ptp_status;            ///< The feature that tells it; empty: no PTP.
-  std::vector<std::string> remarks;  ///< What is not as it was asked for.
+  std::string ptp_status;            ///< Name of the feature with the state; empty: no PTP.
+  std::vector<std::string> remarks;  ///< Deviations from what was requested.
 };
 
-/// Sets a camera up.
-/// @throws SetupError  for what cannot be done without: size, format, trigger, strobe.
+/// Configures a camera.
+/// @throws SetupError  for required settings that fail: size, format, trigger, strobe.
 AravisAgreement Agree(ArvCamera* camera, const CameraRequest& request,
                       const AravisSettings& settings);
 

@@ -24,7 +24,7 @@ struct FoundCamera {
 std::string Text(const char* text) { return text ? text : ""; }
 
 std::vector<FoundCamera> LookAround() {
-  // Cameras that start together share one look, which takes a second.
+  // Cameras that start together share one search, which takes a second.
   static std::optional<std::chrono::steady_clock::time_point> looked;
   constexpr std::chrono::seconds kFresh{2};
   const std::lock_guard lock(AravisMutex());
@@ -48,7 +48,7 @@ AravisTarget TargetFor(const std::string& device, const FoundCamera& camera) {
   return {device, camera.id, IsGige(camera) ? camera.address : "", camera.serial};
 }
 
-/// A name that was given to a camera is known to Aravis alone.
+/// Only Aravis knows the names that users gave to cameras.
 std::optional<AravisTarget> OpenByUserName(const std::string& device) {
   const std::lock_guard lock(AravisMutex());
   GFailure failure;

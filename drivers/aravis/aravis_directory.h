@@ -1,4 +1,4 @@
-// Which GigE Vision and USB3 Vision cameras there are, and which of them a name means.
+// GigE Vision and USB3 Vision cameras, found by name.
 #pragma once
 
 #include <mutex>
@@ -9,22 +9,22 @@
 
 namespace mocap {
 
-/// To be held while Aravis lists or opens devices: its list, and what its XML parser knows of
-/// documents, are the process's and unguarded.
+/// Lock it while Aravis lists or opens devices: its device list and its XML parser's documents are
+/// global and unguarded.
 std::mutex& AravisMutex();
 
-/// Looks for cameras on every network and USB; takes a second.
+/// Searches all networks and USB for cameras; takes a second.
 std::vector<ListedCamera> ListAravisCameras();
 
 /// How to reach a camera.
 struct AravisTarget {
-  std::string device;  ///< As a person named it.
-  std::string id;      ///< What Aravis opens it by.
-  std::string ip;      ///< Of a GigE Vision camera; empty: it is none.
-  std::string serial;  ///< Empty: not known yet.
+  std::string device;  ///< Name given by the user.
+  std::string id;      ///< Identifier for Aravis.
+  std::string ip;      ///< Of a GigE Vision camera; otherwise empty.
+  std::string serial;  ///< Empty: not yet known.
 };
 
-/// Finds the camera that a name, serial number, MAC or IP address means.
+/// Finds the camera with a name, serial number, MAC or IP address.
 /// @throws SetupError  when there is none, or more than one.
 AravisTarget FindAravisCamera(const std::string& device);
 

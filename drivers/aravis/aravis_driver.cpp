@@ -19,9 +19,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// How long a change of session may go unseen.
+/// Time until a change of session is noticed.
 constexpr milliseconds kSlice{20};
-/// What closing a camera takes when it is there, and when it is not.
+/// Time to close a camera that answers, and one that does not.
 constexpr milliseconds kClosing{500}, kClosingTheDead{10'000};
 
 std::chrono::microseconds Rest(steady_clock::time_point deadline) {
@@ -87,7 +87,7 @@ GrabStatus AravisDriver::Grab(Frame& frame, milliseconds timeout) {
     } else if (ArvBuffer* buffer = session_->Pop(Rest(deadline))) {
       if (const auto status = Take(buffer, frame)) return *status;
     }
-    // Whoever waits for this camera should learn at once that it is gone.
+    // Report a loss at once to the caller that waits for this camera.
     if (keeper_->lost() && !was_lost) return GrabStatus::kLost;
   } while (steady_clock::now() < deadline);
   return keeper_->lost() ? GrabStatus::kLost : GrabStatus::kTimeout;
@@ -97,7 +97,7 @@ bool AravisDriver::IsWhole(ArvBuffer* buffer) const {
   const AravisAgreement& agreed = session_->agreed();
   std::size_t bytes = 0;
   arv_buffer_get_data(buffer, &bytes);
-  // Aravis calls a buffer a success that was filled in part.
+  // Aravis reports success even for partly filled buffers.
   return arv_buffer_get_status(buffer) == ARV_BUFFER_STATUS_SUCCESS &&
          arv_buffer_get_payload_type(buffer) == ARV_BUFFER_PAYLOAD_TYPE_IMAGE &&
          bytes >= agreed.payload_bytes &&
@@ -108,11 +108,11 @@ bool AravisDriver::IsWhole(ArvBuffer* buffer) const {
 
 std::optional<GrabStatus> AravisDriver::Take(ArvBuffer* buffer, Frame& frame) {
   const bool whole = IsWhole(buffer);
-  // Packets of the first frame come before the socket has its buffer.
+  // The first packets come before the socket has its buffer.
   const bool excused = !whole && fresh_;
   if (whole) {
     fresh_ = false;
-    // Others may have lost the packet that tells their number, and keep that of an earlier frame.
+    // A damaged frame may have lost the packet with its number, and have that of an earlier frame.
     frame.sequence = counter_.Next(arv_buffer_get_frame_id(buffer));
     const auto stamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
     // Aravis stamps arrivals with the time of day.
@@ -136,7 +136,7 @@ bool AravisDriver::ReadPixels(ArvBuffer* buffer, Frame& frame) {
   std::size_t bytes = 0;
   const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_image_data(buffer, &bytes));
   const RawPicture raw{agreed.format.format, agreed.width_px, agreed.height_px, 0, {data, bytes}};
-  // A camera may send less than the picture that it announces.
+  // A camera may send less than it announced.
   if (!data || bytes < LeastBytes(raw)) return false;
   if (raw.format == PixelFormat::kBgr) {
     static_assert(sizeof(Bgr) == 3 && alignof(Bgr) == 1);

@@ -1,4 +1,4 @@
-// Cameras that speak GigE Vision or USB3 Vision, through Aravis.
+// Driver for GigE Vision and USB3 Vision cameras, through Aravis.
 #pragma once
 
 #include <memory>
@@ -18,9 +18,9 @@ namespace mocap {
 class AravisKeeper;
 class AravisSession;
 
-/// Delivers a camera's frames from where its packets were written; only BGR8 needs no conversion.
-/// A camera that falls silent is lost, and is opened again as soon as it answers; Grab never waits
-/// for it longer than its timeout.
+/// Delivers frames directly from the receive buffers; every format except BGR8 is converted. A
+/// silent camera counts as lost and is reopened as soon as it answers. Grab never waits for it
+/// beyond its timeout.
 class AravisDriver : public CameraDriver {
  public:
   AravisDriver(const CameraRequest& request, const AravisSettings& settings);
@@ -44,8 +44,8 @@ class AravisDriver : public CameraDriver {
   std::shared_ptr<AravisKeeper> previous_;  ///< May still be closing the camera.
   std::shared_ptr<AravisSession> session_;
   unsigned generation_ = 0;
-  bool fresh_ = false;          ///< No whole frame came in this session yet.
-  _ArvBuffer* lent_ = nullptr;  ///< Its pixels were handed out.
+  bool fresh_ = false;          ///< No whole frame yet in this session.
+  _ArvBuffer* lent_ = nullptr;  ///< The buffer whose pixels are lent.
   std::optional<CaptureClock> clock_;
   FrameCounter counter_;
   PixelConverter converter_;

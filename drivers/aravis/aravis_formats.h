@@ -1,4 +1,4 @@
-// The pixel formats of GenICam that the driver understands.
+// GenICam pixel formats that the driver supports.
 #pragma once
 
 #include <arv.h>
@@ -11,12 +11,12 @@
 namespace mocap {
 
 struct AravisFormat {
-  const char* name;  ///< As GenICam has it since 2013.
+  const char* name;  ///< GenICam name since 2013.
   ArvPixelFormat code;
   PixelFormat format;
 };
 
-/// The most wanted first: colour, and little of it on the wire.
+/// In order of preference: colour with low bandwidth first.
 inline constexpr std::array<AravisFormat, 9> kAravisFormats = {
     {{"BayerRG8", ARV_PIXEL_FORMAT_BAYER_RG_8, PixelFormat::kBayerRggb},
      {"BayerGR8", ARV_PIXEL_FORMAT_BAYER_GR_8, PixelFormat::kBayerGrbg},

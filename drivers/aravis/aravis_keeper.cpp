@@ -16,15 +16,16 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kWatchPeriod{20};
 constexpr milliseconds kProbePatience{100};
-/// A camera is lost once it has missed as many frames, and not earlier than a busy machine excuses.
+/// A camera is lost after it missed this many frames, and not before kLeastSilence: the host may be
+/// busy.
 constexpr double kMissedFrames = 4;
 constexpr milliseconds kLeastSilence{100};
-/// The first frame may take its time.
+/// The first frame may take longer.
 constexpr milliseconds kGraceAfterOpening{1000};
-/// A camera whose link was cut goes on by itself; one that answers but sends nothing does not.
+/// After a cut link, a camera continues by itself. One that answers but stays silent does not.
 constexpr milliseconds kStalled{1500};
 constexpr milliseconds kBetweenAttempts{200};
-/// Looking at a camera too often keeps alive whoever held it.
+/// Probing too often would keep the current owner's control alive.
 constexpr milliseconds kBetweenLooksWhenHeld{4000};
 constexpr std::chrono::seconds kBetweenSearches{5};
 constexpr std::chrono::seconds kPtpPeriod{1};
@@ -36,14 +37,14 @@ milliseconds SilenceLimit(const AravisAgreement& agreed) {
   return std::max(kLeastSilence, milliseconds(missed_ms));
 }
 
-/// Waits until nobody else uses the session, then speaks the last words to the camera.
+/// Waits until the session has no other user, then closes the camera.
 void Close(AravisKeeper::Session session) {
   while (session.use_count() > 1) std::this_thread::sleep_for(milliseconds(1));
   session.reset();
 }
 
-/// The next instant, on the timeline, at which hosts that agree on the time of day trigger
-/// together.
+/// Returns the next trigger time on the timeline. It is the same on all hosts whose time of day
+/// agrees.
 std::int64_t NextTrigger(double fps) {
   const std::int64_t period_ns = std::llround(1e9 / fps);
   const std::int64_t now_ns = TimelineNs();
@@ -130,7 +131,7 @@ bool AravisKeeper::IsSilent() {
 
 void AravisKeeper::SeekGige() {
   const Session session = this->session();
-  // Some other program has it, or one that died.
+  // The camera is held by another program, perhaps one that died.
   if (!session && Clock::now() < next_look_) return;
   const GigePresence presence = ProbeGigeCamera(target_.ip, kProbePatience);
   const bool waits_for_trigger = !settings_.trigger.empty() && session && !session->control_lost();
@@ -159,7 +160,7 @@ void AravisKeeper::SeekUsb() {
   const Session session = this->session();
   if (session && !session->control_lost() && !settings_.trigger.empty()) return;
   lost_.store(true, std::memory_order_relaxed);
-  // USB lets no program have a device twice.
+  // USB allows a device to be opened only once.
   Retire();
   {
     const std::lock_guard lock(mutex_);
@@ -172,7 +173,7 @@ void AravisKeeper::FindAgain() {
   if (IsIpv4(target_.device) || Clock::now() < next_search_) return;
   next_search_ = Clock::now() + kBetweenSearches;
   try {
-    // It may have got another address.
+    // Its address may have changed.
     const AravisTarget found = FindAravisCamera(target_.device);
     target_.ip = found.ip;
   } catch (const SetupError&) {

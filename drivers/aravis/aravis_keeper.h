@@ -1,4 +1,4 @@
-// Sees to it that a camera stays open, or comes back.
+// Keeps a camera open, and reopens it after a loss.
 #pragma once
 
 #include <atomic>
@@ -17,33 +17,33 @@
 
 namespace mocap {
 
-/// Watches a session, replaces it once the camera is lost, and speaks with the camera meanwhile.
+/// Watches a session, replaces it when the camera is lost, and talks to the camera meanwhile.
 ///
-/// Whatever is said to a camera that is gone blocks for seconds. So threads of its own do that,
-/// and outlive whoever started them if need be: the frames' thread never waits for a camera.
+/// Talking to a camera that is gone blocks for seconds. Separate threads do this, and may outlive
+/// their creator. The frame thread never waits for a camera.
 class AravisKeeper : public std::enable_shared_from_this<AravisKeeper> {
  public:
   using Session = std::shared_ptr<AravisSession>;
 
   AravisKeeper(const CameraRequest& request, const AravisSettings& settings, Session session);
-  /// Starts to watch; the thread keeps the keeper.
+  /// Starts the watching thread, which keeps this object alive.
   void Start();
 
-  /// Changes when another session takes over.
+  /// Changes when the session is replaced.
   unsigned generation() const { return generation_.load(std::memory_order_acquire); }
-  /// The session to take frames from; null while the camera is away. It is closed by the keeper,
-  /// once nobody else holds it.
+  /// The session that delivers frames; null while the camera is away. The keeper closes it once it
+  /// has no other user.
   Session session() const;
-  /// Nothing comes from the camera, though it should.
+  /// The camera delivers nothing although it should.
   bool lost() const { return lost_.load(std::memory_order_relaxed); }
-  /// The camera says that it follows a PTP master.
+  /// The camera reports that it follows a PTP master.
   bool ptp_locked() const { return ptp_locked_.load(std::memory_order_relaxed); }
-  /// What a person should know of the camera's state.
+  /// Remarks on the camera's state, for people.
   std::vector<std::string> Remarks() const;
 
-  /// Ends everything, in its own time.
+  /// Stops everything, without waiting.
   void RequestStop();
-  /// Waits until the camera has been let go of. @return whether it has.
+  /// Waits until the camera is released. @return whether it is.
   bool WaitClosed(std::chrono::milliseconds timeout);
 
  private:
@@ -70,17 +70,17 @@ class AravisKeeper : public std::enable_shared_from_this<AravisKeeper> {
   std::atomic<unsigned> generation_{0};
   std::atomic<bool> lost_{false}, ptp_locked_{false}, stopping_{false};
 
-  mutable std::mutex mutex_;  ///< For what follows, until the keeper's own.
+  mutable std::mutex mutex_;  ///< Guards the members up to the keeper's own.
   std::condition_variable changed_;
   Session session_;
-  int closing_ = 0;  ///< Sessions that are being closed.
+  int closing_ = 0;  ///< Number of sessions being closed.
   bool closed_ = false;
   std::string trouble_, ptp_status_, trigger_trouble_;
 
-  // The keeper's own.
+  // Used by the keeper's thread only.
   std::uint64_t signs_ = 0;
   Clock::time_point last_sign_;
-  std::optional<Clock::time_point> answered_;  ///< Since when the silent camera answers.
+  std::optional<Clock::time_point> answered_;  ///< Since when the silent camera answers probes.
   Clock::time_point next_search_, next_look_;
 };
 

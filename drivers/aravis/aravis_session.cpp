@@ -20,20 +20,20 @@ namespace {
 constexpr std::size_t kBuffers = 10;
 constexpr std::size_t kAlignment = 4096;
 constexpr int kRealtimePriority = 10;
-/// Frames that the kernel should be able to hold while this program does not run.
+/// Frames that the kernel should buffer while this program does not run.
 constexpr double kFramesInSocket = 2;
 constexpr std::size_t kLeastSocketBytes = 1 << 20;
-/// How long packets that are missing may hold up the frames behind them.
+/// How long missing packets may delay the frames behind them.
 constexpr double kRetentionPeriods = 0.8;
 constexpr unsigned kShortestRetention_us = 10'000, kLongestRetention_us = 40'000;
 constexpr unsigned kPacketTimeout_us = 10'000;
-/// A camera whose program died keeps it for as long as its heartbeat, 3 s in practice.
+/// A camera whose program died stays held for its heartbeat timeout, 3 s in practice.
 constexpr std::chrono::milliseconds kHeartbeat{3500};
 constexpr std::chrono::milliseconds kProbePatience{300};
 constexpr int kProbes = 3;
 
-/// Most that a socket may get for waiting packets; 0: unknown. A service may not see /proc/sys, and
-/// asks a socket.
+/// The largest receive buffer of a socket; 0: unknown. Asks a socket, as a service may not read
+/// /proc/sys.
 std::size_t LargestSocketBuffer() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return 0;
@@ -43,7 +43,7 @@ std::size_t LargestSocketBuffer() {
   const bool is_known = setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &kMore, sizeof kMore) == 0 &&
                         getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, &size) == 0;
   close(fd);
-  // The kernel takes twice of what is asked for, for its own books.
+  // The kernel doubles the requested value for its own overhead.
   return is_known && bytes > 0 ? static_cast<std::size_t>(bytes) / 2 : 0;
 }
 
@@ -61,7 +61,7 @@ GigePresence ProbeThoroughly(const std::string& ip) {
   return GigePresence::kAbsent;
 }
 
-/// Aravis hides why it fails, and takes seconds to do so.
+/// Aravis takes seconds to fail and hides the reason.
 void RequireFree(const AravisTarget& target) {
   GigePresence presence = ProbeThoroughly(target.ip);
   if (presence == GigePresence::kHeld) {
@@ -180,7 +180,7 @@ void AravisSession::OpenStream() {
 }
 
 void AravisSession::FillPool() {
-  // Buffers one byte short would be filled as far as they go and called whole.
+  // Aravis would fill buffers one byte short as far as possible, and report success.
   const std::size_t slot = (agreed_.payload_bytes + kAlignment - 1) / kAlignment * kAlignment;
   pool_.resize(slot * kBuffers + kAlignment);
   void* begin = pool_.data();
@@ -203,7 +203,7 @@ bool AravisSession::Trigger() {
 
 std::string AravisSession::PtpStatus() {
   if (agreed_.ptp_status.empty()) return "";
-  // Some cameras tell the state only as of the last time that they were asked to note it down.
+  // Some cameras update this state only when told to latch it.
   if (arv_camera_is_feature_available(camera_.get(), "PtpDataSetLatch", nullptr)) {
     arv_camera_execute_command(camera_.get(), "PtpDataSetLatch", nullptr);
   }
@@ -212,7 +212,7 @@ std::string AravisSession::PtpStatus() {
 }
 
 std::optional<std::int64_t> AravisSession::ClockAheadNs() {
-  // Of the registers that all GigE Vision cameras have.
+  // Registers that all GigE Vision cameras have.
   constexpr guint64 kControl = 0x0944, kLatchedHigh = 0x0948, kLatchedLow = 0x094c;
   constexpr guint32 kLatch = 2;
   ArvDevice* device = arv_camera_get_device(camera_.get());
@@ -249,7 +249,7 @@ AravisCounters AravisSession::Counters() const {
 std::uint64_t AravisSession::SignsOfLife() const {
   guint64 completed = 0, failures = 0, underruns = 0;
   arv_stream_get_statistics(stream_.get(), &completed, &failures, &underruns);
-  // Buffers fail after a while even when nothing comes.
+  // Buffers fail after some time even if nothing arrives.
   if (!arv_camera_is_gv_device(camera_.get())) return completed + underruns;
   return arv_stream_get_info_uint64_by_name(stream_.get(), "n_received_packets");
 }

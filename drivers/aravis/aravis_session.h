@@ -1,4 +1,4 @@
-// One camera that is open and streaming, from the moment it is found until it is lost.
+// One open, streaming camera, until it is lost.
 #pragma once
 
 #include <arv.h>
@@ -17,50 +17,49 @@
 
 namespace mocap {
 
-/// What went wrong on the wire since the session began.
+/// Transport errors since the session began.
 struct AravisCounters {
   std::uint64_t missing_packets = 0;
   std::uint64_t resend_requests = 0;
   std::uint64_t underruns = 0;  ///< Packets for which no buffer was free.
 };
 
-/// Buffers wait in a fixed pool that the camera's packets are written into; a frame is handed out
-/// where it lies.
+/// Receives a camera's packets in a fixed pool of buffers. Frames are handed out without copying.
 ///
-/// Opening, closing, Trigger, PtpStatus and ClockAheadNs speak with the camera and block for
-/// seconds when it is gone: one thread at a time, and not that of the frames, which calls Pop and
-/// Push. The rest: any.
+/// Opening, closing, Trigger, PtpStatus and ClockAheadNs talk to the camera, and block for seconds
+/// when it is gone: call them from one thread at a time, not from the frame thread. The frame
+/// thread calls Pop and Push. Any thread may call the rest.
 class AravisSession {
  public:
-  /// Opens the camera and starts it.
-  /// @throws SetupError  when it cannot be used as configured, or is not there.
+  /// Opens and starts the camera.
+  /// @throws SetupError  when it is absent or cannot be used as configured.
   AravisSession(const AravisTarget& target, const CameraRequest& request,
                 const AravisSettings& settings);
   ~AravisSession();
   AravisSession(const AravisSession&) = delete;
   AravisSession& operator=(const AravisSession&) = delete;
 
-  /// Waits for the next buffer, whole or not; null if none comes in time.
+  /// Waits for the next buffer, complete or not; null if none comes in time.
   ArvBuffer* Pop(std::chrono::microseconds timeout);
-  /// Gives a buffer back.
+  /// Returns a buffer to the pool.
   void Push(ArvBuffer* buffer) { arv_stream_push_buffer(stream_.get(), buffer); }
 
-  /// The camera said that this program no longer controls it, or it was unplugged.
+  /// The camera reported that this program lost control, or was unplugged.
   bool control_lost() const { return control_lost_.load(std::memory_order_relaxed); }
-  /// Starts one exposure. @return whether the camera answered.
+  /// Triggers one exposure. @return whether the camera answered.
   bool Trigger();
-  /// As the camera names it, such as "Slave"; empty without PTP or an answer.
+  /// In the camera's words, such as "Slave"; empty without PTP or an answer.
   std::string PtpStatus();
-  /// How far a GigE Vision camera's clock is ahead of this host's [ns], within the time that it
-  /// takes to ask; nothing without an answer.
+  /// Returns how far a GigE Vision camera's clock is ahead of this host's [ns], to within the time
+  /// of the query; empty without an answer.
   std::optional<std::int64_t> ClockAheadNs();
 
   const AravisTarget& target() const { return target_; }
   const AravisAgreement& agreed() const { return agreed_; }
-  /// How packets come in, and what is not as it should be with that.
+  /// How packets are received, and what is wrong with that.
   std::vector<std::string> StreamRemarks() const;
   AravisCounters Counters() const;
-  /// Changes with whatever comes from the camera.
+  /// Changes with everything that the camera sends.
   std::uint64_t SignsOfLife() const;
 
  private:

@@ -19,7 +19,7 @@ std::string Triggers(ArvCamera* camera) {
   return JoinNames(names, count);
 }
 
-/// What a feature can be set to.
+/// The allowed values of a feature.
 std::string Choices(ArvCamera* camera, const char* feature) {
   guint count = 0;
   const char** names =
@@ -41,11 +41,11 @@ bool Is(ArvCamera* camera, const char* feature, const std::string& choice) {
   return got && choice == got;
 }
 
-/// Sets a feature to the first of the choices that the camera has. @return whether it is that now.
+/// Sets a feature to the first available choice. @return whether it has that value now.
 bool Choose(ArvCamera* camera, const char* feature, std::initializer_list<const char*> choices) {
   for (const char* choice : choices) {
     if (!Has(camera, feature, choice)) continue;
-    // Some lines can be nothing else, and must not be written.
+    // Lines with a fixed function must not be written.
     if (!Is(camera, feature, choice)) arv_camera_set_string(camera, feature, choice, nullptr);
     return Is(camera, feature, choice);
   }
@@ -66,7 +66,7 @@ void SetSource(ArvCamera* camera, const std::string& device, const std::string& 
   if (failure.failed() || !got || source != got) FailTrigger(camera, device, trigger);
 }
 
-/// The first action: some count from 0, others from 1.
+/// Sets the camera's first action: some count from 0, others from 1.
 void SetAction(ArvCamera* camera, const std::string& device, const std::string& trigger) {
   const int first = Has(camera, "TriggerSource", "Action0") ? 0 : 1;
   const std::string source = "Action" + std::to_string(first);
@@ -75,7 +75,7 @@ void SetAction(ArvCamera* camera, const std::string& device, const std::string& 
   if (Has(camera, "ActionSelector")) {
     arv_camera_set_integer(camera, "ActionSelector", first, nullptr);
   }
-  // Cameras keep their device key to themselves.
+  // The device key cannot be read.
   GFailure failure;
   arv_camera_set_integer(camera, "ActionDeviceKey", kKeys.device, failure);
   bool is_set = !failure.failed();
@@ -114,7 +114,7 @@ void SetTrigger(ArvCamera* camera, const std::string& device, const std::string&
   }
   if (trigger == "software") return SetSource(camera, device, trigger, "Software");
   if (trigger == "ptp") return SetAction(camera, device, trigger);
-  // A line that can be both may have been an output.
+  // A line for both directions may be an output.
   if (Choose(camera, "LineSelector", {trigger.c_str()})) Choose(camera, "LineMode", {"Input"});
   SetSource(camera, device, trigger, trigger);
 }
@@ -128,7 +128,7 @@ void SetStrobe(ArvCamera* camera, const std::string& device, const std::string& 
   if (Has(camera, "LineMode") && !Choose(camera, "LineMode", {"Output", "Strobe"})) {
     FailStrobe(device, line, "it is no output");
   }
-  // The standard's name, and Hikrobot's. Point Grey's strobes have no source.
+  // Names by the standard and by Hikrobot. Point Grey's strobes have no source.
   if (Has(camera, "LineSource") &&
       !Choose(camera, "LineSource", {"ExposureActive", "ExposureStartActive"})) {
     FailStrobe(device, line,

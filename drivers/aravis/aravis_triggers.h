@@ -1,4 +1,4 @@
-// What starts a camera's exposures, and what tells of them to other cameras.
+// Trigger inputs and strobe outputs of a camera.
 #pragma once
 
 #include <arv.h>
@@ -10,17 +10,17 @@
 namespace mocap {
 
 /// Sets what starts an exposure, and reads it back.
-/// @param device       as a person named the camera.
+/// @param device       name of the camera, given by the user.
 /// @param trigger      as in AravisSettings; "ptp" is the camera's first action (GigeActionKeys).
-/// @throws SetupError  with what the camera has, when it cannot be set.
+/// @throws SetupError  listing the available sources, when it cannot be set.
 void SetTrigger(ArvCamera* camera, const std::string& device, const std::string& trigger);
 
-/// Makes an output of the camera tell when it exposes, and reads that back.
+/// Makes an output of the camera signal its exposures, and reads it back.
 /// @param line         the output's name; empty: none is set.
-/// @throws SetupError  likewise.
+/// @throws SetupError  listing the available sources, when it cannot be set.
 void SetStrobe(ArvCamera* camera, const std::string& device, const std::string& line);
 
-/// A list of names that one of Aravis's functions gave, as text.
+/// Joins a list of names from an Aravis function.
 std::string JoinNames(const char** names, guint count);
 
 }  // namespace mocap

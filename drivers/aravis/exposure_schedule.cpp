@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// No clock that is looked at twice differs so much from itself, unless it was set.
+/// If two readings of an offset differ by more, a clock was set.
 constexpr std::int64_t kWasSet_ns = 500'000'000;
 
 }  // namespace

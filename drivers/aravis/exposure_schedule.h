@@ -1,4 +1,4 @@
-// When a camera is to expose, and when to tell it so.
+// Schedule of exposures, and when to request them.
 #pragma once
 
 #include <cstdint>
@@ -6,28 +6,28 @@
 
 namespace mocap {
 
-/// Exposures at the whole multiples of the period by a clock that all cameras share, whichever time
-/// that counts: hosts that never heard of each other choose the same instants.
+/// Schedules exposures at whole multiples of the period, by a clock that all cameras share and with
+/// any epoch. Hosts that do not know each other choose the same instants.
 class ExposureSchedule {
  public:
-  /// How long before an exposure the camera is told. Less than a period at the usual 30 a second,
-  /// so that a camera need not remember more than one; more than a busy machine or network holds
-  /// up.
+  /// How long before an exposure it is requested. This is less than a period at the usual 30 frames
+  /// a second, so a camera need not store more than one. It exceeds usual delays of a busy host or
+  /// network.
   static constexpr std::int64_t kAhead_ns = 30'000'000;
-  /// With less to go an exposure is left out.
+  /// An exposure with less time left is skipped.
   static constexpr std::int64_t kLeastAhead_ns = 10'000'000;
 
   explicit ExposureSchedule(double fps);
 
-  /// Tells how far the cameras' clock is ahead of this host's. Exposures that were asked for by
-  /// another time are forgotten.
+  /// Sets how far the cameras' clock is ahead of this host's. After a step, exposures requested by
+  /// the old time are forgotten.
   void SetOffset(std::int64_t offset_ns);
   bool knows_time() const { return offset_ns_.has_value(); }
 
-  /// The next exposure, none twice, as the cameras' clock tells it. Only with a known time.
+  /// Returns the next exposure in the cameras' clock; each only once. @pre  the time is known.
   /// @param now_ns  of this host's clock.
   std::int64_t Next(std::int64_t now_ns);
-  /// When, by this host's clock, to ask for that one.
+  /// When to request that exposure, by this host's clock.
   std::int64_t AskAt() const { return last_ns_ - kAhead_ns - *offset_ns_; }
 
  private:

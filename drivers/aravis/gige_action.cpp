@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint16_t kActionCommand = 0x0100;
 constexpr std::uint16_t kHasTime = 0x80;
-// Answers' statuses.
+// Answers: status codes.
 constexpr std::uint16_t kSuccess = 0x0000, kNoReferenceTime = 0x8013, kOverflow = 0x8015,
                         kActionLate = 0x8016;
 

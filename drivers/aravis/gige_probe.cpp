@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::uint16_t kReadRegister = 0x80;
 constexpr std::uint32_t kControlPrivilege = 0x0a00;
-/// Control, and exclusive access.
+/// Control and exclusive access.
 constexpr std::uint32_t kHeldBits = 0x3;
 constexpr std::uint16_t kRequest = 0x4d43;
 
-/// Of a register: its address when asking, what it holds in an answer.
+/// Register access: the address in a request, the value in an answer.
 struct RegisterPacket {
   GvcpHead head;
   std::uint32_t value = 0;

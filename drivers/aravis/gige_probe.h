@@ -1,4 +1,4 @@
-// Looks whether a GigE Vision camera is there, without opening it.
+// Checks whether a GigE Vision camera is present, without opening it.
 #pragma once
 
 #include <chrono>
@@ -8,27 +8,27 @@
 namespace mocap {
 
 enum class GigePresence {
-  kAbsent,  ///< Nobody answered in time.
+  kAbsent,  ///< No answer in time.
   kFree,
-  kHeld  ///< Some program controls it; perhaps this one.
+  kHeld  ///< Controlled by some program, perhaps this one.
 };
 
-/// Asks the camera for its control register. Opening a camera that is not there blocks for seconds;
-/// this does not.
-/// @param ip  IPv4, as "192.168.1.11".
+/// Reads a camera's control register. Unlike opening, this does not block for seconds when the
+/// camera is gone.
+/// @param ip  IPv4, such as "192.168.1.11".
 GigePresence ProbeGigeCamera(const std::string& ip, std::chrono::milliseconds timeout);
 
-/// The way to an address.
+/// The route to an address.
 struct NetworkRoute {
   std::string local_ip;
   std::string interface;
-  double link_mbit_s = 0;  ///< 0: unknown, as with the loopback.
+  double link_mbit_s = 0;  ///< 0: unknown, as for the loopback.
 };
 
-/// Tells which of this host's interfaces leads to an address; nothing if none does.
+/// Returns this host's interface that leads to an address; empty if none does.
 std::optional<NetworkRoute> RouteTo(const std::string& ip);
 
-/// Whether the text is an IPv4 address in numbers.
+/// Whether the text is a numeric IPv4 address.
 bool IsIpv4(const std::string& text);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// GLib's references and errors, held the way of C++.
+// RAII wrappers for GLib's references and errors.
 #pragma once
 
 #include <glib-object.h>
@@ -19,7 +19,7 @@ struct GFree {
   void operator()(void* memory) const { g_free(memory); }
 };
 
-/// Takes a GError where GLib's functions want a GError**.
+/// Owns a GError; pass it where GLib expects a GError**.
 class GFailure {
  public:
   GFailure() = default;
@@ -27,7 +27,7 @@ class GFailure {
   GFailure& operator=(const GFailure&) = delete;
   ~GFailure() { Clear(); }
 
-  /// To hand to a function; forgets an earlier error.
+  /// For passing to a function; clears an earlier error.
   operator GError**() {
     Clear();
     return &error_;

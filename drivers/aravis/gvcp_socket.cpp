@@ -47,7 +47,7 @@ std::optional<std::size_t> GvcpSocket::Ask(std::span<const std::byte> command,
   if (!connected_ || send(fd_, command.data(), command.size(), 0) < 0) return std::nullopt;
   const GvcpHead asked = HeadOf(command);
   while (true) {
-    // An answer that is there already is taken, however late this thread is.
+    // An answer that has already arrived is read even after the deadline.
     const auto rest =
         std::max(std::chrono::ceil<milliseconds>(deadline - steady_clock::now()), milliseconds(0));
     pollfd wait{fd_, POLLIN, 0};

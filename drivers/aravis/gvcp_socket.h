@@ -1,4 +1,4 @@
-// The way to a GigE Vision camera's control port.
+// Access to a GigE Vision camera's control port.
 #pragma once
 
 #include <chrono>
@@ -10,39 +10,39 @@
 
 namespace mocap {
 
-/// Where cameras listen for control packets (GVCP).
+/// UDP port of cameras for control packets (GVCP).
 inline constexpr std::uint16_t kGvcpPort = 3956;
 
-/// A control packet's head, of commands and of answers; all numbers are in network order.
+/// Header of a control packet, command or answer; in network byte order.
 struct GvcpHead {
-  std::uint16_t first = 0;  ///< A key and flags when asking, the status in an answer.
+  std::uint16_t first = 0;  ///< Key and flags in a command, status in an answer.
   std::uint16_t command = 0;
   std::uint16_t payload_bytes = 0;
-  std::uint16_t request = 0;  ///< Chosen by who asks, not 0; the answer has the same.
+  std::uint16_t request = 0;  ///< Chosen by the sender, not 0; repeated in the answer.
 };
 static_assert(sizeof(GvcpHead) == 8);
 
-/// What `first` begins with in a command, and its flags.
+/// Key in `first` of a command, and a flag.
 inline constexpr std::uint16_t kGvcpKey = 0x4200, kGvcpAnswerWanted = 0x01;
 
-/// Speaks with one camera, beside whatever else does. Thread-bound.
+/// Talks to one camera, independently of other connections. Thread-bound.
 class GvcpSocket {
  public:
-  /// @param ip  IPv4, as "192.168.1.11". Nothing is sent.
+  /// @param ip  IPv4, such as "192.168.1.11". Nothing is sent yet.
   explicit GvcpSocket(const std::string& ip);
   ~GvcpSocket();
   GvcpSocket(const GvcpSocket&) = delete;
   GvcpSocket& operator=(const GvcpSocket&) = delete;
 
-  /// Whether there is a way to the address.
+  /// Whether there is a route to the address.
   bool connected() const { return connected_; }
-  /// Sends a command and waits for its answer; those to earlier ones are passed over.
-  /// @param command  its head first; the answer's command is the next number.
-  /// @param answer   filled from its head on.
-  /// @return how many bytes came; nothing when none came in time.
+  /// Sends a command and waits for its answer; ignores answers to earlier ones.
+  /// @param command  begins with its header; the answer's command is the next number.
+  /// @param answer   filled, starting with its header.
+  /// @return the number of bytes received; empty if none came in time.
   std::optional<std::size_t> Ask(std::span<const std::byte> command, std::span<std::byte> answer,
                                  std::chrono::milliseconds patience) const;
-  /// The address of this host from which the camera is reached; empty: unknown.
+  /// The host's address used to reach the camera; empty: unknown.
   std::string local_ip() const;
 
  private:
