@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kExposureUnit_us = 100;
 
-/// Something that a camera may also adjust by itself.
+/// A control that a camera may also adjust automatically.
 struct Knob {
-  const char* key;  ///< In the configuration.
+  const char* key;  ///< Configuration key.
   std::uint32_t id;
   double unit;              ///< One step of the control, in the key's unit.
-  std::uint32_t automatic;  ///< The control that leaves it to the camera,
-  int manual;               ///< and what that is when it does not.
+  std::uint32_t automatic;  ///< The control that selects automatic mode,
+  int manual;               ///< and its value for manual mode.
 };
 
 constexpr Knob kExposure{"exposure_us", V4L2_CID_EXPOSURE_ABSOLUTE, kExposureUnit_us,
@@ -58,7 +58,7 @@ class Controls {
     }
   }
 
-  /// Sets a control and reads it back; empty: there is none.
+  /// Sets a control and reads it back; empty: it does not exist.
   std::optional<int> Set(std::uint32_t id, int value) {
     v4l2_control control{};
     control.id = id;

@@ -1,4 +1,4 @@
-// Exposure and the like: set, and read back.
+// Camera controls, such as exposure: set and read back.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace mocap {
 
-/// Sets what is to be set, and that a camera keeps its frame rate in the dark.
-/// @param remarks  gets a line for all that the camera did otherwise, and for what it adjusts by
-///                 itself, since silhouettes need pictures that stay as they were learned.
+/// Applies the settings, and makes the camera keep its frame rate in low light.
+///
+/// @param remarks  gets a line for each deviation and each automatic control: silhouettes need
+///                 pictures that stay as they were learned.
 /// @return  the exposure time [ns]; 0: unknown or not constant.
 std::int64_t SetControls(VideoKernel& kernel, int handle, const V4l2Settings& settings,
                          std::vector<std::string>& remarks);

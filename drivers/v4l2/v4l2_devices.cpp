@@ -25,7 +25,7 @@ std::string ReadLine(const fs::path& file) {
   return line;
 }
 
-/// A node's USB device: the first folder above it that has a vendor.
+/// Finds a node's USB device: the nearest parent folder with a vendor.
 std::optional<fs::path> UsbDeviceOf(const DeviceTree& tree, const std::string& node) {
   std::error_code error;
   fs::path folder = fs::canonical(tree.sys / "class/video4linux" / node / "device", error);
@@ -42,7 +42,7 @@ std::string Text(const unsigned char (&field)[kSize]) {
   return Printable(std::string(field, end));
 }
 
-/// Asks a node what it is. Empty: it gives no pictures, or is gone.
+/// Queries a node. Empty: it delivers no pictures, or is gone.
 std::optional<V4l2Node> Inspect(VideoKernel& kernel, const DeviceTree& tree,
                                 const std::string& name) {
   const std::string path = (tree.dev / name).string();
@@ -68,7 +68,7 @@ std::optional<V4l2Node> Inspect(VideoKernel& kernel, const DeviceTree& tree,
   return node;
 }
 
-/// All video nodes, video2 before video10.
+/// All video nodes in numeric order.
 std::vector<std::string> NodeNames(const DeviceTree& tree) {
   std::vector<std::string> names;
   std::error_code error;
@@ -92,7 +92,7 @@ std::string Known(const std::vector<V4l2Node>& nodes) {
   return text;
 }
 
-/// udev gives a link to one of all the devices that have a claim to it.
+/// If several devices claim a link, udev gives it to one of them.
 bool IsClaimedBySeveral(const DeviceTree& tree, const fs::path& link) {
   std::string escaped;
   for (const char c : link.lexically_relative(tree.dev).string()) {
@@ -110,7 +110,7 @@ V4l2Node FindByPath(VideoKernel& kernel, const std::string& name, const DeviceTr
   if (IsClaimedBySeveral(tree, name)) {
     throw SetupError(name + ": is the name of several cameras; take their /dev/v4l/by-path or bus");
   }
-  // Told apart from a node that gives no pictures: one that may not be opened.
+  // A node without permission is reported differently from one without pictures.
   const int handle = kernel.Open(target.string());
   if (handle == -EACCES) {
     throw SetupError(name + ": may not be opened; the group `video` may, as a rule");
@@ -124,7 +124,7 @@ V4l2Node FindByPath(VideoKernel& kernel, const std::string& name, const DeviceTr
   return *node;
 }
 
-/// The links of a folder by the node that they point to.
+/// Returns the link in a folder that points to a node.
 std::string LinkTo(const fs::path& folder, const std::string& node) {
   std::error_code error;
   for (const auto& link : fs::directory_iterator(folder, error)) {
@@ -133,7 +133,7 @@ std::string LinkTo(const fs::path& folder, const std::string& node) {
   return "";
 }
 
-/// The name that stays the same longest: by serial number, then by socket, then by bus.
+/// Returns the name that stays valid longest: by serial number, else by socket, else by bus.
 std::string BestName(const V4l2Node& node, const std::vector<V4l2Node>& all,
                      const DeviceTree& tree) {
   for (const char* folder : {"v4l/by-id", "v4l/by-path"}) {

@@ -1,4 +1,4 @@
-// Which V4L2 cameras there are, and which one a name means.
+// V4L2 cameras, found by name.
 #pragma once
 
 #include <filesystem>
@@ -10,32 +10,32 @@
 
 namespace mocap {
 
-/// Where the system tells of its devices; tests have a tree of their own.
+/// The system's device folders; tests use their own.
 struct DeviceTree {
   std::filesystem::path dev = "/dev";
   std::filesystem::path sys = "/sys";
   std::filesystem::path udev_links = "/run/udev/links";
 };
 
-/// A node that gives pictures.
+/// A node that delivers pictures.
 struct V4l2Node {
-  std::string path;  ///< As /dev/video0.
+  std::string path;  ///< Such as /dev/video0.
   std::string model;
   std::string kernel_driver;
-  std::string bus;         ///< As "usb-0000:00:14.0-2": controller and port.
+  std::string bus;         ///< Such as "usb-0000:00:14.0-2": controller and port.
   std::string serial;      ///< Of the USB device; empty: it has none.
-  double link_mbit_s = 0;  ///< What the USB link carries; 0: it is none.
+  double link_mbit_s = 0;  ///< USB bandwidth; 0: not on USB.
 
-  /// What tells the camera from others when it comes back under another number.
+  /// Identifies the camera when it returns under another number.
   const std::string& identity() const { return serial.empty() ? bus : serial; }
-  /// What its bandwidth is shared on: the bus without the port.
+  /// The controller, whose bandwidth is shared: the bus without the port.
   std::string controller() const;
 };
 
-/// Lists all nodes that give pictures; those for metadata, output or codecs are left out.
+/// Lists all nodes that deliver pictures; not those for metadata, output or codecs.
 std::vector<V4l2Node> FindV4l2Nodes(VideoKernel& kernel, const DeviceTree& tree = {});
 
-/// Finds the camera that a path (/dev/video0, a link in /dev/v4l), a bus or a serial number means.
+/// Finds the camera with a path (/dev/video0, a link in /dev/v4l), a bus or a serial number.
 /// @throws SetupError  when there is none, when there are several, or when it gives no pictures.
 V4l2Node FindV4l2Node(VideoKernel& kernel, const std::string& name, const DeviceTree& tree = {});
 

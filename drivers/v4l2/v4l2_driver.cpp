@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-/// Nothing for so long is no weather any more.
+/// After this long without a frame, the camera is lost.
 constexpr std::chrono::seconds kStall{2};
 /// Between attempts to open a lost camera.
 constexpr std::chrono::milliseconds kRetryPause{200};
@@ -74,7 +74,7 @@ GrabStatus V4l2Driver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   }
   last_sign_ = Steady::now();
   const GrabStatus status = Take(buffer, frame);
-  // What was taken is good, even if nothing more will come.
+  // The frame is good, even if no more will come.
   is_broken_ = !stream_->GiveBack(buffer);
   return status;
 }
@@ -96,8 +96,7 @@ GrabStatus V4l2Driver::Take(const V4l2Buffer& buffer, Frame& frame) {
 }
 
 std::uint64_t V4l2Driver::Count(std::uint32_t sequence) {
-  // The kernel's count has 32 bits, begins anew with each stream, and stands still for some
-  // drivers.
+  // The kernel's 32-bit count restarts with each stream, and is constant for some drivers.
   const std::uint32_t step = kernel_sequence_ ? sequence - *kernel_sequence_ : 1;
   kernel_sequence_ = sequence;
   return sequence_ += std::max(step, 1u);

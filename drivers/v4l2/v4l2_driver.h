@@ -1,4 +1,4 @@
-// A V4L2 camera: webcams, capture cards, whatever Linux shows as /dev/video*.
+// Driver for V4L2 cameras: webcams, capture cards, all of /dev/video*.
 #pragma once
 
 #include <chrono>
@@ -21,13 +21,13 @@ namespace mocap {
 
 /// Streams from a V4L2 camera.
 ///
-/// Times are the kernel's, moved to the middle of the exposure. A gap in the sequence is what the
-/// camera or the kernel lost; it goes on counting when the camera comes back. A camera that is
-/// unplugged, fails or delivers nothing for seconds is lost; Grab then tries to open it again a few
-/// times a second, under whatever number it has by then, and never takes another camera for it.
+/// Times are the kernel's, moved to the middle of the exposure. Frames dropped by the camera or the
+/// kernel leave a gap in the sequence, which continues when the camera returns. A camera that is
+/// unplugged, fails or delivers nothing for seconds is lost. Grab then tries to reopen it a few
+/// times a second, under its current number. It never mistakes another camera for it.
 class V4l2Driver : public CameraDriver {
  public:
-  /// Touches no device yet.
+  /// Accesses no device yet.
   V4l2Driver(CameraRequest request, V4l2Settings settings,
              std::shared_ptr<VideoKernel> kernel = SystemVideoKernel(), DeviceTree tree = {});
   ~V4l2Driver() override;
@@ -53,9 +53,9 @@ class V4l2Driver : public CameraDriver {
   bool started_ = false;
   V4l2Node node_;
   std::unique_ptr<V4l2Stream> stream_;  ///< Null while the camera is lost.
-  bool is_broken_ = false;              ///< It will deliver no more.
-  std::string trouble_;                 ///< Why it is.
-  Steady::time_point last_sign_;        ///< Of life, or the last attempt to get it back.
+  bool is_broken_ = false;              ///< It will deliver nothing more.
+  std::string trouble_;                 ///< The reason.
+  Steady::time_point last_sign_;        ///< Last frame, or last attempt to reopen.
   std::uint64_t sequence_ = 0;
   std::optional<std::uint32_t> kernel_sequence_;
   CaptureTime time_;  ///< Of the last frame.

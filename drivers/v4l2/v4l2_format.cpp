@@ -21,7 +21,7 @@ struct KnownFormat {
   PixelFormat pixels;
 };
 
-/// In the order of preference: what webcams do best, raw before compressed, colour before grey.
+/// In order of preference: webcams' best formats first, raw before compressed, colour before grey.
 constexpr std::array<KnownFormat, 12> kKnownFormats{{
     {V4L2_PIX_FMT_YUYV, PixelFormat::kYuyv},
     {V4L2_PIX_FMT_UYVY, PixelFormat::kUyvy},
@@ -37,7 +37,7 @@ constexpr std::array<KnownFormat, 12> kKnownFormats{{
     {V4L2_PIX_FMT_GREY, PixelFormat::kGrey},
 }};
 
-/// Rates within this are the one that was asked for.
+/// Rates within this tolerance count as the requested one.
 constexpr double kRateTolerance = 0.02;
 /// More sizes than any camera has.
 constexpr std::uint32_t kMostEntries = 200;
@@ -94,8 +94,8 @@ double RateOf(const v4l2_fract& interval) {
   return interval.numerator == 0 ? 0 : 1.0 * interval.denominator / interval.numerator;
 }
 
-/// The most frames a second at a size; empty: it has no such size. A camera that does not tell is
-/// believed to keep any rate.
+/// Returns the highest frame rate at a size; empty: no such size. A camera that reports no rates is
+/// assumed to keep any.
 std::optional<double> FastestRate(VideoKernel& kernel, int handle, std::uint32_t fourcc, Size at) {
   v4l2_frmivalenum interval{};
   interval.pixel_format = fourcc;
@@ -135,7 +135,7 @@ v4l2_format CurrentFormat(VideoKernel& kernel, int handle) {
   return format;
 }
 
-/// @throws SetupError  when none of the formats will do.
+/// @throws SetupError  when no format is suitable.
 KnownFormat Choose(VideoKernel& kernel, int handle, const std::string& where, Size size, double fps,
                    const std::string& wanted) {
   const std::vector<std::uint32_t> offered = OfferedFormats(kernel, handle);
@@ -146,7 +146,7 @@ KnownFormat Choose(VideoKernel& kernel, int handle, const std::string& where, Si
     if (!wanted.empty() && NameOf(known.fourcc) != wanted) continue;
     const auto rate = FastestRate(kernel, handle, known.fourcc, size);
     if (!rate) continue;
-    // All that keep the rate are equally good.
+    // All formats that keep the rate are equally good.
     const double useful = std::min(*rate, fps * (1 - kRateTolerance));
     if (best && useful <= best_rate) continue;
     best = known;
@@ -203,7 +203,7 @@ std::vector<std::string> DescribeFormats(VideoKernel& kernel, int handle) {
   return lines;
 }
 
-/// The bytes from row to row; 0 where the driver does not tell, or tells what cannot be.
+/// The bytes from row to row; 0 if the driver reports none or an impossible value.
 std::size_t StrideOf(const KnownFormat& format, const Size& size, std::uint32_t told,
                      std::vector<std::string>& remarks) {
   if (format.pixels == PixelFormat::kMjpeg) return 0;

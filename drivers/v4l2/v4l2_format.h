@@ -1,4 +1,4 @@
-// Which of a camera's formats is taken.
+// Choice of a camera's format.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,25 @@
 
 namespace mocap {
 
-/// What the camera was set to.
+/// The format that the camera was set to.
 struct V4l2Format {
-  std::string name;  ///< Its fourcc.
+  std::string name;  ///< Its FourCC.
   PixelFormat pixels = PixelFormat::kGrey;
   int width_px = 0, height_px = 0;
   std::size_t stride_bytes = 0;
-  double fps = 0;  ///< 0: the camera does not tell.
+  double fps = 0;  ///< 0: not reported by the camera.
 };
 
-/// Gives one line for each format that the camera offers: sizes, and the most frames a second.
+/// Returns one line for each format of the camera: sizes, and the highest frame rate.
 std::vector<std::string> DescribeFormats(VideoKernel& kernel, int handle);
 
 /// Sets format, size and rate.
 ///
-/// Of the formats that this program reads the first is taken that has the size and keeps the rate;
-/// what is compressed comes last.
-/// @param wanted   a fourcc; empty: any.
+/// Uses the first supported format that has the size and keeps the rate; compressed formats come
+/// last.
+/// @param wanted   a FourCC; empty: any.
 /// @param where    the camera's name in messages.
-/// @param remarks  gets a line when the rate is another one.
+/// @param remarks  gets a line if the rate differs.
 /// @throws SetupError  when the camera has no such format or size.
 V4l2Format SetFormat(VideoKernel& kernel, int handle, const std::string& where,
                      const CameraRequest& request, const std::string& wanted,

@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-/// V4L2 counts in seconds of arc.
+/// V4L2 angles are in seconds of arc.
 constexpr double kUnit_rad = std::numbers::pi / (180 * 3600);
 
 std::optional<double> Get(VideoKernel& kernel, int handle, std::uint32_t id) {

@@ -1,4 +1,4 @@
-// A head that is turned by the controls of its V4L2 camera.
+// A pan-tilt head controlled through its V4L2 camera.
 #pragma once
 
 #include <chrono>
@@ -12,12 +12,12 @@
 
 namespace mocap {
 
-/// Reads and sets pan and tilt beside the camera's stream. (USB's own requests would need the
-/// kernel's driver to let go of the camera, and end the stream.)
+/// Reads and sets pan and tilt while the camera streams. (USB requests would need the kernel's
+/// driver to be detached, which ends the stream.)
 class V4l2PanTilt : public PolledPanTilt {
  public:
   /// @param device  the camera's name.
-  /// @param delay   by which a reading lags behind the head.
+  /// @param delay   lag of a reading behind the head.
   V4l2PanTilt(std::string device, std::chrono::nanoseconds delay,
               std::shared_ptr<VideoKernel> kernel = SystemVideoKernel(), DeviceTree tree = {});
   ~V4l2PanTilt() override;

@@ -1,4 +1,4 @@
-// What can be set of a V4L2 camera. What is not set stays as it is, unless it is said otherwise.
+// Settings of a V4L2 camera. Unset ones stay as they are unless stated otherwise.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 namespace mocap {
 
 struct V4l2Settings {
-  std::string format{};  ///< Its fourcc, as "YUYV" or "MJPG"; empty: the best that keeps the rate.
-  /// Given, these switch the camera's automatic off.
+  std::string format{};  ///< FourCC, such as "YUYV" or "MJPG"; empty: the best that keeps the rate.
+  /// If set, these disable the camera's automatic control.
   std::optional<double> exposure_us{};
   std::optional<double> white_balance_k{};
   std::optional<double> gain{};        ///< [the camera's units].

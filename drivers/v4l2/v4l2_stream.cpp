@@ -58,7 +58,7 @@ void V4l2Stream::Open(const V4l2Node& node, const CameraRequest& request,
   }
   if (result == -EBUSY) throw SetupError(InUse(where));
   if (result < 0) throw SetupError(where + ": does not stream: " + ErrorText(result));
-  // Some cameras forget their settings when a stream begins.
+  // Some cameras lose their settings when a stream starts.
   exposure_ns_ = SetControls(*kernel_, handle_, settings, remarks_);
 }
 

@@ -1,4 +1,4 @@
-// An open V4L2 camera that delivers into mapped memory.
+// An open V4L2 camera that streams into mapped memory.
 #pragma once
 
 #include <chrono>
@@ -16,16 +16,16 @@
 
 namespace mocap {
 
-/// A filled buffer; its bytes are the stream's until it is given back.
+/// A filled buffer. The stream owns its bytes until it is given back.
 struct V4l2Buffer {
   std::uint32_t index = 0;
   std::uint32_t flags = 0;
   std::uint32_t sequence = 0;
-  std::int64_t stamp_ns = 0;  ///< In the clock that the flags tell.
+  std::int64_t stamp_ns = 0;  ///< In the clock named by the flags.
   std::span<const std::uint8_t> bytes;
 };
 
-/// What became of waiting for a buffer.
+/// Result of waiting for a buffer.
 enum class V4l2Wait { kBuffer, kNothing, kBroken };
 
 /// Streams from construction to destruction. Thread-bound.
@@ -33,8 +33,8 @@ class V4l2Stream {
  public:
   static constexpr int kBuffers = 4;
 
-  /// @throws SetupError  when the camera cannot do what it is asked for, is in use, or when there
-  /// is not bandwidth enough.
+  /// @throws SetupError  when the camera cannot do what is requested, is in use, or lacks
+  /// bandwidth.
   V4l2Stream(std::shared_ptr<VideoKernel> kernel, const V4l2Node& node,
              const CameraRequest& request, const V4l2Settings& settings);
   ~V4l2Stream();
@@ -45,9 +45,9 @@ class V4l2Stream {
   std::int64_t exposure_ns() const { return exposure_ns_; }  ///< 0: unknown.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
-  /// Waits for a buffer. kBroken: the stream will deliver no more.
+  /// Waits for a buffer. kBroken: the stream will deliver nothing more.
   V4l2Wait Wait(std::chrono::milliseconds timeout, V4l2Buffer& buffer);
-  /// Lets the camera fill a buffer anew. @return  false when the stream is broken.
+  /// Returns a buffer to the camera. @return  false when the stream is broken.
   bool GiveBack(const V4l2Buffer& buffer);
 
  private:

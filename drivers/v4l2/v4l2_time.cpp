@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-/// A frame may have waited for its buffer to be fetched, or been stamped a little ahead.
+/// A frame may have waited for a long time, or have a stamp slightly in the future.
 constexpr std::int64_t kOldest_ns = 10'000'000'000;
 constexpr std::int64_t kAhead_ns = 1'000'000'000;
 

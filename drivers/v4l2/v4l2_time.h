@@ -1,4 +1,4 @@
-// From a V4L2 buffer's time stamp to the moment of exposure.
+// Conversion of a V4L2 timestamp to the capture time.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,24 @@
 
 namespace mocap {
 
-/// Where a frame's time comes from.
+/// Origin of a frame's time.
 enum class V4l2Clock {
-  kMonotonic,  ///< The kernel's stamp, by the clock that it names.
-  kGuessed,    ///< A stamp without a clock's name that fits one of the kernel's clocks.
-  kArrival     ///< No stamp that fits any clock: the moment at which the frame was fetched.
+  kMonotonic,  ///< Kernel timestamp, in the clock that it names.
+  kGuessed,    ///< Timestamp without a named clock, but consistent with one.
+  kArrival     ///< No usable timestamp: the time when the frame was fetched.
 };
 
 struct CaptureTime {
   std::int64_t capture_ns = 0;  ///< Middle of the exposure, on the timeline.
   V4l2Clock clock = V4l2Clock::kArrival;
-  bool is_start_of_exposure = false;  ///< What the stamp was of; else of the frame's end.
+  bool is_start_of_exposure = false;  ///< Whether the stamp is the start of exposure; else the
+                                      ///< frame's end.
 };
 
-/// Finds the middle of the exposure.
+/// Computes the middle of the exposure.
 /// @param flags        of the buffer.
-/// @param exposure_ns  0: unknown; then the stamp itself is taken.
-/// @param host         asked shortly after the buffer came.
+/// @param exposure_ns  0: unknown; then the stamp itself is used.
+/// @param host         read shortly after the buffer came.
 CaptureTime CaptureTimeOf(std::int64_t stamp_ns, std::uint32_t flags, std::int64_t exposure_ns,
                           HostClock& host);
 
