@@ -65,7 +65,7 @@ const char* ModelOf(const Lens& lens) {
   return std::holds_alternative<OpenCvLens>(lens) ? "opencv" : "fisheye";
 }
 
-// What readers may leave out.
+// Omits default values.
 void WriteUnless(double usual, const char* key, double value, std::ostream& out) {
   if (value != usual) out << key << " = " << TomlNumber(value) << '\n';
 }
@@ -108,7 +108,7 @@ void Write(std::ostream& out, const CalibrationRecord& record) {
   }
 }
 
-// What would stop a reader, or a program that trusts the file.
+// Faults that would break a reader, or a user of the file.
 std::string FaultOf(const CameraCalibration& camera) {
   constexpr double kRotationTolerance = 1e-6;
   if (!IsCameraName(camera.name)) return "its name is none; letters, digits, _ and - are wanted";

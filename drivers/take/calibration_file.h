@@ -1,4 +1,4 @@
-// Calibration on disk: cameras, and what is known of how they were calibrated.
+// Calibration files: cameras, and data about the calibration.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,29 @@
 
 namespace mocap {
 
-/// Pictures are no wider and no higher.
+/// Largest width and height of a picture.
 inline constexpr int kLargestPicture_px = 16384;
 
-/// How far a camera's pictures lie from where the others put the person.
+/// Offset of a camera's silhouettes from the other cameras' reconstruction.
 struct CameraOffset {
   std::string camera;
   double px = 0;
-  bool has_moved = false;  ///< More than accidents of silhouettes explain.
+  bool has_moved = false;  ///< More than silhouette errors explain.
 };
 
-/// What a calibration says of itself. A file of another program, or a take's, may say nothing.
+/// Data about a calibration. Files of other programs and of takes may lack it.
 struct CalibrationRecord {
   std::int64_t made_s = 0;            ///< Since the Unix epoch; 0: not known.
   double reprojection_px = 0;         ///< 0: not known.
-  std::int64_t refined_s = 0;         ///< When cameras that moved were put right; 0: never.
-  std::int64_t checked_s = 0;         ///< When its health was looked at last; 0: never.
-  std::vector<CameraOffset> offsets;  ///< What that look found.
+  std::int64_t refined_s = 0;         ///< When moved cameras were last corrected; 0: never.
+  std::int64_t checked_s = 0;         ///< When it was last checked; 0: never.
+  std::vector<CameraOffset> offsets;  ///< Result of that check.
 };
 
-/// Makes the text of calibration.toml, every number with all its digits. What is written can be
-/// read again.
-/// @param file  what messages call it.
-/// @throws SetupError  naming the camera and what is wrong, where that cannot be: a number that is
-/// not finite, a name that is none or another camera's too, a rotation that is none.
+/// Formats calibration.toml, with every digit of each number, so that reading restores it.
+/// @param file  its name in messages.
+/// @throws SetupError  naming the camera and the fault: a number that is not finite, an invalid or
+/// duplicate name, an invalid rotation.
 std::string CalibrationText(const std::filesystem::path& file,
                             std::span<const CameraCalibration> cameras,
                             const CalibrationRecord& record = {});

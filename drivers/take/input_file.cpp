@@ -20,7 +20,7 @@ namespace {
 
 bool IsAbsence(int error) { return error == ENOENT || error == ENOTDIR; }
 
-/// Tells of errno.
+/// Throws a message for errno.
 [[noreturn]] void FailByErrno(const std::filesystem::path& path, std::string_view wanted) {
   if (path.empty()) throw SetupError("a path is empty; " + std::string(wanted) + " is wanted");
   if (IsAbsence(errno)) Fail(path, "is missing", wanted);
@@ -33,7 +33,7 @@ void RequireRegular(const std::filesystem::path& file, const struct stat& status
   if (!S_ISREG(status.st_mode)) Fail(file, "is no regular file", wanted);
 }
 
-/// Closes what it was given.
+/// Closes a file descriptor.
 class Closing {
  public:
   explicit Closing(int fd) : fd_(fd) {}
@@ -57,7 +57,7 @@ bool IsThere(const std::filesystem::path& path) {
 }
 
 int OpenToRead(const std::filesystem::path& file, std::string_view wanted) {
-  // What is no file is not opened: a pipe would wait for its other end.
+  // Only files are opened: a pipe would block until its other end opens.
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) FailByErrno(file, wanted);
   RequireRegular(file, status, wanted);

@@ -1,4 +1,4 @@
-// FFmpeg's libraries, and what owns their objects.
+// FFmpeg's libraries, with owners for their objects.
 #pragma once
 
 extern "C" {

@@ -7,7 +7,7 @@ namespace mocap {
 namespace {
 
 constexpr double kOne = 65536;
-// Of what a cosine of 90 degrees leaves.
+// Tolerance for the cosine of 90 degrees.
 constexpr double kTolerance = 1e-3;
 
 std::optional<int> Whole(std::int32_t number) {
@@ -37,7 +37,7 @@ std::optional<PictureTurn> TurnFromDisplayMatrix(const std::array<std::int32_t, 
 }
 
 void Turn(const PictureTurn& turn, ImageView<const Bgr> in, ImageView<Bgr> out) {
-  // What lies at negative places moves to the other side.
+  // Moves negative coordinates into the picture.
   const int x_offset = turn.a + turn.c < 0 ? out.width() - 1 : 0;
   const int y_offset = turn.b + turn.d < 0 ? out.height() - 1 : 0;
   for (int y = 0; y < in.height(); ++y) {

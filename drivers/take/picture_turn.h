@@ -1,4 +1,4 @@
-// How a picture is to be turned before it is shown: telephones record as they are held, and say so.
+// Rotation of a picture for display: telephones record as they are held, and store the rotation.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace mocap {
 
-/// A turn by quarters, with or without a mirror: a place (x, y) of the recorded picture goes to
-/// (a x + c y, b x + d y), moved so that all of them are in the shown one.
+/// A rotation by quarter turns, optionally mirrored. Point (x, y) of the recorded picture goes to
+/// (a x + c y, b x + d y), shifted so that all points lie in the displayed picture.
 struct PictureTurn {
   int a = 1, b = 0, c = 0, d = 1;
 
@@ -19,15 +19,15 @@ struct PictureTurn {
 
   bool IsNone() const { return *this == PictureTurn{}; }
   bool SwapsSides() const { return a == 0; }
-  /// Says it to a person: "turned right by 90 degrees".
+  /// Describes it for people: "turned right by 90 degrees".
   std::string Text() const;
 };
 
-/// Reads FFmpeg's display matrix (16.16 fixed point, as in the files of telephones). Empty where it
-/// is no turn by quarters.
+/// Converts FFmpeg's display matrix (16.16 fixed point, as in telephones' files). Empty if it is
+/// not a rotation by quarter turns.
 std::optional<PictureTurn> TurnFromDisplayMatrix(const std::array<std::int32_t, 9>& matrix);
 
-/// Turns a picture. @param out  of the shown size.
+/// Rotates a picture. @param out  has the displayed size.
 void Turn(const PictureTurn& turn, ImageView<const Bgr> in, ImageView<Bgr> out);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// What the cameras of a recording share, so that they replay in step.
+// State that a recording's cameras share, so that they replay in step.
 #pragma once
 
 #include <cstdint>
@@ -9,54 +9,55 @@
 
 namespace mocap {
 
-/// Time as a replay sees it. Thread-safe.
+/// Clock of a replay. Thread-safe.
 class ReplayClock {
  public:
   virtual ~ReplayClock() = default;
-  /// Nanoseconds of a clock that never goes back.
+  /// Nanoseconds; never decreases.
   virtual std::int64_t NowNs() = 0;
   virtual void SleepUntil(std::int64_t time_ns) = 0;
 };
 
-/// The program's timeline.
+/// Returns a clock on the program's timeline.
 std::unique_ptr<ReplayClock> MakeTimelineClock();
 
-/// What a recording spans, over all its cameras.
+/// Time span of a recording, over all its cameras.
 struct ReplaySpan {
   std::int64_t first_ns = 0;
-  std::int64_t period_ns = 0;  ///< From one loop's first frame to the next one's.
+  std::int64_t period_ns = 0;  ///< From one loop's first frame to the next loop's.
 };
 
-/// One time line for all cameras of a take.
+/// Common timeline of all cameras of a take.
 ///
-/// With a clock the recording is replayed at its own pace, and its times are moved to the present:
-/// the first frame of the take is captured when the first camera starts, or at a time that was
-/// named; whoever starts later than that joins the loop then under way. Without a clock frames keep
-/// the times of the recording and come as fast as they are read. Thread-safe.
+/// With a clock, the recording is replayed at its own pace and its times are moved to the present.
+/// The take's first frame is captured when the first camera starts, or at a given time. A camera
+/// that starts later joins the current loop. Without a clock, frames keep the recording's times and
+/// come as fast as they are read. Thread-safe.
 class Replay {
  public:
   /// @param clock     null: as fast as possible.
-  /// @param begin_ns  tells, when the first camera starts, when the first frame is captured; null:
-  ///                  then. Only with a clock.
+  /// @param begin_ns  called when the first camera starts; returns the capture time of the first
+  /// frame.
+  ///                  Null: now. Only with a clock.
   Replay(const ReplaySpan& span, bool loop, std::unique_ptr<ReplayClock> clock,
          std::function<std::int64_t()> begin_ns = nullptr)
       : span_(span), loop_(loop), clock_(std::move(clock)), begin_ns_(std::move(begin_ns)) {}
 
   bool loops() const { return loop_; }
-  /// Null when the recording is read as fast as possible.
+  /// Null if the recording is read as fast as possible.
   ReplayClock* clock() const { return clock_.get(); }
 
-  /// A camera starts; the first to do so sets the time line.
-  /// @return  what to add to the recording's times in loop 0 [ns].
+  /// Registers a camera that starts; the first one sets the timeline.
+  /// @return  the offset from the recording's times in loop 0 [ns].
   std::int64_t Join();
-  /// A camera stops; after the last one the time line is free again.
+  /// Unregisters a camera; after the last one the timeline is unset.
   void Leave();
 
-  /// What to add to the times of loop 0 in a later loop [ns].
+  /// Offset of a later loop's times from loop 0 [ns].
   std::int64_t LoopOffset(std::uint64_t loop) const {
     return static_cast<std::int64_t>(loop) * span_.period_ns;
   }
-  /// How many whole loops a duration has, 0 or more.
+  /// Number of whole loops in a duration, 0 or more.
   std::uint64_t LoopsIn(std::int64_t duration_ns) const {
     return loop_ ? static_cast<std::uint64_t>(duration_ns / span_.period_ns) : 0;
   }

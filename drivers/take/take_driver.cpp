@@ -63,7 +63,7 @@ bool TakeDriver::ReadNext() {
   if (replay_->clock()) DropOverdue(replay_->clock()->NowNs());
   if (row_ == table_.rows.size()) return false;
   fresh_ = false;
-  // Before its time has come, so that it is there when it has.
+  // Read ahead, so that the picture is ready when due.
   if (!read_) read_ = video_.Read(image_);
   if (read_ != VideoStatus::kEnd) return true;
   read_.reset();
@@ -78,7 +78,7 @@ std::int64_t TakeDriver::OverdueAtNs() const {
 }
 
 void TakeDriver::DropOverdue(std::int64_t now_ns) {
-  // A loop later the video stands at the same frame.
+  // Whole loops are skipped: the video is at the same frame then.
   if (OverdueAtNs() <= now_ns) loop_ += replay_->LoopsIn(now_ns - OverdueAtNs());
   while (row_ < table_.rows.size() && OverdueAtNs() <= now_ns) {
     fresh_ = false;

@@ -1,4 +1,4 @@
-// A recorded camera as a driver: its video, and the times and angles beside it.
+// Replays a recorded camera: its video, with its times and angles.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,14 @@ namespace mocap {
 
 /// Replays one camera of a take.
 ///
-/// Read as fast as possible, frames carry the times of the recording, every frame is handed out and
-/// the timeout is never used up. In real time each frame is handed out once its time has come, and
-/// carries the present as its capture time; a caller that falls behind loses the oldest frames, as
-/// with a camera that has few buffers, and sees the gap in the sequence; what was lost costs hardly
-/// any time. When the recording loops, times and sequence go on increasing. Ends with the shorter
-/// of video and table.
+/// As fast as possible: frames have the recording's times, none is dropped, and the timeout is not
+/// used. In real time: each frame is delivered when due, with the present as its capture time. If
+/// the caller falls behind, the oldest frames are dropped, as with a camera that has few buffers.
+/// The sequence shows the gap. Dropping costs hardly any time. When the recording loops, times and
+/// sequence keep increasing. Ends with the shorter of video and table.
 class TakeDriver : public CameraDriver {
  public:
-  /// Frames that wait for a slow caller in real time before the oldest is lost.
+  /// Frames that wait for a slow caller in real time before the oldest is dropped.
   static constexpr std::size_t kBufferedFrames = 4;
 
   TakeDriver(VideoReader video, TakeTable table, std::shared_ptr<Replay> replay);
@@ -46,11 +45,11 @@ class TakeDriver : public CameraDriver {
   const TakeTable table_;
   const std::shared_ptr<Replay> replay_;
   bool started_ = false;
-  bool fresh_ = true;  ///< The video stands at its first frame.
+  bool fresh_ = true;  ///< The video is at its first frame.
   std::int64_t shift_ns_ = 0;
   std::uint64_t loop_ = 0;
-  std::size_t row_ = 0;              ///< The next one; past the last one when this loop has ended.
-  std::optional<VideoStatus> read_;  ///< Of the next row, once it was read.
+  std::size_t row_ = 0;              ///< Next row; past the end when this loop is over.
+  std::optional<VideoStatus> read_;  ///< Status of the next row, once read.
   ImageView<const Bgr> image_;       ///< Its picture.
 };
 

@@ -1,4 +1,4 @@
-// Which file of a take lies where, and what its cameras may be called.
+// File names in a take, and valid camera names.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-/// A camera's name is part of file names: letters, digits, `_` and `-`.
+/// Checks a camera's name, which is part of file names: letters, digits, `_` and `-`.
 inline bool IsCameraName(std::string_view name) {
   return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -16,7 +16,7 @@ inline bool IsCameraName(std::string_view name) {
   });
 }
 
-/// Tells files that other systems leave in folders: those that begin with a dot, as a Mac's
+/// Recognizes files that other systems leave in folders. They begin with a dot, such as a Mac's
 /// "._cam1.yml" beside cam1.yml.
 inline bool IsHidden(const std::filesystem::path& file) {
   return file.filename().native().starts_with('.');
@@ -43,17 +43,18 @@ struct TakeLayout {
   std::filesystem::path Mask(const std::string& camera) const {
     return folder / "silhouette" / (camera + ".mkv");
   }
-  /// The person's sizes, where they were known.
+  /// Sizes of the subject, if they were known.
   std::filesystem::path Subject() const { return folder / "subject.toml"; }
-  /// The same of one of several people, by number.
+  /// Sizes of one of several subjects, by number.
   std::filesystem::path Subject(int person) const {
     return folder / ("person-" + std::to_string(person)) / "subject.toml";
   }
-  /// What was published while the take was recorded: an LCM log.
+  /// Messages published during the recording: an LCM log.
   std::filesystem::path Poses() const { return folder / "poses.lcm"; }
   /// The daemon's configuration.
   std::filesystem::path Config() const { return folder / "mocapd.toml"; }
-  /// What is known of one of several people, counted from 1: a folder with truth as a take has it.
+  /// Data of one of several people, counted from 1: a folder with the same files of truth as a
+  /// take.
   TakeLayout Person(int number) const { return {folder / ("person-" + std::to_string(number))}; }
   std::filesystem::path TruthTable() const { return folder / "truth.csv"; }
   std::filesystem::path TruthSizes() const { return folder / "truth.toml"; }

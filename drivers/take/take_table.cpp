@@ -17,7 +17,7 @@ const std::array<std::string, 2> kHeaders = {"frame,timestamp_ns",
                                              "frame,timestamp_ns,pan_rad,tilt_rad"};
 const std::array<std::string, 4> kColumns = {"frame", "timestamp_ns", "pan_rad", "tilt_rad"};
 
-// Far beyond any recording, yet safe to add and to multiply.
+// Far beyond any recording, but without overflow in sums and products.
 constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;
 constexpr std::uint64_t kLastFrame = 1'000'000'000'000;
 constexpr double kStill_rad = 0.01;
@@ -66,8 +66,8 @@ void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row,
   }
 }
 
-// A row without a line's end is one that an editor left so, or half of one: a number that lost its
-// last digits comes before its predecessor, or far behind it where those were small.
+// A row without a line end is whole, as some editors leave it, or cut off. A number without its
+// last digits is less than its predecessor, or far behind it if that was small.
 bool IsPlausible(const std::vector<TakeRow>& rows, const TakeRow& row) {
   if (rows.size() < 2) return true;
   const auto turn = [](const TakeRow& from, const TakeRow& to) {

@@ -1,4 +1,4 @@
-// camN.csv of a take: when each recorded frame was captured, and where the head pointed.
+// camN.csv of a take: capture times of the frames and angles of the head.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace mocap {
 
-/// More than any take lasts; keeps sums of times far from their limits.
+/// Longer than any take; keeps sums of times from overflowing.
 inline constexpr std::int64_t kLongestTake_ns = std::int64_t{7} * 24 * 3600 * 1'000'000'000;
 
 /// One recorded frame.
 struct TakeRow {
-  std::uint64_t frame = 0;  ///< As the camera counted; a gap is a frame that it missed.
+  std::uint64_t frame = 0;  ///< The camera's count; a gap means dropped frames.
   std::int64_t timestamp_ns = 0;
   PanTiltAngles angles;
 };
@@ -22,23 +22,23 @@ struct TakeRow {
 /// All recorded frames of a camera, in file order.
 struct TakeTable {
   bool has_angles = false;
-  bool is_cut_off = false;  ///< Half a row follows those that are here.
+  bool is_cut_off = false;  ///< The file ends with part of a row.
   std::vector<TakeRow> rows;
 };
 
 /// Reads a table with the header `frame,timestamp_ns` or `frame,timestamp_ns,pan_rad,tilt_rad`.
 ///
-/// A last line that does not end and does not fit in is what a power failure left of a row: it is
-/// passed over, and is_cut_off tells so.
-/// @throws SetupError  naming file and line: no header, no rows, a word for a number, frames or
-/// times that do not increase.
+/// An implausible last line without a line end is the rest of a row after a power failure. It is
+/// ignored and sets is_cut_off.
+/// @throws SetupError  naming file and line: no header, no rows, text instead of a number, frames
+/// or times that do not increase.
 TakeTable ReadTakeTable(const std::filesystem::path& file);
 
-/// Tells whether a table is whole but for its rows: the camera delivered nothing while the others
-/// were recorded. False for what is no table.
+/// Whether a table is valid but has no rows: the camera delivered nothing during the recording.
+/// False if it is not a table.
 bool HoldsNoRows(const std::filesystem::path& file);
 
-/// The median of the times between rows; 0 where there is one row.
+/// Returns the median interval between rows; 0 if there is only one row.
 std::int64_t UsualIntervalNs(const TakeTable& table);
 
 }  // namespace mocap

@@ -20,14 +20,14 @@
 namespace mocap {
 namespace {
 
-/// A text file that complains when it cannot be written.
+/// A text file whose write errors are reported.
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {
     Check();
   }
 
-  // Flushed so that a row is on its way to the disk once its frame is.
+  // Flushed, so that a row goes to the disk right after its frame.
   void Write(const std::string& text) {
     errno = 0;
     out_ << text << std::flush;
@@ -45,7 +45,7 @@ class TextFile {
   std::ofstream out_;
 };
 
-/// A video, with the table beside it if one is wanted.
+/// A video, optionally with its table.
 class RecordedVideo {
  public:
   RecordedVideo(const std::filesystem::path& video, const CameraCalibration& camera, double fps,
@@ -211,7 +211,7 @@ class TakeWriter::Impl {
 
   void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes) {
     description_ += NotesText(notes);
-    // In one step: a take without its description would not open.
+    // Replaced atomically: a take without its description does not open.
     ReplaceText(layout_.Description(), description_);
   }
 
@@ -275,7 +275,7 @@ class TakeWriter::Impl {
   double fps_;
   VideoCodec codec_;
   std::vector<CameraCalibration> calibrations_;
-  std::string description_;  ///< What take.toml says.
+  std::string description_;  ///< Text of take.toml.
   std::vector<RecordedVideo> frames_;
   std::vector<std::optional<RecordedVideo>> backgrounds_;
   std::vector<std::optional<VideoWriter>> masks_;

@@ -1,4 +1,4 @@
-// Recording: all cameras' frames, their times, calibration, background and truth in a folder.
+// Records a take: frames and times of all cameras, calibration, background and truth, in a folder.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@
 
 namespace mocap {
 
-/// What a take says of itself.
+/// Contents of take.toml.
 struct TakeDescription {
   std::string name;
   double fps_nominal = 30;
   std::vector<CameraCalibration> cameras;
-  /// Further keys of take.toml, each a string: how the take came about.
+  /// Further keys of take.toml, all strings: origin of the take.
   std::vector<std::pair<std::string, std::string>> notes;
   VideoCodec codec = VideoCodec::kHuffYuv;
 };
@@ -33,45 +33,46 @@ struct TruthSizes {
   std::vector<std::pair<std::string, double>> lengths_mm;
 };
 
-/// From a frame to a frame, both counted from 0 and included.
+/// A range of frames, counted from 0, ends included.
 struct FrameSpan {
   std::int64_t first = 0, last = 0;
 };
 
-/// What take.toml says of one of several people: when any part of the body is in the room, when all
-/// of it is, and when four pictures or more show all of it.
+/// Presence of one of several people, for take.toml: when any part of the body is in the room, when
+/// all of it is, and when four or more pictures show all of it.
 struct PersonStay {
   std::vector<FrameSpan> in_room, whole, covered;
 };
 
-/// Writes a take: into FOLDER.partial, which becomes FOLDER once all is there.
+/// Writes a take into FOLDER.partial, which is renamed to FOLDER when complete.
 ///
-/// What was written before an interruption stays in FOLDER.partial and opens as a take. The same
-/// calls give the same bytes. WriteFrame, SkipFrames and WriteBackground may be called by one
-/// thread for each camera; all else is thread-bound.
+/// After an interruption, FOLDER.partial opens as a take. The same calls give the same bytes.
+/// WriteFrame, SkipFrames and WriteBackground may be called from one thread per camera; everything
+/// else is thread-bound.
 class TakeWriter {
  public:
   /// @throws SetupError  when the folder or its .partial exists or cannot be created, or when the
   /// description names a camera twice.
-  /// @throws std::runtime_error  when something cannot be written; nothing is left then.
+  /// @throws std::runtime_error  when something cannot be written; then nothing is left behind.
   TakeWriter(const std::filesystem::path& folder, const TakeDescription& description);
   ~TakeWriter();
 
-  /// Appends a frame of camera number `camera` (in the order of the description).
+  /// Appends a frame of a camera.
+  /// @param camera      its index in the description.
   /// @param capture_ns  must increase from frame to frame.
   /// @param angles      written for a camera on a head.
   void WriteFrame(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                   const PanTiltAngles& angles = {});
-  /// Tells that camera number `camera` missed frames: its numbering skips them.
+  /// Skips frame numbers of a camera for frames that it missed.
   void SkipFrames(int camera, std::uint64_t count);
   /// Appends a frame of the empty studio.
   void WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                        const PanTiltAngles& angles = {});
-  /// Appends a true mask: 0 background, 255 person; one for each frame written.
+  /// Appends a true mask: 0 background, 255 person; one per frame.
   void WriteMask(int camera, ImageView<const std::uint8_t> mask);
 
-  /// Names the points of truth.csv; before the first WriteTruth.
-  /// @param people  of several, each has his own: person-1/truth.csv and so on.
+  /// Sets the point names of truth.csv; call it before the first WriteTruth.
+  /// @param people  if several, each has its own file: person-1/truth.csv and so on.
   void SetTruthPoints(std::span<const std::string> names, int people = 1);
   /// Appends a row of truth: p_WQ of each named point [mm].
   /// @param frame   increases from row to row.
@@ -81,15 +82,15 @@ class TakeWriter {
   /// @pre SetTruthPoints() was called.
   void WriteTruthSizes(const TruthSizes& sizes, int person = 0);
 
-  /// The folder while it is being written.
+  /// The folder during writing.
   const std::filesystem::path& partial_folder() const;
   /// Adds keys to take.toml.
   void AddNotes(const std::vector<std::pair<std::string, std::string>>& notes);
 
-  /// Adds what take.toml says of several people; no notes may follow.
+  /// Adds the presence of several people to take.toml; no notes may follow.
   void AddPeople(std::span<const PersonStay> people);
 
-  /// Completes all files and gives the folder its name.
+  /// Completes all files and renames the folder.
   /// @throws std::runtime_error  here and above, when something cannot be written.
   void Finish();
 

@@ -27,7 +27,7 @@ std::string Problem(const std::filesystem::path& file) {
          " is wanted";
 }
 
-/// A file being written; its own name in messages may be another.
+/// A file being written; messages may use another name.
 class Output {
  public:
   Output(const std::filesystem::path& file, std::filesystem::path name)
@@ -52,7 +52,7 @@ class Output {
   void Sync() const { Check(fsync(fd_) == 0); }
   void Resemble(const struct stat& old) const {
     Check(fchmod(fd_, old.st_mode & 07777) == 0);
-    // Only root may give a file away; whoever may not keeps it.
+    // Only root may change the owner. Otherwise the current user stays the owner.
     if (fchown(fd_, old.st_uid, old.st_gid) != 0) errno = 0;
   }
   void Close() {
@@ -72,7 +72,7 @@ class Output {
 
 std::filesystem::path PartOf(const std::filesystem::path& file) { return file.string() + ".part"; }
 
-/// The file itself, where a link leads to one.
+/// The target of a symbolic link, or the file itself.
 std::filesystem::path Behind(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::canonical(file, error);

@@ -30,7 +30,7 @@ TextLines::TextLines(std::filesystem::path file, std::string_view wanted)
 
 TextLines::~TextLines() { close(fd_); }
 
-// Keeps what was not given, and reads more behind it.
+// Keeps unread bytes and reads more after them.
 bool TextLines::Fill() {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
@@ -58,7 +58,7 @@ void TextLines::Begin() {
   if (start.starts_with(kUtf8Mark)) begin_ = kUtf8Mark.size();
 }
 
-// LF, CR, CRLF, or the CRCRLF that two conversions leave.
+// LF, CR, CRLF, or the CRCRLF of a double conversion.
 void TextLines::TakeEnd() {
   while (end_ - begin_ < 3 && Fill()) continue;
   const std::string_view rest(buffer_.data() + begin_, end_ - begin_);

@@ -1,5 +1,5 @@
-// Tables that a person, a spreadsheet or a loss of power may have left: line by line, with what a
-// message must say of each place.
+// Reads text tables written by people or spreadsheets, or cut off by a power loss. Messages name
+// the place of an error.
 #pragma once
 
 #include <charconv>
@@ -14,25 +14,24 @@
 
 namespace mocap {
 
-/// Lines of a text file, whatever they end with: LF, CRLF or CR. A byte order mark is passed over.
+/// Reads lines of a text file that end with LF, CRLF or CR. Skips a byte order mark.
 class TextLines {
  public:
-  /// @param wanted  what the file shall be, for messages, as in "a table of capture times".
-  /// @throws SetupError  here and below: a file that cannot be read or is no text.
+  /// @param wanted  the expected kind of file, for messages, such as "a table of capture times".
+  /// @throws SetupError  here and below: a file that cannot be read or is not text.
   TextLines(std::filesystem::path file, std::string_view wanted);
   ~TextLines();
   TextLines(const TextLines&) = delete;
   TextLines& operator=(const TextLines&) = delete;
 
-  /// Gives the next line; false when there is none. The text holds until the next call.
+  /// Reads the next line; false at the end. The text is valid until the next call.
   bool Next(std::string_view& line);
-  /// The same, but for lines with nothing in them at the end of the file, which are passed over;
-  /// elsewhere they are an error.
+  /// Like Next, but skips empty lines at the end of the file; elsewhere they are an error.
   bool NextRow(std::string_view& line);
 
-  /// Whether the last line that was given had an end: without one it may have been cut off.
+  /// Whether the last line read had a line end; without one it may be cut off.
   bool has_end() const { return has_end_; }
-  /// Throws: `file:line: what`.
+  /// Throws `file:line: what`.
   [[noreturn]] void Fail(const std::string& what) const;
 
  private:
@@ -44,27 +43,27 @@ class TextLines {
   std::string wanted_;
   int fd_ = -1;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;  ///< Of what is in the buffer and was not given yet.
+  std::size_t begin_ = 0, end_ = 0;  ///< Range of the buffer that is still unread.
   std::string line_;
   int number_ = 0;
   bool has_end_ = true;
 };
 
-/// Looks at a table's header, and tells of other separators than commas.
+/// Checks a table's header; reports separators other than commas.
 /// @param wanted  for the message.
-/// @throws SetupError  when it is none of `headers`. @return  which of them it is.
+/// @throws SetupError  when it is none of `headers`. @return  the index of the match.
 std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers,
                           const std::string& wanted);
 
 /// The fields of a row.
 class TableRow {
  public:
-  /// @param columns  names; borrowed. @throws SetupError  when there are more or fewer fields.
+  /// @param columns  names; not owned. @throws SetupError  when the number of fields differs.
   TableRow(std::string_view line, std::span<const std::string> columns, const TextLines& lines);
 
   std::string_view Text(std::size_t column) const { return fields_[column]; }
 
-  /// Reads a number; one of no size (nan, inf) is none.
+  /// Reads a number; nan and inf are rejected.
   template <typename Value>
   Value Number(std::size_t column) const {
     const std::string_view field = fields_[column];
@@ -77,7 +76,7 @@ class TableRow {
     return value;
   }
 
-  /// Throws: `file:line: column is "…"; … is wanted`.
+  /// Throws `file:line: column is "…"; … is wanted`.
   [[noreturn]] void Fail(std::size_t column, const std::string& wanted) const;
 
  private:

@@ -1,4 +1,4 @@
-// TOML as text, for files that a recording leaves.
+// Formats TOML for files of a recording.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace mocap {
 
-/// Quotes a text. Bytes that are no UTF-8 are replaced, for TOML cannot hold them.
+/// Quotes a text. Replaces bytes that are not UTF-8, which TOML does not allow.
 std::string TomlText(std::string_view text);
-/// Writes a number so that reading gives back the same bits; always as a float.
+/// Formats a number as a float, so that reading restores the same bits.
 std::string TomlNumber(double value);
 
 }  // namespace mocap

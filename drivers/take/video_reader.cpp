@@ -24,7 +24,7 @@ struct InputCloser {
 };
 using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
 
-/// Of a video that is one otherwise.
+/// No frame in an otherwise valid video.
 class NoFrame : public SetupError {
  public:
   explicit NoFrame(const std::filesystem::path& file)
@@ -43,7 +43,7 @@ InputPtr OpenInput(const std::filesystem::path& file) {
   }
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
-  // Without a whitelist a playlist in disguise could reach for the network.
+  // Without a whitelist, a disguised playlist could access the network.
   av_dict_set(&options, "protocol_whitelist", "file", 0);
   const int result =
       avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
@@ -67,7 +67,7 @@ CodecPtr OpenDecoder(const std::filesystem::path& file, const AVStream& stream,
   return decoder;
 }
 
-/// Whether packets can be counted instead of frames, which come in their order.
+/// Whether packets can be counted in place of frames, as they are in order.
 bool HasAPacketForEachFrame(AVCodecID codec) {
   const AVCodecDescriptor* descriptor = avcodec_descriptor_get(codec);
   const bool stands_alone = descriptor && (descriptor->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
@@ -183,7 +183,7 @@ class VideoReader::Impl {
     time_ns_ = av_rescale_q(pts, input_->streams[stream_]->time_base, {1, 1'000'000'000});
   }
 
-  // The first frame's own word goes before that of the file.
+  // The first frame's rotation takes precedence over the file's.
   PictureTurn TurnOf(const AVStream& stream) const {
     std::array<std::int32_t, 9> matrix{};
     std::size_t size = 0;
@@ -201,8 +201,7 @@ class VideoReader::Impl {
     return *turn;
   }
 
-  // A recording may begin with frames whose key frame was not recorded: they are none of the
-  // take's.
+  // A recording may begin with frames whose key frame is missing. They do not belong to the take.
   bool DecodeFirst() {
     VideoStatus status = VideoStatus::kBroken;
     while (status == VideoStatus::kBroken) status = Decode();
@@ -227,7 +226,7 @@ class VideoReader::Impl {
     return VideoStatus::kFrame;
   }
 
-  // The next packet of the video; a key frame makes those that were passed superfluous.
+  // Fetches the video's next packet. A key frame makes the skipped packets unnecessary.
   bool FetchPacket() {
     do {
       av_packet_unref(packet_.get());
@@ -237,7 +236,7 @@ class VideoReader::Impl {
     return true;
   }
 
-  // Hands one packet to the decoder, or tells it that there are no more; false: the packet is bad.
+  // Passes one packet, or the end, to the decoder; false: the packet is bad.
   bool Feed() {
     if (!FetchPacket()) {
       input_ended_ = true;
@@ -287,7 +286,7 @@ class VideoReader::Impl {
   bool input_ended_ = false;
   bool first_waits_ = false;
   bool passes_undecoded_ = false;
-  std::vector<PacketPtr> passed_;  // Since the last key frame: later ones may need them.
+  std::vector<PacketPtr> passed_;  // Skipped since the last key frame: later frames may need them.
   std::vector<Bgr> pixels_;
   PictureTurn turn_;
   Image<Bgr> turned_;

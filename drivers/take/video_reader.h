@@ -1,4 +1,4 @@
-// Video files of any kind that FFmpeg decodes.
+// Reads all video files that FFmpeg can decode.
 #pragma once
 
 #include <cstdint>
@@ -11,43 +11,42 @@
 
 namespace mocap {
 
-/// What became of reading a frame.
+/// Result of reading a frame.
 enum class VideoStatus {
-  kFrame,   ///< Here it is.
-  kBroken,  ///< A frame that cannot be decoded stood here; reading may go on.
-  kEnd      ///< No whole frame is left.
+  kFrame,   ///< A frame was read.
+  kBroken,  ///< A frame could not be decoded; reading may continue.
+  kEnd      ///< No complete frame is left.
 };
 
-/// Decodes a video frame by frame, in the order in which it is shown.
+/// Decodes a video frame by frame, in display order.
 ///
-/// A file that was cut off ends with its last whole frame. Thread-bound; no threads of its own, and
-/// FFmpeg's own messages are switched off.
+/// A truncated file ends with its last complete frame. Thread-bound. Starts no threads, and
+/// disables FFmpeg's messages.
 class VideoReader {
  public:
   /// Opens a file and decodes its first frame.
-  /// @throws SetupError  naming the file, when it is missing, is no video, holds no whole frame or
-  /// is to be shown turned by other than quarters.
+  /// @throws SetupError  naming the file, when it is missing, is not a video, has no complete
+  /// frame, or its rotation is not by quarter turns.
   explicit VideoReader(const std::filesystem::path& file);
   VideoReader(VideoReader&&) noexcept;
   VideoReader& operator=(VideoReader&&) noexcept;
   ~VideoReader();
 
-  /// The size of the frames as they are given: turned as the file says that they are to be shown.
+  /// Size of the frames as delivered: rotated for display.
   int width_px() const;
   int height_px() const;
   const PictureTurn& turn() const;
-  /// When the frame that was read or passed last is shown, from the file's beginning; empty where
-  /// the file does not tell, or frames come from memory.
+  /// Display time of the last frame read or skipped, from the file's beginning. Empty if the file
+  /// has no times, or frames come from memory.
   std::optional<std::int64_t> time_ns() const;
 
-  /// Gives the next frame; its pixels stay valid until the next call of Read or Skip.
+  /// Reads the next frame; its pixels are valid until the next Read or Skip.
   VideoStatus Read(ImageView<const Bgr>& image);
-  /// Passes over the next frame. Lossless video and JPEG are not decoded for that: damage there
-  /// goes unnoticed.
+  /// Skips the next frame. Lossless video and JPEG are not decoded; damage there stays unnoticed.
   VideoStatus Skip();
-  /// Decodes the whole file at once; from then on frames come from memory, the first of them first.
+  /// Decodes the whole file. Then frames come from memory, starting with the first.
   void KeepInMemory();
-  /// Starts over. @throws SetupError  when the file can no longer be opened.
+  /// Goes back to the start. @throws SetupError  when the file can no longer be opened.
   void Rewind();
 
  private:
@@ -55,8 +54,8 @@ class VideoReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Tells whether a video begins well and ends before its first whole frame.
-/// @throws SetupError  naming the file, when it is missing or is no video.
+/// Whether a video has a valid beginning but ends before its first complete frame.
+/// @throws SetupError  naming the file, when it is missing or is not a video.
 bool HoldsNoFrame(const std::filesystem::path& file);
 
 }  // namespace mocap

@@ -18,15 +18,15 @@ struct OutputCloser {
 };
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
 
-/// How each kind of pixels is stored.
+/// Storage of each kind of pixels.
 struct Storage {
   AVCodecID codec;
   AVPixelFormat format;
   AVColorRange range;
 };
 
-// HuffYUV takes twice the space of FFV1 and a quarter of its time: six cameras of 640 x 480 can be
-// replayed at 30 Hz on one core. Masks are small in FFV1.
+// HuffYUV takes twice the space of FFV1 and a quarter of its time. One core can replay six cameras
+// of 640 x 480 at 30 Hz. Masks are small in FFV1.
 Storage StorageOf(VideoPixels pixels, VideoCodec codec) {
   if (pixels == VideoPixels::kGray) {
     return {AV_CODEC_ID_FFV1, AV_PIX_FMT_GRAY8, AVCOL_RANGE_JPEG};
@@ -54,7 +54,7 @@ CodecPtr OpenEncoder(int width_px, int height_px, double fps, const Storage& sto
   encoder->framerate = av_inv_q(encoder->time_base);
   encoder->gop_size = 1;
   if (storage.codec == AV_CODEC_ID_FFV1) {
-    encoder->level = 3;  // The version with slices, whose damage is noticed.
+    encoder->level = 3;  // The version with slices, which detects damage.
     encoder->slices = 4;
   }
   encoder->thread_count = 1;
@@ -144,7 +144,7 @@ class VideoWriter::Impl {
       throw SetupError(file_ + ": cannot be created");
     }
     AVDictionary* options = nullptr;
-    // Raw colours are stored the way of old Windows programs, or not at all.
+    // Matroska stores raw colours only in the way of old Windows programs.
     av_dict_set_int(&options, "allow_raw_vfw", 1, 0);
     const int written = avformat_write_header(output_.get(), &options);
     av_dict_free(&options);
@@ -161,7 +161,7 @@ class VideoWriter::Impl {
       packet_->stream_index = 0;
       Check(av_write_frame(output_.get(), packet_.get()));
       av_packet_unref(packet_.get());
-      // A cluster is kept back until it is whole: one for each frame.
+      // A flush ends the cluster, which would otherwise be held back: one per frame.
       Check(av_write_frame(output_.get(), nullptr));
       Check(output_->pb->error);
     }

@@ -9,34 +9,34 @@
 
 namespace mocap {
 
-/// What a video's pixels are.
+/// Kind of a video's pixels.
 enum class VideoPixels { kBgr, kGray };
 
-/// How colour pictures are stored, always without loss.
+/// Codec for colour pictures, always lossless.
 enum class VideoCodec {
-  kHuffYuv,  ///< Half the size of raw pixels, for little work.
-  kFfv1,     ///< A third to a quarter of the size, for much work.
-  kRaw       ///< No work at all.
+  kHuffYuv,  ///< Half the size of raw pixels, with little work.
+  kFfv1,     ///< A third to a quarter of the size, with much work.
+  kRaw       ///< No work.
 };
 
-/// Writes every frame on its own: reading gives back the same pixels, and a file that was cut off
-/// loses no more than its last frames. Each frame goes to the system at once, so that a program
-/// that is killed loses no more than the one that it was writing.
+/// Writes each frame independently. Reading restores the same pixels. A truncated file loses only
+/// its last frames. Each frame goes to the system at once, so a killed program loses at most the
+/// frame being written.
 ///
-/// The same frames give the same bytes. Thread-bound; no threads of its own.
+/// The same frames give the same bytes. Thread-bound. Starts no threads.
 class VideoWriter {
  public:
-  /// Creates the file, or empties it.
-  /// @param codec  of colour pictures; gray ones are FFV1.
-  /// @throws SetupError  when it cannot be created or the size is not one of a picture.
+  /// Creates the file, or truncates it.
+  /// @param codec  for colour pictures; gray ones use FFV1.
+  /// @throws SetupError  when it cannot be created or the size is invalid.
   VideoWriter(const std::filesystem::path& file, int width_px, int height_px, double fps,
               VideoPixels pixels, VideoCodec codec = VideoCodec::kHuffYuv);
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
-  /// Finishes the file if Finish was not called; errors are lost then.
+  /// Finishes the file unless Finish was called; then errors are lost.
   ~VideoWriter();
 
-  /// Appends a frame of the kind and size given at construction.
+  /// Appends a frame of the kind and size set at construction.
   /// @throws std::runtime_error  when it cannot be written (the disk is full).
   void Write(ImageView<const Bgr> image);
   void Write(ImageView<const std::uint8_t> image);
