@@ -8,11 +8,11 @@ namespace mocap::simulation {
 
 // Shares of stature: Drillis and Contini (1966) as in Winter, Biomechanics and Motor Control of
 // Human Movement, Fig. 4.1: ankle .039, knee .285, hip .530, shoulder .818, upper arm .186, forearm
-// .146, hand .108, foot .152. Joint centres where they differ from landmarks: hips .72 of the
-// distance of the iliac spines apart (Bell et al. 1990), shoulder joint 35 mm below the acromion,
-// C7 at .857 (cervicale, ANSUR, Gordon et al. 1989). A child's legs are shorter (sitting height
-// ratio .555 at 1.1 m against .52; Bogin and Varela-Silva 2010) and its head is nearly as large as
-// an adult's (195 mm at 1.15 m, 228 mm at 1.755 m; Snyder et al. 1977, ANSUR).
+// .146, hand .108, foot .152. Joint centres that differ from landmarks: distance of the hips, .72
+// of that of the iliac spines (Bell et al. 1990); shoulder joint, 35 mm below the acromion; C7,
+// .857 (cervicale, ANSUR, Gordon et al. 1989). A child's legs are shorter (sitting height ratio
+// .555 at 1.1 m against .52; Bogin and Varela-Silva 2010). Its head is nearly as large as an
+// adult's (195 mm at 1.15 m, 228 mm at 1.755 m; Snyder et al. 1977, ANSUR).
 Anthropometry MakeAnthropometry(double stature_mm, std::uint64_t seed) {
   Random random(Mix(seed, Tag("build")));
   const double h = stature_mm;

@@ -1,4 +1,4 @@
-// The sizes of a simulated person.
+// Sizes of a simulated person.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,8 @@ struct Anthropometry {
   double lower_arm_mm() const { return forearm_mm + hand_mm; }
 };
 
-/// Sizes a person of a given stature; build and small departures from the mean come from the seed.
+/// Computes the sizes of a person of a given stature. The seed determines build and small
+/// deviations from the mean.
 Anthropometry MakeAnthropometry(double stature_mm, std::uint64_t seed);
 
 }  // namespace mocap::simulation

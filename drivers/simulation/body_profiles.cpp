@@ -116,7 +116,7 @@ Section Thickened(Section section, double factor) {
   return section;
 }
 
-// Catmull and Rom's spline through v1 at 0 and v2 at 1, for unequal distances of the keys.
+// Catmull-Rom spline through v1 at 0 and v2 at 1, for unequal distances of the keys.
 double Spline(double v0, double v1, double v2, double v3, double d0, double d1, double d2,
               double u) {
   const double m1 = d1 * ((v1 - v0) / d0 * d1 + (v2 - v1) / d1 * d0) / (d0 + d1);

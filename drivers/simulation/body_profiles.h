@@ -1,4 +1,4 @@
-// The shape of the simulated person: cross-sections along torso, limbs, feet and head, none of them
+// Body shape of the simulated person: cross-sections along torso, limbs, feet and head. No part is
 // an ellipsoid or a cylinder.
 #pragma once
 
@@ -8,15 +8,15 @@
 
 namespace mocap::simulation {
 
-/// An oval cross-section about a centre that need not lie on the bone.
+/// An oval cross-section. Its centre need not lie on the bone.
 struct Section {
-  double s = 0;                ///< Where along the part.
-  double cx = 0, cy = 0;       ///< Centre: forward, outward (to the side that the limb is on).
+  double s = 0;                ///< Position along the part.
+  double cx = 0, cy = 0;       ///< Centre: forward, outward (towards the limb's side).
   double front = 0, back = 0;  ///< Extents from the centre.
   double outer = 0, inner = 0;
 };
 
-/// Interpolates sections smoothly; s outside the table gives its ends.
+/// Interpolates sections smoothly. Outside the table, the end sections hold.
 Section Interpolate(std::span<const Section> table, double s);
 
 /// Torso and neck [mm]; s: 0 at the hips, 1 at C7.
@@ -25,10 +25,10 @@ Section TorsoSection(const Anthropometry& body, double s);
 Section LegSection(const Anthropometry& body, double s);
 /// Arm and hand [mm]; s: 0 at the shoulder, 1 at the elbow, 2 at the wrist, 3 at the fingertips.
 Section ArmSection(const Anthropometry& body, double s);
-/// Head [mm]; s: 0 at the chin, 1 at the vertex; centres against the middle of the skull.
+/// Head [mm]; s: 0 at the chin, 1 at the vertex; centres relative to the middle of the skull.
 Section HeadSection(const Anthropometry& body, double s);
-/// Foot and shoe, cut across [mm]; s: 0 at the heel, 1 at the tip. `front` is the height of its top
-/// above the sole, `back` 0; outer and inner are half widths.
+/// Cross-section of foot and shoe [mm]; s: 0 at the heel, 1 at the tip. `front` is the height of
+/// the top above the sole, `back` is 0; outer and inner are half widths.
 Section FootSection(const Anthropometry& body, double s);
 
 }  // namespace mocap::simulation

@@ -11,7 +11,7 @@
 namespace mocap::simulation {
 namespace {
 
-// 16 bits a turn: 0.1 mrad, a twentieth of a pixel.
+// 16 bits per turn: 0.1 mrad, a twentieth of a pixel.
 constexpr double kEncoderStep_rad = 2 * std::numbers::pi / 65536;
 
 Matrix3 LookingAt(const Vector3& from_W, const Vector3& to_W, double roll) {
@@ -35,7 +35,7 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
   for (int i = 0; i < options.cameras; ++i) {
     const double angle =
         2 * std::numbers::pi * (i + first + random.Uniform(-0.12, 0.12)) / options.cameras;
-    // From the middle out to the wall, less a hand's breadth.
+    // From the middle to the wall, less the mount.
     const Vector2 out(std::cos(angle), std::sin(angle));
     const double inset = random.Uniform(150, 280);
     const double wall_mm = std::min((kRoomX_mm / 2 - inset) / std::max(std::abs(out.x()), 1e-9),
@@ -48,7 +48,7 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
     camera.height_px = options.height_px;
     TsaiLens lens;
     const double zoom = options.pan_tilt ? 1.3 : 1;
-    // A camera that hangs nearer has a shorter lens.
+    // A nearer camera has a shorter focal length.
     lens.focal_mm = zoom * (4.5 + 0.9 * std::clamp((wall_mm - 3000) / 1300, 0.0, 1.0) +
                             random.Uniform(-0.15, 0.15));
     lens.kappa1 = random.Uniform(0.0020, 0.0036);

@@ -1,4 +1,4 @@
-// Where the simulated studio's cameras hang and what lenses they have.
+// Poses and lenses of the simulated studio's cameras.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@ struct RigOptions {
   std::uint64_t seed = 1;
 };
 
-/// Hangs cameras along the walls, 2.3 to 2.8 m high, looking at the middle, with Tsai lenses that
-/// distort strongly; named cam1, cam2, …. With heads: longer lenses, the axes beside the lens.
+/// Places cameras along the walls, 2.3 to 2.8 m high, facing the middle. They have Tsai lenses with
+/// strong distortion and are named cam1, cam2, …. With heads: longer lenses, the axes beside the
+/// lens.
 std::vector<CameraCalibration> HangCameras(const RigOptions& options);
 
-/// Turns a head so that a point comes to the middle of the lens, in whole steps of its encoder.
+/// Returns the angles that bring a point to the middle of the lens, in whole encoder steps.
 PanTiltAngles AimInSteps(const CameraCalibration& camera, const Vector3& p_W);
 
 }  // namespace mocap::simulation

@@ -25,7 +25,7 @@ double MeanStature(Bodies bodies) {
   return sum / static_cast<double>(bodies.size());
 }
 
-// All go equally fast, so that nobody catches up with anybody.
+// All have the same speed, so that nobody catches up.
 double CommonSpeed(Bodies bodies, double speed_mm_s) {
   return speed_mm_s * std::sqrt(MeanStature(bodies) / 1750);
 }
@@ -35,9 +35,9 @@ Spot SpotFacing(const Vector2& p_W, const Vector2& to_W) {
   return {p_W, std::atan2(ahead.y(), ahead.x())};
 }
 
-// All on one path shaped as an eight, whose middle they pass in turns.
+// All walk on one figure-eight path and pass its middle in turns.
 Motions Cross(Bodies bodies, std::uint64_t seed) {
-  // The loops have room for all at arm's length, and the room for the loops.
+  // The loops give each person arm's length, and fit into the room.
   constexpr double kMostRadius_mm = 820;
   const auto count = static_cast<double>(bodies.size());
   const double size_mm = MeanStature(bodies);
@@ -49,7 +49,7 @@ Motions Cross(Bodies bodies, std::uint64_t seed) {
   const double apart_mm = std::min(size_mm * random.Uniform(0.72, 0.85), loop_mm / count);
   Motions motions;
   for (const Anthropometry& body : bodies) {
-    // Neighbours in time are on different loops.
+    // Successive people are on different loops.
     const auto place = static_cast<double>(motions.size());
     const double other_mm = motions.size() % 2 == 1 ? loop_mm : 0;
     motions.push_back(std::make_unique<PathWalker>(body, WalkingStyle(body), path,
@@ -88,7 +88,7 @@ Motions DanceTogether(Bodies bodies, std::uint64_t seed) {
 
 Motions SitAmong(Bodies bodies, std::uint64_t seed) {
   const double direction = Random(Mix(seed, Tag("seat"))).Uniform(0, kTurn);
-  // The thighs lie over the middle of the room.
+  // The thighs are over the middle of the room.
   const Vector2 ahead(std::cos(direction), std::sin(direction));
   Motions motions;
   motions.push_back(MakeSit(bodies[0], {bodies[0].thigh_mm / 2 * ahead, direction}));
@@ -96,8 +96,8 @@ Motions SitAmong(Bodies bodies, std::uint64_t seed) {
   return motions;
 }
 
-// Through the door, around the room, out again, and unseen behind the corridor back to where it
-// began.
+// Through the door, around the room, out again, and out of sight behind the corridor back to the
+// start.
 std::vector<Vector2> VisitorsRound() {
   const double x = kDoorX_mm - kDoorJamb_mm - 0.5 * kCorridorDepth_mm;
   constexpr double kTurn_mm = 850;
@@ -124,7 +124,7 @@ std::vector<Vector2> VisitorsRound() {
           {x - kTurn_mm, y0 - kTurn_mm}};
 }
 
-// Where a path that begins outside comes in, and where it leaves.
+// Where a path that begins outside enters and leaves the room.
 struct Inside {
   double enter_mm = 0, leave_mm = 0;
 };
@@ -153,7 +153,7 @@ Motions VisitThoseWhoStay(Bodies bodies, std::uint64_t seed) {
   const FloorPath path = RoundPath(VisitorsRound());
   const Inside inside = InsideOf(path);
   const double speed_mm_s = CommonSpeed(bodies, 1050), first_s = random.Uniform(2.5, 4);
-  // Nobody comes in while another leaves.
+  // Nobody enters while another leaves.
   const double apart_mm =
       (inside.leave_mm - inside.enter_mm) / static_cast<double>(bodies.size() - staying);
   for (std::size_t i = staying; i < bodies.size(); ++i)
@@ -167,7 +167,7 @@ Motions Meet(Bodies bodies, std::uint64_t seed) {
   Random random(Mix(seed, Tag("meet")));
   const double line_rad = random.Uniform(0, kTurn);
   const Vector2 across(-std::sin(line_rad), std::cos(line_rad));
-  // Beside each other, where there is more than one pair or somebody stands by.
+  // Side by side, if there is more than one pair or a bystander.
   const double aside_mm = bodies.size() > 2 ? 700 : random.Uniform(-300, 300);
   Motions motions;
   for (std::size_t i = 0; i + 1 < bodies.size(); i += 2) {
@@ -183,7 +183,7 @@ Motions Meet(Bodies bodies, std::uint64_t seed) {
   return motions;
 }
 
-// In places around the middle, none facing another's.
+// In places around the middle; nobody faces another.
 Spot PlaceOf(std::size_t place, std::size_t people, std::uint64_t seed) {
   constexpr double kApart_mm = 1500;
   const auto count = static_cast<double>(people);

@@ -10,7 +10,7 @@ namespace mocap::simulation {
 namespace {
 
 constexpr int kPathSamples = 2048;
-// How far to each side corners are rounded off; of an eight, in radii.
+// Half length of the rounding of corners; for a figure eight, in radii.
 constexpr double kRoundedOff_mm = 480, kEightRoundedOff = 0.35;
 
 // Slope at the middle of three keys: a weighted harmonic mean, flat at a turning point.
@@ -23,7 +23,7 @@ double Slope(const Key& a, const Key& b, const Key& c) {
 }
 
 struct PlaneKeys {
-  std::vector<Key> x, y;  // Over the distance from waypoint to waypoint.
+  std::vector<Key> x, y;  // Over the distance between waypoints.
 };
 
 PlaneKeys KeysThrough(std::span<const Vector2> waypoints) {
@@ -37,7 +37,7 @@ PlaneKeys KeysThrough(std::span<const Vector2> waypoints) {
   return keys;
 }
 
-// A moving average over `half_mm` to each side along a closed path, three times.
+// Three passes of a moving average of ±`half_mm` along a closed path.
 std::vector<Vector2> SmoothedRound(std::vector<Vector2> points, double round_mm, double half_mm) {
   const int count = static_cast<int>(points.size());
   const int half = static_cast<int>(half_mm / round_mm * count);
@@ -144,7 +144,7 @@ FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed) 
 }
 
 FloorPath FigureEight(const Vector2& center, double radius_mm, double turned_rad) {
-  // Straight through the middle, three quarters of a circle, straight back, and the same mirrored.
+  // Straight through the middle, three quarters of a circle, straight back, then mirrored.
   const double straight_mm = 2 * radius_mm, arc_mm = 1.5 * std::numbers::pi * radius_mm;
   const double half_mm = straight_mm + arc_mm;
   const auto loop = [&](double s) -> Vector2 {
@@ -194,7 +194,7 @@ FloorPath SplinePath(std::span<const Vector2> waypoints) {
     const double t = x.back().t * i / (kPathSamples - 1);
     points.emplace_back(Evaluate(x, t), Evaluate(y, t));
   }
-  // Corners that the keys leave are walked round: a moving average along the path.
+  // Corners at the keys are rounded: a moving average along the path.
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<Vector2> smooth = points;
     constexpr int kHalf = kPathSamples / 40;

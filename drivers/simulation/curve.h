@@ -1,4 +1,4 @@
-// Smooth curves through keys: how joint angles and paths run over time.
+// Smooth curves through keys: joint angles and paths over time.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ struct Key {
 ///                keys.front().t + period.
 double Evaluate(std::span<const Key> keys, double t, double period = 0);
 
-/// 0 before `low`, 1 after `high`, without a kink between.
+/// 0 before `low`, 1 after `high`, with a smooth transition.
 double Smoothstep(double low, double high, double t);
 
 /// Remainder in [0, period).
 double Wrap(double t, double period);
 
-/// A curve on the floor, known by the distance along it.
+/// A curve on the floor, parametrized by distance.
 class FloorPath {
  public:
-  /// @param points  close together; a closed path's last point is next to its first.
+  /// @param points  close together; the last point of a closed path is next to the first.
   FloorPath(std::vector<Vector2> points, bool closed);
 
   double length_mm() const { return length_mm_; }
-  /// Distances outside [0, length] go on for another round of a closed path, or stay at the end.
+  /// Beyond [0, length], a closed path repeats and an open path stays at its end.
   Vector2 PositionAt(double distance_mm) const;
   /// Direction of travel [rad], continuous over any number of rounds.
   double HeadingAt(double distance_mm) const;
@@ -51,11 +51,11 @@ class FloorPath {
   bool closed_;
 };
 
-/// An oval with waves in its radius, so that it is curved differently everywhere.
+/// An oval with waves in its radius, so that its curvature varies everywhere.
 FloorPath OvalPath(const Vector2& center, double radius_mm, std::uint64_t seed);
 
 /// Two loops that cross at right angles in the middle.
-/// @param radius_mm  of each loop; it reaches 2.4 times as far from the middle.
+/// @param radius_mm  of each loop; the path extends 2.4 times as far from the middle.
 FloorPath FigureEight(const Vector2& center, double radius_mm, double turned_rad);
 
 /// A smooth open curve through waypoints.
@@ -64,12 +64,12 @@ FloorPath SplinePath(std::span<const Vector2> waypoints);
 /// A smooth closed curve through waypoints, from the last back to the first.
 FloorPath RoundPath(std::span<const Vector2> waypoints);
 
-/// A way that is set off and stopped on gently: speed rises and falls linearly.
+/// A walk with gentle start and stop: speed rises and falls linearly.
 struct EasedWalk {
   double way_mm = 0, speed_mm_s = 0, ease_s = 0;
 
   double duration_s() const { return way_mm / speed_mm_s + ease_s; }
-  /// How far one has come after a time; nowhere before 0, all the way after the duration.
+  /// Distance covered after a time; 0 before 0, the whole way after the duration.
   double WayAt(double t_s) const;
 };
 

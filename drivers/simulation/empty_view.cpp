@@ -33,7 +33,7 @@ EmptyViewRenderer::EmptyViewRenderer(const CameraCalibration& camera)
   const auto fill = [&camera](Image<Vector3f>& directions, double offset) {
     for (int y = 0; y < directions.height(); ++y)
       for (int x = 0; x < directions.width(); ++x) {
-        // Tsai's lens maps every pixel.
+        // Every pixel is within Tsai's model.
         const Vector2 d = NormalizedFromPixel(camera.lens, Vector2(x + offset, y + offset))
                               .value_or(Vector2::Zero());
         directions(x, y) = Vector3(d.x(), d.y(), 1).cast<float>();
@@ -67,7 +67,7 @@ void EmptyViewRenderer::Render(const Room& room, const RigidTransform& X_CW,
       view.nearness(x, y) = 1 / hit.distance;
       view.floor(x, y) =
           hit.on_floor ? PlaceOf(p_WC + hit.distance * ray) : FloorPlace{kNoFloor, 0};
-      // Half of a pixel is its centre, the rest its corners, which neighbours share.
+      // The centre counts half; the corners, shared with neighbours, count the rest.
       view.image(x, y) =
           Rounded(0.5f * hit.bgr + 0.125f * (above[x] + above[x + 1] + below[x] + below[x + 1]));
     }

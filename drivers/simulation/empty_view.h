@@ -1,4 +1,4 @@
-// The empty studio as one camera sees it: colours, depths and which pixels show the floor.
+// The empty studio as one camera sees it: colours, depths, and which pixels show the floor.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace mocap::simulation {
 
-/// A place on the floor in 1/8 mm from its corner; kNoFloor in x where a pixel shows something
-/// else.
+/// A place on the floor in 1/8 mm from its corner. kNoFloor in x if a pixel shows something else.
 struct FloorPlace {
   std::uint16_t x = 0, y = 0;
 };
@@ -24,7 +23,7 @@ struct EmptyView {
   Image<FloorPlace> floor;
 };
 
-/// Looks into the empty room through one lens. Immutable; reentrant.
+/// Renders the empty room through one lens. Immutable; reentrant.
 class EmptyViewRenderer {
  public:
   explicit EmptyViewRenderer(const CameraCalibration& camera);

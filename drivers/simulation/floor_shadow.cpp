@@ -11,20 +11,20 @@
 namespace mocap::simulation {
 namespace {
 
-// A cell is 256 units of FloorPlace: its number and the place in it are a byte each.
+// A cell is 256 units of FloorPlace, so cell number and place within it take a byte each.
 constexpr float kCell_mm = 256 / kFloorUnitsPerMm;
 constexpr int kColumns = static_cast<int>(kRoomX_mm / kCell_mm) + 1;
 constexpr int kRows = static_cast<int>(kRoomY_mm / kCell_mm) + 1;
 static_assert(kColumns < kNoFloor / 256, "what shows no floor lies beside all cells");
-// Three cells are averaged.
+// Averages three cells.
 constexpr int kBlurCells = 1;
-// What is left of full light, 256, with lamps hidden; the rest comes from everywhere.
+// Remaining light by number of hidden lamps; full light is 256. Ambient light remains.
 constexpr std::array<std::uint16_t, 4> kLightLeft = {256, 220, 187, 159};
 const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3700),
                                                  Eigen::Vector3f(1600, -700, 3700),
                                                  Eigen::Vector3f(-200, 1500, 3700)};
 
-// Places within a rectangle, which begins at `low`.
+// Counts places within a rectangle that begins at `low`.
 MOCAP_VECTORIZED
 int CountWithin(const FloorPlace* places, std::size_t count, FloorPlace low, FloorPlace size) {
   int within = 0;
@@ -61,7 +61,7 @@ bool FloorShadow::Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const 
 }
 
 bool FloorShadow::MayFallOn(std::span<const FloorPlace> places) const {
-  // As LightAt() has it.
+  // As in LightAt().
   const auto from = [](int cell) { return static_cast<std::uint16_t>((cell << 8) + 128); };
   const auto over = [](int cells) { return static_cast<std::uint16_t>(cells << 8); };
   return CountWithin(places.data(), places.size(), {from(x0_), from(y0_)},
@@ -101,7 +101,7 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
     const int high_x = std::min(kColumns - 1, static_cast<int>(std::max({a.x(), b.x(), c.x()})));
     const int high_y = std::min(kRows - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
     if (low_x > high_x || low_y > high_y) continue;
-    // Twice the areas opposite to the corners, linear in x.
+    // Twice the areas opposite the corners, linear in x.
     const auto side = [](const Eigen::Vector2f& p, const Eigen::Vector2f& q, float x, float y) {
       return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
     };
@@ -123,7 +123,7 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
   }
 }
 
-// Twice a running mean in each direction: the lamps are panels, not points.
+// Two running means in each direction: the lamps are panels, not points.
 void FloorShadow::Blur() {
   if (x1_ < x0_) return;
   x0_ = std::max(0, x0_ - 2 * kBlurCells);

@@ -1,4 +1,4 @@
-// Things that stand in the studio.
+// Furniture in the studio.
 #pragma once
 
 #include "core/geometry.h"
@@ -12,7 +12,7 @@ struct Block {
   Vector3 half_mm = Vector3::Zero();
   double yaw = 0;
   Bgr color;
-  bool grained = false;  ///< Wood rather than paint.
+  bool grained = false;  ///< Wood instead of paint.
 };
 
 }  // namespace mocap::simulation

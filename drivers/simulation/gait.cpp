@@ -21,7 +21,7 @@ constexpr std::array<Key, 9> kWalkingRoll = {{{0.00, -0.28},
                                               {0.80, 0.30},
                                               {0.89, -0.15},
                                               {0.96, -0.28}}};
-// A jogger lands flat and folds the shank under the thigh.
+// A jogger's foot lands flat, and the shank folds under the thigh.
 constexpr std::array<Key, 9> kRunningRoll = {{{0.00, -0.10},
                                               {0.06, 0.00},
                                               {0.16, 0.00},
@@ -40,7 +40,7 @@ Matrix3 Turn(const Vector3& axis, double angle) {
 
 FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double yaw, double pitch,
                     double toe_grip, double rounding) {
-  // The pivot moves quickly, not at once, from heel to ball: soles and heels are round.
+  // The pivot moves quickly but not instantly from heel to ball: soles and heels are round.
   const double forward = 0.5 + 0.5 * std::tanh(pitch / rounding);
   const double heel = -0.8 * body.heel_mm;
   const Vector3 pivot(heel + (body.ball_mm - heel) * forward, 0, 0.012 * body.stature_mm * forward);
@@ -50,7 +50,7 @@ FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double ya
   target.p_WAnkle =
       p_WSole + R_WYaw * pivot + target.R_WFoot * (Vector3(0, 0, body.ankle_to_sole_mm) - pivot);
   target.toes_rad = toe_grip * pitch * forward;
-  // Toes that point down must not enter the ground.
+  // Toes that point down must not penetrate the floor.
   const double toes_mm = body.foot_mm - body.heel_mm - body.ball_mm;
   target.p_WAnkle.z() += toes_mm * std::sin(std::max(0.0, pitch - target.toes_rad)) * forward;
   return target;
@@ -83,7 +83,7 @@ void BendTrunk(double flexion, double bend, double twist, double gaze, BodyPose&
 
 void FollowWithClavicles(BodyPose& pose) {
   for (ArmAngles& arm : pose.arms) {
-    // Elevation: the angle between upper arm and trunk, whatever the direction.
+    // Elevation: the angle between upper arm and trunk, in any direction.
     const double elevation =
         std::acos(std::clamp(std::cos(arm.flexion) * std::cos(arm.abduction), -1.0, 1.0));
     arm.clavicle_up = 0.28 * std::max(0.0, elevation - 0.3);
@@ -154,8 +154,8 @@ double Gait::PhaseOf(int side, double t_s) const {
 }
 
 Gait::Plant Gait::PlantOf(int side, double cycle) const {
-  // The foot stands where the body will be shortly before the middle of the stance: the heel
-  // leaves the ground long before the toes do.
+  // The foot is placed where the body will be shortly before mid-stance: the heel leaves the ground
+  // long before the toes.
   const double contact = (cycle + (side == kLeft ? 0 : 0.5)) * 2 * style_.step_s;
   const Track track = track_(contact + 0.84 * style_.duty * style_.step_s);
   const double sign = SideSign(side);
@@ -183,7 +183,7 @@ FootTarget Gait::FootAt(int side, double t_s) const {
   Vector3 p = here.p_WSole + way * (next.p_WSole - here.p_WSole);
   const double up = std::sin(std::numbers::pi * u);
   p.z() += std::sqrt(effort) * style_.lift_mm * up * up;
-  // In the air nothing fixes the pivot, and moving it gently spares the knee.
+  // In the air the pivot is free; moving it gently spares the knee.
   return RollFoot(body_, p, here.yaw + way * (next.yaw - here.yaw), pitch,
                   1 - Smoothstep(0, 0.5, u), 0.04 + 0.2 * up * up);
 }

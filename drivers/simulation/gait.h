@@ -1,5 +1,5 @@
-// Moving on foot: feet that stand where they were put, roll from heel to toe and swing to the next
-// place, a pelvis that both legs reach, arms that swing against the legs.
+// Gait: feet stay in place, roll from heel to toe and swing to the next place. Both legs reach the
+// pelvis. Arms swing against the legs.
 #pragma once
 
 #include <array>
@@ -11,28 +11,30 @@
 
 namespace mocap::simulation {
 
-/// Puts a foot on the ground.
+/// Places a foot on the ground.
 ///
 /// @param p_WSole   point on the ground under the ankle when the foot is flat.
-/// @param yaw       where the toes point [rad].
-/// @param pitch     heel up [rad]: rolls about the ball then; negative: toes up, about the heel.
+/// @param yaw       direction of the toes [rad].
+/// @param pitch     positive: heel up, rolling about the ball; negative: toes up, about the heel
+/// [rad].
 /// @param toe_grip  1: the toes stay flat when the heel is up; 0: they point with the foot.
-/// @param rounding  how far the pitch goes while the pivot moves between heel and ball [rad].
+/// @param rounding  range of pitch in which the pivot moves between heel and ball [rad].
 FootTarget RollFoot(const Anthropometry& body, const Vector3& p_WSole, double yaw, double pitch,
                     double toe_grip = 1, double rounding = 0.04);
 
-/// Sets the pelvis' height as wanted or, smoothly, as far as both legs reach, then places the legs.
+/// Sets the pelvis to the wanted height or, with a smooth limit, to what both legs reach. Then
+/// places the legs.
 void StandOn(const Anthropometry& body, const std::array<FootTarget, 2>& feet,
              double wanted_height_mm, BodyPose& pose);
 
-/// Spreads a trunk's flexion, bend and twist over pelvis-to-thorax joints and keeps the gaze level
-/// by as much of the flexion and twist as `gaze` says.
+/// Distributes flexion, bend and twist of the trunk over the joints from pelvis to thorax. Keeps
+/// the gaze level by the share `gaze` of flexion and twist.
 void BendTrunk(double flexion, double bend, double twist, double gaze, BodyPose& pose);
 
 /// Raises the collar bones with the arms (scapulohumeral rhythm, Inman et al. 1944).
 void FollowWithClavicles(BodyPose& pose);
 
-/// Where the body as a whole is and faces.
+/// Position and heading of the whole body.
 struct Track {
   Vector2 p_W = Vector2::Zero();
   double yaw = 0;
@@ -54,14 +56,14 @@ GaitStyle RunningStyle(const Anthropometry& body);
 /// Steps from side to side.
 GaitStyle DancingStyle(const Anthropometry& body);
 
-/// A body that follows a track with its feet.
+/// A body whose feet follow a track.
 class Gait {
  public:
   Gait(const Anthropometry& body, const GaitStyle& style, std::function<Track(double t_s)> track);
 
   /// The pose at a time [s].
   BodyPose PoseAt(double t_s) const;
-  /// Share of its cycle that a foot is through: 0 at its contact.
+  /// Share of a foot's cycle that has passed: 0 at its contact.
   double PhaseOf(int side, double t_s) const;
 
  private:

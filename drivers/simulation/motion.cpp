@@ -63,7 +63,7 @@ class Dance : public Motion {
   Gait gait_;
 };
 
-// Comes in through the door, walks around and leaves; next time the same way back.
+// Comes in through the door, walks around and leaves; then again in reverse.
 class Visit : public Motion {
  public:
   Visit(const Anthropometry& body, std::uint64_t seed)
@@ -104,7 +104,7 @@ class Visit : public Motion {
     const bool back = std::fmod(std::abs(visit), 2) == 1;
     const double waiting = 0.5 * kHidden_s;
     const double distance = walk_.WayAt(u - waiting);
-    // Out of sight the person turns round on the spot.
+    // Out of sight, the person turns on the spot.
     const double turned = u < waiting ? -0.5 * (1 - Smoothstep(0, waiting, u))
                                       : 0.5 * Smoothstep(waiting + walk_s, visit_s, u);
     const double s = back ? path_.length_mm() - distance : distance;

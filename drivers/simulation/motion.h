@@ -1,4 +1,4 @@
-// What the simulated person does: a pose for every moment.
+// Motions of the simulated person: a pose for every time.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace mocap::simulation {
 
-/// A motion that goes on for ever. Reentrant.
+/// An endless motion. Reentrant.
 class Motion {
  public:
   Motion() = default;
@@ -21,14 +21,14 @@ class Motion {
   virtual ~Motion() = default;
   /// The pose at a time [s]; a smooth function of it.
   virtual BodyPose PoseAt(double t_s) const = 0;
-  /// What stands in the studio for it.
+  /// Furniture that the motion needs.
   virtual std::vector<Block> furniture() const { return {}; }
 };
 
 inline constexpr std::array<std::string_view, 8> kMotionNames = {"walk", "run",  "jump",  "dance",
                                                                  "sit",  "step", "stand", "visit"};
 
-/// Makes a motion for a person; details (path, tempo, side to begin with) come from the seed.
+/// Makes a motion for a person. The seed determines details such as path, tempo and starting side.
 ///
 /// walk and run: a closed path · jump: on the spot · dance: twisting waist, arms up · sit: on a
 /// stool and up again · step: up a block and down · stand: idle · visit: comes in through the door,

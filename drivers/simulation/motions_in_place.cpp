@@ -71,8 +71,8 @@ class Jump : public Motion {
   Jump(const Anthropometry& body, const Spot& spot, std::uint64_t seed) : body_(body), spot_(spot) {
     Random random(Mix(seed, Tag("jump")));
     const double apex_mm = random.Uniform(0.12, 0.16) * body.stature_mm;
-    // Whoever is smaller jumps faster: times go with the root of the stature, and gravity, counted
-    // in such times, with the stature.
+    // Smaller people jump faster: times scale with the root of the stature. In units of these
+    // times, gravity scales with the stature.
     pace_ = std::sqrt(body.stature_mm / 1750);
     gravity_ = kGravity * pace_ * pace_;
     speed_ = std::sqrt(2 * gravity_ * apex_mm);
@@ -106,9 +106,9 @@ class Jump : public Motion {
                                    {landed, 1.6},
                                    {landed + 0.5, 0.1},
                                    {landed + 0.9, 0}}});
-    // Feet are drawn up a little in the air.
+    // The feet are drawn up slightly in the air.
     const double tuck = flying ? std::pow(std::sin(std::numbers::pi * in_air / flight_), 2) : 0;
-    // The toes leave the floor and meet it again softly.
+    // The toes leave the floor and land softly.
     constexpr double kSoft_mm = 20;
     const double fall = gravity_ / 2 * in_air * (flight_ - in_air);
     const double rise = 0.5 * (fall + std::hypot(fall, kSoft_mm));
@@ -136,7 +136,7 @@ class Jump : public Motion {
   static constexpr double kDeepest = 0.65, kTakeOff = 0.95, kAbsorb = 0.26, kLanding = 1.3;
   static double Curve(double t, const std::array<Key, 7>& keys) { return Evaluate(keys, t); }
 
-  // Down, up with a constant push, a free flight, and the same push on landing.
+  // Down, up with a constant push, free flight, and the same push on landing.
   double HipHeightAt(double t) const {
     const double landed = kTakeOff + flight_;
     const auto pushed = [this](double push, double left) {
@@ -201,7 +201,7 @@ class Sit : public Motion {
     return pose;
   }
 
-  // A seat on four legs: the person is seen between them.
+  // A seat on four legs: the person is visible between them.
   std::vector<Block> furniture() const override {
     constexpr double kSeatHalf_mm = 165, kThick_mm = 20, kLeg_mm = 14;
     const double middle = -(body_.thigh_mm - 0.025 * body_.stature_mm) + 0.015 * body_.stature_mm;
@@ -294,7 +294,7 @@ class Step : public Motion {
       height = 1 - Smoothstep(0.35, 1, falling);
       hop = Smoothstep(0, 0.3, falling) * (1 - Smoothstep(0.3, 0.9, falling));
     }
-    // Going up the heel leaves the floor last by its toes; coming down the toes touch first.
+    // Going up, the toes leave the floor last; coming down, they touch it first.
     const std::array<Key, 9> pitch = {{{up - 0.25, 0},
                                        {up + 0.1, 0.7},
                                        {up + 0.55, 0.1},

@@ -1,4 +1,4 @@
-// Motions whose feet stay where they are, or nearly so.
+// Motions with feet that stay in place, or nearly so.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace mocap::simulation {
 
-/// Where a person stands and faces.
+/// Place and heading of a person.
 struct Spot {
   Vector2 p_W = Vector2::Zero();
   double yaw = 0;
   Vector3 At(double forward_mm, double left_mm, double z_mm) const;
 };
 
-/// Somewhere near the middle of the room.
+/// A random spot near the middle of the room.
 Spot RandomSpot(std::uint64_t seed);
 
-/// Jumps with a swing of the arms, again and again.
+/// Jumps repeatedly, with a swing of the arms.
 std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, const Spot& spot,
                                        std::uint64_t seed);
 /// Sits down on a stool, stays, and stands up.
 std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, const Spot& spot);
 /// Steps up a block and down again, one foot after the other.
 std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& spot);
-/// Stands with slightly lifted arms, swaying as people do.
+/// Stands with slightly raised arms and sways.
 std::unique_ptr<const Motion> MakeStand(const Anthropometry& body, const Spot& spot,
                                         std::uint64_t seed);
 

@@ -37,7 +37,7 @@ class Greeting : public Motion {
   BodyPose PoseAt(double t_s) const override {
     BodyPose pose = gait_.PoseAt(t_s);
     const double clasped_s = Within(t_s) - walk_.duration_s();
-    // Not before the place is within reach: an arm unbends suddenly.
+    // Only when the place is within reach: an arm straightens suddenly.
     const double reach = Smoothstep(-0.2, 0.6, clasped_s) * (1 - Smoothstep(2.3, 3.0, clasped_s));
     if (reach == 0) return pose;
     BodyPose reaching = pose;
@@ -50,13 +50,13 @@ class Greeting : public Motion {
 
  private:
   static constexpr double kEase_s = 0.8, kClasp_s = 3, kTurning_s = 3;
-  // Half of two palms that touch.
+  // Half the distance of two touching palms.
   static constexpr double kPalm_mm = 14;
 
   double Round_s() const { return 2 * (walk_.duration_s() + kTurning_s) + kClasp_s; }
   double Within(double t_s) const { return Wrap(t_s - meeting_.begin_s, Round_s()); }
 
-  // The middle of the hand: palm against palm, which go up and down.
+  // The middle of the hand: palm against palm, moving up and down.
   Vector3 HandAt(double clasped_s) const {
     const double shake_mm = 20 * std::sin(kTurn * 2.2 * clasped_s);
     const Vector2 right(std::sin(facing_rad_), -std::cos(facing_rad_));
@@ -64,7 +64,7 @@ class Greeting : public Motion {
     return {p.x(), p.y(), meeting_.hands_mm + shake_mm};
   }
 
-  // There, turn about, back, turn about.
+  // Walks there, turns, walks back, turns.
   Track TrackAt(double t_s) const {
     const double walk_s = walk_.duration_s(), t = Within(t_s);
     const double leaving_s = walk_s + kClasp_s, home_s = leaving_s + kTurning_s + walk_s;
@@ -74,7 +74,7 @@ class Greeting : public Motion {
     const double away_mm = StandOff_mm() + meeting_.walk_mm - there;
     const Vector2 ahead(std::cos(facing_rad_), std::sin(facing_rad_));
     const double before = kTurn * std::round((t_s - meeting_.begin_s - t) / Round_s());
-    // A little to the left of each other, so that the right arms are in line.
+    // Offset to the left, so that the right arms are in line.
     const Vector2 left(-ahead.y(), ahead.x());
     const Vector2 p = meeting_.p_W - away_mm * ahead + 0.05 * body_.stature_mm * left;
     return {p, facing_rad_ + before + std::numbers::pi * turned};

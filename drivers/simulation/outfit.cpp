@@ -11,7 +11,7 @@ Bgr Color(double r, double g, double b) {
   return {byte(b), byte(g), byte(r)};
 }
 
-// A cloth colour: any hue, or a grey, or one close to the wall's.
+// A cloth colour: any hue, a grey, or a colour close to the wall's.
 Bgr Cloth(Random& random, Bgr wall) {
   const double kind = random.Uniform(0, 1);
   if (kind < 0.2) {

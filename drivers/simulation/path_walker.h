@@ -1,4 +1,4 @@
-// Going along a path on the floor, round and round.
+// Walking along a path on the floor, repeatedly.
 #pragma once
 
 #include "drivers/simulation/curve.h"
@@ -7,10 +7,10 @@
 
 namespace mocap::simulation {
 
-/// Walks or runs along a path at a constant speed; on an open path, until its end.
+/// Walks or runs along a path at constant speed; on an open path, to its end.
 class PathWalker : public Motion {
  public:
-  /// @param start_mm  where on the path the walker is at the time 0.
+  /// @param start_mm  position on the path at time 0.
   PathWalker(const Anthropometry& body, const GaitStyle& style, FloorPath path, double speed_mm_s,
              double start_mm = 0)
       : gait_(body, style, [path = std::move(path), speed_mm_s, start_mm](double t_s) {

@@ -35,7 +35,7 @@ class Folds {
   std::array<Wave, 4> waves_;
 };
 
-// One ring of a tube: where its cross-section lies and which bones move it.
+// One ring of a tube: pose of its cross-section, and weights of the bones that move it.
 struct Ring {
   RigidTransform X_WRing;  // At rest; the section lies in its x-y plane, y to the left.
   Section section;
@@ -187,7 +187,7 @@ void AddTorso(Builder& builder, const Anthropometry& body, const Outfit& outfit,
     if (s < 0.08) return kTrousers;
     return outfit.striped && std::fmod(s * 9, 2) < 1 ? kStripe : kShirt;
   };
-  // Downward from the neck, so that the rings run against z like those of the limbs.
+  // From the neck downward, so that the rings run against z, as in the limbs.
   builder.AddTube(1.2, -0.19, style, [&](double s) {
     Ring ring;
     ring.X_WRing = {Matrix3::Identity(), rest[kPelvis].p + Vector3(0, 0, s * body.torso_mm)};
@@ -207,7 +207,7 @@ void AddTorso(Builder& builder, const Anthropometry& body, const Outfit& outfit,
 void AddHead(Builder& builder, const Anthropometry& body, const BonePoses& rest) {
   TubeStyle style{.rings = 18, .sectors = 18, .side = 1, .fold = 0, .material = {}};
   style.material = [](double s, double angle) {
-    // Hair: the crown, and lower towards the back.
+    // Hair: the crown, and further down at the back.
     const double back = 0.5 - 0.5 * std::cos(angle);
     return s > 0.84 - 0.55 * back * back ? kHair : kSkin;
   };
@@ -239,7 +239,7 @@ void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
     ring.section = ArmSection(body, s);
     if (s < outfit.sleeve_end) ring.section = Loosened(ring.section, 0.003 * body.stature_mm);
     const double upper = Smoothstep(-0.2, 0.15, s), fore = Smoothstep(0.86, 1.14, s);
-    // The forearm's skin turns with the hand more and more towards the wrist.
+    // Towards the wrist, the skin turns with the hand more and more.
     const double hand = 0.7 * Smoothstep(1.3, 1.9, s) + 0.3 * Smoothstep(1.92, 2.08, s);
     ring.weights[kThorax] = 0.4 * (1 - upper);
     ring.weights[kClavicleL + side] = 0.6 * (1 - upper);
@@ -292,7 +292,7 @@ void AddLeg(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
 void AddFoot(Builder& builder, const Anthropometry& body, int side, const BonePoses& rest) {
   TubeStyle style{.rings = 16, .sectors = 14, .side = SideSign(side), .fold = 0, .material = {}};
   style.material = [](double, double) { return kShoes; };
-  // Rings stand upright: their x is up, their z backward, so that they run against z.
+  // The rings are upright: x is up and z backward, so that they run against z.
   Matrix3 R_FootRing;
   R_FootRing << Vector3::UnitZ(), Vector3::UnitY(), -Vector3::UnitX();
   builder.AddTube(0, 1, style, [&](double s) {
@@ -300,7 +300,7 @@ void AddFoot(Builder& builder, const Anthropometry& body, int side, const BonePo
     Ring ring;
     ring.X_WRing = rest[kFootL + side] * RigidTransform{R_FootRing, {x, 0, -body.ankle_to_sole_mm}};
     ring.section = FootSection(body, s);
-    // The oval stands on the sole: its middle is low and its lower half flat.
+    // The oval rests on the sole: its middle is low and its lower half flat.
     const double top = ring.section.front;
     ring.section.cx = 0.3 * top;
     ring.section.front = 0.7 * top;

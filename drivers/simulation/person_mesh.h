@@ -1,4 +1,4 @@
-// The simulated person's skin and clothes as triangles that follow the bones.
+// The simulated person's skin and clothes as a triangle mesh that follows the bones.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace mocap::simulation {
 enum Material : std::uint8_t { kSkin, kHair, kShirt, kStripe, kTrousers, kShoes };
 inline constexpr int kMaterialCount = 6;
 
-/// What the person wears.
+/// Clothes of the person.
 struct Outfit {
   std::array<Bgr, kMaterialCount> colors;
   double sleeve_end = 2;   ///< Along the arm: 1 is the elbow, 2 the wrist.
@@ -22,10 +22,10 @@ struct Outfit {
   bool striped = false;
 };
 
-/// Chooses clothes; sometimes close to `wall`.
+/// Chooses clothes, sometimes close to the colour `wall`.
 Outfit MakeOutfit(std::uint64_t seed, Bgr wall);
 
-/// Vertices in the rest posture (arms held out), bound to at most three bones each.
+/// Vertices in the rest posture (arms held out), each bound to at most three bones.
 struct PersonMesh {
   struct Vertex {
     Eigen::Vector3f p_rest = Eigen::Vector3f::Zero();
@@ -40,8 +40,8 @@ struct PersonMesh {
   };
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;  ///< Counter-clockwise seen from outside.
-  /// The same surface with a sixth of the triangles, for shadows: indices of vertices, and
-  /// triangles of places in that list.
+  /// The same surface with a sixth of the triangles, for shadows: vertex indices, and triangles
+  /// that index this list.
   std::vector<std::uint16_t> coarse_vertices;
   std::vector<std::array<std::uint16_t, 3>> coarse_triangles;
   BonePoses rest;
@@ -49,7 +49,7 @@ struct PersonMesh {
 
 PersonMesh BuildPersonMesh(const Anthropometry& body, const Outfit& outfit, std::uint64_t seed);
 
-/// The mesh in a posture, in single precision: p_W of every vertex [mm] and the normals there
+/// Computes the mesh in a posture, in single precision: p_W of every vertex [mm] and its normal
 /// (not of unit length). Overwrites both.
 void SkinMesh(const PersonMesh& mesh, const BonePoses& bones, std::vector<Eigen::Vector3f>& p_W,
               std::vector<Eigen::Vector3f>& n_W);

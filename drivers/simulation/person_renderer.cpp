@@ -13,7 +13,7 @@ constexpr int kShrinkSteps = 4096;
 constexpr float kShrinkMax = 1.5f;  // κ1 ru² far outside any picture.
 constexpr float kNearest_mm = 150;
 
-// Two soft lamps and light from everywhere, more of it from above.
+// Two soft lamps, and ambient light that is stronger from above.
 const Vector3f kLampA = Vector3f(-0.45f, -0.35f, 0.82f).normalized();
 const Vector3f kLampB = Vector3f(0.55f, 0.30f, 0.78f).normalized();
 
@@ -26,17 +26,17 @@ float Shade(const Vector3f& n_W) {
 
 std::uint8_t Byte(float v) { return static_cast<std::uint8_t>(std::min(v + 0.5f, 255.0f)); }
 
-// Rounds up, without a call of the library's function.
+// Rounds up without calling the library's function.
 int Ceil(float v) {
   const int whole = static_cast<int>(v);
   return whole + (float(whole) < v ? 1 : 0);
 }
 
-// Pixels that are passed over together.
+// Pixels that are skipped together.
 constexpr int kBytes = 8;
 constexpr int kPlaces = 32;
 
-// Of eight bytes, the highest bits of those that are not zero.
+// Sets the highest bit of each of eight bytes that is not zero.
 std::uint64_t FlagsOf(const std::uint8_t* bytes) {
   constexpr std::uint64_t kLowBits = 0x7f7f7f7f7f7f7f7f;
   std::uint64_t word;
@@ -44,7 +44,7 @@ std::uint64_t FlagsOf(const std::uint8_t* bytes) {
   return (((word & kLowBits) + kLowBits) | word) & ~kLowBits;
 }
 
-// Who is seen in each of eight pixels.
+// Figures visible in each of eight pixels.
 std::uint64_t WhoOf(const std::uint8_t* pixels) {
   std::uint64_t word;
   std::memcpy(&word, pixels, kBytes);
@@ -115,7 +115,7 @@ PixelBox PersonRenderer::Project(const PersonMesh& mesh, const Skin& skin,
     low_x = std::min(low_x, v.x), high_x = std::max(high_x, v.x);
     low_y = std::min(low_y, v.y), high_y = std::max(high_y, v.y);
   }
-  // A pixel more on each side for softened edges.
+  // One more pixel on each side for softened edges.
   if (high_x < 0 || high_y < 0 || low_x >= float(width_px_) || low_y >= float(height_px_))
     return {};
   return {std::max(0, static_cast<int>(low_x) - 1), std::max(0, static_cast<int>(low_y) - 1),
@@ -166,8 +166,8 @@ void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_C
   if (!shadow_.Bounds(low, high)) return;
   const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
   const Vector3f p_CW = X_CW.p.cast<float>();
-  // The rectangle's image is bounded by that of its rim; where the lens does not see it all, the
-  // whole picture is gone through.
+  // The image of the rim bounds that of the rectangle. If the lens does not see the whole rim, use
+  // the whole picture.
   PixelBox box{0, 0, width_px_, height_px_};
   float low_x = 1e9f, low_y = 1e9f, high_x = -1e9f, high_y = -1e9f;
   bool seen = true;
@@ -210,7 +210,7 @@ void PersonRenderer::Darken(std::span<const FloorPlace> floor, Bgr* pixels) cons
 void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
                                   const ScreenVertex& c, std::uint8_t pixel) {
   if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) return;
-  // Counter-clockwise outside, clockwise in a picture whose y points down.
+  // Counter-clockwise seen from outside is clockwise in a picture, where y points down.
   const float area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y);
   if (area <= 0) return;
   const int x0 = std::max(people_.x0, Ceil(std::min({a.x, b.x, c.x})));
@@ -218,7 +218,7 @@ void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
   const int x1 = std::min(people_.x1 - 1, static_cast<int>(std::max({a.x, b.x, c.x})));
   const int y1 = std::min(people_.y1 - 1, static_cast<int>(std::max({a.y, b.y, c.y})));
   if (x0 > x1 || y0 > y1) return;
-  // Barycentric weights of b and c are linear over the picture, and so is 1 / z.
+  // The barycentric weights of b and c are linear in the picture, and so is 1 / z.
   const float inverse = 1 / area;
   const float vx = -(c.y - a.y) * inverse, vy = (c.x - a.x) * inverse;
   const float wx = (b.y - a.y) * inverse, wy = -(b.x - a.x) * inverse;
@@ -266,7 +266,7 @@ bool PersonRenderer::IsOutlineWithin(int x, int y) const {
          here != WhoOf(figures_.row(y - 1) + x) || here != WhoOf(figures_.row(y + 1) + x);
 }
 
-// A lens mixes what lies on both sides of an outline.
+// Blends both sides of an outline, as a lens does.
 void PersonRenderer::SoftenEdges(Image<Bgr>& canvas) {
   soft_.clear();
   const int x1 = std::min(people_.x1, width_px_ - 1), y1 = std::min(people_.y1, height_px_ - 1);

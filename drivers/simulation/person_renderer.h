@@ -1,4 +1,4 @@
-// Draws people into one camera's picture of the empty studio.
+// Draws people into a camera's picture of the empty studio.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ struct PixelBox {
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// Somebody to draw, one of 31 at the most.
+/// A person to draw; at most 31.
 struct Figure {
   Outfit outfit;
   PersonMesh mesh;
 };
 
-/// What a pixel shows: a figure and its material there; 0 is nobody.
+/// Content of a pixel: a figure and its material; 0 is no figure.
 class FigurePixel {
  public:
   static std::uint8_t Of(std::size_t figure, Material material) {
@@ -36,7 +36,7 @@ class FigurePixel {
     return static_cast<Material>(pixel & ((1 << kMaterialBits) - 1));
   }
 
-  /// The bits of eight pixels that tell who they show, not which material.
+  /// Bits of eight pixels that identify the figure, without the material.
   static constexpr std::uint64_t kWhoOfEight = 0xf8f8f8f8f8f8f8f8;
 
  private:
@@ -51,14 +51,15 @@ class PersonRenderer {
 
   /// Draws shadows and figures over the empty view.
   ///
-  /// The camera's lens is evaluated at every vertex; what stands before a figure hides it.
-  /// @param poses   of the figures; as many.
-  /// @param canvas  gets the picture; is the empty view outside of what the last call touched when
-  ///                `same_view`.
+  /// The lens is evaluated at every vertex. Objects in front of a figure hide it.
+  /// @param poses   one per figure.
+  /// @param canvas  gets the picture. With `same_view` it must be the empty view, except where the
+  /// last
+  ///                call drew.
   void Draw(std::span<const Figure> figures, std::span<const BonePoses> poses,
             const EmptyView& view, const RigidTransform& X_CW, bool same_view, Image<Bgr>& canvas);
 
-  /// Who was visible where in the last picture: each a FigurePixel.
+  /// The figures visible in the last picture: a FigurePixel each.
   const Image<std::uint8_t>& figures() const { return figures_; }
 
  private:
@@ -66,15 +67,15 @@ class PersonRenderer {
     float x, y, nearness;  // Nearness 0: not in the camera's field.
     float shade;
   };
-  // A figure's skin in the world.
+  // A figure's skin in the world frame.
   struct Skin {
     std::vector<Eigen::Vector3f> p_W, n_W;
   };
-  // Puts a skin's vertices onto the screen; returns the pixels that may show it.
+  // Projects a skin's vertices; returns the pixels that may show it.
   PixelBox Project(const PersonMesh& mesh, const Skin& skin, const RigidTransform& X_CW,
                    std::vector<ScreenVertex>& screen) const;
   void DrawShadow(const EmptyView& view, const RigidTransform& X_CW, Image<Bgr>& canvas);
-  // Lets the shadow fall on pixels that show these places.
+  // Applies the shadow to pixels that show these places.
   void Darken(std::span<const FloorPlace> floor, Bgr* pixels) const;
   void DrawTriangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                     std::uint8_t pixel);
@@ -86,7 +87,7 @@ class PersonRenderer {
   int width_px_, height_px_;
   TsaiLens lens_;
   float fx_, fy_, cx_, cy_, kappa_;
-  std::vector<float> shrink_;  // rd / ru by κ1 ru².
+  std::vector<float> shrink_;  // rd / ru as a function of κ1 ru².
   std::vector<Skin> skins_;
   std::vector<std::vector<ScreenVertex>> screens_;
   Image<float> nearness_, shades_;

@@ -1,4 +1,4 @@
-// Simulated pictures that are painted before they are due.
+// Simulated pictures, painted before they are due.
 #pragma once
 
 #include <atomic>
@@ -10,23 +10,23 @@
 
 namespace mocap::simulation {
 
-/// Paints one camera's next picture while the last one is looked at.
+/// Paints a camera's next picture while the last one is processed.
 ///
-/// A real camera costs no processor. Neither shall a simulated one take it from those who look at
-/// its pictures: it paints in a thread that the kernel runs when nobody else wants to. Who comes
-/// for a picture that is being painted lends that thread his place; where that is not permitted he
-/// paints for himself. One thread asks and takes.
+/// A real camera uses no processor time. A simulated one should not take it from those who process
+/// its pictures either, so it paints in a thread of lowest priority. A caller that comes for a
+/// picture still being painted gives that thread its own priority. Where this is not permitted, the
+/// caller paints the picture itself. Only one thread may call it.
 class PictureAhead {
  public:
   explicit PictureAhead(std::shared_ptr<const SceneView> view);
   ~PictureAhead();
 
-  /// Asks for the picture of a moment, instead of one that was painted and not taken. While another
-  /// is being painted that does nothing.
+  /// Requests the picture of a time, replacing one that is painted but not taken. Has no effect
+  /// while another is being painted.
   void Ask(std::int64_t capture_ns);
 
-  /// Gives a painter for the one that has painted that moment, if there is one. Waits for no more
-  /// than what is left to paint.
+  /// Exchanges the painter for the one that has painted that time, if any. Waits only for a picture
+  /// being painted.
   /// @return  whether `painter` has changed.
   bool Take(std::int64_t capture_ns, std::unique_ptr<ScenePainter>& painter);
 
@@ -36,7 +36,7 @@ class PictureAhead {
   void Run();
 
   std::atomic<State> state_{State::kIdle};
-  // The thread's while something is asked for.
+  // Owned by the thread while a picture is requested.
   std::int64_t capture_ns_ = 0;
   std::unique_ptr<ScenePainter> painter_;
   std::thread thread_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kReach_mm = 1500;
 constexpr double kBehind = 0.36, kDark = 0.16, kWhite = 0.92;
-constexpr int kSamples = 3;  // Each way in a pixel.
+constexpr int kSamples = 3;  // Per pixel, in each direction.
 // A board that lies on something is not hidden by it.
 constexpr double kAsNear = 1.01;
 
@@ -26,7 +26,7 @@ RigidTransform Centred(const Matrix3& R_WB, const Vector3& middle_W) {
   return {R_WB, middle_W - R_WB * PrintedBoard::Middle()};
 }
 
-// Between knee and head, tilted towards the ceiling where cameras hang.
+// At a height between knee and head, tilted towards the cameras at the ceiling.
 RigidTransform HeldUp(Random& random) {
   const double heading = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const double up = random.Uniform(0, 1);
@@ -40,7 +40,7 @@ RigidTransform HeldUp(Random& random) {
   return Centred(R_WB * ExpRotation({0, 0, random.Uniform(-0.6, 0.6)}), middle_W);
 }
 
-// Somewhere in a camera's picture, which it fills for a good part.
+// Within a camera's picture, filling a large part of it.
 RigidTransform HeldBefore(const CameraCalibration& camera, Random& random) {
   const double near = random.Uniform(1100, 2000);
   const Vector2 aside = near * random.UniformIn({-0.5, 0.5}, {-0.38, 0.38});
@@ -51,7 +51,7 @@ RigidTransform HeldBefore(const CameraCalibration& camera, Random& random) {
   return Centred(X_WC.R * R_CB, X_WC * middle_C);
 }
 
-// Reflectance at a place of the front [mm]; empty beside the board.
+// Reflectance at a point of the front [mm]; empty outside the board.
 std::optional<double> InkAt(const Vector2& p_B) {
   const double x = p_B.x() / PrintedBoard::kSquare_mm, y = p_B.y() / PrintedBoard::kSquare_mm;
   constexpr int kColumns = PrintedBoard::kColumns, kRows = PrintedBoard::kRows;
@@ -66,7 +66,7 @@ struct PixelBox {
   int x0, y0, x1, y1;  // Half open.
 };
 
-// Where the board can be in the picture: the whole, where some of its rim is not in the lens'
+// The pixels that may show the board; the whole picture if part of the rim is outside the lens'
 // field.
 PixelBox BoxOf(const CameraCalibration& camera, const RigidTransform& X_CB) {
   const PixelBox whole{0, 0, camera.width_px, camera.height_px};
@@ -142,7 +142,7 @@ void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_CW,
   const RigidTransform X_CB = X_CW * X_WB;
   const RigidTransform X_BC = X_CB.Inverse();
   const bool is_front = X_BC.p.z() < 0;
-  // Lamps hang above; what faces down is lit by the floor.
+  // Lamps are above; surfaces that face down are lit by the floor.
   const double light = 0.72 - 0.25 * (is_front ? X_WB.R(2, 2) : -X_WB.R(2, 2));
   const PixelBox box = BoxOf(camera, X_CB);
   for (int y = box.y0; y < box.y1; ++y) {

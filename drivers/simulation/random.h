@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine and need no state: the standard library's
+// Random numbers that are the same on every machine and need no state. The standard library's
 // distributions may differ between implementations.
 #pragma once
 
@@ -19,26 +19,26 @@ constexpr std::uint64_t Mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Mixes several numbers: the same ones always give the same bits.
+/// Mixes several numbers. The same numbers always give the same bits.
 template <typename... More>
 constexpr std::uint64_t Mix(std::uint64_t first, std::uint64_t second, More... more) {
   return Mix(Mix(first) ^ second, static_cast<std::uint64_t>(more)...);
 }
 
-/// Names what random numbers are for, so that different uses of one seed do not repeat each other.
+/// Names a purpose, so that different uses of one seed do not repeat each other.
 constexpr std::uint64_t Tag(std::string_view purpose) {
   std::uint64_t bits = 0;
   for (const char c : purpose) bits = Mix(bits, static_cast<std::uint64_t>(c));
   return bits;
 }
 
-/// From `low` to `high`, without the latter.
+/// From `low` to `high`, excluding `high`.
 struct Range {
   double low = 0, high = 0;
 };
 
-/// Draws one number after the other. Two draws never stand in the arguments of one call, nor on
-/// both sides of an operator: the compiler would choose which comes first.
+/// Draws numbers in sequence. Never draw twice in the arguments of one call or on both sides of an
+/// operator: the order of evaluation is unspecified.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
@@ -48,8 +48,8 @@ class Random {
   double Uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(Bits() >> 11) * 0x1p-53;
   }
-  /// Uniform in a box. The last coordinate is drawn first, as in the studios that GCC made when
-  /// these were arguments: their seeds stay good.
+  /// Uniform in a box. The last coordinate is drawn first. GCC evaluated arguments in this order,
+  /// so earlier seeds keep giving the same studios.
   Vector3 UniformIn(Range x, Range y, Range z) {
     const double at_z = Uniform(z.low, z.high);
     const double at_y = Uniform(y.low, y.high);

@@ -18,14 +18,14 @@ constexpr float kHalfX = kRoomX_mm / 2, kHalfY = kRoomY_mm / 2, kTop = kRoomZ_mm
 
 Vector3f ColorOf(Bgr c) { return {float(c.b), float(c.g), float(c.r)}; }
 
-// Light lost towards an edge where two surfaces meet.
+// Loss of light near an edge between two surfaces.
 float EdgeShade(float distance_mm, float depth, float reach_mm) {
-  // Less than half a grey level is not worth an exponential.
+  // Below half a grey level, skip the exponential.
   if (distance_mm > 5 * reach_mm) return 1;
   return 1 - depth * std::exp(-std::max(distance_mm, 0.0f) / reach_mm);
 }
 
-// std::floor is a call on machines without SSE4.
+// std::floor is a function call on machines without SSE4.
 int Floor(float v) {
   const int i = static_cast<int>(v);
   return i - (v < static_cast<float>(i) ? 1 : 0);
@@ -33,7 +33,7 @@ int Floor(float v) {
 
 bool Odd(float v) { return (Floor(v) & 1) != 0; }
 
-// Where a ray from inside leaves a box; the axis of the face, with the sign in `positive`.
+// Where a ray from inside leaves a box: the axis of the face, and its sign in `positive`.
 struct Exit {
   float distance;
   int axis;
@@ -101,7 +101,7 @@ void Room::AddPosters(std::uint64_t seed) {
     return random.UniformIn({40, 200}, {40, 200}, {40, 200}).cast<float>();
   };
   for (int wall = 0; wall < 4; ++wall) {
-    // The wall with the door has room on one side of it only.
+    // The wall with the door has space on one side only.
     const int count = wall == 0 ? 2 : 3;
     for (int i = 0; i < count; ++i) {
       Poster poster;
@@ -154,7 +154,7 @@ Vector3f Room::FloorColor(const Vector3f& p) const {
     const bool stripe = Odd((p.x() - rug_center_.x()) / 110);
     color = rug_color_ * (stripe ? 0.82f : 1.0f) * (1 + 0.06f * noise_.At(p.x() / 9, p.y() / 9));
   } else {
-    // Boards of 180 mm along x, each with its own tone and grain, joints 4 mm wide.
+    // Boards of 180 mm along x, each with its own tone and grain, with joints 4 mm wide.
     const float board = static_cast<float>(Floor(p.y() / 180));
     const float across = p.y() - 180 * board;
     color = floor_color_ * (1 + 0.10f * noise_.At(board * 7.3f, 0.5f) +
@@ -201,7 +201,7 @@ Vector3f Room::WallColor(int wall, const Vector3f& p) const {
 }
 
 Vector3f Room::CeilingColor(const Vector3f& p) const {
-  // Panels of light in a ceiling of mineral boards.
+  // Light panels in a ceiling of mineral boards.
   const bool panel =
       std::abs(std::abs(p.x()) - 1500) < 300 && std::abs(std::abs(p.y()) - 1300) < 600;
   if (panel) return Vector3f::Constant(238);
@@ -268,7 +268,7 @@ Room::Hit Room::Cast(const Vector3f& origin, const Vector3f& direction) const {
       LeaveBox(origin, direction, Vector3f(-kHalfX, -kHalfY, 0), Vector3f(kHalfX, kHalfY, kTop));
   Hit hit{exit.distance, Vector3f::Zero(), exit.axis == 2 && !exit.positive};
   const bool to_door = exit.axis == 0 && !exit.positive && CastCorridor(origin, direction, hit);
-  // Colours cost most: things first, then only what is seen.
+  // Colours cost most. Intersect all objects first, then colour only what is visible.
   const float surface = hit.distance;
   CastThings(origin, direction, hit);
   if (to_door || hit.distance < surface) return hit;

@@ -1,4 +1,4 @@
-// The empty studio: a room with textured walls and floor, a door to a corridor, and some things.
+// The empty studio: a room with textured walls and floor, a door to a corridor, and some objects.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace mocap::simulation {
 
-/// Smooth random numbers over a plane, the same everywhere for a seed; repeats after 256 cells.
+/// Smooth noise over a plane, the same everywhere for a seed; repeats after 256 cells.
 class NoiseTexture {
  public:
   explicit NoiseTexture(std::uint64_t seed);
@@ -26,17 +26,17 @@ class NoiseTexture {
 /// The room of room_plan.h. Immutable; reentrant.
 class Room {
  public:
-  /// What a ray meets.
+  /// Intersection of a ray.
   struct Hit {
-    float distance = 0;                             ///< In lengths of the ray's direction.
+    float distance = 0;                             ///< In lengths of the ray's direction vector.
     Eigen::Vector3f bgr = Eigen::Vector3f::Zero();  ///< 0..255, lit.
     bool on_floor = false;
   };
 
-  /// @param furniture  stands in the room in addition to its own things.
+  /// @param furniture  added to the room's own objects.
   Room(std::uint64_t seed, const std::vector<Block>& furniture);
 
-  /// Follows a ray from a point inside the room.
+  /// Traces a ray from a point inside the room.
   Hit Cast(const Eigen::Vector3f& origin_W, const Eigen::Vector3f& direction_W) const;
   Bgr wall_color() const { return wall_; }
 

@@ -1,4 +1,4 @@
-// The simulated studio's ground plan [mm], world frame: the origin is the middle of the floor.
+// Floor plan of the simulated studio [mm], world frame: the origin is the middle of the floor.
 #pragma once
 
 namespace mocap::simulation {
@@ -9,7 +9,7 @@ inline constexpr double kRoomX_mm = 6500, kRoomY_mm = 6400, kRoomZ_mm = 3000;
 inline constexpr double kDoorX_mm = -kRoomX_mm / 2, kDoorY_mm = 700;
 inline constexpr double kDoorWidth_mm = 950, kDoorHeight_mm = 2150, kDoorJamb_mm = 320;
 inline constexpr double kCorridorDepth_mm = 1100, kCorridorHalfLength_mm = 3800;
-/// This far along the corridor from the door nobody is seen from the room.
+/// Distance along the corridor beyond which nobody is visible from the room.
 inline constexpr double kHidingPlace_mm = 3000;
 
 }  // namespace mocap::simulation

@@ -34,7 +34,7 @@ void Check(const SimulatedStudioOptions& options) {
     refuse("width_px", options.width_px, "16 to 8192");
   if (options.height_px < 16 || options.height_px > 8192)
     refuse("height_px", options.height_px, "16 to 8192");
-  // Pictures of the empty studio are kept: some hundred bytes a pixel.
+  // Pictures of the empty studio are kept: some hundred bytes per pixel.
   const double megapixels = 1e-6 * options.cameras * options.width_px * options.height_px;
   if (megapixels > kMostMegapixels) {
     refuse("the size of all pictures together", megapixels, "at most 128 megapixels");
@@ -43,7 +43,7 @@ void Check(const SimulatedStudioOptions& options) {
     refuse("seconds", options.seconds, "0 to 1000000");
 }
 
-// The middle of the trunk, kept where heads can follow it.
+// The middle of the trunk, limited to where heads can follow it.
 Vector3 TrunkAt(const Person& person, std::int64_t capture_ns) {
   const BonePoses bones = person.BonesAt(capture_ns);
   constexpr double kReach_mm = 2200;
@@ -52,7 +52,7 @@ Vector3 TrunkAt(const Person& person, std::int64_t capture_ns) {
           p.z()};
 }
 
-// The first is who the options say; the others are people of his age, each with a seed of his own.
+// The first person is as in the options. The others are of the same age, with seeds of their own.
 std::uint64_t SeedOf(const SimulatedStudioOptions& options, int person) {
   return person == 0 ? options.seed
                      : Mix(options.seed, Tag("person"), static_cast<std::uint64_t>(person));
@@ -135,7 +135,7 @@ PersonPresence Scene::PresenceOf(int person, std::int64_t capture_ns) const {
 }
 
 std::int64_t Scene::NominalTime(std::int64_t frame) const {
-  // Since 1970 at 1000 Hz a frame's number has 41 bits; long double keeps the nanoseconds.
+  // Since 1970 at 1000 Hz, a frame number has 41 bits; long double keeps the nanoseconds.
   const long double period_ns = 1e9L / static_cast<long double>(options_.fps);
   return options_.start_ns + std::llround(static_cast<long double>(frame) * period_ns);
 }
@@ -157,7 +157,7 @@ PanTiltAngles Scene::AnglesAt(int camera, std::int64_t capture_ns) const {
 
 PanTiltLimits Scene::ReachOf(int camera) const {
   if (!cameras_[camera].head) return {};
-  // Heads that are told where to turn begin at zero and come a little after, or before, the person.
+  // Heads that follow commands start at zero and lag behind or lead the person a little.
   const double margin_rad = options_.follow ? 0.1 : 0.02;
   const PanTiltAngles start =
       options_.follow ? PanTiltAngles{} : AnglesAt(camera, options_.start_ns);

@@ -1,4 +1,4 @@
-// A simulated studio with its people: everything that cameras share, and one camera's view of it.
+// A simulated studio with its people: the state that cameras share, and one camera's view of it.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@
 
 namespace mocap::simulation {
 
-/// Who moves, and how. Immutable; reentrant.
+/// A person and the motion. Immutable; reentrant.
 class Person {
  public:
-  /// @param start_ns  when the motion begins.
+  /// @param start_ns  start of the motion.
   Person(const Anthropometry& body, std::unique_ptr<const Motion> motion, std::int64_t start_ns)
       : body_(body), motion_(std::move(motion)), start_ns_(start_ns) {}
 
@@ -39,10 +39,10 @@ class Person {
 };
 
 /// Makes all people of a studio.
-/// @throws SetupError  for options that cannot be.
+/// @throws SetupError  for invalid options.
 std::vector<Person> MakePeople(const SimulatedStudioOptions& options);
 
-/// All that the cameras see. Immutable; reentrant.
+/// Everything that the cameras see. Immutable; reentrant.
 class Scene {
  public:
   explicit Scene(const SimulatedStudioOptions& options);
@@ -51,22 +51,22 @@ class Scene {
   const std::vector<Person>& people() const { return people_; }
   std::vector<BonePoses> BonesAt(std::int64_t capture_ns) const;
   const Room& room() const { return room_; }
-  /// As many as people, in their order.
+  /// One per person, in their order.
   const std::vector<Figure>& figures() const { return figures_; }
   const Sensor& sensor() const { return sensor_; }
   const std::vector<CameraCalibration>& cameras() const { return cameras_; }
 
-  /// Time at which frame number `frame` is due, the same for all cameras.
+  /// Nominal time of frame number `frame`, the same for all cameras.
   std::int64_t NominalTime(std::int64_t frame) const;
-  /// When a camera really takes it, within 0.3 ms.
+  /// Actual capture time of a camera, within 0.3 ms of the nominal time.
   std::int64_t CaptureTime(int camera, std::int64_t frame) const;
-  /// How much of somebody is in the room and in the pictures.
+  /// How much of a person is in the room and in the pictures.
   PersonPresence PresenceOf(int person, std::int64_t capture_ns) const;
-  /// Where a camera's head points: after the first person, a little late. Zero without a head.
+  /// Angles of a camera's head, which follows the first person with a lag. Zero without a head.
   PanTiltAngles AnglesAt(int camera, std::int64_t capture_ns) const;
-  /// How far a camera's head turns, when it is told to or by itself. Zero without a head.
+  /// Range of a camera's head, whether commanded or moving by itself. Zero without a head.
   PanTiltLimits ReachOf(int camera) const;
-  /// Directions that cover its reach, as a serpentine; zeros without a head.
+  /// Directions that cover its range, as a serpentine; zeros without a head.
   std::vector<PanTiltAngles> Sweep(int camera, int frames) const;
 
  private:
@@ -78,7 +78,7 @@ class Scene {
   std::vector<CameraCalibration> cameras_;
 };
 
-/// One camera's empty view, rendered when it is first wanted. Reentrant.
+/// One camera's empty view, rendered on first use. Reentrant.
 class SceneView {
  public:
   SceneView(std::shared_ptr<const Scene> scene, int camera);
@@ -86,12 +86,11 @@ class SceneView {
   const Scene& scene() const { return *scene_; }
   int camera() const { return camera_; }
   const CameraCalibration& calibration() const { return scene_->cameras()[camera_]; }
-  /// Without a head: the view that never changes.
+  /// @pre  no head: the view never changes.
   const EmptyView& fixed_view() const;
-  /// With a head: the view in one direction.
+  /// Renders the view in one direction, with a head.
   void RenderView(const PanTiltAngles& angles, EmptyView& view) const;
-  /// Frames of the empty studio with their noise and directions; capture times are before the
-  /// start.
+  /// Frames of the empty studio with noise and directions; capture times are before the start.
   std::vector<BackgroundFrame> Background(int frames) const;
 
  private:
@@ -108,13 +107,13 @@ class ScenePainter {
  public:
   explicit ScenePainter(std::shared_ptr<const SceneView> view);
 
-  /// Paints what the camera sees at a moment; its head points after the first person.
+  /// Paints the camera's picture at a time; its head follows the first person.
   void Paint(std::int64_t capture_ns);
-  /// Paints what it sees where its head points.
+  /// Paints the picture for given angles of its head.
   void Paint(std::int64_t capture_ns, const PanTiltAngles& angles);
   const Image<Bgr>& picture() const { return picture_; }
   const PanTiltAngles& angles() const { return angles_; }
-  /// Who is seen where: each a FigurePixel.
+  /// The figures that are visible: a FigurePixel each.
   const Image<std::uint8_t>& figures() const { return renderer_.figures(); }
 
  private:

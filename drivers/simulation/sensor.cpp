@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kNoiseValues = 1 << 17;
 
-// 16-bit arithmetic with 6 fractional bits, which compilers turn into vector code. The lamps' gain
-// comes in 64ths and 16384ths.
+// 16-bit arithmetic with 6 fractional bits, which compilers vectorize. The lamps' gain is in 64ths
+// and 16384ths.
 MOCAP_VECTORIZED void ExposeRow(const std::uint8_t* light, const std::int8_t* noise,
                                 std::uint16_t gain, std::uint16_t fine_gain, std::uint8_t* picture,
                                 int count) {
@@ -50,7 +50,7 @@ void Sensor::Expose(const Image<Bgr>& light, double gain, std::uint64_t key,
   const auto coarse = static_cast<std::uint16_t>(gain_fixed >> 8);
   const auto fine = static_cast<std::uint16_t>(gain_fixed & 255);
   for (int y = 0; y < light.height(); ++y) {
-    // Rows take their noise from random places of the table.
+    // Each row takes its noise from a random place of the table.
     const std::uint64_t offset =
         Mix(key, static_cast<std::uint64_t>(y)) % static_cast<std::uint64_t>(kNoiseValues - count);
     ExposeRow(reinterpret_cast<const std::uint8_t*>(light.row(y)), noise_.data() + offset, coarse,

@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-// How far heads look about a board, and how fast: pan and tilt come together in ever new ways.
+// Range and rate at which heads scan around a board. Pan and tilt combine differently all the time.
 constexpr double kPanAbout_rad = 0.25, kTiltAbout_rad = 0.18;
 constexpr double kPanRate_rad_s = 0.7, kTiltRate_rad_s = 1.1;
 
@@ -62,7 +62,7 @@ class SimulatedBoard::Impl {
   }
 
  private:
-  // The empty studio as a camera sees it in the direction in which it looked last.
+  // The empty studio in a camera's last direction.
   struct View {
     explicit View(const CameraCalibration& which) : camera(which), renderer(which) {}
     void Turn(const simulation::Room& room, const PanTiltAngles& to) {

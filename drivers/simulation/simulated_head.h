@@ -1,4 +1,4 @@
-// A head that exists in the computer only.
+// A simulated pan-tilt head.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class SimulatedHead : public PanTilt {
 
   explicit SimulatedHead(const PanTiltLimits& limits) : limits_(limits) {}
 
-  /// What time it is by now: orders count from here on.
+  /// Sets the current time: commands take effect from then on.
   void Advance(std::int64_t now_ns) { now_ns_ = now_ns; }
 
   void Start() override {}

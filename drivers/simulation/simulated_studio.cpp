@@ -15,7 +15,7 @@ namespace mocap {
 namespace {
 
 constexpr int kBackgroundFrames = 40;
-/// A camera that fails does so at the beginning of such a slot, for so long.
+/// A camera fails at the start of such a slot, for kLossNs.
 constexpr std::int64_t kLossSlotNs = 5'000'000'000;
 constexpr std::int64_t kLossNs = 2'000'000'000;
 constexpr double kSlotsPerMinute = 12;
@@ -60,7 +60,7 @@ SimulatedCamera::~SimulatedCamera() = default;
 
 void SimulatedCamera::Start() {
   const SimulatedStudioOptions& options = view_->scene().options();
-  // What takes long is done before the first frame is due.
+  // Slow work is done before the first frame is due.
   if (!view_->calibration().head) view_->fixed_view();
   first_ = 0;
   if (options.realtime)
@@ -72,12 +72,12 @@ void SimulatedCamera::Start() {
   prepared_ = false;
 }
 
-// Returns whether there is one.
+// Returns whether there is a next frame.
 bool SimulatedCamera::PrepareNext() {
   const simulation::Scene& scene = view_->scene();
   const SimulatedStudioOptions& options = scene.options();
   if (options.realtime) {
-    // Whoever comes too late finds the frames between gone, as with any camera.
+    // A late caller loses the frames in between, as with any camera.
     const auto now = static_cast<std::int64_t>(
         std::floor(static_cast<double>(TimelineNs() - options.start_ns) * 1e-9 * options.fps));
     next_ = std::max(next_, now);

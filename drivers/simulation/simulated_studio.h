@@ -1,4 +1,4 @@
-// A studio that exists in the computer only: cameras render moving people, with truth.
+// A simulated studio: cameras render moving people, with truth.
 #pragma once
 
 #include <array>
@@ -18,32 +18,32 @@
 
 namespace mocap {
 
-/// What happens in the simulated studio. The same options give the same pictures and truth.
+/// Options of the simulated studio. The same options give the same pictures and truth.
 struct SimulatedStudioOptions {
-  std::string motion = "walk";  ///< As simulation::MakeCompany() has it.
+  std::string motion = "walk";  ///< As in simulation::MakeCompany().
   int people = 1;               ///< 1 to simulation::kMostSimulatedPeople.
-  double stature_mm = 1750;     ///< Of the first, 1000 to 2100; others are of about his size.
+  double stature_mm = 1750;     ///< Of the first, 1000 to 2100; others have a similar one.
   double fps = 30;
   int cameras = 6;
   int width_px = 640, height_px = 480;
-  bool pan_tilt = false;  ///< Heads go after the person by themselves; slower to render.
-  /// With pan_tilt: heads turn when they are told to, as tracking wants it.
+  bool pan_tilt = false;  ///< Heads follow the person by themselves; slower to render.
+  /// With pan_tilt: heads turn on command, as tracking demands.
   bool follow = false;
   std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
-  bool realtime = false;   ///< Frames come when the system clock says that they are due.
-  double seconds = 0;      ///< Length unless realtime; 0: without end.
-  /// How often each camera is lost for some seconds, in real time only.
+  bool realtime = false;   ///< Frames come when due by the system clock.
+  double seconds = 0;      ///< Length unless realtime; 0: endless.
+  /// How often each camera is lost for some seconds; only in real time.
   double losses_per_minute = 0;
-  /// Capture time at which the motion begins. In real time it may stay 0: then the motion follows
-  /// the clock, and any process with these options knows the truth of a capture time.
+  /// Capture time at which the motion begins. It may stay 0 in real time: the motion then follows
+  /// the clock, and any process with these options can compute the truth of a capture time.
   std::int64_t start_ns = 0;
 };
 
-/// Gives options for frames as fast as they are rendered, from a fixed time on: 1000 s after the
-/// Unix epoch.
+/// Options for frames rendered as fast as possible, starting at a fixed time: 1000 s after the Unix
+/// epoch.
 SimulatedStudioOptions RecordedSimulation();
 
-/// p_WQ of the points that kSimulatedJointNames tells [mm].
+/// p_WQ of the points named by kSimulatedJointNames [mm].
 using JointPositions = simulation::TruePoints;
 inline constexpr auto& kSimulatedJointNames = simulation::kTruthPointNames;
 
@@ -55,20 +55,20 @@ class ScenePainter;
 class PictureAhead;
 }  // namespace simulation
 
-/// How much of somebody is to be seen.
+/// How much of a person is visible.
 struct PersonPresence {
-  bool in_room = false;  ///< Any part of the body is on this side of the door.
-  bool whole = false;    ///< All of it is.
-  int pictures = 0;      ///< That have all of the body within their borders, hidden or not.
+  bool in_room = false;  ///< Any part of the body is on the room's side of the door.
+  bool whole = false;    ///< The whole body is.
+  int pictures = 0;      ///< Number that have the whole body within their borders, hidden or not.
 };
 
-/// So many pictures that have all of somebody cover him.
+/// A person is covered if this many pictures have the whole body.
 inline constexpr int kCoveringPictures = 4;
 
-/// Where the simulated people's joints truly are. People are numbered from 0. Reentrant.
+/// True joint positions of the simulated people, numbered from 0. Reentrant.
 class SimulatedTruth {
  public:
-  /// @throws SetupError  when the options cannot be.
+  /// @throws SetupError  for invalid options.
   explicit SimulatedTruth(const SimulatedStudioOptions& options);
   ~SimulatedTruth();
   SimulatedTruth(SimulatedTruth&&) noexcept;
@@ -80,11 +80,11 @@ class SimulatedTruth {
   std::vector<simulation::Person> people_;
 };
 
-/// One virtual camera. In real time it paints ahead of the time when a picture is due, unless its
-/// head is told where to turn meanwhile.
+/// One virtual camera. In real time it paints pictures before they are due, unless its head may be
+/// commanded to turn meanwhile.
 class SimulatedCamera : public CameraDriver {
  public:
-  /// @param head  turns the camera; null: where it points follows from the time.
+  /// @param head  turns the camera; null: its direction is a function of time.
   explicit SimulatedCamera(std::shared_ptr<const simulation::SceneView> view,
                            std::shared_ptr<SimulatedHead> head = nullptr);
   ~SimulatedCamera() override;
@@ -92,7 +92,7 @@ class SimulatedCamera : public CameraDriver {
   void Start() override;
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override;
   void Stop() override;
-  /// Where anybody is visible in the last frame: 255, else 0. Valid until the next call.
+  /// Mask of all people visible in the last frame: 255, else 0. Valid until the next call.
   ImageView<const std::uint8_t> TrueMask();
 
  private:
@@ -110,20 +110,20 @@ class SimulatedCamera : public CameraDriver {
   Image<std::uint8_t> mask_;
 };
 
-/// The studio before its cameras are handed out.
+/// The studio before its cameras are opened.
 class SimulatedStudio {
  public:
-  /// @throws SetupError  when the options cannot be.
+  /// @throws SetupError  for invalid options.
   explicit SimulatedStudio(const SimulatedStudioOptions& options);
 
   const std::vector<CameraCalibration>& cameras() const;
   std::unique_ptr<SimulatedCamera> OpenCamera(int camera) const;
-  /// Opens a camera whose head follows.
+  /// Opens a camera whose head follows the subject.
   std::unique_ptr<CameraDriver> OpenFollowing(int camera,
                                               std::shared_ptr<const SubjectPosition> person) const;
-  /// Pictures of the empty studio; for a camera on a head a sweep of its directions.
+  /// Pictures of the empty studio; for a camera on a head, a scan of its directions.
   std::vector<BackgroundFrame> Background(int camera) const;
-  /// Time of a frame without any camera's jitter.
+  /// Time of a frame without jitter of the cameras.
   std::int64_t NominalTime(std::int64_t frame) const;
   PersonPresence PresenceOf(int person, std::int64_t capture_ns) const;
 
@@ -133,7 +133,7 @@ class SimulatedStudio {
 };
 
 /// Opens the simulated studio as a source of frames. Cameras share one immutable scene.
-/// @throws SetupError  when the options cannot be.
+/// @throws SetupError  for invalid options.
 Studio OpenSimulatedStudio(const SimulatedStudioOptions& options);
 
 }  // namespace mocap

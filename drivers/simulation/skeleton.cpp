@@ -14,7 +14,7 @@ Matrix3 RotationOf(const TrunkAngles& a) {
   return TurnZ(a.twist) * TurnY(a.flexion) * TurnX(-a.bend);
 }
 
-// A limb hangs along -z, so turning about +y takes it back and about +x to the left.
+// A limb hangs along -z. Turning about +y moves it back, about +x to the left.
 Matrix3 LimbRotation(double flexion, double abduction, double rotation, double sign) {
   return TurnY(-flexion) * TurnX(sign * abduction) * TurnZ(-sign * rotation);
 }
@@ -43,7 +43,7 @@ void PlaceArm(const Anthropometry& body, const ArmAngles& arm, int side, BonePos
       RigidTransform{TurnX(sign * arm.clavicle_up) * TurnZ(-sign * arm.clavicle_forward), inner};
   bones[kUpperArmL + side] =
       bones[kClavicleL + side] * RigidTransform{Matrix3::Identity(), shoulder - inner};
-  // Shoulder angles are against the thorax; the clavicle only carries the joint.
+  // Shoulder angles are relative to the thorax; the clavicle only moves the joint.
   bones[kUpperArmL + side].R =
       bones[kThorax].R * LimbRotation(arm.flexion, arm.abduction, arm.rotation, sign);
   bones[kForearmL + side] = bones[kUpperArmL + side] *
@@ -70,11 +70,10 @@ void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, Bo
                      Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + 0.012 * body.stature_mm)};
 }
 
-// A limb of two links that reaches for a distance: the angles of the triangle, by the law of
-// cosines.
+// A two-link limb that reaches over a distance: the angles of the triangle, by the law of cosines.
 struct Fold {
   double bend;     // At the joint between the links; 0 when they are in line.
-  double at_root;  // From the line to the target to the first link.
+  double at_root;  // Between the line to the target and the first link.
 };
 
 Fold FoldTo(double distance_mm, double a, double b) {
@@ -138,8 +137,8 @@ void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, Bod
   const Vector3 reach = target.p_WAnkle - p_WHip;
   const auto [knee, at_hip] = FoldTo(reach.norm(), body.thigh_mm, body.shank_mm);
 
-  // The leg's plane holds the line to the ankle and the direction of the foot, which may point
-  // nearly along that line when the heel is up: then the pelvis says where forward is.
+  // The leg's plane contains the line to the ankle and the direction of the foot. With the heel up,
+  // the foot may point nearly along that line: then the pelvis defines forward.
   const Vector3 down = reach.normalized();
   const Vector3 foot_forward = target.R_WFoot.col(1).cross(Vector3::UnitZ());
   const Vector3 forward = 0.85 * foot_forward.normalized() + 0.15 * pose.R_WPelvis.col(0);
@@ -172,7 +171,7 @@ void ReachWith(const Anthropometry& body, int side, const Vector3& p_WHand, Body
   const auto [elbow, at_shoulder] =
       FoldTo(reach.norm(), body.upper_arm_mm, body.forearm_mm + body.hand_mm / 2);
 
-  // The elbow falls below the line to the hand, and what is bent lies above it.
+  // The elbow is below the line to the hand.
   const Vector3 along = reach.normalized();
   const Vector3 pole = R_WThorax * Vector3(0, 0.8 * sign, -1);
   const Vector3 below = (pole - along.dot(pole) * along).normalized();

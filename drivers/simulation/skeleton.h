@@ -1,8 +1,8 @@
-// The simulated person's skeleton: joint angles in anatomical terms, where they put the bones, and
-// the points that truth.csv names.
+// The simulated person's skeleton: anatomical joint angles, the resulting bone poses, and the
+// points of truth.csv.
 //
-// Every bone's frame has x forward, y to the person's left and z up along the bone while the person
-// stands upright with hanging arms; all angles are 0 then.
+// Every bone's frame has x forward, y to the person's left and z up along the bone when the person
+// stands upright with hanging arms. All angles are 0 then.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace mocap::simulation {
 
 inline constexpr int kLeft = 0, kRight = 1;
 
-/// +1 for the left, which lies on +y, and -1 for the right.
+/// +1 for the left side (+y), -1 for the right.
 constexpr double SideSign(int side) { return side == kLeft ? 1 : -1; }
 
 /// Angles of a ball joint of the trunk [rad].
@@ -48,7 +48,7 @@ struct LegAngles {
   double toes = 0;       ///< Extension: toes up.
 };
 
-/// A posture: where the pelvis is and every joint angle.
+/// A posture: position of the pelvis and every joint angle.
 struct BodyPose {
   Vector3 p_WPelvis = Vector3::Zero();  ///< Midpoint of the hip joints.
   Matrix3 R_WPelvis = Matrix3::Identity();
@@ -82,10 +82,10 @@ enum Bone {
 };
 inline constexpr int kBoneCount = 21;
 
-/// X_WB of every bone; its origin is the joint that it turns about.
+/// X_WB of every bone; its origin is the joint about which it turns.
 using BonePoses = std::array<RigidTransform, kBoneCount>;
 
-/// Puts every bone in its place.
+/// Computes the pose of every bone.
 BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose);
 
 /// The points of truth.csv, in its order.
@@ -120,25 +120,25 @@ inline constexpr std::array<std::string_view, kTruthPointCount> kTruthPointNames
 /// p_WQ of every truth point [mm].
 using TruePoints = std::array<Vector3, kTruthPointCount>;
 
-/// Reads the truth points off placed bones.
+/// Computes the truth points from bone poses.
 TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones);
 
 /// Middle of the skull in the head's frame.
 Vector3 HeadCenterInHead(const Anthropometry& body);
 
-/// Where a foot is to be: the ankle and the directions of foot and toes.
+/// Target of a foot: the ankle, and the directions of foot and toes.
 struct FootTarget {
   Vector3 p_WAnkle = Vector3::Zero();
   Matrix3 R_WFoot = Matrix3::Identity();
   double toes_rad = 0;  ///< Extension of the toes against the foot.
 };
 
-/// Bends a leg so that its foot comes to the target, knee pointing where the foot points; a target
-/// out of reach is approached with the leg straight.
+/// Bends a leg to bring its foot to the target, with the knee in the foot's direction. A target out
+/// of reach is approached with a straight leg.
 void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, BodyPose& pose);
 
-/// Bends an arm so that the middle of its straight hand comes to a place, elbow down and a little
-/// out; a place out of reach is approached with the arm straight. The collar bone stays as it is.
+/// Bends an arm to bring the middle of its straight hand to a point, elbow down and slightly out. A
+/// point out of reach is approached with a straight arm. The clavicle does not move.
 void ReachWith(const Anthropometry& body, int side, const Vector3& p_WHand, BodyPose& pose);
 
 }  // namespace mocap::simulation
