@@ -20,10 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A connection that says nothing is not kept for longer.
+/// A silent connection is closed after this time.
 constexpr std::chrono::milliseconds kPatience{10'000};
 
-/// Whether standard input can be read, or has ended.
+/// Waits until standard input can be read or has ended.
 bool WaitForInput(Clock::time_point deadline) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -34,8 +34,8 @@ bool WaitForInput(Clock::time_point deadline) {
   }
 }
 
-/// Reads standard input to its end, and no more of it than a request may have.
-/// @return  empty when it goes on.
+/// Reads standard input to its end, up to the maximum size of a request.
+/// @return  empty if there is more.
 std::optional<std::string> ReadRequest() {
   const Clock::time_point deadline = Clock::now() + kPatience;
   std::string request;

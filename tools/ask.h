@@ -1,4 +1,4 @@
-// mocap ask: one request by standard input, for other computers.
+// mocap ask: one request on standard input, for other computers.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -30,7 +30,7 @@ struct LearnOptions {
   double seconds = 4;
 };
 
-/// All cameras at the same time; of several failures the first camera's is thrown.
+/// Records all cameras at the same time. If several fail, the first camera's error is thrown.
 std::vector<BackgroundRecord> RecordAll(std::vector<LiveCamera>& cameras,
                                         const std::filesystem::path& folder, double seconds) {
   std::vector<std::future<BackgroundRecord>> recordings;

@@ -5,7 +5,7 @@
 
 namespace mocap {
 
-/// Registers the subcommand; it runs when it is chosen on the command line.
+/// Adds the subcommand; it runs when chosen on the command line.
 void AddBackgroundCommand(CLI::App& app);
 
 }  // namespace mocap

@@ -19,14 +19,14 @@ constexpr int kFrames = 50;
 constexpr std::int64_t kSettle_ns = 1'000'000'000;
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
 constexpr std::chrono::milliseconds kGrabTimeout{200};
-/// Of a head's sweep: the share of the picture by which it turns, and what standing still is.
+/// For scans: step as a share of the picture, and the motion that counts as standing still.
 constexpr double kSweepStep = 0.4;
 constexpr double kStill_rad = 1e-4;
 constexpr int kStillFrames = 5;
 constexpr int kFramesADirection = 2;
 constexpr std::size_t kMostDirections = 300;
 
-/// Gives the next frame, whatever the weather.
+/// Returns the next frame, after outages if need be.
 void GrabNext(LiveCamera& camera, Frame& frame) {
   const std::int64_t deadline_ns = SteadyNs() + kPatience_ns;
   while (SteadyNs() < deadline_ns) {
@@ -36,10 +36,10 @@ void GrabNext(LiveCamera& camera, Frame& frame) {
                            ") has delivered no frame for 5 s");
 }
 
-/// Angle between the picture's middle rows or columns at two pixels.
+/// Angle between two pixels along one axis of the picture.
 double AngleBetween(const Lens& lens, const Vector2& from, const Vector2& to, int axis) {
   const auto a = NormalizedFromPixel(lens, from), b = NormalizedFromPixel(lens, to);
-  // A lens that does not say sees far.
+  // Assume a wide angle where the distortion cannot be inverted.
   return a && b ? std::abs(std::atan((*b)[axis]) - std::atan((*a)[axis])) : 1;
 }
 
@@ -52,7 +52,7 @@ std::vector<double> Steps(double least, double most, double field_rad) {
   return steps;
 }
 
-/// Waits until the head stands still. @return  the frame by then.
+/// Waits until the head stands still; `frame` is then the last one.
 void LookThere(LiveCamera& camera, const PanTiltAngles& direction, Frame& frame) {
   const PanTiltLimits limits = camera.head->limits();
   if (!limits.Contain(direction)) {

@@ -23,7 +23,7 @@
 namespace mocap {
 namespace {
 
-// What a part takes where nothing is asked for.
+// Defaults of a part.
 constexpr double kSeconds = 10, kPeopleSeconds = 20;
 constexpr int kSeeds = 3, kPeopleSeeds = 2;
 const std::vector<std::string> kMotions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
@@ -31,7 +31,7 @@ const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit
 
 struct BenchmarkOptions {
   std::filesystem::path out;
-  double seconds = 0;  ///< 0: what suits the part, as below; also without motions and seeds.
+  double seconds = 0;  ///< 0: the part's default below; also if motions or seeds are empty.
   std::vector<std::string> motions;
   std::vector<double> statures_mm = {1150, 1550, 1950};
   int seeds = 0;
@@ -45,7 +45,7 @@ struct BenchmarkOptions {
   int SeedsOr(int usual) const { return seeds > 0 ? seeds : usual; }
 };
 
-// As long as all others together, so that it has to be asked for.
+// It takes as long as all others together, so it runs only on request.
 const std::string kPeoplePart = "people";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
@@ -174,7 +174,7 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
 }
 
 void RunBenchmark(const BenchmarkOptions& options) {
-  // Before the work, to find out at once whether its result can be kept.
+  // Checked before the work, so that a result cannot be lost.
   if (!options.out.empty()) {
     MakeFolder(options.out);
     RequireWritable(options.out / "accuracy.md");

@@ -1,4 +1,4 @@
-// mocap benchmark: how accurate tracking is, on simulated people.
+// mocap benchmark: measures tracking accuracy on simulated people.
 #pragma once
 
 #include <CLI/CLI.hpp>

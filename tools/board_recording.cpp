@@ -27,13 +27,13 @@ constexpr std::chrono::milliseconds kGrabTimeout{200};
 constexpr std::chrono::milliseconds kLookInterval{50};
 constexpr std::size_t kKeptPictures = 3;
 
-/// A frame's place on the common beat of all cameras, and its pixels.
+/// A frame's index on the common beat of all cameras, and its pixels.
 struct BeatPicture {
   std::int64_t beat = 0;
   Image<Bgr> picture;
 };
 
-/// Records one camera in a thread of its own and keeps its newest pictures for whoever looks.
+/// Records one camera in its own thread, and keeps its newest pictures for the detector.
 class CameraRecording {
  public:
   CameraRecording(LiveCamera& camera, const BoardRecordingOptions& options)
@@ -84,7 +84,7 @@ class CameraRecording {
     for (int y = 0; y < height; ++y) {
       const Bgr* from = frame.image.row(y);
       std::uint8_t* to = gray_.row(y);
-      // Rec. 601, as detectors of boards have it.
+      // Rec. 601, as board detectors use.
       for (int x = 0; x < width; ++x)
         to[x] = static_cast<std::uint8_t>(
             (1868 * from[x].b + 9617 * from[x].g + 4899 * from[x].r + 8192) >> 14);
@@ -127,7 +127,7 @@ class CameraRecording {
 
 using Recordings = std::vector<std::unique_ptr<CameraRecording>>;
 
-/// Looks for the board in what all cameras saw at one beat after the other, as fast as it can.
+/// Searches for the board in all cameras, beat by beat, as fast as possible.
 class Looker {
  public:
   Looker(const Board& board, const std::vector<LiveCamera>& cameras) : detector_(board) {
@@ -135,11 +135,11 @@ class Looker {
     for (const LiveCamera& camera : cameras) seen_.cameras.push_back({camera.name, 1, 1, 0});
   }
 
-  /// @return  false when there is nothing new to look at.
+  /// @return  false when there is no new beat.
   bool Look(const Recordings& recordings) {
     std::int64_t newest = -1;
     for (const auto& recording : recordings) newest = std::max(newest, recording->NewestBeat());
-    // The one before: by now every camera has it.
+    // The beat before: every camera has it by now.
     const std::int64_t beat = newest - 1;
     if (beat <= last_beat_) return false;
     last_beat_ = beat;
@@ -167,7 +167,7 @@ class Looker {
   std::int64_t last_beat_ = -1;
 };
 
-/// Lets threads end however the block that waits for them is left.
+/// Stops threads when the block that waits for them is left in any way.
 struct StopAtEnd {
   std::atomic<bool>& stop;
   ~StopAtEnd() { stop = true; }
@@ -199,7 +199,7 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
   {
     const StopAtEnd stop_at_end{stop};
     const std::int64_t end_ns = SteadyNs() + std::llround(1e9 * options.most_seconds);
-    // A camera that ends or fails ends it for all.
+    // If one camera ends or fails, all end.
     while (!stop && SteadyNs() < end_ns && !AnyEnded(threads)) {
       if (looker.Look(recordings)) {
         stop = listener(looker.Hints());

@@ -1,4 +1,4 @@
-// Records what live cameras see of a board, as footage for calibration.
+// Records a calibration board with live cameras, as footage.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace mocap {
 
 struct BoardRecordingOptions {
   Board board;
-  std::filesystem::path folder;  ///< Made; one grey video and one table a camera.
+  std::filesystem::path folder;  ///< Created; one grey video and one table per camera.
   double frames_per_second = 5;
   double most_seconds = 180;
 };
 
-/// Told what is still missing, after each look at all cameras. @return  true to stop.
+/// Called after each search in all cameras, with what is still missing. @return  true to stop.
 using HintListener = std::function<bool(const std::vector<CameraHint>&)>;
 
 /// Records until the listener stops it, the time is over or the cameras end. All cameras keep
-/// frames of the same moments; looking for the board does not hold the recording up.
+/// frames of the same times. The search for the board does not delay the recording.
 /// @throws SetupError          when the folder exists, or a camera cannot be used.
 /// @throws std::runtime_error  when a camera delivers nothing, or something cannot be written.
 void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& options,

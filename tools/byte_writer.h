@@ -11,7 +11,7 @@ namespace mocap {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie");
 
-/// Appends numbers one after the other.
+/// Appends numbers.
 class ByteWriter {
  public:
   template <typename T>
@@ -25,7 +25,7 @@ class ByteWriter {
     for (const double value : vector) Add(static_cast<float>(value));
   }
   void AddText(std::string_view text) { bytes_ += text; }
-  /// Fills up to a multiple of a size.
+  /// Pads to a multiple of a size.
   void PadTo(std::size_t multiple, char filling = 0) {
     bytes_.append((multiple - bytes_.size() % multiple) % multiple, filling);
   }

@@ -73,7 +73,7 @@ void AddLive(CLI::App* command, const Arguments& a) {
       ->check(CLI::Range(1.0, 3600.0));
 }
 
-/// Runs one of the steps that look at footage.
+/// Runs a step that uses footage.
 void Run(const CalibrateArguments& a, StudioFit (*step)(const CalibrateArguments&)) {
   if (!a.config.empty()) RecordFootage(a);
   Finish(a, step(a));

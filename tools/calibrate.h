@@ -1,4 +1,4 @@
-// `mocap calibrate`: from pictures of a board to calibration.toml.
+// `mocap calibrate`: computes calibration.toml from pictures of a board.
 #pragma once
 
 #include <CLI/CLI.hpp>

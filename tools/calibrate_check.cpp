@@ -23,7 +23,7 @@ namespace {
 constexpr double kFeetTolerance_mm = 100;
 constexpr double kLowestHead_mm = 1100, kHighestHead_mm = 2400;
 
-// A person's feet are on the floor and the head is as high as heads are.
+// Checks that a person's feet are on the floor and the head has a plausible height.
 void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
   const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
   if (const auto swapped = FindSwappedCameras(samples)) {
@@ -58,7 +58,7 @@ std::string Days(std::int64_t from_s, std::int64_t to_s) {
   return std::to_string((to_s - from_s) / (24 * 3600)) + " days ago";
 }
 
-// Age, and what the last look at the cameras' health found.
+// Describes the age, and the result of the last health check.
 std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
   if (record.made_s == 0) return "does not say when it was made\n";
   std::string text = "made " + Days(record.made_s, now_s);
@@ -72,7 +72,7 @@ std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
   return text + '\n';
 }
 
-// How far points in the room lie from where another calibration has them.
+// Measures how far points in the room move compared to another calibration.
 void Compare(const std::vector<CameraCalibration>& cameras, const std::filesystem::path& other,
              std::vector<Finding>& findings) {
   const PlacementDifference difference = ComparePlacement(cameras, LoadCalibration(other));

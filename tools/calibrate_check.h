@@ -1,4 +1,4 @@
-// `mocap calibrate check`: what a calibration is worth.
+// `mocap calibrate check`: assesses a calibration.
 #pragma once
 
 #include <CLI/CLI.hpp>

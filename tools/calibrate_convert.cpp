@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-// Above this no unit of length is.
+// No unit of length is larger.
 constexpr double kLargestUnit_mm = 1e6;
 
 struct ConvertArguments {
@@ -23,7 +23,7 @@ struct ConvertArguments {
   ImportOptions options;
 };
 
-// "1280x720".
+// Parses "1280x720".
 std::array<int, 2> ParseSize(const std::string& text) {
   std::array<int, 2> size_px{};
   const char* end = text.data() + text.size();

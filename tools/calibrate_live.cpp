@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFloorSeconds = 3;
 
-/// Whatever the configuration names: live cameras, or what stands for them.
+/// Opens the cameras of the configuration, live or not.
 std::vector<LiveCamera> OpenCameras(const Config& config) {
   if (IsLive(config.source)) return OpenLiveCameras(config);
   std::vector<LiveCamera> cameras;
@@ -30,7 +30,7 @@ std::vector<LiveCamera> OpenCameras(const Config& config) {
   return cameras;
 }
 
-/// Whether somebody pressed Enter since the last call. Where nobody can, never.
+/// Whether Enter was pressed since the last call; never without a terminal.
 class EnterKey {
  public:
   bool WasPressed() {
@@ -49,7 +49,7 @@ class EnterKey {
   bool is_closed_ = false;
 };
 
-/// Lines that are drawn over those before them.
+/// Lines that overwrite the previous ones.
 class Screen {
  public:
   void Draw(const std::string& text) {

@@ -1,4 +1,4 @@
-// Guides whoever shows a board to live cameras.
+// Guides the person who shows a board to live cameras.
 #pragma once
 
 #include <string>
@@ -9,13 +9,12 @@
 
 namespace mocap {
 
-/// Records the footage, and the floor's where one is asked for, from the cameras of the
-/// configuration; says what to do next, and on a terminal what is still missing. The Enter key ends
-/// a step; the first ends by itself, too, when nothing is missing.
-/// @throws SetupError, std::runtime_error  as RecordBoard.
+/// Records the footage, and the floor's if requested, with the cameras of the configuration. Prints
+/// what to do next and, on a terminal, what is still missing. The Enter key ends a step. The first
+/// step also ends when nothing is missing.
 void RecordFootage(const CalibrateArguments& arguments);
 
-/// A line a camera: views, coverage, and what is missing.
+/// One line per camera: views, coverage, and what is missing.
 std::string HintText(const std::vector<CameraHint>& hints);
 
 }  // namespace mocap

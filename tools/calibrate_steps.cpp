@@ -60,7 +60,7 @@ BoardDetections Collect(const Footage& footage, const CalibrateArguments& argume
   return CollectDetections(footage, board, options);
 }
 
-// Two lights tell next to nothing of a lens.
+// Two lights hardly constrain the intrinsics.
 void RefuseWand(const CalibrateArguments& arguments) {
   if (ParseBoard(arguments.board).kind == BoardKind::kWand)
     throw SetupError("--board " + arguments.board +
@@ -75,7 +75,7 @@ std::string NamesOf(const std::vector<CameraCalibration>& cameras) {
   return names;
 }
 
-// Lenses from a file, in the order of the footage.
+// Intrinsics from a file, in the order of the footage.
 std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
                                          const std::filesystem::path& file) {
   const std::vector<CameraCalibration> all = LoadCalibration(file);
@@ -186,7 +186,7 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit) {
   if (!arguments.floor.empty()) {
     const Footage footage = OpenFootage(arguments.floor);
     BoardDetections still = Collect(footage, arguments, true, false);
-    // The floor's footage may lack cameras or have them in another order.
+    // The floor's footage may lack cameras or have another order.
     for (BoardDetection& s : still.detections) {
       const std::string& name = still.cameras[s.camera].name;
       const auto camera = std::find_if(fit.bundle.cameras.begin(), fit.bundle.cameras.end(),

@@ -37,7 +37,7 @@ struct TakeArguments {
   bool json = false;
 };
 
-// Views of one camera; each recording is a place of the board.
+// Views of one camera; in each recording the board is at another place.
 std::vector<BoardDetection> ViewsOf(const std::string& camera,
                                     const std::vector<BoardDetections>& recordings) {
   std::vector<BoardDetection> views;
@@ -51,7 +51,7 @@ std::vector<BoardDetection> ViewsOf(const std::string& camera,
   return views;
 }
 
-// What a camera's encoders read while the recording was made from which its pose comes.
+// Encoder readings of a camera during the recording that gave its pose.
 PanTiltAngles PosedAt(const std::string& camera, const Footage& posed_by) {
   for (const FootageCamera& recorded : posed_by.cameras) {
     if (recorded.name != camera) continue;

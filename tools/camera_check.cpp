@@ -17,17 +17,17 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kGrabTimeout{100};
-/// Exposure and buffers settle meanwhile.
+/// Time for exposure and buffers to settle.
 constexpr std::int64_t kSettle_ns = 500'000'000;
 constexpr double kFullRate = 0.95;
 constexpr double kMostMissed = 0.005;
-/// What a bus carries of what it promises.
+/// Usable share of a bus's nominal bandwidth.
 constexpr double kUsableLink = 0.8;
-/// Of a period, what cameras that are in step lie apart at most.
+/// Largest offset between synchronized cameras, as a share of the period.
 constexpr double kInStep = 0.15;
 constexpr double kMostIncomplete = 0.02;
 
-// That it goes away is told from the start, for nothing of that settles.
+// Losses count from the start: they do not settle.
 void Watch(CameraDriver& driver, double seconds, CameraRun& run) {
   const std::int64_t settled_ns = SteadyNs() + kSettle_ns;
   const std::int64_t end_ns = settled_ns + std::llround(seconds * 1e9);
@@ -79,7 +79,7 @@ std::string WhyMissed(const BusLoad* load) {
   return "this machine or the way to it is too slow: end other programs, or set a lower fps";
 }
 
-// Whether sets are incomplete because of frames that some camera lost, which is told with it.
+// Whether frames lost by some camera, which are reported with it, explain incomplete sets.
 bool IsExplained(const std::vector<CameraRun>& runs) {
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
   bool loses = false;
@@ -193,7 +193,7 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
                                        ? "try another cable, or a socket without a hub"
                                        : run.facts.damage));
   }
-  // Frames are missing from when it was away.
+  // The missing frames are from the outage.
   if (run.times_lost > 0) return troubles;
   const std::int64_t missed = run.MissedFrames();
   const double taken = static_cast<double>(run.times_ns.size()) + static_cast<double>(missed);

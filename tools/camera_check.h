@@ -1,4 +1,4 @@
-// Streams from all cameras for a while and finds what is wrong with them.
+// Streams from all cameras for a while and reports their faults.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@ namespace mocap {
 struct CameraRun {
   std::string name;
   CameraRequest request;
-  std::string waits_for;  ///< The camera that triggers it; empty: none that is known.
-  std::string error;      ///< Why it could not be started; empty: it could.
+  std::string waits_for;  ///< The camera that triggers it; empty: none known.
+  std::string error;      ///< Why it could not be started; empty: it started.
   std::vector<std::int64_t> times_ns;
   std::vector<std::uint64_t> sequences;
   int torn = 0;
   int times_lost = 0;  ///< How often it went away.
   CameraFacts facts;
 
-  /// Too few frames came to tell anything of them.
+  /// Too few frames came for any estimate.
   bool IsSilent() const { return times_ns.size() < 2; }
   std::int64_t MissedFrames() const;
-  /// Frames a second that were handed out; 0: too few to tell.
+  /// Delivered frames per second; 0: too few to tell.
   double Fps() const;
-  /// Frames a second that the camera took, whatever became of them; 0: too few to tell.
+  /// Captured frames per second, delivered or not; 0: too few to tell.
   double TakenFps() const;
 };
 
-/// Watches all cameras at the same time. Nothing is thrown for a camera that does not work.
+/// Records all cameras at the same time. Throws nothing for a faulty camera.
 std::vector<CameraRun> WatchCameras(std::vector<LiveCamera>& cameras, double seconds);
 
 /// Observations that concern several cameras.
@@ -44,7 +44,7 @@ struct BusLoad {
 };
 std::vector<BusLoad> LoadsOf(const std::vector<CameraRun>& runs);
 
-/// How the cameras go together.
+/// Agreement of the cameras' capture times.
 struct SetSummary {
   int sets = 0;
   int complete = 0;
@@ -53,11 +53,11 @@ struct SetSummary {
 };
 SetSummary SummarizeSets(const std::vector<CameraRun>& runs);
 
-/// Says in one line each what is wrong with a camera, and which one thing to change.
+/// Describes each fault of a camera in one line, with the one thing to change.
 std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusLoad>& loads);
-/// The same of cameras that another one triggers.
+/// Faults of cameras triggered by another one.
 std::vector<std::string> TriggerTroublesOf(const std::vector<CameraRun>& runs);
-/// The same of buses, and of the cameras together.
+/// Faults of a bus, and of the cameras as a group.
 std::vector<std::string> TroublesOf(const BusLoad& load);
 std::vector<std::string> TroublesOf(const SetSummary& sets, const std::vector<CameraRun>& runs);
 

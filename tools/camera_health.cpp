@@ -26,7 +26,7 @@ constexpr double kLeastOverlap = 0.5;
 constexpr double kUsualFatness = 0.2;
 constexpr int kFewestInLayer = 3;
 
-/// A mask as bits, for shifting.
+/// Converts a mask to bits, for shifting.
 Silhouette BitsOf(const Image<std::uint8_t>& mask) {
   Silhouette bits(mask.width(), mask.height());
   for (int y = 0; y < mask.height(); ++y) {
@@ -50,19 +50,20 @@ VoxelGrid CarveWithout(const SampledMoment& moment, const std::vector<SensorPlan
   return grid;
 }
 
-// The pose that a calibration has at a moment at which the take's own had `sampled`: turning a
-// camera in its own frame is the same wherever its head points.
+// Pose by calibration `now` at a moment when the take's own calibration gave `sampled`. A rotation
+// in the camera's own frame does not depend on its head's angles.
 RigidTransform PoseNow(const CameraCalibration& original, const CameraCalibration& now,
                        const RigidTransform& sampled) {
   return now.X_CW * original.X_CW.Inverse() * sampled;
 }
 
-/// Turn and growth of a camera's picture that move pixels as seen: least squares over moments.
+/// Fits rotation and growth of a camera's picture to the observed shifts: least squares over
+/// moments.
 class PictureChange {
  public:
   explicit PictureChange(const CameraCalibration& camera) : camera_(camera) {
-    // A roll moves the picture's middle least and is known least: it is kept small. A zoom shows
-    // only in as much as the person walks about.
+    // Roll moves the picture's middle least and is least observable, so it is kept small. Zoom is
+    // visible only as far as the person walks about.
     H_(2, 2) += 1e3;
     H_(3, 3) += 1 / (kUsualGrowth * kUsualGrowth);
   }
@@ -84,7 +85,7 @@ class PictureChange {
     g_ += J.transpose() * match.shift_px;
   }
 
-  /// Rotation vector in the camera's frame [rad], then the growth.
+  /// Rotation vector in the camera's frame [rad], then growth.
   Eigen::Vector4d Solve() const { return H_.ldlt().solve(g_); }
 
  private:
@@ -95,8 +96,8 @@ class PictureChange {
   Eigen::Vector4d g_ = Eigen::Vector4d::Zero();
 };
 
-// A shift over what may be an accident: a hull that is much fatter than the person, as few cameras
-// carve it, can be fatter on one side.
+// Shift relative to what silhouette errors may cause. A hull from few cameras is much fatter than
+// the person, and may be so on one side.
 double Excess(const CameraShift& shift) {
   const double fatness = std::max(1.0, (1 - shift.overlap) / kUsualFatness);
   return shift.shift_px.norm() / (kMovedPx * fatness);
@@ -195,7 +196,7 @@ StandingPerson MeasurePerson(const TakeSamples& samples) {
       for (int j = 0; j < grid.size().y(); ++j) {
         for (int i = 0; i < grid.size().x(); ++i) filled += grid.Test(i, j, k);
       }
-      // Single voxels are crumbs.
+      // Layers with few voxels are noise.
       if (filled < kFewestInLayer) continue;
       const double z = grid.CenterOf(0, 0, k).z();
       low = std::min(low, z - grid.voxel_mm() / 2);
@@ -228,7 +229,7 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
         std::ranges::max_element(refined.after, {}, [](const CameraShift& s) { return Excess(s); });
     const bool known =
         std::find(refined.moved.begin(), refined.moved.end(), worst->camera) != refined.moved.end();
-    // One that moved is brought home as near as can be; the others are left alone.
+    // A camera that moved is corrected as well as possible; the others are left alone.
     if (known ? worst->shift_px.norm() < kSettled_px : Excess(*worst) < 1) break;
     if (!known) refined.moved.push_back(worst->camera);
     if (2 * refined.moved.size() > refined.cameras.size())

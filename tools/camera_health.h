@@ -1,5 +1,5 @@
-// Tells from silhouettes of a moving person whether cameras still stand where they were calibrated,
-// and puts small motions right.
+// Checks, from silhouettes of a moving person, whether cameras have moved since calibration.
+// Corrects small motions.
 #pragma once
 
 #include <filesystem>
@@ -11,34 +11,35 @@
 
 namespace mocap {
 
-/// How far one camera's pictures lie from where the other cameras' hull puts the person.
+/// Offset of a camera's silhouettes from the visual hull of the other cameras.
 struct CameraShift {
   std::string camera;
-  Vector2 shift_px = Vector2::Zero();  ///< To the right and down: seen minus expected.
-  double spread_px = 0;                ///< Of single moments about it.
+  Vector2 shift_px = Vector2::Zero();  ///< Right and down: observed minus expected.
+  double spread_px = 0;                ///< Of single moments about the shift.
   double overlap = 0;                  ///< Mean intersection over union at the best shift.
-  int moments = 0;                     ///< That could be compared.
+  int moments = 0;                     ///< Moments that could be compared.
   Vector3 rotation_C =
-      Vector3::Zero();  ///< Turn of the camera that explains it [rad], in its frame.
-  double growth = 0;    ///< Of its picture since it was calibrated, as a share: focus or zoom.
+      Vector3::Zero();  ///< Rotation of the camera that explains the shift [rad], in its frame.
+  double growth = 0;    ///< Growth of its picture since calibration, as a share: focus or zoom.
 };
 
-/// A shift as large as this is no accident of silhouettes [px].
+/// Silhouette errors do not explain a shift as large as this [px].
 inline constexpr double kMovedPx = 1.5;
-/// Nor is so large a growth of the picture.
+/// Nor growth of the picture as large as this.
 inline constexpr double kZoomedShare = 0.015;
 
 /// Chooses moments spread evenly over a take, or over its part from `from_s` to `to_s`.
 std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take, double from_s,
                                                double to_s, int count);
 
-/// Compares each camera with the hull that the others carve.
+/// Compares each camera with the visual hull of the others.
 ///
-/// @param cameras  whose poses are tried, in the order of the samples; lenses as in the samples.
+/// @param cameras  whose poses are tested, in the order of the samples; with the samples'
+/// intrinsics.
 std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
                                        const std::vector<CameraCalibration>& cameras);
 
-/// Where the carved person begins and ends above the floor, the median over moments [mm].
+/// Lowest and highest point of the carved person above the floor, median over moments [mm].
 struct StandingPerson {
   int moments = 0;
   double lowest_mm = 0, highest_mm = 0;
@@ -46,15 +47,15 @@ struct StandingPerson {
 
 StandingPerson MeasurePerson(const TakeSamples& samples);
 
-/// Outcome of refining.
+/// Result of refining.
 struct RefinedStudio {
   std::vector<CameraCalibration> cameras;
   std::vector<CameraShift> before, after;
-  std::vector<std::string> moved;  ///< Names, in the order in which they were found.
+  std::vector<std::string> moved;  ///< Names, in the order of detection.
 };
 
-/// Turns the cameras that moved, the worst first, until all agree with each other. Only turns are
-/// corrected, which a bump is for the most part.
+/// Rotates the cameras that moved, worst first, until all agree. Corrects only rotations, which are
+/// the main effect of a bump.
 /// @throws SetupError  when fewer than three cameras see the person or more than half have moved.
 RefinedStudio RefineFromSilhouettes(const TakeSamples& samples);
 

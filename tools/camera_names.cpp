@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kVoxel_mm = 40;
 constexpr std::size_t kMostMoments = 4;
-/// Mean overlaps of cameras that agree, and what an exchange has to gain.
+/// Mean overlap of cameras that agree, and the gain required of a swap.
 constexpr double kAgreement = 0.6, kLeastGain = 0.2;
 
-/// Which camera's calibration each recording is given.
+/// Index of the calibration assigned to each recording.
 using Naming = std::vector<std::size_t>;
 
 class NamingJudge {
@@ -26,7 +26,7 @@ class NamingJudge {
         tables_(samples.cameras.begin(), samples.cameras.end()),
         carver_({kVoxel_mm}) {}
 
-  /// Mean overlap of silhouettes with the hull that they carve.
+  /// Mean overlap of silhouettes with the visual hull carved from them.
   double Overlap(const Naming& naming) {
     double sum = 0;
     int count = 0;
@@ -79,7 +79,7 @@ std::optional<CameraPair> FindSwappedCameras(const TakeSamples& samples) {
   for (std::size_t a = 0; a < naming.size(); ++a) {
     for (std::size_t b = a + 1; b < naming.size(); ++b) {
       if (!SameSize(samples.cameras[a], samples.cameras[b])) continue;
-      // An exchange with one that saw nothing would only take a camera out of the hull.
+      // Swapping with a camera that saw nothing would only remove a camera from the hull.
       if (!SeesAnything(samples, a) || !SeesAnything(samples, b)) continue;
       std::swap(naming[a], naming[b]);
       const double overlap = judge.Overlap(naming);

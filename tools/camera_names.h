@@ -1,4 +1,4 @@
-// Finds recordings that go by each other's name.
+// Detects recordings whose names are swapped.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace mocap {
 
 using CameraPair = std::pair<std::string, std::string>;
 
-/// Tells which two cameras' calibrations have to be exchanged for all cameras to see one person.
-/// @return  nothing where the cameras agree as they are, or no exchange makes them agree.
+/// Finds the two cameras whose calibrations must be swapped for all cameras to see one person.
+/// @return  empty if the cameras agree as they are, or no swap makes them agree.
 std::optional<CameraPair> FindSwappedCameras(const TakeSamples& samples);
 
-/// Says so, and what to do.
+/// Describes the swap and the remedy.
 std::string SwappedText(const CameraPair& swapped);
 
 }  // namespace mocap

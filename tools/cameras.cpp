@@ -33,7 +33,7 @@ struct CamerasOptions {
   double seconds = 5;
 };
 
-/// One line, whatever a device calls itself.
+/// Prints one line, without line breaks.
 void Print(const std::string& line) { std::puts(Printable(line).c_str()); }
 
 void PrintListed(const ListedCamera& camera) {
@@ -45,7 +45,7 @@ void PrintListed(const ListedCamera& camera) {
   for (const std::string& remark : camera.remarks) Print("  ! " + remark);
 }
 
-/// What turns cameras beside their pictures.
+/// Lists heads controlled separately from their cameras.
 void ListHeads() {
   try {
     for (const UvcHead& head : FindUvcHeads(UsbBus())) {
@@ -65,7 +65,7 @@ void List() {
   ListHeads();
 }
 
-/// @return  how many troubles there are.
+/// @return  the number of troubles.
 std::size_t PrintTroubles(const std::vector<std::string>& troubles) {
   for (const std::string& trouble : troubles) Print("  ! " + trouble);
   return troubles.size();

@@ -1,11 +1,11 @@
-// `mocap cameras`: what is connected, and whether it works.
+// `mocap cameras`: lists connected cameras and checks them.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace mocap {
 
-/// Registers the subcommand; it runs when it is chosen on the command line.
+/// Adds the subcommand; it runs when chosen on the command line.
 void AddCamerasCommand(CLI::App& app);
 
 }  // namespace mocap

@@ -17,10 +17,10 @@
 namespace mocap {
 namespace {
 
-/// Subcommands that become one request each.
+/// Subcommands that send one request each.
 class RequestCommands {
  public:
-  /// @param socket  where the daemon is asked; filled in when the command line is parsed.
+  /// @param socket  the daemon's socket; set when the command line is parsed.
   explicit RequestCommands(std::shared_ptr<std::filesystem::path> socket)
       : socket_(std::move(socket)) {}
 
@@ -32,7 +32,7 @@ class RequestCommands {
     return command;
   }
 
-  /// @param more  what follows the name in the request.
+  /// @param more  text that follows the name in the request.
   CLI::App* AddNamed(
       CLI::App& app, const std::string& name, const std::string& help, const std::string& request,
       const std::function<std::string()>& more = [] { return ""; }) const {

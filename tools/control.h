@@ -1,4 +1,4 @@
-// mocap status, record, subject, reload: what a person tells the running daemon.
+// mocap status, record, subject, reload: commands to the running daemon.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,9 +7,9 @@
 
 namespace mocap {
 
-/// Asks the daemon and prints its answer.
+/// Sends a request to the daemon and prints its answer.
 /// @param socket  empty: the system's daemon, or the user's own.
-/// @throws SetupError, std::runtime_error  for what was refused or failed.
+/// @throws SetupError, std::runtime_error  for a refusal or failure.
 void AskAndPrint(const std::filesystem::path& socket, const std::string& request);
 
 void AddControlCommands(CLI::App& app);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kSystemConfig = MOCAP_CONFIG_FILE;
 constexpr const char* kSystemTakes = "/var/lib/mocapd/takes";
-/// Six cameras of 640 x 480 pixels at 30 Hz, coded without loss.
+/// Six cameras of 640 x 480 pixels at 30 Hz, lossless.
 constexpr double kUsualRecording = 90e6;
 
 struct DoctorOptions {
@@ -38,7 +38,7 @@ const char* MarkOf(Verdict verdict) {
   return "";
 }
 
-/// Where nothing else is asked for, the daemon is the system's, if that is installed.
+/// Without other options, the daemon is the system's, if installed.
 bool IsOfSystem(const DoctorOptions& options) {
   return options.config.empty() && IsThere(kSystemConfig);
 }
@@ -48,7 +48,7 @@ Config ConfigFor(const DoctorOptions& options) {
   return options.config.empty() ? Config() : LoadConfig(options.config);
 }
 
-/// The system's daemon has a folder of its own, whoever asks.
+/// The system's daemon has its own folder, whichever user asks.
 std::filesystem::path TakesFor(const DoctorOptions& options, const RecordingConfig& recording) {
   return IsOfSystem(options) && recording.folder.empty() ? kSystemTakes : TakesFolder(recording);
 }

@@ -1,4 +1,4 @@
-// mocap doctor: what of this machine stands in the way of motion capture, and how to mend it.
+// mocap doctor: finds problems of this machine that impair motion capture, with their remedies.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -48,7 +48,7 @@ std::optional<std::int64_t> NumberIn(const std::filesystem::path& file) {
   return value;
 }
 
-/// A limit that the unit sets, in sd-bus' words; empty where systemd does not run.
+/// Returns a limit of the systemd unit, by its sd-bus name; empty if systemd does not run.
 std::optional<std::uint64_t> UnitLimit(const char* name) {
   sd_bus* opened = nullptr;
   if (sd_bus_open_system(&opened) < 0) return {};
@@ -61,14 +61,14 @@ std::optional<std::uint64_t> UnitLimit(const char* name) {
   return is_told ? std::optional(limit) : std::nullopt;
 }
 
-/// The limit of whoever asks.
+/// Returns the caller's limit.
 std::uint64_t OwnLimit(__rlimit_resource resource) {
   rlimit limit{};
   getrlimit(resource, &limit);
   return geteuid() == 0 ? RLIM_INFINITY : limit.rlim_cur;
 }
 
-/// Writes and syncs; megabytes a second, empty where nothing may be written.
+/// Writes and syncs a file; returns megabytes per second, empty without write permission.
 std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
   std::string name = (folder / ".mocap-doctor-XXXXXX").string();
   const FileDescriptor file(mkostemp(name.data(), O_CLOEXEC));
@@ -217,7 +217,7 @@ std::vector<Diagnosis> CheckDevices(const Config& config) {
   std::vector<Diagnosis> diagnoses;
   if (config.source.driver == "v4l2") {
     for (const CameraConfig& camera : config.cameras) {
-      // A bus or a serial number is looked up by `mocap cameras --check`.
+      // A bus or serial number is checked by `mocap cameras --check`.
       if (!camera.device.starts_with('/')) continue;
       diagnoses.push_back(CheckDevice(camera.name, camera.device));
     }

@@ -11,34 +11,34 @@ namespace mocap {
 
 enum class Verdict {
   kGood,
-  kAdvice,  ///< It works, but not as well as it could.
+  kAdvice,  ///< It works, but could work better.
   kBad
 };
 
-/// One thing that was looked at.
+/// Result of one check.
 struct Diagnosis {
   Verdict verdict = Verdict::kGood;
-  std::string what;  ///< What was found.
-  std::string fix;   ///< What to type or change; empty when it is good.
+  std::string what;  ///< The finding.
+  std::string fix;   ///< What to type or change; empty if good.
 };
 
-/// Whose limits hold for the daemon.
+/// Whose limits apply to the daemon.
 enum class Starter { kSystemd, kCaller };
 
 Diagnosis CheckMulticastRoute();
-/// Sends a message to itself by the configured address.
+/// Sends a message to the configured address and expects to receive it.
 Diagnosis CheckMulticastEcho(const std::string& url);
 Diagnosis CheckSocketBuffers();
 Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter);
 Diagnosis CheckClock();
 Diagnosis CheckProcessor();
-/// Looks at space, and how fast the disk takes 64 MB where that is allowed.
-/// @param bytes_per_second  what a recording needs.
+/// Checks free space and, where permitted, how fast the disk writes 64 MB.
+/// @param bytes_per_second  needed by a recording.
 Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second);
-/// One diagnosis for each device of a live studio, and what its bus needs.
+/// One diagnosis for each device of a live studio, and for the load of its bus.
 std::vector<Diagnosis> CheckDevices(const Config& config);
 Diagnosis CheckControl(const std::filesystem::path& socket);
-/// Of a studio, whether each of its nodes answers.
+/// Checks, for a studio with nodes, whether each of them answers.
 std::vector<Diagnosis> CheckNodes(const Config& config);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// `mocap evaluate`: how good a result is.
+// `mocap evaluate`: compares a result with the truth.
 #pragma once
 
 #include <CLI/CLI.hpp>

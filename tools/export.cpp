@@ -33,7 +33,7 @@ struct ExportArguments {
   bool people = false;
 };
 
-/// A line each, as the help shows them.
+/// One line per format, for the help.
 std::string FormatsText() {
   std::string text = "what for:";
   for (const ExportFormat& format : ExportFormats()) {
@@ -48,7 +48,7 @@ std::vector<std::string> FormatNames() {
   return names;
 }
 
-/// Other programs tell what a file is by its suffix.
+/// Other programs recognize a file by its suffix.
 void RequireSuffix(const ExportFormat& format, const std::filesystem::path& out) {
   std::string suffix = out.extension().string();
   std::ranges::transform(suffix, suffix.begin(),
@@ -58,7 +58,7 @@ void RequireSuffix(const ExportFormat& format, const std::filesystem::path& out)
                                out.string(), format.name));
 }
 
-/// What is written over must be a former export.
+/// Only a former export may be overwritten.
 void RequireRoomForExport(const ExportFormat& format, const std::filesystem::path& out) {
   RequireWritable(out);
   RequireOwn(out, std::span(&format.beginning, 1), fmt::format("a {} export", format.name));
@@ -70,7 +70,7 @@ void Tell(const std::string& whose, const std::vector<std::string>& remarks) {
   }
 }
 
-/// @param whose  "person-2: ", of several.
+/// @param whose  "person-2: ", if there are several.
 void WriteScene(const ExportFormat& format, const ExportScene& scene, const std::string& source,
                 const std::string& whose, const std::filesystem::path& file) {
   std::ostringstream out;
@@ -94,13 +94,13 @@ void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   WriteScene(format, scene, arguments.result.string(), "", arguments.out);
 }
 
-/// "walk.bvh" of person-1 is walk-person-1.bvh; out of a log, of anna, walk-anna.bvh.
+/// "walk.bvh" of person-1 becomes walk-person-1.bvh; of anna in a log, walk-anna.bvh.
 std::filesystem::path FileOf(const std::filesystem::path& out, const std::string& name) {
   std::filesystem::path file = out;
   return file.replace_filename(out.stem().string() + '-' + name + out.extension().string());
 }
 
-/// Who was tracked at some time.
+/// Reads the results of people who were ever tracked.
 PeopleResults ReadTrackedPeople(const ExportArguments& arguments) {
   PeopleResults people = ReadPeople(arguments.result, arguments.prefix);
   for (const auto& [name, result] : people) Tell("", result.remarks);
@@ -113,7 +113,7 @@ PeopleResults ReadTrackedPeople(const ExportArguments& arguments) {
   return people;
 }
 
-/// Each person's file, and one of all where the format has that.
+/// Writes each person's file, and a common one if the format supports it.
 void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) {
   const PeopleResults people = ReadTrackedPeople(arguments);
   std::vector<ExportSubject> subjects;

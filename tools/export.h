@@ -1,4 +1,4 @@
-// `mocap export`: a result for other programs.
+// `mocap export`: converts a result for other programs.
 #pragma once
 
 #include <CLI/CLI.hpp>

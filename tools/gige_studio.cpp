@@ -84,7 +84,7 @@ StudioPlan PlanFor(const StudioOptions& options) {
   return plan;
 }
 
-/// One picture of the empty studio.
+/// A picture of the empty studio.
 Image<Bgr> EmptyStudio(const std::filesystem::path& take, const std::string& camera) {
   const std::filesystem::path file = TakeLayout{take}.BackgroundVideo(camera);
   VideoReader video(file);
@@ -95,12 +95,12 @@ Image<Bgr> EmptyStudio(const std::filesystem::path& take, const std::string& cam
   return image;
 }
 
-/// Opens one camera of what is served.
+/// Opens the source of one served camera.
 std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const StudioPlan& plan,
                                          int camera, StudioStage& stage,
                                          std::function<bool()> is_streaming) {
   if (options.take.empty()) return SimulatedStudio(options.simulation).OpenCamera(camera);
-  // All of it, for what the cameras' times have in common.
+  // The whole take, since the cameras share a timeline.
   Studio studio =
       OpenTake(options.take,
                {.rate = ReplayRate::kRealtime, .loop = true, .cameras = {}, .begin_ns = [&stage] {
@@ -112,7 +112,7 @@ std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const Stu
                                         std::move(is_streaming));
 }
 
-/// The life of a camera's process.
+/// Main function of a camera's process.
 [[noreturn]] void ServeCamera(const StudioOptions& options, const StudioPlan& plan, int camera,
                               StudioStage& stage) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -145,7 +145,7 @@ std::unique_ptr<CameraDriver> OpenSource(const StudioOptions& options, const Stu
   }
 }
 
-/// The processes, and what becomes of them.
+/// The cameras' processes and their state.
 class Cast {
  public:
   Cast(const StudioOptions& options, const StudioPlan& plan)
@@ -167,7 +167,7 @@ class Cast {
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  /// Notes who has gone, and lets them return when it is time.
+  /// Detects processes that ended, and restarts them when due.
   void Tick() {
     int status = 0;
     for (pid_t gone = 0; (gone = waitpid(-1, &status, WNOHANG)) > 0;) NoteDeath(gone, status);
@@ -217,7 +217,7 @@ class Cast {
   bool told_ = false;
 };
 
-/// Writes a configuration with which mocapd uses the served studio.
+/// Writes a configuration for mocapd to use the served studio.
 void WriteConfig(const StudioOptions& options, const StudioPlan& plan) {
   std::ostringstream out;
   const std::filesystem::path take = std::filesystem::absolute(options.take);
@@ -227,7 +227,7 @@ void WriteConfig(const StudioOptions& options, const StudioPlan& plan) {
   }
   out << "\n[source]\ndriver = \"aravis\"\nfps = " << plan.fps << "\n";
   for (std::size_t i = 0; i < plan.names.size(); ++i) {
-    // The loopback carries larger packets than most networks.
+    // The loopback allows larger packets than most networks.
     out << "\n[[cameras]]\nname = \"" << plan.names[i] << "\"\ndevice = \"" << plan.ips[i]
         << "\"\nformat = \"BGR8\"\npacket_bytes = 9000\n";
   }

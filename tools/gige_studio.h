@@ -1,4 +1,4 @@
-// `mocap gige-studio`: a studio of GigE Vision cameras that exist in this computer only.
+// `mocap gige-studio`: simulates a studio of GigE Vision cameras on this computer.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// mocap: everything a person types.
+// mocap: the command-line program.
 #include <CLI/CLI.hpp>
 
 #include "daemon/run_program.h"

@@ -29,7 +29,7 @@ const std::map<std::string, BoardPlace> kBoardPlaces = {{"carried", BoardPlace::
 struct SimulateOptions {
   std::filesystem::path out;
   SimulatedStudioOptions studio = RecordedSimulation();
-  std::string board;  ///< One of kBoardPlaces, or nothing: a person.
+  std::string board;  ///< One of kBoardPlaces; empty: a person.
   int desk = 1;
 
   int frames() const { return static_cast<int>(std::lround(studio.seconds * studio.fps)); }
@@ -47,7 +47,7 @@ TakeDescription Describe(const SimulateOptions& options,
   description.name = PlainFolder(options.out).filename().string();
   description.fps_nominal = options.studio.fps;
   description.cameras = cameras;
-  // The simulated time, so that the same options give the same bytes.
+  // Simulated time, so that the same options give the same bytes.
   description.notes = {{"created", "1970-01-01T00:16:40Z"}, {"source", "simulated"}};
   if (!options.board.empty()) {
     description.notes.emplace_back("board", "chess:8x5:100");
@@ -84,13 +84,13 @@ void WriteBackgrounds(const SimulatedStudio& studio, TakeWriter& writer) {
     const std::vector<BackgroundFrame> frames = studio.Background(c);
     const auto count = static_cast<std::int64_t>(frames.size());
     for (std::int64_t i = 0; i < count; ++i)
-      // Taken before the person came.
+      // Captured before the person came.
       writer.WriteBackground(c, frames[i].image.view(), studio.NominalTime(i - 2 * count),
                              frames[i].angles);
   }
 }
 
-// Truth of one person in every frame; of several, of those in which each is in the room.
+// Truth of a single person in every frame. With several, of each person's frames in the room.
 class TruthOfPeople {
  public:
   TruthOfPeople(const SimulatedStudioOptions& options, const SimulatedStudio& studio)

@@ -1,11 +1,11 @@
-// `mocap simulate`: a take from the simulated studio.
+// `mocap simulate`: makes a take of the simulated studio.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace mocap {
 
-/// Registers the subcommand; it runs when it is chosen on the command line.
+/// Adds the subcommand; it runs when chosen on the command line.
 void AddSimulateCommand(CLI::App& app);
 
 }  // namespace mocap

@@ -1,11 +1,11 @@
-// Commands that go on until somebody ends them.
+// Commands that run until interrupted.
 #pragma once
 
 namespace mocap {
 
-/// From now on SIGINT and SIGTERM ask for an end instead of making one.
+/// Makes SIGINT and SIGTERM request an end instead of terminating the process.
 void StopOnSignals();
-/// Whether one has come.
+/// Whether such a signal has come.
 bool StopAsked();
 
 }  // namespace mocap

@@ -31,7 +31,7 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kWait{50};
-/// Without a pose for so long, nobody publishes.
+/// After this time without a pose, nobody publishes.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
 
 struct StreamOptions {
@@ -40,7 +40,7 @@ struct StreamOptions {
   std::string to = "127.0.0.1:39539";
 };
 
-/// Says something on standard error when it begins to hold.
+/// Prints a message to standard error when a condition becomes true.
 class Notice {
  public:
   void Tell(const std::string& text) {
@@ -52,7 +52,7 @@ class Notice {
   std::string told_;
 };
 
-/// Hands on poses until a signal comes, a log ends, or nobody wants any more.
+/// Streams poses until a signal comes, a log ends, or no reader is left.
 void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
   StopOnSignals();
   MessageSource source(options.url);
@@ -65,8 +65,8 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
   }
 }
 
-/// Writes to standard output at once, however slowly it is read.
-/// @return  false when nobody reads any more, or a signal has come.
+/// Writes to standard output at once, even if the reader is slow.
+/// @return  false when there is no reader any more, or a signal has come.
 bool Print(std::string_view text) {
   while (!text.empty() && !StopAsked()) {
     const ssize_t written = write(STDOUT_FILENO, text.data(), text.size());
@@ -91,7 +91,7 @@ void StreamJson(const StreamOptions& options) {
   Stream(options, take, is_over);
 }
 
-/// Poses as an avatar's bones.
+/// Sends poses as an avatar's bones.
 class OscStream {
  public:
   explicit OscStream(const std::string& to) : to_(to), sender_(to) {}

@@ -1,4 +1,4 @@
-// `mocap stream`: live poses for other programs.
+// `mocap stream`: sends live poses to other programs.
 #pragma once
 
 #include <CLI/CLI.hpp>

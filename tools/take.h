@@ -1,4 +1,4 @@
-// mocap take: what is done with recorded takes as such.
+// mocap take: operations on recorded takes.
 #pragma once
 
 #include <CLI/CLI.hpp>

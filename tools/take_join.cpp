@@ -36,12 +36,12 @@ struct TimeSpan {
   std::int64_t Length() const { return last_ns - first_ns; }
 };
 
-/// One of the takes.
+/// One of the takes to join.
 struct Part {
   TakeLayout layout;
   double fps_nominal = 0;
-  std::vector<CameraCalibration> cameras;  ///< Those with frames.
-  std::vector<CameraCalibration> known;    ///< All that its calibration has.
+  std::vector<CameraCalibration> cameras;  ///< Cameras with frames.
+  std::vector<CameraCalibration> known;    ///< All cameras of its calibration.
   toml::table description;
   TimeSpan span{};
 
@@ -60,7 +60,7 @@ TimeSpan SpanOf(const Part& part) {
 }
 
 Part OpenPart(const fs::path& take) {
-  // Whatever would keep it from being tracked is told here.
+  // Reports anything that would keep the take from being tracked.
   const Studio studio = OpenTake(take, {});
   Part part;
   part.layout.folder = PlainFolder(take);
@@ -94,7 +94,7 @@ void RequireDifferentCameras(const std::vector<Part>& parts) {
   }
 }
 
-/// Where calibrations tell of the same camera, they tell the same: they are of one world.
+/// Checks that calibrations of the same camera agree, so the world frame is the same.
 void RequireOneCalibration(const std::vector<Part>& parts) {
   std::map<std::string, std::pair<std::string, const Part*>> seen;
   for (const Part& part : parts) {
@@ -110,7 +110,7 @@ void RequireOneCalibration(const std::vector<Part>& parts) {
   }
 }
 
-/// @return  the time in which every take recorded.
+/// @return  the time span that all takes cover.
 TimeSpan RequireOverlap(const std::vector<Part>& parts) {
   const Part& last_to_begin =
       *std::ranges::max_element(parts, {}, [](const Part& part) { return part.span.first_ns; });
@@ -134,7 +134,7 @@ TimeSpan WholeSpanOf(const std::vector<Part>& parts) {
   return whole;
 }
 
-/// Truth and sizes of people, which are those of the studio and not of a camera.
+/// Truth and sizes of people, which belong to the studio, not to a camera.
 std::vector<fs::path> FilesOfPeople(const Part& part) {
   const fs::path& folder = part.layout.folder;
   std::vector<fs::path> files;
@@ -157,7 +157,7 @@ bool HoldTheSame(const fs::path& a, const fs::path& b) {
   return std::equal(Bytes(in_a), Bytes(), Bytes(in_b), Bytes());
 }
 
-/// A file of the take to come, and where it comes from.
+/// Source of each file of the new take.
 using Sources = std::map<fs::path, fs::path>;
 
 void AddFilesOfPeople(const Part& part, Sources& sources) {
@@ -193,7 +193,7 @@ std::vector<CameraCalibration> CamerasOf(const std::vector<Part>& parts) {
   return cameras;
 }
 
-/// What the takes say of themselves, without that on which they differ.
+/// The keys of take.toml on which the takes agree.
 toml::table Agreed(const std::vector<Part>& parts) {
   toml::table agreed;
   std::set<std::string, std::less<>> passed_over = {"name", "fps_nominal", "cameras"};
@@ -226,7 +226,7 @@ std::string DescriptionOf(const std::vector<Part>& parts, const std::string& nam
 void LinkOrCopy(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   std::error_code error;
-  // A table may be put right by hand, which must not change the take that it came from.
+  // Tables may be edited by hand, which must not change the original take.
   if (from.extension() == ".mkv") fs::create_hard_link(from, to, error);
   if (from.extension() != ".mkv" || error) fs::copy_file(from, to);
 }

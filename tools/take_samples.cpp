@@ -18,7 +18,7 @@
 namespace mocap {
 namespace {
 
-/// The frame nearest to a moment so far.
+/// The frame nearest to a moment found so far.
 struct Nearest {
   std::int64_t apart_ns = std::numeric_limits<std::int64_t>::max();
   Image<Bgr> image;
@@ -40,7 +40,7 @@ std::vector<Nearest> NearestFrames(CameraDriver& driver, const std::vector<Sampl
   for (const SampleRequest& request : requests) last_ns = std::max(last_ns, request.timestamp_ns);
   driver.Start();
   Frame frame;
-  // A recording that is read fast is never late, so a timeout cannot pass for its end.
+  // As fast as possible, a recording never times out; a timeout is not its end.
   for (;;) {
     const GrabStatus status = driver.Grab(frame, std::chrono::milliseconds(1000));
     if (status == GrabStatus::kEnd || status == GrabStatus::kLost) break;
@@ -69,7 +69,7 @@ void Carve(TakeSamples& samples, double voxel_mm) {
   }
 }
 
-/// A list of cameras that is written as a calibration must not lose those that saw nothing.
+/// A camera list that is written as a calibration must keep cameras without frames.
 void AddSilentCameras(const std::filesystem::path& take, TakeSamples& samples) {
   for (const CameraCalibration& camera : LoadCalibration(TakeLayout{take}.Calibration())) {
     if (std::ranges::find(samples.cameras, camera.name, &CameraCalibration::name) !=
@@ -93,7 +93,7 @@ TakeSamples SampleTake(const std::filesystem::path& take,
     samples.moments.push_back({request.timestamp_ns, {}, {}});
     samples.moments.back().views.resize(studio.cameras.size());
   }
-  // A camera at a time, so that only one camera's pictures and background are in memory.
+  // One camera at a time, to keep only its pictures and background in memory.
   for (std::size_t c = 0; c < studio.cameras.size(); ++c) {
     StudioCamera& camera = studio.cameras[c];
     samples.cameras.push_back(camera.calibration);

@@ -1,4 +1,4 @@
-// Some moments of a take as all its cameras saw them, segmented and carved as the daemon does.
+// Moments of a take in all its cameras, segmented and carved as in the daemon.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace mocap {
 struct SampledView {
   RigidTransform X_CW;
   Silhouette silhouette;
-  Image<Bgr> image;  ///< Only where it was asked for.
+  Image<Bgr> image;  ///< Only if requested.
 };
 
 struct SampledMoment {
   std::int64_t timestamp_ns = 0;
   std::vector<std::optional<SampledView>>
-      views;  ///< One a camera; empty where it missed the frame.
+      views;  ///< One for each camera; empty if it missed the frame.
   VoxelGrid voxels;
 };
 
 struct TakeSamples {
-  std::vector<CameraCalibration> cameras;  ///< All that are calibrated, those with frames first.
+  std::vector<CameraCalibration> cameras;  ///< All calibrated cameras, those with frames first.
   std::vector<SampledMoment> moments;
 };
 
@@ -38,8 +38,8 @@ struct SampleRequest {
   bool keep_images = false;
 };
 
-/// Reads a take up to the last moment and keeps, for each camera, the frame nearest to each moment
-/// and no farther than half a frame's time.
+/// Reads a take up to the last moment. For each camera, keeps the frame nearest to each moment,
+/// within half a frame period.
 /// @throws SetupError  as OpenTake and Segmenter.
 TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm);

@@ -33,7 +33,7 @@ struct TrackOptions {
   std::filesystem::path take;
   std::filesystem::path out;
   double voxel_mm = Config().voxel_mm;
-  std::string body;  ///< Empty: the tracker's own.
+  std::string body;  ///< Empty: the tracker's default.
   std::string tracker = Trackers().front().name;
   std::vector<std::string> cameras;
   std::optional<int> people;  ///< Without: one, whose result is the take's.
@@ -58,7 +58,7 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
   return json.Text();
 }
 
-// Of a name that was checked.
+// @pre  the name is valid.
 const NamedTracker& TrackerOf(const std::string& name) {
   return *std::ranges::find(Trackers(), name, &NamedTracker::name);
 }

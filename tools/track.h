@@ -1,4 +1,4 @@
-// mocap track: the daemon's pipeline on a take.
+// mocap track: runs the daemon's pipeline on a take.
 #pragma once
 
 #include <CLI/CLI.hpp>

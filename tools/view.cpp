@@ -89,7 +89,7 @@ void ViewTake(const ViewOptions& options) {
   server.Run();
 }
 
-/// Where nothing else is asked for, the studio is the system's, if that is installed.
+/// Without other options, the studio is the system's, if installed.
 Config ConfigFor(const ViewOptions& options) {
   if (!options.config.empty()) return LoadConfig(options.config);
   return IsThere(kSystemConfig) ? LoadConfig(kSystemConfig) : Config();

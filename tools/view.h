@@ -1,4 +1,4 @@
-// mocap view: the studio or a take in a browser.
+// mocap view: shows the studio or a take in a browser.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -40,9 +40,9 @@ namespace {
 constexpr std::chrono::milliseconds kWait{50};
 constexpr std::int64_t kPageNs = 250'000'000;
 constexpr std::int64_t kLineNs = 1'000'000'000;
-/// Without a pose for so long, nobody publishes.
+/// After this time without a pose, nobody publishes.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-/// How far back rate and latency look.
+/// Time window for rate and latency.
 constexpr std::int64_t kWindowNs = 2'000'000'000;
 constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
 
@@ -50,7 +50,7 @@ std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
 }
 
-/// The latest of what was heard.
+/// The latest messages.
 class Hearing {
  public:
   Hearing(lcm::LCM& lcm, const std::string& named) {
@@ -62,7 +62,7 @@ class Hearing {
     lcm.subscribe(prefix + "MOCAP_SERVICE", &Hearing::OnService, this);
   }
 
-  /// Forgets what lies outside of the window.
+  /// Removes what is older than the window.
   void Age(std::int64_t now_ns) {
     while (!arrivals_.empty() && now_ns - arrivals_.front().time_ns > kWindowNs) {
       arrivals_.pop_front();
@@ -80,7 +80,7 @@ class Hearing {
     return arrivals_.empty() ? 0 : sum / static_cast<double>(arrivals_.size());
   }
   std::int64_t missed() const { return missed_; }
-  /// Whether poses of several daemons come in turns.
+  /// Whether poses of several daemons arrive in turns.
   bool HearsSeveral() const { return steps_back_ > 3 + poses_ / 20; }
   const std::optional<pose_t>& pose() const { return pose_; }
   const std::optional<body_t>& body() const { return body_; }
@@ -104,7 +104,7 @@ class Hearing {
          (static_cast<double>(pose->publish_utime) - static_cast<double>(pose->utime)) / 1000});
     pose_ = std::move(pose);
   }
-  /// Frames of one daemon follow each other; whatever stands in a message, nothing overflows.
+  /// Counts frames; one daemon's are consecutive. No message content can cause an overflow.
   void Count(std::int64_t frame) {
     constexpr std::int64_t kMostMissed = 1'000'000;
     const std::int64_t before = pose_ ? pose_->frame : frame - 1;
@@ -143,10 +143,10 @@ class Hearing {
   std::optional<service_t> service_;
 };
 
-/// A number of a message, which anybody may have sent.
+/// Bounds a number from a message, which anyone may have sent.
 double Sane(double value) { return std::isfinite(value) ? std::clamp(value, -1e6, 1e6) : 0; }
 
-/// Text of a message, likewise.
+/// Makes text from a message printable and bounds its length.
 std::string Foreign(const std::string& text) {
   constexpr std::size_t kMostCharacters = 200;
   return Shortened(text, kMostCharacters);
@@ -168,7 +168,7 @@ std::string PeopleText(const people_t& people) {
   return text;
 }
 
-/// A line a person.
+/// Appends one line per person.
 void AppendPeople(const people_t& people, std::string& page) {
   page +=
       fmt::format("\n{:<24}{:<12}{:>22}{:>9}\n", "person", "state", "torso at x y z m", "fit mm");
@@ -199,7 +199,7 @@ std::string PoseLine(const Hearing& hearing) {
   return line;
 }
 
-/// Trust, how far off, light of a camera.
+/// Formats a camera's trust, offset and light.
 std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
   const bool is_told = service && camera < service->camera_trust.size();
   if (!is_told) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", "-");
@@ -264,7 +264,7 @@ std::string Page(const Hearing& hearing, const std::string& url) {
   return page;
 }
 
-/// Rewrites the screen from its top, so that nothing flickers.
+/// Overwrites the screen from the top, without flicker.
 void Show(const std::string& page) {
   std::string text = "\x1b[H";
   for (const char c : page) text += c == '\n' ? "\x1b[K\n" : std::string(1, c);
@@ -303,7 +303,7 @@ void Watch(const WatchOptions& options) {
     hearing.Age(now_ns);
     Tell(hearing, now_ns, options.url, on_terminal);
   }
-  // Of a log that ended since the last line.
+  // Print what the log had since the last line.
   if (source.is_log() && !StopAsked()) Tell(hearing, SteadyNs(), options.url, on_terminal);
 }
 

@@ -1,4 +1,4 @@
-// mocap watch: the running system, live in a terminal.
+// mocap watch: shows the running system live in a terminal.
 #pragma once
 
 #include <CLI/CLI.hpp>
