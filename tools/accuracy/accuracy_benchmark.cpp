@@ -32,7 +32,7 @@ AccuracySummary Summarize(const std::vector<AccuracyRow>& rows) {
   const auto tracked = std::max<std::ptrdiff_t>(1, std::ranges::count_if(rows, was_tracked));
   std::vector<int> acquisition;
   for (const AccuracyRow& row : rows) {
-    // Who was never tracked has no errors.
+    // Without tracking there are no errors.
     const double error_weight = 1.0 / static_cast<double>(tracked);
     summary.mpjpe_mm += error_weight * row.mpjpe_mm;
     summary.p95_mm += error_weight * row.p95_mm;

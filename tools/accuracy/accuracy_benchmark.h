@@ -1,5 +1,5 @@
-// A benchmark of accuracy: a grid of simulated takes, and what cameras, voxels, noise and wrong
-// calibration cost.
+// Accuracy benchmark: a grid of simulated takes, and the effects of cameras, voxel size, noise and
+// calibration errors.
 #pragma once
 
 #include <string>
@@ -10,23 +10,23 @@
 
 namespace mocap {
 
-/// How good tracking was in one take.
+/// Tracking accuracy of one take.
 struct AccuracyRow {
   std::string motion;
   double stature_mm = 0;
   std::uint64_t seed = 0;
   double mpjpe_mm = 0, p95_mm = 0, angle_deg = 0;
   double length_error_mm = 0;  ///< Mean over the parts.
-  double tracked_share = 0;    ///< From the first tracked set on.
+  double tracked_share = 0;    ///< From the first tracked frame set on.
   double head_found_share = 0;
   int acquisition_frames = 0;
-  int longest_wrong_stretch = 0;  ///< In sets, as TrialOutcome's.
+  int longest_wrong_stretch = 0;  ///< In frame sets, as in TrialOutcome.
 };
 
-/// Runs a trial and sums it up.
+/// Runs a trial and summarizes it.
 AccuracyRow Measure(const AccuracyTrial& trial);
 
-/// Means and extremes over takes; errors over those in which somebody was tracked at all.
+/// Means and extremes over takes; errors only over takes with tracking.
 struct AccuracySummary {
   int takes = 0, takes_with_loss = 0, takes_with_wrong_stretch = 0;
   double mpjpe_mm = 0, worst_mpjpe_mm = 0, p95_mm = 0, angle_deg = 0, length_error_mm = 0;
@@ -35,24 +35,24 @@ struct AccuracySummary {
   int most_acquisition_frames = 0;
 };
 
-/// A stretch of wrong poses longer than this is more than a glitch.
+/// A longer run of wrong poses is more than a glitch.
 inline constexpr int kLongestGlitch = 5;
 
 /// @param rows  at least one.
 AccuracySummary Summarize(const std::vector<AccuracyRow>& rows);
 
-/// One thing made worse step by step, all else being as it is by default.
+/// One parameter made worse step by step; the others keep their defaults.
 struct AccuracySweep {
   struct Step {
     std::string label;
     AccuracySummary summary;
   };
-  std::string what;  ///< With its unit.
+  std::string what;  ///< With unit.
   std::vector<Step> steps;
 };
 
 struct AccuracyBenchmark {
-  double seconds = 0;  ///< Of each take,
+  double seconds = 0;  ///< Length of each take,
   std::vector<AccuracyRow> grid;
   std::vector<AccuracySweep> sweeps;
   double people_seconds = 0;  ///< and of each with several people.

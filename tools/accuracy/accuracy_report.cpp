@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-// Whom nobody ever followed has no such time.
+// Without tracking there is no such time.
 std::string UntilFound(const PeopleRow& row) {
   return row.never_found > 0 ? "never" : fmt::format("{:.1f}", row.slowest_found_s);
 }

@@ -1,4 +1,4 @@
-// The accuracy benchmark as text, as a table for people to read and as a plot.
+// The accuracy benchmark as text, as a Markdown table and as a plot.
 #pragma once
 
 #include <span>
@@ -8,21 +8,21 @@
 
 namespace mocap {
 
-/// The line above AccuracyLine's columns.
+/// Header of AccuracyLine's columns.
 std::string AccuracyHeader();
 std::string AccuracyLine(const AccuracyRow& row);
 std::string AccuracySummaryText(const AccuracySummary& summary);
 
-/// The same of takes of several people.
+/// Header and lines for takes of several people.
 std::string PeopleHeader();
 std::string PeopleLine(const PeopleRow& row);
 /// Means and extremes. @param rows  at least one.
 std::string PeopleSummaryText(std::span<const PeopleRow> rows);
 
-/// A page with all tables; shows accuracy.svg beside it when there were sweeps.
+/// A page with all tables. If there were sweeps, it shows accuracy.svg, which lies beside it.
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark);
 
-/// How errors grow along each sweep. The result is an SVG file.
+/// Plots the errors along each sweep, as an SVG file.
 std::string AccuracySweepsSvg(std::span<const AccuracySweep> sweeps);
 
 }  // namespace mocap

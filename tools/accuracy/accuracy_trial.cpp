@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-/// Turns a camera about an axis across its line of sight, as a knock would.
+/// Rotates a camera about an axis across its line of sight, like a bump.
 void Misalign(double error_px, simulation::Random& random, CameraCalibration& camera) {
   const Vector2 middle_px((camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0);
   const std::optional<Vector2> middle = NormalizedFromPixel(camera.lens, middle_px);

@@ -1,4 +1,4 @@
-// One simulated take, tracked as the daemon tracks, beside its truth; nothing goes through a file.
+// One simulated take, tracked as in the daemon and compared with its truth, without files.
 #pragma once
 
 #include "config/config.h"
@@ -8,32 +8,31 @@
 
 namespace mocap {
 
-/// What is simulated, and what is made worse than it could be.
+/// Options of the simulation and its disturbances.
 struct AccuracyTrial {
   SimulatedStudioOptions studio = RecordedSimulation();
   TrackerKind tracker = Config().tracker;
   std::string body = Config().body;
   double voxel_mm = Config().voxel_mm;
-  /// Every camera is calibrated wrongly: turned by what moves its picture's middle by this much, in
-  /// a direction of its own.
+  /// Calibration error: every camera is rotated in its own direction, so that the middle of its
+  /// picture moves by this much.
   double calibration_error_px = 0;
-  double covered_share = 0;       ///< As PictureDisturbance's.
-  Mishap mishap = Mishap::kNone;  ///< Of the first camera, in the middle of the take.
+  double covered_share = 0;       ///< As in PictureDisturbance.
+  Mishap mishap = Mishap::kNone;  ///< Happens to the first camera, in the middle of the take.
 };
 
 struct TrialOutcome {
   Evaluation evaluation;  ///< With truth.
   int acquisition_frames = 0;
-  /// Length of the longest stretch of sets that are called tracked while their mean error is above
-  /// kWrongMm.
+  /// Longest run of frame sets with state tracked and a mean error above kWrongMm.
   int longest_wrong_stretch = 0;
 };
 
-/// A pose worse than this is wrong, whatever it is a measure of.
+/// A pose with a larger error is wrong, whatever the error measures.
 inline constexpr double kWrongMm = 150;
 
-/// Runs a trial. The same trial has the same outcome.
-/// @throws SetupError  when the studio cannot be as it is asked for.
+/// Runs a trial. The same trial gives the same outcome.
+/// @throws SetupError  for invalid studio options.
 TrialOutcome RunTrial(const AccuracyTrial& trial);
 
 }  // namespace mocap

@@ -31,7 +31,7 @@ GrabStatus DisturbedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout
   return status;
 }
 
-// What turning shows anew at the left is as good as what was there.
+// The content that a turn reveals at the left may be anything: keep the old.
 void DisturbedCamera::Copy(const Frame& frame, int shift_px) {
   const int width = frame.image.width(), height = frame.image.height();
   if (picture_.width() != width || picture_.height() != height) picture_ = {width, height};

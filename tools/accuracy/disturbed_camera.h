@@ -1,4 +1,4 @@
-// A camera whose pictures are worse than they could be, to find out what tracking bears.
+// A camera with disturbed pictures, to test the limits of tracking.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace mocap {
 
-/// What may happen to a camera: it falls silent, a light shines into it, or somebody turns it.
+/// Event at a camera: it fails, a light shines into it, or somebody turns it.
 enum class Mishap { kNone, kLost, kBlinded, kTurned };
 
-/// A fault of a camera's pictures.
+/// Disturbance of a camera's pictures.
 struct PictureDisturbance {
-  /// Share of each picture that squares cover, anew in every frame: every other one shows the empty
-  /// studio, a hole in whoever stands there, and the others a grey that is nobody.
+  /// Share of each picture covered by squares, new in every frame. Every other square shows the
+  /// empty studio, a hole in a person; the others are grey, where there is no person.
   double covered_share = 0;
   Mishap mishap = Mishap::kNone;
-  std::int64_t mishap_ns = 0;  ///< Capture time from which on it has happened.
+  std::int64_t mishap_ns = 0;  ///< Capture time from which it applies.
   std::uint64_t seed = 1;
 };
 

@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-// Errors count from so long after somebody has come in.
+// Errors count from this time after a person has come in.
 constexpr double kSettle_s = 0.3;
 
 std::vector<PresenceBySet> TruthOf(const SimulatedStudioOptions& options) {

@@ -1,4 +1,5 @@
-// One simulated take of several people, tracked as `mocap track --people` does, beside its truth.
+// One simulated take of several people, tracked as by `mocap track --people` and compared with
+// truth.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +10,28 @@
 
 namespace mocap {
 
-/// How well everybody of a take was followed, in seconds where PeopleAccuracy has sets.
+/// Tracking quality over all people of a take; in seconds, where PeopleAccuracy counts frame sets.
 struct PeopleRow {
   std::string motion;
   int people = 0;
   std::uint64_t seed = 0;
   double mpjpe_mm = 0, worst_person_mm = 0;
-  double found_share = 0;      ///< Of the covered sets of all: followed by anybody.
-  double slowest_found_s = 0;  ///< Covered, until first followed; of whom it took longest.
+  double found_share = 0;      ///< Share of covered sets, over all people, in which they are
+                               ///< tracked.
+  double slowest_found_s = 0;  ///< Covered time before a person is first tracked; maximum.
   double longest_lost_s = 0;
   int switches = 0;
   double phantom_s = 0;  ///< Phantoms and duplicates.
-  int never_found = 0;   ///< People who were covered and never followed.
+  int never_found = 0;   ///< People who were covered but never tracked.
 };
 
-/// Sums up what was measured.
-/// @param studio  the simulated one; its fps are the sets a second.
+/// Summarizes the measurements.
+/// @param studio  the simulated one; its fps are the frame sets per second.
 PeopleRow SumUp(const SimulatedStudioOptions& studio, const PeopleAccuracy& accuracy);
 
-/// Simulates a take and tracks it; as many may be followed as the simulated studio can hold. The
-/// same options have the same outcome.
-/// @throws SetupError  when the studio cannot be as it is asked for.
+/// Simulates a take and tracks it, with as many people as the simulated studio can hold. The same
+/// options give the same outcome.
+/// @throws SetupError  for invalid studio options.
 PeopleRow RunPeopleTrial(const SimulatedStudioOptions& studio);
 
 }  // namespace mocap

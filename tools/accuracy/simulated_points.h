@@ -1,4 +1,4 @@
-// What is true of a simulated person, as scores want it.
+// True points of a simulated person, as scores need them.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// Picks the scored points out of the simulated joints; feet are soles.
+/// Selects the scored points from the simulated joints; feet are soles.
 inline ScoredPoints TrueScoredPoints(const SimulatedTruth& truth, std::int64_t capture_ns,
                                      int person = 0) {
   const JointPositions joints = truth.At(capture_ns, person);
