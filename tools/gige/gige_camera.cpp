@@ -22,7 +22,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// What Aravis's server reads: it looks for a trigger as often as it can.
+// Values read by Aravis's server, which polls for a trigger at this rate.
 constexpr std::uint32_t kOn = 1, kSoftware = 1;
 constexpr double kLooks_hz = 10'000;
 constexpr std::uint32_t kMac = 0x0008, kUserName = 0x00e8;
@@ -34,12 +34,12 @@ constexpr milliseconds kSourceTimeout{50};
 constexpr std::chrono::seconds kSourcePatience{10};
 constexpr std::uint32_t kTimestampControl = 0x0944, kTimestampHigh = 0x0948, kTimestampLow = 0x094c;
 constexpr std::uint32_t kLatch = 2;
-/// An action lets through the first picture that was taken no earlier than this before it.
+/// An action releases the first picture taken later than this long before it.
 constexpr std::int64_t kMatch_ns = 1'000'000;
-/// Longer than the server takes to see that a client has started it.
+/// Longer than the server takes to notice that a client started it.
 constexpr milliseconds kPatience{150};
 
-/// Aravis wants the description as a file.
+/// Provides the description as a file, which Aravis requires.
 class DescriptionFile {
  public:
   explicit DescriptionFile(const std::string& xml) : fd_(memfd_create("genicam", MFD_CLOEXEC)) {
@@ -118,8 +118,8 @@ bool GigeCamera::is_streaming() const {
   return arv_fake_camera_get_acquisition_status(registers_) != 0;
 }
 
-// A take that is joined late may have to catch up. Cameras that answer stream as soon as they are
-// told to.
+// When a take is joined late, starting may include catching up. Cameras that answer must stream as
+// soon as they are started.
 void GigeCamera::StartSource() {
   source_->Start();
   Frame first;
@@ -162,7 +162,7 @@ bool GigeCamera::IsWanted(std::int64_t capture_ns) {
     return fired;
   }
   const std::int64_t period_ns = is_triggered ? 0 : Read(gige_register::kFramePeriod_us) * 1000LL;
-  // Frames jitter about their times, and rates are not quite what they are called.
+  // Frames jitter about their times, and rates differ slightly from their nominal values.
   if (capture_ns < next_wanted_ns_ - period_ns / 4) return false;
   next_wanted_ns_ = std::max(next_wanted_ns_ + period_ns, capture_ns + period_ns * 9 / 10);
   return true;
@@ -171,7 +171,7 @@ bool GigeCamera::IsWanted(std::int64_t capture_ns) {
 void GigeCamera::Send(const Frame& frame) {
   {
     std::unique_lock lock(mutex_);
-    // Frames that a source delivers in a burst wait for each other; the first is as new as can be.
+    // Frames in a burst wait for each other, so that the first is sent without delay.
     taken_.wait_for(lock, kPatience, [this] { return !is_waiting_ || !is_flowing_; });
     is_waiting_ = true;
     if (picture_.width() != frame.image.width() || picture_.height() != frame.image.height()) {
@@ -201,7 +201,7 @@ std::optional<std::uint16_t> GigeCamera::TakeAction(std::span<const std::byte> p
     std::memcpy(&value, packet.data() + at, sizeof(value));
     return ntohl(value);
   };
-  // Those that say when.
+  // Actions with a time.
   constexpr std::uint32_t kAction = 0x0100, kHasTime = 0x80 << 16;
   constexpr std::size_t kBytes = 28;
   if (packet.size() != kBytes || (number(0) & 0xffff) != kAction || (number(0) & kHasTime) == 0) {
@@ -254,7 +254,7 @@ void GigeCamera::FillBuffer(ArvBuffer* buffer, std::int64_t exposure_ns, unsigne
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
   const int width = arv_buffer_get_image_width(buffer),
             height = arv_buffer_get_image_height(buffer);
-  // Aravis tells no size here; it allocated what the format needs.
+  // Aravis passes no size here; it has allocated what the format needs.
   size =
       static_cast<std::size_t>(width) * height * ARV_PIXEL_FORMAT_BIT_PER_PIXEL(pixel_format) / 8;
   const std::lock_guard lock(mutex_);

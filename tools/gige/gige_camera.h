@@ -1,4 +1,4 @@
-// A camera's pictures served over GigE Vision, for clients that want to be tried without cameras.
+// Serves a camera's pictures over GigE Vision, to test clients without cameras.
 #pragma once
 
 #include <atomic>
@@ -26,43 +26,43 @@ struct _ArvFakeCamera;
 
 namespace mocap {
 
-/// What is wrong with a served camera and its network.
+/// Simulated faults of a camera and its network.
 struct GigeFaults {
-  double lost_packets = 0;           ///< Share of them, 0 to 1.
-  std::int64_t clock_offset_ns = 0;  ///< Of its clock against the host's.
+  double lost_packets = 0;           ///< Share of packets, 0 to 1.
+  std::int64_t clock_offset_ns = 0;  ///< Its clock minus the host's.
   double clock_drift_ppm = 0;
-  double jitter_ms = 0;    ///< Frames leave late by up to that.
+  double jitter_ms = 0;    ///< Frames leave late by up to this.
   std::uint64_t seed = 1;  ///< Of the jitter.
   bool has_no_ptp_master = false;
 };
 
 struct GigeIdentity {
-  std::string ip;      ///< An address of this host, the camera's own.
-  std::string name;    ///< By which clients find it, up to 15 characters.
-  std::string serial;  ///< The same.
+  std::string ip;      ///< An address of this host, used only by this camera.
+  std::string name;    ///< Name for clients, up to 15 characters.
+  std::string serial;  ///< Serial number, likewise.
   bool has_ptp = false;
 };
 
-/// Serves whatever a driver delivers, as a real camera would: stamps tell the beginning of the
-/// exposure by the camera's own clock, frames leave once it is over, numbers go from 1 to 65535.
+/// Serves a driver's frames as a real camera would. Stamps are the beginning of the exposure in the
+/// camera's own clock, frames leave after its end, and numbers go from 1 to 65535.
 ///
-/// Clients may set size (cut off or filled with black), format, exposure, gain (without effect),
-/// rate (up to the source's), trigger: any line fires with the source, "Software" lets its next
-/// frame through, "Action1" the one that is taken when the action was asked for.
+/// Clients may set size (cropped, or padded with black), format, exposure, gain (without effect),
+/// rate (up to the source's) and trigger. Any line fires with the source. "Software" releases the
+/// next frame. "Action1" releases the frame taken at the requested time.
 class GigeCamera {
  public:
-  /// @throws SetupError  when the address is none of this host's, or taken.
+  /// @throws SetupError  when the address is not of this host, or in use.
   GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDriver> source,
              const GigeFaults& faults = {});
   ~GigeCamera();
   GigeCamera(const GigeCamera&) = delete;
   GigeCamera& operator=(const GigeCamera&) = delete;
 
-  /// What clients have written to one of its registers.
+  /// Returns a register as written by clients.
   std::uint32_t Read(std::uint32_t address) const;
-  /// Some client has started it.
+  /// Whether a client has started the camera.
   bool is_streaming() const;
-  /// Holds back all frames, as when the cable is pulled, while it still answers.
+  /// Withholds all frames, as if the cable were pulled, but still answers.
   void Stall(bool stalled) { stalled_.store(stalled, std::memory_order_relaxed); }
 
  private:
@@ -86,16 +86,16 @@ class GigeCamera {
   std::unique_ptr<CameraDriver> source_;
   std::unique_ptr<GigeServerThread> server_thread_;  ///< Outlives the server.
   GPtr<_ArvGvFakeCamera> server_;
-  _ArvFakeCamera* registers_ = nullptr;  ///< The server's.
+  _ArvFakeCamera* registers_ = nullptr;  ///< Owned by the server.
   std::minstd_rand random_;
   std::atomic<bool> stopping_{false}, stalled_{false};
   std::int64_t next_wanted_ns_ = 0;
-  std::mutex mutex_;  ///< For what is below.
+  std::mutex mutex_;  ///< Guards the members below.
   std::condition_variable taken_;
-  bool is_waiting_ = false;  ///< The picture was not sent yet.
-  bool is_flowing_ = false;  ///< Some picture was, since the client started the camera.
+  bool is_waiting_ = false;  ///< The picture has not been sent yet.
+  bool is_flowing_ = false;  ///< A picture was sent since the client started the camera.
   Image<Bgr> picture_;
-  std::vector<std::int64_t> actions_ns_;  ///< That were asked for, by its own clock.
+  std::vector<std::int64_t> actions_ns_;  ///< Requested actions, by the camera's clock.
   std::int64_t capture_ns_ = 0;
   std::uint64_t sequence_ = 0;
   std::thread thread_;

@@ -38,7 +38,7 @@ std::string Entry(std::string_view name, std::uint32_t value) {
          "</Value>\n\t\t</EnumEntry>\n";
 }
 
-/// @param index  the register by which the address moves on in steps of four; empty: none.
+/// @param index  register that advances the address in steps of four; empty: none.
 std::string Register(std::string_view name, std::uint32_t address, std::string_view index = "") {
   return "\t<IntReg Name=\"" + std::string(name) + "\" NameSpace=\"Custom\">\n\t\t<Address>" +
          Hex(address) + "</Address>\n" +
@@ -48,7 +48,7 @@ std::string Register(std::string_view name, std::uint32_t address, std::string_v
          "\t\t<Endianess>BigEndian</Endianess>\n\t</IntReg>\n";
 }
 
-/// A feature that is one of several words, numbered from 0, in the register `name`Register.
+/// Describes an enumeration, numbered from 0, in the register `name`Register.
 std::string Enumeration(const std::string& name, std::initializer_list<std::string_view> words) {
   std::string xml = "\t<Enumeration Name=\"" + name + "\" NameSpace=\"Standard\">\n";
   std::uint32_t value = 0;

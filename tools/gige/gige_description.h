@@ -1,4 +1,4 @@
-// How a served camera describes itself to its clients.
+// GenICam description of a served camera.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,8 @@
 
 namespace mocap {
 
-/// Registers of the served camera that clients write and Aravis's server does not look at. In
-/// Aravis's own, the trigger and the period say when its server sends; here that is the studio's
-/// to say.
+/// Registers that clients write and Aravis's server does not read. In its own registers, trigger
+/// and period determine when the server sends; here the studio determines that.
 namespace gige_register {
 inline constexpr std::uint32_t kTriggerMode = 0x340;
 inline constexpr std::uint32_t kTriggerSource = 0x344;
@@ -18,7 +17,7 @@ inline constexpr std::uint32_t kFramePeriod_us = 0x390;
 inline constexpr std::uint32_t kPtpEnable = 0x3a0;
 inline constexpr std::uint32_t kPtpStatus = 0x3a4;
 inline constexpr std::uint32_t kLineSelector = 0x3b0;
-/// Each line has its own, four bytes after the one before it.
+/// One register per line, four bytes apart.
 inline constexpr std::uint32_t kLineMode = 0x3c0;
 inline constexpr std::uint32_t kLineSource = 0x3d0;
 inline constexpr std::uint32_t kActionSelector = 0x3e0;
@@ -32,8 +31,8 @@ enum class GigeLine : std::uint32_t { kInput = 0, kOutput = 1 };
 enum class GigeLineSource : std::uint32_t { kOff = 0, kExposureActive = 1 };
 enum class GigePtp : std::uint32_t { kDisabled = 2, kListening = 3, kSlave = 8 };
 
-/// Gives the description of Aravis's fake camera in GenICam's XML, with more pixel formats,
-/// triggers of our own, lines that can be inputs and outputs, and PTP with actions if wanted.
+/// Returns the GenICam XML of Aravis's fake camera. Adds pixel formats, our own triggers, lines for
+/// input and output, and, if requested, PTP with actions.
 std::string DescribeGigeCamera(bool has_ptp);
 
 }  // namespace mocap

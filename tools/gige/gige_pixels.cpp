@@ -17,7 +17,7 @@ std::uint8_t Redness(int r, int g, int b) {
   return static_cast<std::uint8_t>(128 + ((112 * r - 94 * g - 18 * b + 128) >> 8));
 }
 
-/// What a pixel's filter lets through, with the red one at (red_x, red_y) of each two by two.
+/// Sample behind a pixel's colour filter; red is at (red_x, red_y) of each two by two pixels.
 std::uint8_t Filtered(const Bgr& p, int x, int y, int red_x, int red_y) {
   if (x % 2 == red_x && y % 2 == red_y) return p.r;
   if (x % 2 != red_x && y % 2 != red_y) return p.b;

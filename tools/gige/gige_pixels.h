@@ -1,4 +1,4 @@
-// Pictures in the formats that served cameras send.
+// Encodes pictures in the pixel formats of served cameras.
 #pragma once
 
 #include <arv.h>
@@ -10,8 +10,7 @@
 
 namespace mocap {
 
-/// Writes a picture as a camera of that format would send it; black where the format is none that
-/// is served.
+/// Encodes a picture in a camera's format; black if the format is not supported.
 void EncodePicture(ImageView<const Bgr> picture, ArvPixelFormat format,
                    std::span<std::uint8_t> out);
 

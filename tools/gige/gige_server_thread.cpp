@@ -30,7 +30,7 @@ std::map<in_addr_t, GigeServerThread*>& Servers() {
   return servers;
 }
 
-/// The server that this thread is known to run.
+/// The server that runs in this thread, once known.
 thread_local GigeServerThread* this_server = nullptr;
 
 GigeServerThread* FindServer(std::span<const pollfd> sockets) {
@@ -115,9 +115,9 @@ bool GigeServerThread::Takes(int socket) const {
 
 }  // namespace mocap
 
-/// Stands in for GLib's in Aravis: the server's thread computes how long to sleep in numbers
-/// without a sign (up to 0.8.26 at least), sleeps for 100 ms when it is late, and spins when it is
-/// early. Threads that serve no camera of ours get what they ask for.
+/// Replaces GLib's g_poll in Aravis. The server's thread computes its sleep time in unsigned
+/// numbers (up to 0.8.26 at least). It sleeps for 100 ms when late, and spins when early. Other
+/// threads get the usual behaviour.
 extern "C" gint g_poll(GPollFD* fds, guint count, gint timeout_ms) {
   static_assert(sizeof(GPollFD) == sizeof(pollfd));
   auto* sockets = reinterpret_cast<pollfd*>(fds);

@@ -1,4 +1,4 @@
-// Adds to the thread of Aravis's camera server what it lacks.
+// Extends the thread of Aravis's camera server.
 #pragma once
 
 #include <netinet/in.h>
@@ -14,31 +14,31 @@
 
 namespace mocap {
 
-/// Wakes a server's thread at once, and lets it do more than Aravis knows.
+/// Wakes a server's thread at once, and adds features that Aravis lacks.
 ///
-/// The thread is found by its control socket's address, in GLib's g_poll, for which this program
-/// has one of its own.
+/// The thread is identified by the address of its control socket. This happens in g_poll, which
+/// this program replaces.
 class GigeServerThread {
  public:
   struct Extras {
     /// Called before the thread waits for packets.
     std::function<void()> before_packets;
-    /// Sees a control packet before Aravis does. @return the status with which to answer; nothing:
-    /// the packet is Aravis's.
+    /// Sees a control packet before Aravis. @return the status to answer with; empty: Aravis
+    /// handles the packet.
     std::function<std::optional<std::uint16_t>(std::span<const std::byte>)> take;
   };
 
-  /// @param ip      of the server that runs; IPv4.
+  /// @param ip      of the running server; IPv4.
   /// @param extras  called in the server's thread.
   GigeServerThread(const std::string& ip, Extras extras);
-  /// The server has to have stopped.
+  /// @pre  the server has stopped.
   ~GigeServerThread();
   GigeServerThread(const GigeServerThread&) = delete;
   GigeServerThread& operator=(const GigeServerThread&) = delete;
 
-  /// Lets a frame out at once. Any thread.
+  /// Releases a frame at once. Callable from any thread.
   void Wake();
-  /// What Aravis's call of g_poll does in the server's thread.
+  /// Replacement for g_poll in the server's thread.
   int Poll(pollfd* sockets, unsigned count);
 
  private:
@@ -47,7 +47,8 @@ class GigeServerThread {
   const in_addr_t ip_;
   const Extras extras_;
   const int wake_up_;
-  /// The server looks at the clock before it looks for a trigger.
+  /// Until then the thread does not sleep: the server reads the clock before it checks for a
+  /// trigger.
   std::atomic<std::int64_t> hurry_until_ns_{0};
 };
 

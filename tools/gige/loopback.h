@@ -5,12 +5,12 @@
 
 namespace mocap {
 
-/// Sees to it that the loopback interface is up and has an address, which takes root to change.
-/// Addresses 127.x.y.z lead nowhere else, with or without.
-/// @return whether it has it now.
+/// Ensures that the loopback interface is up and has an address; changes require root. Addresses
+/// 127.x.y.z always stay on this host.
+/// @return whether it has the address now.
 bool EnsureLoopbackAddress(const std::string& ip);
 
-/// The address that lies so many after another. @throws SetupError  for text that is no IPv4.
+/// Returns the address `count` after another. @throws SetupError  for text that is not IPv4.
 std::string AddressAfter(const std::string& ip, int count);
 
 }  // namespace mocap

@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-/// FNV-1a: against changes by hand, not against forgers.
+/// FNV-1a: detects edits by hand, not forgery.
 std::uint64_t ChecksumOf(std::string_view text) {
   std::uint64_t sum = 0xcbf29ce484222325;
   for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;

@@ -1,4 +1,4 @@
-// A configuration that the program wrote, and that nobody has changed since.
+// Configurations written by the program and not changed since.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace mocap {
 
-/// Puts a first line before a configuration that tells who wrote it, with a checksum of the rest.
+/// Adds a first line to a configuration, with its author and a checksum of the rest.
 std::string SignedConfig(const std::string& text);
 
-/// Makes sure that writing a configuration takes nothing from anybody: there is no such file, it is
-/// empty, or it is as SignedConfig made it.
+/// Checks that writing a configuration loses nobody's data: the file is missing, empty, or
+/// unchanged since SignedConfig.
 /// @throws SetupError  naming the file.
 void RequireOwnConfig(const std::filesystem::path& file);
 

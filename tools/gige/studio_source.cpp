@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Long enough to learn the empty studio in.
+/// Long enough to learn the background.
 constexpr std::chrono::seconds kHeadStart{5};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A recording that waits until the whole studio is looking.
+// A recording that starts once all cameras are streaming.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace mocap {
 
-/// State that the cameras of a served studio share, each of them a process.
+/// State that the cameras of a served studio share; each is a process.
 struct StudioStage {
   static constexpr int kMostCameras = 64;
   std::array<std::atomic<bool>, kMostCameras> streams{};
-  /// When the recording begins, since the Unix epoch; 0: not every camera streams yet.
+  /// Start of the recording, since the Unix epoch; 0: not every camera streams yet.
   std::atomic<std::int64_t> begin_ns{0};
 };
 
-/// Shows the empty studio until every camera has streamed for some seconds, in which it can be
-/// learned, then the recording from its beginning, which is the same moment for all. A camera that
-/// comes later, or again, joins where the others are.
+/// Shows the empty studio until every camera has streamed for some seconds, in which the background
+/// can be learned. Then the recording starts at the same time for all. A camera that comes later,
+/// or again, joins the others.
 class StudioSource : public CameraDriver {
  public:
-  /// @param recording     begins at the stage's time, once it is started.
-  /// @param is_streaming  asks whether this camera's client has started it.
+  /// @param recording     begins at the stage's time, once started.
+  /// @param is_streaming  tells whether this camera's client has started it.
   StudioSource(StudioStage& stage, int camera, int cameras, double fps, Image<Bgr> empty,
                std::unique_ptr<CameraDriver> recording, std::function<bool()> is_streaming);
 
