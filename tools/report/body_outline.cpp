@@ -42,7 +42,7 @@ std::vector<Vector3> Ellipsoid(const Vector3& center, const Vector3& half_axis, 
   return surface;
 }
 
-/// From the hip line to the neck; the hips may have turned against the chest.
+/// From the hip line to the neck; the hips may be rotated relative to the chest.
 std::vector<Vector3> Torso(const PoseRow& row, const BodySizes& sizes) {
   const Matrix3 R_WT = ExpRotation(row.paper.torso_axis * row.paper.torso_angle_rad);
   const Vector3 hips = (At(row, Point::kHipL) + At(row, Point::kHipR)) / 2;
@@ -54,7 +54,7 @@ std::vector<Vector3> Torso(const PoseRow& row, const BodySizes& sizes) {
   return surface;
 }
 
-/// The outline of a convex solid is the hull of its points' pictures.
+/// The outline of a convex solid is the convex hull of its projected points.
 void AddOutline(const std::vector<Vector3>& surface_W, BodySide side,
                 const CameraCalibration& camera, const RigidTransform& X_CW,
                 std::vector<BodyLine>& lines) {

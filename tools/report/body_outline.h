@@ -1,4 +1,4 @@
-// The tracked body as a camera would see it: outlines of its parts and a stick figure.
+// The tracked body projected into a camera: outlines of its parts, and a stick figure.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,7 @@
 
 namespace mocap {
 
-/// Which side of the person something belongs to; drawn in different colours, so that swapped sides
-/// are seen at once.
+/// Side of the person. Different colours reveal swapped sides at once.
 enum class BodySide { kMiddle, kLeft, kRight };
 
 /// A closed or open line in the picture [px].
@@ -28,16 +27,17 @@ struct Stick {
 };
 const std::vector<Stick>& Sticks();
 
-/// Projects a point; empty where the camera cannot see it.
+/// Projects a point; empty if the camera cannot see it.
 std::optional<Vector2> ProjectPoint(const CameraCalibration& camera, const RigidTransform& X_CW,
                                     const Vector3& p_WQ);
 
-/// Outlines of the ten parts: the torso an elliptic cylinder, the head an ellipsoid, the limbs
-/// cylinders, with the sizes of the body. Parts that are not wholly before the camera are left out.
+/// Outlines of the ten parts, with the sizes of the body: the torso is an elliptic cylinder, the
+/// head an ellipsoid, the limbs are cylinders. Parts not entirely in front of the camera are
+/// omitted.
 std::vector<BodyLine> PartOutlines(const PoseRow& row, const BodySizes& sizes,
                                    const CameraCalibration& camera, const RigidTransform& X_CW);
 
-/// The stick figure, a line of two pixels a bone.
+/// The stick figure, one line of two pixels per bone.
 std::vector<BodyLine> StickFigure(const PoseRow& row, const CameraCalibration& camera,
                                   const RigidTransform& X_CW);
 

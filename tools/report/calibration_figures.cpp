@@ -14,7 +14,7 @@ namespace {
 constexpr double kErrorScale = 40;
 constexpr double kMargin_mm = 600;
 
-// A camera with the wedge that it looks at.
+// A camera with its field of view.
 template <typename XOf, typename YOf>
 std::string CameraMark(const CameraCalibration& camera, const XOf& x_of, const YOf& y_of) {
   const RigidTransform X_WC = camera.X_CW.Inverse();
@@ -111,7 +111,7 @@ std::string RoomPlanSvg(const std::vector<CameraCalibration>& cameras, const See
     svg +=
         fmt::format("<line class=\"grid\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"0\" x2=\"{1:.1f}\"/>",
                     y_of(y), x_of(high.x()));
-  // The origin with x and y, half a metre each.
+  // The origin with x and y axes, half a metre each.
   svg += fmt::format(
       "<path class=\"axes\" d=\"M{0:.1f} {3:.1f}V{1:.1f}H{2:.1f}\"/><text style=\"font-size:20px\" "
       "x=\"{4:.1f}\" "

@@ -1,4 +1,4 @@
-// Pictures of the calibration's report, as inline SVG.
+// Figures of the calibration report, as inline SVG.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace mocap {
 
-/// Draws where a camera saw corners, and their errors much enlarged.
+/// Draws the positions of a camera's observed corners, and their errors, enlarged.
 std::string CoverageSvg(const StudioFit& fit, int camera, const std::vector<CornerError>& errors);
 
-/// Draws the room from above: cameras with what they look at, and how many see each place.
+/// Draws the room from above: cameras with their fields of view, and how many see each place.
 std::string RoomPlanSvg(const std::vector<CameraCalibration>& cameras, const SeenVolume& volume);
 
 }  // namespace mocap

@@ -31,7 +31,7 @@ svg.cells-of text { font: 11px system-ui, sans-serif; fill: var(--muted); }
 svg.cells-of text.label { fill: var(--fg); font-weight: 600; }
 )";
 
-// Of a board that lay still no one expects that it covers the pictures.
+// A board at rest need not cover the pictures.
 bool WasCarried(const StudioFit& fit) { return fit.bundle.X_WB.size() > 1; }
 
 std::string Tile(const std::string& what, const std::string& value, const std::string& unit,

@@ -1,4 +1,4 @@
-// The report of `mocap calibrate`: one HTML file that needs nothing beside it.
+// The report of `mocap calibrate`: one self-contained HTML file.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace mocap {
 
-/// Writes the page: verdict, errors in pixels and millimetres, coverage, plan, seen volume, worst
-/// views. @param made_s  when, since the Unix epoch.
+/// Writes the page: result, errors in pixels and millimetres, coverage, plan, visible volume, worst
+/// views. @param made_s  time since the Unix epoch.
 std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
                                   const StudioFit& fit, const std::vector<Finding>& findings);
 

@@ -1,4 +1,4 @@
-// §8: all figures about a result, with and without truth.
+// §8: all figures for a result, with and without truth.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace mocap {
 
-/// A length of the acquired body beside the true one.
+/// An acquired length with the true one.
 struct LengthPair {
   std::string name;
   double acquired_mm = 0;
@@ -26,23 +26,23 @@ struct Evaluation {
   Result result;
   std::array<int, kCaptureStateNames.size()> frames_in_state{};
   int first_tracked_pose = -1;  ///< -1: never tracked.
-  /// Tracked frames from the first tracked one on; 0 when there is none.
+  /// Share of tracked frames since the first one; 0 when there is none.
   double tracked_share = 0;
   double mean_residual_mm = 0;         ///< Over tracked frames.
-  std::optional<Precision> precision;  ///< Empty when no run of tracked frames is long enough.
-  // Only for a take with truth:
+  std::optional<Precision> precision;  ///< Empty if no run of tracked frames is long enough.
+  // Only if the take has truth:
   std::optional<TakeTruth> truth;
   std::optional<Accuracy> accuracy;
   std::vector<LengthPair> lengths;
 };
 
-/// Holds the acquired lengths against the true ones.
+/// Compares the acquired lengths with the true ones.
 std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& truth);
 
-/// Says how good a result is, by itself and, where there is one, against the truth.
+/// Computes the quality of a result by itself and, if available, against the truth.
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
 
-/// What the sixteen angles of Table 1 turn, and about which axis of the torso.
+/// For the sixteen angles of Table 1: the joint and the axis of the torso.
 inline constexpr std::array<std::string_view, kPaperAngleCount> kPaperAngleLabels = {
     "neck, x",       "neck, y",       "shoulder L, x", "shoulder R, x",
     "shoulder L, z", "shoulder R, z", "shoulder L, y", "shoulder R, y",

@@ -1,4 +1,4 @@
-// An evaluation for a terminal and for programs.
+// An evaluation for terminals and programs.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace mocap {
 
-/// Tables for a person at a terminal.
+/// Tables for a terminal.
 std::string EvaluationText(const Evaluation& evaluation);
 
-/// Adds what is told of one person; angles in degrees.
+/// Adds one person's figures; angles in degrees.
 void AddEvaluation(const Evaluation& evaluation, JsonObject& json);
 
 /// One JSON object; angles in degrees. `overlaps` may be empty.

@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-/// A voxel with neighbours on all sides is hidden behind them.
+/// A voxel with neighbours on all sides is hidden.
 bool IsOnSurface(const VoxelGrid& grid, int i, int j, int k) {
   const auto occupied = [&](int x, int y, int z) {
     return grid.Contains(x, y, z) && grid.Test(x, y, z);
@@ -20,7 +20,7 @@ bool IsOnSurface(const VoxelGrid& grid, int i, int j, int k) {
            occupied(i, j + 1, k) && occupied(i, j, k - 1) && occupied(i, j, k + 1));
 }
 
-/// Corners of a voxel in the picture; empty when the camera does not see them all.
+/// Projected corners of a voxel; empty if the camera does not see all of them.
 std::optional<std::array<cv::Point, 8>> ProjectCorners(const Vector3& low_W, double size_mm,
                                                        const CameraCalibration& camera,
                                                        const RigidTransform& X_CW) {
@@ -29,7 +29,7 @@ std::optional<std::array<cv::Point, 8>> ProjectCorners(const Vector3& low_W, dou
     const Vector3 p_C = X_CW * (low_W + size_mm * Vector3(c & 1, c >> 1 & 1, c >> 2));
     if (p_C.z() <= 0) return std::nullopt;
     const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
-    // Far outside the picture a corner would overflow OpenCV's fixed-point coordinates.
+    // Far outside the picture, a corner would overflow OpenCV's fixed-point coordinates.
     if (!pixel || pixel->cwiseAbs().maxCoeff() > 1e4) return std::nullopt;
     corners[c] = {cvRound(pixel->x()), cvRound(pixel->y())};
   }

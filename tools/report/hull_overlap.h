@@ -1,4 +1,4 @@
-// How well the carved voxels, projected back, cover the silhouettes they were carved from.
+// Overlap of the projected voxels with the silhouettes from which they were carved.
 #pragma once
 
 #include <string>
@@ -11,19 +11,18 @@
 
 namespace mocap {
 
-/// Paints every pixel that shows some part of an occupied voxel; 255 there, 0 elsewhere. Voxels are
-/// projected corner by corner through the exact lens, independently of the carver's table.
+/// Sets every pixel that shows part of an occupied voxel to 255, others to 0. Projects all corners
+/// of the voxels through the exact lens, independently of the carver's table.
 Image<std::uint8_t> ProjectVoxels(const VoxelGrid& grid, const CameraCalibration& camera,
                                   const RigidTransform& X_CW);
 
-/// Intersection over union of a painted picture and a silhouette of the same size; 1 when both are
-/// empty.
+/// Intersection over union of a projection and a silhouette of the same size; 1 if both are empty.
 double OverlapOf(const Image<std::uint8_t>& painted, const Silhouette& silhouette);
 
 /// One camera's overlaps over the sampled frames.
 struct CameraOverlap {
   std::string camera;
-  std::vector<double> iou;  ///< One a sampled moment; NaN where the camera has no frame.
+  std::vector<double> iou;  ///< One per sampled moment; NaN if the camera has no frame.
 
   int frames() const;
   double mean() const;  ///< Over its frames; 0 without any.

@@ -54,11 +54,11 @@ int MostOften(const std::vector<PersonMatch>& matches, std::size_t people) {
   return most == frames.end() || *most == 0 ? -1 : static_cast<int>(most - frames.begin());
 }
 
-/// Holds a result against the frames in which he was somebody, whoever that was.
+/// Scores a result in the frames that match any person.
 void Score(const std::vector<TruePerson>& truth, TrackedPerson& person) {
   if (person.true_person < 0) return;
   Evaluation& evaluation = person.evaluation;
-  // Sizes are those of whom he was most often.
+  // Sizes are compared with the most frequent match.
   evaluation.truth = truth[static_cast<std::size_t>(person.true_person)].truth;
   evaluation.truth->frames.clear();
   evaluation.truth->numbers.clear();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kNobody = -1, kNone = -1;
 
-/// Half the shortest time between frames of anybody: what is farther away in time is another frame.
+/// Half the shortest time between any person's frames: beyond it, frames are different.
 std::int64_t ToleranceNs(std::span<const std::vector<ScoredFrame>> truth) {
   std::int64_t least_ns = std::numeric_limits<std::int64_t>::max();
   for (const std::vector<ScoredFrame>& frames : truth) {
@@ -39,7 +39,7 @@ std::optional<int> FrameAt(const std::vector<ScoredFrame>& frames, std::int64_t 
   return nearest;
 }
 
-/// Somebody who may be a true person in a frame.
+/// A possible match of a tracked and a true person in a frame.
 struct Candidate {
   std::size_t tracked = 0;
   PersonMatch match;
@@ -93,7 +93,8 @@ class Matcher {
     std::set<std::size_t> near, used;
     for (const Candidate& candidate : candidates) {
       near.insert(candidate.tracked);
-      // Moments come in the order of time: a later one may have the same frame, never an earlier.
+      // Moments are in order of time: a later one may match the same frame, but never an earlier
+      // one.
       int& found = found_[static_cast<std::size_t>(candidate.match.person)];
       if (used.contains(candidate.tracked) || candidate.match.frame <= found) continue;
       used.insert(candidate.tracked);
@@ -109,8 +110,8 @@ class Matcher {
   const std::span<const std::vector<ScoredFrame>> truth_, tracked_;
   const std::int64_t tolerance_ns_;
   std::vector<MatchedPerson> people_;
-  std::vector<int> last_;   ///< Whom each tracked person was last.
-  std::vector<int> found_;  ///< The last frame of each true person that is matched.
+  std::vector<int> last_;   ///< Last match of each tracked person.
+  std::vector<int> found_;  ///< Last matched frame of each true person.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which of several tracked people is which of several true ones, frame by frame.
+// Matches several tracked people with true people, frame by frame.
 #pragma once
 
 #include <span>
@@ -8,30 +8,29 @@
 
 namespace mocap {
 
-/// Whoever is farther away, on average over the scored points, is somebody else or nobody.
+/// At a larger mean distance over the scored points, people do not match.
 inline constexpr double kSamePersonMm = 500;
 
-/// A frame in which a tracked person is a true one.
+/// A match of a tracked person with a true one in a frame.
 struct PersonMatch {
-  int pose = 0;    ///< Its place among the frames of the tracked person.
-  int person = 0;  ///< The true one,
-  int frame = 0;   ///< and the place among his frames.
+  int pose = 0;    ///< Index among the tracked person's frames.
+  int person = 0;  ///< Index of the true person.
+  int frame = 0;   ///< Index among the true person's frames.
   double mean_mm = 0;
 };
 
-/// Whom a tracked person was.
+/// Matches of a tracked person.
 struct MatchedPerson {
-  std::vector<PersonMatch> matches;  ///< In the order of time.
-  int duplicates = 0;  ///< Frames in which he was near somebody whom another one is already.
+  std::vector<PersonMatch> matches;  ///< In order of time.
+  int duplicates = 0;                ///< Frames near a true person who is matched with another one.
 };
 
-/// Matches people one to one in each true frame: whoever was the same person in the frame before
-/// stays so while he is near enough; of the others, the nearest first.
+/// Matches people one to one in each true frame. A match from the frame before is kept while it is
+/// near enough; then the nearest pairs are matched first.
 ///
-/// @param truth    frames of each true person, in the order of time; only those in which he is
-///                 there.
-/// @param tracked  of each tracked person; frames that are not `tracked` are nobody's.
-/// @return  of each tracked person.
+/// @param truth    frames of each true person in which the person is present, in order of time.
+/// @param tracked  frames of each tracked person; frames that are not `tracked` match nobody.
+/// @return  one per tracked person.
 std::vector<MatchedPerson> MatchPeople(std::span<const std::vector<ScoredFrame>> truth,
                                        std::span<const std::vector<ScoredFrame>> tracked);
 

@@ -22,7 +22,7 @@ constexpr int kColors = 8;
 
 int ColorOf(std::size_t person) { return static_cast<int>(person % kColors); }
 
-constexpr const char* kNothing = "–";  ///< What a figure over no frame is.
+constexpr const char* kNothing = "–";  ///< Shown for a figure without frames.
 
 std::string FoundPercent(const FollowedTruth& followed) {
   if (followed.covered == 0) return kNothing;
@@ -33,7 +33,7 @@ std::string ErrorText(const FollowedTruth& followed) {
   return followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : kNothing;
 }
 
-/// First and last frames of anybody.
+/// First and last frame over all people.
 std::pair<double, double> FrameRange(const PeopleEvaluation& evaluation) {
   std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
   for (const TrackedPerson& person : evaluation.people) {
@@ -69,7 +69,7 @@ std::string Tiles(const PeopleEvaluation& evaluation) {
   return tiles + "</div>\n";
 }
 
-/// Frames in the same state, one after the other.
+/// Consecutive frames in the same state.
 struct Stretch {
   CaptureState state;
   std::int64_t first, last;
@@ -89,7 +89,7 @@ std::vector<Stretch> StretchesOf(const std::vector<PoseRow>& poses) {
   return stretches;
 }
 
-/// A band of states for each person, over the frames of the take.
+/// A band of states for each person, over the take's frames.
 std::string Timelines(const PeopleEvaluation& evaluation) {
   const auto [first, last] = FrameRange(evaluation);
   const double width = 1000 / std::max(1.0, last - first);
@@ -163,7 +163,7 @@ std::string TrueRows(const PeopleEvaluation& evaluation) {
   return html + "</table>\n";
 }
 
-/// Everybody's row at a moment.
+/// Every person's row at a time.
 std::vector<ViewedBody> BodiesAt(const PeopleEvaluation& evaluation, std::int64_t time_ns) {
   std::vector<ViewedBody> bodies;
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {
@@ -198,7 +198,7 @@ std::string Figure(const PlotAxes& axes, std::span<const PlotSeries> series,
                      caption);
 }
 
-/// Where everybody went, seen from above.
+/// Everyone's path from above.
 std::string PathsFigure(const PeopleEvaluation& evaluation, const TakeSamples& samples) {
   std::vector<PlotSeries> series;
   PlotSeries& seats = series.emplace_back(PlotSeries{"camera", {}, 3, PlotMark::kRings});
@@ -220,7 +220,7 @@ std::string PathsFigure(const PeopleEvaluation& evaluation, const TakeSamples& s
          Figure(axes, series, "<b>Ways of the torsos</b> from above, with the cameras.") + "</div>";
 }
 
-/// How far each is from the truth.
+/// Everyone's error.
 std::string ErrorsFigure(const PeopleEvaluation& evaluation) {
   if (evaluation.truth.empty()) return {};
   std::vector<PlotSeries> series;

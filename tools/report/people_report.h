@@ -1,4 +1,4 @@
-// The report of `mocap evaluate` about several people: one HTML file, a colour a person.
+// The report of `mocap evaluate` for several people: one HTML file, one colour per person.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace mocap {
 
-/// Chooses moments spread evenly over those at which anybody is tracked: twenty to carve, four of
-/// them to show.
+/// Chooses moments spread evenly over those with a tracked person: twenty to carve, four of them to
+/// show.
 std::vector<SampleRequest> ChooseReportMoments(const PeopleEvaluation& evaluation);
 
 /// Writes the page.

@@ -1,4 +1,4 @@
-// An evaluation of several people for a terminal and for programs.
+// An evaluation of several people for terminals and programs.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace mocap {
 /// "1 person", "2 people".
 std::string CountedPeople(std::size_t count);
 
-/// A row a tracked person, a row a true one, and what becomes of all.
+/// One row per tracked person, one per true person, and a summary.
 std::string PeopleText(const PeopleEvaluation& evaluation);
 
-/// One JSON object; `people` has for each what EvaluationJson has for one.
+/// One JSON object; each of `people` is as in EvaluationJson.
 std::string PeopleJson(const PeopleEvaluation& evaluation);
 
 }  // namespace mocap

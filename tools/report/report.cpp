@@ -136,7 +136,7 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
                : std::numeric_limits<double>::quiet_NaN());
     }
   }
-  // Cameras that saw nothing in the whole take come last.
+  // Cameras without frames in the whole take are last.
   while (!overlaps.empty() && overlaps.back().frames() == 0) overlaps.pop_back();
   return overlaps;
 }

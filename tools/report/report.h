@@ -1,4 +1,4 @@
-// The report of `mocap evaluate`: one HTML file that needs nothing beside it.
+// The report of `mocap evaluate`: one self-contained HTML file.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@
 
 namespace mocap {
 
-/// Voxels are carved anew for the report at the daemon's default size.
+/// Voxels are carved again for the report, with the daemon's default size.
 inline constexpr double kReportVoxelMm = 25;
 
 /// Chooses moments spread evenly over the tracked frames (over all, when none is tracked): twenty
 /// to carve, four of them to show.
 std::vector<SampleRequest> ChooseReportMoments(const Evaluation& evaluation);
-/// The same of any times.
+/// Likewise for any times.
 std::vector<SampleRequest> ChooseReportMoments(std::span<const std::int64_t> times_ns);
 
-/// Measures how far the voxels of each moment cover each camera's silhouette.
+/// Measures the overlap of each moment's voxels with each camera's silhouette.
 std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples);
 
-/// What a page of ours begins with: other files are not written over.
+/// Beginnings of our pages; other files are not overwritten.
 inline constexpr std::array<std::string_view, 2> kReportBeginnings = {
     "<!doctype html><!-- written by mocap -->",
     "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -12,7 +12,7 @@ namespace mocap {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-// Left and right have their colours all through the report.
+// Left and right keep their colours throughout the report.
 constexpr int kLeftColor = 0, kRightColor = 1, kPlainColor = 2, kOtherColor = 3;
 
 std::string Figure(const std::string& content, const std::string& caption) {
@@ -26,7 +26,7 @@ Vector2 FrameRange(const Evaluation& evaluation) {
   return {first, std::max(first + 1, static_cast<double>(poses.back().frame))};
 }
 
-/// Stretches of frames that are not tracked.
+/// Ranges of frames without tracking.
 std::vector<std::pair<double, double>> Untracked(const Evaluation& evaluation) {
   std::vector<std::pair<double, double>> stretches;
   for (const PoseRow& row : evaluation.result.poses) {
@@ -49,7 +49,7 @@ PlotAxes OverFrames(const Evaluation& evaluation, const std::string& y_label, in
   return axes;
 }
 
-/// A value of every tracked frame over the frame number; gaps elsewhere.
+/// A value of every tracked frame over the frame number; NaN elsewhere.
 template <typename Value>
 std::vector<Vector2> Curve(const Evaluation& evaluation, Value value) {
   std::vector<Vector2> points;
@@ -59,7 +59,7 @@ std::vector<Vector2> Curve(const Evaluation& evaluation, Value value) {
   return points;
 }
 
-/// A value of the true frame that belongs to each tracked one; gaps elsewhere.
+/// A value of the truth for every tracked frame; NaN elsewhere.
 template <typename Value>
 std::vector<Vector2> TrueCurve(const Evaluation& evaluation, Value value) {
   std::vector<Vector2> points;
@@ -83,7 +83,7 @@ Vector3 HipsMiddle(const ScoredPoints& p) {
   return (p.col(Index(Point::kHipL)) + p.col(Index(Point::kHipR))) / 2;
 }
 
-/// A true thigh's direction in a torso frame made of hips and neck.
+/// Direction of a true thigh in a torso frame defined by hips and neck.
 Vector3 ThighInTorso(const ScoredPoints& p, int side) {
   const Vector3 up = (p.col(Index(Point::kNeck)) - HipsMiddle(p)).normalized();
   const Vector3 hips = p.col(Index(Point::kHipL)) - p.col(Index(Point::kHipR));

@@ -1,4 +1,4 @@
-// The figures of the report, each an HTML <figure>; the paper's drawn again from our data.
+// The report's figures, each an HTML <figure>. Some redraw the paper's with our data.
 #pragma once
 
 #include <span>
@@ -12,21 +12,21 @@
 
 namespace mocap {
 
-/// Where each frame was searched, acquired, tracked or lost, as a coloured band.
+/// State of each frame (searching, acquiring, tracking, lost), as a coloured band.
 std::string StateTimeline(const Evaluation& evaluation);
 
-/// Fig. 17: sizes of the parts 0–9 and the true ones.
+/// Fig. 17: estimated and true sizes of the parts 0–9.
 std::string PartSizesFigure(const Evaluation& evaluation);
 
-/// Fig. 21: the way of the torso's centroid seen from above.
-/// @param cameras  names and places p_WC.
+/// Fig. 21: the path of the torso's centroid from above.
+/// @param cameras  names and positions p_WC.
 std::string TorsoPathFigure(const Evaluation& evaluation,
                             std::span<const std::pair<std::string, Vector3>> cameras);
 
 /// Fig. 22: hip and knee angles over the frame number.
 std::string HipKneeFigure(const Evaluation& evaluation);
 
-/// The eight angles that follow from points, tracked and true. Empty without truth.
+/// The eight angles that can be computed from points, tracked and true. Empty without truth.
 std::string ScoredAnglesFigure(const Evaluation& evaluation);
 
 /// Distance of the points from the truth, frame by frame. Empty without truth.

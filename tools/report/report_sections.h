@@ -1,4 +1,4 @@
-// What reports of one person and of several are made of, as HTML.
+// HTML sections common to reports of one and of several people.
 #pragma once
 
 #include <span>
@@ -16,17 +16,17 @@ namespace mocap {
 /// A whole page. @param under  HTML below its title. @param body  HTML.
 std::string ReportPage(const std::string& title, const std::string& under, const std::string& body);
 
-/// A figure at a glance.
+/// A tile with one figure.
 std::string Tile(const std::string& what, const std::string& value, const std::string& unit,
                  const std::string& under);
 
-/// Names and places p_WC.
+/// Names and positions p_WC.
 std::vector<std::pair<std::string, Vector3>> CameraPlaces(const TakeSamples& samples);
 
-/// Everything that only a tracked person makes possible.
+/// All sections that need a tracked person.
 std::string TrackingSections(const Evaluation& evaluation, const TakeSamples& samples);
 
-/// How far voxels and silhouettes cover each other. @param frames  numbers of the sampled moments.
+/// Overlap of voxels and silhouettes. @param frames  numbers of the sampled moments.
 std::string OverlapSection(std::span<const double> frames,
                            const std::vector<CameraOverlap>& overlaps);
 

@@ -1,4 +1,4 @@
-// How the report looks.
+// The report's style sheet.
 #pragma once
 
 #include <string_view>

@@ -46,8 +46,8 @@ cv::Mat MaskOf(const Silhouette& silhouette) {
 
 using Contours = std::vector<std::vector<cv::Point>>;
 
-/// What the picture is cut to: the body and what was segmented about it; everything that was
-/// segmented where no body is tracked.
+/// Region of interest: the body and the foreground around it. Without a tracked body, the whole
+/// foreground.
 cv::Rect BoxOf(const std::vector<BodyLine>& body, const Contours& contours, const cv::Size& size) {
   const cv::Rect picture(cv::Point(), size);
   cv::Rect body_box;
@@ -66,7 +66,7 @@ cv::Rect BoxOf(const std::vector<BodyLine>& body, const Contours& contours, cons
   return box.empty() ? picture : box;
 }
 
-/// The box with some of its surroundings, upright 3 : 4 where the picture allows it.
+/// The box with a margin, upright 3 : 4 if the picture allows it.
 cv::Rect CropAround(const cv::Rect& box, const cv::Size& picture) {
   const int height = std::max({160, box.height * 6 / 5, box.width * 8 / 5});
   const cv::Size size(std::min(picture.width, height * 3 / 4), std::min(picture.height, height));
@@ -158,7 +158,7 @@ std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& vi
   cv::findContours(MaskOf(view.silhouette), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   const cv::Size size(view.image.width(), view.image.height());
   const cv::Rect crop = CropAround(BoxOf(outlines, contours, size), size);
-  // SVG counts from a pixel's corner, the camera from its centre.
+  // SVG coordinates start at a pixel's corner, the camera's at its centre.
   return fmt::format(
       "<svg class=\"view\" viewBox=\"{0} {1} {2} {3}\"><image x=\"{0}\" y=\"{1}\" width=\"{2}\" "
       "height=\"{3}\" href=\"data:image/jpeg;base64,{4}\"/><g transform=\"translate(.5 .5)\">"

@@ -1,4 +1,4 @@
-// Camera pictures of the report, with silhouette and body drawn over them.
+// The report's camera pictures, overlaid with silhouette and body.
 #pragma once
 
 #include <span>
@@ -9,17 +9,17 @@
 
 namespace mocap {
 
-/// Somebody at the moment of a picture. Borrowed.
+/// A person at the moment of a picture. Not owned.
 struct ViewedBody {
-  const PoseRow& row;  ///< Drawn when it is tracked.
+  const PoseRow& row;  ///< Drawn if tracked.
   const BodySizes& sizes;
-  int color = kOfSides;  ///< Of the report's; kOfSides: one for each side of the body.
+  int color = kOfSides;  ///< From the report's palette; kOfSides: one per side of the body.
 
   static constexpr int kOfSides = -1;
 };
 
-/// One camera's picture cut to the people, as an inline SVG that holds it as a JPEG.
-/// @param view  with its image.
+/// A camera's picture cropped to the people, as an inline SVG with an embedded JPEG.
+/// @param view  must contain the image.
 std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& view,
                           std::span<const ViewedBody> bodies);
 

@@ -16,7 +16,7 @@ constexpr int kPixelsPerTickX = 70, kPixelsPerTickY = 36;
 
 bool IsDrawable(const Vector2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
 
-/// Low and high of one coordinate over all series, with some air.
+/// Range of one coordinate over all series, with a margin.
 Vector2 RangeOf(std::span<const PlotSeries> series, int axis, double air) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PlotSeries& s : series) {
@@ -31,7 +31,7 @@ Vector2 RangeOf(std::span<const PlotSeries> series, int axis, double air) {
   return {low - air * (high - low), high + air * (high - low)};
 }
 
-/// Maps data to the picture.
+/// Maps data to picture coordinates.
 class Frame {
  public:
   Frame(const PlotAxes& axes, std::span<const PlotSeries> series)
@@ -64,7 +64,7 @@ class Frame {
 };
 
 std::string TickText(double value) {
-  // A tick near zero is zero with the rounding of its steps.
+  // A tick near zero is zero with a rounding error.
   return fmt::format("{:.6g}", std::abs(value) < 1e-9 ? 0.0 : value);
 }
 

@@ -1,5 +1,5 @@
-// Line and point plots as SVG, small and without anything to load: colours come from the page that
-// embeds them, through the CSS classes c0, c1 … (strokes and fills), `axis`, `grid` and `shade`.
+// Line and point plots as small self-contained SVG. Colours come from the embedding page, through
+// the CSS classes c0, c1 … (strokes and fills), `axis`, `grid` and `shade`.
 #pragma once
 
 #include <optional>
@@ -14,31 +14,31 @@ namespace mocap {
 
 enum class PlotMark { kLine, kDashed, kDots, kRings, kCrosses };
 
-/// One curve or cloud. A point with a NaN breaks the line.
+/// A curve or point cloud. A NaN interrupts the line.
 struct PlotSeries {
-  std::string label;  ///< In the legend; empty: not there.
+  std::string label;  ///< In the legend; empty: omitted.
   std::vector<Vector2> points;
   int color = 0;
   PlotMark mark = PlotMark::kLine;
-  std::vector<std::string> names{};  ///< Written beside the points; empty: none.
+  std::vector<std::string> names{};  ///< Labels of the points; empty: none.
 };
 
 struct PlotAxes {
   std::string x_label, y_label;  ///< With units.
   int width = 760, height = 240;
-  bool equal_scales = false;                    ///< For plans: a metre is as long up as across.
+  bool equal_scales = false;                    ///< For plans: same scale on both axes.
   std::optional<Vector2> x_range{}, y_range{};  ///< Otherwise from the data.
   std::vector<std::string> x_names{};           ///< For categories 0, 1, …: instead of numbers.
-  std::vector<std::pair<double, double>> shaded{};  ///< Stretches of x behind the curves.
+  std::vector<std::pair<double, double>> shaded{};  ///< Ranges of x, drawn behind the curves.
 };
 
 /// Draws a plot. The result is an <svg> element.
 std::string PlotSvg(const PlotAxes& axes, std::span<const PlotSeries> series);
 
-/// Puts plots of one size below each other into a file of its own, with colours.
+/// Stacks plots of the same size into a separate file, with colours.
 std::string StackedSvg(std::span<const std::string> plots, int width, int height);
 
-/// Steps of 1, 2 or 5 times a power of ten that fall into a range, about `count` of them.
+/// Ticks in steps of 1, 2 or 5 times a power of ten, about `count` within a range.
 std::vector<double> RoundTicks(double low, double high, int count);
 
 /// Makes text safe inside HTML and SVG.
