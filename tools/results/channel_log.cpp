@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// A frame that comes again so soon is another daemon's, not one of a daemon that was restarted.
+/// If a frame number repeats within this time, several daemons send, as a restart takes longer.
 constexpr std::int64_t kRestart_ns = 1'000'000'000;
 
 std::string Listed(const auto& prefixes) {
@@ -86,7 +86,7 @@ bool FrameOrder::Add(std::int64_t frame, std::int64_t timestamp_ns) {
   ++frames_;
   frame_ = frame;
   timestamp_ns_ = timestamp_ns;
-  // A little earlier is a message that was overtaken on its way.
+  // A slightly earlier frame is a message that was overtaken.
   return is_again && (step_ns > 0 || step_ns <= -kRestart_ns);
 }
 

@@ -1,4 +1,4 @@
-// What logs of LCM messages have in common: channels with prefixes, and what is passed over.
+// Common parts of logs of LCM messages: channels with prefixes, and skipped messages.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +15,34 @@
 
 namespace mocap {
 
-/// Reads the messages of some channels out of what lcm-logger recorded.
+/// Reads the messages of some channels from a log of lcm-logger.
 class ChannelLog {
  public:
-  /// @param names   of the channels, without prefix, the one that matters first; none is the end of
-  ///                another, and they outlive this.
-  /// @param prefix  of the messages that are wanted. Empty: any.
+  /// @param names   of the channels, without prefix, the main one first. None may be the end of
+  /// another.
+  ///                They must outlive this object.
+  /// @param prefix  of the wanted messages. Empty: any.
   /// @throws SetupError  when the file cannot be read.
   ChannelLog(const std::filesystem::path& log, std::vector<std::string_view> names,
              const std::optional<std::string>& prefix);
 
   /// Goes to the next message; false at the end.
-  /// @throws SetupError  at the end of a file that is empty or no log.
+  /// @throws SetupError  at the end of a file that is empty or not a log.
   bool Next();
-  /// Which of the names the message has, what stands before it, and what it says.
+  /// The channel name, the prefix before it, and the content of the message.
   std::string_view name() const { return name_; }
   const std::string& prefix() const { return message_prefix_; }
   std::span<const std::uint8_t> bytes() const { return message_.bytes; }
-  /// Counts the message as not understood.
+  /// Counts the message as invalid.
   void NoteGarbled() { ++garbled_[message_.channel]; }
 
-  /// Tells of damage and of messages that were not understood, a line each.
+  /// Reports damage and invalid messages, one line each.
   std::vector<std::string> Remarks() const;
-  /// Gives the prefix that was asked for, or the only one that was found; empty where none was.
+  /// Returns the requested prefix, or the only one found; empty if none was found.
   /// @throws SetupError  naming them when there are several.
   std::optional<std::string> ChooseAmong(const std::vector<std::string>& found,
                                          const std::string& of_what) const;
-  /// The same among daemons by their prefixes.
+  /// Likewise for daemons by their prefixes.
   template <typename Daemon>
   std::optional<std::string> Choose(const std::map<std::string, Daemon>& found,
                                     const std::string& of_what) const {
@@ -49,7 +50,7 @@ class ChannelLog {
     for (const auto& [prefix, daemon] : found) prefixes.push_back(prefix);
     return ChooseAmong(prefixes, of_what);
   }
-  /// Tells with which prefixes there are channels of the first name; empty where there are none.
+  /// Lists the prefixes of channels with the first name; empty if there are none.
   std::string PrefixesText() const;
 
  private:
@@ -64,16 +65,16 @@ class ChannelLog {
   std::string_view name_;
   std::string message_prefix_;
   bool is_log_ = false;
-  std::set<std::string> prefixes_;  ///< Before the first name.
+  std::set<std::string> prefixes_;  ///< Prefixes of the first name.
   std::map<std::string, std::int64_t> garbled_;
 };
 
-/// Tells a daemon that was started again from several that take turns on one channel.
+/// Distinguishes a restarted daemon from several that send on one channel.
 class FrameOrder {
  public:
-  /// Takes the next frame of a channel. @return  whether a daemon that was started again sent it.
+  /// Adds the next frame of a channel. @return  whether it is from a restarted daemon.
   bool Add(std::int64_t frame, std::int64_t timestamp_ns);
-  /// Makes sure that one daemon sent them: poses of several in turns are nobody's motion.
+  /// Checks that a single daemon sent them: alternating poses of several are no motion.
   /// @throws SetupError  naming the log and the channel.
   void RequireOneDaemon(const std::filesystem::path& log, const std::string& channel) const;
 

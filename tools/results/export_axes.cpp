@@ -20,7 +20,7 @@ EvenClock FitClock(const std::vector<PoseRow>& poses) {
   }
   std::vector<double> sorted = apart_s;
   std::ranges::sort(sorted);
-  // The median is that of neighbours as long as most frames are there.
+  // If most frames are present, the median is the interval between neighbours.
   const double median_s = std::max(sorted[sorted.size() / 2], 1e-6);
   for (std::size_t i = 1; i < poses.size(); ++i) {
     clock.steps[i] = std::max<std::int64_t>(1, std::llround(apart_s[i - 1] / median_s));

@@ -1,4 +1,4 @@
-// Axes and clock that the exported formats share.
+// Axes and clock of the exported formats.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,27 @@
 
 namespace mocap {
 
-/// Turns the world (x forward, y left, z up) into what animation and biomechanics expect: y up, a
-/// person that faced world x faces z, and has its left towards x. A rotation, never a reflection.
+/// Rotates the world frame (x forward, y left, z up) to that of animation and biomechanics: y up, z
+/// along world x, x along world y. A rotation, never a reflection.
 inline Matrix3 YUpFromWorld() {
   Matrix3 R;
   R << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   return R;
 }
 
-/// The rate that formats with one rate only are given.
+/// Constant frame rate, for formats that need it.
 struct EvenClock {
   double period_s = 1.0 / 30;
-  /// Periods from the row before to each row: more than 1 where frames are missing.
+  /// Periods since the previous row; more than 1 if frames are missing.
   std::vector<std::int64_t> steps;
 };
 
-/// Fits a clock to frames that may jitter and of which some may be missing.
+/// Fits a clock to frames with jitter and gaps.
 EvenClock FitClock(const std::vector<PoseRow>& poses);
 
-/// Exports fill in frames that are missing.
-/// @throws SetupError  when so many are missing before a row that these are two recordings, or
-/// times that are wrong: an hour at 30 frames a second.
+/// Checks the number of missing frames, which exports fill in.
+/// @throws SetupError  when so many are missing before a row (an hour at 30 frames a second) that
+/// there are two recordings, or wrong times.
 void RequireShortGap(std::int64_t missing, const PoseRow& row);
 
 inline bool IsTracked(const PoseRow& row) {

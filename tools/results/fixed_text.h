@@ -1,12 +1,12 @@
-// Numbers in tables.
+// Formats numbers for tables.
 #pragma once
 
 #include <string>
 
 namespace mocap {
 
-/// Writes a number with so many decimals; never -0, which would make equal numbers differ. One that
-/// is none is nan.
+/// Formats a number with a fixed number of decimals. Never -0, which would make equal numbers
+/// differ; nan if it is not a number.
 std::string FixedText(double value, int decimals);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// The bodies and poses of messages as the tracker has them.
+// Converts bodies and poses of messages to the tracker's types.
 #pragma once
 
 #include <mocap/pose_t.hpp>
@@ -10,14 +10,13 @@
 
 namespace mocap {
 
-/// Whether sizes are those of a person, whoever sent them.
+/// Whether sizes, from any sender, are plausible for a person.
 bool AreSizes(const BodySizes& sizes);
 
-/// Makes the body that a record is of; empty where its table is not built in or its sizes are
-/// nobody's.
+/// Makes the body of a record; empty if its table is not built in or its sizes are implausible.
 std::optional<BodyModel> ModelOf(const BodyRecord& record);
 
-/// Reads the pose that a message tells of, which may be anything but has `num_joints` angles.
+/// Returns the pose of a message, whose values are not validated. @pre  it has `num_joints` angles.
 PoseState StateOf(const pose_t& pose);
 
 }  // namespace mocap

@@ -20,42 +20,42 @@ namespace {
 
 constexpr std::string_view kPeople = "MOCAP_PEOPLE", kBodies = "MOCAP_BODIES";
 
-/// What a log has of one person.
+/// Data of one person in a log.
 struct Person {
   std::string name;
   std::vector<PoseRow> poses;
   std::optional<BodyRecord> body;
 };
 
-/// By numbers that nobody else has, also where the daemon was started again.
+/// By unique numbers, also across restarts of the daemon.
 using People = std::map<std::int64_t, Person>;
 
 std::string NumberName(std::int64_t number) { return "person-" + std::to_string(number); }
 
-/// Some disks take two names for one that differ in this alone.
+/// Some file systems ignore case in names.
 std::string WithoutCase(std::string name) {
   std::ranges::transform(name, name.begin(),
                          [](unsigned char letter) { return std::tolower(letter); });
   return name;
 }
 
-/// Chooses names that can be files beside each other: each person's own, or his number's.
+/// Chooses names that can be files in one folder: each person's own name, or the number.
 std::map<std::int64_t, std::string> NamesOf(const People& people) {
   std::set<std::string> used;
   for (const auto& [number, person] : people) used.insert(NumberName(number));
   std::map<std::int64_t, std::string> names;
   for (const auto& [number, person] : people) {
-    // Two may have had the same name one after the other.
+    // Two people may have had the same name at different times.
     const bool is_own = IsFileName(person.name) && used.insert(WithoutCase(person.name)).second;
     names[number] = is_own ? person.name : NumberName(number);
   }
   return names;
 }
 
-/// What a log has of one daemon.
+/// Data of one daemon in a log.
 class PeopleOfLog {
  public:
-  /// Takes a message of everybody. @return false for one that is none.
+  /// Adds a MOCAP_PEOPLE message. @return false if it is invalid.
   bool AddSet(std::span<const std::uint8_t> bytes) {
     const auto set = DecodeMessage<people_t>(bytes);
     const std::optional<std::int64_t> capture_ns =
@@ -77,7 +77,7 @@ class PeopleOfLog {
     return std::ranges::any_of(people_, [](const auto& one) { return !one.second.poses.empty(); });
   }
   const FrameOrder& order() const { return order_; }
-  /// @param remarks  of the log so far.
+  /// @param remarks  on the log so far.
   PeopleResults Take(const std::filesystem::path& log, std::vector<std::string> remarks) {
     PeopleResults results;
     for (const auto& [number, name] : NamesOf(people_)) {
@@ -105,7 +105,7 @@ class PeopleOfLog {
   }
 
  private:
-  /// A daemon that was started again counts from 1: these are other people.
+  /// A restarted daemon counts from 1 again: these are other people.
   void BeginAgain() {
     if (!people_.empty()) before_ = people_.rbegin()->first;
   }
@@ -124,7 +124,7 @@ class PeopleOfLog {
 
   People people_;
   FrameOrder order_;
-  std::int64_t before_ = 0;  ///< The largest number of those before the last start.
+  std::int64_t before_ = 0;  ///< Largest number before the last restart.
   std::int64_t wrong_ = 0, repeated_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// A log of LCM messages as results of several people.
+// Reads a log of LCM messages as results of several people.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace mocap {
 
-/// Reads MOCAP_PEOPLE and MOCAP_BODIES out of what lcm-logger recorded; of each person the last
-/// body and name count. Whom a daemon follows after it was started again is somebody else, with a
-/// number above all before. Who has no body, and what is damaged or not understood, is passed over,
-/// and remarks of the first person's result tell.
-/// @param prefix  before the channels' names. Empty: whatever it is, if it is one.
+/// Reads MOCAP_PEOPLE and MOCAP_BODIES from a log of lcm-logger. The last body and name of each
+/// person count. After a restart of the daemon, people count as new and get higher numbers. People
+/// without a body, and damaged or invalid messages, are skipped; the first result's remarks report
+/// this.
+/// @param prefix  of the channels' names. Empty: any, if there is only one.
 /// @throws SetupError  when the file is no log, or holds nobody, or people of several daemons.
 PeopleResults ReadPeopleLog(const std::filesystem::path& log,
                             const std::optional<std::string>& prefix);

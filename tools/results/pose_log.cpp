@@ -16,14 +16,14 @@ namespace mocap {
 namespace {
 
 constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY", kPeople = "MOCAP_PEOPLE";
-/// Microseconds that are no time of day any more, long before nanoseconds overflow.
+/// Larger values are no valid time of day; nanoseconds do not overflow below.
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
-/// What a log has of one daemon: of all channels with the same beginning.
+/// Data of one daemon in a log: of all channels with the same prefix.
 struct Daemon {
   std::vector<PoseRow> poses;
   FrameOrder order;
   std::optional<BodyRecord> body;
-  std::int64_t repeated = 0;  ///< Messages that came twice.
+  std::int64_t repeated = 0;  ///< Duplicate messages.
   bool has_several_people = false;
 };
 

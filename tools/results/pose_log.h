@@ -1,4 +1,4 @@
-// A log of LCM messages as a result.
+// Reads a log of LCM messages as a result.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace mocap {
 
-/// What pose_t would say of one of several people.
+/// Converts one of several people to a pose_t.
 pose_t PoseOf(const people_t& set, const person_t& person);
-/// Nanoseconds of a message's microseconds; empty where they are no time of day.
+/// Converts a message's microseconds to nanoseconds; empty if they are no valid time of day.
 std::optional<std::int64_t> CaptureNsOf(std::int64_t utime);
-/// What a message says of a pose; empty where a number is none.
+/// Converts a message to a row; empty if a number is invalid.
 std::optional<PoseRow> PoseRowOf(const pose_t& message);
-/// What it says of a body, likewise.
+/// Converts a message to a body; empty if a number is invalid.
 std::optional<BodyRecord> BodyRecordOf(const body_t& message);
 
-/// Reads MOCAP_POSE and MOCAP_BODY out of what lcm-logger recorded; the last body counts. What is
-/// damaged or of somebody else is passed over, and the result's remarks tell.
-/// @param prefix  before the channels' names. Empty: whatever it is, if it is one.
-/// @throws SetupError  when the log holds none of either, or those of several daemons.
+/// Reads MOCAP_POSE and MOCAP_BODY from a log of lcm-logger; the last body counts. Messages that
+/// are damaged or from other senders are skipped; the result's remarks report this.
+/// @param prefix  of the channels' names. Empty: any, if there is only one.
+/// @throws SetupError  when the log has none of either, or those of several daemons.
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix);
 
 }  // namespace mocap

@@ -18,10 +18,10 @@ namespace mocap {
 namespace {
 
 constexpr const char* kWanted = "what mocap track writes";
-/// Frames so near to each other have times in another unit: nobody tracks 5000 a second.
+/// A smaller interval means another unit of time: nobody tracks 5000 frames a second.
 constexpr std::int64_t kNearest_ns = 200'000;
 
-/// Reads the cells of a row one after the other.
+/// Reads the cells of a row in order.
 class RowReader {
  public:
   RowReader(std::string_view line, std::span<const std::string> columns, const TextLines& lines)
@@ -77,7 +77,7 @@ void CheckOrder(const PoseRow& before, const PoseRow& row, const TextLines& line
                            std::to_string(before.frame) + "; frame numbers must increase");
 }
 
-/// Holds times against what tracking can be.
+/// Checks that times are plausible for tracking.
 void CheckTimes(const std::vector<PoseRow>& rows, const std::filesystem::path& file) {
   if (rows.size() < 3) return;
   std::vector<std::int64_t> apart_ns;

@@ -1,4 +1,4 @@
-// The end of a pipeline whose poses are to be kept.
+// Pipeline sink that keeps poses.
 #pragma once
 
 #include <cstddef>
@@ -9,27 +9,27 @@
 
 namespace mocap {
 
-/// Whose poses are kept.
+/// People whose poses are kept.
 enum class KeptPeople {
-  kFirst,     ///< Every set is a row: of whoever has been followed the longest, or of nobody.
-  kEverybody  ///< A result a person, with rows of the sets in which the person is known.
+  kFirst,     ///< One row per frame set, of the person tracked longest, or of nobody.
+  kEverybody  ///< One result per person, with a row for each set in which the person is known.
 };
 
-/// Keeps sets as rows of results.
+/// Keeps frame sets as rows of results.
 class ResultSink : public PoseSink {
  public:
-  /// @param shows_progress  on a terminal: how far it is, on stderr.
+  /// @param shows_progress  print the progress on stderr, a terminal.
   ResultSink(KeptPeople kept, bool shows_progress) : kept_(kept), shows_progress_(shows_progress) {}
 
   void OnSet(const TrackedSet& set) override;
-  /// Clears the line that showed the progress.
+  /// Clears the progress line.
   void EndProgress() const;
 
   const Result& result() const { return result_; }
-  /// By the people's ids; empty unless everybody's are kept.
+  /// By people's ids; empty unless everybody is kept.
   const std::map<int, Result>& people() const { return people_; }
   std::size_t frames() const { return frames_; }
-  /// In which somebody was tracked.
+  /// Frames in which somebody was tracked.
   std::size_t tracked_frames() const { return tracked_frames_; }
   int acquisition_frames() const { return acquisition_frames_; }
 

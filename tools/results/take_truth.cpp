@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-/// truth.csv, one row at a time, columns by name.
+/// Reads truth.csv row by row; finds columns by name.
 class TruthTable {
  public:
   explicit TruthTable(const std::filesystem::path& file) : lines_(file, "a table of joints") {
@@ -37,7 +37,7 @@ class TruthTable {
     if (column == columns_.end()) return std::nullopt;
     return static_cast<std::size_t>(column - columns_.begin());
   }
-  /// @pre  no row was read yet.
+  /// @pre  no row has been read.
   std::size_t Column(const std::string& name) const {
     const std::optional<std::size_t> column = Find(name);
     if (!column) lines_.Fail("has no column " + name + ", separated by commas");

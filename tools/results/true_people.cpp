@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-/// First and last frames of stretches, one after the other.
+/// First and last frames of ranges, alternating.
 using Stretches = std::vector<double>;
 
 /// By the people's folders.

@@ -1,4 +1,4 @@
-// The truth of a take of several people.
+// Truth of a take of several people.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 namespace mocap {
 
 struct TruePerson {
-  std::string name;  ///< Of the folder, as person-1; "truth" where the take has one person's.
+  std::string name;  ///< Folder name, such as person-1; "truth" if the take has one person's.
   TakeTruth truth;
-  /// Whether enough pictures show him as a whole, in each frame of the truth. Where take.toml does
-  /// not tell, in all.
+  /// Whether enough pictures show the whole person, in each frame of the truth. True for all frames
+  /// if take.toml does not say.
   std::vector<bool> covered;
 };
 
-/// Reads TAKE/person-K, or the truth of the take itself; `covered` of [[person]] in take.toml. Who
-/// never came into the room is left out.
-/// @return  none for a take without truth.
-/// @throws SetupError  as ReadTakeTruth, and for stretches of frames that are none.
+/// Reads TAKE/person-K, or the take's own truth, and `covered` of [[person]] in take.toml. Skips
+/// people who never entered the room.
+/// @return  empty for a take without truth.
+/// @throws SetupError  as ReadTakeTruth, and for invalid ranges of frames.
 std::vector<TruePerson> ReadTruePeople(const std::filesystem::path& take);
 
 }  // namespace mocap

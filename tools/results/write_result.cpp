@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-/// Lengths of body.toml's table [lengths].
+/// Table [lengths] of body.toml.
 constexpr std::array<BodySizeField, 6> kLengths = {{{"torso", &BodySizes::torso},
                                                     {"head", &BodySizes::head},
                                                     {"thigh", &BodySizes::thigh},
@@ -122,7 +122,7 @@ std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& fo
         !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
     if (is_number && entry.is_directory()) people.push_back(entry.path());
   }
-  // person-2 comes before person-10.
+  // Numeric order: person-2 comes before person-10.
   std::ranges::sort(people, {}, [](const std::filesystem::path& person) {
     const std::string name = person.filename().string();
     return std::pair(name.size(), name);
