@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-/// The places whose middle is the bone's joint.
+/// Point pairs whose middle is the bone's joint.
 constexpr std::array<std::pair<Point, Point>, kHumanoid.size()> kJoints = {{
     {Point::kHipL, Point::kHipR},           {Point::kTorso, Point::kTorso},
     {Point::kTorso, Point::kNeck},          {Point::kNeck, Point::kNeck},
@@ -35,7 +35,7 @@ HumanoidPose HumanoidPoseOf(const BodyModel& body, const PoseState& pose) {
     const auto& [name, parent, segment] = kHumanoid[i];
     const auto& [one, other] = kJoints[i];
     const RigidTransform X_WS = X_W(segment);
-    // Carried by the bone before it, so that bones hang together whatever the table says.
+    // Each bone moves with its parent, so bones stay connected for any table.
     const RigidTransform X_WC =
         parent < 0 ? X_WS : X_W(kHumanoid[static_cast<std::size_t>(parent)].segment);
     X_WB[i] = {X_WS.R, X_WC * ((at(one) + at(other)) / 2)};

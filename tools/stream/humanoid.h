@@ -1,4 +1,4 @@
-// The body as the bones of avatars: those that Unity and VRM want of a humanoid.
+// The body as bones of an avatar: the humanoid bones of Unity and VRM.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 namespace mocap {
 
 struct HumanoidBone {
-  std::string_view name;  ///< Of Unity's HumanBodyBones.
-  int parent;             ///< -1: the root of the studio. A parent stands before its children.
-  Segment segment;        ///< Turns with the bone.
+  std::string_view name;  ///< Name in Unity's HumanBodyBones.
+  int parent;             ///< -1: the root of the studio. Parents come before children.
+  Segment segment;        ///< Rotates with the bone.
 };
 
-/// What a measured body has of them: all that VRM requires, and the collar bones.
+/// The humanoid bones of a measured body: all that VRM requires, and the clavicles.
 inline constexpr std::array<HumanoidBone, 19> kHumanoid = {{
     {"Hips", -1, Segment::kPelvis},
     {"Spine", 0, Segment::kTorso},
@@ -37,13 +37,13 @@ inline constexpr std::array<HumanoidBone, 19> kHumanoid = {{
     {"RightFoot", 17, Segment::kFootR},
 }};
 
-/// From each bone to its parent, in the axes of the studio: x forward, y left, z up [mm]. At the
-/// reference configuration, a T-pose, no bone is turned.
+/// Transforms from each bone to its parent, in the studio's axes: x forward, y left, z up [mm]. In
+/// the reference configuration, a T-pose, no bone is rotated.
 using HumanoidPose = std::array<RigidTransform, kHumanoid.size()>;
 
-/// Reads the bones off a pose. Hips is the middle of the hip joints, Spine the torso's centroid,
-/// about which a waist turns; Chest and Head lie halfway from there, and from the neck, to what
-/// follows; all others lie in their joints.
+/// Computes the bones of a pose. Hips is the middle of the hip joints. Spine is the torso's
+/// centroid, about which a waist turns. Chest is halfway from there to the next joint, Head halfway
+/// from the neck to its end. All other bones are at their joints.
 HumanoidPose HumanoidPoseOf(const BodyModel& body, const PoseState& pose);
 
 }  // namespace mocap

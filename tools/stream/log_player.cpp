@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// A longer pause is a clock that was set, or nothing to wait for.
+/// A longer pause means that a clock was set, or nothing was logged.
 constexpr std::uint64_t kLongestPause_us = 10'000'000;
 
 }  // namespace

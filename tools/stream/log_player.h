@@ -1,4 +1,4 @@
-// A log as if it were live.
+// Playback of a log as if it were live.
 #pragma once
 
 #include <chrono>
@@ -10,18 +10,18 @@
 
 namespace mocap {
 
-/// Publishes a log's messages to this process, at the pace at which they were logged. Damage is
-/// passed over, as LogReader has it, where LCM's own player would end or run out of memory.
+/// Publishes a log's messages to this process at their original pace. Skips damage, as LogReader
+/// does; LCM's own player would end or run out of memory.
 class LogPlayer {
  public:
-  /// @param speed  of the playing; 0: as fast as can be.
+  /// @param speed  of the playback; 0: as fast as possible.
   /// @throws SetupError  when the file cannot be read.
   LogPlayer(const std::filesystem::path& log, double speed);
 
-  /// Where to subscribe.
+  /// Subscribe here.
   lcm::LCM& lcm() { return lcm_; }
-  /// Waits for the next message, for some time at most, and hands it to the subscribers.
-  /// @return  false at the end of the log. @throws SetupError  there, when it is no log.
+  /// Waits for the next message up to a limit, and passes it to the subscribers.
+  /// @return  false at the end of the log. @throws SetupError  there, when it is not a log.
   bool Play(std::chrono::nanoseconds longest_wait);
 
  private:
@@ -33,7 +33,7 @@ class LogPlayer {
   LogReader reader_;
   LoggedMessage message_;  ///< The next one,
   bool has_message_ = false;
-  std::int64_t due_ns_ = 0;  ///< and when its turn comes, by the steady clock; 0: none came yet.
+  std::int64_t due_ns_ = 0;  ///< and when it is due, by the steady clock; 0: none was read yet.
 };
 
 }  // namespace mocap

@@ -32,7 +32,7 @@ MessageSource::MessageSource(const std::string& url) : url_(url) {
 
 bool MessageSource::Handle(std::chrono::milliseconds longest_wait) {
   if (player_) return player_->Play(longest_wait);
-  // A signal ends the wait as well.
+  // A signal ends the wait, too.
   if (live_->handleTimeout(static_cast<int>(longest_wait.count())) < 0 && !StopAsked())
     throw std::runtime_error(url_ + ": LCM cannot go on");
   return true;

@@ -27,7 +27,7 @@ bool IsIn(const people_t& set, int id) {
   return std::ranges::find(set.people, id, &person_t::id) != set.people.end();
 }
 
-/// What is told of somebody who is not there.
+/// Message for a person who is absent.
 pose_t NoPoseIn(const people_t& set) {
   pose_t pose{};
   pose.utime = set.utime;

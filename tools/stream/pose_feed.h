@@ -1,4 +1,4 @@
-// From the daemon's messages to poses, one at a time, for whoever streams them on.
+// Converts the daemon's messages to single poses, for streaming.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,33 @@
 
 namespace mocap {
 
-/// Whose poses are wanted, and how often.
+/// Selection and rate of poses.
 struct PoseFeedOptions {
-  std::string prefix = {};         ///< Before the channels' names.
-  bool everybody = false;          ///< Of several people, each.
-  std::optional<int> person = {};  ///< This one; otherwise whoever has been followed the longest.
-  double most_hz = std::numeric_limits<double>::infinity();  ///< Sets a second.
+  std::string prefix = {};         ///< Of the channels' names.
+  bool everybody = false;          ///< Of several people, all.
+  std::optional<int> person = {};  ///< This one; otherwise the person tracked longest.
+  double most_hz = std::numeric_limits<double>::infinity();  ///< Maximum number of sets per second.
 };
 
-/// A pose on its way out. Borrowed for the call.
+/// A pose to stream. Valid during the call only.
 struct StreamedPose {
   const pose_t& message;
-  bool is_tracked = false;       ///< Otherwise only time, frame and state of the message count.
-  const body_t* body = nullptr;  ///< Its joints are the message's; null: not tracked.
-  int person = 0;                ///< 0: of MOCAP_POSE, which has no number.
+  bool is_tracked = false;       ///< If false, only time, frame and state of the message are valid.
+  const body_t* body = nullptr;  ///< Names the message's joints; null: not tracked.
+  int person = 0;                ///< 0: from MOCAP_POSE, which has no number.
   std::string name = {};
 };
 
-/// Hears LCM and hands on what is sound. A tracked pose waits for no body: before the first one is
-/// heard, within a second, tracked poses are passed over. One thread.
+/// Receives LCM messages and passes on valid ones. Tracked poses do not wait for a body: those
+/// before the first one (within a second) are skipped. Single-threaded.
 class PoseFeed {
  public:
   using Take = std::function<void(const StreamedPose& pose)>;
 
-  /// @param lcm  borrowed for the feed's life.
+  /// @param lcm  must outlive the feed.
   PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take);
 
-  /// When a set was heard last, or the feed was made, by the steady clock.
+  /// When the last set came, or the feed was made, by the steady clock.
   std::int64_t heard_ns() const { return heard_ns_; }
 
  private:
@@ -57,7 +57,7 @@ class PoseFeed {
   const Take take_;
   RateLimit rate_;
   std::int64_t heard_ns_;
-  std::map<int, body_t> bodies_;  ///< By person; 0: MOCAP_BODY's.
+  std::map<int, body_t> bodies_;  ///< By person; 0: from MOCAP_BODY.
 };
 
 }  // namespace mocap

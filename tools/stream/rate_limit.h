@@ -1,25 +1,25 @@
-// How often a client wants to be told.
+// Limits the rate of messages to a client.
 #pragma once
 
 #include <cstdint>
 
 namespace mocap {
 
-/// Lets no more than so many a second pass, on the average. What comes at that rate passes as a
-/// whole, though some of it comes a little early.
+/// Limits the average rate. A stream at exactly this rate passes completely, even if some items
+/// come a little early.
 class RateLimit {
  public:
-  /// @param hz  infinity: all passes.
+  /// @param hz  infinity: no limit.
   explicit RateLimit(double hz) : hz_(hz) {}
 
-  /// Whether what has come now passes. @param now_ns  by the steady clock.
+  /// Whether the current item passes. @param now_ns  by the steady clock.
   bool Passes(std::int64_t now_ns);
 
  private:
   static constexpr double kMostSaved = 2;
 
   const double hz_;
-  double saved_ = kMostSaved;  ///< Turns that were not taken.
+  double saved_ = kMostSaved;  ///< Unused turns.
   std::int64_t before_ns_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// From poses as they are told to an avatar's bones.
+// Converts streamed poses to an avatar's bones.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace mocap {
 
-/// Keeps the body from one pose to the next, whose sizes may be others.
+/// Keeps the body between poses, as its sizes may change.
 class StreamedBones {
  public:
-  /// Reads the bones off a pose that is tracked.
-  /// @return  empty where the body's table is not built in, or its sizes are nobody's.
+  /// Computes the bones of a tracked pose.
+  /// @return  empty if the body's table is not built in, or its sizes are implausible.
   std::optional<HumanoidPose> Of(const StreamedPose& pose);
 
  private:

@@ -11,16 +11,16 @@ namespace mocap {
 namespace {
 
 constexpr double kMPerMm = 0.001;
-/// An Ethernet's 1500 without the headers of IPv6 and UDP.
+/// 1500 bytes of Ethernet without the headers of IPv6 and UDP.
 constexpr std::size_t kMostBytes = 1500 - 40 - 8;
-/// Before each message of a bundle.
+/// Length before each message of a bundle.
 constexpr std::size_t kLengthBytes = 4;
 
 struct Place {
   std::string host, port;
 };
 
-/// "HOST:PORT" or "[IPV6]:PORT".
+/// Parses "HOST:PORT" or "[IPV6]:PORT".
 Place ParsePlace(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const std::string_view port = std::string_view(text).substr(std::min(colon, text.size() - 1) + 1);
@@ -41,7 +41,7 @@ struct Status {
   int loaded, calibration, tracking;
 };
 
-/// The protocol knows a model that is loaded or not; calibration is 0 not begun, 2 going on, 3
+/// The protocol has a model that is loaded or not, and calibration: 0 not begun, 2 in progress, 3
 /// done.
 Status StatusOf(CaptureState state) {
   switch (state) {

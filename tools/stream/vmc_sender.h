@@ -9,32 +9,32 @@
 
 namespace mocap {
 
-/// Takes the studio's axes (x forward, y left, z up) to Unity's (x right, y up, z forward). Those
-/// are left-handed: the matrix is a reflection, and who raises the left arm there does so here.
+/// Converts the studio's axes (x forward, y left, z up) to Unity's (x right, y up, z forward),
+/// which are left-handed. The matrix is a reflection; a raised left arm stays a left arm.
 Matrix3 UnityFromStudio();
 
-/// Sends to one receiver, in bundles that fit into a packet of an Ethernet: metres, quaternions x y
-/// z w, each bone from its parent.
+/// Sends to one receiver, in bundles that fit into an Ethernet packet: metres, quaternions x y z w,
+/// each bone relative to its parent.
 class VmcSender {
  public:
-  /// Says hello, of nobody yet.
+  /// Sends the first state, without a person.
   /// @param place  "HOST:PORT"; an IPv6 address in brackets.
-  /// @throws SetupError  when it is none, or nothing can be sent there.
+  /// @throws SetupError  for an invalid place, or when nothing can be sent there.
   explicit VmcSender(const std::string& place);
 
-  /// Says why there are no bones now.
+  /// Reports why there are no bones now.
   /// @param time_s  since the stream began.
   void SendState(CaptureState state, double time_s);
-  /// Sends the bones of somebody who is tracked.
+  /// Sends the bones of a tracked person.
   void SendPose(const HumanoidPose& pose, double time_s);
-  /// Why something could not be sent since the last state or pose; empty: all was.
+  /// Why sending failed since the last state or pose; empty: it did not.
   const std::string& trouble() const { return trouble_; }
 
  private:
   using Handle = std::unique_ptr<void, void (*)(void*)>;
 
   void Begin(CaptureState state, double time_s);
-  /// Takes the message. Where it does not fit any more, the bundle goes out first.
+  /// Adds a message. If it does not fit any more, sends the bundle first.
   void Add(const char* path, void* message);
   void Flush();
 
