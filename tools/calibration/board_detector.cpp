@@ -60,7 +60,7 @@ cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board) {
       static_cast<float>(board.square_mm * board.marker_share), dictionary);
 }
 
-// Width of the edge between two squares' middles over the widest that is sharp.
+// Width of an edge between two squares, relative to the widest edge that counts as sharp.
 double EdgeExcess(const cv::Mat& gray, const cv::Point2f& from, const cv::Point2f& to) {
   const double length_px = cv::norm(to - from);
   constexpr int kSteps = 24;
@@ -132,7 +132,7 @@ class BoardDetector::Impl {
     std::vector<cv::Point2f> corners;
     if (cv::findChessboardCornersSB(gray, size, corners, flags))
       return "shows the board blurred; hold it still, focus, or shorten the exposure";
-    // Who counts squares instead of the corners between them, or the other way round.
+    // Users may count squares in place of inner corners, or vice versa.
     for (const int more : {-1, 1}) {
       const cv::Size other(size.width + more, size.height + more);
       if (other.width >= 3 && other.height >= 3 &&
@@ -144,7 +144,7 @@ class BoardDetector::Impl {
     return "";
   }
 
-  // All lights: which two are the wand's shows only over time.
+  // All lights: only motion shows which two are the wand's.
   static std::optional<BoardCorners> DetectLights(ImageView<const Bgr> image) {
     BoardCorners lights;
     lights.pixels = FindSpots(image);
@@ -188,7 +188,7 @@ class BoardDetector::Impl {
       corners = FindRectifiedChessboard(gray, size);
       if (corners.empty()) return std::nullopt;
     }
-    // Corners of blurred squares are still found, but not where they were.
+    // In blurred pictures corners are found, but at wrong places.
     if (IsBlurred(gray, corners)) return std::nullopt;
     RefineCorners(gray, corners);
     BoardCorners found;
@@ -201,15 +201,15 @@ class BoardDetector::Impl {
     return found;
   }
 
-  // The detector is some hundredths of a pixel off to one side, which a board on the floor turns
-  // into millimetres; where the edges beside a corner meet, it is not.
+  // The detector is biased by some hundredths of a pixel, which means millimetres for a board on
+  // the floor. The intersection of the edges at a corner is unbiased.
   static void RefineCorners(const cv::Mat& gray, std::vector<cv::Point2f>& corners) {
     const std::vector<cv::Point2f> found = corners;
     for (std::size_t i = 0; i < found.size(); ++i) {
       double nearest_px = std::numeric_limits<double>::infinity();
       for (std::size_t j = 0; j < found.size(); ++j)
         if (j != i) nearest_px = std::min(nearest_px, cv::norm(found[j] - found[i]));
-      // Other corners stay out of the window.
+      // Keep other corners out of the window.
       const int half_px = std::clamp(static_cast<int>(nearest_px / 2), 2, kWidestCorner_px);
       std::vector<cv::Point2f> refined{found[i]};
       cv::cornerSubPix(gray, refined, {half_px, half_px}, {-1, -1}, kCornerPrecision);
@@ -217,8 +217,8 @@ class BoardDetector::Impl {
     }
   }
 
-  // With an odd and an even side, one end has dark squares in its corners, the other light ones; as
-  // many count up as down.
+  // With an odd and an even side, the corners are dark at one end and light at the other; both
+  // orders are possible.
   void BeginAtDarkSquare(const cv::Mat& gray, BoardCorners& found) const {
     const auto brightness = [&](int row, int column) {
       const int id = row * board_.columns + column;
@@ -238,7 +238,7 @@ class BoardDetector::Impl {
     if (contrast > 0) std::reverse(found.pixels.begin(), found.pixels.end());
   }
 
-  // Whether edges between squares are wide for the squares, along rows or down columns.
+  // Whether edges are wide relative to the squares, along rows or columns.
   bool IsBlurred(const cv::Mat& gray, const std::vector<cv::Point2f>& corners) const {
     const auto middle = [&](int row, int column) {
       const int id = row * board_.columns + column;
@@ -260,7 +260,7 @@ class BoardDetector::Impl {
     return false;
   }
 
-  // A board seen from its printed side has x to the right of y's way down.
+  // On the printed side, x is to the right when y is down.
   void MakeUnmirrored(BoardCorners& found) const {
     const Vector2 across = found.pixels[board_.columns - 1] - found.pixels[0];
     const Vector2 down = found.pixels[(board_.rows - 1) * board_.columns] - found.pixels[0];

@@ -1,4 +1,4 @@
-// Finds a board's corners in a picture.
+// Detection of a board's corners in a picture.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace mocap {
 
-/// How much time a picture is worth.
+/// Effort spent on a picture.
 enum class Effort {
   kQuick,    ///< One of many frames.
-  kThorough  ///< The only one: a board seen from low down or far away is looked for, too.
+  kThorough  ///< The only one: also search for a board that is far away or seen at a low angle.
 };
 
 /// Detects one kind of board. Thread-bound.
@@ -24,13 +24,13 @@ class BoardDetector {
   ~BoardDetector();
   BoardDetector(BoardDetector&&) noexcept;
 
-  /// Finds corners to a fraction of a pixel; empty when the board is not seen, or is blurred so
-  /// much that its corners have no place. A chessboard is found whole or not at all; of a ChArUco
-  /// board at least six corners are wanted. Of a wand all lights are given: see KeepWands.
+  /// Finds corners with subpixel accuracy. Empty if the board is not visible, or too blurred for
+  /// its corners to be located. A chessboard must be complete; a ChArUco board needs at least six
+  /// corners. For a wand, returns all lights: see KeepWands.
   std::optional<BoardCorners> Detect(ImageView<const Bgr> image, Effort effort) const;
 
-  /// Tells what is wrong with a picture in which no board is found, and what to do: it is blurred,
-  /// mirrored, printed the other way round, or of another size. Empty when nothing like it is seen.
+  /// Explains why a picture shows no valid board, and the remedy: it is blurred, mirrored, inverted
+  /// or of another size. Empty if nothing similar is visible.
   std::string WhyNot(ImageView<const Bgr> image) const;
 
  private:

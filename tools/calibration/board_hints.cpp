@@ -26,7 +26,7 @@ SharedViews CountShared(const BoardDetections& detections) {
   return shared;
 }
 
-// Cameras that hang together with the first.
+// Cameras connected to the first by shared views.
 std::vector<bool> LinkedToFirst(const SharedViews& shared) {
   std::vector<bool> linked(shared.size(), false);
   std::vector<std::size_t> next = {0};
@@ -43,7 +43,7 @@ std::vector<bool> LinkedToFirst(const SharedViews& shared) {
   return linked;
 }
 
-// Where to show the board so that a camera hangs together with the others.
+// Where to show the board to connect a camera to the others.
 std::string LinkHint(const BoardDetections& detections, const SharedViews& shared,
                      const std::vector<bool>& linked, std::size_t camera) {
   std::size_t nearest = 0;

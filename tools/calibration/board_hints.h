@@ -1,4 +1,4 @@
-// Tells what is still missing while a board is shown to live cameras.
+// Hints on what is still missing while a board is shown to live cameras.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace mocap {
 
-/// How far one camera is.
+/// Progress of one camera.
 struct CameraHint {
   std::string camera;
   int views = 0;
-  double covered = 0;   ///< Share of the picture's parts that showed the board.
+  double covered = 0;   ///< Share of the picture's cells that showed the board.
   std::string missing;  ///< What to do next, for people; empty: it has seen enough.
 };
 
-/// Tells for each camera what it has not seen yet: views, parts of the picture, and views that it
-/// shares with the other cameras.
+/// Returns what each camera still lacks: views, parts of the picture, or views shared with other
+/// cameras.
 std::vector<CameraHint> HintsFor(const BoardDetections& detections);
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// Where a board lies as one camera sees it.
+// Pose of a board seen by one camera.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace mocap {
 
-/// A pose that explains what was seen.
+/// A pose consistent with the observation.
 struct BoardPose {
   RigidTransform X_CB;
   double rms_px = 0;
 };
 
-/// Finds the board's pose; a plane seen from far away has two that are nearly as good: best first.
-/// Empty when the lens does not show the corners or no pose puts the board before the camera.
+/// Finds the board's pose. A distant plane has two that fit nearly equally: best first. Empty if a
+/// corner is outside the lens's field or no pose puts the board in front of the camera.
 std::vector<BoardPose> FindBoardPoses(const Lens& lens, const Board& board,
                                       const BoardCorners& corners);
 
-/// Root mean square distance of corners from where a pose puts them; infinite when one is not seen.
+/// Root mean square reprojection error of a pose; infinite if a corner is not visible.
 double PoseRmsPx(const Lens& lens, const Board& board, const BoardCorners& corners,
                  const RigidTransform& X_CB);
 

@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 constexpr double kSmallestShare = 0.002, kLargestShare = 0.7;
-constexpr double kRegularEnough_px = 0.25;  // Lenses bend a straight grid by as much.
+constexpr double kRegularEnough_px = 0.25;  // Lens distortion bends a straight grid by this much.
 constexpr float kSameQuad_px = 1.5f;
 constexpr double kLeastContrast = 40;
 constexpr int kSquare_px = 40, kMargin_px = 60;
@@ -31,7 +31,7 @@ std::optional<Quad> FourCorners(const std::vector<cv::Point>& contour, double pi
   return std::nullopt;
 }
 
-// Neighbouring levels show the same sheet again and again.
+// Neighbouring threshold levels find the same sheet repeatedly.
 bool SameQuad(const Quad& a, const Quad& b) { return cv::norm(a, b, cv::NORM_INF) < kSameQuad_px; }
 
 std::vector<Quad> FindQuads(const cv::Mat& gray) {
@@ -51,7 +51,7 @@ std::vector<Quad> FindQuads(const cv::Mat& gray) {
   return quads;
 }
 
-// How far corners lie from a regular grid seen in perspective.
+// Deviation of corners from a regular grid in perspective.
 double Irregularity(const std::vector<cv::Point2f>& corners, const cv::Size& size) {
   std::vector<cv::Point2f> grid;
   for (int j = 0; j < size.height; ++j)
@@ -64,7 +64,7 @@ double Irregularity(const std::vector<cv::Point2f>& corners, const cv::Size& siz
   return cv::norm(fitted, corners, cv::NORM_L2) / std::sqrt(static_cast<double>(corners.size()));
 }
 
-// Half of a board is dark; lamps, walls and floors are not, and cost as much to search.
+// Half of a board is dark. Lamps, walls and floors are not; searching them is as costly.
 bool HalfDark(const cv::Mat& above) {
   const cv::Rect inside(kMargin_px, kMargin_px, above.cols - 2 * kMargin_px,
                         above.rows - 2 * kMargin_px);
@@ -81,7 +81,7 @@ std::vector<cv::Point2f> FindIn(const cv::Mat& gray, const Quad& quad, const cv:
   const float height = static_cast<float>((size.height + 1) * kSquare_px);
   const float m = kMargin_px;
   Quad sheet = {{m, m}, {m + width, m}, {m + width, m + height}, {m, m + height}};
-  // Contours may run either way round; the picture must not be mirrored.
+  // Contours have either orientation; the picture must not be mirrored.
   if (cv::contourArea(quad, true) < 0) std::reverse(sheet.begin(), sheet.end());
   const cv::Mat H = cv::getPerspectiveTransform(quad, sheet);
   cv::Mat above;

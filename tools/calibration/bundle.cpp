@@ -26,7 +26,7 @@ RigidTransform TransformFrom(const double* pose) {
   return {ExpRotation({pose[0], pose[1], pose[2]}), {pose[3], pose[4], pose[5]}};
 }
 
-// One view of the board: blocks are lens, camera, board, lateness.
+// One view of the board; parameter blocks: lens, camera, board, lateness.
 class ViewCost : public ceres::CostFunction {
  public:
   ViewCost(const Lens& lens, const Board& board, const BoardDetection& detection)
@@ -72,7 +72,7 @@ class ViewCost : public ceres::CostFunction {
   }
 
  private:
-  /// Change of X_CB with each parameter of a pose.
+  /// Derivatives of X_CB by each parameter of a pose.
   struct Moves {
     Matrix3 dR[6];
     Vector3 dp[6];
@@ -140,8 +140,8 @@ class ViewCost : public ceres::CostFunction {
   std::vector<Vector2> pixels_;
 };
 
-// What views leave open stays at what lenses are like: axes near the picture's middle, square
-// pixels, little decentring. A few hundred corners outweigh it.
+// Keeps parameters that views do not constrain at typical values: axes near the picture's middle,
+// square pixels, little decentring. A few hundred corners outweigh it.
 class LensPrior : public ceres::CostFunction {
  public:
   LensPrior(const CameraCalibration& camera) : lens_(camera.lens) {
@@ -203,7 +203,7 @@ void AddViews(const BoardDetections& detections, const BundleOptions& options, c
   for (const BoardDetection& detection : detections.detections) {
     if (!bundle.X_WB[detection.moment]) continue;
     const auto corners = static_cast<double>(detection.corners.ids.size());
-    // A loss owned by the problem; the whole view is in or out.
+    // The problem owns the loss; a whole view is in or out.
     ceres::LossFunction* loss = options.robust_px > 0
                                     ? new ceres::CauchyLoss(options.robust_px * std::sqrt(corners))
                                     : nullptr;
@@ -214,7 +214,7 @@ void AddViews(const BoardDetections& detections, const BundleOptions& options, c
   }
 }
 
-// A wand shows nothing of its roll; a breath of a prior keeps the equations regular.
+// A wand's roll is not observable; a weak prior keeps the equations regular.
 void HoldRolls(Blocks& blocks, ceres::Problem& problem) {
   constexpr double kWeight = 0.01;
   for (Pose& wand : blocks.boards) {

@@ -1,5 +1,4 @@
-// Bundle adjustment: cameras, lenses and boards together, so that corners fall where they were
-// seen.
+// Bundle adjustment: joint fit of camera poses, intrinsics and board poses.
 #pragma once
 
 #include <optional>
@@ -10,27 +9,28 @@
 
 namespace mocap {
 
-/// Cameras and the board at each moment, in one frame.
+/// Cameras, and the board at each moment, in one frame.
 struct Bundle {
   std::vector<CameraCalibration> cameras;
-  /// Board at each moment: points of the board B to the world. Empty where it is not known.
+  /// Pose of the board at each moment, board B to world. Empty if unknown.
   std::vector<std::optional<RigidTransform>> X_WB;
-  /// How much later than its time stamp each camera exposes, against the first [s]. Empty: none.
+  /// Delay of each camera's exposure after its timestamp, relative to the first camera [s]. Empty:
+  /// none.
   std::vector<double> lateness_s;
 };
 
 struct BundleOptions {
   bool refine_lenses = true;
-  bool refine_poses = true;  ///< Of the cameras; the first stays where it is.
+  bool refine_poses = true;  ///< Of the cameras; the first is fixed.
   bool refine_boards = true;
-  bool refine_lateness = false;  ///< Where velocities of corners are known.
-  /// A view whose error exceeds this counts less and less; 0: all count the same.
+  bool refine_lateness = false;  ///< Requires velocities of corners.
+  /// Views with larger errors get less weight; 0: all have the same weight.
   double robust_px = 0;
   int most_steps = 60;
 };
 
-/// Refines in place with Ceres. Detections of unknown boards are passed over. Deterministic.
-/// @return  false when it did not settle.
+/// Refines in place with Ceres. Skips detections of boards with unknown pose. Deterministic.
+/// @return  false when it did not converge.
 bool RefineBundle(const BoardDetections& detections, const BundleOptions& options, Bundle& bundle);
 
 }  // namespace mocap

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestFile = 32 << 20;
 constexpr std::size_t kDeepestElements = 16, kMostElements = 10'000, kMostWords = 2'000'000;
 
-// Of "<rows>3</rows>": one word is a text, several are a sequence.
+// For "<rows>3</rows>": one word is a text, several are a sequence.
 void SetText(const std::string& text, std::size_t most_words, DataNode& node) {
   std::istringstream in(text);
   std::vector<std::string> words;
@@ -104,7 +104,7 @@ DataFile ReadOpenCvXml(const fs::path& path) {
       throw SetupError(Printable(path.string()) + ":" + std::to_string(tag.line) + ": <" +
                        Printable(tag.name.substr(0, 40)) + "> " + what);
     };
-    // What a sequence of unnamed elements holds is none of a camera's.
+    // Sequences of unnamed elements are irrelevant for cameras.
     if (parent.kind == DataNode::Kind::kSequence) parent.items.clear();
     parent.kind = DataNode::Kind::kMapping;
     if (tag.name != "_" && parent.Find(tag.name) != nullptr) fail("stands there twice");

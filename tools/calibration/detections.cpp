@@ -11,7 +11,7 @@
 namespace mocap {
 namespace {
 
-// Frames farther apart than this many intervals tell nothing of the motion between them.
+// Beyond this many intervals, frames do not determine the motion between them.
 constexpr double kLongestGaps = 1.8;
 constexpr int kFramesToDiagnose = 10;
 
@@ -59,7 +59,7 @@ const Vector2* Find(const BoardCorners& corners, int id) {
              : &corners.pixels[static_cast<std::size_t>(place - corners.ids.begin())];
 }
 
-// A parabola through the places at times -before_s, 0 and after_s; a line where one is not known.
+// Fits a parabola at times -before_s, 0 and after_s; a line if one point is missing.
 CornerMotion MotionThrough(const Vector2* before, double before_s, const Vector2& now,
                            const Vector2* after, double after_s) {
   CornerMotion motion;
@@ -72,7 +72,7 @@ CornerMotion MotionThrough(const Vector2* before, double before_s, const Vector2
   return motion;
 }
 
-// Detections of one camera from `first` on, in the order of time; times of their capture.
+// Detections of one camera from `first` on, in order of capture time.
 void MeasureMotions(std::vector<BoardDetection>& detections, std::size_t first,
                     const std::vector<double>& times_s, double longest_gap_s) {
   for (std::size_t i = first; i < detections.size(); ++i) {
@@ -90,7 +90,7 @@ void MeasureMotions(std::vector<BoardDetection>& detections, std::size_t first,
   }
 }
 
-// Looks at some of the frames once more for what was wrong with them.
+// Searches some frames again for the reason of failure.
 [[noreturn]] void RefuseUnseen(const Footage& footage, const FootageCamera& camera,
                                const Board& board, const BoardDetector& detector) {
   std::string reason;
@@ -117,7 +117,7 @@ std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std:
   return moment_of;
 }
 
-// Of a wand's camera, all lights were taken for detections. @return  how many are left.
+// Removes lights that are not the wand's from a camera's detections. @return  the remaining number.
 int KeepWandsFrom(std::size_t first, BoardDetections& detections, std::vector<double>& times_s) {
   const auto begin = detections.detections.begin() + static_cast<std::ptrdiff_t>(first);
   std::vector<BoardDetection> of_camera(begin, detections.detections.end());

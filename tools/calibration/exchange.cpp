@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Above what fitting a lens of another model leaves.
+// Larger than the residual of fitting another lens model.
 constexpr double kWorstLens_px = 0.5;
 constexpr double kWorstTurn = 1e-6;
 constexpr double kWorstShift_mm = 0.01;
 
-/// A folder of its own that goes with the object.
+/// A temporary folder, deleted with the object.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -75,7 +75,7 @@ Cameras ReadAgain(const std::string& format, const fs::path& written, const Came
                   double unit_mm) {
   if (format == "mocap") return LoadCalibration(written);
   std::vector<ForeignCamera> found = ReadForeign(format, written, unit_mm);
-  // Facts that the format does not hold.
+  // Data that the format does not contain.
   for (ForeignCamera& camera : found) {
     const auto same = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const auto& c) { return c.name == camera.name; });
@@ -127,7 +127,7 @@ Imported ImportCameras(const std::string& format, const fs::path& in,
   if (format == "mocap") return {LoadCalibration(in), false, {}};
   const std::string source = Printable(in.string());
   const std::vector<ForeignCamera> found = ReadForeign(format, in, options.unit_mm);
-  // What OpenCV's own calibration and ROS write are lenses.
+  // OpenCV's own calibration and ROS write intrinsics only.
   const bool are_lenses = (format == "opencv" || format == "ros") &&
                           std::none_of(found.begin(), found.end(), [](const ForeignCamera& camera) {
                             return camera.rotation || camera.translation_mm;
@@ -150,7 +150,7 @@ void ExportCameras(const std::string& format, const fs::path& out, const Cameras
       throw SetupError("--to " + format + ": knows no pan-tilt heads, and " + camera.name +
                        " has one; mocap does");
   }
-  // A name is part of file names, and of texts in which it must not end what it stands in.
+  // A name becomes part of file names and of texts, whose syntax it must not break.
   static_cast<void>(CalibrationText(out, cameras));
   if (!IsFolderFormat(format)) RequireWritable(out);
   const std::vector<TextFile> files = TextsOf(format, out, cameras, options.unit_mm);

@@ -62,7 +62,7 @@ ForeignCamera ReadLens(const ChainCamera& chain) {
   return camera;
 }
 
-// The transform from the camera before.
+// Transform from the previous camera.
 RigidTransform ReadLink(const ChainCamera& chain) {
   const ForeignNumbers numbers = chain.Numbers("T_cn_cnm1");
   if (numbers.values.size() != 16)
@@ -82,7 +82,7 @@ RigidTransform ReadLink(const ChainCamera& chain) {
 std::vector<ForeignCamera> ReadKalibr(const std::filesystem::path& path) {
   const DataFile file = ReadYaml(path);
   std::vector<ForeignCamera> cameras;
-  // The first of a chain is the world; a link that is missing leaves the rest without a pose.
+  // The chain's first camera is the world. After a missing link, cameras have no pose.
   std::optional<RigidTransform> X_CW = RigidTransform{};
   for (;;) {
     const std::string name = "cam" + std::to_string(cameras.size());
@@ -105,7 +105,7 @@ std::vector<ForeignCamera> ReadKalibr(const std::filesystem::path& path) {
   }
   if (cameras.empty())
     throw SetupError(Printable(path.string()) + ": holds no cam0; a camchain of Kalibr is wanted");
-  // Alone, the first tells of a lens only.
+  // A first camera alone has intrinsics only.
   if (cameras.size() == 1 || !cameras[1].rotation)
     cameras[0].rotation = cameras[0].translation_mm = std::nullopt;
   return cameras;

@@ -25,7 +25,7 @@ ForeignCamera ReadCamera(const std::string& key, TomlSection table, double unit_
   ForeignCamera camera;
   camera.where = table.Where("name");
   camera.name = table.Text("name", key);
-  // Caliscope and aniposelib let people call cameras anything; then the table's own name serves.
+  // Caliscope and aniposelib allow any camera name; if it is invalid, use the table's.
   if (!IsCameraName(camera.name) && IsCameraName(key)) camera.name = key;
   camera.has_lens = table.Has("matrix");
   if (!camera.has_lens) return camera;
@@ -57,7 +57,7 @@ std::string List(const double* numbers, std::size_t count) {
 
 std::vector<ForeignCamera> ReadPose2Sim(const std::filesystem::path& file, double unit_mm) {
   TomlSection root = TomlSection::ReadFile(file);
-  // Caliscope has its cameras in a table of their own.
+  // Caliscope has its cameras in a separate table.
   TomlSection tables = root.IsTable("cameras") ? *root.Section("cameras") : root;
   std::vector<ForeignCamera> cameras;
   for (const std::string& key : tables.Keys()) {

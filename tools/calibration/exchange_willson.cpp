@@ -45,7 +45,7 @@ Matrix3 FromEuler(double x, double y, double z) {
 
 Vector3 ToEuler(const Matrix3& R) {
   const double y = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  // Straight up or down x and z turn about one axis: all of it is given to z.
+  // Straight up or down, x and z rotate about the same axis: assign all to z.
   if (std::abs(R(2, 0)) > 1 - 1e-12) return {0, y, std::atan2(-R(0, 1), R(1, 1))};
   return {std::atan2(R(2, 1), R(2, 2)), y, std::atan2(R(1, 0), R(0, 0))};
 }

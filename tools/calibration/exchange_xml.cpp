@@ -13,10 +13,10 @@
 namespace mocap {
 namespace {
 
-constexpr double kQualisysUnits = 64;  // To the pixel.
+constexpr double kQualisysUnits = 64;  // Per pixel.
 constexpr int kGrid = 12;
 
-// Qualisys' cameras look along their negative z with y up.
+// Qualisys cameras look along negative z, with y up.
 const Matrix3 kTurnedOver = Vector3(1, -1, -1).asDiagonal();
 
 std::string Where(const std::filesystem::path& file, const XmlTag& tag, const std::string& key) {
@@ -69,7 +69,7 @@ void TakeQualisysPose(const XmlTag& tag, const std::filesystem::path& file, Fore
 // r_u = r_d (1 + k1 r_d² + k2 r_d⁴ + k3 r_d⁶), pixels from the principal point.
 Vector3 ReadViconRadial(const XmlTag& key_frame, const std::filesystem::path& file) {
   if (key_frame.Has("VICON_RADIAL2")) {
-    // A word that names the model, the centre, then the coefficients.
+    // The model's name, the centre, then the coefficients.
     XmlTag numbers = key_frame;
     std::string& text = numbers.attributes["VICON_RADIAL2"];
     text.erase(0, text.find_first_of(" \t"));
@@ -115,7 +115,7 @@ ForeignCamera ReadViconCamera(const XmlTag& camera_tag, const XmlTag* key_frame,
   camera.matrix = {Where(file, *key_frame, "FOCAL_LENGTH"),
                    {f, 0, c[0], 0, f / aspect, c[1], 0, 0, 1}};
   camera.distortion = {Where(file, *key_frame, "VICON_RADIAL2"), {}};
-  // Only what passes the check can be fitted.
+  // Fitting requires data that pass the check.
   const Imported plain = CheckForeignCameras(file.string(), {camera}, {.lenses_alone = true});
   const Vector3 k = ReadViconRadial(*key_frame, file);
   camera.lens = FitViconLens(camera, std::get<OpenCvLens>(plain.cameras[0].lens), k);

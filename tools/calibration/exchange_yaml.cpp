@@ -31,7 +31,7 @@ ForeignNumbers Needed(const DataFile& file, const std::string& key) {
   return *numbers;
 }
 
-// Of two keys, neither of which may be there.
+// Reads two keys; either may be missing.
 ForeignNumbers Size(const DataFile& file, const std::string& width, const std::string& height) {
   ForeignNumbers size{WhereOf(file, width), {}};
   const auto w = Numbers(file, width), h = Numbers(file, height);
@@ -42,7 +42,7 @@ ForeignNumbers Size(const DataFile& file, const std::string& width, const std::s
   return size;
 }
 
-// What ROS calls the lens decides, where it does.
+// ROS's distortion model, if given, selects the lens.
 void TakeDistortionModel(const DataFile& file, ForeignCamera& camera) {
   const DataNode* model = file.root.Find("distortion_model");
   if (model == nullptr) return;
@@ -66,7 +66,7 @@ ForeignCamera ReadOpenCvFile(const fs::path& path) {
   camera.size_px = Size(file, "image_width", "image_height");
   camera.matrix = Needed(file, "camera_matrix");
   camera.distortion = Needed(file, "distortion_coefficients");
-  // OpenCV's sample says so in flags or in a comment only; ours in a key.
+  // OpenCV's sample tells this only in flags or a comment; our files have a key.
   if (const auto fisheye = Numbers(file, "fisheye_model"))
     camera.is_fisheye = fisheye->values != std::vector<double>{0};
   TakeDistortionModel(file, camera);
@@ -136,7 +136,7 @@ std::vector<ForeignCamera> ReadEasyMocap(const fs::path& intri_file, const fs::p
     camera.name = node.text;
     camera.size_px = Size(intri, "W_" + camera.name, "H_" + camera.name);
     camera.matrix = Needed(intri, "K_" + camera.name);
-    // Newer versions have it by another name.
+    // Newer versions use another name.
     const bool is_newer = intri.root.Find("dist_" + camera.name) == nullptr &&
                           intri.root.Find("D_" + camera.name) != nullptr;
     camera.distortion = Needed(intri, (is_newer ? "D_" : "dist_") + camera.name);

@@ -21,14 +21,14 @@ constexpr double kWorstView_px = 5;
 constexpr double kWorstRms_px = 3;
 constexpr double kLeastShareKept = 0.5;
 
-// A turn of 1 rad counts as much as a metre.
+// Weighs a rotation of 1 rad like a metre.
 constexpr double kMillimetresPerRadian = 1000;
 
 double Apart(const RigidTransform& a, const RigidTransform& b) {
   return kMillimetresPerRadian * LogRotation(a.R * b.R.transpose()).norm() + (a.p - b.p).norm();
 }
 
-/// Poses of the board in each camera at each moment.
+/// Poses of the board by camera and moment.
 using PoseTable = std::vector<std::vector<std::vector<BoardPose>>>;  // [camera][moment]
 
 PoseTable FindPoses(const BoardDetections& detections,
@@ -44,14 +44,14 @@ PoseTable FindPoses(const BoardDetections& detections,
   return table;
 }
 
-// How camera B's points come to camera A, as most shared views say.
+// Transform from camera B's points to camera A, by majority of the shared views.
 CameraLink LinkPair(const PoseTable& poses, int a, int b) {
   std::vector<RigidTransform> candidates;
   CameraLink link;
   for (std::size_t m = 0; m < poses[a].size(); ++m) {
     if (poses[a][m].empty() || poses[b][m].empty()) continue;
     ++link.shared;
-    // Either of the two poses of a plane may be the true one.
+    // Either of the two poses of a plane may be the right one.
     for (const BoardPose& in_a : poses[a][m]) {
       for (const BoardPose& in_b : poses[b][m])
         candidates.push_back(in_a.X_CB * in_b.X_CB.Inverse());
@@ -60,7 +60,7 @@ CameraLink LinkPair(const PoseTable& poses, int a, int b) {
   double least = std::numeric_limits<double>::infinity();
   for (const RigidTransform& candidate : candidates) {
     double sum = 0;
-    // Wrong candidates lie far off in all directions; beyond half a metre they count alike.
+    // Wrong candidates are far off in all directions; beyond half a metre they count alike.
     for (const RigidTransform& other : candidates) sum += std::min(500.0, Apart(candidate, other));
     if (sum >= least) continue;
     least = sum;
@@ -69,7 +69,7 @@ CameraLink LinkPair(const PoseTable& poses, int a, int b) {
   return link;
 }
 
-// The strongest links first, until all cameras hang together.
+// Uses the strongest links first, until all cameras are connected.
 void PlaceCameras(const std::function<CameraLink(int, int)>& link_of,
                   std::vector<CameraCalibration>& cameras) {
   const int n = static_cast<int>(cameras.size());
@@ -108,7 +108,7 @@ void PlaceCameras(const std::function<CameraLink(int, int)>& link_of,
   }
 }
 
-// Of the poses that single cameras give a board, the one that suits all best.
+// Of each board's poses by single cameras, selects the one that suits all best.
 void PlaceBoards(const BoardDetections& detections, const PoseTable& poses, Bundle& bundle) {
   std::vector<std::vector<const BoardDetection*>> of_moment(
       static_cast<std::size_t>(detections.moments));
@@ -150,7 +150,7 @@ void PlaceAll(BoardDetections& detections, Bundle& bundle) {
   PlaceShown(detections, bundle);
 }
 
-// A moment that only one camera saw tells nothing of where cameras are, but still of its lens.
+// A moment that only one camera saw constrains its intrinsics, but no extrinsics.
 void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
   BundleOptions refine;
   refine.refine_lenses = false;
@@ -164,7 +164,7 @@ void Adjust(const ExtrinsicsOptions& options, StudioFit& fit) {
   RefineBundle(fit.detections, refine, fit.bundle);
 }
 
-// Corners of each camera at moments that another camera saw, too.
+// Number of each camera's corners at moments shared with another camera.
 std::vector<int> SharedCorners(const BoardDetections& detections) {
   std::vector<int> cameras_at(static_cast<std::size_t>(detections.moments), 0);
   for (const BoardDetection& s : detections.detections) ++cameras_at[s.moment];
@@ -175,7 +175,7 @@ std::vector<int> SharedCorners(const BoardDetections& detections) {
   return shared;
 }
 
-// The first view of a camera that was dropped; where none was, the worst.
+// The first dropped view of a camera; if none was dropped, the worst.
 std::string MisfitFrame(const BoardDetections& before, const StudioFit& fit, int camera) {
   for (const BoardDetection& s : before.detections) {
     const bool kept = std::ranges::any_of(fit.detections.detections, [&](const BoardDetection& k) {
@@ -186,8 +186,8 @@ std::string MisfitFrame(const BoardDetections& before, const StudioFit& fit, int
   return WorstView(BundleErrors(fit.detections, fit.bundle), fit.detections, camera).frame;
 }
 
-// Alone with the board, any camera is right: what counts is what it shares with others. The one
-// that fits worst is named, since it drags the others along.
+// Alone with the board, every camera fits: only shared views count. Names the worst camera, as it
+// pulls the others along.
 void RefuseContradiction(const BoardDetections& before, const StudioFit& fit) {
   const std::vector<int> seen = SharedCorners(before), kept = SharedCorners(fit.detections);
   const auto share = [&](std::size_t c) {
@@ -251,7 +251,7 @@ StudioFit FitExtrinsics(const BoardDetections& detections,
   PlaceAll(fit.detections, fit.bundle);
   Adjust(options, fit);
   if (detections.timed) {
-    // Boards of one moment may have been taken of different ones as long as cameras lagged.
+    // With unknown delays, boards of one moment may have been matched wrongly.
     fit.detections = detections;
     MatchAgain(fit.bundle.lateness_s, fit.detections);
     PlaceShown(fit.detections, fit.bundle);

@@ -1,4 +1,4 @@
-// From boards that several cameras saw at once to all cameras in one frame.
+// Extrinsics of all cameras in one frame, from boards seen by several at once.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace mocap {
 
-/// Outcome for one camera.
+/// Result for one camera.
 struct CameraFit {
   std::string name;
-  double lens_rms_px = 0;        ///< Of its lens alone; 0 when the lens was given.
-  double focal_sigma_share = 0;  ///< Of its lens alone: standard deviation over the focal length.
-  double rms_px = 0;             ///< In the bundle.
+  double lens_rms_px = 0;        ///< Of its intrinsic fit; 0 if the intrinsics were given.
+  double focal_sigma_share = 0;  ///< Of its intrinsic fit: standard deviation over the focal
+                                 ///< length.
+  double rms_px = 0;             ///< In the bundle adjustment.
   int views = 0;
   int corners = 0;
   Coverage coverage;
@@ -24,7 +25,7 @@ struct CameraFit {
 /// All cameras in the frame of the first, or in the world once a floor is set.
 struct StudioFit {
   Bundle bundle;
-  BoardDetections detections;  ///< Those that were kept.
+  BoardDetections detections;  ///< Without outliers.
   std::vector<CameraFit> cameras;
   double rms_px = 0;
   int dropped_corners = 0;
@@ -35,19 +36,20 @@ struct ExtrinsicsOptions {
   bool refine_lenses = true;
 };
 
-/// Puts all cameras into one frame: pairs from shared views, then a bundle adjustment.
+/// Finds the extrinsics of all cameras in one frame: pairs from shared views, then bundle
+/// adjustment.
 ///
-/// @param lenses  one a camera of the detections; X_CW is ignored.
+/// @param lenses  one per camera of the detections; X_CW is ignored.
 /// @throws SetupError  naming camera and remedy: a board that looks the same turned, cameras that
 /// share no views, cameras that contradict each other.
 StudioFit FitExtrinsics(const BoardDetections& detections,
                         const std::vector<CameraCalibration>& lenses,
                         const ExtrinsicsOptions& options);
 
-/// Moves everything to another world: `X_NW` takes the bundle's world to the new one.
+/// Changes the world frame: `X_NW` maps the bundle's world to the new one.
 void MoveWorld(const RigidTransform& X_NW, Bundle& bundle);
 
-/// Fills in errors and coverage from the bundle.
+/// Computes errors and coverage of the bundle.
 void MeasureFit(StudioFit& fit);
 
 }  // namespace mocap

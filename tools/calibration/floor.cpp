@@ -32,7 +32,7 @@ RigidTransform WorldOn(const Vector3& origin, const Vector3& along_x, const Vect
   return X_NW;
 }
 
-// Up is where most cameras hang.
+// Up is the side of most cameras.
 Vector3 TowardsCameras(const Vector3& normal, const Vector3& origin,
                        const std::vector<CameraCalibration>& cameras) {
   int above = 0;
@@ -123,7 +123,7 @@ RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
   const Vector3 normal = (p_W[1] - p_W[0]).cross(p_W[2] - p_W[0]);
   if (normal.norm() < 0.05 * (p_W[1] - p_W[0]).norm() * (p_W[2] - p_W[0]).norm())
     throw SetupError("the three floor points lie on a line; a right angle is best");
-  // The third point tells y's side; a z that points down then means that the sides were swapped.
+  // The third point defines y's side. If z then points down, the sides were swapped.
   const Vector3 up = TowardsCameras(normal.normalized(), p_W[0], cameras);
   if (up.dot(normal) < 0)
     throw SetupError(

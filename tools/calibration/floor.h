@@ -1,4 +1,4 @@
-// The world's floor, origin and axes, and its scale.
+// The world's floor, origin, axes and scale.
 #pragma once
 
 #include <string>
@@ -9,27 +9,26 @@
 
 namespace mocap {
 
-/// Gives the transform from the bundle's world to one whose floor is the board's plane: origin at
-/// the board's first corner, x along its rows, z up to the side where the cameras are.
-/// @param thickness_mm  the printed side lies so high above the floor.
+/// Returns the transform from the bundle's world to one with its floor in the board's plane: origin
+/// at the board's first corner, x along its rows, z up to the cameras' side.
+/// @param thickness_mm  height of the printed side above the floor.
 RigidTransform WorldOnBoard(const RigidTransform& X_WB,
                             const std::vector<CameraCalibration>& cameras, double thickness_mm);
 
-/// Finds where a board that lies still is, by the cameras that see it.
+/// Finds the pose of a still board from the cameras that see it.
 /// @throws SetupError  naming the camera that contradicts the others, when the error exceeds 3 px.
 RigidTransform FindStillBoard(const BoardDetections& still,
                               const std::vector<CameraCalibration>& cameras);
 
-/// Three points on the floor as cameras see them: the origin, one on the x axis, one on the side of
-/// y.
+/// Observation of a floor point: the origin, a point on the x axis, or one on the side of y.
 struct FloorPoint {
   int camera = 0;
   int point = 0;  ///< 0 origin, 1 on x, 2 towards y.
   Vector2 pixel;
 };
 
-/// Gives the transform to the world that three floor points span.
-/// @throws SetupError  when a point is seen by fewer than two cameras or the points lie on a line.
+/// Returns the transform to the world defined by three floor points.
+/// @throws SetupError  when fewer than two cameras see a point, or the points are collinear.
 RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
                              const std::vector<CameraCalibration>& cameras);
 
@@ -37,10 +36,10 @@ RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
 std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
                                         const std::vector<CameraCalibration>& cameras);
 
-/// Finds the point nearest to the rays of two pixels and more.
+/// Finds the point nearest to the rays of two or more pixels.
 Vector3 Triangulate(const std::vector<std::pair<const CameraCalibration*, Vector2>>& seen);
 
-/// Stretches the world about its origin, so that lengths agree with one that was measured.
+/// Scales the world about its origin, to match a measured length.
 void ScaleWorld(double factor, Bundle& bundle);
 
 }  // namespace mocap

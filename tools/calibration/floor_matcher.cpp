@@ -8,12 +8,12 @@
 namespace mocap {
 namespace {
 
-constexpr int kSide = 300;  // Cells; the board is a tenth of the way across.
+constexpr int kSide = 300;  // Cells; the board takes a tenth of them.
 constexpr double kBoardShare = 0.12;
-constexpr double kSteepest = 0.75;  // Beyond that far from its axis a lens is not trusted.
+constexpr double kSteepest = 0.75;  // Lens models are not trusted farther from the axis.
 constexpr float kMostContrast = 30;
 
-/// Brightness of the floor as deviation from its surroundings, and where it was seen.
+/// Local contrast of the floor's brightness, and where the floor was visible.
 struct TopView {
   cv::Mat detail, seen;
 };
@@ -101,7 +101,7 @@ FloorTurns MatchFloors(const std::vector<FloorView>& views, const Board& board) 
   FloorTurns best;
   best.agreement = best.runner_up = -1;
   const double pairs = std::max(1.0, static_cast<double>(n * (n - 1)) / 2);
-  // The first camera's way is as good as its opposite.
+  // The first camera's turn is arbitrary.
   for (unsigned way = 0; way < 1u << (n - 1); ++way) {
     std::vector<bool> turns(n, false);
     for (std::size_t i = 1; i < n; ++i) turns[i] = way >> (i - 1) & 1;

@@ -1,4 +1,4 @@
-// Tells by the floor's looks how cameras' views of it belong together.
+// Resolves the board's orientation between cameras by the appearance of the floor.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace mocap {
 
-/// A camera's picture and where it sees the board.
+/// A camera's picture with its detection of the board.
 struct FloorView {
   const Image<Bgr>* picture = nullptr;
   const Lens* lens = nullptr;
   RigidTransform X_CB;
 };
 
-/// Which views have the board turned by half a turn against the first.
+/// For each view, whether its board is rotated by half a turn against the first.
 struct FloorTurns {
   std::vector<bool> turned;
   double agreement = 0;  ///< Mean correlation of the floor over pairs of cameras.
-  double runner_up = 0;  ///< The same for the next best way.
+  double runner_up = 0;  ///< The same for the second best choice.
 };
 
-/// Seen from above, pictures of the floor around the board correlate when their turns are right.
+/// Finds the turns with the best correlation of the floor around the board, seen from above.
 FloorTurns MatchFloors(const std::vector<FloorView>& views, const Board& board);
 
 }  // namespace mocap

@@ -47,7 +47,7 @@ std::vector<fs::path> Sorted(const fs::path& folder, bool (*wanted)(const fs::pa
   return files;
 }
 
-// Frames by the times that the file gives them, where it does and they increase.
+// Lists frames, with the file's times if they exist and increase.
 void CountFrames(VideoReader video, FootageCamera& camera) {
   bool has_times = true;
   std::optional<std::int64_t> first_ns;
@@ -65,7 +65,7 @@ void CountFrames(VideoReader video, FootageCamera& camera) {
   for (std::size_t i = 0; i < times_ns.size(); ++i) camera.frames[i].time_ns = times_ns[i];
 }
 
-// What was made of a file that is more than its frames.
+// Reports how a file was interpreted.
 void TellHowItWasRead(const fs::path& file, const PictureTurn& turn, const FootageCamera& camera,
                       std::vector<std::string>& notes) {
   const std::string name = Printable(file.filename().string());
@@ -85,7 +85,7 @@ void TellHowItWasRead(const fs::path& file, const PictureTurn& turn, const Foota
 
 fs::path TableOf(const fs::path& video) { return fs::path(video).replace_extension(".csv"); }
 
-/// A camera that had delivered nothing by the end of the recording.
+/// Whether a camera had delivered nothing by the end of the recording.
 bool IsSilent(const fs::path& video) { return HoldsNoRows(TableOf(video)) || HoldsNoFrame(video); }
 
 FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file,
@@ -101,7 +101,7 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file,
   if (IsThere(table_file)) {
     const TakeTable table = ReadTakeTable(table_file);
     camera.timed = true;
-    // A recording that was cut off may have lost the end of either.
+    // In a truncated recording, the end of either may be missing.
     camera.frames.resize(std::min(camera.frames.size(), table.rows.size()));
     for (std::size_t i = 0; i < camera.frames.size(); ++i)
       camera.frames[i] = {table.rows[i].timestamp_ns, table.rows[i].angles,
@@ -120,7 +120,7 @@ FootageCamera OpenVideoCamera(const std::string& name, const fs::path& file,
   return camera;
 }
 
-// To FFmpeg a picture is a video of one frame.
+// For FFmpeg, a picture is a video of one frame.
 VideoReader OpenPicture(const fs::path& file) {
   try {
     return VideoReader(file);
@@ -183,7 +183,7 @@ Footage OpenFootage(const std::filesystem::path& folder) {
   if (footage.cameras.empty() && !recorded.empty())
     throw SetupError(folder.string() +
                      ": holds no frame of any camera; recordings with frames are wanted");
-  // Caliscope's, now and before.
+  // Caliscope's name, now and formerly.
   for (const char* table : {"timestamps.csv", "frame_time_history.csv"}) {
     if (footage.cameras.empty() || !IsThere(folder / table)) continue;
     ReadSharedTimes(folder / table, footage);

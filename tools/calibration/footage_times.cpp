@@ -1,4 +1,4 @@
-// Which frames of a recording belong together.
+// Matches frames of a recording in time.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLatest_s = 4e9;
 
-// However it was saved: with blanks or quotation marks around the fields, or without.
+// Splits a line, with or without blanks or quotation marks around the fields.
 std::vector<std::string> Fields(std::string_view line) {
   std::vector<std::string> fields(1);
   for (const char c : line) {
@@ -50,7 +50,7 @@ class SharedTimes {
     if (camera_ < 0 || time_ < 0) Fail("the header \"cam_id,frame_time\" is wanted");
   }
 
-  /// Reads the next row. @return  whether there was one.
+  /// Reads the next row. @return  false at the end.
   bool Next(int& camera, int& frame, std::int64_t& time_ns) {
     std::string_view line;
     do {
@@ -120,7 +120,7 @@ const FootageFrame* FindKey(const FootageCamera& camera, const std::string& key)
   return place != camera.frames.end() && place->key == key ? &*place : nullptr;
 }
 
-// "cam2 lacks img03.png": as another camera calls it.
+// "cam2 lacks img03.png": by another camera's name of it.
 void TellMissing(Footage& footage, const std::set<std::string, decltype(&IsKeyLess)>& keys) {
   constexpr int kMostNamed = 5;
   for (const FootageCamera& camera : footage.cameras) {
@@ -142,7 +142,7 @@ void TellMissing(Footage& footage, const std::set<std::string, decltype(&IsKeyLe
   }
 }
 
-// Half of it is the farthest that frames of one moment lie apart.
+// Half of it is the largest distance between frames of one moment.
 std::int64_t IntervalOf(const Footage& footage, bool timed, const auto& time_of) {
   std::int64_t interval_ns = std::numeric_limits<std::int64_t>::max();
   for (const FootageCamera& camera : footage.cameras) {
@@ -150,7 +150,7 @@ std::int64_t IntervalOf(const Footage& footage, bool timed, const auto& time_of)
     for (std::size_t i = 1; i < camera.frames.size(); ++i)
       steps_ns.push_back(time_of(camera, i) - time_of(camera, i - 1));
     if (steps_ns.empty()) continue;
-    // A telephone's frames come as it pleases; now and then two at once.
+    // A telephone's frames are irregular; sometimes two come at once.
     const auto middle =
         steps_ns.begin() + (timed ? 0 : static_cast<std::ptrdiff_t>(steps_ns.size() / 2));
     std::nth_element(steps_ns.begin(), middle, steps_ns.end());
@@ -174,7 +174,7 @@ std::vector<std::string> PictureKeys(const std::vector<fs::path>& files) {
     numbers.push_back(NumbersIn(file.stem().string()));
     fewest = std::min(fewest, numbers.back().size());
   }
-  // Most count at the end; "3_cam1" counts before it.
+  // Most names have the count at the end; "3_cam1" has it first.
   for (std::size_t from_end = 1; !files.empty() && from_end <= fewest; ++from_end) {
     std::vector<std::string> keys;
     for (const auto& of_file : numbers) keys.push_back(of_file[of_file.size() - from_end]);
@@ -205,7 +205,7 @@ void PairPictures(Footage& footage) {
         return camera.frames.size() == footage.cameras.front().frames.size();
       });
   if (2 * shared < pictures) {
-    // Each camera has a count of its own.
+    // Each camera counts independently.
     footage.notes.push_back(
         equal
             ? "the cameras' pictures have no numbers in common; paired in their order"
@@ -266,7 +266,7 @@ std::vector<FootageMoment> MatchMoments(const Footage& footage) {
     return placed ? camera.frames[i].time_ns : static_cast<std::int64_t>(i) * kUntimedInterval_ns;
   };
   const std::int64_t interval_ns = IntervalOf(footage, timed, time_of);
-  // Cameras' frames in the order of time; a new moment where the last one is too old or taken.
+  // All cameras' frames in order of time; a new moment begins if the last one is too old or taken.
   struct Entry {
     std::int64_t time_ns;
     int camera, frame;

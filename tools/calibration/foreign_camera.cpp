@@ -17,15 +17,15 @@
 namespace mocap {
 namespace {
 
-// Rotations are printed with few digits by some programs.
+// Some programs print rotations with few digits.
 constexpr double kRotationTolerance = 1e-3;
 constexpr double kMostTurns_rad = 100;
 constexpr double kFarthest_mm = 1e6;
 constexpr double kNoSkew = 1e-9;
 constexpr double kLongestFocal_px = 1e6, kLargestCoefficient = 1e6;
-// A studio in metres that was taken for millimetres would fit into a hand.
+// A studio in metres, read as millimetres, is smaller than a hand.
 constexpr double kSmallestStudio_mm = 50;
-// Just within tan of 85 degrees, where lenses end that do not fold.
+// Slightly below tan of 85 degrees, the limit of lenses that do not fold.
 constexpr double kWidestField = 11.4;
 constexpr int kColumns = 16, kRows = 12;
 
@@ -177,7 +177,7 @@ Vector3 CheckTranslation(const ForeignNumbers& translation) {
   return t;
 }
 
-// How much of the picture shows no direction.
+// Share of the picture without a direction.
 double HiddenShare(const CameraCalibration& camera) {
   int hidden = 0;
   for (int j = 0; j <= kRows; ++j) {
@@ -196,7 +196,7 @@ std::string Lowered(std::string text) {
   return text;
 }
 
-// What may be so, and seldom is.
+// Notes possible but unusual values.
 void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::string>& notes) {
   std::set<std::string> lowered;
   for (const CameraCalibration& camera : cameras) {

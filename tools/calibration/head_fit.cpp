@@ -18,15 +18,15 @@ constexpr int kFewestViews = 8;
 constexpr double kLeastSpan_rad = 10 * std::numbers::pi / 180;
 constexpr double kWorstRms_px = 2;
 constexpr double kStanding_rad = 0.002;
-// Axis (2) and point (2) of pan, of tilt, then both scales; six a place follow.
+// Axis (2) and point (2) of pan and of tilt, both scales; then six per place.
 constexpr int kHeadParameters = 10;
 
 struct Model {
   PanTiltFit fit;
-  std::vector<RigidTransform> X_WB;  ///< One a place.
+  std::vector<RigidTransform> X_WB;  ///< One per place.
 };
 
-// Two directions across an axis.
+// Two directions perpendicular to an axis.
 Eigen::Matrix<double, 3, 2> Across(const Vector3& axis) {
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = axis.unitOrthogonal();
@@ -102,7 +102,7 @@ void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardDete
   }
 }
 
-// Places get numbers from 0 on.
+// Numbers the places from 0.
 std::vector<BoardDetection> NumberPlaces(std::span<const BoardDetection> detections, int& places) {
   std::map<int, int> numbers;
   std::vector<BoardDetection> views(detections.begin(), detections.end());
@@ -112,7 +112,7 @@ std::vector<BoardDetection> NumberPlaces(std::span<const BoardDetection> detecti
   return views;
 }
 
-// Boards where the views that are turned least put them.
+// Poses of the boards, from the views with the smallest angles.
 std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const Board& board,
                                         const std::vector<BoardDetection>& views, int places,
                                         const PanTiltFit& fit) {
@@ -131,8 +131,8 @@ std::vector<RigidTransform> PlaceBoards(const CameraCalibration& camera, const B
   return X_WB;
 }
 
-// Heads stand upright and tilt about the picture's rows, through the lens, more or less; either way
-// round.
+// Assumes an upright head that tilts about the picture's rows, through the lens; tries both senses
+// of each axis.
 Model FirstGuess(const CameraCalibration& camera, const PanTiltAngles& posed_at, const Board& board,
                  const std::vector<BoardDetection>& views, int places) {
   const Vector3 p_WC = camera.X_CW.Inverse().p;

@@ -1,4 +1,4 @@
-// Pan-tilt heads from views of boards that lie still while the camera turns.
+// Calibrates pan-tilt heads from views of still boards while the camera turns.
 #pragma once
 
 #include <span>
@@ -14,18 +14,17 @@ struct PanTiltFit {
   int views = 0;
 };
 
-/// Finds both axes, a point on each and the encoders' scales.
+/// Fits both axes, a point on each, and the encoders' scales.
 ///
-/// @param camera     with its lens and its pose, which stay.
-/// @param posed_at   what the encoders read where that pose holds: pan = tilt = 0 of the head.
-/// @param detections  of this camera; boards of one moment number are at one place, wherever that
-/// is.
+/// @param camera     with its intrinsics and pose, which are fixed.
+/// @param posed_at   encoder readings for that pose: pan = tilt = 0 of the head.
+/// @param detections  of this camera; boards of one moment number have the same, unknown pose.
 /// @throws SetupError  naming the camera: too few views, too little turning, or views that no head
 /// explains.
 PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_at,
                    const Board& board, std::span<const BoardDetection> detections);
 
-/// Gives what a camera's encoders read while it was posed.
+/// Returns a camera's encoder readings during the recording that gave its pose.
 /// @throws SetupError  when the head turned meanwhile.
 PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltAngles> readings);
 

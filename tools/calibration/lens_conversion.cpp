@@ -13,7 +13,7 @@ namespace {
 constexpr int kColumns = 16, kRows = 12;
 constexpr double kWorst_px = 0.25;
 
-/// Directions over the whole picture and where the lens shows them.
+/// Directions over the whole picture, and their pixels.
 struct Samples {
   std::vector<Vector2> normalized, pixels;
 };

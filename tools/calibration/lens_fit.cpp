@@ -36,7 +36,7 @@ Cells CellsOf(const DetectionCamera& camera, const BoardCorners& corners) {
   return cells;
 }
 
-// Again and again the view that shows most of what was shown least.
+// Repeatedly selects the view with most in the least covered cells.
 std::vector<int> ChooseViews(const BoardDetections& detections, int camera, int most) {
   std::vector<int> left, chosen;
   for (std::size_t s = 0; s < detections.detections.size(); ++s) {
@@ -115,7 +115,7 @@ Lens MakeLens(const Zhang& zhang, const LensFitOptions& options) {
   return FisheyeLens{K, {zhang.k1 + 1.0 / 3, 0, 0, 0}};
 }
 
-// The camera alone, each view a moment of its own.
+// The camera alone; each view is a moment.
 struct LensProblem {
   BoardDetections detections;
   Bundle bundle;
@@ -142,7 +142,7 @@ LensProblem MakeProblem(const BoardDetections& all, int camera, const std::vecto
   return problem;
 }
 
-// "frame 3 to frame 41", in the order in which they were looked at.
+// "frame 3 to frame 41", in the order of search.
 std::string FramesText(const BoardDetections& detections, const std::vector<int>& views) {
   if (views.empty()) return "no frame";
   const std::string &first = detections.detections[views.front()].name,
@@ -150,7 +150,7 @@ std::string FramesText(const BoardDetections& detections, const std::vector<int>
   return first == last ? first : first + " to " + last;
 }
 
-// Boards that all lie in parallel planes leave the focal length open, however many they are.
+// Boards in parallel planes do not constrain the focal length, however many they are.
 void RefuseOneTilt(const std::string& name, const std::string& frames, const Bundle& bundle) {
   double widest_rad = 0;
   for (const auto& a : bundle.X_WB) {

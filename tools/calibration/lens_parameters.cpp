@@ -10,7 +10,7 @@ std::vector<double> Parameters(const TsaiLens& lens) {
   return {lens.focal_mm, lens.kappa1, lens.center_px.x(), lens.center_px.y(), lens.sx};
 }
 
-// A board leaves k4 k5 k6 of a rational lens open beside k1 k2 k3: they stay as they are.
+// A board does not constrain k4 k5 k6 of a rational lens beside k1 k2 k3: they are fixed.
 std::span<double> Refined(OpenCvLens& lens) { return std::span(lens.distortion).first(5); }
 std::span<double> Refined(FisheyeLens& lens) { return lens.distortion; }
 

@@ -1,4 +1,4 @@
-// A lens as a list of numbers, for optimisation.
+// Parameters of a lens as a vector, for optimization.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace mocap {
 
-/// Refined parameters of a lens. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3 (k4 k5 k6
-/// stay as they are); fisheye: fx fy cx cy k1 k2 k3 k4.
+/// Parameters that are refined. Tsai: f κ1 Cx Cy sx; OpenCV: fx fy cx cy k1 k2 p1 p2 k3 (k4 k5 k6
+/// are fixed); fisheye: fx fy cx cy k1 k2 k3 k4.
 std::vector<double> LensParameters(const Lens& lens);
 
-/// Puts numbers back; the lens gives the model and what is not refined.
+/// Inverse of LensParameters; `lens` gives the model and the fixed parameters.
 Lens WithParameters(const Lens& lens, const double* parameters);
 
-/// The focal length in pixels, the mean of both directions.
+/// Focal length in pixels, the mean of both directions.
 double FocalPx(const Lens& lens);
 
-/// Where the axis meets the picture [px].
+/// Principal point [px].
 Vector2 CenterPx(const Lens& lens);
 
 }  // namespace mocap

@@ -15,7 +15,7 @@ constexpr int kAcross = 5, kLayers = 4;
 constexpr double kPan_rad = 0.3, kTilt_rad = 0.2;
 constexpr double kSpacing_mm = 750, kLowest_mm = 100, kLayer_mm = 550;
 
-// The camera of that name for each camera of the reference.
+// The camera of the same name for each camera of the reference.
 std::vector<CameraCalibration> Matching(const std::vector<CameraCalibration>& cameras,
                                         const std::vector<CameraCalibration>& reference) {
   std::vector<CameraCalibration> matching;
@@ -29,7 +29,7 @@ std::vector<CameraCalibration> Matching(const std::vector<CameraCalibration>& ca
   return matching;
 }
 
-// Each camera as it looks with its head at these angles.
+// Each camera, with its head at these angles.
 std::vector<CameraCalibration> Turned(std::vector<CameraCalibration> cameras,
                                       const PanTiltAngles& angles) {
   for (CameraCalibration& camera : cameras) camera.X_CW = camera.PoseAt(angles);

@@ -1,4 +1,4 @@
-// How far apart two calibrations of the same cameras place the same things.
+// Difference between two calibrations of the same cameras, in space.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace mocap {
 
-/// Distances between the places that two calibrations give to points in the room.
+/// Distances between the positions that two calibrations give to points in the room.
 struct PlacementDifference {
-  int points = 0;  ///< That at least two cameras see.
+  int points = 0;  ///< Points visible to at least two cameras.
   double mean_mm = 0, worst_mm = 0;
-  Vector3 worst_at_W = Vector3::Zero();  ///< In the frame of the reference.
+  Vector3 worst_at_W = Vector3::Zero();  ///< In the reference's frame.
 };
 
 /// Projects points up to 1750 mm above the floor, in 3 x 3 m about the middle of the room, with the
-/// reference and triangulates them with the cameras. Both have the same world frame, or the
-/// distances tell of that too. Where there are heads, they look ahead, up, down and to the sides.
+/// reference, and triangulates them with the cameras. A difference of the world frames adds to the
+/// distances. Heads look ahead, up, down and to the sides.
 /// @throws SetupError  when a camera of the reference is missing.
 PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& cameras,
                                      const std::vector<CameraCalibration>& reference);

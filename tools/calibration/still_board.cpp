@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastAgreement = 0.15, kLeastLead = 0.05;
 
-// The same corners named from the other end.
+// Numbers the corners from the other end.
 void Turn(BoardCorners& corners) { std::reverse(corners.pixels.begin(), corners.pixels.end()); }
 
 void SettleTurns(const std::vector<CameraCalibration>& lenses,

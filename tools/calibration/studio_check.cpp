@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kGood_px = 0.5, kPoor_px = 1.0;
 constexpr double kUncertainFocal = 0.01;
-// The very corners are folded by many fits.
+// Many fits fold in the outermost corners.
 constexpr double kMuchFolded = 0.05;
 constexpr double kHip_mm = 1000;
 constexpr double kRoom_mm = 8000, kReach_mm = 2200;
@@ -105,7 +105,7 @@ void CheckRotations(const std::vector<CameraCalibration>& cameras, std::vector<F
   }
 }
 
-// The board was carried by a person: it was hardly ever under the floor.
+// A person carried the board, so it was hardly ever below the floor.
 void CheckBoardsAboveFloor(const StudioFit& fit, std::vector<Finding>& findings) {
   int under = 0, all = 0;
   for (const auto& X_WB : fit.bundle.X_WB) {

@@ -1,4 +1,4 @@
-// Checks a studio's calibration beyond reprojection: is it a room that can be?
+// Checks of a studio's calibration beyond reprojection: is the geometry plausible?
 #pragma once
 
 #include <optional>
@@ -11,51 +11,51 @@ namespace mocap {
 
 enum class Severity { kNote, kWarning, kWrong };
 
-/// One thing that was noticed, as a line that says what to do.
+/// One finding, as a line with the remedy.
 struct Finding {
   Severity severity = Severity::kNote;
   std::string text;
 };
 
-/// The place where a person stands: what all cameras look at, at hip height where a floor is known.
+/// Where a person stands: the point that all cameras face, at hip height if the floor is known.
 Vector3 MiddleOfRoom(const std::vector<CameraCalibration>& cameras);
 
-/// Millimetres that a pixel spans at the middle of the room.
+/// Millimetres per pixel at the middle of the room.
 double MillimetresPerPixel(const CameraCalibration& camera, const Vector3& middle_W);
 
-/// Looks at cameras alone, as they come from a file: heights above the floor, places, lenses.
+/// Checks cameras as read from a file: heights above the floor, positions, lenses.
 std::vector<Finding> CheckCameras(const std::vector<CameraCalibration>& cameras, bool has_floor);
 
-/// Looks at a fit: errors, coverage, boards under the floor, and all of CheckCameras.
+/// Checks a fit: errors, coverage, boards below the floor, and everything of CheckCameras.
 std::vector<Finding> CheckFit(const StudioFit& fit);
 
-/// A verdict in a sentence.
+/// Summarizes findings in a sentence.
 std::string Verdict(const std::vector<Finding>& findings);
 
-/// A length that was measured with a tape: between two cameras' lenses.
+/// A distance between two cameras' lenses, measured by tape.
 struct KnownDistance {
   std::string from, to;
   double mm = 0;
 };
 
-/// Reads `cam1:cam2:MM`. @throws SetupError
+/// Parses `cam1:cam2:MM`. @throws SetupError
 KnownDistance ParseDistance(const std::string& text);
 
-/// What the calibration says of it. @throws SetupError  when there is no such camera.
+/// The distance by the calibration. @throws SetupError  when there is no such camera.
 double DistanceMm(const KnownDistance& distance, const std::vector<CameraCalibration>& cameras);
 
-/// How much of the room cameras see.
+/// Part of the room that cameras see.
 struct SeenVolume {
   double cell_mm = 100;
   Vector3 low_W, high_W;
-  /// m³ that are seen by at least n cameras, at [n].
+  /// Volume [m³] seen by at least n cameras, at [n].
   std::vector<double> cubic_m;
-  /// Number of cameras that see each cell of the plan at 1 m above the floor; rows go up in y.
+  /// Number of cameras that see each cell at 1 m above the floor; rows in the direction of y.
   int columns = 0, rows = 0;
   std::vector<int> plan;
 };
 
-/// Counts over a box of 8 m around the middle of the room, up to 2.2 m.
+/// Measures over a box of 8 m around the middle of the room, up to 2.2 m.
 SeenVolume MeasureSeenVolume(const std::vector<CameraCalibration>& cameras);
 
 }  // namespace mocap

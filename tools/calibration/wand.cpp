@@ -17,18 +17,18 @@ namespace {
 constexpr int kFewestShared = 12;
 constexpr int kSamples = 40;
 constexpr int kSampleMoments = 3;
-/// Beyond this, in units of the sensor plane over the focal length, a match counts as none.
+/// A larger distance on the normalized plane is no match.
 constexpr double kFarOff = 0.01;
 constexpr double kLengthTolerance = 0.2;
 constexpr double kWorstWand_px = 30;
 
-/// Both ends as two cameras saw them, on the sensor plane over the focal length.
+/// Both ends in two cameras, on the normalized plane.
 struct WandPair {
   std::array<Vector2, 2> a, b;
   void Turn() { std::swap(b[0], b[1]); }
 };
 
-// Distance of q from the epipolar line of p (Sampson's).
+// Distance of q from p's epipolar line (Sampson's).
 double Off(const Matrix3& E, const Vector2& p, const Vector2& q) {
   const Vector3 in_b = E * p.homogeneous(), in_a = E.transpose() * q.homogeneous();
   const double value = q.homogeneous().dot(in_b);
@@ -85,8 +85,7 @@ cv::Mat MatFrom(const Matrix3& m) {
   return mat;
 }
 
-// Every way in which the ends of a few wands may belong together, and all essential matrices of
-// each.
+// All essential matrices for each assignment of the ends of a few wands.
 std::vector<Matrix3> Candidates(const std::array<WandPair, kSampleMoments>& sample) {
   std::vector<Matrix3> candidates;
   for (int way = 0; way < 1 << kSampleMoments; ++way) {
@@ -96,7 +95,7 @@ std::vector<Matrix3> Candidates(const std::array<WandPair, kSampleMoments>& samp
       if (way >> i & 1) pair.Turn();
       AddPoints(pair, a, b);
     }
-    // The last is left to judge by.
+    // The last one serves as a test.
     a.resize(5);
     b.resize(5);
     const cv::Mat E = cv::findEssentialMat(a, b, cv::Mat::eye(3, 3, CV_64F));
@@ -133,8 +132,7 @@ Matrix3 BestEssential(const std::vector<WandPair>& pairs) {
   return best;
 }
 
-// Names ends as epipolar lines say and gives the pose of A's points in B, with a length of 1
-// between the cameras.
+// Assigns ends by epipolar lines. Returns the pose of A's points in B, with a baseline of length 1.
 RigidTransform RelativePose(const Matrix3& E, std::vector<WandPair>& pairs) {
   std::vector<cv::Point2d> a, b;
   for (WandPair& pair : pairs) {
@@ -150,7 +148,7 @@ RigidTransform RelativePose(const Matrix3& E, std::vector<WandPair>& pairs) {
   return {MatrixFrom(R, 0), {t.at<double>(0), t.at<double>(1), t.at<double>(2)}};
 }
 
-// The place nearest to two rays; the first from the origin.
+// The point nearest to two rays; the first ray is from the origin.
 Vector3 Meet(const RigidTransform& X_BA, const Vector2& in_a, const Vector2& in_b) {
   const RigidTransform X_AB = X_BA.Inverse();
   const Vector3 u = in_a.homogeneous().normalized();
@@ -194,10 +192,10 @@ double OffPx(const CameraCalibration& camera, const BoardDetection& s,
 struct PlacedWand {
   std::array<Vector3, 2> ends_W;
   std::vector<bool> turned;
-  double off_px = kWorstWand_px;  ///< The mean over cameras.
+  double off_px = kWorstWand_px;  ///< Mean over cameras.
 };
 
-// The best of the ways in which the ends of the first and another camera may belong together.
+// The best assignment of the ends between the first and another camera.
 PlacedWand Place(const Seen& seen, const std::vector<CameraCalibration>& cameras,
                  double length_mm) {
   PlacedWand best;
@@ -225,7 +223,7 @@ PlacedWand Place(const Seen& seen, const std::vector<CameraCalibration>& cameras
   return best;
 }
 
-// Its roll about itself shows nowhere.
+// The roll of a wand is not observable.
 RigidTransform PoseOf(const std::array<Vector3, 2>& ends_W) {
   RigidTransform X_WB;
   const Vector3 x = (ends_W[1] - ends_W[0]).normalized();

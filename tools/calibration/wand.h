@@ -1,4 +1,4 @@
-// A wand with a light at either end: where a board is too small for the room.
+// A wand with a light at each end, for rooms in which a board is too small.
 #pragma once
 
 #include <vector>
@@ -9,28 +9,26 @@
 
 namespace mocap {
 
-/// Finds small bright spots, to a fraction of a pixel, the brightest of the picture.
+/// Finds the brightest small spots of a picture, with subpixel accuracy.
 std::vector<Vector2> FindSpots(ImageView<const Bgr> image);
 
-/// Leaves those of one camera's frames, in the order of time, in which two spots move: lamps stay
-/// where they are. The two are named 0 and 1, the same from frame to frame; which end of the wand
-/// that is, is not known.
+/// Keeps those of one camera's frames, in order of time, in which two spots move: lamps do not. The
+/// spots are numbered 0 and 1, consistently from frame to frame. Which end is which is unknown.
 void KeepWands(std::vector<BoardDetection>& of_camera);
 
-/// How camera B's points come to camera A.
+/// Transform from camera B's points to camera A.
 struct CameraLink {
-  int shared = 0;  ///< Moments that tell of it.
+  int shared = 0;  ///< Moments that support it.
   RigidTransform X_AB;
 };
 
-/// Tells from wands that two cameras saw at the same moments how the cameras stand to each other
-/// (five-point algorithm, over both ways in which the ends may belong together); the wand's length
-/// gives the scale. Deterministic.
+/// Computes the relative pose of two cameras from wands seen at the same moments (five-point
+/// algorithm, over both assignments of the ends); the wand's length gives the scale. Deterministic.
 CameraLink LinkByWand(const BoardDetections& detections,
                       const std::vector<CameraCalibration>& cameras, int a, int b);
 
-/// Places the wand at each moment that two placed cameras saw, and names its ends alike in all of
-/// them.
+/// Places the wand at each moment that two placed cameras saw, and numbers its ends consistently in
+/// all of them.
 void PlaceWands(BoardDetections& detections, Bundle& bundle);
 
 }  // namespace mocap

@@ -12,7 +12,7 @@ constexpr int kLeastContrast = 60;
 constexpr int kFewestPixels = 3;
 constexpr double kLargestShare = 0.003;
 constexpr std::size_t kMostSpots = 12;
-/// A spot that lies within so many pixels in so many of the frames is a lamp.
+/// A spot within this distance in this share of the frames is a lamp.
 constexpr double kSamePlace_px = 4;
 constexpr double kLampShare = 0.3;
 constexpr std::size_t kLampSamples = 100;
@@ -34,7 +34,7 @@ bool IsCompact(const cv::Mat& stats, int label, double picture_area) {
          2 * area >= width * height && width <= 3 * height && height <= 3 * width;
 }
 
-// The middle of the light within a box, weighed by how far it outshines its surroundings.
+// Centroid of the light within a box, weighted by its brightness above the surroundings.
 Vector2 MiddleOfLight(const cv::Mat& gray, const cv::Rect& box, int level) {
   const cv::Rect around =
       cv::Rect(box.x - 2, box.y - 2, box.width + 4, box.height + 4) & cv::Rect({}, gray.size());

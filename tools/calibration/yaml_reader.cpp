@@ -1,4 +1,4 @@
-// YAML by libyaml's events. Its parser does not recurse; nor does what is made of them.
+// Reads YAML from libyaml's events. Neither its parser nor this code recurses.
 #include <yaml.h>
 
 #include <algorithm>
@@ -35,12 +35,12 @@ std::size_t DepthOf(const DataNode& node) {
   return depth + 1;
 }
 
-/// Makes a tree of events.
+/// Builds a tree from events.
 class TreeMaker {
  public:
   explicit TreeMaker(std::string file) : file_(std::move(file)) {}
 
-  /// @return  whether the document goes on.
+  /// @return  whether the document continues.
   bool Take(const yaml_event_t& event) {
     line_ = static_cast<int>(event.start_mark.line) + 1;
     switch (event.type) {
@@ -147,7 +147,7 @@ class TreeMaker {
   bool has_root_ = false;
 };
 
-// OpenCV's first line, "%YAML:1.0", is none that YAML knows.
+// OpenCV's first line, "%YAML:1.0", is not valid YAML.
 void DropDirective(std::string& text) {
   const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   if (text.compare(begin, 5, "%YAML") != 0) return;
