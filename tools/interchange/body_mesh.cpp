@@ -12,7 +12,7 @@ namespace {
 constexpr int kAround = 16;
 constexpr int kRingsOfCap = 5;
 
-/// The joint of a capsule, as an axis of the body's table carries it.
+/// The joint that moves a capsule, by the carrying axis in the body table.
 SkeletonJoint JointOf(const Capsule& capsule, const BodyTable& table) {
   using enum SkeletonJoint;
   const auto is_carried_by = [&](Segment segment) {
@@ -45,8 +45,8 @@ SkeletonJoint JointOf(const Capsule& capsule, const BodyTable& table) {
   return is_carried_by(Segment::kShoulderL) ? kLeftShoulder : kRightShoulder;
 }
 
-/// A capsule's surface is two balls and the cone that touches both: at each place as far from one
-/// of the centres, along the normal, as that ball is wide.
+/// A capsule's surface consists of two balls and the cone tangent to both. Each point is at the
+/// ball's radius from one of the centres, along the normal.
 class CapsuleSurface {
  public:
   CapsuleSurface(const Capsule& capsule, SkeletonJoint joint, BodyMesh& mesh)
@@ -58,7 +58,7 @@ class CapsuleSurface {
   }
 
   void Add() {
-    // Where a ball lies in the other one, only the larger is seen.
+    // If one ball is inside the other, only the larger is visible.
     const double slope = (capsule_.radius_a_mm - capsule_.radius_b_mm) / std::max(length_, 1e-9);
     const double seam = std::asin(std::clamp(slope, -1.0, 1.0));
     const std::size_t first = mesh_.vertices.size();

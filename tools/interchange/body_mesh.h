@@ -1,4 +1,4 @@
-// A person's flesh as triangles.
+// Triangle mesh of a person's body.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 namespace mocap {
 
 struct MeshVertex {
-  Vector3 p_T;       ///< With all joints at rest, in the torso's frame [mm].
+  Vector3 p_T;       ///< With all joints at rest, in the torso frame [mm].
   Vector3 normal_T;  ///< Of length 1, outward.
-  SkeletonJoint joint = SkeletonJoint::kHips;  ///< Which carries it.
+  SkeletonJoint joint = SkeletonJoint::kHips;  ///< The joint that moves it.
 };
 
 struct BodyMesh {
@@ -22,7 +22,7 @@ struct BodyMesh {
   std::vector<std::array<std::uint16_t, 3>> triangles;  ///< Counter-clockwise from outside.
 };
 
-/// Makes the capsules that a body was tracked with, with its measured sizes.
+/// Makes a mesh of the capsules with which a body was tracked, in its measured sizes.
 BodyMesh MakeBodyMesh(const BodyRecord& body);
 
 }  // namespace mocap

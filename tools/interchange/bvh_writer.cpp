@@ -29,8 +29,8 @@ std::string Offset(const Vector3& offset_mm) {
   return "OFFSET " + Numbers(cm, 4) + '\n';
 }
 
-/// BVH cannot say all that a result says.
-/// @param before_s  how long somebody was there before this one.
+/// Lists what BVH cannot represent.
+/// @param before_s  time that others were tracked before this person.
 ExportRemarks RemarksOn(const SkeletonMotion& motion, double before_s) {
   ExportRemarks remarks;
   if (before_s > 0) {

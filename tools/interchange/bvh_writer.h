@@ -5,10 +5,10 @@
 
 namespace mocap {
 
-/// Writes a motion in centimetres and degrees, y up (see YUpFromWorld); rotations in the order Z,
-/// X, Y, free of jumps from frame to frame. It begins with the first tracked frame or, of several
-/// people, with their first moment and the pose in which this one is tracked first. In gaps the
-/// last pose is held.
+/// Writes a motion in centimetres and degrees, y up (see YUpFromWorld). Rotations are in the order
+/// Z, X, Y, without jumps between frames. The file begins with the first tracked frame. With
+/// several people it begins with their first moment, in this person's first tracked pose. Gaps hold
+/// the last pose.
 /// @pre  the scene has one subject.
 /// @throws SetupError  as MakeSkeletonMotion.
 ExportRemarks WriteBvh(const ExportScene& scene, std::ostream& out);

@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// What 16 bits hold; longer recordings say how long they are in TRIAL and LONG_FRAMES.
+/// Limit of 16 bits; longer recordings have their length in TRIAL and LONG_FRAMES.
 constexpr std::int64_t kLongest = 65'535;
 
 int Shortened(std::int64_t frames) { return static_cast<int>(std::min(frames, kLongest)); }
@@ -36,7 +36,7 @@ void AddPoints(const C3dLayout& layout, int data_block, C3dParameters& parameter
 }
 
 void AddTrial(const C3dLayout& layout, C3dParameters& parameters) {
-  // 32 bits in two words, the lower one first.
+  // 32 bits in two words, low word first.
   const int start[] = {1, 0};
   const int end[] = {static_cast<int>(layout.frames & 0xffff),
                      static_cast<int>(layout.frames >> 16)};
@@ -57,7 +57,7 @@ void AddSubjects(const C3dLayout& layout, C3dParameters& parameters) {
   parameters.Texts("MARKER_SETS", std::vector<std::string>(layout.subjects.size(), "mocapd"));
 }
 
-/// There are none of either, but programs ask.
+/// Empty groups that programs expect.
 void AddWhatIsMissing(const C3dLayout& layout, C3dParameters& parameters) {
   parameters.Group("ANALOG");
   parameters.Integer("USED", 0);
@@ -127,13 +127,13 @@ std::string Header(const C3dLayout& layout, int data_block) {
   constexpr std::uint16_t kLabelsOfFourLetters = 12345;
   constexpr std::size_t kBeforeLabels = 2 * 149;
   ByteWriter header;
-  header.Add(std::uint8_t{2});  // The block of the parameters.
+  header.Add(std::uint8_t{2});  // First block of the parameters.
   header.Add(std::uint8_t{0x50});
   header.Add(static_cast<std::uint16_t>(layout.labels.size()));
-  header.Add(std::uint16_t{0});  // Analog values a frame.
+  header.Add(std::uint16_t{0});  // Analog values per frame.
   header.Add(std::uint16_t{1});
   header.Add(static_cast<std::uint16_t>(Shortened(layout.frames)));
-  header.Add(std::uint16_t{0});  // Nothing was interpolated.
+  header.Add(std::uint16_t{0});  // No interpolated gaps.
   header.Add(static_cast<float>(kC3dScale));
   header.Add(static_cast<std::uint16_t>(data_block));
   header.Add(std::uint16_t{0});

@@ -1,4 +1,4 @@
-// What a C3D file says of its points beside where they are.
+// Description of the points in a C3D file.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-/// A start or an end of tracking.
+/// Start or end of tracking.
 struct C3dEvent {
   std::string label;
   std::string subject;
@@ -18,17 +18,17 @@ struct C3dEvent {
 
 struct C3dLayout {
   std::vector<std::string> labels;        ///< Of all points, in the order of the data.
-  std::vector<std::string> angle_labels;  ///< Of those among them that are angles.
+  std::vector<std::string> angle_labels;  ///< Labels of the points that are angles.
   std::vector<std::string> subjects, label_prefixes;
   std::vector<C3dEvent> events;
   std::int64_t frames = 0;
   double rate_hz = 0;
 };
 
-/// Residuals are counted in this [mm]; negative: the data are floats.
+/// Unit of residuals [mm]; negative: the data are floats.
 inline constexpr double kC3dScale = -0.25;
 
-/// Header and parameters: all that stands before the data.
+/// Returns header and parameters, which precede the data.
 std::string C3dBeginning(const C3dLayout& layout);
 
 }  // namespace mocap

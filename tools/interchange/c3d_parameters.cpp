@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// What a dimension of an array may be.
+/// Largest dimension of an array.
 constexpr std::size_t kMost = 255;
 constexpr std::uint8_t kKey = 0x50;
 constexpr std::uint8_t kIntel = 84;
@@ -27,7 +27,7 @@ void C3dParameters::Group(std::string_view name) {
   records_.Add(static_cast<std::int8_t>(name.size()));
   records_.Add(static_cast<std::int8_t>(-group_));
   records_.AddText(name);
-  records_.Add(std::int16_t{3});  // To the next record, from here.
+  records_.Add(std::int16_t{3});  // Offset to the next record, from here.
   records_.Add(std::int8_t{0});   // No description.
 }
 
@@ -110,7 +110,7 @@ std::string C3dParameters::Section() {
   section.Add(static_cast<std::uint8_t>(blocks));
   section.Add(kIntel);
   section.AddText(records);
-  // A record without a name is the end; zeros follow in any case.
+  // A record without a name ends the section; the padding is zero anyway.
   section.Add(std::uint16_t{0});
   section.PadTo(kC3dBlock);
   return section.Take();

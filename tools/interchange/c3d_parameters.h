@@ -12,31 +12,31 @@
 
 namespace mocap {
 
-/// Blocks in which C3D files are counted.
+/// Block size of C3D files.
 inline constexpr std::size_t kC3dBlock = 512;
 
-/// Writes groups and their parameters one after the other, in Intel's byte order.
+/// Writes groups and their parameters in sequence, little-endian.
 class C3dParameters {
  public:
-  /// Begins a group, to which what follows belongs.
+  /// Begins a group for the following parameters.
   void Group(std::string_view name);
 
   void Integer(std::string_view name, int value);
-  /// Numbers of 16 bits; those above 32,767 are to be read as unsigned.
-  /// @param dims  of the array, the fastest first, at most 255 each; their product is how many.
+  /// Adds numbers of 16 bits; those above 32,767 are to be read as unsigned.
+  /// @param dims  of the array, the fastest first, at most 255 each; their product is the count.
   void Integers(std::string_view name, std::span<const int> values,
                 std::initializer_list<std::size_t> dims);
   void Real(std::string_view name, double value);
   void Reals(std::string_view name, std::span<const double> values,
              std::initializer_list<std::size_t> dims);
   void Text(std::string_view name, std::string_view text);
-  /// Texts of one width; more than 255 go on in NAME2 and so on.
+  /// Adds texts of equal width; more than 255 continue in NAME2 and so on.
   void Texts(const std::string& name, std::span<const std::string> texts);
-  /// Pairs of texts: an array of width × 2 × pairs.
+  /// Adds pairs of texts: an array of width × 2 × pairs.
   void TextPairs(std::string_view name, std::span<const std::string> texts);
 
-  /// The whole section, in whole blocks.
-  /// @throws SetupError  when these are more than 255, which is what C3D can count.
+  /// Returns the section, padded to whole blocks.
+  /// @throws SetupError  for more than 255 blocks, the limit of C3D.
   std::string Section();
 
  private:

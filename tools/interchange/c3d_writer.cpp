@@ -18,10 +18,10 @@
 namespace mocap {
 namespace {
 
-/// Of the events that a file can tell of, which is what an array holds.
+/// Limit of events, from the limit of arrays.
 constexpr std::size_t kMostEvents = 255;
 
-/// With the names of Vicon's Plug-in Gait: x flexion, y adduction, z rotation inwards.
+/// Names of Vicon's Plug-in Gait: x flexion, y adduction, z internal rotation.
 constexpr std::array kAngleNames = {"LHipAngles",   "RHipAngles",      "LKneeAngles",
                                     "RKneeAngles",  "LShoulderAngles", "RShoulderAngles",
                                     "LElbowAngles", "RElbowAngles",    "SpineAngles"};
@@ -37,7 +37,7 @@ std::array<Vector3, kAngleNames.size()> AnglesIn(const BodyAngles& angles) {
           hinge(angles.arm_l), hinge(angles.arm_r), angles.lumbar};
 }
 
-/// The fourth number of a point: cameras above, residual below.
+/// The fourth number of a point: cameras in the high byte, residual in the low byte.
 float QualityOf(const PoseRow& row) {
   const double steps = std::round(row.residual_mm / -kC3dScale);
   return static_cast<float>(256 * row.first_cameras + std::clamp(steps, 0.0, 255.0));
@@ -48,12 +48,12 @@ void AddPoint(const Vector3& point, float quality, ByteWriter& data) {
   data.Add(quality);
 }
 
-/// One subject's points, frame by frame.
+/// One subject's points by frame.
 class SubjectData {
  public:
   explicit SubjectData(const Result& result) : poses_(result.poses), angles_(AnglesOf(result)) {}
 
-  /// Adds the points at a time, and tells whether he is tracked then. Times increase.
+  /// Adds the points at a time; returns whether the person is tracked then. Times increase.
   bool Add(std::int64_t time_ns, ByteWriter& data) {
     while (pose_ < poses_.size() && poses_[pose_].timestamp_ns < time_ns) ++pose_;
     const bool is_tracked =
@@ -81,7 +81,7 @@ class SubjectData {
   std::size_t angle_ = 0;
 };
 
-/// Notes where tracking of each subject starts and ends.
+/// Collects where tracking of each subject starts and ends.
 class EventNotes {
  public:
   explicit EventNotes(std::vector<std::string> subjects)
@@ -104,7 +104,7 @@ class EventNotes {
   }
 
   std::vector<std::string> subjects_;
-  std::vector<double> last_s_;  ///< When each was tracked in the frame before; -1: he was not.
+  std::vector<double> last_s_;  ///< Time of the last frame if tracked in it; else -1.
   std::vector<C3dEvent> events_;
 };
 

@@ -13,7 +13,7 @@ constexpr double kPi = std::numbers::pi;
 
 Vector3 AnglesZxy(const Matrix3& R) {
   const double x = std::asin(std::clamp(R(2, 1), -1.0, 1.0));
-  // At the lock only the sum or difference of z and y counts.
+  // At gimbal lock only the sum or difference of z and y counts.
   if (std::abs(R(2, 1)) > 1 - 1e-12) return {std::atan2(R(1, 0), R(0, 0)), x, 0};
   return {std::atan2(-R(0, 1), R(1, 1)), x, std::atan2(-R(2, 0), R(2, 2))};
 }

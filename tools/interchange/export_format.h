@@ -1,4 +1,4 @@
-// The formats of `mocap export`: what each is for, and who writes it.
+// The formats of `mocap export`: purpose and writer of each.
 #pragma once
 
 #include <iosfwd>
@@ -11,39 +11,39 @@
 
 namespace mocap {
 
-/// Somebody whose motion is exported. Borrowed.
+/// A person whose motion is exported. Not owned.
 struct ExportSubject {
-  std::string name;  ///< Of several people: person-1, or his own. Empty: nobody else is there.
+  std::string name;  ///< With several people: person-1, or the person's own. Else empty.
   const Result& result;
 };
 
-/// What goes into one file. Borrowed.
+/// Content of one file. Not owned.
 struct ExportScene {
-  std::span<const ExportSubject> subjects;  ///< One, or everybody where the format holds them.
-  /// Frames and times of all who were tracked together; the first of them is time 0.
+  std::span<const ExportSubject> subjects;  ///< One, or all if the format supports it.
+  /// Frames and times of all people tracked together; the first is time 0.
   const std::vector<PoseRow>& moments;
-  std::string file_name;   ///< For formats that tell it.
-  bool is_of_all = false;  ///< Labels say then whose they are.
+  std::string file_name;   ///< For formats that contain it.
+  bool is_of_all = false;  ///< Labels then name their subject.
 
-  /// What stands before a subject's labels.
+  /// Prefix of a subject's labels.
   std::string LabelPrefix(const ExportSubject& subject) const;
 };
 
-/// What a person should know is not in the file, a line each.
+/// What the file does not contain, one line each.
 using ExportRemarks = std::vector<std::string>;
 
 struct ExportFormat {
-  std::string_view name;       ///< Of --format; files end in it.
+  std::string_view name;       ///< For --format; also the file suffix.
   std::string_view purpose;    ///< For the help.
-  std::string_view beginning;  ///< Of each such file: what may be written over.
-  bool holds_everybody;        ///< Of several people there is a file of all, too.
-  /// @throws SetupError  when a result has nothing that the format can hold.
+  std::string_view beginning;  ///< Beginning of each such file, which may be overwritten.
+  bool holds_everybody;        ///< With several people, also writes a file of all.
+  /// @throws SetupError  when a result has nothing for the format.
   ExportRemarks (*write)(const ExportScene& scene, std::ostream& out);
 };
 
-/// All of them, as the help lists them.
+/// All formats, in the order of the help.
 std::span<const ExportFormat> ExportFormats();
-/// @throws SetupError  for a name that is none.
+/// @throws SetupError  for an unknown name.
 const ExportFormat& FindExportFormat(std::string_view name);
 
 }  // namespace mocap

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A joint that stays nearer to its place in the skeleton needs no curve of its own.
+/// A joint that moves less within the skeleton needs no translation curve.
 constexpr double kMoved_mm = 0.05;
 constexpr double kMetresPerMm = 1e-3;
 
@@ -71,7 +71,7 @@ Json Mesh(const BodyRecord& body, GltfBuffer& buffer) {
   return {{"name", "Body"}, {"primitives", Json::array({primitive})}};
 }
 
-/// The mesh is bound to joints that do not turn at rest.
+/// The mesh is bound to joints without rotation at rest.
 int InverseBindMatrices(const JointOffsets& rest_T, GltfBuffer& buffer) {
   std::vector<float> columns;
   for (const Vector3& place_T : rest_T) {
@@ -118,7 +118,7 @@ class Animation {
     Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
     for (const SkeletonPose& pose : motion_.frames) {
       Eigen::Quaterniond q(Matrix3(R_YW * pose.R[joint] * R_YW.transpose()));
-      // Of the two that mean the same, the one that leads on from the last.
+      // Of two equivalent quaternions, the one that continues from the last.
       if (q.dot(last) < 0) q.coeffs() *= -1;
       last = q;
       for (const double value : q.coeffs()) values.push_back(static_cast<float>(value));

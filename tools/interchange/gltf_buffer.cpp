@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As glTF and GLB number them.
+// Constants of glTF and GLB.
 constexpr int kByte = 5121, kShort = 5123, kFloat = 5126;
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
                         kBinaryChunk = 0x004e4942;
@@ -67,7 +67,7 @@ std::string GltfBuffer::Glb(Json file) {
   file["buffers"] = Json::array({{{"byteLength", binary.size()}}});
   file["bufferViews"] = std::move(views_);
   file["accessors"] = std::move(accessors_);
-  // Of names, what is no UTF-8 is replaced.
+  // Bytes in names that are not UTF-8 are replaced.
   std::string json = file.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   ByteWriter glb;

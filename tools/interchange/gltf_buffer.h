@@ -1,4 +1,4 @@
-// The binary part of glTF files, and the JSON that says what lies where in it.
+// Binary part of glTF files, with the JSON that describes it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,22 +11,22 @@
 
 namespace mocap {
 
-/// Collects arrays of numbers, each with a view and an accessor of its own.
+/// Collects arrays of numbers, each with its own view and accessor.
 class GltfBuffer {
  public:
-  /// What an array is used for, as glTF numbers it.
+  /// Use of an array, by glTF's numbers.
   enum Target { kNone = 0, kVertices = 34962, kIndices = 34963 };
 
-  /// Adds floats, and their bounds, which glTF wants of positions and times.
+  /// Adds floats with their bounds, which glTF requires for positions and times.
   /// @param type  "SCALAR", "VEC3", "VEC4" or "MAT4".
-  /// @return  the accessor's number.
+  /// @return  the accessor's index.
   int AddFloats(std::span<const float> values, const char* type, Target target = kNone);
   int AddIndices(std::span<const std::uint16_t> values);
-  /// Bytes, four an element.
+  /// Adds bytes, four per element.
   /// @param is_share  255 means 1.
   int AddBytes(std::span<const std::uint8_t> values, bool is_share);
 
-  /// Puts `buffers`, `bufferViews` and `accessors` into a file's JSON and gives the whole file.
+  /// Adds `buffers`, `bufferViews` and `accessors` to a file's JSON; returns the whole file.
   std::string Glb(nlohmann::ordered_json file);
 
  private:

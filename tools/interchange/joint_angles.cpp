@@ -10,14 +10,15 @@
 namespace mocap {
 namespace {
 
-/// A limb that is bent less shows nothing of its turn about itself; one that is bent more, all.
+/// A straighter limb does not show its rotation about itself; one bent by more than kBent shows it
+/// fully.
 constexpr double kStraight_rad = 10 * EIGEN_PI / 180, kBent_rad = 20 * EIGEN_PI / 180;
 constexpr double kQuarter_rad = EIGEN_PI / 2;
 
-/// Where the hip joints lie in the pelvis of Rajagopal's model, and how far apart [m].
+/// Position of the hip joints in the pelvis of Rajagopal's model, and their distance [m].
 constexpr double kHipForward_m = -0.056276, kHipUp_m = -0.07849, kHipsApart_m = 2 * 0.07726;
 
-/// Turns axes x forward, y left, z up into OpenSim's: x forward, y up, z right.
+/// Converts axes x forward, y left, z up to OpenSim's: x forward, y up, z right.
 Matrix3 SimFromBody() {
   Matrix3 R;
   R << 1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -29,16 +30,16 @@ double SmoothStep(double share) {
   return s * s * (3 - 2 * s);
 }
 
-/// Which way a hinge bends the lower part: forward as an elbow, or backward as a knee.
+/// Direction in which a hinge bends the lower part: forward like an elbow, backward like a knee.
 enum class Bends { kForward = 1, kBackward = -1 };
 
-/// Angles z, x, y of the upper part and the hinge's bend, as if the limb were a right one.
+/// Angles z, x, y of the upper part and bend of the hinge, mirrored to a right limb.
 struct Turns {
   Vector3 zxy;
   double bend;
 };
 
-/// @param upper, lower  unit vectors along the parts, in the parent's axes as OpenSim has them.
+/// @param upper, lower  unit vectors along the parts, in the parent's OpenSim axes.
 Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
   const double x = std::asin(std::clamp(-upper.z(), -1.0, 1.0));
   const double z = std::atan2(upper.x(), -upper.y());
@@ -51,7 +52,7 @@ Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
   const double shown =
       (std::atan2(aside, -hinged.y()) - kStraight_rad) / (kBent_rad - kStraight_rad);
   double y = std::atan2(-sign * hinged.z(), sign * hinged.x());
-  // A limb that is nearly straight and bends the wrong way is overstretched, not turned about.
+  // A nearly straight limb that bends the wrong way is hyperextended, not rotated.
   if (shown < 1 && std::abs(y) > kQuarter_rad) y -= std::copysign(2 * kQuarter_rad, y);
   y *= SmoothStep(shown);
   const double bend =
@@ -97,7 +98,7 @@ class AngleReader {
   }
 
  private:
-  /// Of the frame before, about z, x and y.
+  /// Of the previous frame, about z, x and y.
   struct Last {
     Vector3 pelvis = Vector3::Zero(), lumbar = Vector3::Zero(), leg_l = Vector3::Zero(),
             leg_r = Vector3::Zero(), arm_l = Vector3::Zero(), arm_r = Vector3::Zero();

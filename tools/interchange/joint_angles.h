@@ -1,4 +1,4 @@
-// Joint angles as biomechanics defines them, from the 23 points.
+// Biomechanical joint angles from the 23 points.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace mocap {
 
-/// A ball joint with the hinge that it carries: hip and knee, or shoulder and elbow [rad].
+/// A ball joint and the hinge below it: hip and knee, or shoulder and elbow [rad].
 struct LimbAngles {
   double flexion = 0;    ///< Forward.
-  double adduction = 0;  ///< Towards the body's middle.
-  double rotation = 0;   ///< Inwards, about the limb's own axis.
-  double bend = 0;       ///< Of knee or elbow.
+  double adduction = 0;  ///< Towards the midline.
+  double rotation = 0;   ///< Internal, about the limb's own axis.
+  double bend = 0;       ///< Of the knee or elbow.
 };
 
-/// Angles with the axes and the order of Rajagopal's model (2016), about z, x and y of axes x
-/// forward, y up, z to the right; all 0 of somebody who stands with hanging arms [rad].
+/// Angles with axes and order of Rajagopal's model (2016), about z, x and y of axes x forward, y
+/// up, z right; all 0 for a person who stands with hanging arms [rad].
 struct BodyAngles {
   std::int64_t time_ns = 0;
-  Vector3 p_GPelvis;  ///< The pelvis' origin in OpenSim's ground [m].
-  Vector3 pelvis;     ///< Tilt, list and rotation in the ground.
-  Vector3 lumbar;     ///< Extension, bending and rotation of the torso in the pelvis.
+  Vector3 p_GPelvis;  ///< Pelvis origin in OpenSim's ground [m].
+  Vector3 pelvis;     ///< Tilt, list and rotation relative to the ground.
+  Vector3 lumbar;     ///< Extension, bending and rotation of the torso relative to the pelvis.
   LimbAngles leg_l, leg_r, arm_l, arm_r;
 };
 
-/// Gives the angles of all tracked frames, free of jumps of a whole turn.
+/// Computes the angles of all tracked frames, without jumps by whole turns.
 ///
-/// OpenSim's ground is that of TRC: see YUpFromWorld. How a limb is turned about its own axis is
-/// read from the plane in which knee or elbow is bent: of a nearly straight limb it fades to 0,
-/// because the plane is lost.
+/// OpenSim's ground is that of TRC: see YUpFromWorld. A limb's rotation about its own axis follows
+/// from the plane of the bent knee or elbow. For a nearly straight limb this plane is undefined,
+/// and the rotation fades to 0.
 std::vector<BodyAngles> AnglesOf(const Result& result);
 
 }  // namespace mocap

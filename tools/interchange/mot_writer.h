@@ -5,8 +5,8 @@
 
 namespace mocap {
 
-/// Writes joint angles in degrees under the names of Rajagopal's model, and the pelvis' place in
-/// metres. Frames in which nobody is tracked have no row: a gap is a jump of the time.
+/// Writes joint angles in degrees with the names of Rajagopal's model, and the pelvis position in
+/// metres. Frames without tracking have no row, so a gap is a jump in time.
 /// @pre  the scene has one subject.
 /// @throws SetupError  when no frame is tracked.
 ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out);

@@ -1,4 +1,4 @@
-// One clock for the results of several people, so that what is exported of each goes together.
+// A common clock for the results of several people, so that their exports match.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace mocap {
 
-/// Frames and times of all who were tracked together, in order; nothing else of the rows is set.
+/// Frames and times of all people tracked together, in order; other fields of the rows are not set.
 std::vector<PoseRow> MomentsOf(const PeopleResults& people);
 
-/// A result that begins with the first of the moments: until he is tracked, it has the pose in
-/// which he is tracked first. For formats that know no time but that since their beginning.
-/// @pre  he is tracked at some time.
+/// A result that begins with the first moment. Until the person is tracked, it has the first
+/// tracked pose. For formats whose time starts at the beginning of the file.
+/// @pre  the person is tracked at some time.
 Result HoldingFirstPose(const Result& result, const std::vector<PoseRow>& moments);
 
-/// How long the first of the moments lies before the first tracked frame of somebody [s].
-/// @pre  he is tracked at some time.
+/// Time from the first moment to a person's first tracked frame [s].
+/// @pre  the person is tracked at some time.
 double SecondsBeforeFirstPose(const Result& result, const std::vector<PoseRow>& moments);
 
 }  // namespace mocap

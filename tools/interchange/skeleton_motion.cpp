@@ -14,12 +14,12 @@ constexpr int kHips = static_cast<int>(SkeletonJoint::kHips);
 constexpr int kSpine = static_cast<int>(SkeletonJoint::kSpine);
 constexpr int kHead = static_cast<int>(SkeletonJoint::kHead);
 
-/// Whether a joint turns its bone towards the joint after it.
+/// Whether a joint points its bone at the next joint.
 constexpr bool IsAiming(int joint) {
   return joint != kHips && joint != kSpine && joint != kHead && !kSkeletonJoints[joint].is_end;
 }
 
-/// Poses a skeleton for the rows of one body.
+/// Poses a skeleton for one body's rows.
 class Poser {
  public:
   explicit Poser(const BodyRecord& body) : rest_(body) {
@@ -64,7 +64,7 @@ class Poser {
     if (joint == kSpine) return R_WParent.transpose() * TorsoRotation(row);
     if (!IsAiming(joint)) return Matrix3::Identity();
     const Vector3 direction = R_WParent.transpose() * (places_W[joint + 1] - places_W[joint]);
-    // The shortest turn: points say nothing of a turn about the bone itself.
+    // The shortest rotation: points do not show a rotation about the bone itself.
     return Eigen::Quaterniond::FromTwoVectors(direction_T_[joint], direction).toRotationMatrix();
   }
 
@@ -98,7 +98,7 @@ class Poser {
   }
 
   RestBody rest_;
-  JointOffsets direction_T_;  ///< From each joint to the next one at the reference configuration.
+  JointOffsets direction_T_;  ///< From each joint to the next one in the reference configuration.
 };
 
 void MeasureWorst(SkeletonMotion& motion) {
@@ -111,7 +111,7 @@ void MeasureWorst(SkeletonMotion& motion) {
   }
 }
 
-/// Repeats the last pose until a row that comes so many periods later.
+/// Repeats the last pose until a row that is this many periods later.
 void Hold(std::int64_t periods, const PoseRow& row, SkeletonMotion& motion) {
   const SkeletonPose last = motion.frames.back();
   const std::int64_t repeats = IsTracked(row) ? periods - 1 : periods;

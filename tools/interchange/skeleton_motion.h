@@ -1,4 +1,4 @@
-// A result as a skeleton of joints, as animation programs want it.
+// A result as a skeleton of joints, for animation programs.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace mocap {
 
-/// The joints, with the names that animation programs know, and the ends of the limbs. A joint
-/// stands before its children.
+/// Joints, with names common in animation programs, and ends of limbs. Joints come before their
+/// children.
 ///
-/// Hips is the middle of the hip joints. Spine is the torso's centroid: a waist turns about it, so
-/// its distance from the hips stays the same, as that of hips and neck would not. LeftShoulder is
-/// where the collar bone meets the breast bone, LeftHand the wrist.
+/// Hips is the middle of the hip joints. Spine is the torso's centroid. A waist turns about it, so
+/// its distance from the hips is constant, unlike that from hips to neck. LeftShoulder is the joint
+/// of clavicle and sternum, LeftHand the wrist.
 enum class SkeletonJoint {
   kHips = 0,
   kSpine,
@@ -45,7 +45,7 @@ inline constexpr int kSkeletonJointCount = 21;
 struct SkeletonJointInfo {
   std::string_view name;
   int parent;           ///< -1: the root.
-  bool is_end = false;  ///< Where a limb ends: does not turn.
+  bool is_end = false;  ///< End of a limb: does not rotate.
 };
 inline constexpr std::array<SkeletonJointInfo, kSkeletonJointCount> kSkeletonJoints = {{
     {"Hips", -1},
@@ -71,37 +71,37 @@ inline constexpr std::array<SkeletonJointInfo, kSkeletonJointCount> kSkeletonJoi
     {"RightLegEnd", 19, true},
 }};
 
-/// Of each joint, in the order of kSkeletonJoints.
+/// Per joint, in the order of kSkeletonJoints.
 using JointOffsets = std::array<Vector3, kSkeletonJointCount>;
 
 struct SkeletonPose {
-  std::int64_t time_ns = 0;  ///< Of capture.
-  /// From the parent joint, in its axes; the root's from the world's origin [mm].
+  std::int64_t time_ns = 0;  ///< Capture time.
+  /// From the parent joint, in its axes; the root's from the world origin [mm].
   JointOffsets offset;
   std::array<Matrix3, kSkeletonJointCount> R;  ///< From joint to parent; the root's to the world.
 };
 
-/// Where a pose puts the joints, with bones of its own or of another pose; p_W [mm].
-/// @param offset  of each joint but the root.
+/// Positions of a pose's joints, with its own bones or those of another pose; p_W [mm].
+/// @param offset  of each joint except the root.
 JointOffsets PlacesAt(const SkeletonPose& pose, const JointOffsets& offset);
 
 struct SkeletonMotion {
-  /// Bones as they are in the last tracked frame, when sizes have settled. With all joints at rest
-  /// arms are out to the sides and legs down, in the torso's axes; the root's is zero.
+  /// Bones of the last tracked frame, when sizes have settled. With all joints at rest, arms are
+  /// out to the sides and legs down, in the torso's axes; the root's is zero.
   JointOffsets bones;
-  std::vector<SkeletonPose> frames;  ///< Evenly spaced but for what capture times jitter.
+  std::vector<SkeletonPose> frames;  ///< Evenly spaced except for jitter of capture times.
   double period_s = 0;
-  int skipped_frames = 0;  ///< Before the first tracked one.
-  int held_frames = 0;     ///< Missing or not tracked: the last pose again.
-  /// Largest distance of a joint from its place with those bones; not 0 where bones change.
+  int skipped_frames = 0;  ///< Before the first tracked frame.
+  int held_frames = 0;     ///< Missing or not tracked: repeats of the last pose.
+  /// Largest distance of a joint from its position with those bones; not 0 if bones change.
   double worst_mm = 0;
 };
 
-/// Places of the joints of a body with all joints at rest, in the torso's frame [mm].
+/// Positions of a body's joints at rest, in the torso frame [mm].
 JointOffsets RestPlaces(const BodyRecord& body);
 
-/// Makes the skeleton's motion from the tracked frames. Joints lie where the points are; turns of a
-/// limb about itself, which points do not show, are left out.
+/// Makes the skeleton's motion from the tracked frames. Joints are at the points. Rotations of a
+/// limb about itself are omitted, as points do not show them.
 /// @throws SetupError  when no frame is tracked, and as RequireShortGap.
 SkeletonMotion MakeSkeletonMotion(const Result& result);
 

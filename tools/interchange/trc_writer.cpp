@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-/// Joint centres have the names that marker sets of OpenSim's models give them.
+/// Joint centres, with the names in marker sets of OpenSim's models.
 constexpr std::array<std::string_view, kPointCount> kMarkerNames = [] {
   std::array<std::string_view, kPointCount> names = kPointNames;
   const auto name = [&](Point point, std::string_view usual) {
@@ -52,7 +52,7 @@ std::string Header(const ExportScene& scene) {
   return text + "\n\n";
 }
 
-/// The markers of the frame at a time, nan where the person is not tracked then.
+/// The markers at a time; nan if the person is not tracked then.
 BodyPoints MarkersAt(const std::vector<PoseRow>& poses, std::int64_t time_ns) {
   const auto row = std::ranges::lower_bound(poses, time_ns, {}, &PoseRow::timestamp_ns);
   const bool is_there = row != poses.end() && row->timestamp_ns == time_ns && IsTracked(*row);
@@ -68,8 +68,8 @@ ExportRemarks WriteTrc(const ExportScene& scene, std::ostream& out) {
     const std::int64_t time_ns = scene.moments[i].timestamp_ns;
     const auto since_first_ns = static_cast<double>(time_ns - scene.moments.front().timestamp_ns);
     std::string line = fmt::format("{}\t{:.6f}", i + 1, 1e-9 * since_first_ns);
-    // OpenSim drops an empty last field and then refuses the row; "nan" it reads as missing, and
-    // writes itself.
+    // OpenSim drops an empty last field and then rejects the row. It reads "nan" as missing, and
+    // writes it itself.
     for (const ExportSubject& subject : scene.subjects) {
       const BodyPoints points_Y = MarkersAt(subject.result.poses, time_ns);
       for (const double mm : points_Y.reshaped()) line += '\t' + FixedText(mm, 3);
