@@ -1,11 +1,11 @@
-// Formats numbers for tables.
+// Numbers in tables.
 #pragma once
 
 #include <string>
 
 namespace mocap {
 
-/// Formats a number with a fixed number of decimals. Never -0, which would make equal numbers
+/// Formats a number with fixed decimals. Never -0, which would make equal numbers
 /// differ; nan if it is not a number.
 std::string FixedText(double value, int decimals);
 

@@ -26,7 +26,7 @@ bool AreSizes(const BodySizes& sizes) {
 }
 
 std::optional<BodyModel> ModelOf(const BodyRecord& record) {
-  // A message must not cause files to be read.
+  // Messages must not cause file reads.
   if (!IsBuiltIn(record.model) || !AreSizes(record.sizes)) return {};
   return BodyModel(LoadBodyTable(record.model), record.sizes);
 }
