@@ -11,7 +11,7 @@ constexpr double kDepth_mm = 1000;
 
 Json NumbersOf(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// Where the rays of the picture's corners are a metre before the camera.
+/// Corners of the picture, projected to one metre from the camera.
 Json CornersOf(const CameraCalibration& camera, const RigidTransform& X_WC) {
   const double right = camera.width_px - 1, bottom = camera.height_px - 1;
   Json corners = Json::array();

@@ -1,4 +1,4 @@
-// The cameras of a studio as the page draws them.
+// JSON of a studio's cameras, for the page.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace mocap {
 
-/// JSON of a studio: each camera's name, picture, position, rotation, and the corners of what it
-/// sees, a metre before it.
-/// @param X_CW  where each camera stands; as many as there are cameras.
+/// JSON of a studio: each camera's name, picture size, position, rotation, and the corners of its
+/// field of view at one metre.
+/// @param X_CW  pose of each camera; same size as `cameras`.
 std::string StudioJson(const std::string& name, std::span<const CameraCalibration> cameras,
                        std::span<const RigidTransform> X_CW);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kJson = "application/json";
 constexpr std::array<std::string_view, 3> kOutcomes = {"done", "failed", "wrong"};
 
-/// Whether the page may ask for it: what a person does, no more.
+/// Whether the page may send this request: only what a person does.
 bool IsOffered(const std::string& line) {
   const std::optional<ControlRequest> request = ParseControlRequest(line);
   return request && !std::holds_alternative<StatusRequest>(*request) &&

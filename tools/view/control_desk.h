@@ -1,4 +1,4 @@
-// What the page may ask of the daemon.
+// Requests from the page to the daemon.
 #pragma once
 
 #include <chrono>
@@ -9,10 +9,10 @@
 
 namespace mocap {
 
-/// Passes requests on to the daemon's control socket for whoever holds the token. Thread-safe.
+/// Forwards requests of clients with the token to the daemon's control socket. Thread-safe.
 class ControlDesk {
  public:
-  /// The daemon publishes pictures for some seconds each time it is asked to.
+  /// After each such request, the daemon publishes pictures for some seconds.
   static constexpr std::chrono::milliseconds kLookPeriod{2000};
 
   /// @param socket  empty: the system's daemon, or the user's own.
@@ -20,7 +20,7 @@ class ControlDesk {
 
   /// Answers GET and POST /control; status 404 for anything else.
   ViewReply Answer(const ViewRequest& request) const;
-  /// Asks for pictures. @return  why there are none and what helps; empty: there are.
+  /// Requests pictures. @return  why there are none, with the remedy; empty on success.
   std::string Look() const;
 
  private:

@@ -12,7 +12,7 @@
 namespace mocap {
 namespace {
 
-/// A limb of the same width from joint to joint.
+/// A limb of constant width between joints.
 struct Limb {
   BodyPart part;
   Point from, to;
@@ -29,7 +29,7 @@ constexpr Limb kLimbs[] = {
     {BodyPart::kCalfL, Point::kKneeL, Point::kFootL, &BodySizes::calf_width},
     {BodyPart::kCalfR, Point::kKneeR, Point::kFootR, &BodySizes::calf_width}};
 
-/// Four rods between shoulders and hips, drawn in by their own thickness.
+/// Four rods between shoulders and hips, inset by their thickness.
 constexpr std::array<std::array<Point, 2>, 4> kTrunk = {{{Point::kShoulderL, Point::kShoulderR},
                                                          {Point::kHipL, Point::kHipR},
                                                          {Point::kShoulderL, Point::kHipL},

@@ -1,4 +1,4 @@
-// The body as it is drawn: what stands in messages and results, as capsules.
+// The body of a message or result as capsules, for drawing.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,18 @@ namespace mocap {
 /// A person's body with sizes.
 class DrawnBody {
  public:
-  /// @param record  of a model that is built in, or of another one, which is drawn more simply.
+  /// @param record  if its model is not built in, the body is drawn more simply.
   explicit DrawnBody(const BodyRecord& record);
 
   const BodyRecord& record() const { return record_; }
-  /// Whether it is drawn from the same sizes.
+  /// Whether it has the same model and sizes.
   bool IsOf(const BodyRecord& record) const {
     return record_.model == record.model && record_.sizes == record.sizes;
   }
-  /// The part that each capsule belongs to, where every joint is known.
+  /// The part of each capsule, if every joint is known.
   const std::vector<int>& parts() const { return parts_; }
-  /// The flesh as the tracker has it.
-  /// @return  that of CapsulesFromPoints where the pose is of another model.
+  /// Returns the tracker's capsules, posed.
+  /// @return  those of CapsulesFromPoints if the pose is of another model.
   std::vector<PosedCapsule> Pose(const pose_t& pose, const PoseRow& row) const;
 
  private:
@@ -35,9 +35,9 @@ class DrawnBody {
   std::vector<int> parts_;
 };
 
-/// Ten parts between the 23 points, where joint angles are not known.
+/// Capsules of the ten parts between the 23 points, for unknown joint angles.
 std::vector<PosedCapsule> CapsulesFromPoints(const PoseRow& row, const BodySizes& sizes);
-/// The part of each of those.
+/// The part of each of these capsules.
 const std::vector<int>& PartsFromPoints();
 
 /// JSON of a body for the page: model, sizes, names, sticks, the capsules' parts.

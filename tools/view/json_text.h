@@ -6,7 +6,7 @@
 
 namespace mocap {
 
-/// As text; what is no UTF-8 in messages of others becomes a question mark.
+/// Converts JSON to text. Bytes in messages that are not UTF-8 become a question mark.
 inline std::string JsonText(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -1,4 +1,4 @@
-// The latest of everything that pages are told, and who has yet to hear it.
+// The latest messages for pages, and which page still lacks which.
 #pragma once
 
 #include <cstddef>
@@ -9,26 +9,26 @@
 
 namespace mocap {
 
-/// What goes to a page at once. Shared by all who get it.
+/// One message to a page. Shared by all receivers.
 struct LiveMessage {
   bool is_text = false;  ///< JSON; otherwise binary.
   std::shared_ptr<const std::string> bytes;
 };
 
-/// Keeps one message a slot: a new one takes the old one's place. A reader who is slow gets the
-/// newest of each slot and never a queue. One thread.
+/// Keeps one message per slot; a new one replaces the old. A slow reader gets the newest of each
+/// slot and never a queue. Single-threaded.
 class LiveBoard {
  public:
-  /// A page: which slots it has yet to hear.
+  /// A page, with the slots that it still has to get.
   class Reader {
    public:
-    /// @param board  borrowed for the reader's life.
+    /// @param board  must outlive the reader.
     explicit Reader(LiveBoard& board);
     ~Reader();
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    /// The next message that is due, in turns over the slots; empty: all is heard.
+    /// The next new message, in turns over the slots; empty: there is none.
     std::optional<LiveMessage> Next();
 
    private:

@@ -27,9 +27,9 @@ namespace mocap {
 namespace {
 
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-/// Pictures come later than poses, by no more than so many.
+/// Pictures lag behind poses by at most this many poses.
 constexpr std::size_t kPosesKept = 300;
-/// A pose so far from a picture in time is not the picture's.
+/// A pose farther from a picture in time does not belong to it.
 constexpr std::int64_t kSameMomentUs = 60'000;
 constexpr int kLargestPreview_px = 2048;
 
@@ -98,7 +98,7 @@ void LiveFeed::PutNotice() {
   put_(kNotice, Text(std::move(notice)));
 }
 
-// The same is told of everybody a moment later, by a daemon that follows several people.
+// A daemon that tracks several people publishes all of them a moment later.
 void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
   if (!pose) return;
@@ -187,7 +187,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
     if (cameras.size() > kMaxCameras) return;
     cameras_ = std::move(cameras);
   } catch (const SetupError&) {
-    // Whoever sent it is no mocapd of this version: the page goes on with what it has.
+    // The sender is not a mocapd of this version. The page keeps what it has.
     return;
   }
   studio_ = std::move(*studio);
@@ -199,7 +199,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
 
 void LiveFeed::PutStudio() { put_(kStudio, Text(StudioJson(studio_.name, cameras_, X_CW_))); }
 
-/// The poses nearest to a moment, if they are that moment's.
+/// The poses nearest to a time, if near enough.
 const std::vector<DrawnPose>* LiveFeed::PosesAt(std::int64_t utime) const {
   const std::vector<DrawnPose>* nearest = nullptr;
   std::int64_t least_us = kSameMomentUs;
@@ -234,7 +234,7 @@ void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
   if (found == cameras_.end()) return;
   const auto camera = static_cast<std::size_t>(found - cameras_.begin());
   MoveCamera(camera, *preview);
-  // A picture is quicker than the pose of its moment, if one comes at all.
+  // A picture may arrive before its pose, if that comes at all.
   const bool has_pose =
       !poses_.empty() && poses_.back().front().row.timestamp_ns / 1000 >= preview->utime;
   if (const auto before = waiting_.find(camera); before != waiting_.end()) {

@@ -1,4 +1,4 @@
-// From the daemon's messages to what pages are told.
+// Converts the daemon's messages to messages for pages.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@
 
 namespace mocap {
 
-/// Hears LCM and puts what is new on the board. One thread.
+/// Receives LCM messages and puts updates on the board. Single-threaded.
 class LiveFeed {
  public:
-  /// Slots of the board; each camera's picture has one from kPictures on.
+  /// Slots of the board. From kPictures on, each camera's picture has its own.
   enum Slot : std::size_t {
     kStudio,
     kBody,
@@ -31,20 +31,20 @@ class LiveFeed {
     kStatus,
     kService,
     kNotice,
-    kPoses,  ///< Everybody's of one set, whoever has been followed the longest first.
+    kPoses,  ///< Everyone's of one set; the person tracked longest is first.
     kVoxels,
     kPictures
   };
   using Put = std::function<void(std::size_t slot, LiveMessage message)>;
 
-  /// @param lcm     borrowed for the feed's life.
-  /// @param prefix  before the channels' names.
+  /// @param lcm     must outlive the feed.
+  /// @param prefix  of the channels' names.
   /// @param url     of LCM, for people.
   LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put);
 
-  /// Why the daemon cannot be asked, for pictures or anything else; empty: it can, or nobody has.
+  /// Sets why requests to the daemon fail; empty: they work, or none was made.
   void NoteControl(const std::string& why);
-  /// Looks whether the daemon has fallen silent. Some times a second.
+  /// Checks whether the daemon has fallen silent. Call it several times a second.
   void Tick();
 
  private:
@@ -74,17 +74,17 @@ class LiveFeed {
   const Put put_;
   std::int64_t heard_ns_;  ///< By the steady clock.
   std::string silence_, control_, notice_, told_people_;
-  std::optional<DrawnBody> body_;  ///< Of MOCAP_POSE.
+  std::optional<DrawnBody> body_;  ///< From MOCAP_POSE.
   LivePeople people_;
-  std::optional<std::int64_t> people_ns_;  ///< When they were heard of last, by the steady clock.
-  std::optional<pose_t> first_;            ///< Drawn where MOCAP_PEOPLE has nobody yet.
+  std::optional<std::int64_t> people_ns_;  ///< Time of the last MOCAP_PEOPLE, by the steady clock.
+  std::optional<pose_t> first_;            ///< Drawn while MOCAP_PEOPLE has nobody.
   std::optional<service_t> service_;
   studio_t studio_;
   std::vector<CameraCalibration> cameras_;
-  std::vector<RigidTransform> X_CW_;  ///< Where each camera stands now.
-  /// The latest, for pictures that come later, without flesh,
+  std::vector<RigidTransform> X_CW_;  ///< Current pose of each camera.
+  /// Latest poses, for later pictures, without capsules.
   std::deque<std::vector<DrawnPose>> poses_;
-  /// and pictures whose pose is still to come, by camera.
+  /// Pictures whose pose has not come yet, by camera.
   std::map<std::size_t, preview_t> waiting_;
 };
 

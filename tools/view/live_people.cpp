@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-/// Whoever is silent for longer may have been started anew.
+/// A sender that is silent for longer may have been restarted.
 constexpr double kLongestGapUs = 3e6;
 
 }  // namespace
@@ -23,14 +23,14 @@ DrawnPose DrawnPoseOf(const pose_t& pose, const PoseRow& row, const DrawnBody* b
 }
 
 std::vector<DrawnPose> LivePeople::Take(const people_t& set) {
-  // Another daemon gives the same numbers to others.
+  // Another daemon numbers people independently.
   const auto at_us = static_cast<double>(set.publish_utime);
   const bool goes_on = heard_us_ && at_us >= *heard_us_ && at_us - *heard_us_ < kLongestGapUs;
   if (!goes_on) {
     people_.clear();
     heard_us_.reset();
   }
-  // First those who leave: their colours are free.
+  // Remove those who left first, to free their colours.
   std::erase_if(people_, [&](const Person& person) {
     return std::ranges::find(set.people, person.id, &person_t::id) == set.people.end();
   });

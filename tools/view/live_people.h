@@ -1,4 +1,4 @@
-// Who is followed now, with the colour and the body in which the page draws each.
+// The people tracked now, with the colour and body of each on the page.
 #pragma once
 
 #include <mocap/people_t.hpp>
@@ -12,38 +12,38 @@
 
 namespace mocap {
 
-/// A pose with the flesh of the body, where that is known.
+/// Makes a pose for drawing, with capsules if the body is known.
 DrawnPose DrawnPoseOf(const pose_t& pose, const PoseRow& row, const DrawnBody* body);
 
-/// Follows MOCAP_PEOPLE and MOCAP_BODIES. Whoever comes takes the first colour that is free and
-/// keeps it.
+/// Keeps track of MOCAP_PEOPLE and MOCAP_BODIES. A new person gets the first free colour and keeps
+/// it.
 class LivePeople {
  public:
   struct Person {
     int id = 0;
     int color = 0;  ///< From 0.
     std::string name = {};
-    double since_ms = 0;    ///< When he was first heard of, since the Unix epoch.
-    bool has_come = false;  ///< He came then; otherwise he was there already.
+    double since_ms = 0;    ///< When first heard of, since the Unix epoch.
+    bool has_come = false;  ///< The person arrived then; otherwise was there before.
     std::optional<DrawnBody> body = {};
   };
 
-  /// Takes who is there in a set.
-  /// @return  their poses in its order, without those that are no numbers.
+  /// Updates the people from a set.
+  /// @return  their poses in its order, without invalid ones.
   std::vector<DrawnPose> Take(const people_t& set);
-  /// Takes the body of somebody who is there.
+  /// Sets the body of a present person.
   void TakeBody(const person_body_t& message);
 
-  /// Null: he is not there.
+  /// Null if not present.
   const Person* Find(int id) const;
-  /// JSON of everybody for the page.
+  /// JSON of all people for the page.
   std::string Json() const;
 
  private:
   Person& Welcome(const people_t& set, const person_t& person);
 
   std::vector<Person> people_;
-  std::optional<double> heard_us_;  ///< When the last set was published.
+  std::optional<double> heard_us_;  ///< Publication time of the last set.
 };
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// The page of mocap view, put into the program when it is built.
+// The page of mocap view, embedded into the program by the build.
 #pragma once
 
 #include <span>

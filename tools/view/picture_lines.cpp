@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-/// Specks are not drawn, and no more corners than can be seen.
+/// Draw no specks, and no more corners than are visible.
 constexpr std::size_t kFewestCorners = 3;
 constexpr double kTolerance_px = 0.7;
 
@@ -26,7 +26,7 @@ std::vector<std::vector<Vector2>> SilhouetteLines(const Silhouette& silhouette, 
     cv::approxPolyDP(contour, simple, kTolerance_px, true);
     if (simple.size() < kFewestCorners) continue;
     std::vector<Vector2>& line = lines.emplace_back();
-    // A reduced pixel's centre is that of the square that it stands for.
+    // The centre of a reduced pixel is that of the square it represents.
     const double shift_px = (factor - 1) / 2.0;
     for (const cv::Point& p : simple) {
       line.emplace_back(p.x * factor + shift_px, p.y * factor + shift_px);

@@ -1,4 +1,4 @@
-// What is drawn over a camera's picture.
+// Overlays of a camera's picture.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace mocap {
 
-/// The borders of a silhouette that was reduced by a factor, in pixels of the whole picture, closed
-/// and made simple.
+/// Border lines of a reduced silhouette, in pixels of the whole picture; closed and simplified.
 std::vector<std::vector<Vector2>> SilhouetteLines(const Silhouette& silhouette, int factor);
 
 }  // namespace mocap

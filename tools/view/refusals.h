@@ -1,4 +1,4 @@
-// What was refused, told without flooding the log.
+// Reports refused requests without flooding the log.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace mocap {
 
-/// Counts refusals by their reason. The first one is told at once, the rest in one line a period.
+/// Counts refusals by reason. Reports the first at once, further ones in one line per period.
 class Refusals {
  public:
   static constexpr std::int64_t kPeriodNs = 10'000'000'000;
 
   void Add(const std::string& reason) { ++counts_[reason]; }
-  /// A line that is due now, without its end; empty: none.
+  /// Returns a line that is due now, without line end; empty: none.
   std::string Line(std::int64_t now_ns);
 
  private:

@@ -8,9 +8,9 @@
 namespace mocap {
 
 struct RequestTarget {
-  std::string path;  ///< As it came: it is compared, and opens no file.
+  std::string path;  ///< As received: it is only compared, and opens no file.
   std::map<std::string, std::string>
-      query;  ///< Percent-decoded; of a name that comes twice, the last.
+      query;  ///< Percent-decoded; the last value of a repeated name.
 };
 
 RequestTarget ParseRequestTarget(std::string_view target);

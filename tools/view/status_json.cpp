@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 4> kCameraStates = {"starting", "streamin
 constexpr std::array<std::string_view, 4> kRecordingStates = {"none", "running", "complete",
                                                               "failed"};
 
-/// A number of a message may name nothing.
+/// A number in a message may have no name.
 template <std::size_t N>
 std::string_view NameOf(const std::array<std::string_view, N>& names, int number) {
   return number >= 0 && number < static_cast<int>(N) ? names[static_cast<std::size_t>(number)]

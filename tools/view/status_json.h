@@ -1,4 +1,4 @@
-// How the service does, as the page shows it.
+// Status of the service, for the page.
 #pragma once
 
 #include <mocap/service_t.hpp>
@@ -8,7 +8,7 @@
 
 namespace mocap {
 
-/// @param service  tells of the cameras' trust and light; may not be known yet.
+/// @param service  trust and light of the cameras; may be unknown yet.
 std::string StatusJson(const status_t& status, const std::optional<service_t>& service);
 std::string ServiceJson(const service_t& service);
 

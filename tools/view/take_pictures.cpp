@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kVoxel_mm = 25;
 
-/// The row nearest to a moment.
+/// The row nearest to a time.
 std::size_t NearestRow(const TakeTable& table, std::int64_t time_ns) {
   const auto after = std::ranges::lower_bound(table.rows, time_ns, {}, &TakeRow::timestamp_ns);
   if (after == table.rows.begin()) return 0;
@@ -106,7 +106,7 @@ std::optional<Silhouette> TakePictures::Segment(Camera& camera, const PanTiltAng
     try {
       camera.segmenter = camera.learning.get();
     } catch (const SetupError&) {
-      // Pictures of the empty studio that cannot be used: the take is shown without silhouettes.
+      // The background is unusable: the take is shown without silhouettes.
     }
   }
   if (!camera.segmenter) return {};

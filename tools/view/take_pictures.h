@@ -1,4 +1,4 @@
-// Any moment of a take, as its cameras saw it.
+// Pictures of any moment of a take.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 
 namespace mocap {
 
-/// One camera's picture of a moment. The pixels stay valid until the next one is asked for.
+/// One camera's picture of a moment. The pixels are valid until the next request.
 struct TakePicture {
   int camera = 0;
   std::int64_t capture_ns = 0;
   RigidTransform X_CW;
   ImageView<const Bgr> image;
-  std::optional<Silhouette> silhouette;  ///< Once the empty studio has been learned.
+  std::optional<Silhouette> silhouette;  ///< Once the background has been learned.
 };
 
-/// Reads a take at any moment, in any order; going on is faster than going back. The empty studio
-/// is learned meanwhile, in threads of its own. One thread.
+/// Reads any moment of a take, in any order; forward is faster than backward. Learns the background
+/// meanwhile, in separate threads. Single-threaded.
 class TakePictures {
  public:
   /// @throws SetupError  as OpenTake.
@@ -35,14 +35,14 @@ class TakePictures {
   const std::string& name() const { return name_; }
   double fps_nominal() const { return fps_nominal_; }
   const std::vector<CameraCalibration>& cameras() const { return calibrations_; }
-  /// Where each camera stands in its first frame.
+  /// Pose of each camera in its first frame.
   std::vector<RigidTransform> FirstPoses() const;
-  /// Times of the frames of the camera that has most [ns].
+  /// Frame times of the camera with most frames [ns].
   std::vector<std::int64_t> Times() const;
 
-  /// The picture of each camera that has a frame within half a period of a moment.
+  /// Pictures of all cameras that have a frame within half a period of a time.
   std::vector<TakePicture> At(std::int64_t time_ns);
-  /// What these silhouettes carve; no voxels while one is still missing.
+  /// Carves the pictures' silhouettes; empty while one is missing.
   VoxelGrid Carve(const std::vector<TakePicture>& pictures);
 
  private:
@@ -51,9 +51,9 @@ class TakePictures {
     TakeTable table;
     std::future<Segmenter> learning;
     std::optional<Segmenter> segmenter;
-    std::size_t next = 0;  ///< The row whose frame the video gives next.
+    std::size_t next = 0;  ///< Row of the video's next frame.
     ImageView<const Bgr> image;
-    bool is_whole = false;  ///< The frame of row next - 1 could be decoded.
+    bool is_whole = false;  ///< The frame of row next - 1 was decoded.
   };
 
   bool Seek(Camera& camera, std::size_t row) const;

@@ -33,12 +33,12 @@ constexpr int kWidest_px = 800;
 constexpr int kJpegQuality = 85;
 constexpr int kTruthPerson = 255;
 
-/// What is wrong with a request, for whoever asked.
+/// The fault of a request, for the client.
 struct WrongRequest {
   std::string why;
 };
 
-/// A number of a request from 0 to `most`. @throws WrongRequest
+/// Parses a number from 0 to `most`. @throws WrongRequest
 std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::size_t most) {
   const auto found = request.query.find(name);
   const std::string text = found == request.query.end() ? "" : found->second;
@@ -55,7 +55,7 @@ std::string NameOf(const std::filesystem::path& folder) {
   return name.starts_with("person-") ? folder.parent_path().filename().string() + '/' + name : name;
 }
 
-/// The place nearest to each of `times` within a tolerance; -1: there is none.
+/// Index of the row nearest to each of `times`, within a tolerance; -1: none.
 template <typename Rows>
 std::vector<int> NearestRows(const std::vector<std::int64_t>& times, const Rows& rows,
                              std::int64_t tolerance_ns) {
@@ -80,7 +80,7 @@ Json ScoredJoints() {
   return joints;
 }
 
-/// Errors of each frame; what is not known is none.
+/// Errors by frame; unknown ones are NaN.
 struct FrameErrors {
   explicit FrameErrors(std::size_t frames)
       : mean_mm(frames, kUnknown),
@@ -88,7 +88,7 @@ struct FrameErrors {
 
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> mean_mm;
-  std::vector<std::vector<double>> joint_mm;  ///< Of each scored joint.
+  std::vector<std::vector<double>> joint_mm;  ///< By scored joint.
 };
 
 FrameErrors ErrorsOf(const Accuracy& accuracy, const std::vector<int>& rows) {
@@ -152,7 +152,7 @@ void TakeSite::Add(const std::filesystem::path& result) {
 }
 
 void TakeSite::ChooseTimes() {
-  // One of several people may be there for a moment only.
+  // One of several people may be present only briefly.
   if (results_.empty() || !results_.front().person.empty()) {
     times_ns_ = pictures_.Times();
   } else {
@@ -278,7 +278,7 @@ std::string TakeSite::Pictures(const ViewRequest& request) {
   return bytes + VoxelBytes(voxels, 0);
 }
 
-// Everybody's who was tracked together.
+// Bodies of everyone who was tracked together.
 std::vector<DrawnOutlines> TakeSite::BodiesOf(const ShownResult& chosen, std::size_t frame,
                                               const TakePicture& picture) const {
   const CameraCalibration& camera = pictures_.cameras()[static_cast<std::size_t>(picture.camera)];

@@ -1,4 +1,4 @@
-// A recorded take with its results, as the page asks for it.
+// Serves a recorded take with its results to the page.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace mocap {
 
-/// Answers /take.json, /poses.bin and /pictures.bin. Frames are counted in the times of the first
-/// result; where that is of several people, or there is none, of the camera with most frames.
+/// Answers /take.json, /poses.bin and /pictures.bin. Frames have the times of the first result. If
+/// that is of several people, or missing, they have the times of the camera with most frames.
 /// Thread-safe.
 class TakeSite {
  public:
@@ -26,24 +26,24 @@ class TakeSite {
   TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results);
 
   const std::string& name() const { return pictures_.name(); }
-  /// Status 404 for what is none of its, 400 for numbers of nothing.
+  /// Status 404 for unknown paths, 400 for invalid numbers.
   ViewReply Answer(const ViewRequest& request);
 
  private:
-  /// A result in the frames of the page.
+  /// A result, by the page's frames.
   struct ShownResult {
     std::string name;
     Evaluation evaluation;
-    std::size_t group = 0;       ///< Those of one group were tracked together.
-    std::string person = {};     ///< Who it is of several; empty: somebody alone.
-    int true_person = -1;        ///< Whom he was most often; -1: that is not known.
-    std::vector<int> rows = {};  ///< Of each frame; -1: it has none.
+    std::size_t group = 0;       ///< Results of one group were tracked together.
+    std::string person = {};     ///< Name of one of several people; empty: a single person.
+    int true_person = -1;        ///< Most frequent true person; -1: unknown.
+    std::vector<int> rows = {};  ///< Row of each frame; -1: none.
   };
 
   void Add(const std::filesystem::path& result);
   void ChooseTimes();
   std::string TakeJson() const;
-  /// The result that is asked for; null where the take has none.
+  /// The requested result; null if the take has none.
   const ShownResult* ResultOf(const ViewRequest& request) const;
   std::string Poses(const ViewRequest& request) const;
   std::string Pictures(const ViewRequest& request);
@@ -54,7 +54,7 @@ class TakeSite {
   std::string TruthOf(const TruePerson& person, std::size_t frame) const;
   const PoseRow* RowOf(const ShownResult& result, std::size_t frame) const;
 
-  std::mutex mutex_;  ///< Of reading and coding pictures.
+  std::mutex mutex_;  ///< Guards reading and encoding of pictures.
   TakePictures pictures_;
   JpegEncoder encoder_;
   Image<Bgr> reduced_;

@@ -38,24 +38,24 @@ using Stream = websocket::stream<beast::tcp_stream>;
 template <typename T>
 using Task = asio::awaitable<T>;
 
-/// Connections at a time; a browser holds some six. Beyond it, the one that has waited longest for
-/// its request goes.
+/// Limit of connections; a browser holds about six. Beyond it, the connection that has waited
+/// longest for its request is closed.
 constexpr std::size_t kMostConnections = 128;
 constexpr std::size_t kMostPages = 64;
-/// Who says nothing for so long is left.
+/// Silent clients are disconnected after this time.
 constexpr std::chrono::seconds kPatience{10};
-/// A page that is gone without a word is noticed by its missing pongs.
+/// A page that vanished is detected by missing pongs.
 constexpr std::chrono::seconds kPagePatience{20};
 constexpr std::uint32_t kMostHeaderBytes = 8192;
 constexpr std::uint64_t kMostBodyBytes = 4096;
 constexpr std::size_t kMostPageMessageBytes = 1024;
-/// What lies in the system's buffers is no longer the newest.
+/// Kept small: data in the system's buffers becomes stale.
 constexpr int kPageBufferBytes = 64 << 10;
 constexpr std::size_t kAnswerThreads = 3;
 constexpr int kWaitingConnections = 128;
 constexpr std::chrono::milliseconds kTellPeriod{500};
 
-/// Nothing but what this address serves may run in the page or be reached by it.
+/// Only content from this address may run in the page, or be reached by it.
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -81,7 +81,7 @@ Response Refuse(const Request& request, int status, const std::string& why) {
   return Respond(request, status, "text/plain; charset=utf-8", why + "\n");
 }
 
-/// Whether what came is no request, rather than none.
+/// Whether the received data is an invalid request, rather than none.
 bool IsMalformed(ErrorCode error) {
   return error.category() == http::make_error_code(http::error::end_of_stream).category() &&
          error != http::error::end_of_stream;
@@ -150,11 +150,11 @@ class ViewServer::Impl {
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
-  /// A connection whose request is awaited or answered.
+  /// A connection whose request is pending.
   struct Connection {
     explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
     beast::tcp_stream stream;
-    beast::flat_buffer buffer;  ///< What has come of a request.
+    beast::flat_buffer buffer;  ///< Received part of a request.
   };
   using Place = std::list<std::shared_ptr<Connection>>::iterator;
 
@@ -181,7 +181,7 @@ class ViewServer::Impl {
       tcp::socket socket =
           co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
       if (error) {
-        // No descriptor is left: those that wait make room.
+        // No descriptors left: pending connections make room.
         refusals_.Add(error.message());
         MakeRoom();
         asio::steady_timer pause(io_, kTellPeriod);
@@ -208,14 +208,14 @@ class ViewServer::Impl {
     try {
       upgrade = co_await ServeRequests(*connection);
     } catch (const boost::system::system_error&) {
-      // Whoever asked has gone before the answer.
+      // The client left before the answer.
     }
     connections_.erase(place);
     if (upgrade) co_await ServePage(std::move(connection->stream), std::move(*upgrade));
   }
 
-  /// Ends a connection from which no whole request came. A browser keeps connections open that it
-  /// may need later; they are closed without a word.
+  /// Ends a connection without a complete request. Browsers keep spare connections open; these are
+  /// closed silently.
   Task<void> EndWithoutRequest(Connection& connection, ErrorCode error) {
     if (error == beast::error::timeout && connection.buffer.size() > 0) {
       refusals_.Add("half a request");
@@ -229,7 +229,7 @@ class ViewServer::Impl {
     co_await http::async_write(connection.stream, response, asio::use_awaitable);
   }
 
-  /// @return  a request to become a WebSocket.
+  /// @return  a request to upgrade to a WebSocket.
   Task<std::optional<Request>> ServeRequests(Connection& connection) {
     for (;;) {
       http::request_parser<http::string_body> parser;
@@ -328,7 +328,7 @@ class ViewServer::Impl {
     beast::get_lowest_layer(*page).socket().close(ignored);
   }
 
-  /// Hears pings and the end; what a page says is not wanted.
+  /// Receives pings and the close; ignores what a page sends.
   Task<void> Hear(std::shared_ptr<Stream> page, std::shared_ptr<asio::steady_timer> wake) {
     beast::flat_buffer said;
     ErrorCode error;
@@ -361,9 +361,9 @@ class ViewServer::Impl {
 
   const Options options_;
   LiveBoard board_;
-  std::set<asio::steady_timer*> waiting_;  ///< Of pages that may wait for something new.
+  std::set<asio::steady_timer*> waiting_;  ///< Of pages that may wait for updates.
   Refusals refusals_;
-  // What coroutines hold on to comes before the loop, what holds on to the loop after it.
+  // Members used by coroutines precede the loop; members that use the loop follow it.
   asio::io_context io_{1};
   std::list<std::shared_ptr<Connection>> connections_;
   tcp::acceptor acceptor_;

@@ -1,4 +1,4 @@
-// The web server of mocap view: pages, answers, and a WebSocket that tells what is new.
+// The web server of mocap view: pages, answers, and a WebSocket for updates.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace mocap {
 
-/// A request for something that is no file of the page.
+/// A request for something other than a file of the page.
 struct ViewRequest {
   std::string method;  ///< "GET" or "POST".
   std::string path;
@@ -33,20 +33,20 @@ struct PageFile {
   std::string body;
 };
 
-/// Serves one page on this machine's own address, from the thread that calls Run. Whoever is slow,
-/// silent or hostile costs neither memory nor the others: requests and connections are bounded, and
-/// what is refused is told on standard error, some lines a minute at most.
+/// Serves one page on the loopback address, from the thread that calls Run. Slow, silent or hostile
+/// clients cost neither memory nor other clients' service. Requests and connections are limited.
+/// Refusals are reported on standard error, at most some lines a minute.
 class ViewServer {
  public:
-  /// Answers requests, in threads of its own, several at a time. Empty body and status 404 for what
-  /// is not there.
+  /// Answers requests in separate threads, several at a time. Empty body and status 404 for unknown
+  /// paths.
   using Answer = std::function<ViewReply(const ViewRequest&)>;
 
   struct Options {
-    std::uint16_t port = 0;  ///< 0: any. Not used where systemd has handed in a socket.
+    std::uint16_t port = 0;                 ///< 0: any. Not used with a socket from systemd.
     std::map<std::string, PageFile> files;  ///< By path.
     Answer answer;
-    bool is_live = false;  ///< Serves the WebSocket /live.
+    bool is_live = false;  ///< Whether it serves the WebSocket /live.
   };
 
   /// @throws SetupError  when the port cannot be used.
@@ -55,17 +55,17 @@ class ViewServer {
 
   std::uint16_t port() const;
   std::size_t live_pages() const;
-  /// Calls when something can be read there, from Run. @param descriptor  borrowed.
+  /// Sets a callback, called from Run when data can be read. @param descriptor  not owned.
   void OnReadable(int descriptor, std::function<void()> call);
   void Every(std::chrono::milliseconds period, std::function<void()> call);
-  /// Does blocking work in another thread, then calls from Run.
+  /// Runs blocking work in another thread, then calls `then` from Run.
   void Aside(std::function<void()> work, std::function<void()> then);
-  /// Tells all pages. From Run.
+  /// Sends a message to all pages. Call it from Run.
   void Put(std::size_t slot, LiveMessage message);
 
   /// Serves until Stop, SIGINT or SIGTERM.
   void Run();
-  /// Any thread.
+  /// Callable from any thread.
   void Stop();
 
  private:

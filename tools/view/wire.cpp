@@ -11,17 +11,17 @@ namespace mocap {
 namespace {
 
 constexpr double kNsPerMs = 1e6;
-/// More voxels than any room has; what is said of a larger one is not believed.
+/// More voxels than any room has; larger messages are rejected.
 constexpr std::int64_t kMostVoxels = std::int64_t{1} << 26;
-/// And more than people fill, with 10 mm of size.
+/// More than people occupy, at a voxel size of 10 mm.
 constexpr std::int64_t kMostOccupied = std::int64_t{1} << 21;
 
-/// A grid's occupied voxels, by place in a scan along x, then y, then z.
+/// Occupied voxels of a grid, by index along x, then y, then z.
 struct OccupiedVoxels {
   static constexpr std::int32_t kEmpty = -1;
 
   std::int64_t width, depth, height;
-  std::vector<std::int32_t> number;  ///< Of each place; kEmpty: nothing is there.
+  std::vector<std::int32_t> number;  ///< By index; kEmpty: not occupied.
 
   bool IsOccupied(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const bool is_inside = x >= 0 && y >= 0 && z >= 0 && x < width && y < depth && z < height;

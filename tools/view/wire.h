@@ -1,4 +1,4 @@
-// The binary messages of mocap view, little-endian; the page's wire.js reads them.
+// Binary messages of mocap view, little-endian; wire.js of the page decodes them.
 #pragma once
 
 #include <cstdint>
@@ -14,36 +14,36 @@
 
 namespace mocap {
 
-/// A pose as it is drawn.
+/// A pose for drawing.
 struct DrawnPose {
-  int person = 0;  ///< Whose colour it has.
-  int id = 0;      ///< As person_t has it; 0: not known.
+  int person = 0;  ///< Index of its colour.
+  int id = 0;      ///< As in person_t; 0: unknown.
   PoseRow row;
   double publish_ms = 0;  ///< Since the Unix epoch.
   std::vector<PosedCapsule> capsules;
 };
 
-/// 320 bytes and 32 a capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
+/// 320 bytes and 32 per capsule: u8 kind = 1, person, state, has_pose; u16 points, capsules; f64
 /// capture [ms], publish [ms], frame; f32 residual [mm]; u32 voxels; f32 points[23][3] [mm]; f32
 /// capsules[n][8]: a, its radius, b, its radius [mm]; u32 id.
 std::string PoseBytes(const DrawnPose& pose);
 
-/// 32 bytes and 8 a voxel: u8 kind = 2, person; u16 0; u32 count; f64 capture [ms]; f32 voxel [mm],
-/// origin[3] [mm]; then u16 x, y, z and i16 label of the voxels at the surface. Empty for a message
-/// that cannot be.
+/// 32 bytes and 8 per voxel: u8 kind = 2, person; u16 0; u32 count; f64 capture [ms]; f32 voxel
+/// [mm], origin[3] [mm]; then u16 x, y, z and i16 label of the surface voxels. Empty for an invalid
+/// message.
 std::string VoxelBytes(const voxels_t& voxels, int person);
 
-/// Outlines of somebody's body in a picture.
+/// Outlines of a person's body in a picture.
 struct DrawnOutlines {
-  int person = kAlone;  ///< Whose colour they have; kAlone: those of the sides.
+  int person = kAlone;  ///< Index of their colour; kAlone: colours of the sides.
   std::vector<BodyLine> lines;
 
   static constexpr int kAlone = -1;
 };
 
-/// A picture with what is drawn over it.
+/// A picture with its overlays.
 struct DrawnPicture {
-  int camera = 0;  ///< Its place in the studio.
+  int camera = 0;  ///< Index in the studio.
   int width_px = 0, height_px = 0;
   double capture_ms = 0;
   std::vector<std::vector<Vector2>> silhouette;  ///< Closed lines [px].
@@ -51,10 +51,10 @@ struct DrawnPicture {
   std::span<const std::uint8_t> jpeg;
 };
 
-/// 32 bytes and what follows: u8 kind = 3, camera; u16 width, height, 0; f64 capture [ms]; u32
-/// floats of the silhouette's lines, floats of the bodies', bytes of the JPEG, 0; then those, and
-/// zeros up to a multiple of 8. A line is f32 count, f32 side (0 middle, 1 left, 2 right) + 4 ×
-/// (person + 1), and count × f32 x, y.
+/// 32 bytes and the contents: u8 kind = 3, camera; u16 width, height, 0; f64 capture [ms]; u32
+/// floats of the silhouette's lines, floats of the bodies', bytes of the JPEG, 0; then these,
+/// padded with zeros to a multiple of 8. A line is f32 count, f32 side (0 middle, 1 left, 2 right)
+/// + 4 × (person + 1), and count × f32 x, y.
 std::string PictureBytes(const DrawnPicture& picture);
 
 }  // namespace mocap

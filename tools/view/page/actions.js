@@ -1,4 +1,4 @@
-// What may be done from the page: only with the token of the address that `mocap view` printed.
+// Actions on the page. They need the token of the address that `mocap view` printed.
 
 import {byId, make, setText} from './dom.js';
 import {PersonChoice} from './person_choice.js';
@@ -8,7 +8,7 @@ const NAME = /^[A-Za-z0-9._-]{1,64}$/;
 const NO_TOKEN = 'This page only looks. To record and control, open the address that ' +
     'mocap view printed, with its #token=…';
 
-/** Takes the token out of the address bar, where it could be read on the wall. */
+/** Removes the token from the address bar, where others could read it. */
 export function takeToken() {
   const found = new URLSearchParams(location.hash.slice(1)).get('token');
   if (found) {
@@ -18,7 +18,7 @@ export function takeToken() {
   return sessionStorage.getItem(KEY);
 }
 
-/** @return names of a `subject list`: the lines that tell a stature. */
+/** @return the names in a `subject list`: lines with a stature. */
 export function subjectNames(text) {
   return text.split('\n').map((line) => /^(\S+)\s+stature\b/.exec(line)?.[1]).filter(Boolean);
 }
@@ -27,7 +27,7 @@ export class Actions {
   constructor() {
     this.token = takeToken();
     this.isAllowed = false;
-    this.why = '';  // what the server says against it
+    this.why = '';  // the server's reason against it
     this.isBusy = false;
     this.choice = new PersonChoice();
     this.bind();
@@ -38,13 +38,13 @@ export class Actions {
     });
   }
 
-  /** Takes the server's reason why nothing may be done; '' if there is none. */
+  /** Sets the server's reason why actions are unavailable; '' if there is none. */
   setNotice(why) {
     this.why = why;
     this.show();
   }
 
-  /** Shows the button that fits: start or stop. */
+  /** Shows the appropriate button: start or stop. */
   setRecording(state) {
     byId('record-form').dataset.state = state;
     byId('record-start').hidden = state === 'running';
@@ -52,7 +52,7 @@ export class Actions {
     byId('record-stop').hidden = state !== 'running';
   }
 
-  /** Offers the choice whose sizes are kept, where several people are followed. */
+  /** Offers a choice of the person whose sizes are saved, if there are several. */
   setPeople(rows) {
     this.choice.take(rows);
     this.showChoice();
@@ -68,7 +68,7 @@ export class Actions {
     list.replaceChildren(...options.map((option) => make('option', option)));
   }
 
-  /** Asks whether the token holds; wanted after each connection. */
+  /** Checks whether the token is valid; call it after each connection. */
   async check() {
     this.isAllowed = false;
     if (this.token) {
@@ -76,7 +76,7 @@ export class Actions {
         const answer = await fetch('/control', {headers: {Authorization: `Bearer ${this.token}`}});
         this.isAllowed = answer.status === 204;
       } catch {
-        // Without a server there is nothing to be done; the connection's state says so.
+        // Without a server there is nothing to do; the connection state shows it.
       }
     }
     this.show();

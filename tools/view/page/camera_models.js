@@ -1,13 +1,13 @@
-// The cameras where they stand: a small body and the frustum of each, in the colour of its state.
+// Camera models: a small body and the frustum of each, coloured by state.
 
 import {CapsuleMesh} from './capsule_mesh.js';
 import {rgb} from './theme.js';
 import * as THREE from './three.js';
 
-const DEPTH = 0.45;  // Of the frustum that is drawn, in metres.
+const DEPTH = 0.45;  // Depth of the drawn frustum, in metres.
 const MOST_CAMERAS = 64;
 
-/** What is said of a camera, and its colour: by state, then by trust. */
+/** A camera's label and colour: by state, then by trust. */
 export const CAMERA_LOOKS = {
   'streaming': {color: 'ok', mark: '●'},
   'starting': {color: 'warn', mark: '◔'},
@@ -49,7 +49,7 @@ export class CameraModels extends THREE.Group {
     return CAMERA_LOOKS[this.looks.get(name)] ?? CAMERA_LOOKS['not known'];
   }
 
-  /** Hides one camera, through which the studio is seen. */
+  /** Hides the camera through which the scene is viewed. */
   hide(name) {
     this.hidden = name;
     this.redraw();

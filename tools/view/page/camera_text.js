@@ -1,11 +1,11 @@
-// What is said of a camera, in words.
+// Descriptions of a camera.
 
 import {fixed, measured, percent} from './text.js';
 
 const LEAST_TRUST = 0.5;
 const MOST_OFF_PX = 2;
 
-/** @return a camera's state, or that its silhouettes do not fit the other cameras'. */
+/** @return a camera's state, or that its silhouettes disagree with the other cameras. */
 export function lookOfCamera({state, trust, off_px: offPx}) {
   if (state !== 'streaming') return state;
   const isOff = trust !== null && (trust < LEAST_TRUST || Math.abs(offPx ?? 0) > MOST_OFF_PX);

@@ -1,5 +1,5 @@
-// Many tapered capsules in one draw call. The template knows angles alone; the shader puts each of
-// its points onto the hull of the two spheres, exactly, whatever their radii.
+// Many tapered capsules in one draw call. The template has angles only. The shader places its
+// points on the hull of the two spheres, exactly, for any radii.
 
 import * as THREE from './three.js';
 
@@ -24,7 +24,7 @@ function makeTemplate(sides, rings) {
   return {position: new THREE.Float32BufferAttribute(position, 3), index};
 }
 
-// Bodies are seen from near, sticks and trails are thin.
+// Bodies are seen from near; sticks and trails are thin.
 const fineTemplate = makeTemplate(16, 5);
 const drawn = new THREE.Vector2();
 const coarseTemplate = makeTemplate(7, 1);
@@ -62,7 +62,7 @@ const vertexShader = `
     gl_Position = projectionMatrix * eye;
   }`;
 
-// A sky, and a lamp that goes with the eye: bodies keep their shape from all sides.
+// A sky, and a lamp at the eye, so that bodies look solid from all sides.
 const fragmentShader = `
   varying vec3 vNormal;
   varying vec3 vEye;
@@ -109,7 +109,7 @@ export class CapsuleMesh extends THREE.Mesh {
     this.reserve(capacity);
   }
 
-  /** Nothing gets thinner than a pixel and a half, or it would break into dots. */
+  /** Keeps everything at least a pixel and a half wide; thinner lines would break into dots. */
   onBeforeRender(renderer, scene, eye) {
     const height = renderer.getDrawingBufferSize(drawn).y;
     this.material.uniforms.thinnest.value = 1.5 / (height * eye.projectionMatrix.elements[5]);
@@ -131,7 +131,7 @@ export class CapsuleMesh extends THREE.Mesh {
     this.visible = false;
   }
 
-  /** Adds a capsule; one with a coordinate that is no number is left out, as is one too many. */
+  /** Adds a capsule. Ignores one with an invalid coordinate, and those beyond the capacity. */
   add(ax, ay, az, ra, bx, by, bz, rb, [red, green, blue], alpha = 1) {
     if (this.count === this.capacity || !Number.isFinite(ax + ay + az + bx + by + bz)) return;
     const {a, b, tint} = this.geometry.attributes;
@@ -148,7 +148,7 @@ export class CapsuleMesh extends THREE.Mesh {
     for (const name of ['a', 'b', 'tint']) this.geometry.attributes[name].needsUpdate = true;
   }
 
-  /** @return the same capsules, pressed flat onto the floor: their shadow. */
+  /** @return a mesh of the same capsules, flattened onto the floor: their shadow. */
   makeShadow() {
     const shadow = new THREE.Mesh(this.geometry, makeMaterial({flat: true}));
     shadow.frustumCulled = false;

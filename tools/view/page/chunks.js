@@ -1,4 +1,4 @@
-// Poses of a take, fetched in chunks ahead of where it is played; the least used are let go.
+// Poses of a take, fetched in chunks ahead of playback; the least used are discarded.
 
 const FRAMES = 128;
 const MOST_CHUNKS = 40;
@@ -10,19 +10,19 @@ export class Chunks {
   constructor(frameCount, fetchChunk) {
     this.frameCount = frameCount;
     this.fetchChunk = fetchChunk;
-    this.chunks = new Map();  // number → poses; the order is that of use
+    this.chunks = new Map();  // index → poses, in order of use
     this.waiting = new Set();
-    this.failedAt = new Map();  // number → when
+    this.failedAt = new Map();  // index → time
   }
 
-  /** @return the pose of a frame, or null if it is not there yet. */
+  /** @return the pose of a frame, or null if it is not loaded. */
   get(frame) {
     const number = Math.floor(frame / FRAMES);
     const chunk = this.chunks.get(number);
     return chunk ? chunk[frame - number * FRAMES] ?? null : null;
   }
 
-  /** Tells which frame is shown: fetches around it what is missing. */
+  /** Sets the shown frame; fetches missing chunks around it. */
   want(frame, nowMs = performance.now()) {
     const number = Math.floor(frame / FRAMES);
     const chunk = this.chunks.get(number);

@@ -1,17 +1,17 @@
-// How finely and how often the scene is drawn: as finely as the machine can draw it smoothly.
+// Resolution and rate of drawing: as high as the machine can draw smoothly.
 
-const WINDOW = 30;  // intervals that are looked at together
+const WINDOW = 30;  // intervals that are averaged
 const SLOW_MS = 45;
-const PAUSE_MS = 1000;  // a longer interval is a hidden page, not a slow one
+const PAUSE_MS = 1000;  // longer intervals mean a hidden page, not slow drawing
 const FAST_MS = 25;
 const STEP = 0.75;
 const LEAST = 0.5;
-const FIRST_PATIENCE_MS = 60000;  // before it is tried more finely again; twice as long each time
+const FIRST_PATIENCE_MS = 60000;  // before a finer scale is tried again; doubled each time
 const SOFTWARE_START = 0.6;
-const SOFTWARE_PACE_MS = 100;  // between frames: the processor that draws has other work as well
-const EARLY_MS = 5;           // a display's refresh is not exact
+const SOFTWARE_PACE_MS = 100;  // between frames: the processor has other work, too
+const EARLY_MS = 5;           // tolerance for the display's refresh
 
-/** @return whether WebGL is drawn by the processor: then each pixel counts. */
+/** @return whether the processor draws WebGL: then each pixel counts. */
 export function drawsInSoftware() {
   const gl = document.createElement('canvas').getContext('webgl');
   if (!gl) return false;
@@ -22,7 +22,7 @@ export function drawsInSoftware() {
 }
 
 export class Detail {
-  /** @param isFixed draws every pixel, whatever it costs: for a picture of the page. */
+  /** @param isFixed draw every pixel, whatever it costs: for a picture of the page. */
   constructor({isSoftware, isFixed}) {
     this.isFixed = isFixed;
     this.scale = isSoftware && !isFixed ? SOFTWARE_START : 1;
@@ -34,17 +34,17 @@ export class Detail {
     this.patienceMs = FIRST_PATIENCE_MS;
   }
 
-  /** Pixels drawn for each CSS pixel, along an edge. */
+  /** Drawn pixels per CSS pixel, along an edge. */
   ratio(devicePixelRatio) {
     return this.scale * Math.min(2, devicePixelRatio || 1);
   }
 
-  /** @return whether a frame is to be drawn, when the display asks for one. */
+  /** @return whether to draw a frame when the display asks for one. */
   isDue(nowMs) {
     return this.lastMs === null || nowMs - this.lastMs >= this.paceMs - EARLY_MS;
   }
 
-  /** Takes the time at which a frame is drawn. @return whether the scale has changed. */
+  /** Takes the time of a drawn frame. @return whether the scale has changed. */
   tick(nowMs) {
     const interval = nowMs - (this.lastMs ?? nowMs);
     this.lastMs = nowMs;
@@ -62,7 +62,7 @@ export class Detail {
     return true;
   }
 
-  // What was slow may have been another program's fault, for a while.
+  // Another program may have slowed drawing for a while.
   goFiner(meanMs, nowMs) {
     if (meanMs > this.paceMs + FAST_MS || this.scale >= this.finest) return false;
     if (nowMs - this.coarserMs < this.patienceMs) return false;

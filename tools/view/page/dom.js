@@ -1,5 +1,4 @@
-// The few things that the page does with elements. What messages and takes say goes into text
-// alone.
+// Helpers for elements. Contents of messages and takes are only inserted as text.
 
 /** @return the element of index.html with an id. */
 export function byId(id) {
@@ -17,13 +16,13 @@ export function make(tag, {text, ...attributes} = {}, ...children) {
   return element;
 }
 
-/** Sets a text only when it changes: selections and screen readers are left alone. */
+/** Sets a text only when it changes, to keep selections and not disturb screen readers. */
 export function setText(element, text) {
   const value = String(text);
   if (element.textContent !== value) element.textContent = value;
 }
 
-/** Fits a canvas to its place on the screen. @return its context, scaled to CSS pixels. */
+/** Fits a canvas to its size on the screen. @return its context, scaled to CSS pixels. */
 export function fitCanvas(canvas) {
   const ratio = Math.min(2, window.devicePixelRatio || 1);
   const width = Math.round(canvas.clientWidth * ratio);
@@ -32,8 +31,7 @@ export function fitCanvas(canvas) {
     canvas.width = width;
     canvas.height = height;
   }
-  // Small pictures that change often: the processor draws them faster than they reach a graphics
-  // card.
+  // For small, changing pictures the processor is faster than a transfer to the graphics card.
   const context = canvas.getContext('2d', {willReadFrequently: true});
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);

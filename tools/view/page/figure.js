@@ -1,4 +1,4 @@
-// One person, or one result of a take: body, joints and sticks, trails, voxels, shadow.
+// One person or result: body, joints and sticks, trails, voxels, shadow.
 
 import {CapsuleMesh} from './capsule_mesh.js';
 import {rgb} from './theme.js';
@@ -12,8 +12,8 @@ const PARTS = 10;
 
 export class Figure extends THREE.Group {
   /**
-   * @param options color: name of a colour of the theme; ownSticks: sticks in a shade of it, where
-   * several are compared; onlySticks: no body, as for truth.
+   * @param options color: name of a theme colour; ownSticks: sticks in a shade of it, to compare
+   * several; onlySticks: no body, as for truth.
    */
   constructor({color, ownSticks = false, onlySticks = false}) {
     super();
@@ -29,7 +29,7 @@ export class Figure extends THREE.Group {
     this.voxels = new VoxelMesh();
     this.shadow = (onlySticks ? this.sticks : this.body).makeShadow();
     this.shadow.renderOrder = -1;
-    // Sticks lie inside the body: they are drawn over it, and the truth over all.
+    // Sticks lie inside the body and are drawn over it; the truth is drawn over everything.
     this.sticks.renderOrder = onlySticks ? 3 : 2;
     this.shownLayers = {body: true, joints: true, trails: true, voxels: true};
     this.add(this.shadow, this.body, this.sticks, this.trails);
@@ -38,7 +38,7 @@ export class Figure extends THREE.Group {
     this.recolor();
   }
 
-  /** Takes the body's description: names of points, and which are joined. */
+  /** Sets the body's description: names of points, and their connections. */
   setModel({point_names: names, bones}) {
     this.bones = bones;
     this.trailPoints = TRAIL_POINTS.map((name) => names.indexOf(name)).filter((i) => i >= 0);
@@ -59,12 +59,12 @@ export class Figure extends THREE.Group {
     this.shownLayers[name] = isOn;
   }
 
-  /** Over a camera's picture the floor is not seen, and no shadow on it. */
+  /** Over a camera's picture the floor is hidden, and so is its shadow. */
   setShadow(isOn) {
     this.castsShadow = isOn;
   }
 
-  /** Shows a pose; null: nobody. A faded one is one that is known to be old. */
+  /** Shows a pose; null: nobody. A faded pose is known to be old. */
   show(pose, {faded = false} = {}) {
     this.visible = pose !== null && pose.hasPose;
     this.shown = this.visible ? pose : null;
@@ -103,11 +103,11 @@ export class Figure extends THREE.Group {
     this.sticks.material.uniforms.opacity.value = opacity;
   }
 
-  /** Draws the way of hands and feet. @param poseAt time of capture [ms] → pose or null. */
+  /** Draws the paths of hands and feet. @param poseAt capture time [ms] → pose or null. */
   showTrails(timeMs, poseAt) {
     this.trails.clear();
     if (this.visible && this.shownLayers.trails) {
-      // Steps at fixed times: the trail stands still while its head moves on.
+      // Fixed time steps: the trail stays in place while its head moves on.
       const first = Math.ceil((timeMs - TRAIL_MS) / TRAIL_STEP_MS) * TRAIL_STEP_MS;
       let before = poseAt(first);
       for (let t = first + TRAIL_STEP_MS; before; t += TRAIL_STEP_MS) {
@@ -120,7 +120,7 @@ export class Figure extends THREE.Group {
     this.trails.commit();
   }
 
-  /** Places the voxels, which outlast a pose: they are shown while somebody is being measured. */
+  /** Places the voxels, which outlast a pose: they are shown during acquisition. */
   showVoxels(timeMs, poseAt) {
     const then = this.voxels.message ? poseAt(this.voxels.message.timeMs) : null;
     this.voxels.place(timeMs, then, poseAt(timeMs));

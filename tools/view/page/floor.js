@@ -1,4 +1,4 @@
-// The floor: a grid of metres that fades out, and the axes of the world.
+// The floor: a grid of metres that fades out, and the world axes.
 
 import {CapsuleMesh} from './capsule_mesh.js';
 import {rgb} from './theme.js';
@@ -50,7 +50,7 @@ export class Floor extends THREE.Group {
             solid: {value: 0.85},
           },
         }));
-    // First of all: what is transparent and stands on it is drawn over it.
+    // First, so that transparent objects are drawn over it.
     this.plane.renderOrder = -2;
     this.axes = new CapsuleMesh(3, {thin: true, glow: 0.5});
     this.add(this.plane, this.axes);
@@ -73,7 +73,7 @@ export class Floor extends THREE.Group {
     this.plane.material.uniforms.solid.value = isSolid ? 0.85 : 0;
   }
 
-  /** Lets the floor reach past the cameras. */
+  /** Extends the floor beyond the cameras. */
   setReach(reachMm) {
     this.plane.material.uniforms.reach.value = Math.min(HALF_MM, Math.max(5000, reachMm));
   }

@@ -1,12 +1,12 @@
-// Keys of the whole page, and the list of them that "?" shows.
+// Keys of the page, and their list, which "?" shows.
 
 import {byId, make} from './dom.js';
 
 const bindings = new Map();
 
 /**
- * Binds keys to what they do. @param keys as in KeyboardEvent.key; @param shown how the list names
- * them.
+ * Binds keys to an action. @param keys as in KeyboardEvent.key; @param shown their text in the
+ * list.
  */
 export function bindKeys(keys, shown, text, action) {
   for (const key of keys) bindings.set(key, action);
@@ -14,7 +14,7 @@ export function bindKeys(keys, shown, text, action) {
       .append(make('dt', {}, ...shown.map((key) => make('kbd', {text: key}))), make('dd', {text}));
 }
 
-// Keys that belong to the element in focus: typing, choosing, pressing.
+// Keys that the focused element uses: typing, choosing, pressing.
 function isTaken(event) {
   const target = event.target;
   if (!(target instanceof Element)) return false;

@@ -1,4 +1,4 @@
-// Latency by stage over the last two minutes: a plot of the whole, a small one for each stage.
+// Latency by stage over the last two minutes: a large plot of the total, small ones for the stages.
 
 import {byId, make, setText} from './dom.js';
 import {beginPlot, drawCurve, drawLabel, drawLevel} from './plot.js';
@@ -11,14 +11,14 @@ const STAGES = ['segment', 'carve', 'label', 'filter', 'total', 'publish'];
 
 export class LatencyPlot {
   constructor() {
-    this.series = new Map();  // stage → [{p50, p99}], one a second
+    this.series = new Map();  // stage → [{p50, p99}], one per second
     this.canvas = byId('latency-plot');
     this.rows = new Map();
     onTheme(() => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  /** Takes the stages of a status. */
+  /** Adds the stages of a status. */
   take(stages) {
     for (const {name, count, p50_ms: p50, p99_ms: p99} of stages) {
       if (!this.series.has(name) && this.series.size > 32) continue;

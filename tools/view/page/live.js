@@ -1,4 +1,4 @@
-// The studio as it is now: messages in, scene and panel out.
+// The live studio: passes messages to scene and panel.
 
 import {Actions} from './actions.js';
 import {factsOf, lookOfCamera} from './camera_text.js';
@@ -11,7 +11,7 @@ import {ageText, fixed} from './text.js';
 import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
 
 const OLD_PICTURE_MS = 2000;
-const TELL_MS = 250;  // Words and numbers change four times a second at most.
+const TELL_MS = 250;  // Text and numbers change at most four times a second.
 const STATE_HOLDS_MS = 1500;
 const STATUS_HOLDS_S = 3.5;
 
@@ -66,7 +66,7 @@ export class Live {
   }
 
   takeBody(body) {
-    // It comes every second, and seldom says anything new.
+    // It comes every second, usually unchanged.
     const text = JSON.stringify(body);
     if (text === this.bodyText) return;
     this.bodyText = text;
@@ -106,7 +106,7 @@ export class Live {
       else if (kind === PICTURE)
         this.takePicture(decodePicture(buffer));
     } catch (error) {
-      // A message that is cut off; the next one comes soon.
+      // A truncated message; the next one comes soon.
       if (!(error instanceof RangeError)) throw error;
     }
   }
@@ -157,7 +157,9 @@ export class Live {
     this.tellCameras(nowMs);
   }
 
-  /** Says when the panel's figures are old; cameras are then not known, also in the scene. */
+  /**
+   * Shows when the panel's figures are old. The cameras' state is then unknown, also in the scene.
+   */
   tellStatusAge(ageS) {
     const isOld = ageS > STATUS_HOLDS_S;
     setText(byId('figures-title'), isOld ? `As of ${ageText(ageS)} ago` : 'Now');
@@ -183,7 +185,7 @@ export class Live {
     }
   }
 
-  /** @return the state; '' when nothing has been heard of it lately. */
+  /** @return the state; '' without recent messages. */
   state() {
     return performance.now() - this.poseMs < STATE_HOLDS_MS ? this.people.state() : '';
   }

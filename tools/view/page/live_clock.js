@@ -1,5 +1,5 @@
-// Which time of capture to show now. The browser's clock and the server's may differ by anything:
-// the offset is the smallest difference between a pose's arrival and its publication.
+// Selects the capture time to show. The browser's and the server's clocks may differ arbitrarily.
+// The offset is the smallest difference between a pose's arrival and its publication.
 
 const OFFSET_BUCKET_MS = 10000;
 const OFFSET_BUCKETS = 6;
@@ -19,12 +19,12 @@ export class LiveClock {
     this.reset();
   }
 
-  /** Forgets all, as after a new connection: the server may be another one. */
+  /** Resets everything, as after a reconnection: the server may be another one. */
   reset() {
     this.buckets = [];   // {number, offset}: smallest offset of each ten seconds
     this.arrivals = [];  // {nowMs, lag, timeMs}
     this.publishMs = -Infinity;
-    this.delay = null;  // browser's now minus the time of capture that is shown
+    this.delay = null;  // browser time minus the shown capture time
     this.lastMs = null;
   }
 
@@ -33,8 +33,8 @@ export class LiveClock {
   }
 
   /**
-   * Takes the arrival of a message with its times of capture and publication.
-   * @return whether the server's clock was put back: times of before then mean nothing.
+   * Adds the arrival of a message with its capture and publication times.
+   * @return whether the server's clock was set back: earlier times are then meaningless.
    */
   arrived(nowMs, timeMs, publishMs) {
     const wasPutBack = publishMs < this.publishMs - PUT_BACK_MS;
@@ -56,12 +56,12 @@ export class LiveClock {
     return wasPutBack;
   }
 
-  /** @return the server's time at the browser's. */
+  /** @return the server's time for a browser time. */
   serverNow(nowMs) {
     return nowMs - Math.min(...this.buckets.map((bucket) => bucket.offset));
   }
 
-  /** How far behind now to play so that the next pose has nearly always arrived. */
+  /** Returns the delay at which the next pose has nearly always arrived. */
   wantedDelay() {
     const lags = this.arrivals.map((arrival) => arrival.lag).sort((a, b) => a - b);
     const gaps = [];
@@ -75,7 +75,7 @@ export class LiveClock {
     return Math.max(lags[0], Math.min(wanted, offset + LARGEST_AGE_MS));
   }
 
-  /** @return the time of capture to show; it runs smoothly, at most a tenth faster or slower. */
+  /** @return the capture time to show; its rate varies by at most a tenth. */
   showTime(nowMs) {
     if (this.arrivals.length === 0) return null;
     const wanted = this.wantedDelay();

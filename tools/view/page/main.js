@@ -1,4 +1,4 @@
-// `mocap view` in the browser: asks what is to be shown, and starts it.
+// `mocap view` in the browser: asks what to show, and starts it.
 
 import {byId, setText} from './dom.js';
 import {bindKeys, startKeys} from './keys.js';
@@ -12,7 +12,7 @@ import {ViewTools} from './view_tools.js';
 const RETRY_MS = 2000;
 const FPS_WINDOW_MS = 1000;
 
-/** Counts what is drawn in the last second. */
+/** Counts frames drawn in the last second. */
 class FrameCounter {
   constructor() {
     this.times = [];
@@ -35,7 +35,7 @@ async function askWhatToShow() {
       const answer = await fetch('/view.json');
       if (answer.ok) return await answer.json();
     } catch {
-      // The server is not there yet, or no longer: asked again below.
+      // The server is not running; the request is repeated below.
     }
     setText(byId('connection'), 'mocap view does not answer. It is asked again.');
     await new Promise((resolve) => setTimeout(resolve, RETRY_MS));
@@ -44,8 +44,7 @@ async function askWhatToShow() {
 
 function makeScene() {
   try {
-    // #detail=full, for the script that takes a picture of the page on a machine without a graphics
-    // card.
+    // #detail=full is for the script that takes a picture of the page without a graphics card.
     const isFine = new URLSearchParams(location.hash.slice(1)).get('detail') === 'full';
     return new StudioScene(byId('scene'), byId('labels'), byId('old'), isFine);
   } catch (error) {
@@ -67,19 +66,19 @@ function startPageKeys() {
   startKeys();
 }
 
-/** What tests, and curious people, read: nothing of it changes the page. */
+/** Read-only state for tests and curious users. */
 function expose(mode, show, tools, counter) {
   window.mocapView = Object.freeze({
     mode,                               // 'live' or 'replay'
     state: () => show.state(),          // 'searching', 'acquiring', 'tracking', 'lost', ''
     shownPose: () => show.shownPose(),  // {timeMs, frame, points: Float32Array(69)} in the scene
     poseOf: (frame) => show.poseOf(frame),  // the same as received, or null
-    people: () => show.shownPeople(),       // who is followed, as the panel tells it
+    people: () => show.shownPeople(),       // the tracked people, as in the panel
     shownFrame: () => show.shownFrame(),    // replay: index of the frame; live: its number, or null
     pictureFrames: () => show.pictureFrames(),       // camera → capture time [ms] of its picture
-    cameraStates: () => show.cameraStates(),         // camera → what is said of it
+    cameraStates: () => show.cameraStates(),         // camera → its label
     cameraColor: (name) => tools.cameraColor(name),  // '#rrggbb' in the scene
-    fps: () => counter.rate,                         // of this page, frames drawn a second
+    fps: () => counter.rate,                         // frames drawn per second by this page
   });
 }
 

@@ -1,4 +1,4 @@
-// Turns, moves and zooms the free view: mouse, touch, keys. The world's z is up.
+// Rotates, pans and zooms the free view by mouse, touch and keys. The world's z is up.
 
 const LOWEST = -0.05;
 const HIGHEST = 1.55;
@@ -6,7 +6,7 @@ const KEY_TURN = 0.12;
 const KEY_MOVE = 0.06;
 
 export class Orbit {
-  /** @param element what is dragged; @param onChange called when the view has changed. */
+  /** @param element receives the dragging; @param onChange called when the view has changed. */
   constructor(element, onChange = () => {}) {
     this.element = element;
     this.onChange = onChange;
@@ -30,13 +30,13 @@ export class Orbit {
     this.onChange();
   }
 
-  /** Sees a room of a radius about a point as a whole. */
+  /** Views a whole room of a radius about a point. */
   setHome(target, radius) {
     this.home = {...this.home, target, distance: 1.8 * radius};
     this.reset();
   }
 
-  /** @return where the eye is. */
+  /** @return the position of the eye. */
   get eye() {
     const flat = this.distance * Math.cos(this.rise);
     return [
@@ -101,7 +101,7 @@ export class Orbit {
     this.zoom(Math.exp(0.0015 * event.deltaY * (event.deltaMode === 1 ? 30 : 1)));
   }
 
-  /** Takes a key of the view. @return whether it was one. */
+  /** Handles a key of the view. @return whether it was one. */
   key(key) {
     const small = key.toLowerCase();
     const isShift = key !== small;

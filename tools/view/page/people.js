@@ -1,31 +1,31 @@
-// The people of the live studio: their poses of the last seconds, and how they stand in the scene.
+// The people of the live studio: recent poses, and their figures in the scene.
 
 import {LiveClock} from './live_clock.js';
 import {PoseHistory} from './pose_history.js';
 import {figureColor} from './theme.js';
 
-export const OLD_MS = 250;   // An older pose is never shown without saying so.
-const HIDE_BODY_MS = 10000;  // What is older helps nobody.
-// By how much a state says: with several people the best one is the studio's.
+export const OLD_MS = 250;   // An older pose is always marked as old.
+const HIDE_BODY_MS = 10000;  // Older bodies are useless.
+// Ranking of states: with several people, the studio has the best one's.
 const RANK = ['searching', 'lost', 'acquiring', 'tracking'];
 
 export class People {
-  /** @param scene the 3-D scene, or null where there is no WebGL. */
+  /** @param scene the 3-D scene, or null without WebGL. */
   constructor(scene) {
     this.scene = scene;
     this.clock = new LiveClock();
-    this.histories = new Map();  // colour → PoseHistory; whoever is followed longest comes first
-    this.told = new Map();       // id → what mocap view says of the person
+    this.histories = new Map();  // colour → PoseHistory; the person tracked longest is first
+    this.told = new Map();       // id → description by mocap view
     this.body = null;
-    this.shown = null;  // the first person's pose that the scene shows
+    this.shown = null;  // the first person's pose in the scene
     this.hull = scene?.figure('hull', {color: 'stick'});
     this.hull?.show(null);
   }
 
-  /** Takes the decoded poses of a set, just arrived: whoever is not among them has left. */
+  /** Takes the decoded poses of a new set. People not in it have left. */
   takePoses(poses, nowMs) {
     if (poses.length === 0) return;
-    // What was seen before the clock was put back lies in its future.
+    // Poses from before the clock was set back lie in its future.
     const wasPutBack = this.clock.arrived(nowMs, poses[0].timeMs, poses[0].publishMs);
     if (wasPutBack) this.forgetAll();
     const histories = new Map(poses.map((pose) => [pose.person, this.historyWith(pose)]));
@@ -42,7 +42,7 @@ export class People {
 
   historyWith(pose) {
     const known = this.histories.get(pose.person);
-    // Whoever is being measured has no number yet. A colour may go to somebody else.
+    // A person in acquisition has no number yet. A colour may pass to another person.
     const isSame = known && [pose.id, 0].includes(known.newest.id);
     const history = isSame ? known : new PoseHistory();
     history.add(pose);
@@ -68,7 +68,9 @@ export class People {
     return figure;
   }
 
-  /** Poses everybody for now. @return the age of the oldest body shown [ms], null if none is. */
+  /**
+   * Poses everyone for now. @return the age of the oldest shown body [ms], null if none is shown.
+   */
   draw(nowMs) {
     const showMs = this.clock.showTime(nowMs);
     this.shown = null;
@@ -77,7 +79,7 @@ export class People {
       const ageMs = this.drawPerson(person, history, showMs ?? history.newest.timeMs, nowMs);
       if (ageMs !== null) oldest = Math.max(oldest ?? 0, ageMs);
     }
-    // Voxels of several people go with nobody.
+    // With several people, voxels belong to nobody.
     const [first, second] = this.histories.values();
     const sole = second ? null : first;
     this.hull?.showVoxels(showMs ?? 0, (t) => sole?.at(t) ?? null);
@@ -86,7 +88,7 @@ export class People {
 
   drawPerson(person, history, showMs, nowMs) {
     let pose = history.at(showMs);
-    // Whoever is lost stays where last seen, faded; whoever has left is gone.
+    // A lost person stays at the last position, faded. One who left disappears.
     if (pose && !pose.hasPose && pose.state === 'lost') pose = history.lastBody(showMs);
     let ageMs = pose ? this.ageMs(pose.timeMs, nowMs) : Infinity;
     if (!pose?.hasPose || ageMs > HIDE_BODY_MS) [pose, ageMs] = [null, null];
@@ -109,7 +111,7 @@ export class People {
     return this.nameOf(id) || `person ${id}`;
   }
 
-  /** @return what the panel says of each, in the order of the set. */
+  /** @return the panel's description of each person, in the order of the set. */
   rows(nowMs) {
     const serverNowMs = this.clock.isKnown ? this.clock.serverNow(nowMs) : null;
     return [...this.histories].map(([person, {newest}]) => {
@@ -126,18 +128,18 @@ export class People {
     });
   }
 
-  /** @return how long ago something was captured [ms]; 0 while clocks are not known. */
+  /** @return the age of a capture time [ms]; 0 while clocks are unknown. */
   ageMs(timeMs, nowMs) {
     return this.clock.isKnown ? this.clock.serverNow(nowMs) - timeMs : 0;
   }
 
-  /** @return the state of whoever is followed best, '' before the first pose. */
+  /** @return the best state of all people, '' before the first pose. */
   state() {
     const states = [...this.histories.values()].map((history) => history.newest.state);
     return states.sort((a, b) => RANK.indexOf(b) - RANK.indexOf(a))[0] ?? '';
   }
 
-  /** @return the newest pose of the first who has one, or null. */
+  /** @return the newest pose of the first person who has one, or null. */
   newestBody() {
     const newest = [...this.histories.values()].map((history) => history.newest);
     return newest.find((pose) => pose.hasPose) ?? null;

@@ -1,4 +1,4 @@
-// Whose sizes are kept: one of those who are followed, by number.
+// Choice of the tracked person whose sizes are saved, by number.
 
 const PLACEHOLDER = {
   text: 'whose?',
@@ -10,10 +10,10 @@ export class PersonChoice {
   constructor() {
     this.rows = [];
     this.value = '';      // the number; '' while nobody has one
-    this.isGone = false;  // whoever was chosen has left, and another is never taken for him
+    this.isGone = false;  // the chosen person left; no other is ever taken instead
   }
 
-  /** Takes who is followed: `id` and `label` of each, whoever has been followed longest first. */
+  /** Sets the people: `id` and `label` of each; the person tracked longest is first. */
   take(rows) {
     this.rows = rows.map(({id, label}) => ({text: label, value: id > 0 ? String(id) : ''}));
     if (rows.length === 0) {
@@ -37,7 +37,7 @@ export class PersonChoice {
     return this.rows.length > 1 || this.isGone;
   }
 
-  /** @return texts and values of a list; the chosen one is `selected`. */
+  /** @return texts and values of a list; `selected` marks the chosen one. */
   options() {
     const options = this.rows.map((row) => ({...row, selected: row.value === this.value}));
     return this.isGone ? [PLACEHOLDER, ...options] : options;

@@ -1,4 +1,4 @@
-// The strip of cameras: each one's picture with silhouette and body drawn over it, and how it does.
+// The strip of cameras: each picture with silhouette and body, and the camera's state.
 
 import {CAMERA_LOOKS} from './camera_models.js';
 import {fitCanvas, make, setText} from './dom.js';
@@ -9,13 +9,13 @@ const SIDES = ['side-middle', 'side-left', 'side-right'];
 function path(context, points, isClosed) {
   context.beginPath();
   for (let i = 0; i + 1 < points.length; i += 2) {
-    // Pixel centres are at whole numbers, a canvas counts from the corner.
+    // Pixel centres are integers; a canvas counts from the corner.
     context.lineTo(points[i] + 0.5, points[i + 1] + 0.5);
   }
   if (isClosed) context.closePath();
 }
 
-/** Draws lines of the camera's picture over a canvas of any size. */
+/** Draws lines in the camera's picture on a canvas of any size. */
 function drawLines(context, picture, width, height) {
   const scale = width / picture.widthPx;
   context.save();
@@ -31,7 +31,7 @@ function drawLines(context, picture, width, height) {
   for (const line of picture.silhouette) stroke(line, true, color('silhouette'), 1.3);
   for (const line of picture.body) stroke(line, line.points.length > 4, 'rgba(0, 0, 0, 0.55)', 3.4);
   for (const line of picture.body) {
-    // Of several people, whose body it is counts more than which side.
+    // With several people, the colour shows the person, not the side.
     const name = line.person === null ? SIDES[line.side] ?? SIDES[0] : figureColor(line.person);
     stroke(line, line.points.length > 4, color(name), 1.8);
   }
@@ -42,10 +42,10 @@ function drawLines(context, picture, width, height) {
 class CameraCard {
   constructor(camera, number, onChoose) {
     this.name = camera.name;
-    this.picture = null;  // the last one that was drawn, decoded
+    this.picture = null;  // the last drawn one, decoded
     this.bitmap = null;
     this.isDrawn = true;
-    this.next = null;  // the newest that waits while one is being decoded
+    this.next = null;  // the newest, waiting while another is decoded
     this.isDecoding = false;
     this.canvas = make('canvas', {role: 'img', 'aria-label': `Picture of ${camera.name}`});
     this.canvas.style.aspectRatio = `${camera.size_px[0]} / ${camera.size_px[1]}`;
@@ -88,7 +88,7 @@ class CameraCard {
         this.picture = {...picture, jpeg: null};
         this.isDrawn = false;
       } catch {
-        // A damaged picture is as good as none: the card tells how old the last one is.
+        // A damaged picture is ignored: the card shows the age of the last one.
       }
     }
     this.isDecoding = false;
@@ -112,8 +112,7 @@ class CameraCard {
   }
 
   /**
-   * @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or
-   *     ''.
+   * @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or ''.
    */
   tell({look, facts, veil}) {
     const {mark, color: name} = CAMERA_LOOKS[look] ?? CAMERA_LOOKS['not known'];
@@ -152,7 +151,7 @@ export class Pictures {
     this.cards[picture.camera]?.take(picture);
   }
 
-  /** Draws what has come since: together, for a browser puts the page together after each. */
+  /** Draws all new pictures together, as a browser composes the page after each. */
   draw() {
     for (const card of this.cards) {
       if (!card.isDrawn) card.draw();
@@ -163,7 +162,7 @@ export class Pictures {
     return this.cards.find((card) => card.name === name);
   }
 
-  /** Marks the camera through which the studio is seen. */
+  /** Marks the camera through which the scene is viewed. */
   choose(name) {
     for (const card of this.cards) {
       card.button.setAttribute('aria-pressed', String(card.name === name));

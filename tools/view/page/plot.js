@@ -1,8 +1,8 @@
-// Curves on a canvas: of the last two minutes, and along a take.
+// Curves on a canvas: over the last two minutes, or along a take.
 
 import {fitCanvas} from './dom.js';
 
-/** Draws a curve through values that are null where there is nothing. */
+/** Draws a curve; null values are gaps. */
 export function drawCurve(context, values, {x, y, color, width = 1.5, dash = []}) {
   context.beginPath();
   let isDown = false;
@@ -25,7 +25,7 @@ export function drawCurve(context, values, {x, y, color, width = 1.5, dash = []}
   context.setLineDash([]);
 }
 
-/** Writes a label of an axis. */
+/** Draws a label of an axis. */
 export function drawLabel(context, text, x, y, color, align = 'left') {
   context.font = '11px system-ui, sans-serif';
   context.fillStyle = color;
@@ -34,7 +34,7 @@ export function drawLabel(context, text, x, y, color, align = 'left') {
   context.fillText(text, x, y);
 }
 
-/** Draws a level line. */
+/** Draws a horizontal line. */
 export function drawLevel(context, y, width, color, from = 0) {
   context.beginPath();
   context.moveTo(from, Math.round(y) + 0.5);

@@ -1,8 +1,8 @@
-// The poses of the last seconds of one person, and the pose at any time between them.
+// Recent poses of one person, interpolated at any time.
 
 const KEEP_MS = 3000;
 const MOST_POSES = 1000;
-// Across a longer gap a straight line between two poses would be invented.
+// Across a longer gap, interpolation would be invention.
 const LONGEST_GAP_MS = 250;
 
 function mix(a, b, share) {
@@ -11,7 +11,7 @@ function mix(a, b, share) {
   return out;
 }
 
-/** @return the pose at a share from `a` to `b`: linear where both have one, else the earlier. */
+/** @return the pose between `a` and `b`: linear if both have one, else the earlier. */
 export function interpolate(a, b, share) {
   const canMix = a.hasPose && b.hasPose && a.capsules.length === b.capsules.length &&
       b.timeMs - a.timeMs <= LONGEST_GAP_MS;
@@ -35,7 +35,7 @@ export class PoseHistory {
     return this.poses[this.poses.length - 1] ?? null;
   }
 
-  /** Takes a pose; one that is older than the newest means that the clock began anew. */
+  /** Adds a pose. One older than the newest means that the clock restarted. */
   add(pose) {
     if (this.newest && pose.timeMs <= this.newest.timeMs) {
       if (this.newest.timeMs - pose.timeMs < 1000) return;
@@ -62,7 +62,7 @@ export class PoseHistory {
     return low - 1;
   }
 
-  /** @return the pose at a time of capture; before the oldest and after the newest, that one. */
+  /** @return the pose at a capture time; before the oldest and after the newest, that one. */
   at(timeMs) {
     if (this.poses.length === 0) return null;
     const index = this.indexAt(timeMs);
@@ -72,7 +72,7 @@ export class PoseHistory {
     return b ? interpolate(a, b, (timeMs - a.timeMs) / (b.timeMs - a.timeMs)) : a;
   }
 
-  /** @return the newest pose with a body that was captured at or before a time, or null. */
+  /** @return the newest pose with a body captured at or before a time, or null. */
   lastBody(timeMs) {
     for (let i = this.indexAt(timeMs); i >= 0; --i) {
       if (this.poses[i].hasPose) return this.poses[i];
@@ -80,7 +80,7 @@ export class PoseHistory {
     return null;
   }
 
-  /** @return the pose as it was received, by its frame's number, or null. */
+  /** @return the received pose of a frame number, or null. */
   ofFrame(frame) {
     return this.poses.find((pose) => pose.frame === frame) ?? null;
   }

@@ -1,4 +1,4 @@
-// A recorded take with its results: played, stepped, and compared with the truth.
+// A recorded take with its results: playback, steps, and comparison with the truth.
 
 import {Chunks} from './chunks.js';
 import {byId, setText} from './dom.js';
@@ -19,7 +19,7 @@ async function fetchBytes(url) {
   return answer.arrayBuffer();
 }
 
-/** What was seen in the newest wanted frame: one request at a time, never a queue. */
+/** Fetches pictures of the newest requested frame: one request at a time, never a queue. */
 class SeenFetcher {
   constructor(onSeen) {
     this.onSeen = onSeen;
@@ -109,7 +109,7 @@ export class Replay {
         (key) => head.changeSpeed(key === ',' ? -1 : 1));
   }
 
-  /** Sets results beside each other, for bodies that would hide one another. */
+  /** Shows results side by side, as bodies would hide one another. */
   setApart(isApart) {
     this.take.results.forEach((result, k) => {
       const {figure} = this.tracks[k];
@@ -142,7 +142,7 @@ export class Replay {
     }
   }
 
-  /** @return the pose of a track at a time within the take, null where it is not there. */
+  /** @return the pose of a track at a time within the take, null if there is none. */
   poseAt({chunks}, timeMs) {
     const {timesMs} = this.head;
     const frame = frameAt(timesMs, timeMs);

@@ -1,4 +1,4 @@
-// Beside a take: its results with what they say of the present frame, and the error by joint.
+// Panel of a take: its results at the present frame, and the error by joint.
 
 import {byId, make, setText} from './dom.js';
 import {beginPlot, drawLabel, drawLevel} from './plot.js';
@@ -16,7 +16,7 @@ export class ResultPanel {
   /**
    * @param onShow (key, isOn): shows or hides; @param onOver (k): whose body is drawn over
    *     pictures;
-   * @param onApart (isOn): sets results beside each other.
+   * @param onApart (isOn): shows results side by side.
    */
   constructor(take, {onShow, onOver, onApart}) {
     this.take = take;
@@ -27,7 +27,7 @@ export class ResultPanel {
     const groups = new Set(take.results.map((result) => result.group)).size;
     if (groups > 1) byId('replay-panel').append(this.makeApart(onApart));
     this.tellLegend();
-    // With several people one is looked at in detail; results of one person are compared.
+    // With several people, one is shown in detail; results of one person are compared.
     this.compared = take.results.map((_, k) => k);
     this.hasPeople = take.results.some((result) => result.person !== '');
     this.joints = take.results.find((result) => result.joints.length > 0)?.joints ?? [];
@@ -68,7 +68,7 @@ export class ResultPanel {
     return row;
   }
 
-  /** The choice whose bodies are drawn over pictures: everybody's who was tracked together. */
+  /** Choice of bodies drawn over pictures: of everyone tracked together. */
   makeOver(result, k, onOver) {
     const first = this.take.results.findIndex(({group}) => group === result.group);
     const isOnlyGroup = this.take.results.every(({group}) => group === result.group);
@@ -79,7 +79,7 @@ export class ResultPanel {
     return [make('label', {class: 'over'}, over, text)];
   }
 
-  /** Who it truly is, where there are several. */
+  /** Shows the matching true person, if there are several. */
   tellTruth(result) {
     const people = this.take.truth?.people ?? [];
     if (people.length < 2) return [];
@@ -118,7 +118,7 @@ export class ResultPanel {
     this.compare(this.hasPeople ? [0] : this.compared);
   }
 
-  /** Whose errors are told: one person's, or everybody's. */
+  /** Choice of the errors shown: one person's, or everyone's. */
   makeChoice() {
     const list = make(
         'select', {id: 'joints-of', 'aria-label': 'Whose errors'},
@@ -130,7 +130,7 @@ export class ResultPanel {
     return list;
   }
 
-  /** Fills the table of joints with some results, by number. */
+  /** Fills the table of joints with results, by index. */
   compare(results) {
     this.compared = results;
     const heads = results.map((k) => {
@@ -189,7 +189,7 @@ export class ResultPanel {
     context.fillRect(32 + (width - 33) * this.progress - 0.75, 0, 1.5, height);
   }
 
-  /** Tells what results say of a frame. */
+  /** Shows the results at a frame. */
   show(frame, last) {
     if (frame === this.frame) return;
     this.frame = frame;

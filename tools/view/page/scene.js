@@ -1,4 +1,4 @@
-// The studio in 3-D: floor, cameras, figures, and from where it is seen.
+// The studio in 3-D: floor, cameras, figures, and the view.
 
 import {CameraModels} from './camera_models.js';
 import {Detail, drawsInSoftware} from './detail.js';
@@ -12,7 +12,7 @@ import * as THREE from './three.js';
 const NEAR_MM = 50;
 const FAR_MM = 60000;
 
-/** Tangents of the four sides of a camera's picture, from the rays through its corners. */
+/** Tangents of the four sides of a camera's picture, from the rays of its corners. */
 function picturesTangents(camera) {
   const local = camera.corners_mm.map((corner) => {
     const ray = corner.map((value, axis) => value - camera.position_mm[axis]);
@@ -26,9 +26,9 @@ function picturesTangents(camera) {
 
 export class StudioScene {
   /**
-   * @param canvas where it is drawn; @param labels the element above it for names;
-   * @param notice the element above these at the top of the middle, which covers no label;
-   * @param isFine whether every pixel is drawn, also where that is slow.
+   * @param canvas for drawing; @param labels the element above it for names;
+   * @param notice the element above these, at the top centre, which covers no label;
+   * @param isFine whether to draw every pixel, even if slow.
    */
   constructor(canvas, labels, notice, isFine) {
     this.canvas = canvas;
@@ -69,7 +69,7 @@ export class StudioScene {
     this.height = Math.max(1, height);
   }
 
-  /** Takes where cameras stand; the first time the view is made to fit them. */
+  /** Sets the cameras' poses; the first time, fits the view to them. */
   setCameras(cameras) {
     const isFirst = this.cameraModels.cameras.length === 0;
     this.cameraModels.setCameras(cameras);
@@ -84,7 +84,7 @@ export class StudioScene {
     return this.cameraModels.cameras;
   }
 
-  /** @return the figure of a key, made when it is first asked for. */
+  /** @return the figure of a key; created on first use. */
   figure(key, options) {
     if (!this.figures.has(key)) {
       const figure = new Figure(options);
@@ -109,7 +109,7 @@ export class StudioScene {
     for (const figure of this.figures.values()) figure.setLayer(name, isOn);
   }
 
-  /** Sees the studio as a camera does; null: freely. */
+  /** Views the studio through a camera; null: freely. */
   seeThrough(name) {
     this.through = name;
     this.cameraModels.hide(name);
@@ -123,7 +123,7 @@ export class StudioScene {
     this.eye.position.set(...this.orbit.eye);
     this.eye.lookAt(...this.orbit.target);
     this.eye.aspect = this.width / this.height;
-    // On a tall screen the room's width is what must fit.
+    // On a tall screen, the room's width must fit.
     this.eye.fov = this.eye.aspect > 1 ? 42 : 2 * Math.atan(0.5 / this.eye.aspect) * 180 / Math.PI;
     return this.eye.updateProjectionMatrix();
   }
@@ -210,7 +210,7 @@ export class StudioScene {
     }
   }
 
-  /** @return the height of a label's middle, lowered where the notice would cover the label. */
+  /** @return the height of a label's middle, lowered if the notice would cover the label. */
   belowNotice(label, x, y) {
     if (this.notice.hidden) return y;
     const {offsetTop, offsetWidth, offsetHeight} = this.notice;

@@ -1,4 +1,4 @@
-// A WebSocket that comes back: waits longer after each failure, up to ten seconds.
+// A WebSocket that reconnects, with increasing delays of up to ten seconds.
 
 const FIRST_WAIT_MS = 500;
 const LONGEST_WAIT_MS = 10000;

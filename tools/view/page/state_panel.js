@@ -1,12 +1,11 @@
-// State at a glance: the state's word, whether all is good, complaints word for word, and the
-// figures.
+// State panel: the state, whether all is good, the diagnostics verbatim, and the figures.
 
 import {byId, make, setText} from './dom.js';
 import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
 
 const LEAST_DISK_BYTES = 5e9;
 
-/** What to say first: {tone: 'ok' | 'warn' | 'bad' | 'muted', text, lines}. Pure, for tests. */
+/** The main message: {tone: 'ok' | 'warn' | 'bad' | 'muted', text, lines}. Pure, for tests. */
 export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
   if (!isOpen) {
     const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
@@ -60,7 +59,7 @@ export class StatePanel {
     this.word = '';
   }
 
-  /** Shows the state's word. */
+  /** Shows the name of the state. */
   setState(state) {
     if (this.word === state) return;
     this.word = state;
@@ -82,7 +81,7 @@ export class StatePanel {
     this.say([text, ...lines]);
   }
 
-  /** Tells screen readers what is new, but not that a number in it has changed. */
+  /** Announces changes to screen readers, except changed numbers. */
   say(lines) {
     const said = withoutNumbers(lines.join('\n'));
     if (said === this.said) return;
@@ -90,7 +89,7 @@ export class StatePanel {
     setText(byId('announce'), lines.filter((line) => line !== '').join('. '));
   }
 
-  /** Shows notices that are no complaints, such as why there are no pictures. */
+  /** Shows notices that are not diagnostics, such as why there are no pictures. */
   setNotice({pictures}) {
     setText(byId('no-pictures'), pictures);
     byId('no-pictures').hidden = pictures === '';
@@ -105,13 +104,13 @@ export class StatePanel {
     setText(byId('camera-count'), `${streaming} of ${status.cameras.length}`);
   }
 
-  /** @param pose the newest pose; null where nobody is there. */
+  /** @param pose the newest pose; null if nobody is present. */
   setFit(pose) {
     setText(byId('fit'), pose ? fixed(pose.residualMm, 1) : '–');
     setText(byId('voxel-count'), pose ? pose.voxels : '–');
   }
 
-  /** Tells of each of several people; of one the rest of the panel does. */
+  /** Shows each of several people; the rest of the panel shows a single person. */
   setPeople(rows) {
     byId('people').hidden = rows.length < 2;
     setText(byId('sizes-of'), rows.length < 2 ? 'Subject' : rows[0].label);

@@ -1,11 +1,11 @@
-// Numbers as people read them.
+// Formats numbers for people.
 
-/** @return a number with fixed places; an en dash where there is none. */
+/** @return a number with fixed decimals; an en dash if there is none. */
 export function fixed(value, places = 0) {
   return Number.isFinite(value) ? value.toFixed(places) : '–';
 }
 
-/** @return a number and its unit, which no line break parts. */
+/** @return a number and its unit, without a line break between them. */
 export function measured(number, unit) {
   return `${number}\u00a0${unit}`;
 }
@@ -19,7 +19,7 @@ function counted(count, unit) {
   return `${count} ${unit}${count === 1 ? '' : 's'}`;
 }
 
-/** @return how long ago something was, in the largest unit that fits: "3 days". */
+/** @return an age in the largest unit that fits: "3 days". */
 export function ageText(seconds) {
   if (!(seconds >= 0)) return 'not known';
   if (seconds < 90) return counted(Math.round(seconds), 'second');
@@ -28,7 +28,7 @@ export function ageText(seconds) {
   return counted(Math.round(seconds / 86400), 'day');
 }
 
-/** @return a length of time as a clock has it: "1:02:03". */
+/** @return a duration in clock format: "1:02:03". */
 export function clockText(seconds) {
   const whole = Math.max(0, Math.floor(seconds));
   const parts = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
@@ -53,7 +53,7 @@ export function partText(name) {
   return String(name).replace(/_l$/, ' left').replace(/_r$/, ' right').replaceAll('_', ' ');
 }
 
-/** @return a text without its numbers: what tells whether something new is said. */
+/** @return a text without its numbers, to detect whether something new is said. */
 export function withoutNumbers(text) {
   return String(text).replace(/\d+([.,]\d+)?/g, '#');
 }

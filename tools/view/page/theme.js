@@ -1,4 +1,4 @@
-// Light and dark: the system's choice, until somebody chooses here. Colours stand in view.css.
+// Light or dark: the system's setting, unless chosen here. view.css defines the colours.
 
 import {byId, setText} from './dom.js';
 
@@ -35,12 +35,12 @@ export function toggleTheme() {
   try {
     localStorage.setItem(KEY, theme);
   } catch {
-    // Without storage the choice lasts as long as the page.
+    // Without storage, the choice lasts until the page is closed.
   }
   apply(theme);
 }
 
-/** Calls back whenever colours change. */
+/** Registers a callback for changes of colours. */
 export function onTheme(listener) {
   listeners.push(listener);
 }
@@ -54,13 +54,13 @@ export function color(name) {
   return cache.get(name);
 }
 
-/** @return the same as red, green, blue from 0 to 1. */
+/** @return the same as red, green, blue, from 0 to 1. */
 export function rgb(name) {
   const number = parseInt(color(name).slice(1), 16);
   return [number >> 16 & 255, number >> 8 & 255, number & 255].map((value) => value / 255);
 }
 
-/** @return the colour of a person or a result by its place in the list. */
+/** @return the colour of a person or result by index. */
 export function figureColor(index) {
   return `figure-${index % 8}`;
 }

@@ -1,4 +1,4 @@
-// The arithmetic of a take's timeline: which frame at which time, bands of states, curves.
+// Computations for a take's timeline: frames by time, bands of states, curves.
 
 /** @return index of the last time at or before `timeMs`, at least 0. */
 export function frameAt(timesMs, timeMs) {
@@ -16,7 +16,7 @@ export function frameAt(timesMs, timeMs) {
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
-/** Where a take is played: a time between its first and last frame. */
+/** Playback position: a time between a take's first and last frame. */
 export class PlayHead {
   constructor(timesMs) {
     this.timesMs = timesMs;
@@ -29,12 +29,12 @@ export class PlayHead {
     return this.timesMs.length - 1;
   }
 
-  /** The frame that is shown: that of the present time. */
+  /** The frame of the present time, which is shown. */
   get frame() {
     return frameAt(this.timesMs, this.timeMs);
   }
 
-  /** How far the time is on its way from the frame to the next, 0 to below 1. */
+  /** Progress from this frame to the next, 0 to below 1. */
   get share() {
     const frame = this.frame;
     if (frame >= this.last) return 0;
@@ -42,7 +42,7 @@ export class PlayHead {
     return Math.max(0, (this.timeMs - begin) / (this.timesMs[frame + 1] - begin));
   }
 
-  /** Starts, at the end from the beginning; or stops, at a whole frame. */
+  /** Starts, from the beginning if at the end; or stops, at a whole frame. */
   toggle() {
     const isStart = !this.playing && this.last > 0;
     this.seek(isStart && this.frame >= this.last ? 0 : this.frame);
@@ -65,7 +65,7 @@ export class PlayHead {
     this.speed = SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, index))];
   }
 
-  /** Lets wall time pass; stops at the last frame. */
+  /** Advances by wall time; stops at the last frame. */
   advance(elapsedMs) {
     if (!this.playing) return;
     this.timeMs += elapsedMs * this.speed;
@@ -88,7 +88,7 @@ export function runsOf(values) {
   return runs;
 }
 
-/** Least and greatest of each of `columns` columns; null where a column has no number. */
+/** Minimum and maximum of each of `columns` columns; null if a column has no number. */
 export function columnsOf(values, columns) {
   const out = new Array(columns).fill(null);
   values.forEach((value, i) => {

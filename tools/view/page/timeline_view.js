@@ -1,4 +1,4 @@
-// The timeline of a take: states as bands, error or residual as curves, and the head that plays.
+// The timeline of a take: states as bands, error or residual as curves, and the playback position.
 
 import {byId, make, setText} from './dom.js';
 import {beginPlot, drawLabel, drawLevel} from './plot.js';
@@ -12,7 +12,7 @@ const BAND = 12;
 const BAND_GAP = 4;
 const CURVES_TOP = 10;
 
-/** Marks a band's stretch by a pattern too, for eyes that see no colours. */
+/** Adds a pattern to a band's range, for people who do not see colours. */
 function drawRun(context, state, x, y, width) {
   context.fillStyle = color(`state-${state}`);
   context.fillRect(x, y, width, BAND);
@@ -33,7 +33,7 @@ function drawRun(context, state, x, y, width) {
   context.restore();
 }
 
-/** Draws the spread of each pixel's frames as one line. */
+/** Draws the range of values of each pixel's frames as a line. */
 export function drawEnvelope(context, values, {left, width, y, color: style, lineWidth = 1.5}) {
   const columns = Math.max(1, Math.min(values.length, Math.floor(width)));
   context.beginPath();
@@ -58,13 +58,13 @@ export function drawEnvelope(context, values, {left, width, y, color: style, lin
 }
 
 export class TimelineView {
-  /** @param take as /take.json has it; @param head the PlayHead that is shown and moved. */
+  /** @param take as in /take.json; @param head the PlayHead that is shown and moved. */
   constructor(take, head) {
     this.take = take;
     this.head = head;
     this.canvas = byId('track');
     this.still = null;
-    // Somebody who is nobody has no error.
+    // Without a matching true person there is no error.
     this.hasTruth = take.results.some((result) => result.error_mm.length > 0);
     this.curves = take.results.map(
         ({error_mm: error, residual_mm: residual}) => this.hasTruth ? error : residual);
@@ -130,7 +130,7 @@ export class TimelineView {
       context.fillStyle = color(figureColor(k));
       context.fillRect(LEFT - 14, y, 8, BAND);
       for (const {value, from, to} of runsOf(result.states)) {
-        // Where a person is not known of there is nothing.
+        // A gap where a person is unknown.
         if (value === null) continue;
         drawRun(context, STATES[value], this.x(from), y, this.x(to) - this.x(from));
       }

@@ -1,4 +1,4 @@
-// What is shown in the scene, and from where: checkboxes, the list of cameras, keys.
+// Contents and view of the scene: checkboxes, the list of cameras, keys.
 
 import {byId, make} from './dom.js';
 import {bindKeys} from './keys.js';
@@ -13,7 +13,7 @@ const LAYER_KEYS = {
 };
 
 export class ViewTools {
-  /** @param scene the 3-D scene, or null where there is no WebGL. */
+  /** @param scene the 3-D scene, or null without WebGL. */
   constructor(scene, pictures) {
     this.scene = scene;
     this.pictures = pictures;
@@ -63,7 +63,7 @@ export class ViewTools {
     list.value = this.scene?.through ?? '';
   }
 
-  /** Sees through a camera, or freely; a second time the same camera: freely again. */
+  /** Views through a camera, or freely; choosing the same camera again means freely. */
   seeThrough(name) {
     const next = name === this.scene?.through ? null : name;
     this.scene?.seeThrough(next);
@@ -72,7 +72,7 @@ export class ViewTools {
     byId('stage').classList.toggle('through', next !== null);
   }
 
-  /** Looks at whoever is shown; at several, so that all are seen. */
+  /** Looks at the people shown, so that all are visible. */
   lookAtPeople() {
     const middles = [...this.scene?.figures.values() ?? []]
                         .filter((figure) => figure.visible)
@@ -89,7 +89,7 @@ export class ViewTools {
     this.scene.orbit.zoom((2800 + 1.2 * apartMm) / this.scene.orbit.distance);
   }
 
-  /** @return the colour in which a camera stands in the scene. */
+  /** @return a camera's colour in the scene. */
   cameraColor(name) {
     return this.scene ? color(this.scene.cameraModels.lookOf(name).color) : null;
   }

@@ -1,16 +1,15 @@
-// Surface voxels in the colours of their parts. The cells of a message go to the graphics card as
-// they are.
+// Surface voxels, coloured by part. The cells of a message are passed to the graphics card
+// unchanged.
 
 import * as THREE from './three.js';
 
 const PARTS = 10;
 const drawn = new THREE.Vector2();
-// Voxels come a few times a second. Between, each goes with its part of the body, so that what is
-// seen is how the body fitted when the voxels were made. Its parts' centroids are the first ten
-// points.
+// Voxels come a few times a second. In between, each moves with its body part, which shows how the
+// body fitted when the voxels were made. The first ten points are the centroids of the parts.
 const LONGEST_CARRY_MS = 1000;
 
-// Each voxel is one point of the size of its cube, shaded as a ball: a cube has 36 corners.
+// Each voxel is one point of the cube's size, shaded as a ball; a cube would have 36 corners.
 const vertexShader = `
   attribute vec4 cell;
   uniform vec3 origin;
@@ -59,7 +58,7 @@ export class VoxelMesh extends THREE.Points {
     this.visible = false;
   }
 
-  /** @param palette a colour [r, g, b] for each part, and for voxels of none. */
+  /** @param palette a colour [r, g, b] for each part, and for voxels without one. */
   setPalette(palette) {
     this.material.uniforms.palette.value.forEach((to, i) => to.set(...palette[i]));
   }
@@ -80,13 +79,13 @@ export class VoxelMesh extends THREE.Points {
   }
 
   reserve(capacity) {
-    // An attribute's buffer cannot grow: the old geometry's is given back.
+    // The buffer of an attribute cannot grow: release the old geometry's.
     this.geometry.dispose();
     this.geometry = new THREE.BufferGeometry();
     this.capacity = capacity;
     const cell = new THREE.BufferAttribute(new Uint16Array(4 * capacity), 4);
     this.geometry.setAttribute('cell', cell.setUsage(THREE.DynamicDrawUsage));
-    // three.js counts what there is to draw by this name.
+    // three.js takes the number of points from this attribute.
     this.geometry.setAttribute('position', cell);
   }
 
@@ -94,7 +93,7 @@ export class VoxelMesh extends THREE.Points {
     this.material.uniforms.pixels.value = renderer.getDrawingBufferSize(drawn).y;
   }
 
-  /** Places the voxels for the time that is shown. `then` is the pose at their time, or null. */
+  /** Places the voxels for the shown time. `then` is the pose at their time, or null. */
   place(timeMs, then, now) {
     const age = this.message ? timeMs - this.message.timeMs : Infinity;
     this.visible = age < LONGEST_CARRY_MS && this.message.count > 0;

@@ -1,6 +1,6 @@
-// Decodes the binary messages of `mocap view`. Little-endian, as every machine that runs a browser.
+// Decodes the binary messages of `mocap view`. Little-endian, like all machines that run browsers.
 
-/** Names of the states by their number in a pose message. */
+/** Names of the states, by their number in a pose message. */
 export const STATES = ['searching', 'acquiring', 'tracking', 'lost'];
 
 export const POSE = 1;
@@ -30,7 +30,7 @@ export function kindOf(buffer, begin = 0) {
   return buffer.byteLength > begin ? new Uint8Array(buffer, begin, 1)[0] : 0;
 }
 
-/** Decodes the pose at `begin`; `end` tells where the next message begins. */
+/** Decodes the pose at `begin`; `end` is the start of the next message. */
 export function decodePose(buffer, begin = 0) {
   require(buffer, begin + POSE_HEADER_BYTES);
   const view = new DataView(buffer, begin);
@@ -54,7 +54,7 @@ export function decodePose(buffer, begin = 0) {
   };
 }
 
-/** Decodes surface voxels: `cells` has x, y, z and part of each; part 65535 is none. */
+/** Decodes surface voxels: `cells` has x, y, z and part of each; part 65535 means none. */
 export function decodeVoxels(buffer, begin = 0) {
   require(buffer, begin + VOXELS_HEADER_BYTES);
   const view = new DataView(buffer, begin);
@@ -73,8 +73,8 @@ export function decodeVoxels(buffer, begin = 0) {
 }
 
 /**
- * Splits `{n, class, x0, y0, …}` sequences into lines; what is cut off is left out. A line's
- * person is null where somebody is alone.
+ * Splits `{n, class, x0, y0, …}` sequences into lines; ignores a truncated one. A line's person is
+ * null for a single person.
  */
 export function splitLines(values) {
   const lines = [];
@@ -90,7 +90,7 @@ export function splitLines(values) {
   return lines;
 }
 
-/** Decodes the picture at `begin`; `end` tells where the next message begins. */
+/** Decodes the picture at `begin`; `end` is the start of the next message. */
 export function decodePicture(buffer, begin = 0) {
   require(buffer, begin + PICTURE_HEADER_BYTES);
   const view = new DataView(buffer, begin);
@@ -113,14 +113,14 @@ export function decodePicture(buffer, begin = 0) {
   };
 }
 
-/** Decodes what is seen at a moment of a take: a picture or voxels, as `kind` tells. */
+/** Decodes a picture or voxels of a take, by `kind`. */
 export function decodeSeen(buffer, begin = 0) {
   const kind = kindOf(buffer, begin);
   const decode = kind === VOXELS ? decodeVoxels : decodePicture;
   return {kind, ...decode(buffer, begin)};
 }
 
-/** Decodes messages that stand one after the other. */
+/** Decodes consecutive messages. */
 export function decodeAll(buffer, decode) {
   const messages = [];
   for (let at = 0; at < buffer.byteLength;) {
