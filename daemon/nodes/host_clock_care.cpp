@@ -32,8 +32,13 @@ std::vector<std::string> RunningPrograms() {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", error))
     names.push_back(FirstLine(entry.path() / "comm"));
-  for (const auto& entry : std::filesystem::directory_iterator(kUnits, error)) {
-    if (entry.path().extension() == ".service") names.push_back(entry.path().filename());
+  const std::filesystem::recursive_directory_iterator end;
+  for (std::filesystem::recursive_directory_iterator at(kUnits, error); !error && at != end;
+       at.increment(error)) {
+    const std::filesystem::path& unit = at->path();
+    if (unit.extension() == ".service") names.push_back(unit.filename());
+    // The instances of a template, such as ptp4l@eth0.service, are in its slice.
+    if (unit.extension() != ".slice") at.disable_recursion_pending();
   }
   return names;
 }

@@ -62,7 +62,7 @@ TEST_F(InputFile, EachReasonHasItsWord) {
 }
 
 TEST_F(InputFile, MissingPermissionIsNotToldAsAbsence) {
-  if (!testing::AsNobody::IsPossible()) GTEST_SKIP() << "needs root";
+  if (!testing::AsNobody::IsPossible()) GTEST_SKIP() << "needs root that can be nobody";
   const std::filesystem::path video = folder_.path() / "cam1.mkv";
   for (const auto& file : {file_, video}) {
     testing::WriteText(file, "a = 1\n");
