@@ -40,14 +40,16 @@ struct Sighting {
   std::span<const Outline> borders;   ///< The rays that graze anybody near the person.
 };
 
+using PointStds = Eigen::Matrix<double, 1, kPointCount>;
+
 /// The result of one frame set.
 struct CaptureResult {
   CaptureState state = CaptureState::kSearching;
   PoseState pose;  ///< Undefined while searching.
-  Eigen::Matrix<double, 3, kPointCount>
-      points_W;  ///< p_WQ of the 23 model points after the filter [mm].
-  Eigen::Matrix<double, 1, kPointCount>
-      point_std_mm;           ///< Standard deviation of each, along its worst axis [mm].
+  /// p_WQ of the 23 model points after the filter [mm]; zero until somebody is tracked.
+  BodyPoints points_W = BodyPoints::Zero();
+  /// Standard deviation of each, along its worst axis [mm].
+  PointStds point_std_mm = PointStds::Zero();
   double residual_mm = 0;     ///< Mean distance between measured and model points.
   int voxels = 0;             ///< Of the person.
   bool body_changed = false;  ///< The sizes in body() have changed in this frame.
@@ -72,7 +74,7 @@ class MotionCapture {
   virtual ~MotionCapture() = default;
 
   /// Processes the next frame set.
-  /// @param capture_ns  time of exposure; must not decrease.
+  /// @param capture_ns  time of exposure; one before the last counts as the same time.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
   virtual const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                                       UpdateObserver* observer = nullptr) = 0;

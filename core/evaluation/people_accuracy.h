@@ -32,8 +32,9 @@ struct PersonAccuracy {
   double covered_share = 0;          ///< Share of these with tracking by that one,
   double covered_found_share = 0;    ///< and by anybody.
   int sets_to_first = -1;            ///< From the first covered set until anybody tracks.
-  int longest_lost_sets = 0;         ///< Longest run of covered sets, after that, without tracking.
-  int switches = 0;                  ///< How often the one who tracks changed.
+  int longest_lost_sets = 0;  ///< Longest run of covered sets, after that, without tracking; all
+                              ///< covered sets if nobody ever tracked.
+  int switches = 0;           ///< How often the one who tracks changed.
 };
 
 struct PeopleAccuracy {

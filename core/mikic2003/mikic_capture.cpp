@@ -40,10 +40,7 @@ void RequirePaperAxes(const BodyTable& table) {
 
 class MikicCapture::Impl {
  public:
-  explicit Impl(const BodyTable& table) : body_(table, AverageSizes(1750)) {
-    result_.points_W.setZero();
-    result_.point_std_mm.setZero();
-  }
+  explicit Impl(const BodyTable& table) : body_(table, AverageSizes(1750)) {}
 
   const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                               UpdateObserver* observer) {

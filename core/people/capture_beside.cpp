@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -58,7 +59,7 @@ CaptureBeside::~CaptureBeside() { queue_->is_abandoned = true; }
 
 void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
   Queue& queue = *queue_;
-  if (queue.last_ns && capture_ns - *queue.last_ns < kLeastApartNs) return;
+  if (queue.last_ns && std::abs(capture_ns - *queue.last_ns) < kLeastApartNs) return;
   if (queue.pushed - queue.taken == kMostWaiting) return;
   queue.last_ns = capture_ns;
   Queue::Seen& seen = queue.At(queue.pushed);

@@ -55,7 +55,7 @@ class PeopleCapture {
   /// @param room        as for one person. The box is where he would be: nothing else counts for a
   /// single person.
   /// @param eyes        of the cameras in the set.
-  /// @param capture_ns  time of exposure; must not decrease.
+  /// @param capture_ns  time of exposure; one before the last counts as the same time.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
   void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
               UpdateObserver* observer = nullptr);

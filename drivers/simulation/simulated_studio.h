@@ -30,7 +30,7 @@ struct SimulatedStudioOptions {
   /// With pan_tilt: heads turn on command, as tracking demands.
   bool follow = false;
   std::uint64_t seed = 1;  ///< Person, clothes, room, lenses and path.
-  bool realtime = false;   ///< Frames come when due by the system clock.
+  bool realtime = false;   ///< Frames come when due on the timeline.
   double seconds = 0;      ///< Length unless realtime; 0: endless.
   /// How often each camera is lost for some seconds; only in real time.
   double losses_per_minute = 0;
