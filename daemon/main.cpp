@@ -12,13 +12,15 @@
 #include "daemon/service/stop_signals.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Captures a person's motion and publishes it on LCM", "mocapd");
+  CLI::App app("Markerless motion capture in real time, published on LCM", "mocapd");
   std::optional<std::filesystem::path> file;
   bool only_checks = false;
   std::optional<double> seconds;
-  app.add_option("--config", file, "TOML file; without one, the simulated studio");
-  app.add_flag("--check-config", only_checks, "only look whether the configuration can be used");
-  app.add_option("--seconds", seconds, "stop after so long")->check(mocap::NumberFrom(0.001, 1e8));
+  app.add_option("--config", file,
+                 "mocapd configuration file in TOML (default: a simulated studio)");
+  app.add_flag("--check-config", only_checks, "check the configuration and exit");
+  app.add_option("--seconds", seconds, "stop after this many seconds")
+      ->check(mocap::NumberFrom(0.001, 1e8));
   app.set_version_flag("--version", MOCAP_VERSION);
   app.callback([&] {
     if (only_checks) {

@@ -65,12 +65,12 @@ ControlReply AnswerInput(const std::filesystem::path& socket) {
 void AddAskCommand(CLI::App& app) {
   auto socket = std::make_shared<std::filesystem::path>();
   CLI::App* command = app.add_subcommand(
-      "ask", "Passes one request from standard input on to mocapd, for other computers by ssh");
-  command->add_option("--socket", *socket, "where mocapd answers; the system's if not given");
+      "ask", "Pass one request from standard input to mocapd, for other computers by ssh");
+  command->add_option("--socket", *socket,
+                      "mocapd control socket (default: the system's, else the user's own)");
   command->footer(
-      "The reply begins with a line of `done`, `failed` or `wrong`. It is what a key may run and "
-      "nothing\nelse, in authorized_keys:\n\n  restrict,command=\"mocap ask\" ssh-ed25519 AAAA… "
-      "studio");
+      "The reply begins with a line `done`, `failed` or `wrong`.\nTo permit only this command to a "
+      "key, in authorized_keys:\n\n  restrict,command=\"mocap ask\" ssh-ed25519 AAAA… studio");
   command->callback([socket] {
     const std::string reply = EncodeReply(AnswerInput(*socket));
     std::fwrite(reply.data(), 1, reply.size(), stdout);

@@ -76,27 +76,30 @@ void Learn(const LearnOptions& options) {
 
 void AddBackgroundCommand(CLI::App& app) {
   CLI::App* background =
-      app.add_subcommand("background", "What the cameras see of the empty studio");
+      app.add_subcommand("background", "Learn the background or show its status");
   background->require_subcommand(1);
-  CLI::App* learn =
-      background->add_subcommand("learn", "Learns it; nobody may be in the cameras' view");
+  CLI::App* learn = background->add_subcommand(
+      "learn", "Learn the background from the empty studio; nobody may be in view");
   auto options = std::make_shared<LearnOptions>();
   auto* config =
       learn->add_option("--config", options->config,
-                        "use the cameras of this TOML file, while no mocapd does; else the running "
-                        "mocapd learns");
-  learn->add_option("--seconds", options->seconds, "how long to look")
+                        "mocapd configuration file in TOML: learn from its cameras while no mocapd "
+                        "uses them (default: the running mocapd learns)");
+  learn
+      ->add_option("--seconds", options->seconds,
+                   "recording time of cameras without a pan-tilt head [s]")
       ->check(NumberFrom(1, 600))
       ->capture_default_str()
       ->needs(config);
   learn
       ->add_flag("--anyway", options->anyway,
-                 "also while somebody is tracked, where a chair was taken for a person")
+                 "learn even if a person is tracked, such as a chair mistaken for a person")
       ->excludes(config);
-  CLI::App* status =
-      background->add_subcommand("status", "How old it is, and in what light it holds");
+  CLI::App* status = background->add_subcommand(
+      "status", "Show the age of the background and the light in which it is valid");
   for (CLI::App* command : {learn, status}) {
-    command->add_option("--socket", options->socket, "where mocapd answers");
+    command->add_option("--socket", options->socket,
+                        "mocapd control socket (default: the system's, else the user's own)");
   }
   learn->callback([options] {
     if (!options->config.empty()) return Learn(*options);

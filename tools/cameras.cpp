@@ -119,11 +119,12 @@ void Check(const CamerasOptions& options) {
 
 void AddCamerasCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "cameras", "Lists the cameras that are connected, or checks those of a configuration");
+      "cameras", "List the connected cameras, or check those of a configuration");
   auto options = std::make_shared<CamerasOptions>();
-  command->add_option("--check", options->config,
-                      "stream from the cameras of this configuration, and say what to change");
-  command->add_option("--seconds", options->seconds, "how long to watch them")
+  command->add_option(
+      "--check", options->config,
+      "mocapd configuration file in TOML: stream from its cameras and report what to change");
+  command->add_option("--seconds", options->seconds, "streaming time of the check [s]")
       ->check(NumberFrom(1, 3600))
       ->capture_default_str();
   command->callback([options] {

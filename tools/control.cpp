@@ -39,7 +39,7 @@ class RequestCommands {
     CLI::App* command = app.add_subcommand(name, help);
     AddSocket(*command);
     auto file_name = std::make_shared<std::string>();
-    command->add_option("NAME", *file_name, "letters, digits, `.`, `_` and `-`")
+    command->add_option("NAME", *file_name, "name: letters, digits, `.`, `_` and `-`")
         ->required()
         ->check([](const std::string& text) {
           return IsFileName(text) ? ""
@@ -54,7 +54,8 @@ class RequestCommands {
   }
 
   void AddSocket(CLI::App& command) const {
-    command.add_option("--socket", *socket_, "where mocapd answers; the system's if not given");
+    command.add_option("--socket", *socket_,
+                       "mocapd control socket (default: the system's, else the user's own)");
   }
 
  private:
@@ -81,30 +82,32 @@ void AddControlCommands(CLI::App& app) {
   const RequestCommands commands(socket);
 
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* status = app.add_subcommand("status", "Tells how the running mocapd does");
+  CLI::App* status = app.add_subcommand("status", "Show the status of the running mocapd");
   commands.AddSocket(*status);
   status->add_flag("--json", *as_json, "print one JSON object");
   status->callback(
       [socket, as_json] { AskAndPrint(*socket, *as_json ? "status json" : "status"); });
 
-  CLI::App* record = app.add_subcommand("record", "Records a take while tracking goes on");
+  CLI::App* record = app.add_subcommand("record", "Record a take while tracking continues");
   record->require_subcommand(1);
-  commands.AddNamed(*record, "start", "Begins a take", "record start");
-  commands.Add(*record, "stop", "Completes the take", "record stop");
+  commands.AddNamed(*record, "start", "Start recording a take", "record start");
+  commands.Add(*record, "stop", "Stop recording and complete the take", "record stop");
 
-  CLI::App* subject = app.add_subcommand("subject", "Whose body is tracked");
+  CLI::App* subject =
+      app.add_subcommand("subject", "Measure, save and load the sizes of the subject");
   subject->require_subcommand(1);
-  commands.Add(*subject, "new", "Measures whoever is there anew", "subject new");
+  commands.Add(*subject, "new", "Measure the tracked people again", "subject new");
   auto person = std::make_shared<std::optional<int>>();
   commands
-      .AddNamed(*subject, "save", "Keeps the sizes of the person who is tracked", "subject save",
+      .AddNamed(*subject, "save", "Save the sizes of the subject", "subject save",
                 [person] { return *person ? ' ' + std::to_string(**person) : std::string(); })
-      ->add_option("--person", *person, "whose of several people: a number of mocap status")
+      ->add_option("--person", *person,
+                   "with several people: number of the person, as in mocap status")
       ->check(NumberFrom(1, 1e9));
-  commands.AddNamed(*subject, "load", "Tracks a person whose sizes were kept", "subject load");
-  commands.Add(*subject, "list", "Tells whose sizes are kept", "subject list");
+  commands.AddNamed(*subject, "load", "Track a subject with saved sizes", "subject load");
+  commands.Add(*subject, "list", "List the saved subjects", "subject list");
 
-  commands.Add(app, "reload", "Reads the configuration again", "reload");
+  commands.Add(app, "reload", "Reload the configuration of mocapd", "reload");
 }
 
 }  // namespace mocap

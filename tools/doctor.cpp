@@ -81,9 +81,11 @@ void Doctor(const DoctorOptions& options) {
 void AddDoctorCommand(CLI::App& app) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = app.add_subcommand(
-      "doctor", "Looks at network, limits, clock, disk and permissions, and says what to mend");
-  command->add_option("--config", options->config, "the daemon's; the system's if not given");
-  command->add_option("--socket", options->socket, "where mocapd answers");
+      "doctor", "Check network, limits, clock, disk, devices and permissions, and suggest fixes");
+  command->add_option("--config", options->config,
+                      "mocapd configuration file in TOML (default: the system's)");
+  command->add_option("--socket", options->socket,
+                      "mocapd control socket (default: from the configuration)");
   command->callback([options] { Doctor(*options); });
 }
 

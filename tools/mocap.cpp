@@ -5,7 +5,7 @@
 #include "tools/commands.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Markerless motion capture: takes, calibration and the running mocapd", "mocap");
+  CLI::App app("Markerless motion capture: the running daemon, takes and calibration", "mocap");
   app.require_subcommand(1);
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::AddCommands(app);

@@ -128,33 +128,31 @@ void StreamOsc(const StreamOptions& options) {
 }
 
 void AddFeedOptions(CLI::App& command, StreamOptions& options) {
-  command.add_option("--url", options.url, "LCM's address; file:// plays a log")
+  command.add_option("--url", options.url, "LCM URL; file://LOG plays a log")
       ->capture_default_str();
-  command.add_option("--prefix", options.feed.prefix, "what stands before each channel's name");
-  command.add_option("--rate", options.feed.most_hz, "poses a second at most; all without")
+  command.add_option("--prefix", options.feed.prefix, "prefix of the LCM channel names");
+  command.add_option("--rate", options.feed.most_hz, "maximum poses per second (default: all)")
       ->check(NumberFrom(0.01, 1e6));
   command
       .add_option("--person", options.feed.person,
-                  "the number of the one who is meant; otherwise whoever has been followed the "
-                  "longest")
+                  "number of the person to stream (default: the one tracked longest)")
       ->check(NumberFrom(1, 1e9));
 }
 
 }  // namespace
 
 void AddStreamCommand(CLI::App& app) {
-  CLI::App* stream = app.add_subcommand("stream", "Sends live poses to other programs");
+  CLI::App* stream = app.add_subcommand("stream", "Stream live poses to other programs");
   stream->require_subcommand(1);
   const auto options = std::make_shared<StreamOptions>();
-  CLI::App* json = stream->add_subcommand("json", "Prints each pose as a line of JSON, for pipes");
+  CLI::App* json = stream->add_subcommand("json", "Print each pose as a line of JSON, for pipes");
   AddFeedOptions(*json, *options);
-  json->add_flag("--people", options->feed.everybody, "everybody, a line each")
+  json->add_flag("--people", options->feed.everybody, "stream all people, one line each")
       ->excludes("--person");
   json->callback([options] { StreamJson(*options); });
   CLI::App* osc = stream->add_subcommand(
-      "osc", "Moves an avatar by VMC protocol: VSeeFace, Warudo, Unity with EVMC4U, Blender");
-  osc->add_option("--to", options->to, "HOST:PORT where the avatar's program listens")
-      ->capture_default_str();
+      "osc", "Move an avatar by VMC protocol: VSeeFace, Warudo, Unity with EVMC4U, Blender");
+  osc->add_option("--to", options->to, "HOST:PORT of the receiving program")->capture_default_str();
   AddFeedOptions(*osc, *options);
   osc->callback([options] { StreamOsc(*options); });
 }

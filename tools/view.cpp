@@ -132,14 +132,18 @@ void View(const ViewOptions& options) {
 void AddViewCommand(CLI::App& app) {
   const auto options = std::make_shared<ViewOptions>();
   CLI::App* command =
-      app.add_subcommand("view", "Shows the studio, or a take with its results, in a browser");
-  command->add_option("TAKE", options->take, "a take's folder; without one, the running mocapd");
-  command->add_option("RESULT", options->results, "what mocap track left of it, or LCM logs");
-  command->add_option("--config", options->config, "mocapd's configuration");
-  command->add_option("--socket", options->socket, "where mocapd answers; as configured");
-  command->add_option("--url", options->url, "LCM's address; as configured");
-  command->add_option("--prefix", options->prefix, "before each channel's name; as configured");
-  command->add_option("--port", options->port, "on 127.0.0.1; 0: any that is free")
+      app.add_subcommand("view", "Show the studio, or a take with its results, in a browser");
+  command->add_option("TAKE", options->take, "take folder (default: the running mocapd)");
+  command->add_option("RESULT", options->results,
+                      "result folders of mocap track for the take, or LCM logs");
+  command->add_option("--config", options->config,
+                      "mocapd configuration file in TOML (default: the system's)");
+  command->add_option("--socket", options->socket,
+                      "mocapd control socket (default: from the configuration)");
+  command->add_option("--url", options->url, "LCM URL (default: from the configuration)");
+  command->add_option("--prefix", options->prefix,
+                      "prefix of the LCM channel names (default: from the configuration)");
+  command->add_option("--port", options->port, "TCP port on 127.0.0.1; 0: any free port")
       ->check(NumberFrom(0, 65535))
       ->capture_default_str();
   command->callback([options] { View(*options); });

@@ -312,11 +312,11 @@ void Watch(const WatchOptions& options) {
 void AddWatchCommand(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
   CLI::App* command =
-      app.add_subcommand("watch", "Shows rate, latency, cameras and fit, live in the terminal");
-  command->add_option("--url", options->url, "LCM's address; file:// plays a log")
+      app.add_subcommand("watch", "Show rate, latency, cameras and fit live in the terminal");
+  command->add_option("--url", options->url, "LCM URL; file://LOG plays a log")
       ->capture_default_str();
-  command->add_option("--prefix", options->prefix, "what stands before each channel's name");
-  command->add_option("--seconds", options->seconds, "stop after so long")
+  command->add_option("--prefix", options->prefix, "prefix of the LCM channel names");
+  command->add_option("--seconds", options->seconds, "stop after this many seconds")
       ->check(NumberFrom(0.001, 1e8));
   command->callback([options] { Watch(*options); });
 }
