@@ -208,35 +208,36 @@ void RunBenchmark(const BenchmarkOptions& options) {
 void AddBenchmarkCommand(CLI::App& app) {
   const auto options = std::make_shared<BenchmarkOptions>();
   CLI::App* command = app.add_subcommand(
-      "benchmark", "Measures accuracy on a grid of simulated takes, and what makes it worse");
+      "benchmark", "Measure accuracy on a grid of simulated takes, and what affects it");
   command
       ->add_option("--seconds", options->seconds,
-                   fmt::format("length of each take; without: {}, of several people {}", kSeconds,
-                               kPeopleSeconds))
+                   fmt::format("length of each take [s] (default: {}; several people: {})",
+                               kSeconds, kPeopleSeconds))
       ->check(NumberFrom(1, 600));
   command
       ->add_option("--motions", options->motions,
-                   fmt::format("what people do; without: {}; several people {}",
+                   fmt::format("motions of the people (default: {}; several people: {})",
                                fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ",")))
       ->delimiter(',');
-  command->add_option("--statures", options->statures_mm, "how tall they are [mm]")
+  command->add_option("--statures", options->statures_mm, "statures of the people [mm]")
       ->delimiter(',')
       ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
   command
-      ->add_option("--seeds", options->seeds,
-                   fmt::format("how many people of each; without: {}, of several at once {}",
-                               kSeeds, kPeopleSeeds))
+      ->add_option(
+          "--seeds", options->seeds,
+          fmt::format("number of random seeds per combination (default: {}; several people: {})",
+                      kSeeds, kPeopleSeeds))
       ->check(NumberFrom(1, 1000));
   std::vector<std::string> parts = options->parts;
   parts.push_back(kPeoplePart);
   command
       ->add_option("--parts", options->parts,
-                   "what to measure; people, of two to four at once, has to be asked for")
+                   "parts to run; people (two to four at once) runs only on request")
       ->delimiter(',')
       ->check(CLI::IsMember(parts))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder for accuracy.md and accuracy.svg");
+  command->add_option("--out", options->out, "output folder for accuracy.md and accuracy.svg");
   command->callback([options] { RunBenchmark(*options); });
 }
 

@@ -81,17 +81,20 @@ void RunEvaluate(const EvaluateArguments& arguments) {
 
 void AddEvaluateCommand(CLI::App& app) {
   const auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command = app.add_subcommand("evaluate", "Says how good a result is");
-  command->add_option("TAKE", arguments->take, "the take's folder")->required();
+  CLI::App* command = app.add_subcommand(
+      "evaluate",
+      "Report the precision of a result, and its accuracy if the take has ground truth");
+  command->add_option("TAKE", arguments->take, "take folder")->required();
   command
       ->add_option("RESULT", arguments->result,
-                   "folder of mocap track, of one person or of several, or an LCM log")
+                   "result folder of mocap track, for one person or several, or an LCM log")
       ->required();
   command->add_option("--report", arguments->report,
-                      "HTML file to write: figures, camera views, tables");
+                      "output HTML report: figures, camera views, tables");
   command->add_option("--prefix", arguments->prefix,
-                      "of a log of several daemons: what stands before the channels' names");
-  command->add_flag("--people", arguments->people, "of a log: everybody, not only the first");
+                      "prefix of the LCM channel names, for a log of several daemons");
+  command->add_flag("--people", arguments->people,
+                    "with a log: all people, not only the one tracked longest");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments] { RunEvaluate(*arguments); });
 }

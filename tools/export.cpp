@@ -35,7 +35,7 @@ struct ExportArguments {
 
 /// One line per format, for the help.
 std::string FormatsText() {
-  std::string text = "what for:";
+  std::string text = "output format:";
   for (const ExportFormat& format : ExportFormats()) {
     text += fmt::format("\n{}  {}", format.name, format.purpose);
   }
@@ -147,23 +147,23 @@ void Export(const ExportArguments& arguments) {
 void AddExportCommand(CLI::App& app) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
-      app.add_subcommand("export", "Writes a result for animation, biomechanics or a spreadsheet");
+      app.add_subcommand("export", "Export a result for animation, biomechanics or spreadsheets");
   command
       ->add_option("RESULT", arguments->result,
-                   "folder of mocap track, of one person or of several, or an LCM log")
+                   "result folder of mocap track, for one person or several, or an LCM log")
       ->required();
   command->add_option("--format", arguments->format, FormatsText())
       ->required()
       ->check(CLI::IsMember(FormatNames()));
   command
       ->add_option("--out", arguments->out,
-                   "file to write, which ends in the format's name; of several people "
-                   "FILE-person-1 and so on, "
-                   "out of a log FILE-anna for who has a name")
+                   "output file with the format's suffix; with several people one file each, such "
+                   "as walk-person-1.bvh, or walk-anna.bvh for a named person in a log")
       ->required();
   command->add_option("--prefix", arguments->prefix,
-                      "of a log of several daemons: what stands before the channels' names");
-  command->add_flag("--people", arguments->people, "of a log: everybody, not only the first");
+                      "prefix of the LCM channel names, for a log of several daemons");
+  command->add_flag("--people", arguments->people,
+                    "with a log: all people, not only the one tracked longest");
   command->callback([arguments] { Export(*arguments); });
 }
 

@@ -259,28 +259,30 @@ void ServeStudio(const StudioOptions& options) {
 void AddGigeStudioCommand(CLI::App& app) {
   const auto options = std::make_shared<StudioOptions>();
   CLI::App* command = app.add_subcommand(
-      "gige-studio", "Serves a take or the simulated studio as GigE Vision cameras of this host");
+      "gige-studio", "Serve a take or the simulated studio as GigE Vision cameras on this host");
   command->add_option("take", options->take,
-                      "Take to serve, over and over; without, the simulated studio");
-  command->add_option("--motion", options->simulation.motion, "What the simulated person does")
+                      "take folder to serve in a loop (default: the simulated studio)");
+  command->add_option("--motion", options->simulation.motion, "motion of the simulated person")
       ->capture_default_str();
-  command->add_option("--stature", options->simulation.stature_mm, "Height of that person [mm]")
+  command
+      ->add_option("--stature", options->simulation.stature_mm,
+                   "stature of the simulated person [mm]")
       ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
-  command->add_option("--seed", options->simulation.seed, "Person, clothes, room, lenses and path")
+  command
+      ->add_option("--seed", options->simulation.seed,
+                   "random seed for person, clothes, room, intrinsics and path")
       ->capture_default_str();
   command
-      ->add_option("--address", options->first_ip, "Address of the first camera; the others follow")
+      ->add_option("--address", options->first_ip,
+                   "IP address of the first camera; the others follow")
       ->capture_default_str();
   command->add_option("--config", options->config,
-                      "Writes a configuration for mocapd to this file");
-  command->add_flag("--ptp", options->has_ptp,
-                    "Cameras whose clocks follow PTP, in TAI, and that take actions");
-  command
-      ->add_option("--lost-packets", options->faults.lost_packets, "Share of packets that are lost")
+                      "output mocapd configuration file in TOML, for these cameras");
+  command->add_flag("--ptp", options->has_ptp, "support PTP clocks (TAI) and action commands");
+  command->add_option("--lost-packets", options->faults.lost_packets, "share of packets to lose")
       ->check(NumberFrom(0, 1));
-  command
-      ->add_option("--jitter", options->faults.jitter_ms, "Frames leave late by up to so many ms")
+  command->add_option("--jitter", options->faults.jitter_ms, "maximum random delay of a frame [ms]")
       ->check(NumberFrom(0, 10000));
   command
       ->add_option(
@@ -289,14 +291,15 @@ void AddGigeStudioCommand(CLI::App& app) {
             options->faults.clock_offset_ns = std::llround(std::stod(text.front()) * 1e9);
             return true;
           },
-          "The cameras' clocks against this host's [s]")
+          "clock offset of the cameras from the host [s]")
       ->check(NumberFrom(-1e9, 1e9));
   command
-      ->add_option("--clock-drift", options->faults.clock_drift_ppm, "And how much they gain [ppm]")
+      ->add_option("--clock-drift", options->faults.clock_drift_ppm,
+                   "clock drift of the cameras; positive: they gain [ppm]")
       ->check(NumberFrom(-1e5, 1e5));
   command
       ->add_option("--return-after", options->return_after_s,
-                   "A camera whose process was killed returns after so many seconds")
+                   "time until a camera whose process was killed returns [s]")
       ->capture_default_str()
       ->check(NumberFrom(0, 1e6));
   command->callback([options] { ServeStudio(*options); });

@@ -187,47 +187,50 @@ void AddSimulateCommand(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   options->studio.seconds = 4;
   CLI::App* command =
-      app.add_subcommand("simulate", "Writes a take of a simulated studio, with truth");
+      app.add_subcommand("simulate", "Render a take of a simulated studio, with ground truth");
   std::string motions;
   for (const std::string_view name : simulation::kCompanyMotionNames)
     motions += (motions.empty() ? "" : ", ") + std::string(name);
-  command->add_option("--out", options->out, "Folder of the take to write")->required();
-  command->add_option("--motion", options->studio.motion, "What people do: " + motions)
+  command->add_option("--out", options->out, "output take folder")->required();
+  command->add_option("--motion", options->studio.motion, "motion of the people: " + motions)
       ->capture_default_str();
   command
       ->add_option("--people", options->studio.people,
-                   "How many; with several, paths cross, and meet lets them shake hands")
+                   "number of people; with several, paths cross (walk) or they shake hands (meet)")
       ->check(NumberFrom(1, simulation::kMostSimulatedPeople))
       ->capture_default_str();
-  command->add_option("--stature", options->studio.stature_mm, "Height of the first person [mm]")
+  command->add_option("--stature", options->studio.stature_mm, "stature of the first person [mm]")
       ->check(NumberFrom(1000, 2100))
       ->capture_default_str();
-  command->add_option("--seconds", options->studio.seconds, "Length of the take")
+  command->add_option("--seconds", options->studio.seconds, "length of the take [s]")
       ->check(NumberFrom(0.001, 86400))
       ->capture_default_str();
-  command->add_option("--fps", options->studio.fps, "Frames a second")
+  command->add_option("--fps", options->studio.fps, "frames per second")
       ->check(NumberFrom(1, 1000))
       ->capture_default_str();
-  command->add_option("--cameras", options->studio.cameras, "Number of cameras")
+  command->add_option("--cameras", options->studio.cameras, "number of cameras")
       ->check(NumberFrom(1, 64))
       ->capture_default_str();
-  command->add_option("--width", options->studio.width_px, "Of the pictures [pixels]")
+  command->add_option("--width", options->studio.width_px, "picture width [px]")
       ->check(NumberFrom(16, 8192))
       ->capture_default_str();
-  command->add_option("--height", options->studio.height_px, "Of the pictures [pixels]")
+  command->add_option("--height", options->studio.height_px, "picture height [px]")
       ->check(NumberFrom(16, 8192))
       ->capture_default_str();
   command->add_flag("--pan-tilt", options->studio.pan_tilt,
-                    "Cameras on heads that follow the first person");
-  command->add_option("--seed", options->studio.seed, "People, clothes, room, lenses and paths")
+                    "put the cameras on pan-tilt heads that follow the first person");
+  command
+      ->add_option("--seed", options->studio.seed,
+                   "random seed for people, clothes, room, intrinsics and paths")
       ->capture_default_str();
   command
-      ->add_option("--board", options->board,
-                   "Instead of people a chessboard of 8x5 inner corners, 100 mm")
+      ->add_option(
+          "--board", options->board,
+          "show a chessboard (8x5 inner corners, 100 mm squares) at this place instead of people")
       ->check(CLI::IsMember(kBoardPlaces));
   command
       ->add_option("--desk", options->desk,
-                   "Where the desk stands: each number is another place; heads look about it")
+                   "position number of the desk, for --board desk; pan-tilt heads scan around it")
       ->capture_default_str();
   command->callback([options] { Simulate(*options); });
 }

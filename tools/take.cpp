@@ -28,17 +28,15 @@ void Join(const JoinOptions& options) {
 }  // namespace
 
 void AddTakeCommand(CLI::App& app) {
-  CLI::App* take = app.add_subcommand("take", "Recorded takes as such");
+  CLI::App* take = app.add_subcommand("take", "Manage recorded takes");
   take->require_subcommand(1);
-  CLI::App* join =
-      take->add_subcommand("join",
-                           "Makes one take of those that several computers recorded of "
-                           "their own cameras at the same time");
+  CLI::App* join = take->add_subcommand(
+      "join", "Join takes that several computers recorded with their own cameras at the same time");
   auto options = std::make_shared<JoinOptions>();
-  join->add_option("TAKE", options->takes, "the takes' folders, two or more")
+  join->add_option("TAKE", options->takes, "take folders, two or more")
       ->required()
       ->expected(2, -1);
-  join->add_option("--out", options->out, "folder of the new take")->required();
+  join->add_option("--out", options->out, "output take folder")->required();
   join->callback([options] { Join(*options); });
 }
 

@@ -113,27 +113,28 @@ void Track(const TrackOptions& options) {
 
 void AddTrackCommand(CLI::App& app) {
   auto options = std::make_shared<TrackOptions>();
-  CLI::App* command = app.add_subcommand("track", "Tracks the people in a take");
-  command->add_option("TAKE", options->take, "the take's folder")->required();
-  command->add_option("--out", options->out, "folder for poses.csv and body.toml")->required();
-  command->add_option("--voxel-size", options->voxel_mm, "edge of a voxel [mm]")
+  CLI::App* command = app.add_subcommand("track", "Track the people in a take");
+  command->add_option("TAKE", options->take, "take folder")->required();
+  command->add_option("--out", options->out, "output result folder (poses.csv, body.toml)")
+      ->required();
+  command->add_option("--voxel-size", options->voxel_mm, "voxel edge length [mm]")
       ->check(NumberFrom(10, 100))
       ->capture_default_str();
-  command
-      ->add_option("--tracker", options->tracker,
-                   "what follows the person; mikic2003 is the paper's own")
+  command->add_option("--tracker", options->tracker, "tracking algorithm; mikic2003 is the paper's")
       ->check(CLI::IsMember(TrackerNames()))
       ->capture_default_str();
-  command->add_option("--body", options->body,
-                      "mikic2003, full, or a body table's file; the tracker's own without");
-  command->add_option("--cameras", options->cameras, "use these only, as in cam1,cam2")
+  command->add_option(
+      "--body", options->body,
+      "body model: mikic2003, full or a body table file (default: the tracker's own)");
+  command->add_option("--cameras", options->cameras, "use only these cameras, such as cam1,cam2")
       ->delimiter(',');
   command
       ->add_option("--people", options->people,
-                   "follow up to so many; the result has a folder for each, person-1 and so on")
+                   "track up to this many people; one result folder each, person-1 and so on "
+                   "(default: one person)")
       ->check(NumberFrom(1, kMostPeople));
   command->add_flag("--measure", options->measure,
-                    "measure the person even where the take has the sizes");
+                    "measure the person's sizes even if the take contains them");
   command->add_flag("--json", options->json, "print one JSON object");
   command->callback([options] { Track(*options); });
 }
