@@ -50,24 +50,27 @@ void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
 
 void AddFootage(CLI::App* command, const Arguments& a) {
   command
-      ->add_option("FOOTAGE", a->footage, "a take, or a folder with a video or pictures a camera")
+      ->add_option("FOOTAGE", a->footage,
+                   "take, or folder with one video or one folder of pictures per camera")
       ->required();
   command
       ->add_option("--board", a->board,
-                   "chess:COLUMNSxROWS:MM (inner corners) or "
-                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares); for "
-                   "extrinsics also wand:MM, two lights")
+                   "board: chess:COLUMNSxROWS:MM (inner corners), "
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares) or, "
+                   "for extrinsics, wand:MM (two lights)")
       ->required();
-  command->add_option("--most-frames", a->most_frames, "look at so many frames of a camera")
+  command
+      ->add_option("--most-frames", a->most_frames, "maximum number of frames to search per camera")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
 }
 
 void AddLive(CLI::App* command, const Arguments& a) {
-  CLI::Option* config = command->add_option(
-      "--config", a->config,
-      "the daemon's TOML file: record FOOTAGE, and the --floor's, from its cameras first");
-  command->add_option("--seconds", a->most_seconds, "record no longer than that")
+  CLI::Option* config =
+      command->add_option("--config", a->config,
+                          "mocapd configuration file in TOML: first record FOOTAGE, and the "
+                          "footage of --floor, from its cameras");
+  command->add_option("--seconds", a->most_seconds, "maximum recording time of FOOTAGE [s]")
       ->needs(config)
       ->capture_default_str()
       ->check(CLI::Range(1.0, 3600.0));
@@ -80,37 +83,40 @@ void Run(const CalibrateArguments& a, StudioFit (*step)(const CalibrateArguments
 }
 
 void AddOutput(CLI::App* command, const Arguments& a) {
-  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->add_option("--out", a->out, "output calibration.toml")->required();
   command->add_flag("--json", a->json, "print one JSON object");
 }
 
 void AddReport(CLI::App* command, const Arguments& a) {
-  command->add_option("--report", a->report, "HTML file to write: errors, coverage, plan, verdict");
+  command->add_option("--report", a->report,
+                      "output HTML report: errors, coverage, floor plan, conclusion");
 }
 
 void AddLens(CLI::App* command, const Arguments& a) {
   command->add_option("--lens", a->lens, "lens model: tsai, opencv or fisheye")
       ->capture_default_str()
       ->check(CLI::IsMember({"tsai", "opencv", "fisheye"}));
-  command->add_option("--pitch", a->pitch_mm, "Tsai's dx dy: size of a pixel [mm]")->expected(2);
+  command->add_option("--pitch", a->pitch_mm, "pixel size dx dy, for the lens model tsai [mm]")
+      ->expected(2);
 }
 
 void AddWorld(CLI::App* command, const Arguments& a) {
   command->add_option("--floor", a->floor,
-                      "footage of the board lying on the floor: origin and axes");
+                      "footage of the board on the floor, which sets origin and axes");
   command->add_option("--floor-points", a->floor_points,
-                      "CSV of three floor points instead: origin|x|y,CAMERA,X,Y");
+                      "CSV file of three floor points, instead of --floor: origin|x|y,CAMERA,X,Y");
   command->add_option("--thickness", a->thickness_mm,
-                      "the board's printed side above the floor [mm]");
+                      "height of the board's printed side above the floor [mm]");
   command->add_option("--distance", a->distance,
-                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+                      "distance between two cameras, measured with a tape: CAMERA:CAMERA:MM");
   command->add_flag("--set-scale", a->set_scale,
-                    "make the world agree with --distance instead of checking against it");
+                    "scale the world to match --distance, instead of checking against it");
 }
 
 void AddStudio(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command = parent->add_subcommand("studio", "All cameras from a board carried about");
+  CLI::App* command = parent->add_subcommand(
+      "studio", "Calibrate all cameras, from a board carried through the room");
   AddFootage(command, a);
   AddOutput(command, a);
   AddReport(command, a);
@@ -122,7 +128,7 @@ void AddStudio(CLI::App* parent) {
 
 void AddIntrinsics(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command = parent->add_subcommand("intrinsics", "Lenses alone");
+  CLI::App* command = parent->add_subcommand("intrinsics", "Calibrate the intrinsics only");
   AddFootage(command, a);
   AddOutput(command, a);
   AddLens(command, a);
@@ -132,17 +138,18 @@ void AddIntrinsics(CLI::App* parent) {
 
 void AddExtrinsics(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command =
-      parent->add_subcommand("extrinsics", "Poses of cameras whose lenses are known");
+  CLI::App* command = parent->add_subcommand(
+      "extrinsics", "Calibrate the extrinsics of cameras with known intrinsics");
   AddFootage(command, a);
   AddOutput(command, a);
   AddReport(command, a);
   AddWorld(command, a);
-  command->add_option("--intrinsics", a->intrinsics, "calibration.toml with the lenses")
+  command->add_option("--intrinsics", a->intrinsics, "calibration.toml with the intrinsics")
       ->required();
-  command->add_flag("--still", a->still,
-                    "the board lies still on the floor where all cameras see it: it is the world");
-  command->add_flag("--keep-lenses", a->keep_lenses, "leave the lenses as they are");
+  command->add_flag(
+      "--still", a->still,
+      "the board lies still on the floor in view of all cameras, and defines the world frame");
+  command->add_flag("--keep-lenses", a->keep_lenses, "do not refine the intrinsics");
   AddLive(command, a);
   command->callback([a] { Run(*a, CalibrateExtrinsics); });
 }
@@ -150,9 +157,9 @@ void AddExtrinsics(CLI::App* parent) {
 void AddFloor(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
   CLI::App* command =
-      parent->add_subcommand("floor", "Floor, origin, axes and scale of a calibration");
-  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
-  command->add_option("--board", a->board, "the board on the floor, as for mocap calibrate studio");
+      parent->add_subcommand("floor", "Set floor, origin, axes and scale of a calibration");
+  command->add_option("CALIBRATION", a->calibration, "input calibration.toml")->required();
+  command->add_option("--board", a->board, "board on the floor, as for mocap calibrate studio");
   AddOutput(command, a);
   AddWorld(command, a);
   command->callback([a] {
@@ -237,28 +244,30 @@ void RunTsai(const TsaiArguments& a) {
 
 void AddTsai(CLI::App* parent) {
   const auto a = std::make_shared<TsaiArguments>();
-  CLI::App* command =
-      parent->add_subcommand("tsai", "One camera from known points, by Tsai's method of 1987");
-  command->add_option("POINTS", a->points, "rows of xw yw zw [mm] Xf Yf [px]")->required();
-  command->add_option("--pitch", a->pitch_mm, "dx dy: size of a pixel [mm]")
+  CLI::App* command = parent->add_subcommand(
+      "tsai", "Calibrate one camera from known points, by Tsai's 1987 method");
+  command->add_option("POINTS", a->points, "table with rows of xw yw zw [mm] Xf Yf [px]")
+      ->required();
+  command->add_option("--pitch", a->pitch_mm, "pixel size dx dy [mm]")->required()->expected(2);
+  command->add_option("--size", a->size_px, "picture width and height [px]")
       ->required()
       ->expected(2);
-  command->add_option("--size", a->size_px, "picture's width and height [px]")
-      ->required()
+  command
+      ->add_option("--center", a->center_px,
+                   "principal point Cx Cy [px] (default: the picture's centre)")
       ->expected(2);
-  command->add_option("--center", a->center_px, "Cx Cy; the picture's middle otherwise")
-      ->expected(2);
-  command->add_option("--sx", a->sx, "for coplanar points, which do not determine it")
+  command
+      ->add_option("--sx", a->sx, "scale factor sx, for coplanar points, which do not determine it")
       ->capture_default_str();
-  command->add_flag("--fixed-center", a->fixed_center, "leave Cx and Cy as they are");
-  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->add_flag("--fixed-center", a->fixed_center, "do not refine Cx and Cy");
+  command->add_option("--out", a->out, "output calibration.toml")->required();
   command->callback([a] { RunTsai(*a); });
 }
 
 }  // namespace
 
 void AddCalibrateCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("calibrate", "Calibrates a studio, or one step of it");
+  CLI::App* command = app.add_subcommand("calibrate", "Calibrate a studio, or do one step of it");
   command->require_subcommand(1);
   AddStudio(command);
   AddIntrinsics(command);

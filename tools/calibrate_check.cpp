@@ -90,15 +90,15 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
 
 void AddCheck(CLI::App* parent) {
   const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command = parent->add_subcommand("check", "What a calibration is worth");
-  command->add_option("CALIBRATION", a->calibration, "calibration.toml")->required();
+  CLI::App* command = parent->add_subcommand("check", "Report the quality of a calibration");
+  command->add_option("CALIBRATION", a->calibration, "input calibration.toml")->required();
   command->add_option("--distance", a->distance,
-                      "two cameras' distance measured with a tape, CAMERA:CAMERA:MM");
+                      "distance between two cameras, measured with a tape: CAMERA:CAMERA:MM");
   command->add_option("--take", a->footage,
-                      "a take with this calibration in which a person stands or walks");
+                      "take with this calibration in which a person stands or walks");
   const auto against = std::make_shared<std::filesystem::path>();
   command->add_option("--against", *against,
-                      "another calibration.toml of these cameras: how far apart both place things");
+                      "calibration.toml of the same cameras to compare with");
   command->callback([a, against] {
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);

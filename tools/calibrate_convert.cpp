@@ -58,26 +58,25 @@ void RunConvert(ConvertArguments a) {
 
 void AddConvert(CLI::App* parent) {
   const auto a = std::make_shared<ConvertArguments>();
-  CLI::App* command =
-      parent->add_subcommand("convert", "Calibrations of other programs, in and out");
-  command->add_option("IN", a->in, "file, or folder for easymocap, opencv, ros and willson")
+  CLI::App* command = parent->add_subcommand(
+      "convert", "Convert calibrations from and to the formats of other programs");
+  command->add_option("IN", a->in, "input file, or folder for easymocap, opencv, ros and willson")
       ->required();
-  command->add_option("--from", a->from, "format of IN")
+  command->add_option("--from", a->from, "input format")
       ->capture_default_str()
       ->check(CLI::IsMember(ImportFormats()));
-  command->add_option("--to", a->to, "format of --out")
+  command->add_option("--to", a->to, "output format")
       ->capture_default_str()
       ->check(CLI::IsMember(ExportFormats()));
-  command->add_option("--out", a->out, "file or folder to write")->required();
+  command->add_option("--out", a->out, "output file or folder")->required();
   command
       ->add_option("--unit", a->options.unit_mm,
-                   "one unit of a pose2sim file in mm (aniposelib's is its board's)")
+                   "unit of length of a pose2sim file [mm]; for aniposelib, the unit of its board")
       ->capture_default_str()
       ->check(NumberFrom(1e-6, kLargestUnit_mm));
-  command->add_option("--size", a->size,
-                      "WIDTHxHEIGHT of the pictures, where IN does not tell [px]");
+  command->add_option("--size", a->size, "picture size WIDTHxHEIGHT [px], if IN lacks it");
   command->add_flag("--lenses", a->options.lenses_alone,
-                    "keep cameras without a pose too, at the identity, for mocap calibrate "
+                    "also keep cameras without a pose, at the identity, for mocap calibrate "
                     "extrinsics --intrinsics");
   command->callback([a] { RunConvert(*a); });
 }

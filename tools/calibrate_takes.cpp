@@ -199,9 +199,10 @@ void RunRefine(const TakeArguments& a) {
 }
 
 void AddTake(CLI::App* command, const std::shared_ptr<TakeArguments>& a) {
-  command->add_option("TAKE", a->take, "a take in which a person moves about")->required();
-  command->add_option("--from", a->from_s, "first second that is looked at")->capture_default_str();
-  command->add_option("--to", a->to_s, "last second that is looked at")->capture_default_str();
+  command->add_option("TAKE", a->take, "take in which a person walks about")->required();
+  command->add_option("--from", a->from_s, "start of the evaluated time [s]")
+      ->capture_default_str();
+  command->add_option("--to", a->to_s, "end of the evaluated time [s]")->capture_default_str();
   command->add_flag("--json", a->json, "print one JSON object");
 }
 
@@ -210,37 +211,39 @@ void AddTake(CLI::App* command, const std::shared_ptr<TakeArguments>& a) {
 void AddPanTilt(CLI::App* parent) {
   const auto a = std::make_shared<PanTiltArguments>();
   CLI::App* command = parent->add_subcommand(
-      "pan-tilt", "Axes of heads, from a board that lies still while the cameras turn");
-  command->add_option("CALIBRATION", a->calibration, "calibration.toml with poses")->required();
+      "pan-tilt",
+      "Calibrate the axes of pan-tilt heads, from a board that lies still while the cameras turn");
+  command->add_option("CALIBRATION", a->calibration, "input calibration.toml, with extrinsics")
+      ->required();
   command->add_option("--posed-by", a->posed_by,
-                      "recording that the poses come from: what the encoders read there is where "
-                      "the poses hold; without it, they hold at zero");
+                      "recording from which the extrinsics were calibrated: they hold at its "
+                      "encoder readings (default: at zero)");
   command
       ->add_option("--footage", a->footage,
-                   "recording with camN.csv of pan_rad,tilt_rad; one for each place of the board")
+                   "recording with pan_rad,tilt_rad in camN.csv, one for each place of the board")
       ->required();
-  command->add_option("--board", a->board, "as for mocap calibrate studio")->required();
-  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->add_option("--board", a->board, "board, as for mocap calibrate studio")->required();
+  command->add_option("--out", a->out, "output calibration.toml")->required();
   command->callback([a] { RunPanTilt(*a); });
 }
 
 void AddHealth(CLI::App* parent) {
   const auto a = std::make_shared<TakeArguments>();
-  CLI::App* command =
-      parent->add_subcommand("health", "Whether cameras still stand where they were calibrated");
+  CLI::App* command = parent->add_subcommand(
+      "health", "Check whether the cameras are still where they were calibrated");
   AddTake(command, a);
-  command->add_option(
-      "--note", a->note,
-      "calibration.toml in use, to note the result in: mocap calibrate check tells it");
+  command->add_option("--note", a->note,
+                      "calibration.toml in use, to store the result in, for mocap calibrate check");
   command->callback([a] { RunHealth(*a); });
 }
 
 void AddRefine(CLI::App* parent) {
   const auto a = std::make_shared<TakeArguments>();
   CLI::App* command = parent->add_subcommand(
-      "refine", "Puts small motions of cameras right, from silhouettes of a moving person alone");
+      "refine",
+      "Correct the extrinsics of slightly moved cameras, from silhouettes of a walking person");
   AddTake(command, a);
-  command->add_option("--out", a->out, "calibration.toml to write")->required();
+  command->add_option("--out", a->out, "output calibration.toml")->required();
   command->callback([a] { RunRefine(*a); });
 }
 
