@@ -19,13 +19,14 @@
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/variety_trial.h"
 
 namespace mocap {
 namespace {
 
 // Defaults of a part.
 constexpr double kSeconds = 10, kPeopleSeconds = 20;
-constexpr int kSeeds = 3, kPeopleSeeds = 2;
+constexpr int kSeeds = 3, kPeopleSeeds = 2, kVariedPeople = 200;
 const std::vector<std::string> kMotions = {"walk", "run", "jump", "dance", "sit", "step", "stand"};
 const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
 
@@ -45,8 +46,8 @@ struct BenchmarkOptions {
   int SeedsOr(int usual) const { return seeds > 0 ? seeds : usual; }
 };
 
-// It takes as long as all others together, so it runs only on request.
-const std::string kPeoplePart = "people";
+// Each takes as long as all others together or longer, so they run only on request.
+const std::string kPeoplePart = "people", kVarietyPart = "variety";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
@@ -97,6 +98,26 @@ std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
     }
   }
   return rows;
+}
+
+std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
+  std::vector<VarietyGrid> grids;
+  for (const Filming& filming : Filmings()) {
+    Print(fmt::format("\nvaried people, {}\n{}", filming.label, VarietyHeader()));
+    VarietyGrid& grid = grids.emplace_back(VarietyGrid{filming, {}});
+    for (int number = 1; number <= options.SeedsOr(kVariedPeople); ++number) {
+      grid.rows.push_back(RunVarietyTrial(number, options.SecondsOr(kSeconds), filming));
+      Print(VarietyLine(grid.rows.back()));
+    }
+    Print(VarietySummaryText(grid.rows));
+  }
+  return grids;
+}
+
+bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
+  return std::ranges::any_of(options.parts, [](const std::string& part) {
+    return part != kPeoplePart && part != kVarietyPart;
+  });
 }
 
 struct Step {
@@ -186,7 +207,7 @@ void RunBenchmark(const BenchmarkOptions& options) {
                               .sweeps = {},
                               .people_seconds = options.SecondsOr(kPeopleSeconds),
                               .people = {}};
-  if (options.parts != std::vector<std::string>{kPeoplePart}) Print(AccuracyHeader());
+  if (HasTakesOfTheGrid(options)) Print(AccuracyHeader());
   if (Wants(options, "grid")) {
     benchmark.grid = RunGrid(options);
     Print("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
@@ -196,8 +217,10 @@ void RunBenchmark(const BenchmarkOptions& options) {
     benchmark.people = RunPeople(options);
     Print("\n" + PeopleSummaryText(benchmark.people));
   }
+  std::vector<VarietyGrid> variety;
+  if (Wants(options, kVarietyPart)) variety = RunVariety(options);
   if (options.out.empty()) return;
-  ReplaceText(options.out / "accuracy.md", AccuracyMarkdown(benchmark));
+  ReplaceText(options.out / "accuracy.md", AccuracyMarkdown(benchmark) + VarietyMarkdown(variety));
   if (!benchmark.sweeps.empty()) {
     ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
   }
@@ -226,14 +249,16 @@ void AddBenchmarkCommand(CLI::App& app) {
   command
       ->add_option(
           "--seeds", options->seeds,
-          fmt::format("number of random seeds per combination (default: {}; several people: {})",
-                      kSeeds, kPeopleSeeds))
+          fmt::format("number of random seeds per combination (default: {}; several people: {}; "
+                      "variety: {})",
+                      kSeeds, kPeopleSeeds, kVariedPeople))
       ->check(NumberFrom(1, 1000));
   std::vector<std::string> parts = options->parts;
-  parts.push_back(kPeoplePart);
+  parts.insert(parts.end(), {kPeoplePart, kVarietyPart});
   command
       ->add_option("--parts", options->parts,
-                   "parts to run; people (two to four at once) runs only on request")
+                   "parts to run; people (two to four at once) and variety (of builds, hair, "
+                   "clothes and loads) run only on request")
       ->delimiter(',')
       ->check(CLI::IsMember(parts))
       ->capture_default_str();

@@ -217,6 +217,8 @@ void AddSimulateCommand(CLI::App& app) {
   command->add_option("--height", options->studio.height_px, "picture height [px]")
       ->check(NumberFrom(16, 8192))
       ->capture_default_str();
+  command->add_flag("--varied", options->studio.varied,
+                    "vary builds, hair, hats, clothes and loads as among real people");
   command->add_flag("--pan-tilt", options->studio.pan_tilt,
                     "put the cameras on pan-tilt heads that follow the first person");
   command

@@ -111,11 +111,6 @@ Section Scaled(Section section, double scale) {
   return section;
 }
 
-Section Thickened(Section section, double factor) {
-  for (double* v : {&section.front, &section.back, &section.outer, &section.inner}) *v *= factor;
-  return section;
-}
-
 // Catmull-Rom spline through v1 at 0 and v2 at 1, for unequal distances of the keys.
 double Spline(double v0, double v1, double v2, double v3, double d0, double d1, double d2,
               double u) {
@@ -127,6 +122,16 @@ double Spline(double v0, double v1, double v2, double v3, double d0, double d1, 
 }
 
 }  // namespace
+
+Section Thickened(Section section, double factor) {
+  for (double* v : {&section.front, &section.back, &section.outer, &section.inner}) *v *= factor;
+  return section;
+}
+
+Section Loosened(Section section, double slack_mm) {
+  for (double* v : {&section.front, &section.back, &section.outer, &section.inner}) *v += slack_mm;
+  return section;
+}
 
 Section Interpolate(std::span<const Section> table, double s) {
   s = std::clamp(s, table.front().s, table.back().s);

@@ -19,6 +19,11 @@ struct Section {
 /// Interpolates sections smoothly. Outside the table, the end sections hold.
 Section Interpolate(std::span<const Section> table, double s);
 
+/// Multiplies the extents.
+Section Thickened(Section section, double factor);
+/// Adds to the extents, as loose cloth does.
+Section Loosened(Section section, double slack_mm);
+
 /// Torso and neck [mm]; s: 0 at the hips, 1 at C7.
 Section TorsoSection(const Anthropometry& body, double s);
 /// Leg [mm]; s: 0 at the hip, 1 at the knee, 2 at the ankle.

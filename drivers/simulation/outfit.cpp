@@ -55,6 +55,8 @@ Outfit MakeOutfit(std::uint64_t seed, Bgr wall) {
   outfit.sleeve_end = random.Uniform(0, 1) < 0.5 ? random.Uniform(0.45, 0.8) : 1.93;
   outfit.trouser_end = random.Uniform(0, 1) < 0.2 ? random.Uniform(0.6, 0.9) : 1.97;
   outfit.trouser_slack_mm = random.Uniform(3, 14);
+  outfit.colors[kHat] = Cloth(random, wall);
+  outfit.colors[kLoad] = Cloth(random, wall);
   return outfit;
 }
 

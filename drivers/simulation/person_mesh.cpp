@@ -9,177 +9,12 @@
 #include "drivers/simulation/body_profiles.h"
 #include "drivers/simulation/curve.h"
 #include "drivers/simulation/random.h"
+#include "drivers/simulation/tube_builder.h"
 
 namespace mocap::simulation {
 namespace {
 
-// Smooth folds: a sum of waves around and along a part.
-class Folds {
- public:
-  explicit Folds(std::uint64_t seed) {
-    Random random(seed);
-    for (Wave& wave : waves_)
-      wave = {std::floor(random.Uniform(1, 5)), random.Uniform(4, 14), random.Uniform(0, 6.28)};
-  }
-  double At(double angle, double s) const {
-    double sum = 0;
-    for (const Wave& wave : waves_)
-      sum += std::sin(wave.around * angle + wave.along * s + wave.phase);
-    return sum / std::size(waves_);
-  }
-
- private:
-  struct Wave {
-    double around, along, phase;
-  };
-  std::array<Wave, 4> waves_;
-};
-
-// One ring of a tube: pose of its cross-section, and weights of the bones that move it.
-struct Ring {
-  RigidTransform X_WRing;  // At rest; the section lies in its x-y plane, y to the left.
-  Section section;
-  double roundness = 2;  // Exponent of the superellipse.
-  std::array<double, kBoneCount> weights{};
-};
-
-struct TubeStyle {
-  int rings = 0, sectors = 0;
-  double side = 1;  // +1: `outer` is to the left.
-  double fold = 0;  // Depth of folds as a share of the radius.
-  std::function<Material(double s, double angle)> material;
-};
-
-class Builder {
- public:
-  Builder(PersonMesh& mesh, std::uint64_t seed) : mesh_(mesh), seed_(seed) {}
-
-  // Joins rings from `first` to `last` into a closed tube.
-  void AddTube(double first, double last, const TubeStyle& style,
-               const std::function<Ring(double s)>& ring_at) {
-    const Folds folds(Mix(seed_, ++parts_));
-    const int base = static_cast<int>(mesh_.vertices.size());
-    for (int r = 0; r < style.rings; ++r) {
-      const double s = first + (last - first) * r / (style.rings - 1);
-      const Ring ring = ring_at(s);
-      for (int c = 0; c < style.sectors; ++c)
-        AddVertex(ring, 2 * std::numbers::pi * c / style.sectors, s, style, folds);
-    }
-    AddCap(ring_at(first), base, style, false, style.material(first, 0));
-    AddSides(base, first, last, style);
-    AddCoarseSides(base, style);
-    AddCap(ring_at(last), base + (style.rings - 1) * style.sectors, style, true,
-           style.material(last, 0));
-  }
-
-  void FinishNormals() {
-    for (const PersonMesh::Triangle& t : mesh_.triangles) {
-      const auto& p = mesh_.vertices;
-      const Eigen::Vector3f n =
-          (p[t.v[1]].p_rest - p[t.v[0]].p_rest).cross(p[t.v[2]].p_rest - p[t.v[0]].p_rest);
-      for (const int i : t.v) mesh_.vertices[i].n_rest += n;
-    }
-    for (PersonMesh::Vertex& v : mesh_.vertices) v.n_rest.normalize();
-  }
-
- private:
-  void AddVertex(const Ring& ring, double angle, double s, const TubeStyle& style,
-                 const Folds& folds) {
-    const double c = std::cos(angle), d = std::sin(angle);
-    const double n = ring.roundness;
-    double radius = std::pow(std::pow(std::abs(c), n) + std::pow(std::abs(d), n), -1 / n);
-    const double fold = folds.At(angle, s);
-    radius *= 1 + style.fold * fold;
-    const Section& q = ring.section;
-    const bool outward = d * style.side >= 0;
-    const Vector3 p(q.cx + radius * c * (c >= 0 ? q.front : q.back),
-                    style.side * q.cy + radius * d * (outward ? q.outer : q.inner), 0);
-    Push(ring, p, static_cast<float>(1 + 0.10 * fold));
-  }
-
-  int Push(const Ring& ring, const Vector3& p_Ring, float albedo) {
-    PersonMesh::Vertex vertex;
-    vertex.p_rest = (ring.X_WRing * p_Ring).cast<float>();
-    vertex.albedo = albedo;
-    std::array<double, kBoneCount> weights = ring.weights;
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int bone =
-          static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-      vertex.bones[k] = static_cast<std::uint8_t>(bone);
-      vertex.weights[k] = static_cast<float>(weights[bone]);
-      sum += weights[bone];
-      weights[bone] = 0;
-    }
-    MOCAP_CHECK(sum > 0.5);
-    for (float& w : vertex.weights) w /= static_cast<float>(sum);
-    mesh_.vertices.push_back(vertex);
-    MOCAP_CHECK(mesh_.vertices.size() < 65536);
-    return static_cast<int>(mesh_.vertices.size()) - 1;
-  }
-
-  void AddCap(const Ring& ring, int base, const TubeStyle& style, bool end, Material material) {
-    const int center = Push(ring, {ring.section.cx, style.side * ring.section.cy, 0}, 1);
-    for (int c = 0; c < style.sectors; ++c) {
-      const int a = base + c, b = base + (c + 1) % style.sectors;
-      AddTriangle(center, end ? b : a, end ? a : b, material);
-    }
-  }
-
-  void AddSides(int base, double first, double last, const TubeStyle& style) {
-    for (int r = 0; r + 1 < style.rings; ++r) {
-      const double s = first + (last - first) * (r + 0.5) / (style.rings - 1);
-      for (int c = 0; c < style.sectors; ++c) {
-        const int next = (c + 1) % style.sectors;
-        const int a = base + r * style.sectors + c, b = base + r * style.sectors + next;
-        const int d = a + style.sectors, e = b + style.sectors;
-        const Material material =
-            style.material(s, 2 * std::numbers::pi * (c + 0.5) / style.sectors);
-        AddTriangle(a, d, b, material);
-        AddTriangle(b, d, e, material);
-      }
-    }
-  }
-
-  // Every third ring and second sector.
-  void AddCoarseSides(int base, const TubeStyle& style) {
-    const int first = static_cast<int>(mesh_.coarse_vertices.size());
-    const int columns = style.sectors / 2;
-    int rows = 0;
-    for (int r = 0; r < style.rings;
-         r = r + 3 < style.rings || r == style.rings - 1 ? r + 3 : style.rings - 1) {
-      for (int c = 0; c < columns; ++c)
-        mesh_.coarse_vertices.push_back(
-            static_cast<std::uint16_t>(base + r * style.sectors + 2 * c));
-      ++rows;
-    }
-    for (int r = 0; r + 1 < rows; ++r)
-      for (int c = 0; c < columns; ++c) {
-        const auto at = [&](int row, int column) {
-          return static_cast<std::uint16_t>(first + row * columns + column % columns);
-        };
-        mesh_.coarse_triangles.push_back({at(r, c), at(r + 1, c), at(r, c + 1)});
-        mesh_.coarse_triangles.push_back({at(r, c + 1), at(r + 1, c), at(r + 1, c + 1)});
-      }
-  }
-
-  void AddTriangle(int a, int b, int c, Material material) {
-    mesh_.triangles.push_back({{static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b),
-                                static_cast<std::uint16_t>(c)},
-                               material});
-  }
-
-  PersonMesh& mesh_;
-  std::uint64_t seed_;
-  std::uint64_t parts_ = 0;
-};
-
-Section Loosened(Section section, double slack_mm) {
-  for (double* v : {&section.front, &section.back, &section.outer, &section.inner}) *v += slack_mm;
-  return section;
-}
-
-void AddTorso(Builder& builder, const Anthropometry& body, const Outfit& outfit,
+void AddTorso(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit,
               const BonePoses& rest) {
   TubeStyle style{.rings = 30, .sectors = 22, .side = 1, .fold = 0.012, .material = {}};
   style.material = [&outfit](double s, double) {
@@ -192,6 +27,7 @@ void AddTorso(Builder& builder, const Anthropometry& body, const Outfit& outfit,
     Ring ring;
     ring.X_WRing = {Matrix3::Identity(), rest[kPelvis].p + Vector3(0, 0, s * body.torso_mm)};
     ring.section = TorsoSection(body, s);
+    if (s < 0.985) ring.section = Loosened(ring.section, outfit.costume.torso_slack_mm);
     ring.roundness = 2 + 0.7 * Smoothstep(-0.15, 0, s) * (1 - Smoothstep(0.8, 0.95, s));
     const double lumbar = Smoothstep(0.08, 0.36, s), thorax = Smoothstep(0.38, 0.62, s);
     const double neck = Smoothstep(0.94, 1.06, s), head = Smoothstep(1.08, 1.2, s);
@@ -204,10 +40,13 @@ void AddTorso(Builder& builder, const Anthropometry& body, const Outfit& outfit,
   });
 }
 
-void AddHead(Builder& builder, const Anthropometry& body, const BonePoses& rest) {
+void AddHead(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit,
+             const BonePoses& rest) {
   TubeStyle style{.rings = 18, .sectors = 18, .side = 1, .fold = 0, .material = {}};
-  style.material = [](double s, double angle) {
+  const bool is_bald = outfit.costume.hair == Hair::kNone;
+  style.material = [is_bald](double s, double angle) {
     // Hair: the crown, and further down at the back.
+    if (is_bald) return kSkin;
     const double back = 0.5 - 0.5 * std::cos(angle);
     return s > 0.84 - 0.55 * back * back ? kHair : kSkin;
   };
@@ -222,7 +61,7 @@ void AddHead(Builder& builder, const Anthropometry& body, const BonePoses& rest)
   });
 }
 
-void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, int side,
+void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side,
             const BonePoses& rest) {
   TubeStyle style{
       .rings = 40, .sectors = 12, .side = SideSign(side), .fold = 0.015, .material = {}};
@@ -237,7 +76,10 @@ void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
     Ring ring;
     ring.X_WRing = rest[kUpperArmL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
     ring.section = ArmSection(body, s);
-    if (s < outfit.sleeve_end) ring.section = Loosened(ring.section, 0.003 * body.stature_mm);
+    if (s < outfit.sleeve_end) {
+      const double wide_mm = outfit.costume.sleeve_slack_mm * Smoothstep(0.2, 1.6, s);
+      ring.section = Loosened(ring.section, 0.003 * body.stature_mm + wide_mm);
+    }
     const double upper = Smoothstep(-0.2, 0.15, s), fore = Smoothstep(0.86, 1.14, s);
     // Towards the wrist, the skin turns with the hand more and more.
     const double hand = 0.7 * Smoothstep(1.3, 1.9, s) + 0.3 * Smoothstep(1.92, 2.08, s);
@@ -265,7 +107,7 @@ void AddArm(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
   });
 }
 
-void AddLeg(Builder& builder, const Anthropometry& body, const Outfit& outfit, int side,
+void AddLeg(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side,
             const BonePoses& rest) {
   TubeStyle style{
       .rings = 34, .sectors = 14, .side = SideSign(side), .fold = 0.015, .material = {}};
@@ -289,7 +131,7 @@ void AddLeg(Builder& builder, const Anthropometry& body, const Outfit& outfit, i
   });
 }
 
-void AddFoot(Builder& builder, const Anthropometry& body, int side, const BonePoses& rest) {
+void AddFoot(TubeBuilder& builder, const Anthropometry& body, int side, const BonePoses& rest) {
   TubeStyle style{.rings = 16, .sectors = 14, .side = SideSign(side), .fold = 0, .material = {}};
   style.material = [](double, double) { return kShoes; };
   // The rings are upright: x is up and z backward, so that they run against z.
@@ -327,14 +169,15 @@ BodyPose RestPose(const Anthropometry& body) {
 PersonMesh BuildPersonMesh(const Anthropometry& body, const Outfit& outfit, std::uint64_t seed) {
   PersonMesh mesh;
   mesh.rest = PlaceBones(body, RestPose(body));
-  Builder builder(mesh, Mix(seed, Tag("folds")));
+  TubeBuilder builder(mesh, Mix(seed, Tag("folds")));
   AddTorso(builder, body, outfit, mesh.rest);
-  AddHead(builder, body, mesh.rest);
+  AddHead(builder, body, outfit, mesh.rest);
   for (const int side : {kLeft, kRight}) {
     AddArm(builder, body, outfit, side, mesh.rest);
     AddLeg(builder, body, outfit, side, mesh.rest);
     AddFoot(builder, body, side, mesh.rest);
   }
+  AddCostume(body, outfit.costume, builder);
   builder.FinishNormals();
   return mesh;
 }

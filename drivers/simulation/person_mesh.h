@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "core/image.h"
+#include "drivers/simulation/costume.h"
 #include "drivers/simulation/skeleton.h"
 
 namespace mocap::simulation {
 
-enum Material : std::uint8_t { kSkin, kHair, kShirt, kStripe, kTrousers, kShoes };
-inline constexpr int kMaterialCount = 6;
+enum Material : std::uint8_t { kSkin, kHair, kShirt, kStripe, kTrousers, kShoes, kHat, kLoad };
+inline constexpr int kMaterialCount = 8;
 
 /// Clothes of the person.
 struct Outfit {
@@ -20,6 +21,7 @@ struct Outfit {
   double trouser_end = 2;  ///< Along the leg: 1 is the knee, 2 the ankle.
   double trouser_slack_mm = 0;
   bool striped = false;
+  Costume costume = {};
 };
 
 /// Chooses clothes, sometimes close to the colour `wall`.

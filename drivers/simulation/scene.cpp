@@ -88,8 +88,10 @@ BonePoses Person::BonesAt(std::int64_t capture_ns) const {
 std::vector<Person> MakePeople(const SimulatedStudioOptions& options) {
   Check(options);
   std::vector<Anthropometry> bodies;
-  for (int i = 0; i < options.people; ++i)
+  for (int i = 0; i < options.people; ++i) {
     bodies.push_back(MakeAnthropometry(StatureOf(options, i), SeedOf(options, i)));
+    if (options.varied) VaryBuild(SeedOf(options, i), bodies.back());
+  }
   std::vector<std::unique_ptr<const Motion>> motions =
       MakeCompany(options.motion, bodies, options.seed);
   std::vector<Person> people;
@@ -107,7 +109,8 @@ Scene::Scene(const SimulatedStudioOptions& options)
           {options.cameras, options.width_px, options.height_px, options.pan_tilt, options.seed})) {
   for (int i = 0; i < options.people; ++i) {
     const std::uint64_t seed = SeedOf(options, i);
-    const Outfit outfit = MakeOutfit(seed, room_.wall_color());
+    Outfit outfit = MakeOutfit(seed, room_.wall_color());
+    if (options.varied) outfit.costume = MakeCostume(seed);
     figures_.push_back({outfit, BuildPersonMesh(people_[i].body(), outfit, seed)});
   }
 }

@@ -23,6 +23,7 @@ struct SimulatedStudioOptions {
   std::string motion = "walk";  ///< As in simulation::MakeCompany().
   int people = 1;               ///< 1 to simulation::kMostSimulatedPeople.
   double stature_mm = 1750;     ///< Of the first, 1000 to 2100; others have a similar one.
+  bool varied = false;  ///< Builds, hair, hats, clothes and loads as varied as among real people.
   double fps = 30;
   int cameras = 6;
   int width_px = 640, height_px = 480;

@@ -18,6 +18,8 @@ AccuracyRow Measure(const AccuracyTrial& trial) {
   row.head_found_share = accuracy.head_found_share;
   row.acquisition_frames = outcome.acquisition_frames;
   row.longest_wrong_stretch = outcome.longest_wrong_stretch;
+  row.found_after = outcome.evaluation.first_tracked_pose;
+  row.longest_loss = outcome.longest_loss;
   for (const LengthPair& pair : outcome.evaluation.lengths) {
     row.length_error_mm += std::abs(pair.acquired_mm - pair.true_mm) /
                            static_cast<double>(outcome.evaluation.lengths.size());

@@ -21,6 +21,8 @@ struct AccuracyRow {
   double head_found_share = 0;
   int acquisition_frames = 0;
   int longest_wrong_stretch = 0;  ///< In frame sets, as in TrialOutcome.
+  int found_after = -1;           ///< Frame sets until tracked for the first time; -1: never.
+  int longest_loss = 0;           ///< In frame sets, as in TrialOutcome.
 };
 
 /// Runs a trial and summarizes it.

@@ -71,6 +71,18 @@ int LongestWrongStretch(const Accuracy& accuracy) {
   return longest;
 }
 
+int LongestLoss(const std::vector<PoseRow>& poses) {
+  int longest = 0, length = 0;
+  bool was_tracked = false;
+  for (const PoseRow& row : poses) {
+    const bool is_tracked = row.state == CaptureState::kTracking;
+    was_tracked |= is_tracked;
+    length = was_tracked && !is_tracked ? length + 1 : 0;
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
 }  // namespace
 
 TrialOutcome RunTrial(const AccuracyTrial& trial) {
@@ -86,6 +98,7 @@ TrialOutcome RunTrial(const AccuracyTrial& trial) {
   TrialOutcome outcome;
   outcome.evaluation = Evaluate(sink.result(), TruthOf(trial.studio, sink.result().poses));
   outcome.acquisition_frames = sink.acquisition_frames();
+  outcome.longest_loss = LongestLoss(outcome.evaluation.result.poses);
   outcome.longest_wrong_stretch = LongestWrongStretch(*outcome.evaluation.accuracy);
   return outcome;
 }

@@ -26,6 +26,8 @@ struct TrialOutcome {
   int acquisition_frames = 0;
   /// Longest run of frame sets with state tracked and a mean error above kWrongMm.
   int longest_wrong_stretch = 0;
+  /// Longest run of frame sets that are not tracked, after the first tracked one.
+  int longest_loss = 0;
 };
 
 /// A pose with a larger error is wrong, whatever the error measures.

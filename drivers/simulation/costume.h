@@ -1,0 +1,42 @@
+// What people wear beyond shirt and trousers: hair, hats, loose clothes and loads.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drivers/simulation/anthropometry.h"
+
+namespace mocap::simulation {
+
+class TubeBuilder;
+
+enum class Hair { kShort, kNone, kAfro, kLong, kBunches, kPonytail };
+enum class Hat { kNone, kHelmet, kBrim };
+/// Cloth that hangs from the waist. A coat and a gown are also loose above it.
+enum class Drape { kNone, kSkirt, kCoat, kGown };
+
+/// By default plain: short hair, and nothing else.
+struct Costume {
+  Hair hair = Hair::kShort;
+  double hair_mm = 0;  ///< How far it stands off, or its length.
+  Hat hat = Hat::kNone;
+  Drape drape = Drape::kNone;
+  double drape_end = 1;  ///< Along the leg: 1 is the knee, 2 the ankle.
+  double drape_flare_mm = 0;
+  double torso_slack_mm = 0, sleeve_slack_mm = 0;
+  double backpack_mm = 0;  ///< Depth; 0: none.
+  bool has_bag = false;    ///< In the right hand.
+};
+
+/// Chooses a costume at random.
+Costume MakeCostume(std::uint64_t seed);
+/// Lists what is not plain, such as "afro, gown, backpack"; "plain" if nothing.
+std::string Describe(const Costume& costume);
+
+/// Makes a build less average: narrow or wide shoulders, and sometimes a heavy belly.
+void VaryBuild(std::uint64_t seed, Anthropometry& body);
+
+/// Adds hair, hat, drape and loads to the surface of a person.
+void AddCostume(const Anthropometry& body, const Costume& costume, TubeBuilder& builder);
+
+}  // namespace mocap::simulation

@@ -1,0 +1,130 @@
+#include "tools/accuracy/variety_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drivers/simulation/costume.h"
+#include "drivers/simulation/random.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::array kMotions = {"walk", "dance", "stand", "sit", "run", "step", "jump"};
+constexpr double kFoundLate_s = 0.5, kLostLong_s = 0.3;
+constexpr std::size_t kWorst = 10;
+
+struct Counts {
+  std::size_t never = 0, late = 0, lost = 0, wrong = 0;
+  double mean_mm = 0, worst_mm = 0;  ///< Of those who were found.
+};
+
+Counts CountOf(std::span<const VarietyRow> rows) {
+  Counts counts;
+  for (const VarietyRow& row : rows) {
+    counts.never += row.found_s < 0;
+    counts.late += row.found_s > kFoundLate_s;
+    counts.lost += row.lost_s > kLostLong_s;
+    counts.wrong += row.accuracy.longest_wrong_stretch > kLongestGlitch;
+    counts.mean_mm += row.accuracy.mpjpe_mm;
+    counts.worst_mm = std::max(counts.worst_mm, row.accuracy.mpjpe_mm);
+  }
+  counts.mean_mm /= static_cast<double>(std::max<std::size_t>(rows.size() - counts.never, 1));
+  return counts;
+}
+
+// Whoever was never found is worse than anybody else.
+bool IsWorse(const VarietyRow& a, const VarietyRow& b) {
+  if ((a.found_s < 0) != (b.found_s < 0)) return a.found_s < 0;
+  return a.accuracy.mpjpe_mm > b.accuracy.mpjpe_mm;
+}
+
+std::string FoundText(const VarietyRow& row) {
+  return row.found_s < 0 ? "never" : fmt::format("{:.2f}", row.found_s);
+}
+
+}  // namespace
+
+std::vector<Filming> Filmings() {
+  return {{.label = "30 Hz"},
+          {.label = "10 Hz", .fps = 10},
+          {.label = "four cameras", .cameras = 4},
+          {.label = "eight cameras", .cameras = 8},
+          {.label = "2 % covered by squares", .covered_share = 0.02}};
+}
+
+VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming) {
+  const auto seed = static_cast<std::uint64_t>(number);
+  AccuracyTrial trial;
+  trial.studio.varied = true;
+  trial.studio.seed = seed;
+  trial.studio.motion = kMotions[seed % kMotions.size()];
+  trial.studio.stature_mm =
+      std::round(simulation::Random(simulation::Mix(seed, simulation::Tag("varied stature")))
+                     .Uniform(1150, 1980));
+  trial.studio.seconds = seconds;
+  trial.studio.fps = filming.fps;
+  trial.studio.cameras = filming.cameras;
+  trial.covered_share = filming.covered_share;
+  VarietyRow row{.accuracy = Measure(trial),
+                 .looks = simulation::Describe(simulation::MakeCostume(seed))};
+  if (row.accuracy.found_after >= 0) row.found_s = row.accuracy.found_after / filming.fps;
+  row.lost_s = row.accuracy.longest_loss / filming.fps;
+  return row;
+}
+
+std::string VarietyHeader() {
+  return fmt::format("{:>6} {:<7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}  {}\n", "number", "motion",
+                     "stature", "mean mm", "95 % mm", "degrees", "found s", "lost s", "wrong",
+                     "wears");
+}
+
+std::string VarietyLine(const VarietyRow& row) {
+  const AccuracyRow& a = row.accuracy;
+  return fmt::format("{:>6} {:<7}{:>8.0f}{:>9.1f}{:>9.1f}{:>9.2f}{:>9}{:>8.2f}{:>7}  {}\n", a.seed,
+                     a.motion, a.stature_mm, a.mpjpe_mm, a.p95_mm, a.angle_deg, FoundText(row),
+                     row.lost_s, a.longest_wrong_stretch, row.looks);
+}
+
+std::string VarietySummaryText(std::span<const VarietyRow> rows) {
+  const Counts counts = CountOf(rows);
+  return fmt::format(
+      "{} varied people: {} never found, {} found after more than {} s, {} lost for more than {} "
+      "s, {} confident and wrong; {:.1f} mm in the mean ({:.1f} mm the worst)\n",
+      rows.size(), counts.never, counts.late, kFoundLate_s, counts.lost, kLostLong_s, counts.wrong,
+      counts.mean_mm, counts.worst_mm);
+}
+
+std::string VarietyMarkdown(std::span<const VarietyGrid> grids) {
+  if (grids.empty()) return {};
+  std::string text = fmt::format(
+      "\n## People of all kinds\nBuild, hair, hat, clothes and loads are drawn at random, and each "
+      "person is filmed in several ways.\n*Late* is more than {} s until found, *lost* more than "
+      "{} s without tracking afterwards.\n\n| filmed | people | never found | late | lost | wrong "
+      "| mean mm | worst mm |\n|---|---|---|---|---|---|---|---|\n",
+      kFoundLate_s, kLostLong_s);
+  for (const auto& [filming, rows] : grids) {
+    const Counts counts = CountOf(rows);
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} |\n", filming.label,
+                        rows.size(), counts.never, counts.late, counts.lost, counts.wrong,
+                        counts.mean_mm, counts.worst_mm);
+  }
+  for (const auto& [filming, rows] : grids) {
+    text += fmt::format(
+        "\nThe worst at {}:\n\n| number | motion | stature mm | mean mm | found s | lost s | wears "
+        "|\n|---|---|---|---|---|---|---|\n",
+        filming.label);
+    std::vector<VarietyRow> worst(rows.begin(), rows.end());
+    std::ranges::sort(worst, IsWorse);
+    worst.resize(std::min(worst.size(), kWorst));
+    for (const VarietyRow& row : worst)
+      text += fmt::format("| {} | {} | {:.0f} | {:.1f} | {} | {:.2f} | {} |\n", row.accuracy.seed,
+                          row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.mpjpe_mm,
+                          FoundText(row), row.lost_s, row.looks);
+  }
+  return text;
+}
+
+}  // namespace mocap

@@ -1,0 +1,49 @@
+// Simulated people of all builds, hair, clothes and loads: who is found, and how well tracked.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/accuracy/accuracy_benchmark.h"
+
+namespace mocap {
+
+/// How the same people are filmed.
+struct Filming {
+  std::string label;
+  double fps = 30;
+  int cameras = 6;
+  double covered_share = 0;  ///< As in AccuracyTrial.
+};
+
+/// 30 and 10 Hz, four and eight cameras, imperfect masks.
+std::vector<Filming> Filmings();
+
+/// Tracking of one varied person.
+struct VarietyRow {
+  AccuracyRow accuracy;
+  std::string looks;    ///< What the person wears.
+  double found_s = -1;  ///< Until tracked for the first time; -1: never.
+  double lost_s = 0;    ///< Longest time without tracking afterwards.
+};
+
+/// The same people, filmed in one way.
+struct VarietyGrid {
+  Filming filming;
+  std::vector<VarietyRow> rows;
+};
+
+/// Tracks one person. The number determines motion, stature, build, costume and room.
+VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming);
+
+/// Header of VarietyLine's columns.
+std::string VarietyHeader();
+std::string VarietyLine(const VarietyRow& row);
+/// Never found, found late, lost, wrong; mean and worst error. @param rows  at least one.
+std::string VarietySummaryText(std::span<const VarietyRow> rows);
+/// A table of all grids, and one of the ten worst people of each; nothing without grids.
+std::string VarietyMarkdown(std::span<const VarietyGrid> grids);
+
+}  // namespace mocap
