@@ -69,7 +69,9 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   for (std::size_t i = 0; i < std::min(finalists, candidates.size()); ++i)
     hypotheses_.push_back(Begin(contest, candidates[i], evidence, !known));
   if (hypotheses_.empty()) return false;
-  const auto cost_mm = [](const Hypothesis& hypothesis) { return CostOf(hypothesis.tracker); };
+  const auto cost_mm = [](const Hypothesis& hypothesis) {
+    return CostOf(hypothesis.tracker) + OrientationPriorMm(hypothesis.tracker.filter().pose());
+  };
   std::ranges::stable_sort(hypotheses_, {}, cost_mm);
   hypotheses_.resize(1, hypotheses_.front());
   const Tracker& best = hypotheses_.front().tracker;

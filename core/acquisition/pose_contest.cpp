@@ -27,6 +27,9 @@ constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
 constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
+// Somebody upside down must explain the evidence better by this much than anybody upright does: a
+// gown looks like a trunk, and the arms above it like legs.
+constexpr double kUpsideDownMm = 12;
 // Height of a standing person's middle, as a share of the stature.
 constexpr double kMiddleShare = 0.55;
 
@@ -43,6 +46,11 @@ std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
 }
 
 }  // namespace
+
+double OrientationPriorMm(const PoseState& pose) {
+  const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2;
+  return kUpsideDownMm * upside_down * upside_down;
+}
 
 // Number of samples, iterations of the fit, and number of poses that remain.
 struct PoseContest::Round {
@@ -142,7 +150,8 @@ void PoseContest::Play(const Evidence& evidence, const Round& round, double effo
           round.iterations);
       candidate.pose = filter.pose();
     }
-    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost();
+    candidate.cost_mm =
+        fit.QualityAt(body, candidate.pose).Cost() + OrientationPriorMm(candidate.pose);
   }
   std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);
   const auto kept = static_cast<std::size_t>(std::ceil(effort * round.kept));

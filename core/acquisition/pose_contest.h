@@ -15,8 +15,12 @@ namespace mocap {
 struct PoseCandidate {
   int body = 0;  ///< Index of the body.
   PoseState pose;
-  double cost_mm = 0;
+  double cost_mm = 0;  ///< Of the fit, and of its orientation.
 };
+
+/// How much worse the fit of a pose counts because people seldom take it [mm]: little for a trunk
+/// that leans or lies, most for one upside down.
+double OrientationPriorMm(const PoseState& pose);
 
 /// Compares poses with frame after frame: those of a library, and the best of the previous frame.
 class PoseContest {

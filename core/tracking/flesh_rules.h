@@ -55,6 +55,10 @@ std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& s
 
 /// Greater distances of a bone from flesh cost no more: the flesh may have been carved away.
 inline constexpr double kMostHollowMm = 100;
+/// Weight of a bone's distance from the flesh, as that of an edge's from the body. A hull contains
+/// the body, except where a camera missed it, so the bones of a right fit are hardly ever outside.
+/// With less weight, a large body with bent limbs would explain the clothes of a small one.
+inline constexpr double kHollowWeight = 1.0;
 
 /// False if a point on the core of `limb` is too far from `other` to intersect it.
 bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other);

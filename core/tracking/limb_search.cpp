@@ -17,7 +17,6 @@ constexpr double kOutlierMm = 45;
 constexpr double kStanceSpreadRad = 0.5;
 // As in SurfaceFitQuality::Cost.
 constexpr double kVoxelWeight = 0.25;
-constexpr double kHollowWeight = 0.5;
 
 // More axes than any limb has.
 constexpr int kMostRows = 12;

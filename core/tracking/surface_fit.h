@@ -11,6 +11,7 @@
 #include "core/tracking/chain_equations.h"
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
+#include "core/tracking/flesh_rules.h"
 #include "core/tracking/pose_filter.h"
 #include "core/tracking/protrusion.h"
 
@@ -40,9 +41,10 @@ struct SurfaceFitQuality {
   double overlap_mm = 0;         ///< Mean depth of limbs inside other parts.
   double unexplained_share = 0;  ///< Share of the edges that belong to no part.
 
-  /// Edges have the largest weight, because hulls are wrong about surfaces, and fast limbs are
-  /// carved away.
-  double Cost() const { return edge_mm + 0.25 * surface_mm + 0.5 * hollow_mm + overlap_mm; }
+  /// Edges outweigh voxels, because hulls are wrong about surfaces.
+  double Cost() const {
+    return edge_mm + 0.25 * surface_mm + kHollowWeight * hollow_mm + overlap_mm;
+  }
 };
 
 /// One contact compared with the model.
