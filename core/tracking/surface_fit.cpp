@@ -188,6 +188,8 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
   quality.edge_mm /= std::max(1, edges);
   quality.unexplained_share /= std::max(1, edges);
   quality.surface_mm /= std::max(1, voxels);
+  // Without outlines, the hull's surface has to say what they would.
+  if (edges == 0) quality.edge_mm = quality.surface_mm;
   const double places = static_cast<double>(posed_.size() * kCoreShares.size());
   ForEachHollow([&](std::size_t, const Vector3&, const Vector3& way_W) {
     quality.hollow_mm += std::min(kMostHollowMm, way_W.norm()) / places;
