@@ -1,9 +1,9 @@
 #include "drivers/simulation/costume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "drivers/simulation/body_profiles.h"
 #include "drivers/simulation/curve.h"
@@ -194,14 +194,15 @@ Costume MakeCostume(std::uint64_t seed) {
 }
 
 std::string Describe(const Costume& costume) {
-  constexpr std::array kHair = {"", "bald", "afro", "long hair", "bunches", "ponytail"};
-  constexpr std::array kHats = {"", "helmet", "hat"};
-  constexpr std::array kDrapes = {"", "skirt", "coat", "gown"};
+  constexpr std::array kHairNames = {"", "bald", "afro", "long hair", "bunches", "ponytail"};
+  constexpr std::array kHatNames = {"", "helmet", "hat"};
+  constexpr std::array kDrapeNames = {"", "skirt", "coat", "gown"};
   const bool is_wide = costume.drape == Drape::kNone && costume.sleeve_slack_mm > 0;
   std::string text;
   for (const char* part :
-       {kHair[static_cast<std::size_t>(costume.hair)], kHats[static_cast<std::size_t>(costume.hat)],
-        kDrapes[static_cast<std::size_t>(costume.drape)], is_wide ? "wide sleeves" : "",
+       {kHairNames[static_cast<std::size_t>(costume.hair)],
+        kHatNames[static_cast<std::size_t>(costume.hat)],
+        kDrapeNames[static_cast<std::size_t>(costume.drape)], is_wide ? "wide sleeves" : "",
         costume.backpack_mm > 0 ? "backpack" : "", costume.has_bag ? "bag" : ""}) {
     if (*part == '\0') continue;
     if (!text.empty()) text += ", ";

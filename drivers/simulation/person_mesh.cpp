@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
 
-#include "core/errors.h"
 #include "drivers/simulation/body_profiles.h"
 #include "drivers/simulation/curve.h"
 #include "drivers/simulation/random.h"
@@ -14,8 +11,7 @@
 namespace mocap::simulation {
 namespace {
 
-void AddTorso(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit,
-              const BonePoses& rest) {
+void AddTorso(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit) {
   TubeStyle style{.rings = 30, .sectors = 22, .side = 1, .fold = 0.012, .material = {}};
   style.material = [&outfit](double s, double) {
     if (s > 0.985) return kSkin;
@@ -25,7 +21,8 @@ void AddTorso(TubeBuilder& builder, const Anthropometry& body, const Outfit& out
   // From the neck downward, so that the rings run against z, as in the limbs.
   builder.AddTube(1.2, -0.19, style, [&](double s) {
     Ring ring;
-    ring.X_WRing = {Matrix3::Identity(), rest[kPelvis].p + Vector3(0, 0, s * body.torso_mm)};
+    ring.X_WRing = {Matrix3::Identity(),
+                    builder.rest()[kPelvis].p + Vector3(0, 0, s * body.torso_mm)};
     ring.section = TorsoSection(body, s);
     if (s < 0.985) ring.section = Loosened(ring.section, outfit.costume.torso_slack_mm);
     ring.roundness = 2 + 0.7 * Smoothstep(-0.15, 0, s) * (1 - Smoothstep(0.8, 0.95, s));
@@ -40,8 +37,7 @@ void AddTorso(TubeBuilder& builder, const Anthropometry& body, const Outfit& out
   });
 }
 
-void AddHead(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit,
-             const BonePoses& rest) {
+void AddHead(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit) {
   TubeStyle style{.rings = 18, .sectors = 18, .side = 1, .fold = 0, .material = {}};
   const bool is_bald = outfit.costume.hair == Hair::kNone;
   style.material = [is_bald](double s, double angle) {
@@ -53,16 +49,16 @@ void AddHead(TubeBuilder& builder, const Anthropometry& body, const Outfit& outf
   builder.AddTube(1, 0, style, [&](double s) {
     Ring ring;
     const Vector3 middle = HeadCenterInHead(body);
-    ring.X_WRing = rest[kHead] * RigidTransform{Matrix3::Identity(),
-                                                middle + Vector3(0, 0, (s - 0.5) * body.head_mm)};
+    ring.X_WRing =
+        builder.rest()[kHead] *
+        RigidTransform{Matrix3::Identity(), middle + Vector3(0, 0, (s - 0.5) * body.head_mm)};
     ring.section = HeadSection(body, s);
     ring.weights[kHead] = 1;
     return ring;
   });
 }
 
-void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side,
-            const BonePoses& rest) {
+void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side) {
   TubeStyle style{
       .rings = 40, .sectors = 12, .side = SideSign(side), .fold = 0.015, .material = {}};
   style.material = [&outfit](double s, double) {
@@ -74,7 +70,8 @@ void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfi
         -(std::min(s, 1.0) * body.upper_arm_mm + std::clamp(s - 1, 0.0, 1.0) * body.forearm_mm +
           std::clamp(s - 2, 0.0, 1.0) * body.hand_mm);
     Ring ring;
-    ring.X_WRing = rest[kUpperArmL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
+    ring.X_WRing =
+        builder.rest()[kUpperArmL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
     ring.section = ArmSection(body, s);
     if (s < outfit.sleeve_end) {
       const double wide_mm = outfit.costume.sleeve_slack_mm * Smoothstep(0.2, 1.6, s);
@@ -96,7 +93,7 @@ void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfi
   builder.AddTube(0, 1, thumb, [&](double s) {
     const double h = body.stature_mm;
     Ring ring;
-    ring.X_WRing = rest[kHandL + side] *
+    ring.X_WRing = builder.rest()[kHandL + side] *
                    RigidTransform{Matrix3::Identity(),
                                   {(0.010 + 0.022 * s) * h, -SideSign(side) * 0.006 * s * h,
                                    -(0.10 + 0.50 * s) * body.hand_mm}};
@@ -107,8 +104,7 @@ void AddArm(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfi
   });
 }
 
-void AddLeg(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side,
-            const BonePoses& rest) {
+void AddLeg(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfit, int side) {
   TubeStyle style{
       .rings = 34, .sectors = 14, .side = SideSign(side), .fold = 0.015, .material = {}};
   style.material = [&outfit](double s, double) {
@@ -117,7 +113,7 @@ void AddLeg(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfi
   builder.AddTube(-0.14, 2.06, style, [&](double s) {
     const double z = -(std::min(s, 1.0) * body.thigh_mm + std::max(s - 1, 0.0) * body.shank_mm);
     Ring ring;
-    ring.X_WRing = rest[kThighL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
+    ring.X_WRing = builder.rest()[kThighL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z}};
     ring.section = LegSection(body, s);
     if (s < outfit.trouser_end)
       ring.section = Loosened(ring.section, outfit.trouser_slack_mm * Smoothstep(0.1, 1.5, s));
@@ -131,7 +127,7 @@ void AddLeg(TubeBuilder& builder, const Anthropometry& body, const Outfit& outfi
   });
 }
 
-void AddFoot(TubeBuilder& builder, const Anthropometry& body, int side, const BonePoses& rest) {
+void AddFoot(TubeBuilder& builder, const Anthropometry& body, int side) {
   TubeStyle style{.rings = 16, .sectors = 14, .side = SideSign(side), .fold = 0, .material = {}};
   style.material = [](double, double) { return kShoes; };
   // The rings are upright: x is up and z backward, so that they run against z.
@@ -140,7 +136,8 @@ void AddFoot(TubeBuilder& builder, const Anthropometry& body, int side, const Bo
   builder.AddTube(0, 1, style, [&](double s) {
     const double x = s * body.foot_mm - body.heel_mm;
     Ring ring;
-    ring.X_WRing = rest[kFootL + side] * RigidTransform{R_FootRing, {x, 0, -body.ankle_to_sole_mm}};
+    ring.X_WRing =
+        builder.rest()[kFootL + side] * RigidTransform{R_FootRing, {x, 0, -body.ankle_to_sole_mm}};
     ring.section = FootSection(body, s);
     // The oval rests on the sole: its middle is low and its lower half flat.
     const double top = ring.section.front;
@@ -170,12 +167,12 @@ PersonMesh BuildPersonMesh(const Anthropometry& body, const Outfit& outfit, std:
   PersonMesh mesh;
   mesh.rest = PlaceBones(body, RestPose(body));
   TubeBuilder builder(mesh, Mix(seed, Tag("folds")));
-  AddTorso(builder, body, outfit, mesh.rest);
-  AddHead(builder, body, outfit, mesh.rest);
+  AddTorso(builder, body, outfit);
+  AddHead(builder, body, outfit);
   for (const int side : {kLeft, kRight}) {
-    AddArm(builder, body, outfit, side, mesh.rest);
-    AddLeg(builder, body, outfit, side, mesh.rest);
-    AddFoot(builder, body, side, mesh.rest);
+    AddArm(builder, body, outfit, side);
+    AddLeg(builder, body, outfit, side);
+    AddFoot(builder, body, side);
   }
   AddCostume(body, outfit.costume, builder);
   builder.FinishNormals();
