@@ -55,6 +55,9 @@ std::optional<Vector3> WayToFlesh(const VoxelCloud& cloud, const PlaceColumns& s
 
 /// Greater distances of a bone from flesh cost no more: the flesh may have been carved away.
 inline constexpr double kMostHollowMm = 100;
+/// Weight of the surface's distance from the body, compared with an edge's: hulls are wrong about
+/// surfaces.
+inline constexpr double kSurfaceWeight = 0.25;
 /// Weight of a bone's distance from the flesh, as that of an edge's from the body. A hull contains
 /// the body, except where a camera missed it, so the bones of a right fit are hardly ever outside.
 /// With less weight, a large body with bent limbs would explain the clothes of a small one.

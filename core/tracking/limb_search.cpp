@@ -15,8 +15,6 @@ constexpr double kTakenMm = 20;
 constexpr double kNoiseMm = 40;
 constexpr double kOutlierMm = 45;
 constexpr double kStanceSpreadRad = 0.5;
-// As in SurfaceFitQuality::Cost.
-constexpr double kVoxelWeight = 0.25;
 
 // More axes than any limb has.
 constexpr int kMostRows = 12;
@@ -77,7 +75,7 @@ void LimbSearch::TakeBodyApart(const PoseState& pose) {
 void LimbSearch::OpenContacts(ContactMatcher& contacts) {
   const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
-  const double voxel_weight = kVoxelWeight / std::max(1, surface_W_->size());
+  const double voxel_weight = kSurfaceWeight / std::max(1, surface_W_->size());
   const std::vector<float>& others_mm = contacts.Distances(others_, kReachMm);
   contacts_.clear();
   terms_.clear();

@@ -35,15 +35,15 @@ inline constexpr double kExplainedMm = 60;
 /// Quality of the fit of a posed body. Distances are cut at kExplainedMm, so that evidence of
 /// something else has the same weight everywhere.
 struct SurfaceFitQuality {
-  double edge_mm = 0;            ///< Mean distance of the bounding edges to the model.
+  /// Mean distance of the bounding edges to the model; where there are none, that of the surface.
+  double edge_mm = 0;
   double surface_mm = 0;         ///< Mean distance of the voxels' surface to the model.
   double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
   double overlap_mm = 0;         ///< Mean depth of limbs inside other parts.
   double unexplained_share = 0;  ///< Share of the edges that belong to no part.
 
-  /// Edges outweigh voxels, because hulls are wrong about surfaces.
   double Cost() const {
-    return edge_mm + 0.25 * surface_mm + kHollowWeight * hollow_mm + overlap_mm;
+    return edge_mm + kSurfaceWeight * surface_mm + kHollowWeight * hollow_mm + overlap_mm;
   }
 };
 
