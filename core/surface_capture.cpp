@@ -198,7 +198,7 @@ class SurfaceCapture::Impl {
   }
 
   void NoticeLoss() {
-    bad_frames_ = tracker_->quality().Cost() > kLostCostMm ? bad_frames_ + 1 : 0;
+    bad_frames_ = tracker_->quality().CostWithoutStray() > kLostCostMm ? bad_frames_ + 1 : 0;
     if (bad_frames_ < kFramesToLose && tracker_->filter().is_sound()) return;
     result_.state = CaptureState::kLost;
     if (!SizesAreKnown()) ForgetPerson();

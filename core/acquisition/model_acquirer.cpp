@@ -27,6 +27,11 @@ double CostOf(const Tracker& tracker) {
                                                      : std::numeric_limits<double>::infinity();
 }
 
+bool IsCredible(const Tracker& tracker) {
+  return tracker.quality().hollow_mm < kMostHollowMm &&
+         tracker.quality().CostWithoutStray() <= kWorstCostMm;
+}
+
 bool FaceApart(const PoseState& a, const PoseState& b) {
   return a.X_WT.R.col(0).dot(b.X_WT.R.col(0)) < -0.3;
 }
@@ -76,7 +81,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   hypotheses_.resize(1, hypotheses_.front());
   const Tracker& best = hypotheses_.front().tracker;
   contest.Remember(best.body().sizes(), best.filter().pose());
-  if (CostOf(best) > kWorstCostMm) return false;
+  if (!IsCredible(best)) return false;
   const auto opposite = std::ranges::find_if(candidates, [&](const PoseCandidate& candidate) {
     return FaceApart(candidate.pose, best.filter().pose());
   });

@@ -1,6 +1,7 @@
 // The evidence of one frame set: voxels and outlines of the person.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct Evidence {
     cloud.Build(sighting.flesh, sighting.room);
     borders.assign(sighting.borders.begin(), sighting.borders.end());
     edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);
+  }
+
+  /// Share of the edges that miss the hull: holes and stray blobs of silhouettes.
+  double MissingShare() const {
+    const auto missing = std::ranges::count_if(edges, &BoundingEdge::misses_hull);
+    return static_cast<double>(missing) /
+           static_cast<double>(std::max<std::size_t>(1, edges.size()));
   }
 };
 

@@ -58,10 +58,12 @@ inline constexpr double kMostHollowMm = 100;
 /// Weight of the surface's distance from the body, compared with an edge's: hulls are wrong about
 /// surfaces.
 inline constexpr double kSurfaceWeight = 0.25;
-/// Weight of a bone's distance from the flesh, as that of an edge's from the body. A hull contains
-/// the body, except where a camera missed it, so the bones of a right fit are hardly ever outside.
-/// With less weight, a large body with bent limbs would explain the clothes of a small one.
-inline constexpr double kHollowWeight = 1.0;
+/// Weight of a bone's distance from the flesh, compared with an edge's from the body. A whole hull
+/// contains the body, so the bones of a right fit are hardly ever outside: with less weight, a
+/// large body with bent limbs would explain the clothes of a small one. A hull with holes says
+/// less.
+/// @param missing_share  see Evidence::MissingShare.
+constexpr double HollowWeight(double missing_share) { return 1 - missing_share; }
 
 /// False if a point on the core of `limb` is too far from `other` to intersect it.
 bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule& other);

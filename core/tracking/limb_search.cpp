@@ -38,6 +38,7 @@ void LimbSearch::Begin(const BodyModel& body, const Evidence& evidence, ContactM
                        Segment limb_end, Segment absent, const PoseState& pose) {
   body_ = &body;
   cloud_ = &evidence.cloud;
+  hollow_weight_ = HollowWeight(evidence.MissingShare());
   surface_W_ = &contacts.surface_W();
   ListRows(limb_end, rows_);
   ListRows(absent, absent_rows_);
@@ -129,7 +130,7 @@ const LimbClaim& LimbSearch::ClaimAt(const PoseState& pose) {
     }
   }
   const double places = static_cast<double>(body_->shape().size() * kCoreShares.size());
-  claim_.own_cost_mm = (kHollowWeight * hollow_mm + OverlapCost()) / places;
+  claim_.own_cost_mm = (hollow_weight_ * hollow_mm + OverlapCost()) / places;
   return claim_;
 }
 

@@ -57,6 +57,7 @@ class LimbSearch {
 
   const BodyModel* body_ = nullptr;
   const VoxelCloud* cloud_ = nullptr;
+  double hollow_weight_ = 1;
   const PlaceColumns* surface_W_ = nullptr;
   std::vector<int> rows_;
   std::vector<int> absent_rows_;

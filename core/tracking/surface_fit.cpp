@@ -40,6 +40,7 @@ Vector3 LeanOf(const PosedCapsule& capsule, double share) {
 
 void SurfaceFit::SetEvidence(const Evidence& evidence) {
   evidence_ = &evidence;
+  missing_share_ = evidence.MissingShare();
   ChooseContacts(evidence, options_.voxels, options_.edges, contacts_);
   matcher_.SetContacts(contacts_);
   borders_.resize(evidence.borders.size());
@@ -175,6 +176,7 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
 SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& pose) {
   PoseCapsules(body, pose);
   SurfaceFitQuality quality;
+  quality.missing_share = missing_share_;
   int edges = 0;
   const std::vector<float>& distances_mm = matcher_.Distances(posed_, options_.reach_mm);
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {

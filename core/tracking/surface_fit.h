@@ -41,10 +41,15 @@ struct SurfaceFitQuality {
   double hollow_mm = 0;          ///< Mean distance of the model's bones to the voxels.
   double overlap_mm = 0;         ///< Mean depth of limbs inside other parts.
   double unexplained_share = 0;  ///< Share of the edges that belong to no part.
+  double missing_share = 0;      ///< Of the evidence; see Evidence::MissingShare.
 
   double Cost() const {
-    return edge_mm + kSurfaceWeight * surface_mm + kHollowWeight * hollow_mm + overlap_mm;
+    return edge_mm + kSurfaceWeight * surface_mm + HollowWeight(missing_share) * hollow_mm +
+           overlap_mm;
   }
+  /// Cost for comparison with limits. Edges that miss the hull may be of stray blobs, which no pose
+  /// explains: half of them are allowed for.
+  double CostWithoutStray() const { return Cost() - 0.5 * missing_share * kExplainedMm; }
 };
 
 /// One contact compared with the model.
@@ -92,6 +97,7 @@ class SurfaceFit {
 
   SurfaceFitOptions options_;
   const Evidence* evidence_ = nullptr;
+  double missing_share_ = 0;
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;
   std::vector<SilhouetteBorder> borders_;  ///< One per camera.

@@ -205,6 +205,41 @@ TEST_F(Fit, WhoHasAHatIsSearchedAtOnceWhenAnArmIsLostToo) {
   EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
 }
 
+TEST_F(Fit, StrayBlobsOfSilhouettesDoNotMakeARightPoseIncredible) {
+  const PoseState truth = Standing(body_, {.arm_l = kArmOut});
+  Evidence evidence = studio_.Show(body_, truth);
+  fit_.SetEvidence(evidence);
+  const SurfaceFitQuality clean = fit_.QualityAt(body_, truth);
+  EXPECT_NEAR(clean.CostWithoutStray(), clean.Cost(), 2);
+  const std::size_t rays = evidence.edges.size();
+  for (std::size_t i = 0; i < rays; ++i) {
+    BoundingEdge stray = evidence.edges[i];
+    const Vector3 away_W = 500 * stray.outward_W;
+    stray.from_W += away_W, stray.to_W += away_W, stray.misses_hull = true;
+    evidence.edges.push_back(stray);
+  }
+  EXPECT_NEAR(evidence.MissingShare(), 0.5, 0.05);
+  fit_.SetEvidence(evidence);
+  const SurfaceFitQuality disturbed = fit_.QualityAt(body_, truth);
+  EXPECT_GT(disturbed.Cost(), clean.Cost() + 15);
+  EXPECT_LT(disturbed.CostWithoutStray() - clean.CostWithoutStray(),
+            0.6 * (disturbed.Cost() - clean.Cost()));
+}
+
+TEST_F(Fit, BonesOutsideOfAHullWithHolesWeighLess) {
+  const PoseState truth = Standing(body_, {});
+  Evidence evidence = studio_.Show(body_, truth);
+  const PoseState arm_out = Standing(body_, {.arm_l = {.raise = 80}});
+  fit_.SetEvidence(evidence);
+  const SurfaceFitQuality whole = fit_.QualityAt(body_, arm_out);
+  ASSERT_GT(whole.hollow_mm, 1);
+  for (std::size_t i = 0; i < evidence.edges.size(); i += 2) evidence.edges[i].misses_hull = true;
+  fit_.SetEvidence(evidence);
+  const SurfaceFitQuality with_holes = fit_.QualityAt(body_, arm_out);
+  EXPECT_NEAR(whole.Cost() - with_holes.Cost(),
+              (with_holes.missing_share - whole.missing_share) * whole.hollow_mm, 0.01);
+}
+
 TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
   constexpr LegStance kFront{.hip = 35, .knee = 15};
   constexpr LegStance kBack{.hip = -15, .knee = 30};
