@@ -101,8 +101,9 @@ class VideoReader::Impl {
     passed_.clear();
     input_ended_ = false;
     width_px_ = height_px_ = 0;
-    first_waits_ = DecodeFirst();
-    if (!first_waits_) throw NoFrame(file_);
+    next_ = 0;
+    frame_waits_ = DecodeFirst();
+    if (!frame_waits_) throw NoFrame(file_);
     width_px_ = frame_->width;
     height_px_ = frame_->height;
     if (width_px_ > kLargestSide_px || height_px_ > kLargestSide_px) Fail(file_, "is too large");
@@ -113,18 +114,17 @@ class VideoReader::Impl {
   }
 
   VideoStatus Next() {
-    if (first_waits_) {
-      first_waits_ = false;
-      KeepTime(frame_->best_effort_timestamp);
-      return VideoStatus::kFrame;
+    const bool is_decoded = std::exchange(frame_waits_, false);
+    const VideoStatus status = is_decoded ? VideoStatus::kFrame : Decode();
+    if (status == VideoStatus::kEnd) return status;
+    const bool is_first = next_ == 0;
+    if (status == VideoStatus::kBroken) {
+      Count(AV_NOPTS_VALUE);
+      return status;
     }
-    const VideoStatus status = Decode();
-    if (status != VideoStatus::kFrame) return status;
+    Count(frame_->best_effort_timestamp);
     KeepTime(frame_->best_effort_timestamp);
-    const bool whole = frame_->width == width_px_ && frame_->height == height_px_ &&
-                       (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 &&
-                       frame_->decode_error_flags == 0;
-    return whole ? VideoStatus::kFrame : VideoStatus::kBroken;
+    return is_first || IsWhole() ? VideoStatus::kFrame : VideoStatus::kBroken;
   }
 
   void KeepInMemory() {
@@ -155,6 +155,29 @@ class VideoReader::Impl {
     return next_kept_ == kept_.size() ? VideoStatus::kEnd : kept_[next_kept_++].status;
   }
 
+  bool ReturnTo(std::size_t frame) {
+    if (!kept_.empty()) {
+      next_kept_ = std::min(frame, kept_.size());
+      return frame < kept_.size();
+    }
+    if (frame >= times_.size() || times_[frame] == AV_NOPTS_VALUE ||
+        std::ranges::count(times_, times_[frame]) != 1 ||
+        av_seek_frame(input_.get(), stream_, times_[frame], AVSEEK_FLAG_BACKWARD) < 0) {
+      return false;
+    }
+    avcodec_flush_buffers(decoder_.get());
+    passed_.clear();
+    input_ended_ = false;
+    VideoStatus status = VideoStatus::kBroken;
+    while (status == VideoStatus::kBroken ||
+           (status == VideoStatus::kFrame && frame_->best_effort_timestamp < times_[frame])) {
+      status = Decode();
+    }
+    frame_waits_ = status == VideoStatus::kFrame && frame_->best_effort_timestamp == times_[frame];
+    next_ = frame;
+    return frame_waits_;
+  }
+
   void Rewind() {
     next_kept_ = 0;
     if (kept_.empty()) Open();
@@ -175,6 +198,16 @@ class VideoReader::Impl {
     Turn(turn_, image, turned_.view());
     image = std::as_const(turned_).view();
     return status;
+  }
+
+  bool IsWhole() const {
+    return frame_->width == width_px_ && frame_->height == height_px_ &&
+           (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 && frame_->decode_error_flags == 0;
+  }
+
+  void Count(std::int64_t pts) {
+    if (next_ == times_.size()) times_.push_back(pts);
+    ++next_;
   }
 
   void KeepTime(std::int64_t pts) {
@@ -219,8 +252,9 @@ class VideoReader::Impl {
   }
 
   VideoStatus Pass() {
-    if (first_waits_ || !passes_undecoded_) return Next();
+    if (frame_waits_ || !passes_undecoded_) return Next();
     if (!FetchPacket()) return VideoStatus::kEnd;
+    Count(packet_->pts);
     KeepTime(packet_->pts);
     passed_.emplace_back(av_packet_clone(packet_.get()));
     return VideoStatus::kFrame;
@@ -284,7 +318,9 @@ class VideoReader::Impl {
   int width_px_ = 0, height_px_ = 0;
   int row_px_ = 0;
   bool input_ended_ = false;
-  bool first_waits_ = false;
+  bool frame_waits_ = false;         // The next frame is decoded already.
+  std::size_t next_ = 0;             // Number of the next frame.
+  std::vector<std::int64_t> times_;  // Of each frame so far, in the stream's units.
   bool passes_undecoded_ = false;
   std::vector<PacketPtr> passed_;  // Skipped since the last key frame: later frames may need them.
   std::vector<Bgr> pixels_;
@@ -307,6 +343,7 @@ std::optional<std::int64_t> VideoReader::time_ns() const { return impl_->time_ns
 VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(image); }
 VideoStatus VideoReader::Skip() { return impl_->Skip(); }
 void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }
+bool VideoReader::ReturnTo(std::size_t frame) { return impl_->ReturnTo(frame); }
 void VideoReader::Rewind() { impl_->Rewind(); }
 
 bool HoldsNoFrame(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 // Reads all video files that FFmpeg can decode.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -46,6 +47,10 @@ class VideoReader {
   VideoStatus Skip();
   /// Decodes the whole file. Then frames come from memory, starting with the first.
   void KeepInMemory();
+  /// Goes back to a frame that was read or skipped before, so that it is next.
+  /// @param frame  number of frames before it.
+  /// @return  false: the video's times do not tell where it is. Rewind to go on.
+  bool ReturnTo(std::size_t frame);
   /// Goes back to the start. @throws SetupError  when the file can no longer be opened.
   void Rewind();
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/errors.h"
 #include "drivers/take/video_reader.h"
 #include "drivers/take/video_writer.h"
@@ -119,6 +121,47 @@ TEST_F(Video, RewindingStartsOver) {
   EXPECT_EQ(CountAndCompare(reader, take_), kFrames);
   reader.Rewind();
   EXPECT_EQ(CountAndCompare(reader, take_), kFrames);
+}
+
+TEST_F(Video, ReturnsToAnyFrameThatWasPassed) {
+  for (const VideoCodec codec : {VideoCodec::kHuffYuv, VideoCodec::kFfv1, VideoCodec::kRaw}) {
+    {
+      VideoWriter writer(file_, take_.width_px, take_.height_px, 25, VideoPixels::kBgr, codec);
+      for (int i = 0; i < kFrames; ++i) writer.Write(SmallPicture(take_, 0, i).view());
+    }
+    VideoReader reader(file_);
+    EXPECT_FALSE(reader.ReturnTo(1)) << "not seen yet";
+    reader.Rewind();
+    while (reader.Skip() != VideoStatus::kEnd) {
+    }
+    for (int frame = kFrames - 1; frame >= 0; --frame) {
+      ASSERT_TRUE(reader.ReturnTo(static_cast<std::size_t>(frame))) << frame;
+      EXPECT_EQ(CountAndCompare(reader, take_, frame), kFrames - frame) << frame;
+    }
+  }
+}
+
+TEST_F(Video, ReturnsToFramesThatNeedOthers) {
+  testing::WriteVideoOfDependentFrames(file_, 64, 48, kFrames);
+  VideoReader reader(file_);
+  ImageView<const Bgr> image;
+  while (reader.Read(image) != VideoStatus::kEnd) {
+  }
+  for (int frame = kFrames - 1; frame >= 0; --frame) {
+    ASSERT_TRUE(reader.ReturnTo(static_cast<std::size_t>(frame))) << frame;
+    ASSERT_EQ(reader.Read(image), VideoStatus::kFrame) << frame;
+    for (int x = 0; x < 64; ++x) ASSERT_EQ(image(x, 20).g, testing::NoiseAt(frame, x, 20));
+  }
+}
+
+TEST_F(Video, ReturnsBesideADamagedFrame) {
+  testing::WriteVideoWithSpoiledFrame(file_, take_, 4);
+  VideoReader reader(file_);
+  ImageView<const Bgr> image;
+  for (int i = 0; i < 8; ++i) std::ignore = reader.Read(image);
+  ASSERT_TRUE(reader.ReturnTo(6));
+  ASSERT_EQ(reader.Read(image), VideoStatus::kFrame);
+  EXPECT_EQ(image(0, 0).g, testing::GrayOf(6));
 }
 
 TEST_F(Video, KeptInMemoryItNeedsNoFile) {

@@ -5,8 +5,9 @@
 
 namespace mocap {
 
-LiveBoard::Reader::Reader(LiveBoard& board) : board_(board) {
-  for (const LiveMessage& message : board.latest_) is_due_.push_back(message.bytes != nullptr);
+LiveBoard::Reader::Reader(LiveBoard& board, std::int64_t now_ns) : board_(board) {
+  for (const LiveMessage& message : board.latest_)
+    is_due_.push_back(message.bytes != nullptr && now_ns <= message.until_ns);
   board.readers_.push_back(this);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +15,8 @@ namespace mocap {
 struct LiveMessage {
   bool is_text = false;  ///< JSON; otherwise binary.
   std::shared_ptr<const std::string> bytes;
+  /// Until then, by the steady clock, it tells of the present: who comes later does not get it.
+  std::int64_t until_ns = std::numeric_limits<std::int64_t>::max();
 };
 
 /// Keeps one message per slot; a new one replaces the old. A slow reader gets the newest of each
@@ -22,8 +26,9 @@ class LiveBoard {
   /// A page, with the slots that it still has to get.
   class Reader {
    public:
+    /// Starts with what is on the board, unless it is out of date at `now_ns`.
     /// @param board  must outlive the reader.
-    explicit Reader(LiveBoard& board);
+    Reader(LiveBoard& board, std::int64_t now_ns);
     ~Reader();
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;

@@ -27,6 +27,10 @@ namespace mocap {
 namespace {
 
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
+/// A page that opens later would show an older pose as the present one.
+constexpr std::int64_t kPoseHoldsNs = 250'000'000;
+/// Of messages that come once or a few times per second.
+constexpr std::int64_t kStatusHoldsNs = 2'500'000'000;
 /// Pictures lag behind poses by at most this many poses.
 constexpr std::size_t kPosesKept = 300;
 /// A pose farther from a picture in time does not belong to it.
@@ -38,6 +42,12 @@ LiveMessage Text(std::string json) {
 }
 LiveMessage Binary(std::string bytes) {
   return {false, std::make_shared<const std::string>(std::move(bytes))};
+}
+
+/// Adds how long a message tells of the present.
+LiveMessage For(std::int64_t duration_ns, LiveMessage message) {
+  message.until_ns = SteadyNs() + duration_ns;
+  return message;
 }
 
 template <typename Message>
@@ -137,7 +147,7 @@ void LiveFeed::PutPoses(std::vector<DrawnPose> poses) {
     bytes += PoseBytes(pose);
     pose.capsules.clear();
   }
-  put_(kPoses, Binary(std::move(bytes)));
+  put_(kPoses, For(kPoseHoldsNs, Binary(std::move(bytes))));
   const std::int64_t utime = poses.front().row.timestamp_ns / 1000;
   poses_.push_back(std::move(poses));
   if (poses_.size() > kPosesKept) poses_.pop_front();
@@ -159,21 +169,21 @@ void LiveFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&
 void LiveFeed::OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<voxels_t> voxels = Decoded<voxels_t>(*buffer);
   std::string bytes = voxels ? VoxelBytes(*voxels, 0) : std::string();
-  if (!bytes.empty()) put_(kVoxels, Binary(std::move(bytes)));
+  if (!bytes.empty()) put_(kVoxels, For(kPoseHoldsNs, Binary(std::move(bytes))));
 }
 
 void LiveFeed::OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<status_t> status = Decoded<status_t>(*buffer);
   if (!status) return;
   heard_ns_ = SteadyNs();
-  put_(kStatus, Text(StatusJson(*status, service_)));
+  put_(kStatus, For(kStatusHoldsNs, Text(StatusJson(*status, service_))));
 }
 
 void LiveFeed::OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<service_t> service = Decoded<service_t>(*buffer);
   if (!service) return;
   service_ = std::move(service);
-  put_(kService, Text(ServiceJson(*service_)));
+  put_(kService, For(kStatusHoldsNs, Text(ServiceJson(*service_))));
 }
 
 void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
@@ -285,7 +295,7 @@ void LiveFeed::PutPicture(std::size_t camera, const preview_t& preview) {
   if (const std::vector<DrawnPose>* poses = PosesAt(preview.utime)) {
     picture.bodies = OutlinesOf(*poses, camera);
   }
-  put_(kPictures + camera, Binary(PictureBytes(picture)));
+  put_(kPictures + camera, For(kStatusHoldsNs, Binary(PictureBytes(picture))));
 }
 
 }  // namespace mocap

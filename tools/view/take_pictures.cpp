@@ -87,8 +87,9 @@ std::vector<TakePicture> TakePictures::At(std::int64_t time_ns) {
 bool TakePictures::Seek(Camera& camera, std::size_t row) const {
   if (row + 1 == camera.next) return camera.is_whole;
   if (row < camera.next) {
-    camera.video.Rewind();
-    camera.next = 0;
+    const bool is_back = camera.video.ReturnTo(row);
+    if (!is_back) camera.video.Rewind();
+    camera.next = is_back ? row : 0;
   }
   for (; camera.next < row; ++camera.next) {
     if (camera.video.Skip() == VideoStatus::kEnd) break;

@@ -25,8 +25,8 @@ struct TakePicture {
   std::optional<Silhouette> silhouette;  ///< Once the background has been learned.
 };
 
-/// Reads any moment of a take, in any order; forward is faster than backward. Learns the background
-/// meanwhile, in separate threads. Single-threaded.
+/// Reads any moment of a take, in any order. Learns the background meanwhile, in separate threads.
+/// Single-threaded.
 class TakePictures {
  public:
   /// @throws SetupError  as OpenTake.

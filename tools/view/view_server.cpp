@@ -11,15 +11,21 @@
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <exception>
+#include <limits>
 #include <list>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "core/errors.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 #include "tools/view/access.h"
+#include "tools/view/http_replies.h"
 #include "tools/view/refusals.h"
 #include "tools/view/request_target.h"
 
@@ -32,19 +38,19 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
-using Request = http::request<http::string_body>;
-using Response = http::response<http::string_body>;
+using Request = HttpRequest;
+using Response = HttpResponse;
 using Stream = websocket::stream<beast::tcp_stream>;
 template <typename T>
 using Task = asio::awaitable<T>;
 
-/// Limit of connections; a browser holds about six. Beyond it, the connection that has waited
-/// longest for its request is closed.
+/// Limit of connections; a browser holds about six. Beyond it, the one that has waited longest for
+/// a request is closed, or else the new one.
 constexpr std::size_t kMostConnections = 128;
 constexpr std::size_t kMostPages = 64;
 /// Silent clients are disconnected after this time.
 constexpr std::chrono::seconds kPatience{10};
-/// A page that vanished is detected by missing pongs.
+/// A page that vanished is detected by missing pongs, or because it takes nothing.
 constexpr std::chrono::seconds kPagePatience{20};
 constexpr std::uint32_t kMostHeaderBytes = 8192;
 constexpr std::uint64_t kMostBodyBytes = 4096;
@@ -55,42 +61,7 @@ constexpr std::size_t kAnswerThreads = 3;
 constexpr int kWaitingConnections = 128;
 constexpr std::chrono::milliseconds kTellPeriod{500};
 
-/// Only content from this address may run in the page, or be reached by it.
-constexpr const char* kContentPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
-
-Response Respond(const Request& request, int status, const std::string& type, std::string body) {
-  Response response(static_cast<http::status>(status), request.version());
-  response.set("Content-Security-Policy", kContentPolicy);
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set("Cross-Origin-Opener-Policy", "same-origin");
-  response.set(http::field::cache_control, "no-store");
-  if (!type.empty()) response.set(http::field::content_type, type);
-  response.keep_alive(request.keep_alive());
-  response.body() = std::move(body);
-  response.prepare_payload();
-  return response;
-}
-
-Response Refuse(const Request& request, int status, const std::string& why) {
-  return Respond(request, status, "text/plain; charset=utf-8", why + "\n");
-}
-
-/// Whether the received data is an invalid request, rather than none.
-bool IsMalformed(ErrorCode error) {
-  return error.category() == http::make_error_code(http::error::end_of_stream).category() &&
-         error != http::error::end_of_stream;
-}
-
-int StatusOf(ErrorCode malformed) {
-  if (malformed == http::error::header_limit) return 431;
-  return malformed == http::error::body_limit ? 413 : 400;
-}
 
 tcp::acceptor OpenPort(asio::io_context& io, std::uint16_t port) {
   if (sd_listen_fds(0) >= 1) return tcp::acceptor(io, tcp::v4(), SD_LISTEN_FDS_START);
@@ -116,7 +87,7 @@ class ViewServer::Impl {
   void Run() {
     asio::signal_set signals(io_, SIGINT, SIGTERM);
     signals.async_wait([this](ErrorCode, int) { io_.stop(); });
-    asio::co_spawn(io_, Accept(), asio::detached);
+    asio::co_spawn(io_, Accept(), EndOnFailure);
     Every(kTellPeriod, [this] {
       const std::string line = refusals_.Line(SteadyNs());
       if (!line.empty()) std::fprintf(stderr, "mocap view: %s\n", Printable(line).c_str());
@@ -128,11 +99,11 @@ class ViewServer::Impl {
   void Stop() { io_.stop(); }
 
   void Every(std::chrono::milliseconds period, std::function<void()> call) {
-    asio::co_spawn(io_, Repeat(period, std::move(call)), asio::detached);
+    asio::co_spawn(io_, Repeat(period, std::move(call)), EndOnFailure);
   }
 
   void OnReadable(int descriptor, std::function<void()> call) {
-    asio::co_spawn(io_, Read(dup(descriptor), std::move(call)), asio::detached);
+    asio::co_spawn(io_, Read(dup(descriptor), std::move(call)), EndOnFailure);
   }
 
   void Aside(std::function<void()> work, std::function<void()> then) {
@@ -150,13 +121,19 @@ class ViewServer::Impl {
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
-  /// A connection whose request is pending.
   struct Connection {
     explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
     beast::tcp_stream stream;
     beast::flat_buffer buffer;  ///< Received part of a request.
+    /// Since when it has waited for a request, by the steady clock; empty: it is being answered.
+    std::optional<std::int64_t> waits_since_ns = SteadyNs();
   };
   using Place = std::list<std::shared_ptr<Connection>>::iterator;
+
+  /// Without its callbacks the server would be useless: the exception leaves Run.
+  static void EndOnFailure(const std::exception_ptr& failure) {
+    if (failure) std::rethrow_exception(failure);
+  }
 
   static Task<void> Repeat(std::chrono::milliseconds period, std::function<void()> call) {
     asio::steady_timer timer(co_await asio::this_coro::executor);
@@ -183,23 +160,32 @@ class ViewServer::Impl {
       if (error) {
         // No descriptors left: pending connections make room.
         refusals_.Add(error.message());
-        MakeRoom();
+        std::ignore = MakesRoom();
         asio::steady_timer pause(io_, kTellPeriod);
         co_await pause.async_wait(asio::use_awaitable);
         continue;
       }
-      if (connections_.size() >= kMostConnections) MakeRoom();
+      if (connections_.size() >= kMostConnections && !MakesRoom()) continue;
       const auto place =
           connections_.insert(connections_.end(), std::make_shared<Connection>(std::move(socket)));
       asio::co_spawn(io_, Attend(place), asio::detached);
     }
   }
 
-  void MakeRoom() {
-    if (connections_.empty()) return;
-    refusals_.Add("a connection that waited longest, of too many");
+  /// Closes the connection that has waited longest for a request; false: all are being answered.
+  bool MakesRoom() {
+    const auto waits_since = [](const std::shared_ptr<Connection>& connection) {
+      return connection->waits_since_ns.value_or(std::numeric_limits<std::int64_t>::max());
+    };
+    const auto longest = std::ranges::min_element(connections_, {}, waits_since);
+    const bool is_found = longest != connections_.end() && (*longest)->waits_since_ns;
+    refusals_.Add(is_found ? "a connection that waited longest, of too many"
+                           : "a connection beyond the limit");
+    if (!is_found) return false;
+    (*longest)->waits_since_ns.reset();
     ErrorCode ignored;
-    connections_.front()->stream.socket().close(ignored);
+    (*longest)->stream.socket().close(ignored);
+    return true;
   }
 
   Task<void> Attend(Place place) {
@@ -236,9 +222,11 @@ class ViewServer::Impl {
       parser.header_limit(kMostHeaderBytes);
       parser.body_limit(kMostBodyBytes);
       connection.stream.expires_after(kPatience);
+      connection.waits_since_ns = SteadyNs();
       ErrorCode error;
       co_await http::async_read(connection.stream, connection.buffer, parser,
                                 asio::redirect_error(asio::use_awaitable, error));
+      connection.waits_since_ns.reset();
       if (error) {
         co_await EndWithoutRequest(connection, error);
         co_return std::nullopt;
@@ -250,10 +238,17 @@ class ViewServer::Impl {
         refusals_.Add("a request that is not the page's own");
         response = std::move(*refusal);
       } else if (websocket::is_upgrade(request)) {
-        if (options_.is_live && request.target() == "/live" && live_pages() < kMostPages) {
+        // Whoever sends more before the answer is no browser.
+        const bool is_sound = connection.buffer.size() == 0;
+        if (is_sound && options_.is_live && request.target() == "/live" &&
+            live_pages() < kMostPages) {
           co_return request;
         }
-        response = Refuse(request, 404, "no WebSocket is served here, or too many are");
+        if (!is_sound) refusals_.Add("a WebSocket: data before it was accepted");
+        response = Refuse(request, is_sound ? 404 : 400,
+                          is_sound ? "no WebSocket is served here, or too many are"
+                                   : "data is wanted after the WebSocket was accepted");
+        response.keep_alive(is_sound);
       } else {
         response = co_await Answer(request);
       }
@@ -320,9 +315,9 @@ class ViewServer::Impl {
     asio::co_spawn(io_, Hear(page, wake), asio::detached);
     waiting_.insert(wake.get());
     try {
-      co_await Tell(*page, *wake);
+      co_await Tell(page, *wake);
     } catch (const boost::system::system_error& error) {
-      if (error.code() == beast::error::timeout) refusals_.Add("a page that took nothing");
+      if (error.code() == beast::error::timeout) refusals_.Add("a page that vanished");
     }
     waiting_.erase(wake.get());
     beast::get_lowest_layer(*page).socket().close(ignored);
@@ -345,12 +340,22 @@ class ViewServer::Impl {
     wake->cancel();
   }
 
-  Task<void> Tell(Stream& page, asio::steady_timer& wake) {
-    LiveBoard::Reader reader(board_);
-    while (beast::get_lowest_layer(page).socket().is_open()) {
+  /// Pongs alone do not prove that a page reads: each message has to be taken in time.
+  Task<void> Tell(std::shared_ptr<Stream> page, asio::steady_timer& wake) {
+    LiveBoard::Reader reader(board_, SteadyNs());
+    asio::steady_timer patience(io_);
+    while (beast::get_lowest_layer(*page).socket().is_open()) {
       if (const std::optional<LiveMessage> message = reader.Next()) {
-        page.text(message->is_text);
-        co_await page.async_write(asio::buffer(*message->bytes), asio::use_awaitable);
+        patience.expires_after(kPagePatience);
+        patience.async_wait([this, page](ErrorCode stopped) {
+          if (stopped) return;
+          refusals_.Add("a page that took nothing");
+          ErrorCode ignored;
+          beast::get_lowest_layer(*page).socket().close(ignored);
+        });
+        page->text(message->is_text);
+        co_await page->async_write(asio::buffer(*message->bytes), asio::use_awaitable);
+        patience.cancel();
         continue;
       }
       ErrorCode woken;

@@ -16,6 +16,7 @@
 namespace mocap {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -88,6 +89,9 @@ TEST_F(ViewServerTest, PassesRequestsOn) {
   EXPECT_THAT(Ask("GET /nothing"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(Ask("GET /../../etc/passwd"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(Ask("DELETE /"), StartsWith("HTTP/1.1 405"));
+  const std::string head = Ask("HEAD /");
+  EXPECT_THAT(head, StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(head, EndsWith("\r\n\r\n"));
 }
 
 TEST_F(ViewServerTest, AnAnswerThatFailsIsTold) {
@@ -135,6 +139,24 @@ TEST_F(ViewServerTest, ConnectionsThatSayNothingKeepNobodyOut) {
     if (i % 2 == 0) Say(silent.back(), "GET / HT");
   }
   EXPECT_THAT(Ask("GET /"), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(ViewServerTest, WhoSaidNothingForLongestMakesRoom) {
+  const FileDescriptor asks = Connect();
+  const std::string request = std::string("GET / HTTP/1.1\r\n") + kOwnHost + "\r\n";
+  std::vector<FileDescriptor> silent;
+  for (int i = 0; i < 300; ++i) {
+    silent.push_back(Connect());
+    if (i % 50 != 0) continue;
+    Say(asks, request);
+    ASSERT_THAT(Hear(asks, "page"), StartsWith("HTTP/1.1 200")) << i;
+  }
+}
+
+TEST_F(ViewServerTest, DataBeforeAWebSocketIsAcceptedIsRefused) {
+  const FileDescriptor page = Connect();
+  Say(page, std::string(kUpgrade) + "\r\n" + std::string("\x85\x80\0\0\0\0", 6));
+  EXPECT_THAT(Hear(page, ""), StartsWith("HTTP/1.1 400"));
 }
 
 TEST_F(ViewServerTest, AFrameThatIsNoneEndsThatPageAlone) {

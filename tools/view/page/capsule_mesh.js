@@ -141,6 +141,14 @@ export class CapsuleMesh extends THREE.Mesh {
     tint.array.set([red, green, blue, alpha], at);
   }
 
+  /** @return where the last capsules begin, as they are drawn: x, y, z of each [mm]. */
+  lastStarts(count) {
+    const {array} = this.geometry.attributes.a;
+    const first = this.count - count;
+    return Float32Array.from(
+        {length: 3 * count}, (_, i) => array[4 * (first + Math.floor(i / 3)) + i % 3]);
+  }
+
   /** Shows what was added since clear(). */
   commit() {
     this.geometry.maxInstancedCount = this.count;

@@ -75,6 +75,13 @@ export class Figure extends THREE.Group {
     this.shadow.visible = this.castsShadow && source.visible;
   }
 
+  /** @return the pose with its points as they are drawn; null: nobody is. */
+  drawnPose() {
+    if (!this.shown) return null;
+    const {timeMs, frame, points} = this.shown;
+    return {timeMs, frame, points: this.sticks.lastStarts(points.length / 3)};
+  }
+
   showBody({capsules}, opacity) {
     this.body.clear();
     if (capsules.length / 8 > this.body.capacity) this.body.reserve(capsules.length / 8);

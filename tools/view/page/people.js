@@ -92,7 +92,6 @@ export class People {
     if (pose && !pose.hasPose && pose.state === 'lost') pose = history.lastBody(showMs);
     let ageMs = pose ? this.ageMs(pose.timeMs, nowMs) : Infinity;
     if (!pose?.hasPose || ageMs > HIDE_BODY_MS) [pose, ageMs] = [null, null];
-    this.shown = this.shown ?? pose;
     const figure = this.figure(person);
     if (figure) {
       const {id} = history.newest;
@@ -100,6 +99,7 @@ export class People {
       figure.show(pose, {faded: ageMs > OLD_MS});
       figure.showTrails(pose?.timeMs ?? 0, (t) => history.at(t));
     }
+    this.shown ??= figure ? figure.drawnPose() : pose;
     return ageMs;
   }
 

@@ -164,8 +164,8 @@ export class Replay {
       isLoading ||= pose === null;
       this.drawTrack(track, pose, timeMs);
     });
-    const first = this.tracks[0] && this.poseAt(this.tracks[0], timeMs);
-    this.shown = first?.hasPose ? first : null;
+    const [first] = this.tracks;
+    this.shown = first?.figure ? first.figure.drawnPose() : first && this.poseAt(first, timeMs);
     byId('old').hidden = !isLoading;
     if (isLoading) setText(byId('old'), 'poses are being loaded');
     this.hull?.showVoxels(this.head.timesMs[frame], () => null);
