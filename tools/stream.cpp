@@ -52,7 +52,17 @@ class Notice {
   std::string told_;
 };
 
+std::string NothingHeard(const StreamOptions& options) {
+  const PoseFeedOptions& feed = options.feed;
+  const std::string channel =
+      feed.prefix + (feed.everybody || feed.person ? "MOCAP_PEOPLE" : "MOCAP_POSE");
+  const std::string of_whom = feed.person ? " of person " + std::to_string(*feed.person) : "";
+  return options.url + ": has no pose" + of_whom + " on " + channel +
+         "; a log of mocapd, its --prefix and a person in it are wanted";
+}
+
 /// Streams poses until a signal comes, a log ends, or no reader is left.
+/// @throws SetupError  when a log has ended without any.
 void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
   StopOnSignals();
   MessageSource source(options.url);
@@ -63,6 +73,8 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
     const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
     silence.Tell(is_silent ? SilenceText(options.url) : "");
   }
+  const bool has_ended = !StopAsked() && !is_over;
+  if (has_ended && !feed.has_heard()) throw SetupError(NothingHeard(options));
 }
 
 /// Writes to standard output at once, even if the reader is slow.

@@ -52,14 +52,17 @@ PoseFeed::PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take)
 
 void PoseFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
-  if (pose && IsDue()) HandOn(*pose, 0, "");
+  if (!pose) return;
+  has_heard_ = true;
+  if (IsDue(pose->utime)) HandOn(*pose, 0, "");
 }
 
 void PoseFeed::OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<people_t> set = Decoded<people_t>(*buffer);
   if (!set) return;
   std::erase_if(bodies_, [&](const auto& body) { return !IsIn(*set, body.first); });
-  if (!IsDue()) return;
+  has_heard_ = has_heard_ || !options_.person || IsIn(*set, *options_.person);
+  if (!IsDue(set->utime)) return;
   for (const person_t& person : set->people) {
     if (options_.person.value_or(person.id) != person.id) continue;
     HandOn(PoseOf(*set, person), person.id, person.name);
@@ -80,9 +83,10 @@ void PoseFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&
   if (has_room) bodies_[message->id] = std::move(message->body);
 }
 
-bool PoseFeed::IsDue() {
+bool PoseFeed::IsDue(std::int64_t utime) {
   heard_ns_ = SteadyNs();
-  return rate_.Passes(heard_ns_);
+  const std::optional<std::int64_t> capture_ns = CaptureNsOf(utime);
+  return capture_ns && rate_.Passes(*capture_ns);
 }
 
 void PoseFeed::HandOn(const pose_t& pose, int person, const std::string& name) {

@@ -21,7 +21,8 @@ struct PoseFeedOptions {
   std::string prefix = {};         ///< Of the channels' names.
   bool everybody = false;          ///< Of several people, all.
   std::optional<int> person = {};  ///< This one; otherwise the person tracked longest.
-  double most_hz = std::numeric_limits<double>::infinity();  ///< Maximum number of sets per second.
+  /// Maximum number of sets per second of their own time: a log may be played at any speed.
+  double most_hz = std::numeric_limits<double>::infinity();
 };
 
 /// A pose to stream. Valid during the call only.
@@ -44,19 +45,22 @@ class PoseFeed {
 
   /// When the last set came, or the feed was made, by the steady clock.
   std::int64_t heard_ns() const { return heard_ns_; }
+  /// Whether any pose of the wanted people came.
+  bool has_heard() const { return has_heard_; }
 
  private:
   void OnPose(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  bool IsDue();
+  bool IsDue(std::int64_t utime);
   void HandOn(const pose_t& pose, int person, const std::string& name);
 
   const PoseFeedOptions options_;
   const Take take_;
   RateLimit rate_;
   std::int64_t heard_ns_;
+  bool has_heard_ = false;
   std::map<int, body_t> bodies_;  ///< By person; 0: from MOCAP_BODY.
 };
 

@@ -12,8 +12,8 @@ class RateLimit {
   /// @param hz  infinity: no limit.
   explicit RateLimit(double hz) : hz_(hz) {}
 
-  /// Whether the current item passes. @param now_ns  by the steady clock.
-  bool Passes(std::int64_t now_ns);
+  /// Whether an item passes. @param time_ns  its time, by any one clock.
+  bool Passes(std::int64_t time_ns);
 
  private:
   static constexpr double kMostSaved = 2;

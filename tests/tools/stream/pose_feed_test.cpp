@@ -109,6 +109,17 @@ TEST_F(PoseFeedTest, ATrackedPoseIsPassedOverUntilItsBodyIsHeard) {
   EXPECT_EQ(lines_.size(), 1u);
 }
 
+TEST_F(PoseFeedTest, ARateIsOfTheTimesOfCapture) {
+  PoseFeedOptions options;
+  options.most_hz = 10;
+  Listen(options);
+  Publish("MOCAP_BODY", BodyMessage(body_));
+  pose_t pose = Pose(1);
+  for (int i = 0; i < 100; ++i, pose.utime += 20'000) Publish("MOCAP_POSE", pose);
+  // Two seconds, and what the limit saves at the start.
+  EXPECT_NEAR(lines_.size(), 20, 2);
+}
+
 TEST_F(PoseFeedTest, WhatIsNoNumberIsPassedOver) {
   Listen({});
   Publish("MOCAP_BODY", BodyMessage(body_));

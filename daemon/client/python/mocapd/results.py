@@ -79,9 +79,11 @@ class Result:
 def read_result(folder: Path) -> Result:
     """Reads a folder of `mocap track`, or RESULT/person-K of several people.
 
-    @raises OSError  where it is none. @raises ValueError  naming file and line of what is damaged.
+    @raises OSError  where it is none. @raises ValueError  naming file and line of what is damaged, or for several people.
     """
     poses = pathlib.Path(folder) / "poses.csv"
+    if not poses.exists() and (pathlib.Path(folder) / "person-1").is_dir():
+        raise ValueError(f"{folder}: holds several people; read_people(), or one of its folders person-K, is wanted")
     body = tomllib.loads((pathlib.Path(folder) / "body.toml").read_text(encoding="utf-8"))
     rows = _Rows()
     with open(poses, newline="", encoding="utf-8") as table:
