@@ -27,6 +27,7 @@ class SeenFetcher {
     this.loaded = '';
     this.isBusy = false;
     this.failedMs = -Infinity;
+    this.hasFailed = false;  // the last time
   }
 
   async want(frame, result) {
@@ -38,9 +39,11 @@ class SeenFetcher {
     try {
       const buffer = await fetchBytes(`/pictures.bin?${query}`);
       this.loaded = query;
+      this.hasFailed = false;
       this.onSeen(decodeAll(buffer, decodeSeen));
     } catch {
       this.failedMs = performance.now();
+      this.hasFailed = true;
     }
     this.isBusy = false;
   }
@@ -57,7 +60,7 @@ export class Replay {
   }
 
   async start() {
-    const take = await (await fetch('/take.json')).json();
+    const take = JSON.parse(new TextDecoder().decode(await fetchBytes('/take.json')));
     this.take = take;
     this.head = new PlayHead(take.times_ms);
     this.tools.setCameras(take.studio.cameras);
@@ -166,8 +169,10 @@ export class Replay {
     });
     const [first] = this.tracks;
     this.shown = first?.figure ? first.figure.drawnPose() : first && this.poseAt(first, timeMs);
-    byId('old').hidden = !isLoading;
-    if (isLoading) setText(byId('old'), 'poses are being loaded');
+    byId('old').hidden = !isLoading && !this.fetcher.hasFailed;
+    setText(
+        byId('old'), this.fetcher.hasFailed ? 'mocap view does not answer; start it again' :
+                                              'poses are being loaded');
     this.hull?.showVoxels(this.head.timesMs[frame], () => null);
     this.fetcher.want(frame, this.over);
     this.timeline.draw();
