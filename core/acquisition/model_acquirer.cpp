@@ -22,14 +22,14 @@ constexpr int kSizeIterations = 3;
 constexpr double kClearlyBetter = 1.12;  // of two facings
 constexpr int kFramesToDecide = 6;
 
+bool LiesInFlesh(const Tracker& tracker) { return tracker.quality().hollow_mm < kMostHollowMm; }
+
 double CostOf(const Tracker& tracker) {
-  return tracker.quality().hollow_mm < kMostHollowMm ? tracker.quality().Cost()
-                                                     : std::numeric_limits<double>::infinity();
+  return LiesInFlesh(tracker) ? tracker.quality().Cost() : std::numeric_limits<double>::infinity();
 }
 
 bool IsCredible(const Tracker& tracker) {
-  return tracker.quality().hollow_mm < kMostHollowMm &&
-         tracker.quality().CostWithoutStray() <= kWorstCostMm;
+  return LiesInFlesh(tracker) && tracker.quality().CostWithoutStray() <= kWorstCostMm;
 }
 
 bool FaceApart(const PoseState& a, const PoseState& b) {

@@ -47,8 +47,9 @@ struct SurfaceFitQuality {
     return edge_mm + kSurfaceWeight * surface_mm + HollowWeight(missing_share) * hollow_mm +
            overlap_mm;
   }
-  /// Cost for comparison with limits. Edges that miss the hull may be of stray blobs, which no pose
-  /// explains: half of them are allowed for.
+  /// Cost for the decision whether somebody is there at all. Edges that miss the hull may be of
+  /// stray blobs, which no pose explains: half of them are allowed for. Costs of poses are compared
+  /// without this.
   double CostWithoutStray() const { return Cost() - 0.5 * missing_share * kExplainedMm; }
 };
 

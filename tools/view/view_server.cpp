@@ -160,20 +160,21 @@ class ViewServer::Impl {
       if (error) {
         // No descriptors left: pending connections make room.
         refusals_.Add(error.message());
-        std::ignore = MakesRoom();
+        std::ignore = MakeRoom();
         asio::steady_timer pause(io_, kTellPeriod);
         co_await pause.async_wait(asio::use_awaitable);
         continue;
       }
-      if (connections_.size() >= kMostConnections && !MakesRoom()) continue;
+      if (connections_.size() >= kMostConnections && !MakeRoom()) continue;
       const auto place =
           connections_.insert(connections_.end(), std::make_shared<Connection>(std::move(socket)));
       asio::co_spawn(io_, Attend(place), asio::detached);
     }
   }
 
-  /// Closes the connection that has waited longest for a request; false: all are being answered.
-  bool MakesRoom() {
+  /// Closes the connection that has waited longest for a request.
+  /// @return  false: all are being answered.
+  bool MakeRoom() {
     const auto waits_since = [](const std::shared_ptr<Connection>& connection) {
       return connection->waits_since_ns.value_or(std::numeric_limits<std::int64_t>::max());
     };
