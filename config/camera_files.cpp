@@ -56,12 +56,13 @@ void RequirePicturesOnly(const std::filesystem::path& folder) {
     const std::filesystem::path extension = entry->path().extension();
     const bool is_picture = extension == ".mkv" || extension == ".csv";
     if (is_picture && entry->is_regular_file(error)) continue;
-    throw SetupError(folder.string() + ": holds " + Quoted(entry->path().filename().string()) +
-                     ", which is no picture of the empty studio; a folder of its own is wanted");
+    throw SetupError(
+        folder.string() + ": contains " + Quoted(entry->path().filename().string()) +
+        ", which is not a picture of the empty studio; expected a folder only for these pictures");
   }
   if (error) {
     throw SetupError(folder.string() + ": cannot be read: " + error.message() +
-                     "; a folder that may be read is wanted");
+                     "; expected a folder that may be read");
   }
 }
 
@@ -117,8 +118,8 @@ std::filesystem::path BeginBackground(const std::filesystem::path& folder) {
   std::filesystem::remove_all(partial, error);
   if (!error) std::filesystem::create_directories(partial, error);
   if (!error) return partial;
-  throw SetupError(partial.string() + ": cannot be made: " + error.message() +
-                   "; for the service, background = \"/var/lib/mocapd/background\" is a place");
+  throw SetupError(partial.string() + ": cannot be created: " + error.message() +
+                   "; for the service, set background = \"/var/lib/mocapd/background\"");
 }
 
 void ReplaceBackground(const std::filesystem::path& folder, const std::filesystem::path& with) {
@@ -127,7 +128,7 @@ void ReplaceBackground(const std::filesystem::path& folder, const std::filesyste
   const unsigned how = IsThere(target) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
   if (renameat2(AT_FDCWD, with.c_str(), AT_FDCWD, target.c_str(), how) != 0) {
     throw std::runtime_error(target.string() + ": cannot be replaced: " + std::strerror(errno) +
-                             "; a folder that may be renamed is wanted");
+                             "; expected a folder that may be renamed");
   }
   std::error_code error;
   if (how == RENAME_EXCHANGE) std::filesystem::remove_all(with, error);

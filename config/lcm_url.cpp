@@ -18,7 +18,7 @@ constexpr std::string_view kDefaultGroup = "239.255.76.67";
 constexpr std::string_view kDefaultServer = "127.0.0.1";
 constexpr std::uint16_t kDefaultMulticastPort = 7667;
 constexpr std::uint16_t kDefaultServerPort = 7700;
-constexpr const char* kWanted = "; one like udpm://239.255.76.67:7667?ttl=0 is wanted";
+constexpr const char* kWanted = "; expected one like udpm://239.255.76.67:7667?ttl=0";
 
 [[noreturn]] void Fail(const std::string& url, const std::string& what) {
   throw SetupError("\"" + url + "\" " + what);
@@ -55,14 +55,13 @@ void CheckMulticastOption(const std::string& url, const Option& option, bool has
   const auto require = [&](int min, int max) {
     if (Number(option.value, min, max)) return;
     Fail(url, "has " + std::string(option.key) + "=" + std::string(option.value) +
-                  "; a number of " + std::to_string(min) + " to " + std::to_string(max) +
-                  " is wanted");
+                  "; expected a number of " + std::to_string(min) + " to " + std::to_string(max));
   };
   if (option.key == "ttl") return require(0, kMostHops);
   if (option.key == "recv_buf_size") return require(1, kMostBytes);
   if (has_ports && option.key == "nports") return require(1, kMostPorts);
   Fail(url,
-       "has the unknown option " + std::string(option.key) + "; ttl or recv_buf_size is wanted");
+       "has the unknown option " + std::string(option.key) + "; expected ttl or recv_buf_size");
 }
 
 /// Parses "HOST:PORT". Missing parts keep LCM's defaults.
@@ -90,7 +89,7 @@ LcmUrl Multicast(const std::string& url, std::string_view place, const std::vect
   in_addr group{};
   if (inet_pton(AF_INET, address.host.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
     Fail(url, "names " + address.host +
-                  ", which is no multicast address; 224.0.0.0 to 239.255.255.255 is wanted");
+                  ", which is not a multicast address; expected 224.0.0.0 to 239.255.255.255");
   }
   for (const Option& option : options) CheckMulticastOption(url, option, has_ports);
   return address;
@@ -102,36 +101,36 @@ double Speed(const std::string& url, std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (is_number && (speed == 0 || (speed >= kSlowest && speed <= kFastest))) return speed;
-  Fail(url, "has speed=" + std::string(text) + "; 0 or a number from 0.001 to 1000000 is wanted");
+  Fail(url, "has speed=" + std::string(text) + "; expected 0 or a number from 0.001 to 1000000");
 }
 
 LcmUrl File(const std::string& url, std::string_view place, const std::vector<Option>& options) {
   LcmUrl address{.provider = LcmProvider::kFile, .host = {}, .file = std::string(place)};
-  if (address.file.empty()) Fail(url, "names no file");
+  if (address.file.empty()) Fail(url, "has no file name");
   for (const Option& option : options) {
     if (option.key == "mode") {
       if (option.value != "r" && option.value != "w" && option.value != "a") {
-        Fail(url, "has mode=" + std::string(option.value) + "; w, a or r is wanted");
+        Fail(url, "has mode=" + std::string(option.value) + "; expected w, a or r");
       }
       address.is_written = option.value != "r";
     } else if (option.key == "speed") {
       address.speed = Speed(url, option.value);
     } else {
-      Fail(url, "has the unknown option " + std::string(option.key) + "; mode or speed is wanted");
+      Fail(url, "has the unknown option " + std::string(option.key) + "; expected mode or speed");
     }
   }
   return address;
 }
 
 void RequireNoOptions(const std::string& url, const std::vector<Option>& options) {
-  if (!options.empty()) Fail(url, "has options, and none is known for it");
+  if (!options.empty()) Fail(url, "has options, but this kind of address takes none");
 }
 
 }  // namespace
 
 LcmUrl ParseLcmUrl(const std::string& url) {
   const std::size_t scheme_end = url.find("://");
-  if (scheme_end == std::string::npos) Fail(url, "is no LCM address" + std::string(kWanted));
+  if (scheme_end == std::string::npos) Fail(url, "is not an LCM address" + std::string(kWanted));
   const std::string scheme = url.substr(0, scheme_end);
   std::string_view rest(url);
   rest.remove_prefix(scheme_end + 3);
@@ -152,7 +151,7 @@ LcmUrl ParseLcmUrl(const std::string& url) {
     RequireNoOptions(url, options);
     return address;
   }
-  if (scheme != "memq") Fail(url, "begins with " + scheme + ", which LCM has not" + kWanted);
+  if (scheme != "memq") Fail(url, "begins with " + scheme + ", which LCM does not have" + kWanted);
   RequireNoOptions(url, options);
   LcmUrl address;
   address.provider = LcmProvider::kMemory;

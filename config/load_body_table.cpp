@@ -24,15 +24,14 @@ int FindJoint(TomlSection& section, const std::string& key, const std::vector<Jo
   const auto joint = std::find_if(joints.begin(), joints.end(),
                                   [&name](const JointAxis& j) { return j.name == name; });
   if (joint == joints.end()) {
-    section.Fail(key,
-                 "is " + Quoted(name) + "; a joint further up or \"\" for the torso is wanted");
+    section.Fail(key, "is " + Quoted(name) + "; expected a joint further up or \"\" for the torso");
   }
   return static_cast<int>(joint - joints.begin());
 }
 
 Vector3 ReadDirection(TomlSection& section, const std::string& key) {
   const Vector3 axis = section.Vector(key);
-  if (!(axis.norm() > 1e-6)) section.Fail(key, "has no direction; a vector is wanted");
+  if (!(axis.norm() > 1e-6)) section.Fail(key, "has no direction; expected a vector");
   return axis.normalized();
 }
 
@@ -47,18 +46,18 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   joint.at = static_cast<Point>(section.Choice("at", places));
   const std::vector<double> limits_deg = section.Numbers("limits_deg", 2);
   if (!(limits_deg[0] < limits_deg[1] && limits_deg[0] >= -360 && limits_deg[1] <= 360)) {
-    section.Fail("limits_deg", "is no range; [least, most] within 360 degrees is wanted");
+    section.Fail("limits_deg", "is not a range; expected [least, most] within 360 degrees");
   }
   joint.min_rad = limits_deg[0] * kRadPerDeg;
   joint.max_rad = limits_deg[1] * kRadPerDeg;
   if (section.Has("rest_deg")) {
     const std::vector<double> rest_deg = section.Numbers("rest_deg", 2);
-    if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; [mean, spread] is wanted");
+    if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; expected [mean, spread]");
     joint.rest_rad = rest_deg[0] * kRadPerDeg;
     joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
     joint.rise_rad = section.Number("rise_deg", 0) * kRadPerDeg;
   }
-  if (joint.name.empty()) section.Fail("name", "is empty; a name is wanted");
+  if (joint.name.empty()) section.Fail("name", "is empty; expected a name");
   for (const JointAxis& other : joints) {
     if (other.name == joint.name)
       section.Fail("name", "is " + Quoted(joint.name) + " a second time");
@@ -103,9 +102,9 @@ BodyTable ReadBodyTable(TomlSection root) {
     }
     table.joints.push_back(ReadJoint(section, table.joints));
   }
-  if (table.joints.empty()) root.Fail("joints", "has none; [[joints]] is wanted");
+  if (table.joints.empty()) root.Fail("joints", "is empty; expected [[joints]]");
   std::optional<TomlSection> segments = root.Section("segments");
-  if (!segments) root.Fail("segments", "is missing; the axis that moves each segment is wanted");
+  if (!segments) root.Fail("segments", "is missing; expected the axis that moves each segment");
   for (int i = 0; i < kSegmentCount; ++i) {
     table.carrier[i] = FindJoint(*segments, kSegmentNames[i], table.joints);
   }
@@ -130,8 +129,8 @@ BodyTable LoadBodyTable(const std::string& name_or_path) {
     known += '"' + std::string(table.name) + "\" or ";
   }
   if (!IsThere(name_or_path)) {
-    throw SetupError("body " + Quoted(name_or_path) + " is not known; " + known +
-                     "the path of a body table is wanted");
+    throw SetupError("body " + Quoted(name_or_path) + " is not known; expected " + known +
+                     "the path of a body table");
   }
   return ReadBodyTable(TomlSection::ReadFile(name_or_path));
 }

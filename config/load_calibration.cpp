@@ -17,10 +17,10 @@ Matrix3 ReadRotation(TomlSection& camera) {
   const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kRotationTolerance)) {
     camera.Fail("rotation",
-                "is no rotation; three rows that are perpendicular unit vectors are wanted");
+                "is not a rotation; expected three rows that are perpendicular unit vectors");
   }
   if (R.determinant() < 0) {
-    camera.Fail("rotation", "is a reflection; a rotation, whose determinant is +1, is wanted");
+    camera.Fail("rotation", "is a reflection; expected a rotation, whose determinant is +1");
   }
   // The inverse is taken as the transpose, so rounded digits must be corrected.
   return NearestRotation(R);
@@ -29,7 +29,7 @@ Matrix3 ReadRotation(TomlSection& camera) {
 Vector3 ReadAxis(TomlSection& head, const std::string& key) {
   const Vector3 axis = head.Vector(key);
   if (!(std::abs(axis.norm() - 1) < kRotationTolerance)) {
-    head.Fail(key, "has length " + std::to_string(axis.norm()) + "; a unit vector is wanted");
+    head.Fail(key, "has length " + std::to_string(axis.norm()) + "; expected a unit vector");
   }
   return axis.normalized();
 }
@@ -67,7 +67,7 @@ Lens ReadTsaiLens(TomlSection& camera) {
   const std::vector<double> center = camera.Numbers("center_px", 2);
   const std::vector<double> pitch = camera.Numbers("pitch_mm", 2);
   if (!(pitch[0] > 0 && pitch[1] > 0)) {
-    camera.Fail("pitch_mm", "has a number that is not above 0; the size of a pixel is wanted");
+    camera.Fail("pitch_mm", "has a number that is not above 0; expected the size of a pixel");
   }
   lens.center_px = {center[0], center[1]};
   lens.pitch_mm = {pitch[0], pitch[1]};
@@ -104,7 +104,7 @@ CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
   const std::vector<double> size = section.Numbers("size_px", 2);
   for (const double side : size) {
     if (!(side >= 1 && side <= kLargestPicture_px && side == std::floor(side))) {
-      section.Fail("size_px", "is no size of a picture; [width, height] in pixels is wanted");
+      section.Fail("size_px", "is not the size of a picture; expected [width, height] in pixels");
     }
   }
   camera.width_px = static_cast<int>(size[0]);
@@ -120,7 +120,7 @@ CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
 std::int64_t ReadTime(TomlSection& section, const std::string& key) {
   if (!section.Has(key)) return 0;
   const std::optional<std::int64_t> time_s = UtcFromText(section.Text(key));
-  if (!time_s) section.Fail(key, "is no time as \"2026-11-21T20:05:00Z\"");
+  if (!time_s) section.Fail(key, "is not a time such as \"2026-11-21T20:05:00Z\"");
   return *time_s;
 }
 
@@ -129,7 +129,7 @@ void ReadHealth(TomlSection health, CalibrationRecord& record) {
   std::optional<TomlSection> cameras = health.Section("cameras");
   for (const std::string& name : cameras ? cameras->Keys() : std::vector<std::string>{}) {
     std::optional<TomlSection> camera = cameras->Section(name);
-    if (!camera) cameras->Fail(name, "is no table of off_px and moved");
+    if (!camera) cameras->Fail(name, "is not a table of off_px and moved");
     record.offsets.push_back({name, camera->Number("off_px"), camera->Flag("moved")});
     camera->RejectUnknownKeys();
   }
@@ -154,14 +154,14 @@ std::vector<CameraCalibration> ReadCalibration(TomlSection root) {
   if (section) {
     for (const std::string& name : section->Keys()) {
       if (!IsCameraName(name)) {
-        section->Fail(name, "is no name of a camera; letters, digits, _ and - are wanted");
+        section->Fail(name, "is not a valid camera name; expected letters, digits, _ and -");
       }
       cameras.push_back(ReadCamera(name, *section->Section(name)));
     }
   }
   ReadRecord(root);
   root.RejectUnknownKeys();
-  if (cameras.empty()) root.Fail("cameras", "has none; [cameras.cam1] is wanted");
+  if (cameras.empty()) root.Fail("cameras", "is empty; expected [cameras.cam1]");
   return cameras;
 }
 

@@ -27,7 +27,7 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   source.driver = drivers[section.Choice("driver", drivers, 1)];
   source.take = Resolved(file, section.Text("take", ""));
   if (source.driver == "take" && source.take.empty()) {
-    section.Fail("take", "is missing; the folder of a take is wanted");
+    section.Fail("take", "is missing; expected the folder of a take");
   }
   source.rate = section.Choice("rate", {"realtime", "fast"}, 0) == 0 ? ReplayRate::kRealtime
                                                                      : ReplayRate::kFast;
@@ -70,7 +70,7 @@ SegmentationOptions ReadSegmentation(TomlSection section) {
 }
 
 void CheckUrl(const TomlSection& section, const std::string& url) {
-  if (url.empty()) section.Fail("url", "is empty; an LCM address is wanted");
+  if (url.empty()) section.Fail("url", "is empty; expected an LCM address");
   LcmUrl address;
   try {
     address = ParseLcmUrl(url);
@@ -78,7 +78,8 @@ void CheckUrl(const TomlSection& section, const std::string& url) {
     section.Fail("url", error.what());
   }
   if (address.provider == LcmProvider::kFile && !address.is_written) {
-    section.Fail("url", "\"" + url + "\" reads a log, and messages are written; ?mode=w is wanted");
+    section.Fail("url",
+                 "\"" + url + "\" reads a log, but mocapd writes messages; expected ?mode=w");
   }
 }
 
@@ -156,7 +157,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   config.service = ReadServiceConfig(root, file);
   ReadRole(root, config);
   if (config.source.driver == "none" && config.role != Role::kStudio)
-    root.Fail("source", "has driver \"none\", which role \"studio\" alone can have");
+    root.Fail("source", "has driver \"none\", which only role \"studio\" can have");
   root.RejectUnknownKeys();
   CheckLiveStudio(config, root);
   return config;

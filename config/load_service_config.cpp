@@ -38,7 +38,7 @@ ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& 
     config.metrics.file = Resolved(file, section->Text("file", ""));
     if (!config.metrics.file.empty() && config.metrics.file.extension() != ".prom") {
       section->Fail("file", "is \"" + config.metrics.file.string() +
-                                "\"; node exporter reads files whose names end in .prom alone");
+                                "\"; node exporter reads only files whose names end in .prom");
     }
     section->RejectUnknownKeys();
   }

@@ -60,8 +60,8 @@ void RequireHeadOrNone(const LiveCamera& live, const std::filesystem::path& cali
   if (is_calibrated == (live.head != nullptr)) return;
   const std::string table = "cameras." + live.name + ".pan_tilt";
   throw SetupError(calibration.string() + ": " + table +
-                   (is_calibrated ? " is there, but [[cameras]] gives " + live.name +
-                                        " no head; head = \"v4l2\", \"uvc\" or \"fixed\" is wanted"
+                   (is_calibrated ? " exists, but [[cameras]] gives " + live.name +
+                                        " no head; expected head = \"v4l2\", \"uvc\" or \"fixed\""
                                   : " is missing, but [[cameras]] gives " + live.name + " a head"));
 }
 
@@ -78,7 +78,7 @@ CameraCalibration Find(const std::vector<CameraCalibration>& calibrations,
       known += (known.empty() ? "" : ", ") + other.name;
     }
     throw SetupError(file.string() + ": cameras." + camera.name +
-                     " is missing, which [[cameras]] names; it has " + known);
+                     " is missing, but [[cameras]] names it; the file has " + known);
   }
   const std::array<int, 2> size{found->width_px, found->height_px};
   if (camera.size_px.value_or(size) != size) {
@@ -119,7 +119,7 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
                                         const std::shared_ptr<SubjectPosition>& person) {
   if (!IsLive(config.source)) {
     throw SetupError("source.driver is \"" + config.source.driver +
-                     "\", which has no live cameras; \"v4l2\" or \"aravis\" is wanted");
+                     "\", which has no live cameras; expected \"v4l2\" or \"aravis\"");
   }
   std::vector<CameraCalibration> calibrations;
   if (IsThere(config.calibration)) {

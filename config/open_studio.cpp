@@ -88,7 +88,7 @@ void AddNodes(const Config& config, Studio& studio) {
       const auto camera = std::ranges::find(calibrations, name, &CameraCalibration::name);
       if (camera == calibrations.end()) {
         throw SetupError(config.calibration.string() + ": cameras." + name +
-                         " is missing, which node " + node.name + " has");
+                         " is missing, but node " + node.name + " has it");
       }
       studio.cameras.push_back({*camera, nullptr, {}});
     }

@@ -32,7 +32,7 @@ TakeHeader ReadHeader(const std::filesystem::path& file) {
   header.name = section.Text("name");
   header.fps_nominal = section.NumberWithin("fps_nominal", 0.1, 10000);
   header.cameras = section.Texts("cameras");
-  if (header.cameras.empty()) section.Fail("cameras", "is empty; names of cameras are wanted");
+  if (header.cameras.empty()) section.Fail("cameras", "is empty; expected names of cameras");
   for (const std::string& name : header.cameras) {
     if (!IsCameraName(name)) {
       section.Fail("cameras", "has a name that is not made of letters, digits, _ and -");
@@ -71,9 +71,9 @@ void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesyste
        << wanted_ns / 1e6 << " ms";
   if (times > kRefusedTimes || times < 1 / kRefusedTimes) {
     const std::string unit = UnitOf(times);
-    throw SetupError(text.str() + (unit.empty() ? ";" : ": are these " + unit + "?") +
-                     " timestamp_ns in nanoseconds is wanted" +
-                     (unit.empty() ? ", or another fps_nominal" : ""));
+    throw SetupError(
+        text.str() + (unit.empty() ? "; expected" : ": are these " + unit + "? Expected") +
+        " timestamp_ns in nanoseconds" + (unit.empty() ? ", or another fps_nominal" : ""));
   }
   if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());
 }
@@ -100,8 +100,8 @@ std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std:
     if (wanted.empty() ? !IsSilent(layout, name) : Contains(wanted, name)) chosen.push_back(name);
   }
   if (chosen.empty()) {
-    throw SetupError(layout.folder.string() + ": holds no frame of any camera (" + all +
-                     "); a take with frames is wanted");
+    throw SetupError(layout.folder.string() + ": contains no frame of any camera (" + all +
+                     "); expected a take with frames");
   }
   return chosen;
 }

@@ -69,7 +69,7 @@ class DepthGuard {
 
   [[noreturn]] void Fail(const char* what, int most, const char* of_what) const {
     throw SetupError(name_ + ":" + std::to_string(line_) + ": " + what + " " +
-                     std::to_string(most) + " " + of_what + "; flat tables are wanted");
+                     std::to_string(most) + " " + of_what + "; expected flat tables");
   }
 
   std::string_view rest_;
@@ -97,12 +97,12 @@ int LinesBefore(std::string_view text, std::size_t place) {
 
 void RequireText(std::string_view text, const std::string& name) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-    throw SetupError(name + ":1: is UTF-16; TOML in UTF-8 is wanted");
+    throw SetupError(name + ":1: is UTF-16; expected TOML in UTF-8");
   }
   const std::size_t zero = text.find('\0');
   if (zero == std::string_view::npos) return;
   throw SetupError(name + ":" + std::to_string(LinesBefore(text, zero)) +
-                   ": holds a zero byte; TOML, which is text, is wanted");
+                   ": contains a zero byte; expected TOML, which is text");
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ toml::table ParseToml(std::string_view text, const std::string& name) {
     return toml::parse(plain, name);
   } catch (const toml::parse_error& error) {
     throw SetupError(name + ":" + std::to_string(error.source().begin.line) +
-                     ": is no TOML: " + Shortened(error.description(), kLongestReason));
+                     ": is not TOML: " + Shortened(error.description(), kLongestReason));
   }
 }
 

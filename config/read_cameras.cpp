@@ -28,7 +28,7 @@ V4l2Settings ReadV4l2Settings(TomlSection& section, const std::string& driver) {
   V4l2Settings settings;
   settings.format = section.Text("format", "");
   if (settings.format.size() > 4 && driver == "v4l2") {
-    section.Fail("format", "is no format's four letters, such as \"YUYV\" or \"MJPG\"");
+    section.Fail("format", "is not a four-letter format code such as \"YUYV\" or \"MJPG\"");
   }
   settings.exposure_us = OptionalWithin(section, "exposure_us", 1, kLongestExposure_us);
   settings.white_balance_k = OptionalWithin(section, "white_balance_k", 1000, 20000);
@@ -37,7 +37,7 @@ V4l2Settings ReadV4l2Settings(TomlSection& section, const std::string& driver) {
   if (section.Has("power_line_hz")) {
     const auto hz = static_cast<int>(section.IntegerWithin("power_line_hz", 0, 60));
     if (hz != 0 && hz != 50 && hz != 60) {
-      section.Fail("power_line_hz", "is " + std::to_string(hz) + "; 0, 50 or 60 is wanted");
+      section.Fail("power_line_hz", "is " + std::to_string(hz) + "; expected 0, 50 or 60");
     }
     settings.power_line_hz = hz;
   }
@@ -52,11 +52,11 @@ AravisSettings ReadAravisSettings(TomlSection& section) {
   settings.trigger = section.Text("trigger", "");
   settings.strobe = section.Text("strobe", "");
   if (!settings.strobe.empty() && settings.strobe == settings.trigger) {
-    section.Fail("strobe", "is the line of trigger as well; another one is wanted");
+    section.Fail("strobe", "is also the line of trigger; expected another line");
   }
   settings.ptp = section.Flag("ptp", settings.ptp);
   if (settings.is_scheduled() && !settings.ptp) {
-    section.Fail("ptp", "is false, but trigger is \"ptp\"; true is wanted");
+    section.Fail("ptp", "is false, but trigger is \"ptp\"; expected true");
   }
   if (section.Has("packet_bytes")) {
     settings.packet_bytes =
@@ -71,7 +71,7 @@ std::optional<std::array<double, 2>> ReadRange(TomlSection& section, const std::
   if (!section.Has(key)) return std::nullopt;
   const std::vector<double> range = section.Numbers(key, 2);
   if (!(range[0] < range[1] && range[0] >= -kFullTurn_rad && range[1] <= kFullTurn_rad)) {
-    section.Fail(key, "is no range; [least, most] in radians is wanted");
+    section.Fail(key, "is not a range; expected [least, most] in radians");
   }
   return std::array<double, 2>{range[0], range[1]};
 }
@@ -100,7 +100,7 @@ std::array<int, 2> ReadSize(TomlSection& section) {
   for (std::size_t i = 0; i < 2; ++i) {
     const double side = numbers[i];
     if (!(side >= 2 && side <= kLargestSide_px && side == std::floor(side))) {
-      section.Fail("size_px", "is no size of a picture; [width, height] in pixels is wanted");
+      section.Fail("size_px", "is not the size of a picture; expected [width, height] in pixels");
     }
     size[i] = static_cast<int>(side);
   }
@@ -113,13 +113,14 @@ CameraConfig ReadCamera(TomlSection& section, const std::string& driver,
   camera.name = section.Text("name");
   camera.device = section.Text("device");
   if (!IsCameraName(camera.name)) {
-    section.Fail("name", "is no name of a camera; letters, digits, _ and - are wanted");
+    section.Fail("name", "is not a valid camera name; expected letters, digits, _ and -");
   }
   for (const CameraConfig& other : others) {
-    if (other.name == camera.name) section.Fail("name", "is the name of another camera as well");
-    if (other.device == camera.device) section.Fail("device", "is another camera's as well");
+    if (other.name == camera.name) section.Fail("name", "is also the name of another camera");
+    if (other.device == camera.device)
+      section.Fail("device", "is also the device of another camera");
   }
-  if (camera.device.empty()) section.Fail("device", "is empty; a device is wanted");
+  if (camera.device.empty()) section.Fail("device", "is empty; expected a device");
   camera.fps = OptionalWithin(section, "fps", 1, 1000);
   if (section.Has("size_px")) camera.size_px = ReadSize(section);
   camera.head = ReadHead(section);

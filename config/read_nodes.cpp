@@ -14,8 +14,8 @@ std::string ReadName(TomlSection& section) {
   const std::string name = section.Text("name");
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   if (name.empty() || name.size() > kLongestName || !std::ranges::all_of(name, fits)) {
-    section.Fail("name", "is \"" + name + "\"; 1 to " + std::to_string(kLongestName) +
-                             " letters, digits, _ and - are wanted");
+    section.Fail("name", "is \"" + name + "\"; expected 1 to " + std::to_string(kLongestName) +
+                             " letters, digits, _ and -");
   }
   return name;
 }
@@ -34,13 +34,13 @@ StudioNode ReadStudioNode(TomlSection section, std::set<std::string>& names,
   node.name = ReadName(section);
   if (!names.insert(node.name).second) {
     section.Fail("name",
-                 "is \"" + node.name + "\", as another node's; a name of its own is wanted");
+                 "is \"" + node.name + "\", the name of another node; expected a unique name");
   }
   node.cameras = section.Texts("cameras");
-  if (node.cameras.empty()) section.Fail("cameras", "is empty; names of cameras are wanted");
+  if (node.cameras.empty()) section.Fail("cameras", "is empty; expected names of cameras");
   for (const std::string& camera : node.cameras) {
     if (cameras.insert(camera).second) continue;
-    section.Fail("cameras", "has \"" + camera + "\", which is there twice");
+    section.Fail("cameras", "has \"" + camera + "\" twice");
   }
   if (section.Has("control")) node.control = section.Texts("control");
   section.RejectUnknownKeys();
@@ -52,7 +52,7 @@ StudioNode ReadStudioNode(TomlSection section, std::set<std::string>& names,
 void ReadRole(TomlSection& root, Config& config) {
   config.role = static_cast<Role>(root.Choice("role", {"alone", "node", "studio"}, 0));
   if (auto section = root.Section("node")) {
-    if (config.role != Role::kNode) root.Fail("node", "is there, which needs role = \"node\"");
+    if (config.role != Role::kNode) root.Fail("node", "exists, but needs role = \"node\"");
     if (section->Has("cameras") && IsLive(config.source)) {
       section->Fail("cameras",
                     "is for takes and the simulated studio; [[cameras]] are the ones of "
@@ -61,7 +61,7 @@ void ReadRole(TomlSection& root, Config& config) {
     }
     config.node = ReadNode(std::move(*section));
   } else if (config.role == Role::kNode) {
-    root.Fail("node", "is missing, which role \"node\" needs: [node] with a name");
+    root.Fail("node", "is missing; role \"node\" needs [node] with a name");
   }
   std::set<std::string> names, cameras;
   for (const CameraConfig& camera : config.cameras) cameras.insert(camera.name);
@@ -69,9 +69,9 @@ void ReadRole(TomlSection& root, Config& config) {
     config.nodes.push_back(ReadStudioNode(std::move(section), names, cameras));
   const bool is_studio = config.role == Role::kStudio;
   if (!config.nodes.empty() && !is_studio)
-    root.Fail("nodes", "is there, which needs role = \"studio\"");
+    root.Fail("nodes", "exists, but needs role = \"studio\"");
   if (!is_studio) return;
-  if (config.nodes.empty()) root.Fail("nodes", "is missing, which role \"studio\" needs");
+  if (config.nodes.empty()) root.Fail("nodes", "is missing; role \"studio\" needs it");
   if (config.calibration.empty())
     root.Fail("calibration", "is missing; role \"studio\" needs that of all cameras");
 }

@@ -40,26 +40,27 @@ void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
   const double apart_mm = centers.diagonal().norm();
   if (cameras.size() > 1 && !(apart_mm >= kNearest_mm)) {
     throw SetupError(where + ": its cameras lie within " + Text("%.3g", apart_mm) +
-                     " mm of each other: are its lengths in metres? millimetres are wanted, and a "
+                     " mm of each other: are its lengths in metres? Expected millimetres, and a "
                      "pose for each lens");
   }
   const Vector3 size_mm = room.diagonal();
   if (!(size_mm.maxCoeff() <= kLargestRoom_mm)) {
-    throw SetupError(where + ": its cameras look at a room of " + RoomText(size_mm) + "; at most " +
-                     Text("%g", kLargestRoom_mm / 1000) +
-                     " m are wanted: are its lengths in millimetres?");
+    throw SetupError(where + ": its cameras look at a room of " + RoomText(size_mm) +
+                     "; expected at most " + Text("%g", kLargestRoom_mm / 1000) +
+                     " m: are its lengths in millimetres?");
   }
   if (!(size_mm.minCoeff() > 0)) {
-    throw SetupError(where + ": its cameras look at nothing above the floor; the floor at z = 0 " +
-                     "with z up is wanted, which `mocap calibrate floor` makes");
+    throw SetupError(where +
+                     ": its cameras look at nothing above the floor; expected the floor at z = 0 "
+                     "and z up, as `mocap calibrate floor` sets them");
   }
   const double voxels = size_mm.prod() / std::pow(voxel_mm, 3);
   if (voxels <= kMostVoxels) return;
   throw SetupError(
       where + ": its cameras look at a room of " + RoomText(size_mm) + ", " +
-      Text("%.2g voxels of %g mm", voxels, voxel_mm) + "; " +
+      Text("%.2g voxels of %g mm", voxels, voxel_mm) + "; expected " +
       Text("voxels of %.0f mm or more", std::ceil(std::cbrt(size_mm.prod() / kMostVoxels))) +
-      " are wanted, or a calibration in millimetres");
+      ", or a calibration in millimetres");
 }
 
 }  // namespace mocap

@@ -19,7 +19,7 @@ constexpr double kLargest_mm = 1500;
 BodySizes LoadSubject(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
   auto section = root.Section("sizes");
-  if (!section) root.Fail("sizes", "is missing; a table of the person's sizes is wanted");
+  if (!section) root.Fail("sizes", "is missing; expected a table of the person's sizes");
   BodySizes sizes;
   for (const BodySizeField& field : kBodySizeFields) {
     sizes.*field.value =

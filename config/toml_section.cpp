@@ -72,7 +72,7 @@ double TomlSection::Number(const std::string& key, std::optional<double> fallbac
 
 double TomlSection::PositiveNumber(const std::string& key, std::optional<double> fallback) {
   const double value = Number(key, fallback);
-  if (!(value > 0)) Fail(key, "is " + Shown(value) + "; a number above 0 is wanted");
+  if (!(value > 0)) Fail(key, "is " + Shown(value) + "; expected a number above 0");
   return value;
 }
 
@@ -80,8 +80,8 @@ double TomlSection::NumberWithin(const std::string& key, double min, double max,
                                  std::optional<double> fallback) {
   const double value = Number(key, fallback);
   if (!(value >= min && value <= max)) {
-    Fail(key, "is " + Shown(value) + "; a number from " + Shown(min) + " to " + Shown(max) +
-                  " is wanted");
+    Fail(key,
+         "is " + Shown(value) + "; expected a number from " + Shown(min) + " to " + Shown(max));
   }
   return value;
 }
@@ -94,7 +94,7 @@ std::int64_t TomlSection::IntegerWithin(const std::string& key, std::int64_t min
   const toml::node& node = Need(key, wanted);
   const auto* value = node.as_integer();
   if (!value || value->get() < min || value->get() > max) {
-    Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+    Fail(key, "is " + Shown(node) + "; expected " + wanted);
   }
   return value->get();
 }
@@ -102,14 +102,14 @@ std::int64_t TomlSection::IntegerWithin(const std::string& key, std::int64_t min
 bool TomlSection::Flag(const std::string& key, std::optional<bool> fallback) {
   if (fallback && !Has(key)) return *fallback;
   const toml::node& node = Need(key, "true or false");
-  if (!node.is_boolean()) Fail(key, "is " + Shown(node) + "; true or false is wanted");
+  if (!node.is_boolean()) Fail(key, "is " + Shown(node) + "; expected true or false");
   return node.as_boolean()->get();
 }
 
 std::string TomlSection::Text(const std::string& key, std::optional<std::string> fallback) {
   if (fallback && !Has(key)) return *fallback;
-  const toml::node& node = Need(key, "a text");
-  if (!node.is_string()) Fail(key, "is " + Shown(node) + "; a text is wanted");
+  const toml::node& node = Need(key, "a string");
+  if (!node.is_string()) Fail(key, "is " + Shown(node) + "; expected a string");
   return node.as_string()->get();
 }
 
@@ -123,18 +123,18 @@ std::size_t TomlSection::Choice(const std::string& key, const std::vector<std::s
     for (const std::string& choice : choices) {
       wanted += (wanted.empty() ? "\"" : " or \"") + choice + '"';
     }
-    Fail(key, "is " + Quoted(found) + "; " + wanted + " is wanted");
+    Fail(key, "is " + Quoted(found) + "; expected " + wanted);
   }
   return static_cast<std::size_t>(place - choices.begin());
 }
 
 std::vector<std::string> TomlSection::Texts(const std::string& key) {
-  const toml::node& node = Need(key, "an array of texts");
+  const toml::node& node = Need(key, "an array of strings");
   const toml::array* array = node.as_array();
-  if (!array) Fail(key, "is " + Shown(node) + "; an array of texts is wanted");
+  if (!array) Fail(key, "is " + Shown(node) + "; expected an array of strings");
   std::vector<std::string> texts;
   for (const toml::node& element : *array) {
-    if (!element.is_string()) Fail(key, "has " + Shown(element) + "; texts are wanted");
+    if (!element.is_string()) Fail(key, "has " + Shown(element) + "; expected strings");
     texts.push_back(element.as_string()->get());
   }
   return texts;
@@ -156,7 +156,7 @@ std::vector<double> TomlSection::Numbers(const std::string& key, std::size_t few
   const toml::array* array = Need(key, wanted).as_array();
   if (array && array->size() == many) return Numbers(key, many);
   if (array && array->size() == few) return Numbers(key, few);
-  Fail(key, "is " + Shown(Need(key, wanted)) + "; " + wanted + " is wanted");
+  Fail(key, "is " + Shown(Need(key, wanted)) + "; expected " + wanted);
 }
 
 std::vector<double> TomlSection::AllNumbers(const std::string& key) {
@@ -164,7 +164,7 @@ std::vector<double> TomlSection::AllNumbers(const std::string& key) {
   const std::string wanted = "an array of numbers";
   std::vector<double> numbers;
   const toml::node& node = Need(key, wanted);
-  if (!node.is_array()) Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+  if (!node.is_array()) Fail(key, "is " + Shown(node) + "; expected " + wanted);
   for (const toml::node& element : *node.as_array()) {
     if (const toml::array* row = element.as_array()) {
       for (const toml::node& inner : *row) numbers.push_back(NumberFrom(inner, key, wanted));
@@ -182,16 +182,16 @@ bool TomlSection::IsTable(const std::string& key) const {
 
 std::vector<int> TomlSection::Integers(const std::string& key, int min, int max) {
   if (!Has(key)) return {};
-  const std::string wanted = "an array of whole numbers from " + std::to_string(min) + " to " +
-                             std::to_string(max) + " is wanted";
+  const std::string wanted =
+      "an array of whole numbers from " + std::to_string(min) + " to " + std::to_string(max);
   const toml::node& node = Need(key, "an array of whole numbers");
   const toml::array* array = node.as_array();
-  if (!array) Fail(key, "is " + Shown(node) + "; " + wanted);
+  if (!array) Fail(key, "is " + Shown(node) + "; expected " + wanted);
   std::vector<int> integers;
   for (const toml::node& element : *array) {
     const auto integer = element.value_exact<std::int64_t>();
     if (!integer || *integer < min || *integer > max)
-      Fail(key, "has " + Shown(element) + "; " + wanted);
+      Fail(key, "has " + Shown(element) + "; expected " + wanted);
     integers.push_back(static_cast<int>(*integer));
   }
   return integers;
@@ -209,7 +209,7 @@ Matrix3 TomlSection::Matrix(const std::string& key) {
   for (const toml::node& element : NeedArray(key, 3, wanted)) {
     const toml::array* numbers = element.as_array();
     if (!numbers || numbers->size() != 3) {
-      Fail(key, "has a row that is " + Shown(element) + "; " + wanted + " is wanted");
+      Fail(key, "has a row that is " + Shown(element) + "; expected " + wanted);
     }
     int column = 0;
     for (const toml::node& number : *numbers) {
@@ -223,7 +223,7 @@ Matrix3 TomlSection::Matrix(const std::string& key) {
 std::optional<TomlSection> TomlSection::Section(const std::string& key) {
   const toml::node* node = Find(key);
   if (!node) return std::nullopt;
-  if (!node->is_table()) Fail(key, "is " + Shown(*node) + "; a table is wanted");
+  if (!node->is_table()) Fail(key, "is " + Shown(*node) + "; expected a table");
   return TomlSection(root_, node->as_table(), file_, PathOf(key) + ".");
 }
 
@@ -232,10 +232,10 @@ std::vector<TomlSection> TomlSection::Sections(const std::string& key) {
   std::vector<TomlSection> sections;
   if (!node) return sections;
   const toml::array* array = node->as_array();
-  if (!array) Fail(key, "is " + Shown(*node) + "; [[" + PathOf(key) + "]] is wanted");
+  if (!array) Fail(key, "is " + Shown(*node) + "; expected [[" + PathOf(key) + "]]");
   for (const toml::node& element : *array) {
     if (!element.is_table()) {
-      Fail(key, "has " + Shown(element) + "; [[" + PathOf(key) + "]] is wanted");
+      Fail(key, "has " + Shown(element) + "; expected [[" + PathOf(key) + "]]");
     }
     sections.push_back(TomlSection(root_, element.as_table(), file_,
                                    PathOf(key) + "[" + std::to_string(sections.size()) + "]."));
@@ -271,7 +271,7 @@ const toml::node* TomlSection::Find(const std::string& key) {
 
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
-  if (!node) Fail(key, "is missing; " + wanted + " is wanted");
+  if (!node) Fail(key, "is missing; expected " + wanted);
   return *node;
 }
 
@@ -280,7 +280,7 @@ const toml::array& TomlSection::NeedArray(const std::string& key, std::size_t co
   const toml::node& node = Need(key, wanted);
   const toml::array* array = node.as_array();
   if (!array || array->size() != count) {
-    Fail(key, "is " + Shown(node) + "; " + wanted + " is wanted");
+    Fail(key, "is " + Shown(node) + "; expected " + wanted);
   }
   return *array;
 }
@@ -290,7 +290,7 @@ double TomlSection::NumberFrom(const toml::node& node, const std::string& key,
   const std::optional<double> value =
       node.is_number() ? node.value<double>() : std::optional<double>();
   if (!value || !std::isfinite(*value)) {
-    Fail(key, "has " + Shown(node) + "; " + wanted + " is wanted");
+    Fail(key, "has " + Shown(node) + "; expected " + wanted);
   }
   return *value;
 }

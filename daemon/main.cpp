@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   app.callback([&] {
     if (only_checks) {
       mocap::CheckConfig(file ? mocap::LoadConfig(*file) : mocap::Config());
-      std::puts("the configuration can be used");
+      std::puts("the configuration is valid");
     } else {
       mocap::HoldSignals();
       mocap::RunService(file, seconds);

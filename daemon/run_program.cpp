@@ -71,8 +71,7 @@ int RunProgram(CLI::App& app, int argc, char** argv) {
     return Fail(app, error.what(), kWrongInput);
   } catch (const std::bad_alloc&) {
     return Fail(app,
-                "there is not enough memory: smaller pictures, fewer cameras or larger voxels are "
-                "wanted",
+                "there is not enough memory; use smaller pictures, fewer cameras or larger voxels",
                 kFailed);
   } catch (const std::exception& error) {
     return Fail(app, error.what(), kFailed);

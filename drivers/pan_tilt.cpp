@@ -10,8 +10,8 @@ std::string OutOfReach(const PanTiltAngles& angles, const PanTiltLimits& limits)
   std::ostringstream line;
   line << std::fixed << std::setprecision(3);
   line << "pan " << angles.pan_rad << ", tilt " << angles.tilt_rad
-       << " rad is out of its reach; pan " << least.pan_rad << " to " << most.pan_rad << ", tilt "
-       << least.tilt_rad << " to " << most.tilt_rad << " rad is wanted";
+       << " rad is out of range; expected pan " << least.pan_rad << " to " << most.pan_rad
+       << ", tilt " << least.tilt_rad << " to " << most.tilt_rad << " rad";
   return line.str();
 }
 

@@ -14,7 +14,7 @@ void PolledPanTilt::Start() {
   Reach();
   if (Read()) return;
   Stop();
-  throw SetupError(device_ + ": does not tell where its head points");
+  throw SetupError(device_ + ": does not report where its head points");
 }
 
 void PolledPanTilt::Stop() {

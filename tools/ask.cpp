@@ -56,7 +56,7 @@ ControlReply AnswerInput(const std::filesystem::path& socket) {
                                         std::to_string(kLongestRequest) + " bytes and " +
                                         std::to_string(kPatience.count() / 1000) + " s"};
   }
-  if (request->empty()) return {ControlOutcome::kWrong, "a request is wanted on standard input"};
+  if (request->empty()) return {ControlOutcome::kWrong, "expected a request on standard input"};
   return ReplyOfDaemon(socket, *request);
 }
 

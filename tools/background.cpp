@@ -52,7 +52,7 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
     text.precision(2);
     text << cameras[i].name << ": " << 100 * records[i].changed
          << " % of its picture changed meanwhile; is somebody in the room, or is its exposure "
-            "automatic? What was learned before is kept";
+            "automatic? The previous background is kept";
     throw std::runtime_error(text.str());
   }
 }

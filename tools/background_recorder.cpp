@@ -133,8 +133,8 @@ std::vector<PanTiltAngles> SweepDirections(const LiveCamera& camera) {
             std::min(limits.most.tilt_rad, camera.range.most.tilt_rad),
             AngleBetween(calibration.lens, {width / 2, 0}, {width / 2, height}, 1));
   if (pans.size() * tilts.size() > kMostDirections) {
-    throw SetupError(camera.name + ": may look in " + std::to_string(pans.size() * tilts.size()) +
-                     " directions; narrower pan_range_rad and tilt_range_rad are wanted");
+    throw SetupError(camera.name + ": would scan " + std::to_string(pans.size() * tilts.size()) +
+                     " directions; set a narrower pan_range_rad or tilt_range_rad");
   }
   std::vector<PanTiltAngles> directions;
   for (std::size_t row = 0; row < tilts.size(); ++row) {

@@ -185,7 +185,7 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
                  const HintListener& listener) {
   if (IsThere(options.folder))
     throw SetupError(options.folder.string() +
-                     ": exists already; another folder to record into is wanted");
+                     ": exists already; expected another folder to record into");
   std::filesystem::create_directories(options.folder);
   Looker looker(options.board, cameras);
   Recordings recordings;

@@ -164,7 +164,7 @@ void AddFloor(CLI::App* parent) {
   AddWorld(command, a);
   command->callback([a] {
     if (a->floor.empty() == a->floor_points.empty())
-      throw SetupError("mocap calibrate floor: either --floor or --floor-points is wanted");
+      throw SetupError("mocap calibrate floor: expected either --floor or --floor-points");
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);
     SetWorld(*a, fit);
@@ -206,15 +206,16 @@ std::vector<PointDetection> ReadPoints(const std::filesystem::path& file) {
 void CheckTsaiArguments(const TsaiArguments& a) {
   const auto is_length = [](double length) { return std::isfinite(length) && length > 0; };
   if (!std::all_of(a.pitch_mm.begin(), a.pitch_mm.end(), is_length))
-    throw SetupError("--pitch: lengths above 0 are wanted, in mm");
-  if (!is_length(a.sx)) throw SetupError("--sx: a number above 0 is wanted");
+    throw SetupError("--pitch: expected lengths above 0, in mm");
+  if (!is_length(a.sx)) throw SetupError("--sx: expected a number above 0");
   for (const double center_px : a.center_px) {
-    if (!std::isfinite(center_px)) throw SetupError("--center: pixels are wanted");
+    if (!std::isfinite(center_px)) throw SetupError("--center: expected pixels");
   }
   for (const int side_px : a.size_px) {
     if (side_px < 1 || side_px > kLargestPicture_px)
-      throw SetupError("--size: " + std::to_string(side_px) + " is no side of a picture; 1 to " +
-                       std::to_string(kLargestPicture_px) + " pixels are wanted");
+      throw SetupError("--size: " + std::to_string(side_px) +
+                       " is not the side of a picture; expected 1 to " +
+                       std::to_string(kLargestPicture_px) + " pixels");
   }
 }
 

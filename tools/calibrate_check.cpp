@@ -37,8 +37,7 @@ void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findin
   };
   if (person.moments == 0) {
     add(Severity::kWrong,
-        "the cameras' views of the person meet nowhere; poses or camera names are "
-        "mixed up");
+        "the cameras' views of the person do not intersect; poses or camera names are mixed up");
     return;
   }
   if (std::abs(person.lowest_mm) > kFeetTolerance_mm)
@@ -49,7 +48,7 @@ void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findin
       "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) + " mm";
   if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
     add(Severity::kWarning,
-        reach + "; was the board's square typed right, and does somebody stand there?");
+        reach + "; is the size of the board's squares right, and does a person stand there?");
   else
     findings.push_back({Severity::kNote, take.string() + ": " + reach});
 }
@@ -63,8 +62,8 @@ std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
   if (record.made_s == 0) return "does not say when it was made\n";
   std::string text = "made " + Days(record.made_s, now_s);
   if (record.refined_s != 0) text += ", refined " + Days(record.refined_s, now_s);
-  text += record.checked_s == 0 ? "; nobody has looked at its health yet"
-                                : "; health looked at " + Days(record.checked_s, now_s);
+  text += record.checked_s == 0 ? "; its health has not been checked yet"
+                                : "; health checked " + Days(record.checked_s, now_s);
   for (const CameraOffset& offset : record.offsets) {
     if (offset.has_moved)
       text += ", " + offset.camera + " " + std::to_string(std::lround(offset.px)) + " px off";
@@ -78,12 +77,10 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
   const PlacementDifference difference = ComparePlacement(cameras, LoadCalibration(other));
   const Vector3& worst_W = difference.worst_at_W;
   findings.push_back(
-      {Severity::kNote,
-       fmt::format(
-           "points in the room lie {:.1f} mm from where {} has them, and {:.1f} mm at worst "
-           "(at {:.0f}, {:.0f}, {:.0f})",
-           difference.mean_mm, other.string(), difference.worst_mm, worst_W.x(), worst_W.y(),
-           worst_W.z())});
+      {Severity::kNote, fmt::format("points in the room lie {:.1f} mm from where {} has them, and "
+                                    "{:.1f} mm at worst (at {:.0f}, {:.0f}, {:.0f})",
+                                    difference.mean_mm, other.string(), difference.worst_mm,
+                                    worst_W.x(), worst_W.y(), worst_W.z())});
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ std::array<int, 2> ParseSize(const std::string& text) {
     if (height.ec == std::errc() && height.ptr == end && is_side(size_px[0]) && is_side(size_px[1]))
       return size_px;
   }
-  throw SetupError("--size " + Quoted(text) + ": wanted is WIDTHxHEIGHT in pixels, as 1280x720");
+  throw SetupError("--size " + Quoted(text) +
+                   ": expected WIDTHxHEIGHT in pixels, such as 1280x720");
 }
 
 void RunConvert(ConvertArguments a) {
@@ -43,14 +44,14 @@ void RunConvert(ConvertArguments a) {
   for (const std::string& note : imported.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
   if (imported.are_lenses_alone && a.to != "mocap")
     throw SetupError("--to " + a.to +
-                     ": would hold poses that nobody has found; lenses alone go to "
-                     "mocap");
+                     ": needs poses, which the input does not have; intrinsics without poses can "
+                     "be written --to mocap");
   ExportCameras(a.to, a.out, imported.cameras, a.options);
   if (imported.are_lenses_alone) return;
   for (const Finding& finding : CheckCameras(imported.cameras, a.from != "kalibr"))
-    std::fprintf(stdout, "look: %s\n", finding.text.c_str());
+    std::fprintf(stdout, "check: %s\n", finding.text.c_str());
   if (a.from == "kalibr")
-    std::fputs("look: the world is the first camera's; set the floor with mocap calibrate floor\n",
+    std::fputs("check: the world is the first camera's; set the floor with mocap calibrate floor\n",
                stdout);
 }
 

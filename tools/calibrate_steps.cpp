@@ -55,7 +55,7 @@ BoardDetections Collect(const Footage& footage, const CalibrateArguments& argume
   const Board board = ParseBoard(arguments.board);
   if (board.kind == BoardKind::kWand && still)
     throw SetupError(
-        "--floor: a wand shows no floor; set it with mocap calibrate floor, from a "
+        "--floor: a wand does not determine the floor; set it with mocap calibrate floor, from a "
         "board or --floor-points");
   return CollectDetections(footage, board, options);
 }
@@ -64,8 +64,8 @@ BoardDetections Collect(const Footage& footage, const CalibrateArguments& argume
 void RefuseWand(const CalibrateArguments& arguments) {
   if (ParseBoard(arguments.board).kind == BoardKind::kWand)
     throw SetupError("--board " + arguments.board +
-                     ": a wand shows no lens; take a board for mocap calibrate intrinsics, then "
-                     "the wand for mocap calibrate extrinsics --intrinsics");
+                     ": a wand does not determine intrinsics; use a board for mocap calibrate "
+                     "intrinsics, then the wand for mocap calibrate extrinsics --intrinsics");
 }
 
 std::string NamesOf(const std::vector<CameraCalibration>& cameras) {
@@ -84,7 +84,7 @@ std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
     const auto lens = std::find_if(
         all.begin(), all.end(), [&](const CameraCalibration& c) { return c.name == camera.name; });
     if (lens == all.end())
-      throw SetupError(fmt::format("{}: has no camera {}, of which there is footage; it has {}",
+      throw SetupError(fmt::format("{}: has no camera {}, but there is footage of it; it has {}",
                                    file.string(), Quoted(camera.name), NamesOf(all)));
     if (lens->width_px != camera.width_px || lens->height_px != camera.height_px)
       throw SetupError(fmt::format(
@@ -217,8 +217,8 @@ std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioF
       findings.insert(
           findings.begin(),
           {Severity::kWrong,
-           fmt::format("{} and {} are {:.0f} mm apart here and {:.0f} mm by the tape: the "
-                       "board's squares are {:.2f} times what was typed",
+           fmt::format("{} and {} are {:.0f} mm apart here and {:.0f} mm by the tape: the board's "
+                       "squares are {:.2f} times as large as --board says",
                        distance.from, distance.to, found_mm, distance.mm, distance.mm / found_mm)});
   }
   return findings;
@@ -238,7 +238,7 @@ std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) 
   }
   for (std::size_t c = 1; c < fit.bundle.lateness_s.size(); ++c) {
     if (std::abs(fit.bundle.lateness_s[c]) < 0.0005) continue;
-    text += fmt::format("{} exposes {:+.1f} ms against {}\n", fit.cameras[c].name,
+    text += fmt::format("{} exposes {:+.1f} ms relative to {}\n", fit.cameras[c].name,
                         1000 * fit.bundle.lateness_s[c], fit.cameras[0].name);
   }
   text += fmt::format("overall {:.3f} px\n", fit.rms_px);

@@ -92,7 +92,7 @@ void RunPanTilt(const PanTiltArguments& a) {
   if (std::none_of(cameras.begin(), cameras.end(),
                    [](const CameraCalibration& c) { return c.head.has_value(); }))
     throw SetupError(a.footage.front().string() +
-                     ": no camera turns; camN.csv with pan_rad,tilt_rad is wanted");
+                     ": no camera turns; expected camN.csv with pan_rad,tilt_rad");
   WriteCalibration(a.out, cameras, LoadCalibrationRecord(a.calibration));
 }
 
@@ -144,13 +144,13 @@ std::string VerdictText(const RefinedStudio& refined) {
   std::string text;
   for (const std::string& name : refined.moved)
     text += name +
-            ": has moved since it was calibrated; mocap calibrate refine turns it back, a board "
-            "calibrates it anew\n";
+            ": has moved since it was calibrated; correct it with mocap calibrate refine, or "
+            "calibrate it again with a board\n";
   for (const CameraShift& s : refined.before) {
     if (IsZoomed(s))
       text += fmt::format(
           "{}: its picture has become {:.1f} % {}; was its focus or zoom touched? Calibrate its "
-          "lens anew\n",
+          "intrinsics again\n",
           s.camera, 100 * std::abs(s.growth), s.growth > 0 ? "larger" : "smaller");
   }
   return text.empty() ? "no camera has moved\n" : text;

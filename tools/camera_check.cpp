@@ -76,7 +76,8 @@ std::string WhyMissed(const BusLoad* load) {
     return fmt::format("{} is full to {:.0f} %: set a lower fps or another format", load->bus,
                        100 * load->share());
   }
-  return "this machine or the way to it is too slow: end other programs, or set a lower fps";
+  return "this machine or its link to the camera is too slow: stop other programs, or set a lower "
+         "fps";
 }
 
 // Whether frames lost by some camera, which are reported with it, explain incomplete sets.
@@ -178,17 +179,17 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
   std::vector<std::string> troubles = run.facts.remarks;
   if (run.times_lost > 0) {
     troubles.push_back(
-        fmt::format("went away {}: look at its cable and power",
+        fmt::format("was lost {}: check its cable and power",
                     run.times_lost == 1 ? "once" : fmt::format("{} times", run.times_lost)));
   }
   if (run.IsSilent()) {
     if (run.waits_for.empty()) {
-      troubles.push_back("delivers no frames: if it waits for a trigger, see that there is one");
+      troubles.push_back("delivers no frames: if it waits for a trigger, check that there is one");
     }
     return troubles;
   }
   if (run.torn > 0) {
-    troubles.push_back(fmt::format("{} came damaged: {}", Counted(run.torn, "frame"),
+    troubles.push_back(fmt::format("{} arrived damaged: {}", Counted(run.torn, "frame"),
                                    run.facts.damage.empty()
                                        ? "try another cable, or a socket without a hub"
                                        : run.facts.damage));
@@ -223,7 +224,7 @@ std::vector<std::string> TriggerTroublesOf(const std::vector<CameraRun>& runs) {
         master.IsSilent()
             ? fmt::format("waiting for the trigger of {}, which delivers no frames: {}",
                           master.name, fmt::join(silent, ", "))
-            : fmt::format("no trigger of {} reaches {}: look at the wire, at {}'s strobe and at "
+            : fmt::format("no trigger from {} reaches {}: check the wire, the strobe of {} and "
                           "their trigger",
                           master.name, fmt::join(silent, ", "), master.name));
   }

@@ -128,7 +128,7 @@ std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take
   const auto first = std::ranges::find_if(cameras, sees);
   if (first == cameras.end()) {
     throw SetupError(take.string() +
-                     ": holds no frame of any camera; a take with frames is wanted");
+                     ": contains no frame of any camera; expected a take with frames");
   }
   const TakeTable table = ReadTakeTable(layout.Table(first->name));
   const std::int64_t first_ns = table.rows.front().timestamp_ns;
@@ -137,8 +137,7 @@ std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take
     const double s = 1e-9 * static_cast<double>(row.timestamp_ns - first_ns);
     if (s >= from_s && s <= to_s) times_ns.push_back(row.timestamp_ns);
   }
-  if (times_ns.empty())
-    throw SetupError(take.string() + ": has no frames in the stretch that is asked for");
+  if (times_ns.empty()) throw SetupError(take.string() + ": has no frames in the requested time");
   std::vector<SampleRequest> requests;
   const std::size_t n = std::min(times_ns.size(), static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < n; ++i)
@@ -222,7 +221,7 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
       std::count_if(refined.before.begin(), refined.before.end(),
                     [](const CameraShift& s) { return s.moments >= kFewestMoments; });
   if (seeing < 3)
-    throw SetupError(fmt::format("{} {} a whole person who moves; three at least are wanted",
+    throw SetupError(fmt::format("{} {} a whole person who moves; expected at least three",
                                  Counted(seeing, "camera"), seeing == 1 ? "sees" : "see"));
   for (std::size_t round = 0; round < 3 * refined.cameras.size(); ++round) {
     const auto worst =
@@ -234,9 +233,8 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
     if (!known) refined.moved.push_back(worst->camera);
     if (2 * refined.moved.size() > refined.cameras.size())
       throw SetupError(
-          "more than half of the cameras disagree with the rest: nothing tells which of them "
-          "moved; "
-          "calibrate anew with a board");
+          "more than half of the cameras disagree with the rest, so it is not known which of them "
+          "moved; calibrate again with a board");
     CameraCalibration& camera =
         refined.cameras[static_cast<std::size_t>(worst - refined.after.begin())];
     const Matrix3 turn = ExpRotation(worst->rotation_C);

@@ -94,8 +94,8 @@ std::optional<CameraPair> FindSwappedCameras(const TakeSamples& samples) {
 
 std::string SwappedText(const CameraPair& swapped) {
   return swapped.first + " and " + swapped.second +
-         " go by each other's name: exchange their devices or addresses in [[cameras]], or their "
-         "names in calibration.toml";
+         " have each other's name: swap their devices or addresses in [[cameras]], or their names "
+         "in calibration.toml";
 }
 
 }  // namespace mocap

@@ -111,7 +111,7 @@ void Check(const CamerasOptions& options) {
     troubles += PrintTroubles(TroublesOf(sets, runs));
   }
   if (troubles > 0) {
-    throw std::runtime_error(fmt::format("{}, marked with !", Counted(troubles, "trouble")));
+    throw std::runtime_error(fmt::format("{}, marked with !", Counted(troubles, "problem")));
   }
 }
 

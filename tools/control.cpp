@@ -44,8 +44,8 @@ class RequestCommands {
         ->check([](const std::string& text) {
           return IsFileName(text) ? ""
                                   : "\"" + text +
-                                        "\" is no name; letters, digits, . _ - are wanted, and no "
-                                        ".partial at its end";
+                                        "\" is not a valid name; expected letters, digits, . _ -, "
+                                        "and no .partial at its end";
         });
     command->callback([socket = socket_, request, file_name, more] {
       AskAndPrint(*socket, request + ' ' + *file_name + more());

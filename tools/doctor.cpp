@@ -73,7 +73,7 @@ void Doctor(const DoctorOptions& options) {
     if (!diagnosis.fix.empty()) std::printf("        -> %s\n", Printable(diagnosis.fix).c_str());
   }
   const auto bad = std::ranges::count(diagnoses, Verdict::kBad, &Diagnosis::verdict);
-  if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be mended");
+  if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be fixed");
 }
 
 }  // namespace

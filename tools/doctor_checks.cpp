@@ -87,11 +87,11 @@ std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
 
 Diagnosis CheckDevice(const std::string& name, const std::filesystem::path& device) {
   if (!std::filesystem::exists(device)) {
-    return {Verdict::kBad, fmt::format("{}: {} is not there", name, device.string()),
-            "plug the camera in; ls /dev/v4l/by-id tells what is there"};
+    return {Verdict::kBad, fmt::format("{}: {} is missing", name, device.string()),
+            "plug the camera in; ls /dev/v4l/by-id lists what is connected"};
   }
   if (access(device.c_str(), R_OK | W_OK) != 0) {
-    return {Verdict::kBad, fmt::format("{}: {} may not be used", name, device.string()),
+    return {Verdict::kBad, fmt::format("{}: no permission to use {}", name, device.string()),
             "as root: adduser USER video, then log in again"};
   }
   return {Verdict::kGood, fmt::format("{}: {} is there", name, device.string()), ""};
@@ -109,7 +109,7 @@ Diagnosis CheckMulticastEcho(const std::string& url) {
   try {
     const LcmProvider provider = ParseLcmUrl(url).provider;
     if (provider == LcmProvider::kMemory) {
-      return {Verdict::kBad, "messages on " + url + " reach nobody outside of mocapd",
+      return {Verdict::kBad, "messages on " + url + " do not leave mocapd",
               "set lcm.url to one like udpm://239.255.76.67:7667?ttl=0"};
     }
     if (provider == LcmProvider::kFile) {
@@ -131,7 +131,7 @@ Diagnosis CheckMulticastEcho(const std::string& url) {
     return {Verdict::kBad, error.what(), "see the line above"};
   }
   return {Verdict::kBad, "messages on " + url + " do not arrive",
-          "look at the firewall: UDP to that address has to pass"};
+          "check the firewall: UDP to that address has to pass"};
 }
 
 Diagnosis CheckSocketBuffers() {
@@ -204,12 +204,11 @@ Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second
   if (speed) what += fmt::format(", {:.0f} MB/s", *speed);
   if (speed && *speed * 1e6 < 1.5 * bytes_per_second) {
     return {Verdict::kBad, what,
-            fmt::format("a disk that takes {:.0f} MB/s is wanted, or a codec "
-                        "that writes less",
+            fmt::format("use a disk that takes {:.0f} MB/s, or a codec that writes less",
                         1.5 * bytes_per_second / 1e6)};
   }
   if (recording_s < kLeastRecording_s)
-    return {Verdict::kAdvice, what, "make room, or choose another folder"};
+    return {Verdict::kAdvice, what, "free some space, or choose another folder"};
   return {Verdict::kGood, what, ""};
 }
 
@@ -239,7 +238,7 @@ Diagnosis CheckControl(const std::filesystem::path& socket) {
   } catch (const SetupError& error) {
     return {Verdict::kBad, "mocapd runs, but you may not control it", error.what()};
   } catch (const std::exception& error) {
-    return {Verdict::kAdvice, error.what(), "journalctl -u mocapd tells why it ended"};
+    return {Verdict::kAdvice, error.what(), "journalctl -u mocapd shows why it stopped"};
   }
 }
 

@@ -54,7 +54,7 @@ void RequireSuffix(const ExportFormat& format, const std::filesystem::path& out)
   std::ranges::transform(suffix, suffix.begin(),
                          [](unsigned char letter) { return std::tolower(letter); });
   if (suffix == fmt::format(".{}", format.name)) return;
-  throw SetupError(fmt::format("--out {}: does not end in .{}, which is wanted for that format",
+  throw SetupError(fmt::format("--out {}: does not end in .{}, the suffix of that format",
                                out.string(), format.name));
 }
 
@@ -87,7 +87,7 @@ void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   const Result result = ReadResult(arguments.result, arguments.prefix);
   Tell("", result.remarks);
   if (result.poses.empty()) {
-    throw SetupError(arguments.result.string() + ": holds no frame; one at least is wanted");
+    throw SetupError(arguments.result.string() + ": contains no frame; expected at least one");
   }
   const ExportSubject subject{"", result};
   const ExportScene scene{std::span(&subject, 1), result.poses, arguments.out.filename().string()};
@@ -108,7 +108,7 @@ PeopleResults ReadTrackedPeople(const ExportArguments& arguments) {
     return std::ranges::none_of(person.second.poses, IsTracked);
   });
   if (people.empty()) {
-    throw SetupError(arguments.result.string() + ": holds nobody who was tracked");
+    throw SetupError(arguments.result.string() + ": contains no tracked person");
   }
   return people;
 }

@@ -76,8 +76,7 @@ StudioPlan PlanFor(const StudioOptions& options) {
   for (std::size_t i = 0; i < plan.names.size(); ++i) {
     plan.ips.push_back(AddressAfter(options.first_ip, static_cast<int>(i)));
     if (!EnsureLoopbackAddress(plan.ips.back())) {
-      throw SetupError(plan.ips.back() +
-                       ": is none of this host's addresses; as root, ip addr add " +
+      throw SetupError(plan.ips.back() + ": is not an address of this host; as root, ip addr add " +
                        plan.ips.back() + "/8 dev lo");
     }
   }
@@ -204,7 +203,7 @@ class Cast {
       members_[i].returns =
           steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
                                     std::chrono::duration<double>(options_.return_after_s));
-      std::printf("%s has gone, and returns in %g s\n", plan_.names[i].c_str(),
+      std::printf("%s is gone and returns in %g s\n", plan_.names[i].c_str(),
                   options_.return_after_s);
       std::fflush(stdout);
     }

@@ -58,7 +58,7 @@ std::string NothingHeard(const StreamOptions& options) {
       feed.prefix + (feed.everybody || feed.person ? "MOCAP_PEOPLE" : "MOCAP_POSE");
   const std::string of_whom = feed.person ? " of person " + std::to_string(*feed.person) : "";
   return options.url + ": has no pose" + of_whom + " on " + channel +
-         "; a log of mocapd, its --prefix and a person in it are wanted";
+         "; expected a log of mocapd with this --prefix" + (feed.person ? " and person" : "");
 }
 
 /// Streams poses until a signal comes, a log ends, or no reader is left.
@@ -117,8 +117,9 @@ class OscStream {
     } else if (!pose.is_tracked) {
       sender_.SendState(static_cast<CaptureState>(pose.message.state), time_s);
     } else {
-      unknown_.Tell("the body \"" + Shortened(pose.body->model, 40) +
-                    "\" is not known here, or has sizes that are nobody's: no bones are sent");
+      unknown_.Tell(
+          "the body \"" + Shortened(pose.body->model, 40) +
+          "\" is not known here, or its sizes are not those of a person: no bones are sent");
       sender_.SendState(CaptureState::kAcquiring, time_s);
     }
     trouble_.Tell(sender_.trouble().empty() ? "" : to_ + ": " + sender_.trouble());

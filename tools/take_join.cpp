@@ -77,7 +77,7 @@ void RequireOneRate(const std::vector<Part>& parts) {
     if (part.fps_nominal == parts[0].fps_nominal) continue;
     std::ostringstream text;
     text << part.name() << ": has " << part.fps_nominal << " frames a second, and "
-         << parts[0].name() << " has " << parts[0].fps_nominal << "; takes of one rate are wanted";
+         << parts[0].name() << " has " << parts[0].fps_nominal << "; expected takes of one rate";
     throw SetupError(text.str());
   }
 }
@@ -89,7 +89,7 @@ void RequireDifferentCameras(const std::vector<Part>& parts) {
       const auto [other, is_new] = seen.emplace(camera.name, &part);
       if (is_new) continue;
       throw SetupError(part.name() + ": its camera " + camera.name + " is in " +
-                       other->second->name() + " too; takes of different cameras are wanted");
+                       other->second->name() + " too; expected takes of different cameras");
     }
   }
 }
@@ -103,9 +103,9 @@ void RequireOneCalibration(const std::vector<Part>& parts) {
       const std::string text = CalibrationText(file, std::span(&camera, 1));
       const auto [other, is_new] = seen.emplace(camera.name, std::pair(text, &part));
       if (is_new || other->second.first == text) continue;
-      throw SetupError(file.string() + ": cameras." + camera.name + " is another than in " +
+      throw SetupError(file.string() + ": cameras." + camera.name + " differs from that in " +
                        other->second.second->layout.Calibration().string() +
-                       "; takes of one calibration are wanted");
+                       "; expected takes of one calibration");
     }
   }
 }
@@ -121,7 +121,7 @@ TimeSpan RequireOverlap(const std::vector<Part>& parts) {
   std::ostringstream text;
   text << first_to_end.name() << ": ends " << -static_cast<double>(common.Length()) / 1e9
        << " s before " << last_to_begin.name()
-       << " begins; takes of one time are wanted, by clocks that agree";
+       << " begins; expected takes of the same time, with synchronized clocks";
   throw SetupError(text.str());
 }
 
@@ -166,7 +166,7 @@ void AddFilesOfPeople(const Part& part, Sources& sources) {
     const auto [other, is_new] = sources.emplace(file, from);
     if (is_new || HoldTheSame(from, other->second)) continue;
     throw SetupError(from.string() + ": differs from " + other->second.string() +
-                     "; takes of the same people are wanted");
+                     "; expected takes of the same people");
   }
 }
 
@@ -247,7 +247,7 @@ JoinedTake JoinTakes(std::span<const fs::path> takes, const fs::path& out) {
   const fs::path folder = PlainFolder(out), partial = folder.string() + ".partial";
   for (const fs::path& path : {folder, partial}) {
     if (IsThere(path))
-      throw SetupError(path.string() + ": exists; the name of a new folder is wanted");
+      throw SetupError(path.string() + ": exists; expected the name of a new folder");
   }
   std::vector<Part> parts;
   for (const fs::path& take : takes) parts.push_back(OpenPart(take));

@@ -91,7 +91,7 @@ void Track(const TrackOptions& options) {
   const double seconds = static_cast<double>(SteadyNs() - begin_ns) / 1e9;
   sink.EndProgress();
   if (sink.frames() == 0) {
-    throw SetupError(options.take.string() + ": no frames of two cameras belong together");
+    throw SetupError(options.take.string() + ": no frames of two cameras match in time");
   }
   if (options.people)
     WritePeople(options.out, sink.people());

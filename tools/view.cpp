@@ -48,7 +48,7 @@ std::string TypeOf(const std::string& name) {
 
 std::string Script(const std::filesystem::path& file) {
   if (!IsThere(file)) {
-    throw SetupError(file.string() + ": is missing; Debian's package libjs-three is wanted");
+    throw SetupError(file.string() + ": is missing; install Debian's package libjs-three");
   }
   return ReadWholeFile(file, "three.js", kLargestScript);
 }
@@ -99,7 +99,7 @@ void ViewLive(const ViewOptions& options) {
   const Config config = ConfigFor(options);
   const std::string url = options.url.value_or(config.lcm.url);
   if (url.starts_with("file:"))
-    throw SetupError("--url: " + url + " is a log; to look at it: mocap view TAKE LOG");
+    throw SetupError("--url: " + url + " is a log; to view it: mocap view TAKE LOG");
   const std::string token = MakeToken();
   ControlDesk desk(options.socket.empty() ? config.service.control.socket : options.socket, token);
   const std::unique_ptr<lcm::LCM> lcm = OpenLcm(url);

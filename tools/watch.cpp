@@ -230,9 +230,9 @@ void AppendCameras(const Hearing& hearing, std::string& page) {
     page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", Foreign(stage.name),
                         Sane(stage.p50_ms), Sane(stage.p99_ms));
   }
-  page += fmt::format(
-      "sets     {} complete, {} without some camera, {} left out; spread {:.1f} ms\n",
-      status.sets_complete, status.sets_partial, status.sets_dropped, Sane(status.spread_p50_ms));
+  page += fmt::format("sets     {} complete, {} incomplete, {} dropped; spread {:.1f} ms\n",
+                      status.sets_complete, status.sets_partial, status.sets_dropped,
+                      Sane(status.spread_p50_ms));
 }
 
 void AppendService(const service_t& service, std::string& page) {

@@ -56,21 +56,21 @@ void RefuseTooFew(std::size_t count, bool coplanar) {
   const std::size_t wanted = coplanar ? kFewestCoplanar : kFewestSpatial;
   if (count >= wanted) return;
   throw SetupError(std::to_string(count) + (coplanar ? " coplanar" : "") +
-                   " points do not determine a camera; at least " + std::to_string(wanted) +
-                   " are wanted");
+                   " points do not determine a camera; expected at least " +
+                   std::to_string(wanted));
 }
 
 Problem Pose(std::span<const PointDetection> points, const TsaiSensor& sensor) {
   RefuseTooFew(points.size(), true);
   for (const PointDetection& point : points) {
     if (!point.p_W.allFinite() || !point.pixel.allFinite())
-      throw SetupError("a point is not a number; finite coordinates are wanted");
+      throw SetupError("a point is not a number; expected finite coordinates");
   }
   Problem problem;
   Vector3 spread_mm;
   const Matrix3 axes = PrincipalAxes(points, spread_mm);
   if (spread_mm.y() <= kFlatShare * spread_mm.x())
-    throw SetupError("the points lie on one line; points that span a plane or a volume are wanted");
+    throw SetupError("the points lie on one line; expected points that span a plane or a volume");
   problem.coplanar = spread_mm.z() <= kFlatShare * spread_mm.x();
   RefuseTooFew(points.size(), problem.coplanar);
   std::size_t highest = 0;
@@ -104,7 +104,7 @@ Eigen::VectorXd SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorX
 }
 
 constexpr const char* kNoRotation =
-    "the points do not determine the camera's rotation; points spread over the picture are wanted";
+    "the points do not determine the camera's rotation; expected points spread over the picture";
 
 // The sign of Ty puts the point farthest from the axis on its own side of the axis.
 double SignOfTy(const Problem& problem, const Vector3& row1, const Vector3& row2, double Tx,
@@ -195,7 +195,7 @@ void SolveFocalAndDepth(const Problem& problem, Camera& camera) {
     b[2 * i + 1] = X.y() * p_C.z();
   }
   const Eigen::VectorXd solution = SolveLeastSquares(
-      A, b, "the focal length and the distance cannot be told apart; a larger slant is wanted");
+      A, b, "the focal length and the distance cannot be told apart; expected a larger slant");
   camera.lens.focal_mm = solution[0];
   camera.X_CP.p.z() = solution[1];
 }
@@ -270,12 +270,11 @@ void RefuseBadStart(const Problem& problem, const Camera& camera,
   if (problem.coplanar && slant_rad < kLeastSlant_rad)
     throw SetupError(
         "the points' plane is parallel to the picture, so that the focal length and the distance "
-        "cannot be told apart; a plane slanted by 30 degrees or more is wanted");
+        "cannot be told apart; expected a plane slanted by 30 degrees or more");
   if (!(camera.lens.focal_mm > 0) || !(camera.X_CP.p.z() > 0) ||
       !Residuals(camera, problem.p_P, points).allFinite())
     throw SetupError(
-        "no camera sees the points so (the focal length or a distance comes out negative); the "
-        "world "
+        "no camera fits these points (the focal length or a distance would be negative); the world "
         "may be left-handed or the columns swapped");
 }
 
@@ -295,7 +294,7 @@ void Measure(const Camera& camera, const Problem& problem, std::span<const Point
 
 TsaiCalibration CalibrateTsai(std::span<const PointDetection> points, const TsaiSensor& sensor) {
   if (!(sensor.pitch_mm.minCoeff() > 0) || !(sensor.sx > 0))
-    throw SetupError("the sensor's pitch or sx is not above 0; the size of a pixel is wanted");
+    throw SetupError("the sensor's pitch or sx is not above 0; expected the size of a pixel");
   const Problem problem = Pose(points, sensor);
   Camera camera = problem.coplanar ? AlignCoplanar(problem, sensor) : AlignSpatial(problem, sensor);
   if (problem.coplanar) {

@@ -35,7 +35,7 @@ void RequirePaperAxes(const BodyTable& table) {
   const bool has_all = std::ranges::all_of(has, [](bool is_there) { return is_there; });
   if (has_all && table.joints.size() == has.size()) return;
   throw SetupError("body \"" + table.name + "\" has " + std::to_string(table.joints.size()) +
-                   " axes; the tracker mikic2003 wants the 16 of the body \"mikic2003\"");
+                   " axes; the tracker mikic2003 needs the 16 of the body \"mikic2003\"");
 }
 
 class MikicCapture::Impl {

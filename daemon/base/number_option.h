@@ -15,10 +15,10 @@ inline CLI::Validator NumberFrom(double least, double most) {
   const std::string bounds = fmt::format("from {} to {}", least, most);
   const auto check = [least, most, bounds](const std::string& text) {
     double value = 0;
-    if (!CLI::detail::lexical_cast(text, value)) return "a number " + bounds + " is wanted";
+    if (!CLI::detail::lexical_cast(text, value)) return "expected a number " + bounds;
     const bool is_within = std::isfinite(value) && value >= least && value <= most;
     return is_within ? std::string()
-                     : text.substr(0, 40) + " is out of range; a number " + bounds + " is wanted";
+                     : text.substr(0, 40) + " is out of range; expected a number " + bounds;
   };
   return CLI::Validator(check, bounds);
 }

@@ -38,7 +38,7 @@ std::int64_t WrittenAt(const std::filesystem::path& file) {
 std::string WhyNotWritable(const std::filesystem::path& folder) {
   const std::filesystem::path place = NearestFolder(folder);
   std::error_code error;
-  if (!std::filesystem::is_directory(place, error)) return place.string() + " is no folder";
+  if (!std::filesystem::is_directory(place, error)) return place.string() + " is not a folder";
   // Only an attempt to write reveals a read-only file system, or a folder of the kernel.
   std::string name = (place / ".mocapd-XXXXXX").string();
   const FileDescriptor file(mkostemp(name.data(), O_CLOEXEC));

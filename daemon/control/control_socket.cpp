@@ -37,7 +37,7 @@ std::string Why() { return std::strerror(errno); }
 
 FileDescriptor NewSocket() {
   FileDescriptor fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (!fd.valid()) throw std::runtime_error("no local socket: " + Why());
+  if (!fd.valid()) throw std::runtime_error("a local socket cannot be created: " + Why());
   return fd;
 }
 
@@ -45,7 +45,7 @@ sockaddr_un AddressOf(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.native().size() >= sizeof address.sun_path) {
-    throw SetupError(path.string() + ": is too long for a socket's name");
+    throw SetupError(path.string() + ": is too long for the path of a socket");
   }
   std::strcpy(address.sun_path, path.c_str());
   return address;
@@ -57,7 +57,7 @@ int WithAddress(Call call, int fd, const sockaddr_un& address) {
 }
 
 [[noreturn]] void RefusePlace(const std::filesystem::path& path, const std::string& why) {
-  throw SetupError(path.string() + ": cannot be made a control socket: " + why);
+  throw SetupError(path.string() + ": the control socket cannot be created: " + why);
 }
 
 FileDescriptor Listen(const std::filesystem::path& path) {
@@ -65,7 +65,7 @@ FileDescriptor Listen(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   if (WithAddress(connect, NewSocket().get(), address) == 0) {
-    throw SetupError(path.string() + ": another mocapd answers there");
+    throw SetupError(path.string() + ": another mocapd uses this socket");
   }
   // Left by an earlier run that was killed.
   if (std::filesystem::is_socket(path, error)) std::filesystem::remove(path, error);
@@ -111,7 +111,7 @@ void RequireSocketPlace(const std::filesystem::path& socket) {
   AddressOf(socket);
   std::error_code error;
   if (std::filesystem::exists(socket, error) && !std::filesystem::is_socket(socket, error)) {
-    RefusePlace(socket, "there is a file or folder of that name");
+    RefusePlace(socket, "a file or folder of that name exists");
   }
   const std::string why = WhyNotWritable(std::filesystem::absolute(socket).parent_path());
   if (!why.empty()) RefusePlace(socket, why);
@@ -176,7 +176,7 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
       if (errno == EAGAIN) FailSilent(place, patience);
       if (errno != EACCES) continue;
       throw SetupError(place.string() +
-                       ": may not be used; as root: adduser USER mocap, then log in again");
+                       ": permission denied; as root: adduser USER mocap, then log in again");
     }
     std::optional<std::string> message;
     if (send(fd.get(), request.data(), request.size(), MSG_NOSIGNAL) >= 0) {
@@ -187,7 +187,7 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
     if (!reply) throw std::runtime_error(place.string() + ": mocapd gave no answer");
     return *reply;
   }
-  throw std::runtime_error("no mocapd runs here; start it: systemctl start mocapd");
+  throw std::runtime_error("mocapd is not running here; start it: systemctl start mocapd");
 }
 
 ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request) {

@@ -28,7 +28,7 @@ std::string InItsWords(const ProgramRun& run, const std::string& otherwise) {
 std::string WhyNoReply(const ProgramRun& run) {
   if (run.output.empty()) return InItsWords(run, "gave no answer");
   const std::string first_line = run.output.substr(0, run.output.find('\n'));
-  return "its answer is no reply: \"" + Shortened(first_line, kMostCharactersTold) + '"';
+  return "its answer is not a valid reply: \"" + Shortened(first_line, kMostCharactersTold) + '"';
 }
 
 std::string WhyItFailed(const ProgramRun& run, const std::string& program,
@@ -42,7 +42,7 @@ std::string WhyItFailed(const ProgramRun& run, const std::string& program,
     case ProgramRun::End::kSaidTooMuch:
       return "its answer is longer than " + std::to_string(kLongestReply) + " bytes";
     case ProgramRun::End::kKilledBySignal:
-      return program + " was ended by signal " + std::to_string(run.number);
+      return program + " was killed by signal " + std::to_string(run.number);
     case ProgramRun::End::kExited:
       break;
   }

@@ -28,7 +28,7 @@ Number NumberIn(const std::array<std::uint8_t, kHead>& head, std::size_t at) {
 LogReader::LogReader(const std::filesystem::path& file) {
   RequireFile(file, "an LCM log");
   in_.open(file, std::ios::binary | std::ios::ate);
-  if (!in_) throw SetupError(file.string() + ": cannot be read; an LCM log is wanted");
+  if (!in_) throw SetupError(file.string() + ": cannot be read; expected an LCM log");
   size_ = in_.tellg();
 }
 

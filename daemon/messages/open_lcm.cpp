@@ -128,7 +128,7 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo");
   }
   throw SetupError("lcm.url: \"" + url +
-                   "\" cannot be opened, wanted one like udpm://239.255.76.67:7667?ttl=0");
+                   "\" cannot be opened; expected one like udpm://239.255.76.67:7667?ttl=0");
 }
 
 std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
@@ -136,8 +136,8 @@ std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
 }
 
 std::string SilenceText(const std::string& url) {
-  return "nothing is heard on " + Printable(url) +
-         ": does mocapd run? mocap doctor looks at the network";
+  return "no messages arrive on " + Printable(url) +
+         ": is mocapd running? mocap doctor checks the network";
 }
 
 void CheckLcm(const std::string& url) {

@@ -86,7 +86,7 @@ std::unique_ptr<SilhouetteSource> NodeListener::Open(const CameraCalibration& ca
     if (Camera* const found = FindCamera(node, camera.name))
       return std::make_unique<RemoteCamera>(found->inbox, rays);
   }
-  throw SetupError("camera " + camera.name + " is none of a node");
+  throw SetupError("camera " + camera.name + " does not belong to a node");
 }
 
 NodesReport NodeListener::Report() {

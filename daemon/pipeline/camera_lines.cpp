@@ -109,7 +109,7 @@ void CameraLines::Close() {
 void CameraLines::ReplaceBackground(int camera, std::span<const BackgroundFrame> background) {
   CameraWorker& worker = *workers_.at(static_cast<std::size_t>(camera));
   if (!worker.Replace(Segmenter(worker.calibration(), background, segmentation_))) {
-    throw std::runtime_error(worker.calibration().name + " did not take over what was learned");
+    throw std::runtime_error(worker.calibration().name + " did not apply the learned background");
   }
 }
 

@@ -142,7 +142,7 @@ void CameraWorker::Enter(CameraState state) {
   if (!counters_.Enter(state)) return;
   const CameraFacts facts = camera_.driver->Facts();
   std::vector<std::string> remarks = facts.remarks;
-  if (!facts.damage.empty()) remarks.push_back("frames come damaged: " + facts.damage);
+  if (!facts.damage.empty()) remarks.push_back("frames are damaged: " + facts.damage);
   const std::lock_guard lock(remarks_mutex_);
   remarks_ = std::move(remarks);
   time_source_ = facts.time_source;

@@ -60,7 +60,7 @@ Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
 void RequireCameraCount(const Studio& studio) {
   if (!studio.cameras.empty() && studio.cameras.size() <= kMaxCameras) return;
   throw SetupError(studio.name + ": has " + std::to_string(studio.cameras.size()) +
-                   " cameras, wanted 1 to " + std::to_string(kMaxCameras));
+                   " cameras; expected 1 to " + std::to_string(kMaxCameras));
 }
 
 Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTable& body,

@@ -60,8 +60,8 @@ void PrepareRealtime(const RealtimeConfig& config) {
   if (config.priority > 0) {
     if (!TakePriority(config.priority)) {
       throw SetupError("realtime.priority is " + std::to_string(config.priority) +
-                       ", which the limits do not allow; LimitRTPRIO= in the unit, or rtprio in "
-                       "/etc/security/limits.conf, has to be as high");
+                       ", which is above the limit; raise LimitRTPRIO= in the unit, or rtprio in "
+                       "/etc/security/limits.conf");
     }
     TakePriority(0);
   }
@@ -69,14 +69,14 @@ void PrepareRealtime(const RealtimeConfig& config) {
   pthread_getaffinity_np(pthread_self(), sizeof before, &before);
   if (!KeepToProcessors(config.processors)) {
     throw SetupError(
-        "realtime.processors names processors that this process may not use; of those "
-        "that `nproc` counts, from 0 on, some are wanted");
+        "realtime.processors has processors that this process may not use; expected some of those "
+        "that `nproc` counts, from 0 on");
   }
   pthread_setaffinity_np(pthread_self(), sizeof before, &before);
   if (config.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     throw SetupError(
-        "realtime.lock_memory is true, which the limits do not allow; LimitMEMLOCK=infinity in the "
-        "unit, or memlock in /etc/security/limits.conf, is wanted");
+        "realtime.lock_memory is true, which the limits do not allow; set LimitMEMLOCK=infinity in "
+        "the unit, or memlock in /etc/security/limits.conf");
   }
 }
 

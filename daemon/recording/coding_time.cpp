@@ -33,17 +33,16 @@ std::string TextOf(LossCause cause) {
     case LossCause::kUnknown:
       break;
     case LossCause::kOtherWork:
-      return "the processor had other work: stop other programs, or give this one more memory "
-             "with recording.buffer_mb";
+      return "the processor was busy with other programs: stop them, or raise recording.buffer_mb";
     case LossCause::kCodec:
       return "the codec is too slow on this processor: set recording.codec to \"huffyuv\" or "
              "\"raw\"";
     case LossCause::kDisk:
-      return "the disk is too slow: a faster one, or a codec that writes less, is wanted";
+      return "the disk is too slow: use a faster disk, or a codec that writes less";
     case LossCause::kPoses:
-      return "poses were late and came first: larger voxels or fewer frames a second are wanted";
+      return "tracking was behind and has priority: use larger voxels or a lower frame rate";
   }
-  return "neither processor nor disk tells why; more memory is wanted: recording.buffer_mb";
+  return "the cause is not known: raise recording.buffer_mb";
 }
 
 }  // namespace mocap

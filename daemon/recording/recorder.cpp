@@ -15,7 +15,8 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
                                       std::span<const RecordedPerson> people) {
   const std::scoped_lock change(change_mutex_);
   if (Status().state == RecordingStatus::State::kRunning) {
-    throw std::runtime_error(Status().folder.string() + " is being recorded; mocap record stop");
+    throw std::runtime_error(Status().folder.string() +
+                             " is being recorded; stop it first: mocap record stop");
   }
   const std::filesystem::path folder = TakesFolder(config) / name;
   std::shared_ptr<Recording> last;

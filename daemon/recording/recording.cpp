@@ -68,7 +68,7 @@ const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
   std::error_code error;
   std::filesystem::create_directories(folder.parent_path(), error);
   if (error) {
-    throw SetupError(folder.parent_path().string() + ": cannot be made: " + error.message());
+    throw SetupError(folder.parent_path().string() + ": cannot be created: " + error.message());
   }
   const auto free_mb = static_cast<double>(BytesFree(folder.parent_path())) / 1e6;
   if (free_mb < config.keep_free_mb) {
@@ -161,7 +161,7 @@ void Recording::Begin() {
   if (studio_.times == CaptureTimes::kPresent) time_of_day_ahead_ns_ = TheHostClock().OffsetNs();
   const double all_mb = BufferFor(config_, Memory_mb());
   if (all_mb < config_.buffer_mb) {
-    spdlog::warn("recording.buffer_mb is {:.0f}, and {:.0f} are used: half of the memory",
+    spdlog::warn("recording.buffer_mb is {:.0f}, but only {:.0f} are used: half of the memory",
                  config_.buffer_mb, all_mb);
   }
   const double buffer_mb = all_mb / static_cast<double>(lines_.size());

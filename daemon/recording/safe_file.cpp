@@ -13,8 +13,8 @@ namespace {
 
 void Check(bool is_good, const std::filesystem::path& path) {
   if (is_good) return;
-  throw std::runtime_error(path.string() + ": cannot be kept safe from a loss of power: " +
-                           std::strerror(errno) + "; a disk that takes what is written is wanted");
+  throw std::runtime_error(path.string() + ": cannot be flushed to the disk: " +
+                           std::strerror(errno) + "; check the disk");
 }
 
 FileDescriptor OpenToSync(const std::filesystem::path& path) {

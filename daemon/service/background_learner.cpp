@@ -80,7 +80,7 @@ void BackgroundLearner::RequireNobody() const {
   const CaptureState state = path_.Status().state;
   if (state == CaptureState::kSearching || state == CaptureState::kLost) return;
   throw std::runtime_error(
-      "somebody is tracked in the room; if that is nobody, mocap background learn --anyway");
+      "a person is being tracked; if nobody is in the room, use mocap background learn --anyway");
 }
 
 std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds) {
@@ -111,7 +111,7 @@ std::deque<BackgroundLearner::Look> BackgroundLearner::LookAround(double seconds
     tap.Close();
     tap.Free();
   }
-  if (stop_.load()) throw std::runtime_error("mocapd ends; what was learned before is kept");
+  if (stop_.load()) throw std::runtime_error("mocapd is stopping; the previous background is kept");
   return looks;
 }
 
@@ -119,12 +119,12 @@ void BackgroundLearner::RequireEmptyRoom(const std::deque<Look>& looks) const {
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const std::string& name = place_.cameras[i].name;
     if (looks[i].frames.size() < kFewestFrames) {
-      throw std::runtime_error(name + " delivers no frames; what was learned before is kept");
+      throw std::runtime_error(name + " delivers no frames; the previous background is kept");
     }
     if (looks[i].changed <= kMostChange) continue;
     throw std::runtime_error(
         fmt::format("{}: {:.2g} % of its picture changed meanwhile; is somebody in the room, or is "
-                    "its exposure automatic? What was learned before is kept",
+                    "its exposure automatic? The previous background is kept",
                     name, 100 * looks[i].changed));
   }
 }

@@ -11,8 +11,8 @@ std::string ClockWatch::Add(std::int64_t ahead_ns) {
   if (std::abs(step_ns) < kLeastNs) return "";
   told_ns_ = ahead_ns;
   return fmt::format(
-      "the host's clock was put {} by {:.2f} s; messages carry the new time of day, tracking goes "
-      "on",
+      "the host's clock was set {} by {:.2f} s; messages carry the new time of day, and tracking "
+      "continues",
       step_ns > 0 ? "forward" : "back", static_cast<double>(std::abs(step_ns)) / 1e9);
 }
 

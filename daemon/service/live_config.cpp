@@ -30,7 +30,8 @@ LiveConfig::LiveConfig(const std::optional<std::filesystem::path>& file) : file_
 }
 
 ReloadResult LiveConfig::Reload() {
-  if (!file_) throw SetupError("mocapd was started without a configuration; there is none to read");
+  if (!file_)
+    throw SetupError("mocapd was started without a configuration file; there is nothing to reload");
   const Config next = LoadConfig(*file_);
   RequirePlaces(next);
   const std::string text = ReadConfigText(*file_);
@@ -49,8 +50,7 @@ ReloadResult LiveConfig::Reload() {
 std::string ReloadText(const ReloadResult& result) {
   std::string text;
   if (!result.applied.empty()) {
-    text = fmt::format("{} now hold{}", fmt::join(result.applied, ", "),
-                       result.applied.size() == 1 ? "s" : "");
+    text = fmt::format("applied {}", fmt::join(result.applied, ", "));
   }
   if (!result.need_restart.empty()) {
     text += fmt::format("{}{} need{} a restart", text.empty() ? "" : "; ",

@@ -45,8 +45,10 @@ void WriteCameras(const ServiceReport& report, MetricsWriter& writer) {
     }
   };
   family("camera_frames_total", "Frames delivered.", &CameraStatus::frames);
-  family("camera_dropped_frames_total", "Frames lost or let go.", &CameraStatus::dropped);
-  family("camera_late_frames_total", "Frames that found no set.", &CameraStatus::late);
+  family("camera_dropped_frames_total", "Frames lost on the way or dropped.",
+         &CameraStatus::dropped);
+  family("camera_late_frames_total", "Frames that arrived after their set was processed.",
+         &CameraStatus::late);
   family("camera_torn_frames_total", "Damaged frames.", &CameraStatus::torn);
   writer.Family("camera_up", "gauge", "1 while the camera streams.");
   for (const CameraStatus& camera : cameras) {
@@ -57,7 +59,7 @@ void WriteCameras(const ServiceReport& report, MetricsWriter& writer) {
 
 void WriteHealth(const ServiceReport& report, MetricsWriter& writer) {
   const auto& cameras = report.now.status.cameras;
-  writer.Family("camera_light_ratio", "gauge", "Brightness over that of the empty studio.");
+  writer.Family("camera_light_ratio", "gauge", "Brightness relative to the empty studio.");
   for (const CameraStatus& camera : cameras) {
     writer.Sample(fmt::format("camera=\"{}\"", camera.name), camera.light);
   }
@@ -86,25 +88,27 @@ std::string MetricsText(const ServiceReport& report) {
   MetricsWriter writer;
   writer.Family("build_info", "gauge", "Version of the daemon.");
   writer.Sample(fmt::format("version=\"{}\"", MOCAP_VERSION), 1);
-  writer.Single("up_seconds", "gauge", "Since the start.", static_cast<double>(report.up_ns) / 1e9);
-  writer.Family("state", "gauge", "1 for the state that holds.");
+  writer.Single("up_seconds", "gauge", "Time since the start.",
+                static_cast<double>(report.up_ns) / 1e9);
+  writer.Family("state", "gauge", "1 for the current state.");
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
     writer.Sample(fmt::format("state=\"{}\"", kCaptureStateNames[i]),
                   i == static_cast<std::size_t>(status.state) ? 1 : 0);
   }
-  writer.Single("people", "gauge", "Who are followed.", static_cast<double>(report.people.size()));
+  writer.Single("people", "gauge", "Number of people tracked.",
+                static_cast<double>(report.people.size()));
   writer.Single("residual_meters", "gauge", "Mean distance of the fit.",
                 report.fit.residual_mm / 1000);
   writer.Family("sets_total", "counter", "Frame sets by outcome.");
   writer.Sample("outcome=\"complete\"", static_cast<double>(status.sets_complete));
   writer.Sample("outcome=\"partial\"", static_cast<double>(status.sets_partial));
   writer.Sample("outcome=\"dropped\"", static_cast<double>(status.sets_dropped));
-  writer.Single("complaints", "gauge", "What is not as it should be.",
+  writer.Single("complaints", "gauge", "Number of current diagnostics.",
                 static_cast<double>(Diagnostics(report).size()));
   WriteStages(report, writer);
   WriteCameras(report, writer);
   WriteHealth(report, writer);
-  writer.Single("free_bytes", "gauge", "Room on the disk for takes.",
+  writer.Single("free_bytes", "gauge", "Free space on the disk for takes.",
                 static_cast<double>(report.bytes_free));
   return writer.Take();
 }

@@ -90,7 +90,7 @@ class ControlDesk {
   ControlReply Answer(const ControlRequest& request) const {
     ServiceControl* control = control_.load();
     if (control) return control->Answer(request);
-    throw std::runtime_error("mocapd is starting: it learns what the empty studio looks like");
+    throw std::runtime_error("mocapd is starting: it is learning the empty studio");
   }
 
   std::atomic<ServiceControl*> control_{nullptr};
@@ -232,7 +232,7 @@ void RunService(const std::optional<std::filesystem::path>& file, std::optional<
   try {
     Run(live, log, signals, seconds);
   } catch (const LearningStopped&) {
-    spdlog::info("ended while it was starting");
+    spdlog::info("stopped while starting");
   }
 }
 

@@ -39,7 +39,7 @@ ServiceControl::ServiceControl(const ServiceParts& parts, Subjects subjects)
 
 Pipeline& ServiceControl::Tracking() const {
   if (parts_.pipeline) return *parts_.pipeline;
-  throw SetupError("this mocapd is a node, which follows nobody: ask that of the studio");
+  throw SetupError("this mocapd is a node and tracks nobody: send this request to the studio");
 }
 
 ControlReply ServiceControl::Answer(const ControlRequest& request) {
@@ -61,7 +61,7 @@ std::string ServiceControl::Reload() {
     config_ = parts_.config.config();
   }
   parts_.publisher.SetVoxelsHz(parts_.config.config().lcm.voxels_hz);
-  spdlog::info("configuration read again: {}", text);
+  spdlog::info("configuration reloaded: {}", text);
   return text;
 }
 
@@ -96,7 +96,7 @@ std::string ServiceControl::Do(const RecordStartRequest& request) {
     NodeRequests::Asked stopping = nodes_.Ask("record stop", kTakePatience);
     parts_.recorder.Stop();
     stopping.Wait();
-    throw std::runtime_error(problem + "; the recording was ended");
+    throw std::runtime_error(problem + "; the recording was stopped");
   }
   return text + answers.Text();
 }
@@ -120,8 +120,8 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
 std::string ServiceControl::StopRecording() {
   const RecordingStatus status = parts_.recorder.Stop();
   if (status.state != RecordingStatus::State::kComplete) {
-    throw std::runtime_error("the recording failed: " + status.problem + "; what there is, is in " +
-                             status.folder.string());
+    throw std::runtime_error("the recording failed: " + status.problem +
+                             "; what was recorded is in " + status.folder.string());
   }
   std::string why = status.problem.empty() ? "" : "; it " + status.problem;
   if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
@@ -136,23 +136,21 @@ std::string ServiceControl::StopRecording() {
 std::string ServiceControl::Do(const SubjectNewRequest&) {
   const std::vector<FollowedPerson> people = parts_.view.people();
   Tracking().ChangeSubject({});
-  const std::string text =
-      people.empty()
-          ? "whoever comes is measured anew"
-          : Printable(LabelsOf(people)) + (people.size() > 1 ? " are" : " is") + " measured anew";
+  const std::string text = people.empty() ? "the next person will be measured"
+                                          : Printable(LabelsOf(people)) + " will be measured again";
   spdlog::info("{}", text);
   return text + '\n';
 }
 
 std::string ServiceControl::Do(const SubjectSaveRequest& request) {
   const std::vector<FollowedPerson> people = Tracked(parts_.view.people());
-  if (people.empty()) throw std::runtime_error("nobody is tracked whose sizes could be kept");
+  if (people.empty()) throw std::runtime_error("nobody is tracked, so there are no sizes to save");
   const FollowedPerson& person = ChoosePerson(people, request.person);
   subjects_.Save(request.name, person.sizes);
   Tracking().NamePerson(person.id, request.name);
   Tracking().KnowPeople(subjects_.Known());
-  spdlog::info("person {} is kept as subject {}", person.id, request.name);
-  return fmt::format("person {} is kept as {}: stature {:.0f} mm\n", person.id, request.name,
+  spdlog::info("person {} is saved as subject {}", person.id, request.name);
+  return fmt::format("person {} is saved as {}: stature {:.0f} mm\n", person.id, request.name,
                      person.sizes.Stature());
 }
 
@@ -160,10 +158,10 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
   const BodySizes sizes = subjects_.Load(request.name);
   const std::size_t people = parts_.view.people().size();
   Tracking().ChangeSubject(KnownPerson{request.name, sizes});
-  spdlog::info("subject {} is followed", request.name);
-  return fmt::format(
-      "{} is followed from now on: stature {:.0f} mm{}\n", request.name, sizes.Stature(),
-      people > 1 ? "; whoever is looked for first is taken for " + request.name : "");
+  spdlog::info("subject {} is tracked", request.name);
+  return fmt::format("{} is tracked from now on: stature {:.0f} mm{}\n", request.name,
+                     sizes.Stature(),
+                     people > 1 ? "; the first person found is taken for " + request.name : "");
 }
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
@@ -180,11 +178,11 @@ std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
 std::string ServiceControl::LearnBackground(bool anyway) {
   if (parts_.recorder.Status().state == RecordingStatus::State::kRunning) {
     throw std::runtime_error(
-        "a take is being recorded, which has one background; "
-        "mocap record stop comes first");
+        "a take is being recorded, and a take has only one background; stop it first: mocap record "
+        "stop");
   }
   const std::string text = parts_.background.Learn(anyway);
-  spdlog::info("the empty studio was learned anew");
+  spdlog::info("the empty studio was learned again");
   return text;
 }
 
@@ -209,7 +207,7 @@ std::string ServiceControl::Do(const SubjectListRequest&) {
       text += fmt::format("{:<24}{}\n", Printable(name), Printable(error.what()));
     }
   }
-  return text.empty() ? "no subject is kept yet\n" : text;
+  return text.empty() ? "no subject is saved yet\n" : text;
 }
 
 }  // namespace mocap

@@ -39,11 +39,12 @@ void RequireMetricsPlace(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) {
-    throw SetupError("metrics.file is " + file.string() + ", and " + folder.string() +
-                     " is no folder; that of the node exporter's textfile collector is wanted");
+    throw SetupError(
+        "metrics.file is " + file.string() + ", and " + folder.string() +
+        " is not a folder; expected the folder of the node exporter's textfile collector");
   }
   if (std::filesystem::is_directory(file, error)) {
-    throw SetupError("metrics.file is " + file.string() + ", which is a folder; a file is wanted");
+    throw SetupError("metrics.file is " + file.string() + ", which is a folder; expected a file");
   }
   if (const std::string why = WhyNotWritable(folder); !why.empty()) {
     throw SetupError("metrics.file is " + file.string() + ", which cannot be written: " + why);
@@ -152,12 +153,12 @@ LearningPlace LearningPlaceFor(const Config& config, const Studio& studio) {
     place.cameras.push_back(camera.calibration);
     if (!camera.calibration.head || !place.refusal.empty()) continue;
     place.refusal = camera.calibration.name +
-                    " turns, which takes its time: stop mocapd, then mocap background learn "
-                    "--config FILE";
+                    " is on a pan-tilt head, which has to scan its range: stop mocapd, then run "
+                    "mocap background learn --config FILE";
   }
   if (!IsLive(config.source)) {
     place.refusal = "source.driver is \"" + config.source.driver +
-                    "\", which brings its own pictures of the empty studio";
+                    "\", which has its own pictures of the empty studio";
   }
   return place;
 }

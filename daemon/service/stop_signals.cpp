@@ -73,10 +73,12 @@ void StopSignals::NoteStop() {
 
 // Uses nothing that could hang too: no destructors, no log.
 void StopSignals::EndNow() const {
-  const char* line = "mocapd: ended without waiting for what hangs\n";
-  if (is_starting_.load()) line = "mocapd: ended while it was starting\n";
+  const char* line = "mocapd: stopped without waiting for threads that hang\n";
+  if (is_starting_.load()) line = "mocapd: stopped while starting\n";
   if (has_take_.load()) {
-    line = "mocapd: ended before the recording was complete; it keeps .partial in its name\n";
+    line =
+        "mocapd: stopped before the recording was complete; its folder keeps .partial in its "
+        "name\n";
   }
   pollfd room{STDERR_FILENO, POLLOUT, 0};
   if (poll(&room, 1, 0) == 1) {

@@ -17,13 +17,13 @@ std::filesystem::path Subjects::FileOf(const std::string& name) const {
 void Subjects::Save(const std::string& name, const BodySizes& sizes) const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  if (error) throw std::runtime_error(folder_.string() + ": cannot be made: " + error.message());
+  if (error) throw std::runtime_error(folder_.string() + ": cannot be created: " + error.message());
   SaveSubject(FileOf(name), sizes);
 }
 
 BodySizes Subjects::Load(const std::string& name) const {
   if (!IsThere(FileOf(name))) {
-    throw SetupError("there is no subject " + name + "; mocap subject list tells which there are");
+    throw SetupError("there is no subject " + name + "; mocap subject list shows the saved ones");
   }
   return LoadSubject(FileOf(name));
 }

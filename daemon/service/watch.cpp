@@ -68,7 +68,7 @@ void Watch::Reload() {
     try {
       around_.control.Reload();
     } catch (const SetupError& error) {
-      spdlog::error("the configuration stays as it was: {}", error.what());
+      spdlog::error("the configuration is unchanged: {}", error.what());
     }
     around_.manager.EndReload();
   });
@@ -83,10 +83,9 @@ void Watch::Conclude() {
     return;
   }
   const LatencyHistogram& latency = status.stages[Stage::kLatency];
-  spdlog::info(
-      "{}, {} of them without some camera, {} dropped; latency {:.0f} ms, 99 % below {:.0f} ms",
-      Counted(status.sets_tracked, "set"), status.sets_partial, status.sets_dropped,
-      latency.PercentileMs(0.5), latency.PercentileMs(0.99));
+  spdlog::info("{}, {} of them incomplete, {} dropped; latency {:.0f} ms, 99 % below {:.0f} ms",
+               Counted(status.sets_tracked, "set"), status.sets_partial, status.sets_dropped,
+               latency.PercentileMs(0.5), latency.PercentileMs(0.99));
 }
 
 void Watch::Report(const PipelineStatus& status) {
@@ -121,7 +120,7 @@ void Watch::LookAtStudio(const PipelineStatus& status) {
       change && (!report_.light_change || change->time_ns != report_.light_change->time_ns);
   report_.light_change = change;
   if (!is_new) return;
-  spdlog::warn("the light changed all of a sudden, by {:+.0f} % in {}", 100 * (change->factor - 1),
+  spdlog::warn("the light changed suddenly, by {:+.0f} % in {}", 100 * (change->factor - 1),
                change->cameras.front());
 }
 

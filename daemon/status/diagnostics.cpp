@@ -39,13 +39,12 @@ using List = std::vector<std::string>;
 /// Faults that make all other lines doubtful.
 void ComplainOfReport(const ServiceReport& report, List& list) {
   if (report.age_ns > kOld) {
-    list.push_back(
-        fmt::format("nothing has been heard of mocapd's main thread for {}: what stands "
-                    "here is as old; restart it",
-                    Duration(report.age_ns)));
+    list.push_back(fmt::format(
+        "mocapd's main thread has not responded for {}: this status is equally old; restart mocapd",
+        Duration(report.age_ns)));
   }
   if (report.now.status.cameras.empty()) {
-    list.push_back("nothing is known yet: mocapd has just begun");
+    list.push_back("nothing is known yet: mocapd has just started");
   }
 }
 
@@ -53,32 +52,32 @@ void ComplainOfDelivery(const ServiceReport& report, List& list) {
   const Delivery& delivery = report.delivery;
   if (!delivery.problem.empty()) {
     list.push_back(
-        fmt::format("poses cannot be sent to {}: {}: look at the network, its multicast "
-                    "route or the server there; mocap doctor helps",
+        fmt::format("poses cannot be sent to {}: {}: check the network, its multicast route or the "
+                    "LCM server; mocap doctor helps",
                     report.lcm_url, delivery.problem));
   } else if (delivery.channel.silent_ns > 0) {
     list.push_back(
-        fmt::format("no message on {} has come back for {}, though they are sent: look "
-                    "at the firewall, and whether the network changed",
+        fmt::format("mocapd has received none of its own messages on {} for {}: check the "
+                    "firewall, and whether the network changed",
                     report.lcm_url, Duration(delivery.channel.silent_ns)));
   }
   if (delivery.channel.other_sender) {
     list.push_back(
-        fmt::format("another mocapd, or a log that is played, sends on {} as well: "
-                    "listeners get both in turns; another lcm.prefix or port is wanted",
+        fmt::format("another mocapd, or a log that is being played, also sends on {}: clients "
+                    "receive both in turns; use another lcm.prefix or port",
                     report.lcm_url));
   }
   if (delivery.channel.reaches_nobody) {
     list.push_back(
-        fmt::format("poses reach nobody outside of this process: lcm.url is {}; one "
-                    "like udpm://239.255.76.67:7667?ttl=0 is wanted",
+        fmt::format("poses do not leave this process: lcm.url is {}; expected one like "
+                    "udpm://239.255.76.67:7667?ttl=0",
                     report.lcm_url));
   }
 }
 
 void ComplainOfDisk(const ServiceReport& report, List& list) {
   if (report.disk_stall_ns > kDiskStall) {
-    list.push_back(fmt::format("the disk has not answered for {}: look at {}",
+    list.push_back(fmt::format("the disk has not responded for {}: check {}",
                                Duration(report.disk_stall_ns), report.takes.string()));
   }
   if (!report.takes_problem.empty()) {
@@ -86,10 +85,10 @@ void ComplainOfDisk(const ServiceReport& report, List& list) {
                                report.takes_problem));
   }
   if (!report.metrics_problem.empty()) {
-    list.push_back("the figures cannot be written to " + report.metrics_problem);
+    list.push_back("metrics cannot be written to " + report.metrics_problem);
   }
   if (report.log_fails) {
-    list.push_back("the log cannot be written: look at the room on its disk");
+    list.push_back("the log cannot be written: check the free space on its disk");
   }
 }
 
@@ -102,23 +101,22 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
     list.push_back("the recording " + recording.problem);
   }
   if (recording.state == RecordingStatus::State::kRunning && recording.dropped > 0) {
-    list.push_back(fmt::format("{} had no room in the recording: {}",
+    list.push_back(fmt::format("{} dropped from the recording: {}",
                                Counted(recording.dropped, "frame"),
                                TextOf(recording.cause.value_or(LossCause::kUnknown))));
   }
   for (const CutOffTake& take : report.cut_off) {
     list.push_back(
-        fmt::format("the recording {} was cut off at {:%H:%M:%S} UTC after {:.1f} s: it "
-                    "opens as it is; rename {} to keep it",
+        fmt::format("the recording {} was cut off at {:%H:%M:%S} UTC after {:.1f} s: it can be "
+                    "opened as it is; rename {} to keep it",
                     take.folder.stem().string(),
                     fmt::gmtime(static_cast<std::time_t>(take.last_ns / 1'000'000'000)),
                     static_cast<double>(take.duration_ns) / 1e9, take.folder.string()));
   }
   if (static_cast<double>(report.bytes_free) < 1e6 * report.keep_free_mb) {
-    list.push_back(
-        fmt::format("the disk for takes has {:.0f} MB left: nothing can be recorded; "
-                    "make room in {}",
-                    static_cast<double>(report.bytes_free) / 1e6, report.takes.string()));
+    list.push_back(fmt::format(
+        "the disk for takes has {:.0f} MB left: nothing can be recorded; free some space in {}",
+        static_cast<double>(report.bytes_free) / 1e6, report.takes.string()));
   }
 }
 
@@ -142,8 +140,8 @@ void ComplainOfSilence(const ServiceReport& report, List& list) {
     const bool is_there = report.now.status.cameras[i].state == CameraState::kStreaming;
     if (!is_there || WaitsForTrigger(report, i)) continue;
     list.push_back(
-        "no camera delivers frames: look at what triggers them, a pulse generator or PTP, and at "
-        "their power and network; nothing is tracked meanwhile");
+        "no camera delivers frames: check their trigger (pulse generator or PTP), their power and "
+        "their network; tracking is paused");
     return;
   }
 }
@@ -155,8 +153,8 @@ void ComplainOfOneAlone(const ServiceReport& report, List& list) {
   if (std::ranges::count_if(rates, gives) != 1) return;
   const auto only = std::ranges::find_if(rates, gives) - rates.begin();
   list.push_back(
-      fmt::format("only {} delivers frames: a person is carved from two cameras at "
-                  "least, and well from four; nothing is tracked meanwhile",
+      fmt::format("only {} delivers frames: tracking needs at least two cameras, and four for good "
+                  "poses; tracking is paused",
                   report.now.status.cameras[static_cast<std::size_t>(only)].name));
 }
 
@@ -166,8 +164,8 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
   const PipelineStatus& status = report.now.status;
   if (status.sets_complete + status.sets_partial > status.sets_tracked) {
     list.push_back(
-        "a frame set has been worked on for seconds: the processor is too slow for this "
-        "voxel size, or has other work");
+        "a frame set has been in processing for seconds: the processor is too slow for this voxel "
+        "size, or is busy with other programs");
     return;
   }
   const auto& rates = report.now.frames_per_second;
@@ -175,8 +173,8 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
   if (delivering == 0) return ComplainOfSilence(report, list);
   if (delivering == 1) return;
   list.push_back(
-      fmt::format("no frame sets come about, though {} of {} cameras deliver frames: look at their "
-                  "trigger and their clocks; nothing is tracked meanwhile",
+      fmt::format("no frame sets are formed, although {} of {} cameras deliver frames: check their "
+                  "trigger and their clocks; tracking is paused",
                   delivering, rates.size()));
 }
 
@@ -184,7 +182,7 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   const CameraStatus& camera = report.now.status.cameras[i];
   if (WaitsForTrigger(report, i) || IsOfLostNode(report.nodes, camera.node)) return;
   if (camera.state == CameraState::kLost) {
-    list.push_back(camera.name + " is lost: look at its cable and power");
+    list.push_back(camera.name + " is lost: check its cable and power");
   } else if (camera.state == CameraState::kStarting) {
     list.push_back(camera.name + " has not delivered a frame yet");
   }
@@ -195,7 +193,7 @@ void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
   const bool is_slow = is_flowing && !returns && rate < kGoodRate * wanted;
   if (camera.state == CameraState::kStreaming && is_slow) {
     list.push_back(
-        fmt::format("{} gives {:.1f} of {:.1f} frames a second: look at its exposure time, its "
+        fmt::format("{} delivers {:.1f} of {:.1f} frames a second: check its exposure time, its "
                     "bus or network, and the processor's load",
                     camera.name, rate, wanted));
   }
@@ -218,13 +216,13 @@ void ComplainOfMatching(const ServiceReport& report, List& list) {
   }
   if (!late.empty()) {
     list.push_back(
-        fmt::format("frames come too late for their sets: {}: look at their clocks, "
-                    "their trigger, and their bus or network",
+        fmt::format("frames arrive too late for their sets: {}: check their clocks, their trigger, "
+                    "and their bus or network",
                     fmt::join(late, ", ")));
   } else if (all_deliver && !some_is_blind && now.sets_complete_lately == 0 &&
              now.sets_partial_lately > 0) {
     list.push_back(
-        "no frame set is complete, though every camera delivers frames: look at their trigger and "
+        "no frame set is complete, although every camera delivers frames: check their trigger and "
         "their clocks");
   }
 }
@@ -247,7 +245,7 @@ void ComplainOfTriggers(const ServiceReport& report, List& list) {
                                  fmt::join(silent, ", ")));
     } else if (report.now.frames_per_second[m] > 0) {
       list.push_back(fmt::format(
-          "no trigger of {} reaches {}: look at the wire, at {}'s strobe and at their trigger",
+          "no trigger from {} reaches {}: check the wire, the strobe of {} and their trigger",
           master.name, fmt::join(silent, ", "), master.name));
     }
   }
@@ -256,23 +254,21 @@ void ComplainOfTriggers(const ServiceReport& report, List& list) {
 void ComplainOfPicture(const CameraStatus& camera, List& list) {
   if (camera.state != CameraState::kStreaming) return;
   if (camera.is_blind) {
-    list.push_back(
-        camera.name +
-        " sees hardly anything as it was learned, and is gone on without: was it turned, "
-        "does a light shine into it, is something before it, was its exposure changed? "
-        "Else mocap background learn");
+    list.push_back(camera.name +
+                   " no longer matches its learned background and is not used: was it turned, does "
+                   "a light shine into it, is something in front of it, was its exposure changed? "
+                   "If not, run mocap background learn");
     return;
   }
   if (camera.light < kDarkest || camera.light > kBrightest) {
     list.push_back(
-        fmt::format("{} sees {:.0f} % of the light in which the empty studio was "
-                    "learned: mocap background learn",
+        fmt::format("{} sees {:.0f} % of the light in which the empty studio was learned: restore "
+                    "the light, or run mocap background learn",
                     camera.name, 100 * camera.light));
   }
   if (camera.nudged_px > kNudged_px) {
     list.push_back(
-        fmt::format("{} looks {:.1f} px past where the empty studio was learned: was it "
-                    "touched?",
+        fmt::format("{} has moved by {:.1f} px since the empty studio was learned: was it touched?",
                     camera.name, camera.nudged_px));
   }
 }
@@ -286,8 +282,8 @@ void ComplainOfPlace(const PipelineStatus& status, List& list) {
   const auto worst = std::ranges::max_element(status.cameras, {}, off_px);
   if (worst == status.cameras.end() || off_px(*worst) < kMoved_px) return;
   list.push_back(fmt::format(
-      "{} sees the person {:.1f} px beside where the other cameras do: it was bumped since it was "
-      "calibrated; record a take of somebody who walks, and mocap calibrate refine it",
+      "{} sees the person {:.1f} px away from where the other cameras do: it was moved since it "
+      "was calibrated; record a take of a person who walks about, then run mocap calibrate refine",
       worst->name, off_px(*worst)));
 }
 
@@ -295,23 +291,22 @@ void ComplainOfLight(const ServiceReport& report, List& list) {
   if (!report.light_change) return;
   const LightChange& change = *report.light_change;
   list.push_back(
-      fmt::format("the light changed all of a sudden, by {:+.0f} % in {}: it is followed, "
-                  "but look whether the poses are still good",
+      fmt::format("the light changed suddenly, by {:+.0f} % in {}: this is compensated, but check "
+                  "that the poses are still good",
                   100 * (change.factor - 1), fmt::join(change.cameras, ", ")));
 }
 
 void ComplainOfTime(const ServiceReport& report, List& list) {
   if (report.now.sets_dropped_lately > 0) {
     list.push_back(
-        fmt::format("{} frame sets were left out lately: the processor is too slow for this rate "
-                    "and voxel size, or has other work",
+        fmt::format("{} frame sets were dropped recently: the processor is too slow for this rate "
+                    "and voxel size, or is busy with other programs",
                     report.now.sets_dropped_lately));
   }
   const double spread_ms = report.now.recent[Stage::kSpread].PercentileMs(0.99);
   if (report.fps_nominal > 0 && spread_ms > kWideSpread * 1000 / report.fps_nominal) {
-    list.push_back(
-        fmt::format("the cameras' exposures are {:.1f} ms apart: look at the trigger or the clocks",
-                    spread_ms));
+    list.push_back(fmt::format(
+        "the cameras' exposures are {:.1f} ms apart: check the trigger or the clocks", spread_ms));
   }
 }
 

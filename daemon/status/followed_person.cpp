@@ -17,7 +17,7 @@ const FollowedPerson& ChoosePerson(std::span<const FollowedPerson> people, std::
   if (!id && people.size() == 1) return people.front();
   if (!id) {
     throw SetupError("several people are tracked: " + LabelsOf(people) +
-                     "; --person with the number of one of them is wanted");
+                     "; choose one of them with --person NUMBER");
   }
   const auto found = std::ranges::find(people, *id, &FollowedPerson::id);
   if (found != people.end()) return *found;

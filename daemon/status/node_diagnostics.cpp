@@ -22,8 +22,7 @@ std::string Silence(const NodeReport& node, const std::string& lcm_url) {
       node.was_heard ? " for " + Duration(node.silent_ns) : " since the start";
   const bool stays_here = lcm_url.find("ttl=0") != std::string::npos;
   return fmt::format(
-      "nothing has been heard of node {}{}: look at its power and network, and at "
-      "mocapd there{}",
+      "nothing has been received from node {}{}: check its power and network, and mocapd there{}",
       node.name, since,
       stays_here ? "; lcm.url has ttl=0, which keeps messages on one computer" : "");
 }
@@ -31,22 +30,20 @@ std::string Silence(const NodeReport& node, const std::string& lcm_url) {
 void DiagnoseClock(const NodeReport& node, List& list) {
   if (!node.clock_agrees) {
     const double apart_ms = static_cast<double>(node.clock_apart_ns) / 1e6;
-    list.push_back(fmt::format(
-        "the clock of node {} is {:.0f} ms {} the one here, and its cameras are gone on without: "
-        "ptp4l and phc2sys, or chrony, keep both right",
-        node.name, std::abs(apart_ms), apart_ms > 0 ? "behind" : "ahead of"));
+    list.push_back(
+        fmt::format("the clock of node {} is {:.0f} ms {} the clock of this computer, and its "
+                    "cameras are not used: synchronize both by ptp4l and phc2sys, or by chrony",
+                    node.name, std::abs(apart_ms), apart_ms > 0 ? "behind" : "ahead of"));
   } else if (!node.version.empty() && !node.has_this_clock &&
              (!node.clock_is_kept || node.clock_error_ms > kMostError_ms)) {
-    list.push_back(
-        node.clock_is_kept
-            ? fmt::format(
-                  "the clock of node {} may be off by {:.0f} ms, says its kernel: ptp4l and "
-                  "phc2sys keep it better{}",
-                  node.name, node.clock_error_ms,
-                  node.clock_keeper.empty() ? "" : " than " + node.clock_keeper)
-            : fmt::format("nothing keeps the clock of node {} right: ptp4l and phc2sys, or chrony, "
-                          "are wanted there",
-                          node.name));
+    list.push_back(node.clock_is_kept
+                       ? fmt::format("the clock of node {} may be off by {:.0f} ms, as its kernel "
+                                     "reports: ptp4l and phc2sys are more precise{}",
+                                     node.name, node.clock_error_ms,
+                                     node.clock_keeper.empty() ? "" : " than " + node.clock_keeper)
+                       : fmt::format("nothing synchronizes the clock of node {}: run ptp4l and "
+                                     "phc2sys, or chrony, there",
+                                     node.name));
   }
 }
 
@@ -57,23 +54,23 @@ void Diagnose(const NodeReport& node, const std::string& lcm_url, List& list) {
   }
   DiagnoseClock(node, list);
   if (!node.is_of_this_version) {
-    list.push_back(fmt::format("node {} runs mocapd {}, and this is {}: one version is wanted",
-                               node.name, node.version, MOCAP_VERSION));
+    list.push_back(
+        fmt::format("node {} runs mocapd {}, and this is {}: install one version on both",
+                    node.name, node.version, MOCAP_VERSION));
   }
   if (!node.missing.empty()) {
-    list.push_back(fmt::format("node {} does not have {}: look at its [[cameras]]", node.name,
+    list.push_back(fmt::format("node {} does not have {}: check its [[cameras]]", node.name,
                                fmt::join(node.missing, ", ")));
   }
   if (!node.miscalibrated.empty()) {
-    list.push_back(
-        fmt::format("node {} has another calibration of {}: give it the studio's "
-                    "calibration.toml",
-                    node.name, fmt::join(node.miscalibrated, ", ")));
+    list.push_back(fmt::format(
+        "node {} has a different calibration of {}: copy the studio's calibration.toml to it",
+        node.name, fmt::join(node.miscalibrated, ", ")));
   }
   if (node.lost_share > kMostLost) {
     list.push_back(
-        fmt::format("{:.1f} % of the silhouettes of node {} are lost on the way: look at "
-                    "the network, and at socket buffers with mocap doctor",
+        fmt::format("{:.1f} % of the silhouettes of node {} are lost on the way: check the "
+                    "network, and the socket buffers with mocap doctor",
                     100 * node.lost_share, node.name));
   }
   for (const std::string& complaint : node.complaints) {
@@ -94,8 +91,8 @@ List NodeDiagnostics(const NodesReport& report, const std::string& lcm_url) {
   for (const NodeReport& node : report.nodes) Diagnose(node, lcm_url, list);
   if (!report.stranger.empty()) {
     list.push_back(
-        fmt::format("{} sends to {} as well and is not known here: add it to [[nodes]], "
-                    "or give that studio another lcm.prefix",
+        fmt::format("{} also sends to {} and is not known here: add it to [[nodes]], or give that "
+                    "studio another lcm.prefix",
                     report.stranger, lcm_url));
   }
   return list;

@@ -103,7 +103,7 @@ std::string AgreementText(const PipelineStatus& status) {
     if (IsCompared(camera)) worst_px = std::max(worst_px, camera.health.shift_px.norm());
   }
   if (std::ranges::none_of(status.cameras, IsCompared)) {
-    return "not held against a person who walks about yet";
+    return "not yet checked against a person who walks about";
   }
   return fmt::format("cameras agree within {:.1f} px", worst_px);
 }
@@ -198,10 +198,9 @@ std::string TrackingText(const ServiceReport& report) {
   const StageHistograms& recent = report.now.recent;
   std::string text = Line("poses", "on " + report.lcm_url);
   text += Line("state", StateText(report));
-  text +=
-      Line("sets", fmt::format("{:.1f} a second; {} complete, {} without some camera, {} left out",
-                               report.now.sets_per_second, status.sets_complete,
-                               status.sets_partial, status.sets_dropped));
+  text += Line("sets", fmt::format("{:.1f} a second; {} complete, {} incomplete, {} dropped",
+                                   report.now.sets_per_second, status.sets_complete,
+                                   status.sets_partial, status.sets_dropped));
   text += Line("spread", Percentiles(recent[Stage::kSpread]));
   text += Line("latency", Percentiles(recent[Stage::kLatency]));
   for (const Stage stage : kTold) {
@@ -261,7 +260,7 @@ std::string BackgroundText(const ServiceReport& report) {
   for (const CameraStatus& camera : report.now.status.cameras) {
     text +=
         fmt::format("{}: {:.0f} % of the light that was learned", camera.name, 100 * camera.light);
-    if (camera.nudged_px > 0) text += fmt::format(", {:.1f} px beside", camera.nudged_px);
+    if (camera.nudged_px > 0) text += fmt::format(", moved by {:.1f} px", camera.nudged_px);
     text += '\n';
   }
   return text;

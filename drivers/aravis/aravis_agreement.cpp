@@ -49,7 +49,7 @@ class Negotiation {
     SetGain();
     GFailure failure;
     agreed_.payload_bytes = arv_camera_get_payload(camera_, failure);
-    if (failure.failed()) Fail("tells no size of a frame: " + failure.text());
+    if (failure.failed()) Fail("does not report the size of a frame: " + failure.text());
     agreed_.has_stamps = HasStamps();
     return std::move(agreed_);
   }
@@ -92,9 +92,9 @@ void Negotiation::SetSize() {
   arv_camera_get_region(camera_, &x, &y, &agreed_.width_px, &agreed_.height_px, nullptr);
   if (request_.width_px > 0 &&
       (agreed_.width_px != request_.width_px || agreed_.height_px != request_.height_px)) {
-    Fail("gives pictures of " + std::to_string(agreed_.width_px) + " x " +
-         std::to_string(agreed_.height_px) + "; " + std::to_string(request_.width_px) + " x " +
-         std::to_string(request_.height_px) + " are wanted");
+    Fail("delivers pictures of " + std::to_string(agreed_.width_px) + " x " +
+         std::to_string(agreed_.height_px) + "; expected " + std::to_string(request_.width_px) +
+         " x " + std::to_string(request_.height_px));
   }
 }
 
@@ -117,8 +117,7 @@ void Negotiation::SetFormat() {
         std::ranges::find_if(kAravisFormats, [&available](const AravisFormat& format) {
           return std::ranges::count(available, gint64{format.code}) > 0;
         });
-    if (wanted == kAravisFormats.end())
-      Fail("has no format that is understood; it has " + Formats());
+    if (wanted == kAravisFormats.end()) Fail("has no supported format; it has " + Formats());
     arv_camera_set_pixel_format(camera_, wanted->code, failure);
   }
   if (failure.failed()) {
@@ -127,7 +126,7 @@ void Negotiation::SetFormat() {
   const auto format = FindAravisFormat(arv_camera_get_pixel_format(camera_, nullptr));
   if (!format) {
     Fail("format " + Quoted(settings_.format) +
-         " is not understood; eight bits of Mono, Bayer, RGB, BGR or YUV422 are wanted");
+         " is not supported; expected 8-bit Mono, Bayer, RGB, BGR or YUV422");
   }
   agreed_.format = *format;
 }
@@ -143,8 +142,8 @@ void Negotiation::SetRate() {
   if (got <= 0) return;
   agreed_.fps = got;
   if (Differs(got, request_.fps)) {
-    Remark("gives " + Number(got) + " frames a second; asked for were " + Number(request_.fps) +
-           ": a shorter exposure_us, a smaller picture or a leaner format may allow them");
+    Remark("delivers " + Number(got) + " frames a second instead of " + Number(request_.fps) +
+           ": try a shorter exposure_us, a smaller picture or a format with fewer bytes");
   }
 }
 
@@ -158,13 +157,12 @@ void Negotiation::SetExposure() {
     if (has_automatic) arv_camera_set_exposure_time_auto(camera_, ARV_AUTO_OFF, nullptr);
     arv_camera_set_exposure_time(camera_, *settings_.exposure_us, nullptr);
   } else if (has_automatic && arv_camera_get_exposure_time_auto(camera_, nullptr) != ARV_AUTO_OFF) {
-    Remark("sets its exposure by itself, so that its background changes: give exposure_us");
+    Remark("has automatic exposure, which changes the background: set exposure_us");
   }
   const double got_us = arv_camera_get_exposure_time(camera_, nullptr);
   agreed_.exposure_ns = std::llround(got_us * 1e3);
   if (settings_.exposure_us && Differs(got_us, *settings_.exposure_us)) {
-    Remark("exposes for " + Number(got_us) + " us; asked for were " +
-           Number(*settings_.exposure_us));
+    Remark("exposes for " + Number(got_us) + " us instead of " + Number(*settings_.exposure_us));
   }
   if (got_us * 1e-6 * agreed_.fps > 1) {
     Remark("exposes for " + Number(got_us) + " us, longer than a frame lasts: set exposure_us");
@@ -183,7 +181,7 @@ void Negotiation::SetGain() {
   arv_camera_set_gain(camera_, *settings_.gain, nullptr);
   const double got = arv_camera_get_gain(camera_, nullptr);
   if (Differs(got, *settings_.gain)) {
-    Remark("its gain is " + Number(got) + "; asked for was " + Number(*settings_.gain));
+    Remark("its gain is " + Number(got) + " instead of " + Number(*settings_.gain));
   }
 }
 
@@ -204,7 +202,7 @@ void Negotiation::SetPtp() {
 
 void Negotiation::RequirePtp() const {
   if (arv_camera_is_gv_device(camera_) && !agreed_.ptp_status.empty()) return;
-  Fail("trigger \"ptp\" cannot be set: a GigE Vision camera that tells its PTP status is wanted");
+  Fail("trigger \"ptp\" cannot be set; expected a GigE Vision camera that reports its PTP status");
 }
 
 bool Negotiation::HasStamps() const {

@@ -114,11 +114,11 @@ AravisTarget FindAravisCamera(const std::string& device) {
     return std::ranges::any_of(names, [&](const std::string* name) { return *name == device; });
   });
   if (meant.size() > 1) {
-    throw SetupError(device + ": means more than one camera; " + NamesOf(meant));
+    throw SetupError(device + ": matches more than one camera; " + NamesOf(meant));
   }
   if (meant.size() == 1) return TargetFor(device, meant.front());
   if (const auto named = OpenByUserName(device)) return *named;
-  throw SetupError(device + ": is no camera that Aravis finds; " + NamesOf(cameras));
+  throw SetupError(device + ": Aravis finds no such camera; " + NamesOf(cameras));
 }
 
 }  // namespace mocap

@@ -243,7 +243,8 @@ void AravisKeeper::Speak(const Session& session, unsigned generation) {
     } else if (schedule.knows_time()) {
       ScheduleNext(schedule, sender);
     } else {
-      if (settings_.is_scheduled()) NoteTrigger("does not tell its time, by which it is triggered");
+      if (settings_.is_scheduled())
+        NoteTrigger("does not report its time, which its trigger needs");
       Pause(kWatchPeriod);
     }
   }

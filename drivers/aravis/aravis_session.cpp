@@ -73,7 +73,7 @@ void RequireFree(const AravisTarget& target) {
   }
   if (presence == GigePresence::kAbsent) {
     throw SetupError(target.device + ": no GigE Vision camera answers at " + target.ip +
-                     "; look at its power, its cable and its address");
+                     "; check its power, its cable and its address");
   }
 }
 
@@ -86,7 +86,7 @@ AravisSession::AravisSession(const AravisTarget& target, const CameraRequest& re
   agreed_ = Agree(camera_.get(), request_, settings_);
   if (!target_.serial.empty() && !agreed_.serial.empty() && target_.serial != agreed_.serial) {
     throw SetupError(target_.device + ": the camera at " + target_.ip + " has the serial number " +
-                     agreed_.serial + "; " + target_.serial + " is wanted");
+                     agreed_.serial + "; expected " + target_.serial);
   }
   target_.serial = agreed_.serial;
   OpenStream();
@@ -110,7 +110,7 @@ void AravisSession::OpenCamera() {
   if (target_.ip.empty()) {
     camera_.reset(arv_camera_new(target_.id.c_str(), failure));
   } else {
-    if (!route) throw SetupError(target_.device + ": no network leads to " + target_.ip);
+    if (!route) throw SetupError(target_.device + ": there is no network route to " + target_.ip);
     const GPtr<GInetAddress> local(g_inet_address_new_from_string(route->local_ip.c_str()));
     const GPtr<GInetAddress> remote(g_inet_address_new_from_string(target_.ip.c_str()));
     const GPtr<ArvDevice> device(arv_gv_device_new(local.get(), remote.get(), failure));

@@ -85,7 +85,7 @@ void SetAction(ArvCamera* camera, const std::string& device, const std::string& 
     is_set = is_set && arv_camera_get_integer(camera, feature, nullptr) == value;
   }
   if (!is_set) {
-    throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set: it takes no " +
+    throw SetupError(device + ": trigger " + Quoted(trigger) + " cannot be set: it has no " +
                      "ActionDeviceKey, ActionGroupKey and ActionGroupMask");
   }
   SetSource(camera, device, trigger, source);
@@ -126,13 +126,12 @@ void SetStrobe(ArvCamera* camera, const std::string& device, const std::string& 
     FailStrobe(device, line, lines.empty() ? "it has no lines" : "it has " + lines);
   }
   if (Has(camera, "LineMode") && !Choose(camera, "LineMode", {"Output", "Strobe"})) {
-    FailStrobe(device, line, "it is no output");
+    FailStrobe(device, line, "it is not an output");
   }
   // Names by the standard and by Hikrobot. Point Grey's strobes have no source.
   if (Has(camera, "LineSource") &&
       !Choose(camera, "LineSource", {"ExposureActive", "ExposureStartActive"})) {
-    FailStrobe(device, line,
-               "it does not tell when it exposes, but " + Choices(camera, "LineSource"));
+    FailStrobe(device, line, "it cannot signal exposures, only " + Choices(camera, "LineSource"));
   }
   if (!Has(camera, "StrobeEnable")) return;
   arv_camera_set_boolean(camera, "StrobeEnable", TRUE, nullptr);

@@ -39,15 +39,15 @@ std::string Describe(GigeActionAnswer answer) {
     case GigeActionAnswer::kScheduled:
       return "";
     case GigeActionAnswer::kLate:
-      return "hears of its exposures too late: this machine or the network is too slow";
+      return "receives scheduled exposures too late: this machine or the network is too slow";
     case GigeActionAnswer::kNoTime:
-      return "takes no exposures ahead: it follows no PTP master";
+      return "accepts no scheduled exposures: it follows no PTP master";
     case GigeActionAnswer::kFull:
-      return "cannot remember its exposures: lower fps";
+      return "cannot queue so many scheduled exposures: lower fps";
     case GigeActionAnswer::kRefused:
-      return "refuses exposures that are asked for ahead: see whether it has scheduled actions";
+      return "rejects scheduled exposures: check whether it supports scheduled action commands";
     case GigeActionAnswer::kNoAnswer:
-      return "does not answer when it is asked for exposures ahead";
+      return "does not acknowledge scheduled exposures";
   }
   return "";
 }

@@ -206,7 +206,7 @@ Motions InPlaces(Bodies bodies, std::uint64_t seed, Make make) {
 std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bodies bodies,
                                                        std::uint64_t seed) {
   if (bodies.size() == 1) {
-    if (name == "meet") throw SetupError("motion \"meet\": people is 1; 2 or more are wanted");
+    if (name == "meet") throw SetupError("motion \"meet\": people is 1; expected 2 or more");
     Motions motions;
     motions.push_back(MakeMotion(name, bodies[0], seed));
     return motions;
@@ -226,7 +226,7 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
   std::string wanted;
   for (const std::string_view known : kCompanyMotionNames)
     wanted += (wanted.empty() ? "" : ", ") + std::string(known);
-  throw SetupError("motion \"" + std::string(name) + "\" is unknown; known are " + wanted);
+  throw SetupError("motion \"" + std::string(name) + "\" is unknown; expected one of: " + wanted);
 }
 
 }  // namespace mocap::simulation

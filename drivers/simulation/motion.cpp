@@ -138,7 +138,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   std::string wanted;
   for (const std::string_view known : kMotionNames)
     wanted += (wanted.empty() ? "" : ", ") + std::string(known);
-  throw SetupError("motion \"" + std::string(name) + "\" is unknown; known are " + wanted);
+  throw SetupError("motion \"" + std::string(name) + "\" is unknown; expected one of: " + wanted);
 }
 
 }  // namespace mocap::simulation

@@ -21,7 +21,7 @@ constexpr double kLeastStature_mm = 1000, kMostStature_mm = 2100;
 void Check(const SimulatedStudioOptions& options) {
   const auto refuse = [](const char* name, double found, const std::string& wanted) {
     std::ostringstream message;
-    message << "simulated studio: " << name << " is " << found << "; wanted is " << wanted;
+    message << "simulated studio: " << name << " is " << found << "; expected " << wanted;
     throw SetupError(message.str());
   };
   if (!(options.stature_mm >= kLeastStature_mm && options.stature_mm <= kMostStature_mm))

@@ -111,14 +111,15 @@ void Write(std::ostream& out, const CalibrationRecord& record) {
 // Faults that would break a reader, or a user of the file.
 std::string FaultOf(const CameraCalibration& camera) {
   constexpr double kRotationTolerance = 1e-6;
-  if (!IsCameraName(camera.name)) return "its name is none; letters, digits, _ and - are wanted";
+  if (!IsCameraName(camera.name)) return "its name is not valid; expected letters, digits, _ and -";
   const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kLargestPicture_px; };
-  if (!is_side(camera.width_px) || !is_side(camera.height_px)) return "its picture has no size";
+  if (!is_side(camera.width_px) || !is_side(camera.height_px))
+    return "its picture size is not valid";
   if (!std::visit([](const auto& lens) { return IsFinite(lens); }, camera.lens))
     return "its lens has a number that is not finite";
   const Matrix3& R = camera.X_CW.R;
   const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kRotationTolerance) || !(R.determinant() > 0)) return "its rotation is none";
+  if (!(error < kRotationTolerance) || !(R.determinant() > 0)) return "its rotation is not valid";
   if (!camera.X_CW.p.allFinite()) return "its translation is not finite";
   if (!camera.head) return "";
   const PanTiltHead& head = *camera.head;
@@ -136,7 +137,7 @@ void RequireSound(const std::filesystem::path& file, std::span<const CameraCalib
   std::set<std::string> names;
   for (const CameraCalibration& camera : cameras) {
     if (const std::string fault = FaultOf(camera); !fault.empty()) fail(camera.name, fault);
-    if (!names.insert(camera.name).second) fail(camera.name, "another has its name");
+    if (!names.insert(camera.name).second) fail(camera.name, "another camera has its name");
   }
 }
 

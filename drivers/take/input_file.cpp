@@ -15,14 +15,14 @@ namespace {
 
 [[noreturn]] void Fail(const std::filesystem::path& path, const std::string& what,
                        std::string_view wanted) {
-  throw SetupError(path.string() + ": " + what + "; " + std::string(wanted) + " is wanted");
+  throw SetupError(path.string() + ": " + what + "; expected " + std::string(wanted));
 }
 
 bool IsAbsence(int error) { return error == ENOENT || error == ENOTDIR; }
 
 /// Throws a message for errno.
 [[noreturn]] void FailByErrno(const std::filesystem::path& path, std::string_view wanted) {
-  if (path.empty()) throw SetupError("a path is empty; " + std::string(wanted) + " is wanted");
+  if (path.empty()) throw SetupError("a path is empty; expected " + std::string(wanted));
   if (IsAbsence(errno)) Fail(path, "is missing", wanted);
   Fail(path, std::string("cannot be opened: ") + std::strerror(errno), wanted);
 }
@@ -30,7 +30,7 @@ bool IsAbsence(int error) { return error == ENOENT || error == ENOTDIR; }
 void RequireRegular(const std::filesystem::path& file, const struct stat& status,
                     std::string_view wanted) {
   if (S_ISDIR(status.st_mode)) Fail(file, "is a folder", wanted);
-  if (!S_ISREG(status.st_mode)) Fail(file, "is no regular file", wanted);
+  if (!S_ISREG(status.st_mode)) Fail(file, "is not a regular file", wanted);
 }
 
 /// Closes a file descriptor.
@@ -52,8 +52,8 @@ bool IsThere(const std::filesystem::path& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return true;
   if (IsAbsence(errno)) return false;
-  throw SetupError(path.string() + ": cannot be looked at: " + std::strerror(errno) +
-                   "; a path that may be used is wanted");
+  throw SetupError(path.string() + ": cannot be accessed: " + std::strerror(errno) +
+                   "; expected a path that may be used");
 }
 
 int OpenToRead(const std::filesystem::path& file, std::string_view wanted) {
@@ -73,7 +73,7 @@ void RequireFile(const std::filesystem::path& file, std::string_view wanted) {
 void RequireFolder(const std::filesystem::path& folder, std::string_view wanted) {
   struct stat status {};
   if (stat(folder.c_str(), &status) != 0) FailByErrno(folder, wanted);
-  if (!S_ISDIR(status.st_mode)) Fail(folder, "is no folder", wanted);
+  if (!S_ISDIR(status.st_mode)) Fail(folder, "is not a folder", wanted);
 }
 
 std::string ReadWholeFile(const std::filesystem::path& file, std::string_view wanted,

@@ -34,7 +34,7 @@ TakeRow ParseRow(std::string_view line, bool has_angles, const TextLines& lines)
   if (row.frame > kLastFrame) lines.Fail("frame " + std::to_string(row.frame) + " is too large");
   if (row.timestamp_ns < 0 || row.timestamp_ns > kLatest_ns) {
     lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
-               " is no time; nanoseconds since the Unix epoch are wanted");
+               " is not a time; expected nanoseconds since the Unix epoch");
   }
   if (has_angles) row.angles = {cells.Number<double>(2), cells.Number<double>(3)};
   return row;
@@ -58,11 +58,11 @@ void CheckOrder(const TakeRow& first, const TakeRow& before, const TakeRow& row,
   if (row.timestamp_ns <= before.timestamp_ns) {
     lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
                std::to_string(before.timestamp_ns) +
-               "; times in nanoseconds that increase are wanted");
+               "; expected times in nanoseconds that increase");
   }
   if (row.timestamp_ns - first.timestamp_ns > kLongestTake_ns) {
     lines.Fail("timestamp_ns " + std::to_string(row.timestamp_ns) +
-               " is more than a week after the first; a shorter take is wanted");
+               " is more than a week after the first; expected a shorter take");
   }
 }
 
@@ -90,7 +90,7 @@ TakeTable ReadTakeTable(const std::filesystem::path& file) {
   TextLines lines(file, kWanted);
   TakeTable table;
   table.has_angles = RequireTakeHeader(lines) == 1;
-  if (!lines.has_end()) lines.Fail("ends with its header; a row for each frame is wanted");
+  if (!lines.has_end()) lines.Fail("ends with its header; expected a row for each frame");
   std::string_view line;
   while (lines.NextRow(line)) {
     try {
@@ -103,7 +103,7 @@ TakeTable ReadTakeTable(const std::filesystem::path& file) {
       table.is_cut_off = true;
     }
   }
-  if (table.rows.empty()) lines.Fail("no rows follow; one for each recorded frame is wanted");
+  if (table.rows.empty()) lines.Fail("has no rows; expected one for each recorded frame");
   return table;
 }
 

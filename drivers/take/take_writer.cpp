@@ -38,7 +38,7 @@ class TextFile {
   void Check() const {
     if (out_) return;
     throw std::runtime_error(name_ + ": cannot be written: " + std::strerror(errno) +
-                             "; room on its disk is wanted");
+                             "; check the free space on its disk");
   }
 
   std::string name_;
@@ -116,10 +116,11 @@ void CheckNames(const TakeDescription& description) {
   std::set<std::string> seen;
   for (const CameraCalibration& camera : description.cameras) {
     if (!IsCameraName(camera.name)) {
-      throw SetupError("camera " + Quoted(camera.name) + ": letters, digits, _ and - make a name");
+      throw SetupError("camera " + Quoted(camera.name) +
+                       ": the name is not valid; expected letters, digits, _ and -");
     }
     if (!seen.insert(camera.name).second) {
-      throw SetupError("camera " + Quoted(camera.name) + ": is there twice");
+      throw SetupError("camera " + Quoted(camera.name) + ": appears twice");
     }
   }
 }
@@ -259,15 +260,17 @@ class TakeWriter::Impl {
   }
 
   void MakeFolder() const {
-    if (folder_.empty()) throw SetupError("the name of the take's folder is empty; one is wanted");
+    if (folder_.empty())
+      throw SetupError("the name of the take's folder is empty; expected a name");
     for (const std::filesystem::path& path : {folder_, layout_.folder}) {
       if (IsThere(path)) {
-        throw SetupError(path.string() + ": exists; the name of a new folder is wanted");
+        throw SetupError(path.string() + ": exists; expected the name of a new folder");
       }
     }
     std::error_code error;
     std::filesystem::create_directories(layout_.folder, error);
-    if (error) throw SetupError(layout_.folder.string() + ": cannot be made: " + error.message());
+    if (error)
+      throw SetupError(layout_.folder.string() + ": cannot be created: " + error.message());
   }
 
   std::filesystem::path folder_;

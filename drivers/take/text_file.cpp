@@ -21,10 +21,9 @@ constexpr mode_t kAsUsual = 0666;
 
 std::string Problem(const std::filesystem::path& file) {
   const char* wanted = errno == ENOSPC || errno == EDQUOT
-                           ? "room on its disk"
-                           : "a file in a folder that is there and may be written to";
-  return file.string() + ": cannot be written: " + std::strerror(errno) + "; " + wanted +
-         " is wanted";
+                           ? "free space on its disk"
+                           : "a file in an existing folder with write permission";
+  return file.string() + ": cannot be written: " + std::strerror(errno) + "; expected " + wanted;
 }
 
 /// A file being written; messages may use another name.
@@ -112,7 +111,7 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text) {
 }
 
 void RequireWritable(const std::filesystem::path& file) {
-  if (file.empty()) throw SetupError("the name of a file to write is empty; a name is wanted");
+  if (file.empty()) throw SetupError("the name of a file to write is empty; expected a name");
   const bool is_special = IsSpecial(file);
   const std::filesystem::path tried = is_special ? file : PartOf(Behind(file));
   if (const int fd = open(tried.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAsUsual); fd >= 0) {
@@ -135,16 +134,16 @@ void RequireOwn(const std::filesystem::path& file, std::span<const std::string_v
   const bool is_own = std::any_of(beginnings.begin(), beginnings.end(),
                                   [&](std::string_view own) { return begin.starts_with(own); });
   if (is_own || begin.empty()) return;
-  throw SetupError(file.string() + ": is there, and is not " + std::string(kind) +
-                   " of mocap's; the name of a new file is wanted");
+  throw SetupError(file.string() + ": exists and is not " + std::string(kind) +
+                   " of mocap; expected the name of a new file");
 }
 
 void MakeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw SetupError(folder.string() + ": cannot be made a folder: " + error.message() +
-                     "; another is wanted");
+    throw SetupError(folder.string() + ": the folder cannot be created: " + error.message() +
+                     "; expected another folder");
   }
   RequireFolder(folder, "a folder for results");
 }

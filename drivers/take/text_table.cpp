@@ -40,8 +40,8 @@ bool TextLines::Fill() {
     const ssize_t got = read(fd_, buffer_.data() + end_, buffer_.size() - end_);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      throw SetupError(file_.string() + ": cannot be read: " + std::strerror(errno) + "; " +
-                       wanted_ + " is wanted");
+      throw SetupError(file_.string() + ": cannot be read: " + std::strerror(errno) +
+                       "; expected " + wanted_);
     }
     end_ += static_cast<std::size_t>(got);
     return got > 0;
@@ -53,7 +53,7 @@ void TextLines::Begin() {
   const std::string_view start(buffer_.data(), end_);
   if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
     number_ = 1;
-    Fail("is UTF-16; " + wanted_ + " in UTF-8 is wanted");
+    Fail("is UTF-16; expected " + wanted_ + " in UTF-8");
   }
   if (start.starts_with(kUtf8Mark)) begin_ = kUtf8Mark.size();
 }
@@ -78,11 +78,10 @@ bool TextLines::Next(std::string_view& line) {
     line_.append(from, stop);
     begin_ += static_cast<std::size_t>(stop - from);
     if (line_.size() > kLongestLine) {
-      Fail("is longer than " + std::to_string(kLongestLine) + " characters; " + wanted_ +
-           " is wanted");
+      Fail("is longer than " + std::to_string(kLongestLine) + " characters; expected " + wanted_);
     }
     has_end_ = stop != to;
-    if (has_end_ && *stop == '\0') Fail("holds a zero byte; " + wanted_ + " as text is wanted");
+    if (has_end_ && *stop == '\0') Fail("contains a zero byte; expected " + wanted_ + " as text");
     if (has_end_) TakeEnd();
     if (has_end_ || !Fill()) break;
   }
@@ -97,7 +96,7 @@ bool TextLines::NextRow(std::string_view& line) {
   while (Next(line)) {
     if (IsBlank(line)) continue;
     number_ = first_blank;
-    Fail("is empty; a row is wanted, or the end of the file");
+    Fail("is empty; expected a row, or the end of the file");
   }
   return false;
 }
@@ -114,14 +113,14 @@ std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers
   if (is_there && header != headers.end()) {
     return static_cast<std::size_t>(header - headers.begin());
   }
-  const std::string then = "; the header " + wanted + " is wanted";
+  const std::string then = "; expected the header " + wanted;
   if (!is_there) lines.Fail("is empty" + then);
   const bool has_commas = line.find(',') != std::string_view::npos;
   if (!has_commas && line.find(';') != std::string_view::npos) {
-    lines.Fail("has semicolons between its fields; commas are wanted");
+    lines.Fail("has semicolons between its fields; expected commas");
   }
   if (!has_commas && line.find('\t') != std::string_view::npos) {
-    lines.Fail("has tabs between its fields; commas are wanted");
+    lines.Fail("has tabs between its fields; expected commas");
   }
   if (line.find('"') != std::string_view::npos) {
     lines.Fail("has quotation marks" + then + ", without any");
@@ -139,14 +138,14 @@ TableRow::TableRow(std::string_view line, std::span<const std::string> columns,
     line.remove_prefix(comma + 1);
   }
   if (fields_.size() == columns.size()) return;
-  lines.Fail("has " + Counted(fields_.size(), "field") + "; " + std::to_string(columns.size()) +
-             " are wanted, as in the header");
+  lines.Fail("has " + Counted(fields_.size(), "field") + "; expected " +
+             std::to_string(columns.size()) + ", as in the header");
 }
 
 void TableRow::Fail(std::size_t column, const std::string& wanted) const {
   const std::string found =
       fields_[column].empty() ? std::string("empty") : Quoted(fields_[column]);
-  lines_.Fail(columns_[column] + " is " + found + "; " + wanted + " is wanted");
+  lines_.Fail(columns_[column] + " is " + found + "; expected " + wanted);
 }
 
 void TableRow::FailAsNumber(std::size_t column, bool is_whole) const {
@@ -155,7 +154,7 @@ void TableRow::FailAsNumber(std::size_t column, bool is_whole) const {
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   const bool is_number = error == std::errc() && end == field.data() + field.size();
   if (is_whole && is_number && field.find_first_of("eE") != std::string_view::npos) {
-    Fail(column, "a whole number with all its digits, which a spreadsheet takes away,");
+    Fail(column, "a whole number with all its digits, which spreadsheets remove");
   }
   Fail(column, is_whole ? "a whole number" : "a number");
 }

@@ -28,7 +28,7 @@ using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
 class NoFrame : public SetupError {
  public:
   explicit NoFrame(const std::filesystem::path& file)
-      : SetupError(file.string() + ": holds no whole frame; one at least is wanted") {}
+      : SetupError(file.string() + ": contains no complete frame; expected at least one") {}
 };
 
 [[noreturn]] void Fail(const std::filesystem::path& file, const std::string& what) {
@@ -39,7 +39,7 @@ InputPtr OpenInput(const std::filesystem::path& file) {
   RequireFile(file, "a video file");
   std::error_code error;
   if (std::filesystem::file_size(file, error) == 0 && !error) {
-    Fail(file, "is empty; a Matroska file is wanted");
+    Fail(file, "is empty; expected a Matroska file");
   }
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
@@ -48,7 +48,7 @@ InputPtr OpenInput(const std::filesystem::path& file) {
   const int result =
       avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
   av_dict_free(&options);
-  if (result < 0) Fail(file, "is not a video that FFmpeg knows; a Matroska file is wanted");
+  if (result < 0) Fail(file, "is not a video that FFmpeg knows; expected a Matroska file");
   InputPtr input(raw);
   input->flags |= AVFMT_FLAG_DISCARD_CORRUPT;
   return input;
@@ -230,7 +230,9 @@ class VideoReader::Impl {
     std::memcpy(matrix.data(), data, sizeof(matrix));
     const std::optional<PictureTurn> turn = TurnFromDisplayMatrix(matrix);
     if (!turn)
-      Fail(file_, "is to be shown turned by other than quarters; record it without a rotation");
+      Fail(file_,
+           "has a display rotation that is not a multiple of 90 degrees; record it without a "
+           "rotation");
     return *turn;
   }
 

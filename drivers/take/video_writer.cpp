@@ -97,8 +97,8 @@ class VideoWriter::Impl {
     MOCAP_CHECK(frame_ && packet_);
     av_log_set_level(AV_LOG_QUIET);
     if (width_px < 1 || height_px < 1 || width_px > 16384 || height_px > 16384 || !(fps > 0)) {
-      throw SetupError(file_ + ": a video of " + std::to_string(width_px) + " x " +
-                       std::to_string(height_px) + " pixels cannot be");
+      throw SetupError(file_ + ": cannot be a video of " + std::to_string(width_px) + " x " +
+                       std::to_string(height_px) + " pixels");
     }
     encoder_ = OpenEncoder(width_px, height_px, fps, StorageOf(pixels, codec));
     frame_->format = encoder_->pix_fmt;

@@ -76,7 +76,7 @@ UsbBus::UsbBus(fs::path sys) : sys_(std::move(sys)) {
       LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, NoteChange,
       changed_.get(), nullptr);
   if (error != LIBUSB_SUCCESS) {
-    throw SetupError(std::string("USB does not tell what comes and goes: ") +
+    throw SetupError(std::string("USB does not report when devices are plugged in or out: ") +
                      libusb_strerror(error));
   }
 }

@@ -10,7 +10,7 @@ namespace mocap {
 namespace {
 
 std::string Known(const std::vector<UvcHead>& heads) {
-  if (heads.empty()) return "no USB device that is connected pans and tilts";
+  if (heads.empty()) return "no connected USB device has a pan-tilt head";
   std::string text = "there is ";
   for (const UvcHead& head : heads) {
     text += (&head == &heads.front() ? "" : ", ") + head.usb.bus + " (" + head.usb.model +
@@ -39,7 +39,7 @@ UvcHead FindUvcHead(const UsbBus& bus, const std::string& name) {
   if (meant.empty()) {
     throw SetupError(name + ": no head has this serial number, port or bus; " + Known(heads));
   }
-  if (meant.size() > 1) throw SetupError(name + ": is the name of several heads; " + Known(meant));
+  if (meant.size() > 1) throw SetupError(name + ": matches several heads; " + Known(meant));
   return meant.front();
 }
 

@@ -47,8 +47,8 @@ int Transfer(libusb_device_handle* handle, const UvcTerminal& terminal, UvcReque
 
 [[noreturn]] void Refuse(const UvcHead& head, int error) {
   throw SetupError(
-      head.usb.bus + ": cannot be opened for its head: " + libusb_strerror(error) +
-      (error == LIBUSB_ERROR_ACCESS ? "; membership of the group video is wanted, as a rule" : ""));
+      head.usb.bus + ": the head cannot be opened: " + libusb_strerror(error) +
+      (error == LIBUSB_ERROR_ACCESS ? "; usually the user has to be in the group video" : ""));
 }
 
 /// Opens the device and detaches the kernel's driver until it is closed.
@@ -80,7 +80,7 @@ PanTiltLimits UvcPanTilt::Connect() {
   const auto least = Request(kGetMin), most = Request(kGetMax);
   if (least && most) return {*least, *most};
   Disconnect();
-  throw SetupError(head.usb.bus + ": does not tell how far its head turns");
+  throw SetupError(head.usb.bus + ": does not report the range of its head");
 }
 
 void UvcPanTilt::Disconnect() { handle_.reset(); }

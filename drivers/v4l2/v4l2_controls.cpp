@@ -43,7 +43,7 @@ class Controls {
     const std::optional<int> automatic = Get(knob.automatic);
     if (!wanted) {
       if (automatic && *automatic != knob.manual) {
-        Remark(std::string(knob.key) + ": the camera adjusts it by itself; set " + knob.key);
+        Remark(std::string(knob.key) + ": the camera adjusts it automatically; set " + knob.key);
       }
       return;
     }
@@ -53,7 +53,7 @@ class Controls {
     if (!got) {
       Remark(std::string(knob.key) + ": the camera has no such control");
     } else if (*got != steps) {
-      Remark(std::string(knob.key) + ": asked for " + Shown(*wanted) + ", the camera took " +
+      Remark(std::string(knob.key) + ": requested " + Shown(*wanted) + ", the camera set " +
              Shown(*got * knob.unit) + RangeOf(knob));
     }
   }
@@ -80,7 +80,7 @@ class Controls {
     v4l2_queryctrl query{};
     query.id = knob.id;
     if (kernel_.Request(handle_, VIDIOC_QUERYCTRL, &query) < 0) return "";
-    return "; it goes from " + Shown(query.minimum * knob.unit) + " to " +
+    return "; its range is " + Shown(query.minimum * knob.unit) + " to " +
            Shown(query.maximum * knob.unit);
   }
 
@@ -107,7 +107,7 @@ std::int64_t SetControls(VideoKernel& kernel, int handle, const V4l2Settings& se
                          std::vector<std::string>& remarks) {
   Controls controls(kernel, handle, remarks);
   if (controls.Set(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0).value_or(0) != 0) {
-    controls.Remark("the camera insists on a lower frame rate in the dark; set exposure_us");
+    controls.Remark("the camera lowers its frame rate in the dark; set exposure_us");
   }
   controls.Turn(kExposure, settings.exposure_us);
   controls.Turn(kGain, settings.gain);

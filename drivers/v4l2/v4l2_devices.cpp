@@ -106,19 +106,19 @@ bool IsClaimedBySeveral(const DeviceTree& tree, const fs::path& link) {
 V4l2Node FindByPath(VideoKernel& kernel, const std::string& name, const DeviceTree& tree) {
   std::error_code error;
   const fs::path target = fs::canonical(name, error);
-  if (error) throw SetupError(name + ": is not there; " + Known(FindV4l2Nodes(kernel, tree)));
+  if (error) throw SetupError(name + ": does not exist; " + Known(FindV4l2Nodes(kernel, tree)));
   if (IsClaimedBySeveral(tree, name)) {
-    throw SetupError(name + ": is the name of several cameras; take their /dev/v4l/by-path or bus");
+    throw SetupError(name + ": matches several cameras; use their /dev/v4l/by-path or bus");
   }
   // A node without permission is reported differently from one without pictures.
   const int handle = kernel.Open(target.string());
   if (handle == -EACCES) {
-    throw SetupError(name + ": may not be opened; the group `video` may, as a rule");
+    throw SetupError(name + ": permission denied; usually the user has to be in the group `video`");
   }
   if (handle >= 0) kernel.Close(handle);
   const auto node = Inspect(kernel, tree, target.filename().string());
   if (!node) {
-    throw SetupError(name + ": gives no pictures (cameras have nodes for other data, too); " +
+    throw SetupError(name + ": delivers no pictures (cameras also have nodes for other data); " +
                      Known(FindV4l2Nodes(kernel, tree)));
   }
   return *node;
@@ -170,7 +170,7 @@ V4l2Node FindV4l2Node(VideoKernel& kernel, const std::string& name, const Device
     throw SetupError(name + ": no camera has this bus or serial number; " + Known(all));
   }
   if (found.size() > 1) {
-    throw SetupError(name + ": is the name of several cameras; " + Known(found));
+    throw SetupError(name + ": matches several cameras; " + Known(found));
   }
   return found.front();
 }

@@ -21,7 +21,7 @@ std::string TimeSource(const CaptureTime& time) {
     case V4l2Clock::kMonotonic:
       break;
     case V4l2Clock::kGuessed:
-      return "stamps without a clock's name";
+      return "timestamps of an unnamed clock";
     case V4l2Clock::kArrival:
       return "arrival";
   }
@@ -62,13 +62,13 @@ void V4l2Driver::Connect() {
 GrabStatus V4l2Driver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
   if (!stream_) return TryToReturn(timeout);
-  if (is_broken_) return Lose("takes no buffers back");
+  if (is_broken_) return Lose("accepts no buffers any more");
   V4l2Buffer buffer;
   switch (stream_->Wait(timeout, buffer)) {
     case V4l2Wait::kNothing:
       return Steady::now() - last_sign_ > kStall ? Lose("delivers nothing") : GrabStatus::kTimeout;
     case V4l2Wait::kBroken:
-      return Lose("broke off");
+      return Lose("stopped streaming");
     case V4l2Wait::kBuffer:
       break;
   }
@@ -119,7 +119,7 @@ GrabStatus V4l2Driver::TryToReturn(std::chrono::milliseconds timeout) {
   try {
     const V4l2Node found = FindV4l2Node(*kernel_, request_.device, tree_);
     if (found.identity() != node_.identity()) {
-      throw SetupError(request_.device + ": is another camera now, " + found.identity());
+      throw SetupError(request_.device + ": is now a different camera, " + found.identity());
     }
     node_ = found;
     Connect();
@@ -145,8 +145,8 @@ CameraFacts V4l2Driver::Facts() const {
   if (!trouble_.empty()) facts.remarks.push_back(trouble_);
   if (time_.clock == V4l2Clock::kArrival && bytes_per_frame_ > 0) {
     facts.remarks.push_back(
-        "its stamps fit no clock, so that frames have the time of their arrival; "
-        "expect some milliseconds of jitter");
+        "its timestamps match no clock, so frames get their time of arrival; expect some "
+        "milliseconds of jitter");
   }
   return facts;
 }

@@ -153,9 +153,8 @@ KnownFormat Choose(VideoKernel& kernel, int handle, const std::string& where, Si
     best_rate = useful;
   }
   if (best) return *best;
-  throw SetupError(where + ": gives no " + (wanted.empty() ? "format that is known here" : wanted) +
-                   " at " + SizeText(size.width, size.height) + "; it offers " +
-                   Offers(kernel, handle));
+  throw SetupError(where + ": has no " + (wanted.empty() ? "supported format" : wanted) + " at " +
+                   SizeText(size.width, size.height) + "; it offers " + Offers(kernel, handle));
 }
 
 double SetRate(VideoKernel& kernel, int handle, double fps) {
@@ -173,7 +172,7 @@ double SetRate(VideoKernel& kernel, int handle, double fps) {
 void RemarkOnRate(VideoKernel& kernel, int handle, const KnownFormat& format, Size size,
                   double asked, double got, std::vector<std::string>& remarks) {
   if (got <= 0 || std::abs(got - asked) <= kRateTolerance * asked) return;
-  std::string remark = "fps: asked for " + Shown(asked) + ", the camera took " + Shown(got);
+  std::string remark = "fps: requested " + Shown(asked) + ", the camera set " + Shown(got);
   const auto fastest = FastestRate(kernel, handle, format.fourcc, size);
   if (fastest && std::isfinite(*fastest) && *fastest < asked) {
     remark += "; " + NameOf(format.fourcc) + " at " + SizeText(size.width, size.height) +
@@ -209,7 +208,7 @@ std::size_t StrideOf(const KnownFormat& format, const Size& size, std::uint32_t 
   if (format.pixels == PixelFormat::kMjpeg) return 0;
   const std::size_t least = LeastRowBytes(format.pixels, size.width);
   if (told == 0 || told >= least) return told;
-  remarks.push_back("its driver says that a row has " + std::to_string(told) + " bytes, where " +
+  remarks.push_back("its driver reports rows of " + std::to_string(told) + " bytes, but " +
                     std::to_string(least) + " are needed; rows are read without gaps");
   return 0;
 }
@@ -231,13 +230,13 @@ V4l2Format SetFormat(VideoKernel& kernel, int handle, const std::string& where,
   pixels.field = V4L2_FIELD_NONE;
   const int result = kernel.Request(handle, VIDIOC_S_FMT, &format);
   if (result == -EBUSY) {
-    throw SetupError(where + ": is in use by another program; `fuser` on it tells which");
+    throw SetupError(where + ": is in use by another program; `fuser` shows which");
   }
   const Size got{static_cast<int>(pixels.width), static_cast<int>(pixels.height)};
   if (result < 0 || got.width != size.width || got.height != size.height ||
       pixels.pixelformat != chosen.fourcc) {
-    throw SetupError(where + ": gives " + NameOf(pixels.pixelformat) + " " +
-                     SizeText(got.width, got.height) + " when asked for " + NameOf(chosen.fourcc) +
+    throw SetupError(where + ": delivers " + NameOf(pixels.pixelformat) + " " +
+                     SizeText(got.width, got.height) + " instead of " + NameOf(chosen.fourcc) +
                      " " + SizeText(size.width, size.height) + "; it offers " +
                      Offers(kernel, handle));
   }

@@ -49,7 +49,7 @@ V4l2PanTilt::~V4l2PanTilt() { Stop(); }
 PanTiltLimits V4l2PanTilt::Connect() {
   const V4l2Node node = FindV4l2Node(*kernel_, device(), tree_);
   handle_ = kernel_->Open(node.path);
-  if (handle_ < 0) throw SetupError(node.path + ": cannot be opened for its head");
+  if (handle_ < 0) throw SetupError(node.path + ": the head cannot be opened");
   PanTiltLimits limits;
   PanTiltAngles &least = limits.least, &most = limits.most;
   if (!Range(*kernel_, handle_, V4L2_CID_PAN_ABSOLUTE, least.pan_rad, most.pan_rad) ||

@@ -21,7 +21,7 @@ v4l2_buffer EmptyBuffer(std::uint32_t index) {
 }
 
 std::string InUse(const std::string& where) {
-  return where + ": is in use by another program; `fuser` on it tells which";
+  return where + ": is in use by another program; `fuser` shows which";
 }
 
 std::string ErrorText(int result) { return std::strerror(-result); }
@@ -52,7 +52,7 @@ void V4l2Stream::Open(const V4l2Node& node, const CameraRequest& request,
   const int result = kernel_->Request(handle_, VIDIOC_STREAMON, &type);
   if (result == -ENOSPC) {
     throw SetupError(where + ": the USB bandwidth of " + node.controller() +
-                     " does not suffice for one more camera with " + format_.name +
+                     " is not enough for one more camera with " + format_.name +
                      "; set format = \"MJPG\", a lower fps or smaller size_px, or plug it into "
                      "another controller");
   }
@@ -69,7 +69,7 @@ void V4l2Stream::MapBuffers(const std::string& where) {
   request.memory = V4L2_MEMORY_MMAP;
   const int result = kernel_->Request(handle_, VIDIOC_REQBUFS, &request);
   if (result == -EBUSY) throw SetupError(InUse(where));
-  if (result < 0) throw SetupError(where + ": gives no buffers: " + ErrorText(result));
+  if (result < 0) throw SetupError(where + ": provides no buffers: " + ErrorText(result));
   for (std::uint32_t index = 0; index < request.count; ++index) {
     v4l2_buffer buffer = EmptyBuffer(index);
     const int found = kernel_->Request(handle_, VIDIOC_QUERYBUF, &buffer);
@@ -77,7 +77,7 @@ void V4l2Stream::MapBuffers(const std::string& where) {
     if (!start) throw SetupError(where + ": its buffers cannot be mapped");
     memory_.push_back({start, buffer.length});
     const int queued = kernel_->Request(handle_, VIDIOC_QBUF, &buffer);
-    if (queued < 0) throw SetupError(where + ": takes no buffers: " + ErrorText(queued));
+    if (queued < 0) throw SetupError(where + ": accepts no buffers: " + ErrorText(queued));
   }
 }
 

@@ -50,7 +50,7 @@ TEST_F(BackgroundFolder, BehindALinkIsReplacedAndTheLinkStays) {
 TEST_F(BackgroundFolder, WithAnythingElseInItIsNeverTakenAway) {
   fs::create_directories(folder_ / "thesis");
   const auto refused = ThrowsMessage<SetupError>(
-      AllOf(HasSubstr("\"thesis\""), HasSubstr("no picture of the empty studio")));
+      AllOf(HasSubstr("\"thesis\""), HasSubstr("not a picture of the empty studio")));
   EXPECT_THAT([&] { Learn(folder_, "x"); }, refused);
   EXPECT_TRUE(fs::exists(folder_ / "thesis"));
   fs::remove_all(folder_);
@@ -58,7 +58,7 @@ TEST_F(BackgroundFolder, WithAnythingElseInItIsNeverTakenAway) {
   EXPECT_THAT([&] { Learn(folder_, "x"); }, refused);
   testing::WriteText(studio_.path() / "file", "text");
   EXPECT_THAT([&] { Learn(studio_.path() / "file", "x"); },
-              ThrowsMessage<SetupError>(HasSubstr("is no folder")));
+              ThrowsMessage<SetupError>(HasSubstr("is not a folder")));
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ TEST(LcmUrl, TakesApartWhatLcmKnows) {
 
 TEST(LcmUrl, RefusesWhatLcmPassesOver) {
   const std::pair<const char*, const char*> wrong[] = {
-      {"udpm:239.255.76.67:7667", "is no LCM address"},
+      {"udpm:239.255.76.67:7667", "is not an LCM address"},
       {"updm://239.255.76.67:7667", "begins with updm"},
-      {"udpm://192.168.1.5:7667", "is no multicast address"},
+      {"udpm://192.168.1.5:7667", "is not a multicast address"},
       {"udpm://239.255.76.67", "no address with a port"},
       {"udpm://239.255.76.67:0", "no address with a port"},
       {"udpm://239.255.76.67:99999", "no address with a port"},
@@ -43,7 +43,7 @@ TEST(LcmUrl, RefusesWhatLcmPassesOver) {
       {"udpm://239.255.76.67:7667?tll=1", "unknown option tll"},
       {"udpm://239.255.76.67:7667?nports=3", "unknown option nports"},
       {"tcpq://host", "no address with a port"},
-      {"file://?mode=w", "names no file"},
+      {"file://?mode=w", "has no file name"},
       {"file:///tmp/x?mode=x", "mode=x"},
       {"file:///tmp/x?speed=fast", "speed=fast"},
       {"file:///tmp/x?speed=-1", "speed=-1"},

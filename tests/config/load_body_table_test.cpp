@@ -175,7 +175,7 @@ struct DamagedBody {
 TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
   const std::string whole = testing::ReadText(file_);
   const DamagedBody cases[] = {
-      {"[[joints]]", "[[joints]", "no TOML"},
+      {"[[joints]]", "[[joints]", "not TOML"},
       {"name = \"mikic2003\"", "", "name is missing"},
       {"name = \"neck_x\"", "name = \"\"", "joints[0].name is empty"},
       {"name = \"neck_y\"", "name = \"neck_x\"", "joints[1].name"},

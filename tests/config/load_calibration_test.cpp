@@ -113,7 +113,7 @@ TEST_F(Calibration, WhatCouldNotBeReadAgainIsNotWritten) {
               HasSubstr("its lens"));
   EXPECT_THAT(why([&](Camera& c) { c.width_px = 0; }), HasSubstr("its picture"));
   EXPECT_THAT(why([&](Camera& c) { c.name = "../x"; }), HasSubstr("letters, digits"));
-  EXPECT_THAT(why([&](Camera& c) { c.name = "cam1"; }), HasSubstr("another has its name"));
+  EXPECT_THAT(why([&](Camera& c) { c.name = "cam1"; }), HasSubstr("another camera has its name"));
 }
 
 TEST_F(Calibration, TellsItsAgeAndHealth) {
@@ -178,7 +178,7 @@ struct DamagedCalibration {
 
 TEST_F(Calibration, DamageIsNamedWithFileLineAndKey) {
   const DamagedCalibration cases[] = {
-      {"[cameras.cam1]", "[cameras.cam1", "no TOML"},
+      {"[cameras.cam1]", "[cameras.cam1", "not TOML"},
       {"model = \"tsai\"", "model = \"pinhole9\"", "cam1.model is \"pinhole9\""},
       {"model = \"tsai\"", "model = 7", "cam1.model"},
       {"model = \"tsai\"\n", "", "cam1.model is missing"},
@@ -193,7 +193,7 @@ TEST_F(Calibration, DamageIsNamedWithFileLineAndKey) {
       {"focal_mm = ", "focal_in = ", "cam1.focal_mm is missing"},
       {"kappa1 = ", "kappa2 = 0\nkappa1 = ", "cam1.kappa2 is unknown"},
       {"pitch_mm = [0.01", "pitch_mm = [0", "cam1.pitch_mm"},
-      {"rotation = [[", "rotation = [[9", "cam1.rotation is no rotation"},
+      {"rotation = [[", "rotation = [[9", "cam1.rotation is not a rotation"},
       {"rotation = [[", "rotation = [[[1], ", "cam1.rotation"},
       {"rotation = ", "rotation = [[1,0,0],[0,1,0],[0,0,-1]] #", "cam1.rotation is a reflection"},
       {"rotation = ", "rotation = [[1,0,0],[0,1,0]] #", "cam1.rotation"},

@@ -128,7 +128,7 @@ struct WrongConfig {
 
 TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
   const WrongConfig cases[] = {
-      {"[source\n", 1, "no TOML"},
+      {"[source\n", 1, "not TOML"},
       {"body = 3\n", 1, "body is 3"},
       {"[body]\ntracker = \"deep\"\n", 2, "body.tracker is \"deep\""},
       {"bodies = \"full\"\n", 1, "bodies is unknown"},
@@ -144,13 +144,14 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
       {"[source]\nheight = 9000\n", 2, "source.height is 9000"},
       {"[source]\nfps = 0\n", 2, "source.fps is 0"},
       {"[source]\nfps = -0.0\n", 2, "source.fps is 0;"},
-      {"[source]\nwidth = 1000000000\n", 2, "source.width is 1000000000; a whole number from 16"},
+      {"[source]\nwidth = 1000000000\n", 2,
+       "source.width is 1000000000; expected a whole number from 16"},
       {"[recording]\nbuffer_mb = 1e300\n", 2, "recording.buffer_mb is 1e+300"},
       {"\"x\\u001b]0;owned\\u0007\" = 1\n", 1, "x\\x1b]0;owned\\x07 is unknown"},
       {"[source]\nstature_mm = 1.75\n", 2, "source.stature_mm is 1.75"},
       {"[source]\npeople = 5\n", 2, "source.people is 5"},
       {"[source]\nstature_mm = 990\n", 2, "source.stature_mm is 990"},
-      {"[people]\nmost = 9\n", 2, "people.most is 9; a whole number from 1 to 8"},
+      {"[people]\nmost = 9\n", 2, "people.most is 9; expected a whole number from 1 to 8"},
       {"[people]\nmost = 0\n", 2, "people.most is 0"},
       {"[voxels]\nsize_mm = 9.9\n", 2, "voxels.size_mm is 9.9"},
       {"[voxels]\nsize_mm = 101\n", 2, "voxels.size_mm is 101"},

@@ -143,7 +143,7 @@ TEST_F(OpenedTake, ACameraThatDeliveredNothingIsLeftOutUnlessItIsNamed) {
   EXPECT_THAT(ErrorOnOpening({.cameras = {"cam2"}}), HasSubstr("cam2.csv:1"));
   WriteText(layout_.Table("cam1"), "frame,timestamp_ns\n");
   WriteText(layout_.Table("cam3"), "frame,timestamp_ns\n");
-  EXPECT_THAT(ErrorOnOpening(), HasSubstr("holds no frame of any camera (cam1, cam2, cam3)"));
+  EXPECT_THAT(ErrorOnOpening(), HasSubstr("contains no frame of any camera (cam1, cam2, cam3)"));
 }
 
 /// Rows as they come when the unit of time is another.
@@ -158,7 +158,9 @@ std::string TableWithIntervals(std::int64_t interval) {
 TEST_F(OpenedTake, TimesThatAreNoNanosecondsAreRefused) {
   WriteSmallTake(layout_.folder, take_);
   const std::pair<std::int64_t, const char*> cases[] = {
-      {40'000, "microseconds?"}, {40, "milliseconds?"}, {40'000'000'000, "nanoseconds is wanted"}};
+      {40'000, "microseconds?"},
+      {40, "milliseconds?"},
+      {40'000'000'000, "expected timestamp_ns in nanoseconds"}};
   for (const auto& [interval, says] : cases) {
     WriteText(layout_.Table("cam2"), TableWithIntervals(interval));
     EXPECT_THAT(ErrorOnOpening(),
@@ -188,7 +190,7 @@ TEST_F(OpenedTake, EveryDamageIsOneLineThatNamesTheFile) {
       {"no take.toml", [](const TakeLayout& t) { remove(t.Description()); }, "take.toml"},
       {"no calibration", [](const TakeLayout& t) { remove(t.Calibration()); }, "calibration.toml"},
       {"empty calibration", [](const TakeLayout& t) { WriteText(t.Calibration(), ""); },
-       "calibration.toml:1: cameras has none; [cameras.cam1] is wanted (the file is empty)"},
+       "calibration.toml:1: cameras is empty; expected [cameras.cam1] (the file is empty)"},
       {"no background", [](const TakeLayout& t) { remove_all(t.folder / "background"); },
        "background/cam1.mkv"},
       {"no table", [](const TakeLayout& t) { remove(t.Table("cam2")); }, "cam2.csv"},

@@ -93,13 +93,13 @@ TEST_F(RoleTest, WhatAStudioCannotDoWithoutIsNamed) {
   EXPECT_THAT(Error(kStudio + "[[nodes]]\nname = \"left\"\ncameras = []\n"),
               HasSubstr("cameras is empty"));
   EXPECT_THAT(Error(kStudio + "[[nodes]]\nname = \"left\"\ncameras = [\"cam9\"]\n"),
-              HasSubstr("cameras.cam9 is missing, which node left has"));
+              HasSubstr("cameras.cam9 is missing, but node left has it"));
   const std::string left = "[[nodes]]\nname = \"left\"\ncameras = [\"cam1\"]\n";
-  EXPECT_THAT(Error(kStudio + left + left), HasSubstr("as another node's"));
+  EXPECT_THAT(Error(kStudio + left + left), HasSubstr("the name of another node"));
   EXPECT_THAT(Error(kStudio + left + "[[nodes]]\nname = \"right\"\ncameras = [\"cam1\"]\n"),
-              HasSubstr("which is there twice"));
+              HasSubstr("twice"));
   EXPECT_THAT(Error(left), HasSubstr("needs role = \"studio\""));
-  EXPECT_THAT(Error("[source]\ndriver = \"none\"\n"), HasSubstr("role \"studio\" alone"));
+  EXPECT_THAT(Error("[source]\ndriver = \"none\"\n"), HasSubstr("only role \"studio\""));
 }
 
 }  // namespace

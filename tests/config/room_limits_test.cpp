@@ -48,7 +48,7 @@ TEST(RoomLimits, StudiosAndHallsPass) {
 TEST(RoomLimits, ACalibrationInOtherUnitsIsToldByItsSize) {
   EXPECT_THAT(Error(Corners(2.5, 2.5), 25),
               AllOf(StartsWith("calibration.toml: "), HasSubstr("within 7.07 mm"),
-                    HasSubstr("metres? millimetres are wanted")));
+                    HasSubstr("metres? Expected millimetres")));
   EXPECT_THAT(Error(Corners(2.5e6, 2.5e6), 25),
               AllOf(HasSubstr("a room of 5002 x 5002 x"), HasSubstr("in millimetres?")));
   EXPECT_THAT(Error(Corners(1e150, 1e150), 25), HasSubstr("millimetres"));
@@ -57,7 +57,7 @@ TEST(RoomLimits, ACalibrationInOtherUnitsIsToldByItsSize) {
 TEST(RoomLimits, MoreVoxelsThanMemoryHoldsAreRefusedWithTheSizeThatFits) {
   EXPECT_THAT(Error(Corners(40'000, 9000), 10),
               AllOf(HasSubstr("82 x 82 x"), HasSubstr("voxels of 10 mm"),
-                    HasSubstr("mm or more are wanted")));
+                    HasSubstr("mm or more, or a calibration")));
   EXPECT_EQ(Error(Corners(40'000, 9000), 50), "none");
 }
 

@@ -268,7 +268,7 @@ TEST_F(MocapdTest, ASignalEndsItWhileTheEmptyStudioIsLearned) {
   }
   daemon.Signal(SIGTERM);
   EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
-  EXPECT_THAT(daemon.Errors(), HasSubstr("ended while it was starting"));
+  EXPECT_THAT(daemon.Errors(), HasSubstr("stopped while starting"));
 }
 
 TEST_F(MocapdTest, SaysThatItIsStartingWhileItLearns) {

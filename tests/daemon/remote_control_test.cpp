@@ -110,7 +110,7 @@ TEST(RemoteControl, WhatSshSaysLastIsTheReason) {
                 .problem,
             "left: studio@left: Permission denied (publickey).");
   EXPECT_EQ(AskShell("exit 255").problem, "left: /bin/sh ended with status 255");
-  EXPECT_EQ(AskShell("kill -9 $$").problem, "left: /bin/sh was ended by signal 9");
+  EXPECT_EQ(AskShell("kill -9 $$").problem, "left: /bin/sh was killed by signal 9");
   EXPECT_THAT(AskShell("printf 'a\\033[2Jb' >&2; exit 1").problem, HasSubstr("a\\x1b[2Jb"));
 }
 
@@ -123,7 +123,7 @@ TEST(RemoteControl, AReplyThatBrokeOffIsNone) {
 
 TEST(RemoteControl, WhatIsNoReplyIsToldAsItIs) {
   EXPECT_EQ(AskShell("echo Welcome to left; echo done").problem,
-            "left: its answer is no reply: \"Welcome to left\"");
+            "left: its answer is not a valid reply: \"Welcome to left\"");
   EXPECT_EQ(AskShell("true").problem, "left: gave no answer");
 }
 
@@ -171,7 +171,7 @@ TEST(RemoteControl, SignalsThatAreHeldBackHereEndTheCommand) {
   pthread_sigmask(SIG_BLOCK, &signals, &before);
   const RemoteAnswer answer = AskShell("kill -TERM $$; exec sleep 1000");
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  EXPECT_EQ(answer.problem, "left: /bin/sh was ended by signal 15");
+  EXPECT_EQ(answer.problem, "left: /bin/sh was killed by signal 15");
 }
 
 TEST(RemoteControl, NodesAreAskedAtTheSameTime) {

@@ -62,8 +62,8 @@ TEST_F(UvcHeadTest, RefusesDirectionsThatItDoesNotReach) {
   EXPECT_FALSE(head.TurnTo({0, -31 * kDegree_rad}));
   EXPECT_EQ(camera_.angles(), MockHead::Angles{});
   EXPECT_EQ(OutOfReach({101 * kDegree_rad, 0}, head.limits()),
-            "pan 1.763, tilt 0.000 rad is out of its reach; pan -1.745 to 1.745, tilt -0.524 to "
-            "0.524 rad is wanted");
+            "pan 1.763, tilt 0.000 rad is out of range; expected pan -1.745 to 1.745, tilt -0.524 "
+            "to 0.524 rad");
 }
 
 TEST_F(UvcHeadTest, IsTakenFromTheKernelAndGivenBack) {
@@ -90,7 +90,7 @@ TEST_F(UvcHeadTest, CameraWithoutOneIsNoHead) {
 
 TEST_F(UvcHeadTest, OneThatDoesNotAnswerIsASetupErrorAndGoesBackToTheKernel) {
   camera_.FallSilent();
-  EXPECT_THAT(ErrorFor("PT1"), HasSubstr("usb-0000:00:14.0-2: does not tell how far"));
+  EXPECT_THAT(ErrorFor("PT1"), HasSubstr("usb-0000:00:14.0-2: does not report the range"));
   EXPECT_TRUE(camera_.kernel_has_it());
 }
 

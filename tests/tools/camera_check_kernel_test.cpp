@@ -77,7 +77,7 @@ TEST_F(Vivid, DroppedBuffersAreNamed) {
 
 TEST_F(Vivid, ErrorBuffersAreNamed) {
   EXPECT_THAT(TroublesWhen([this] { Set("Inject V4L2_BUF_FLAG_ERROR", 1); }),
-              ElementsAre(HasSubstr("frames came damaged")));
+              ElementsAre(HasSubstr("frames arrived damaged")));
 }
 
 TEST_F(Vivid, CameraThatDoesNotBeginIsNamed) {
@@ -93,7 +93,7 @@ TEST_F(Vivid, CameraThatGoesAwayIsNamed) {
     EXPECT_THAT(TroublesWhen([this, fault, &done] {
                   if (!std::exchange(done, true)) Set(fault, 1);
                 }),
-                ElementsAre(HasSubstr("went away once")))
+                ElementsAre(HasSubstr("was lost once")))
         << fault;
   }
 }

@@ -49,7 +49,7 @@ TEST(CameraCheck, FindsNothingWrongWithGoodCameras) {
 
 TEST(CameraCheck, TellsWhatTheDriverRemarked) {
   CameraRun run = GoodRun("a");
-  run.facts.remarks = {"gain: the camera adjusts it by itself; set gain"};
+  run.facts.remarks = {"gain: the camera adjusts it automatically; set gain"};
   EXPECT_EQ(Troubles(run), run.facts.remarks);
   run.error = "/dev/video0: is in use";
   EXPECT_THAT(Troubles(run), ElementsAre(run.error));
@@ -85,7 +85,7 @@ TEST(CameraCheck, DamageLossAndSilenceHaveTheirKnobs) {
   run.times_lost = 2;
   run.sequences.back() += 30;
   EXPECT_THAT(Troubles(run),
-              ElementsAre(HasSubstr("went away 2 times"), HasSubstr("3 frames came damaged")));
+              ElementsAre(HasSubstr("was lost 2 times"), HasSubstr("3 frames arrived damaged")));
   CameraRun silent;
   silent.request.fps = 25;
   EXPECT_THAT(Troubles(silent), ElementsAre(HasSubstr("trigger")));
@@ -98,7 +98,7 @@ TEST(CameraCheck, CamerasThatWaitForAnotherAreToldOnce) {
     runs[i].times_ns.clear();
   }
   EXPECT_THAT(Troubles(runs[1]), IsEmpty());
-  EXPECT_THAT(TriggerTroublesOf(runs), ElementsAre(HasSubstr("no trigger of a reaches b, c: ")));
+  EXPECT_THAT(TriggerTroublesOf(runs), ElementsAre(HasSubstr("no trigger from a reaches b, c: ")));
   runs[0].times_ns.clear();
   EXPECT_THAT(TriggerTroublesOf(runs),
               ElementsAre("waiting for the trigger of a, which delivers no frames: b, c"));
@@ -114,7 +114,7 @@ TEST(CameraCheck, DamagedFramesAreOneTroubleAndNoOther) {
   damaged.facts.damage = "packets are missing; lower fps";
   EXPECT_NEAR(damaged.TakenFps(), 25, 0.2);
   EXPECT_THAT(Troubles(damaged),
-              ElementsAre("50 frames came damaged: packets are missing; lower fps"));
+              ElementsAre("50 frames arrived damaged: packets are missing; lower fps"));
   const std::vector<CameraRun> runs = {GoodRun("b"), damaged};
   const SetSummary sets = SummarizeSets(runs);
   EXPECT_EQ(sets.complete, kFrames - 50);
@@ -166,7 +166,7 @@ TEST(CameraCheck, CameraThatGoesAwayWhileItSettlesIsTold) {
   std::vector<LiveCamera> cameras(1);
   cameras[0].driver = std::make_unique<LooseCamera>();
   const std::vector<CameraRun> runs = WatchCameras(cameras, 0);
-  EXPECT_THAT(TroublesOf(runs.at(0), {}), Contains(HasSubstr("went away once")));
+  EXPECT_THAT(TroublesOf(runs.at(0), {}), Contains(HasSubstr("was lost once")));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
     }
   }
   EXPECT_EQ(Refusal("watch --seconds 0"),
-            "--seconds: 0 is out of range; a number from 0.001 to 100000000 is wanted");
+            "--seconds: 0 is out of range; expected a number from 0.001 to 100000000");
 }
 
 /// Runs a program that fails and gives what it says on standard error.
@@ -73,7 +73,8 @@ std::pair<int, std::string> Ended(Body body) {
 TEST(RunProgram, WantOfMemoryIsTold) {
   const auto [status, said] = Ended([] { throw std::bad_alloc(); });
   EXPECT_EQ(status, 1);
-  EXPECT_THAT(said, AllOf(StartsWith("mocap: there is not enough memory"), HasSubstr("wanted")));
+  EXPECT_THAT(said,
+              AllOf(StartsWith("mocap: there is not enough memory"), HasSubstr("use smaller")));
 }
 
 TEST(RunProgram, AnErrorIsOneLineWhateverItQuotes) {

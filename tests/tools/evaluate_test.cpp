@@ -115,7 +115,7 @@ TEST_F(EvaluateTest, OfSeveralPeopleEachHasARowAndAColour) {
   const std::string text =
       Run({"evaluate", take_.string(), result_.string(), "--report", report.string()});
   EXPECT_THAT(text, HasSubstr("2 people tracked, 1 person there"));
-  EXPECT_THAT(text, HasSubstr("frames tracked where nobody is (phantom): 18"));
+  EXPECT_THAT(text, HasSubstr("frames of tracks without a person (phantom): 18"));
   EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
               ::testing::MatchesRegex("\\{[^\n]*\\}\n"));
   const std::string html = testing::ReadText(report);

@@ -200,8 +200,9 @@ TEST_F(JoinedTakes, ACameraThatIsCalibratedDifferentlyIsRefused) {
     fs::copy_file(whole_ / "calibration.toml", take / "calibration.toml",
                   fs::copy_options::overwrite_existing);
   ReplaceInFile(right_ / "calibration.toml", "focal_mm = 5.5", "focal_mm = 5.6");
-  EXPECT_THAT(Refusal(), AllOf(HasSubstr("right/calibration.toml: cameras.cam2 is another than"),
-                               HasSubstr("left/calibration.toml")));
+  EXPECT_THAT(Refusal(),
+              AllOf(HasSubstr("right/calibration.toml: cameras.cam2 differs from that in"),
+                    HasSubstr("left/calibration.toml")));
 }
 
 TEST_F(JoinedTakes, TruthThatDiffersIsRefused) {

@@ -54,7 +54,7 @@ TEST(TakeSamples, MoreCamerasThanAreCarvedAreRefusedByTheTakesName) {
   const testing::TemporaryFolder folder;
   testing::WriteSmallTake(folder.path() / "take", {.cameras = 65, .frames = 1});
   EXPECT_EQ(testing::SetupErrorOf([&] { SampleTake(folder.path() / "take", {}, 50); }),
-            "small: has 65 cameras, wanted 1 to 64");
+            "small: has 65 cameras; expected 1 to 64");
 }
 
 }  // namespace

@@ -45,12 +45,12 @@ std::string GridTable(const std::vector<AccuracyRow>& rows) {
 
 std::string PeopleTable(const AccuracyBenchmark& benchmark) {
   std::string text = fmt::format(
-      "\n## Several people\nTakes of {:.0f} s. *Found* is the share of sets in which somebody was "
-      "followed while four pictures had all of him; *until found* how long that took whom it took "
-      "longest,\n*lost* the longest time that nobody followed somebody afterwards, *switches* how "
-      "often another one took over, *phantoms* how long anybody was followed who was not there or "
-      "was followed already.\n\n{}\n"
-      "| motion | people | seed | mean mm | worst person mm | found % | until found s | lost s | "
+      "\n## Several people\nTakes of {:.0f} s. *Found* is the share of frame sets in which a "
+      "person was tracked while four cameras saw the whole person.\n*Until found* is the longest "
+      "time until a person was found, and *lost* the longest time that a person was not tracked "
+      "afterwards.\n*Switches* counts tracks that changed from one person to another. *Phantoms* "
+      "is the time of tracks without a person, or of a person who has a track already.\n\n{}\n| "
+      "motion | people | seed | mean mm | worst person mm | found % | until found s | lost s | "
       "switches | phantoms s |\n|---|---|---|---|---|---|---|---|---|---|\n",
       benchmark.people_seconds, PeopleSummaryText(benchmark.people));
   for (const PeopleRow& row : benchmark.people) {
@@ -129,12 +129,10 @@ std::string PeopleSummaryText(std::span<const PeopleRow> rows) {
 
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   std::string text = fmt::format(
-      "# Accuracy on simulated people\n\n"
-      "Written by `mocap benchmark --out docs`: takes of {:.0f} s, six VGA cameras and voxels of "
-      "25 "
-      "mm where nothing else is said. Errors are over 14 points\nand 8 angles, as `mocap evaluate` "
-      "has them; *wrong* is the longest stretch of sets that were called tracked with a mean error "
-      "above {:.0f} mm.\n\n",
+      "# Accuracy on simulated people\n\nWritten by `mocap benchmark --out docs`: takes of {:.0f} "
+      "s, six VGA cameras and voxels of 25 mm unless stated otherwise. Errors are over 14 "
+      "points\nand 8 angles, as in `mocap evaluate`; *wrong* is the longest run of tracked frame "
+      "sets with a mean error above {:.0f} mm.\n\n",
       benchmark.seconds, kWrongMm);
   if (!benchmark.grid.empty()) text += AccuracySummaryText(Summarize(benchmark.grid));
   if (!benchmark.sweeps.empty()) {

@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void Refuse(const std::string& text, const std::string& why) {
   throw SetupError("--board " + Quoted(text) + ": " + why +
-                   "; wanted is chess:COLUMNSxROWS:MM (inner corners), "
+                   "; expected chess:COLUMNSxROWS:MM (inner corners), "
                    "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares) or "
                    "wand:MM (from light to light)");
 }
@@ -34,7 +34,7 @@ void ReadSize(const std::string& text, const std::string& size, Board& board) {
   const std::vector<std::string> sides = Split(size, 'x');
   double columns = 0, rows = 0;
   if (sides.size() != 2 || !ReadNumber(sides[0], columns) || !ReadNumber(sides[1], rows))
-    Refuse(text, Quoted(size) + " is no size");
+    Refuse(text, Quoted(size) + " is not a size");
   const auto whole = [](double n) { return n == static_cast<int>(n) && n >= 3 && n <= 50; };
   if (!whole(columns) || !whole(rows)) Refuse(text, Quoted(size) + " is not 3 to 50 each way");
   board.columns = static_cast<int>(columns);
@@ -65,7 +65,7 @@ Board ParseBoard(const std::string& text) {
   if (parts[0] == "charuco") {
     board.kind = BoardKind::kCharuco;
   } else if (parts[0] != "chess") {
-    Refuse(text, Quoted(parts[0]) + " is no kind of board");
+    Refuse(text, Quoted(parts[0]) + " is not a kind of board");
   }
   ReadSize(text, parts[1], board);
   if (!ReadNumber(parts[2], board.square_mm) || !(board.square_mm >= 1 && board.square_mm <= 2000))

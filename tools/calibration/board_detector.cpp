@@ -47,7 +47,7 @@ cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board) {
   const auto name = kDictionaries.find(board.dictionary);
   if (name == kDictionaries.end())
     throw SetupError("--board: there is no dictionary " + Quoted(board.dictionary) +
-                     "; wanted is OpenCV's name of one, as DICT_4X4_50");
+                     "; expected OpenCV's name of one, such as DICT_4X4_50");
   const cv::Ptr<cv::aruco::Dictionary> dictionary =
       cv::aruco::getPredefinedDictionary(name->second);
   const int markers = (board.columns + 1) * (board.rows + 1) / 2;

@@ -52,7 +52,7 @@ std::string DataFile::At(const DataNode& node) const {
 
 double DataFile::Number(const DataNode& node, const std::string& key) const {
   if (node.kind != DataNode::Kind::kText)
-    throw SetupError(At(node) + ": " + Printable(key) + " is no number, but a list or a table");
+    throw SetupError(At(node) + ": " + Printable(key) + " is not a number, but a list or a table");
   return FiniteNumber(node.text, At(node) + ": " + Printable(key));
 }
 
@@ -62,14 +62,14 @@ std::vector<double> DataFile::Numbers(const DataNode& node, const std::string& k
     const DataNode* data = node.Find("data");
     if (data == nullptr)
       throw SetupError(At(node) + ": " + Printable(key) +
-                       " has no data; rows, cols and data are wanted");
+                       " has no data; expected rows, cols and data");
     numbers = Numbers(*data, key + ".data");
     const DataNode *rows = node.Find("rows"), *cols = node.Find("cols");
     if (rows != nullptr && cols != nullptr &&
         Number(*rows, key + ".rows") * Number(*cols, key + ".cols") !=
             static_cast<double>(numbers.size()))
       throw SetupError(At(node) + ": " + Printable(key) + " has " + rows->text + " x " +
-                       cols->text + " by its rows and cols, and " + std::to_string(numbers.size()) +
+                       cols->text + " by its rows and cols, but " + std::to_string(numbers.size()) +
                        " numbers; is the file cut off?");
     return numbers;
   }
@@ -92,7 +92,7 @@ DataFile ReadOpenCvXml(const fs::path& path) {
   const std::vector<XmlTag> tags = ReadXmlTags(path);
   if (tags.empty() || tags.front().name != "opencv_storage")
     throw SetupError(Printable(path.string()) +
-                     ": is no XML of OpenCV; <opencv_storage> is wanted");
+                     ": is not XML of OpenCV; expected <opencv_storage>");
   for (std::size_t i = 1; i < tags.size(); ++i) {
     const XmlTag& tag = tags[i];
     if (tag.name.starts_with('/')) {
@@ -107,10 +107,10 @@ DataFile ReadOpenCvXml(const fs::path& path) {
     // Sequences of unnamed elements are irrelevant for cameras.
     if (parent.kind == DataNode::Kind::kSequence) parent.items.clear();
     parent.kind = DataNode::Kind::kMapping;
-    if (tag.name != "_" && parent.Find(tag.name) != nullptr) fail("stands there twice");
-    if (open.size() > kDeepestElements) fail("is nested deeper than a calibration ever is");
+    if (tag.name != "_" && parent.Find(tag.name) != nullptr) fail("appears twice");
+    if (open.size() > kDeepestElements) fail("is nested too deeply for a calibration");
     if (parent.items.size() >= kMostElements || words >= kMostWords)
-      fail("is one more than a calibration ever holds");
+      fail("is one element too many for a calibration");
     parent.keys.resize(parent.items.size());
     parent.keys.push_back(tag.name);
     parent.items.emplace_back();
@@ -149,8 +149,8 @@ std::vector<fs::path> FilesOf(const fs::path& folder_or_file,
     std::string wanted;
     for (const std::string& extension : extensions)
       wanted += (wanted.empty() ? "" : " or ") + extension;
-    throw SetupError(Printable(folder_or_file.string()) + ": holds no file NAME" + wanted +
-                     "; one for each camera is wanted");
+    throw SetupError(Printable(folder_or_file.string()) + ": contains no file NAME" + wanted +
+                     "; expected one for each camera");
   }
   return files;
 }

@@ -103,8 +103,7 @@ void MeasureMotions(std::vector<BoardDetection>& detections, std::size_t first,
   if (!reason.empty())
     throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason);
   throw SetupError(footage.folder.string() + ": " + camera.name + " sees no board in its " +
-                   std::to_string(camera.frames.size()) + " frames; looked for was a " +
-                   board.Text() +
+                   std::to_string(camera.frames.size()) + " frames; expected a " + board.Text() +
                    ": compare that with the board, show all of it, sharp and evenly lit");
 }
 

@@ -27,7 +27,7 @@ class ScratchFolder {
   ScratchFolder() {
     std::string path = (fs::temp_directory_path() / "mocap-XXXXXX").string();
     if (mkdtemp(path.data()) == nullptr)
-      throw std::runtime_error(path + ": cannot be made; a folder for temporary files is wanted");
+      throw std::runtime_error(path + ": cannot be created; expected a folder for temporary files");
     path_ = path;
   }
   ScratchFolder(const ScratchFolder&) = delete;
@@ -52,7 +52,7 @@ std::vector<ForeignCamera> ReadForeign(const std::string& format, const fs::path
   if (format == "willson") return ReadWillson(in);
   if (format == "qualisys") return ReadQualisys(in);
   if (format == "vicon") return ReadVicon(in);
-  throw SetupError("--from " + Quoted(format) + ": is no format that can be read");
+  throw SetupError("--from " + Quoted(format) + ": is not a format that can be read");
 }
 
 std::vector<TextFile> TextsOf(const std::string& format, const fs::path& out,
@@ -64,7 +64,7 @@ std::vector<TextFile> TextsOf(const std::string& format, const fs::path& out,
   if (format == "qualisys") return QualisysText(cameras);
   if (format == "vicon") return ViconText(cameras);
   if (format == "mocap") return {{"", CalibrationText(out, cameras)}};
-  throw SetupError("--to " + Quoted(format) + ": is no format that can be written");
+  throw SetupError("--to " + Quoted(format) + ": is not a format that can be written");
 }
 
 bool IsFolderFormat(const std::string& format) {
@@ -95,17 +95,17 @@ void RequireSame(const std::string& format, const Cameras& written, const Camera
     const auto same = std::find_if(read.begin(), read.end(), [&](const CameraCalibration& c) {
       return c.name == camera.name;
     });
-    if (same == read.end()) fail("its name does not come back");
+    if (same == read.end()) fail("its name would change");
     if (same->width_px != camera.width_px || same->height_px != camera.height_px)
-      fail("the size of its picture does not come back");
+      fail("the size of its picture would change");
     if (!((same->X_CW.R - camera.X_CW.R).norm() < kWorstTurn) ||
         !((same->X_CW.p - camera.X_CW.p).norm() < kWorstShift_mm))
-      fail("its pose does not come back");
+      fail("its pose would change");
     if (const double apart_px = LensDifferencePx(camera, same->lens); !(apart_px < kWorstLens_px))
-      fail(fmt::format("its lens comes back as another, {:.2f} px apart", apart_px));
+      fail(fmt::format("its lens would change by {:.2f} px", apart_px));
   }
   if (read.size() != written.size())
-    throw SetupError("--to " + format + ": cannot hold these cameras: another number comes back");
+    throw SetupError("--to " + format + ": cannot hold these cameras: their number would change");
 }
 
 }  // namespace
@@ -147,8 +147,8 @@ void ExportCameras(const std::string& format, const fs::path& out, const Cameras
                    const ImportOptions& options) {
   for (const CameraCalibration& camera : cameras) {
     if (camera.head && format != "mocap")
-      throw SetupError("--to " + format + ": knows no pan-tilt heads, and " + camera.name +
-                       " has one; mocap does");
+      throw SetupError("--to " + format + ": does not support pan-tilt heads, and " + camera.name +
+                       " has one; use --to mocap");
   }
   // A name becomes part of file names and of texts, whose syntax it must not break.
   static_cast<void>(CalibrationText(out, cameras));
@@ -162,10 +162,9 @@ void ExportCameras(const std::string& format, const fs::path& out, const Cameras
   try {
     read = ReadAgain(format, written, cameras, options.unit_mm);
   } catch (const SetupError& error) {
-    throw SetupError("--to " + format +
-                     ": cannot hold these cameras: what would be written is "
-                     "refused: " +
-                     error.what());
+    throw SetupError(
+        "--to " + format +
+        ": cannot hold these cameras: the output could not be read again: " + error.what());
   }
   RequireSame(format, cameras, read);
   if (IsFolderFormat(format)) MakeFolder(out);

@@ -40,22 +40,22 @@ ForeignCamera ReadLens(const ChainCamera& chain) {
   camera.name = chain.name;
   if (const std::string model = chain.Text("camera_model"); model != "pinhole")
     throw SetupError(chain.Where("camera_model") + " is " + Quoted(model) +
-                     "; pinhole is wanted: calibrate with a pinhole model");
+                     "; expected pinhole: calibrate with a pinhole model");
   const ForeignNumbers f = chain.Numbers("intrinsics");
   if (f.values.size() != 4)
     throw SetupError(f.where + " has " + std::to_string(f.values.size()) +
-                     " numbers; fu fv pu pv are wanted");
+                     " numbers; expected fu fv pu pv");
   camera.matrix = {f.where, {f.values[0], 0, f.values[2], 0, f.values[1], f.values[3], 0, 0, 1}};
   const std::string model = chain.Text("distortion_model");
   if (model != "radtan" && model != "equidistant" && model != "none")
     throw SetupError(chain.Where("distortion_model") + " is " + Quoted(model) +
-                     "; radtan, equidistant or none is wanted");
+                     "; expected radtan, equidistant or none");
   camera.is_fisheye = model == "equidistant";
   camera.distortion = {chain.Where("distortion_coeffs"), {}};
   if (model != "none") camera.distortion = chain.Numbers("distortion_coeffs");
   if (model != "none" && camera.distortion.values.size() != 4)
     throw SetupError(camera.distortion.where + " has " +
-                     std::to_string(camera.distortion.values.size()) + " numbers; 4 are wanted");
+                     std::to_string(camera.distortion.values.size()) + " numbers; expected 4");
   camera.size_px = chain.Numbers("resolution");
   if (camera.size_px.values.size() < 2)
     throw SetupError(camera.size_px.where + " is not [width, height]");
@@ -67,13 +67,13 @@ RigidTransform ReadLink(const ChainCamera& chain) {
   const ForeignNumbers numbers = chain.Numbers("T_cn_cnm1");
   if (numbers.values.size() != 16)
     throw SetupError(numbers.where + " has " + std::to_string(numbers.values.size()) +
-                     " numbers; 4 x 4 are wanted");
+                     " numbers; expected 4 x 4");
   const Eigen::Matrix4d T = Eigen::Map<const RowMajor4>(numbers.values.data());
   const Matrix3 R = T.topLeftCorner<3, 3>();
   const bool is_rotation =
       (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-3 && R.determinant() > 0;
   if (!is_rotation || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    throw SetupError(numbers.where + " is no rigid transform; [R t; 0 0 0 1] is wanted");
+    throw SetupError(numbers.where + " is not a rigid transform; expected [R t; 0 0 0 1]");
   return {NearestRotation(R), 1000 * T.topRightCorner<3, 1>()};
 }
 
@@ -104,7 +104,8 @@ std::vector<ForeignCamera> ReadKalibr(const std::filesystem::path& path) {
     cameras.push_back(std::move(camera));
   }
   if (cameras.empty())
-    throw SetupError(Printable(path.string()) + ": holds no cam0; a camchain of Kalibr is wanted");
+    throw SetupError(Printable(path.string()) +
+                     ": contains no cam0; expected a camchain of Kalibr");
   // A first camera alone has intrinsics only.
   if (cameras.size() == 1 || !cameras[1].rotation)
     cameras[0].rotation = cameras[0].translation_mm = std::nullopt;

@@ -17,7 +17,7 @@ ForeignNumbers Numbers(TomlSection& table, const std::string& key) {
 }
 
 ForeignNumbers Needed(TomlSection& table, const std::string& key) {
-  if (!table.Has(key)) table.Fail(key, "is missing; an array of numbers is wanted");
+  if (!table.Has(key)) table.Fail(key, "is missing; expected an array of numbers");
   return Numbers(table, key);
 }
 
@@ -68,8 +68,8 @@ std::vector<ForeignCamera> ReadPose2Sim(const std::filesystem::path& file, doubl
   }
   if (cameras.empty())
     throw SetupError(file.string() +
-                     ": holds no camera; a table with matrix, distortions, rotation "
-                     "and translation is wanted");
+                     ": contains no camera; expected a table with matrix, distortions, rotation "
+                     "and translation");
   return cameras;
 }
 

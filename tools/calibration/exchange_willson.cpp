@@ -59,18 +59,18 @@ ForeignCamera ReadOne(const fs::path& file) {
   for (std::string word; n.size() <= kMostNumbers && in >> word;)
     n.push_back(FiniteNumber(word, camera.where + ": number " + std::to_string(n.size() + 1)));
   if (n.size() < kFields || n.size() > kMostNumbers)
-    throw SetupError(camera.where + ": has " +
-                     (n.size() > kMostNumbers ? "more than " + std::to_string(kMostNumbers)
-                                              : std::to_string(n.size())) +
-                     " numbers; Ncx Nfx dx dy dpx dpy Cx Cy sx f kappa1 Tx Ty Tz Rx Ry Rz [p1 p2] "
-                     "are wanted");
+    throw SetupError(
+        camera.where + ": has " +
+        (n.size() > kMostNumbers ? "more than " + std::to_string(kMostNumbers)
+                                 : std::to_string(n.size())) +
+        " numbers; expected Ncx Nfx dx dy dpx dpy Cx Cy sx f kappa1 Tx Ty Tz Rx Ry Rz [p1 p2]");
   for (std::size_t i = kFields; i < n.size(); ++i) {
     if (n[i] != 0)
       throw SetupError(camera.where + ": has p" + std::to_string(i - kFields + 1) +
-                       " other than 0; a lens without tangential distortion is wanted");
+                       " other than 0; expected a lens without tangential distortion");
   }
   for (const Field field : {kDpx, kDpy, kSx, kF}) {
-    if (!(n[field] > 0)) throw SetupError(camera.where + ": dpx, dpy, sx and f are to be above 0");
+    if (!(n[field] > 0)) throw SetupError(camera.where + ": dpx, dpy, sx and f must be above 0");
   }
   camera.size_px = {camera.where, {n[kNfx]}};
   camera.lens = TsaiLens{n[kF], n[kKappa1], n[kSx], {n[kCx], n[kCy]}, {n[kDpx], n[kDpy]}};

@@ -24,7 +24,7 @@ std::string Where(const std::filesystem::path& file, const XmlTag& tag, const st
 }
 
 ForeignCamera NamedCamera(const std::filesystem::path& file, const XmlTag& tag, const char* key) {
-  if (!tag.Has(key)) throw SetupError(Where(file, tag, key) + " is missing; a name is wanted");
+  if (!tag.Has(key)) throw SetupError(Where(file, tag, key) + " is missing; expected a name");
   ForeignCamera camera;
   camera.where = Where(file, tag, key);
   camera.name = tag.attributes.at(key);
@@ -124,7 +124,7 @@ ForeignCamera ReadViconCamera(const XmlTag& camera_tag, const XmlTag* key_frame,
   const Eigen::Quaterniond q_CW(q[3], q[0], q[1], q[2]);
   if (!(std::abs(q_CW.norm() - 1) < 1e-2))
     throw SetupError(Where(file, *key_frame, "ORIENTATION") +
-                     " is no unit quaternion; x y z w are wanted");
+                     " is not a unit quaternion; expected x y z w");
   SetPose(q_CW.normalized().toRotationMatrix(), {p[0], p[1], p[2]},
           Where(file, *key_frame, "ORIENTATION"), Where(file, *key_frame, "POSITION"), camera);
   return camera;
@@ -179,7 +179,7 @@ std::vector<ForeignCamera> ReadQualisys(const std::filesystem::path& file) {
     }
   }
   if (cameras.empty())
-    throw SetupError(file.string() + ": holds no <camera>; a .qca.txt is wanted");
+    throw SetupError(file.string() + ": contains no <camera>; expected a .qca.txt");
   for (ForeignCamera& camera : cameras) camera.has_lens = !camera.matrix.values.empty();
   return cameras;
 }
@@ -225,7 +225,7 @@ std::vector<ForeignCamera> ReadVicon(const std::filesystem::path& file) {
     }
     cameras.push_back(ReadViconCamera(tags[i], key_frame, file));
   }
-  if (cameras.empty()) throw SetupError(file.string() + ": holds no <Camera>; a .xcp is wanted");
+  if (cameras.empty()) throw SetupError(file.string() + ": contains no <Camera>; expected a .xcp");
   return cameras;
 }
 

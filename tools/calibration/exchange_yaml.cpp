@@ -51,7 +51,7 @@ void TakeDistortionModel(const DataFile& file, ForeignCamera& camera) {
   } else if (model->text != "plumb_bob" && model->text != "rational_polynomial" &&
              !model->text.empty()) {
     throw SetupError(WhereOf(file, "distortion_model") + " is " + Quoted(model->text) +
-                     "; plumb_bob, rational_polynomial or equidistant is wanted");
+                     "; expected plumb_bob, rational_polynomial or equidistant");
   }
 }
 
@@ -128,7 +128,7 @@ std::vector<ForeignCamera> ReadEasyMocap(const fs::path& intri_file, const fs::p
   const DataFile intri = ReadYaml(intri_file), extri = ReadYaml(extri_file);
   const DataNode* names = intri.root.Find("names");
   if (names == nullptr || names->kind != DataNode::Kind::kSequence || names->items.empty())
-    throw SetupError(WhereOf(intri, "names") + " lists no camera; a list of names is wanted");
+    throw SetupError(WhereOf(intri, "names") + " lists no camera; expected a list of names");
   std::vector<ForeignCamera> cameras;
   for (const DataNode& node : names->items) {
     ForeignCamera camera;

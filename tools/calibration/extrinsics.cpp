@@ -243,8 +243,8 @@ StudioFit FitExtrinsics(const BoardDetections& detections,
   if (detections.board.LooksSameTurned() && detections.cameras.size() > 1)
     throw SetupError(
         "--board: a " + detections.board.Text() +
-        " looks the same when it is turned by half a turn, so that cameras cannot agree "
-        "which end is which; one side odd and the other even, or a ChArUco board, is wanted");
+        " looks the same when it is turned by half a turn, so that cameras cannot agree which end "
+        "is which; expected one side odd and the other even, or a ChArUco board");
   StudioFit fit;
   fit.detections = detections;
   fit.bundle.cameras = lenses;

@@ -67,7 +67,7 @@ RigidTransform FindStillBoard(const BoardDetections& still,
       bundle.X_WB = {X_WB};
     }
   }
-  if (bundle.X_WB.empty()) throw SetupError("the floor's board is seen by no calibrated camera");
+  if (bundle.X_WB.empty()) throw SetupError("no calibrated camera sees the floor's board");
   BundleOptions refine;
   refine.refine_lenses = refine.refine_poses = false;
   refine.robust_px = 1;
@@ -116,7 +116,7 @@ RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
     }
     if (seen.size() < 2)
       throw SetupError(
-          fmt::format("floor point \"{}\" is seen by {} cameras; two at least are wanted",
+          fmt::format("floor point \"{}\" is seen by {} cameras; expected at least two",
                       kPointNames[i], seen.size()));
     p_W[i] = Triangulate(seen);
   }
@@ -155,7 +155,7 @@ std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
     point.pixel = {std::strtod(x.c_str(), &x_end), std::strtod(y.c_str(), &y_end)};
     if (place == std::end(kPointNames) || owner == cameras.end() || x_end == x.c_str() ||
         y_end == y.c_str() || !point.pixel.allFinite())
-      throw SetupError(fmt::format("{}:{}: {} is no floor point; wanted is origin|x|y,CAMERA,X,Y",
+      throw SetupError(fmt::format("{}:{}: {} is not a floor point; expected origin|x|y,CAMERA,X,Y",
                                    file, number, Quoted(line)));
     point.point = static_cast<int>(place - std::begin(kPointNames));
     point.camera = static_cast<int>(owner - cameras.begin());

@@ -125,8 +125,7 @@ VideoReader OpenPicture(const fs::path& file) {
   try {
     return VideoReader(file);
   } catch (const SetupError&) {
-    throw SetupError(file.string() +
-                     ": is no picture that can be read; take it out or save it anew");
+    throw SetupError(file.string() + ": is not a readable picture; remove it or save it again");
   }
 }
 
@@ -151,7 +150,8 @@ FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::p
   camera.width_px = first.width_px();
   camera.height_px = first.height_px();
   if (!first.turn().IsNone())
-    notes.push_back(name + ": its pictures are " + first.turn().Text() + ", as they say");
+    notes.push_back(name + ": its pictures are " + first.turn().Text() +
+                    ", as their metadata says");
   camera.ForEach = [files, width_px = camera.width_px,
                     height_px = camera.height_px](const auto& use) {
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -160,7 +160,7 @@ FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::p
         throw SetupError(files[i].string() + ": is " + std::to_string(picture.width_px()) + " x " +
                          std::to_string(picture.height_px()) + "; the pictures before it are " +
                          std::to_string(width_px) + " x " + std::to_string(height_px) +
-                         "; all of one camera in one resolution are wanted");
+                         "; expected all pictures of a camera in one resolution");
       ImageView<const Bgr> pixels;
       picture.Read(pixels);
       use(static_cast<int>(i), pixels);
@@ -182,7 +182,7 @@ Footage OpenFootage(const std::filesystem::path& folder) {
   }
   if (footage.cameras.empty() && !recorded.empty())
     throw SetupError(folder.string() +
-                     ": holds no frame of any camera; recordings with frames are wanted");
+                     ": contains no frame of any camera; expected recordings with frames");
   // Caliscope's name, now and formerly.
   for (const char* table : {"timestamps.csv", "frame_time_history.csv"}) {
     if (footage.cameras.empty() || !IsThere(folder / table)) continue;
@@ -208,15 +208,14 @@ Footage OpenFootage(const std::filesystem::path& folder) {
           OpenPictureCamera(folder.filename().string(), pictures, footage.notes));
   }
   if (footage.cameras.empty())
-    throw SetupError(
-        folder.string() +
-        ": holds no recording; cam1.mkv, cam2.mkv ... or a folder of pictures for each "
-        "camera is wanted");
+    throw SetupError(folder.string() +
+                     ": contains no recording; expected cam1.mkv, cam2.mkv ... or a folder of "
+                     "pictures for each camera");
   for (const FootageCamera& camera : footage.cameras) {
     if (!IsCameraName(camera.name))
-      throw SetupError(folder.string() + ": " + Quoted(camera.name) +
-                       ": a recording's name is that of its camera; letters, digits, "
-                       "_ and - are wanted");
+      throw SetupError(
+          folder.string() + ": " + Quoted(camera.name) +
+          ": a recording's name is that of its camera; expected letters, digits, _ and -");
   }
   PairPictures(footage);
   return footage;

@@ -47,7 +47,7 @@ class SharedTimes {
     camera_ = std::max(column("cam_id"), column("port"));
     frame_ = column("frame_index");
     time_ = column("frame_time");
-    if (camera_ < 0 || time_ < 0) Fail("the header \"cam_id,frame_time\" is wanted");
+    if (camera_ < 0 || time_ < 0) Fail("expected the header \"cam_id,frame_time\"");
   }
 
   /// Reads the next row. @return  false at the end.
@@ -64,7 +64,7 @@ class SharedTimes {
     frame = frame_ < 0 ? counts_[camera] : Parse<int>(fields, frame_, "frame_index");
     const double time_s = Parse<double>(fields, time_, "frame_time");
     if (!(std::abs(time_s) < kLatest_s))
-      Fail("frame_time is " + Quoted(fields[time_]) + "; seconds are wanted");
+      Fail("frame_time is " + Quoted(fields[time_]) + "; expected seconds");
     time_ns = std::llround(time_s * 1e9);
     ++counts_[camera];
     return true;
@@ -79,7 +79,7 @@ class SharedTimes {
     Number number{};
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
     if (error != std::errc() || end != field.data() + field.size())
-      Fail(std::string(name) + " is " + Quoted(field) + "; a number is wanted");
+      Fail(std::string(name) + " is " + Quoted(field) + "; expected a number");
     return number;
   }
 
@@ -207,10 +207,9 @@ void PairPictures(Footage& footage) {
   if (2 * shared < pictures) {
     // Each camera counts independently.
     footage.notes.push_back(
-        equal
-            ? "the cameras' pictures have no numbers in common; paired in their order"
-            : "the cameras' pictures have no numbers in common, and are not as many; which belong "
-              "together cannot be told");
+        equal ? "the cameras' pictures have no numbers in common; paired in their order"
+              : "the cameras' pictures have no numbers in common, and differ in count; they cannot "
+                "be paired");
     if (equal) return;
   }
   std::map<std::string, std::int64_t> place;
@@ -230,8 +229,8 @@ void ReadSharedTimes(const fs::path& file, Footage& footage) {
   for (std::int64_t time_ns = 0; table.Next(id, frame, time_ns);) {
     std::map<int, std::int64_t>& of_camera = times_ns[id];
     if (!of_camera.emplace(frame, time_ns).second)
-      table.Fail("tells of frame " + std::to_string(frame) + " of camera " + std::to_string(id) +
-                 " again");
+      table.Fail("has frame " + std::to_string(frame) + " of camera " + std::to_string(id) +
+                 " twice");
     const auto place = of_camera.find(frame), next = std::next(place);
     if ((place != of_camera.begin() && std::prev(place)->second >= time_ns) ||
         (next != of_camera.end() && next->second <= time_ns))
@@ -246,7 +245,7 @@ void ReadSharedTimes(const fs::path& file, Footage& footage) {
         of_camera = times;
     }
     if (of_camera.size() != camera.frames.size())
-      throw SetupError(file.string() + ": tells times of " + std::to_string(of_camera.size()) +
+      throw SetupError(file.string() + ": has times of " + std::to_string(of_camera.size()) +
                        " frames of " + camera.name + "; its video has " +
                        std::to_string(camera.frames.size()));
     camera.timed = true;

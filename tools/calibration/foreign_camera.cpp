@@ -37,18 +37,17 @@ using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 void RequireFinite(const ForeignNumbers& numbers) {
   for (const double value : numbers.values) {
-    if (!std::isfinite(value))
-      Fail(numbers, fmt::format("has {}; finite numbers are wanted", value));
+    if (!std::isfinite(value)) Fail(numbers, fmt::format("has {}; expected finite numbers", value));
   }
 }
 
 void CheckName(const ForeignCamera& found, std::set<std::string>& names) {
   if (!IsCameraName(found.name))
     throw SetupError(found.where + ": a camera is called " + Quoted(found.name) +
-                     "; up to 64 letters, digits, _ and - are wanted: rename it there");
+                     "; expected up to 64 letters, digits, _ and -: rename it there");
   if (!names.insert(found.name).second)
     throw SetupError(found.where + ": a second camera is called " + Quoted(found.name) +
-                     "; a name of its own is wanted for each: rename it there");
+                     "; expected a unique name for each: rename it there");
 }
 
 std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& options) {
@@ -56,7 +55,7 @@ std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& op
   RequireFinite(size);
   if (size.values.size() < 2) {
     if (!options.size_px)
-      Fail(size, "does not tell the size of the pictures; add --size WIDTHxHEIGHT, in pixels");
+      Fail(size, "does not contain the size of the pictures; add --size WIDTHxHEIGHT, in pixels");
     if (size.values.size() == 1 && size.values[0] != (*options.size_px)[0])
       Fail(size, fmt::format("has pictures {} px wide; --size has {}", size.values[0],
                              (*options.size_px)[0]));
@@ -71,7 +70,7 @@ std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& op
     for (const double side : size.values)
       shown += fmt::format("{}{}", shown.empty() ? "" : " x ", side);
     Fail(size, "is " + shown.substr(0, 60) +
-                   fmt::format("; width and height in whole pixels, from 1 to {}, are wanted",
+                   fmt::format("; expected width and height in whole pixels, from 1 to {}",
                                kLargestPicture_px));
   }
   return {static_cast<int>(size.values[0]), static_cast<int>(size.values[1])};
@@ -80,18 +79,18 @@ std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& op
 Matrix3 CheckMatrix(const ForeignNumbers& matrix) {
   RequireFinite(matrix);
   if (matrix.values.size() != 9)
-    Fail(matrix, fmt::format("has {} numbers; 3 x 3 are wanted", matrix.values.size()));
+    Fail(matrix, fmt::format("has {} numbers; expected 3 x 3", matrix.values.size()));
   Matrix3 K = Eigen::Map<const RowMajor3>(matrix.values.data());
   if (std::abs(K(0, 1)) < kNoSkew) K(0, 1) = 0;
   if (K(0, 1) != 0)
-    Fail(matrix, fmt::format("has the skew {}; a lens without skew is wanted", K(0, 1)));
+    Fail(matrix, fmt::format("has the skew {}; expected a lens without skew", K(0, 1)));
   if (K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0 || K(2, 2) != 1)
     Fail(matrix, "is not [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]");
   const auto is_focal = [](double f) { return f > 0 && f <= kLongestFocal_px; };
   if (!is_focal(K(0, 0)) || !is_focal(K(1, 1)))
-    Fail(matrix, fmt::format("has the focal lengths {} and {}; pixels, above 0 and up to {}, are "
-                             "wanted",
-                             K(0, 0), K(1, 1), kLongestFocal_px));
+    Fail(matrix,
+         fmt::format("has the focal lengths {} and {}; expected pixels, above 0 and up to {}",
+                     K(0, 0), K(1, 1), kLongestFocal_px));
   if (std::abs(K(0, 2)) > kLongestFocal_px || std::abs(K(1, 2)) > kLongestFocal_px)
     Fail(matrix, "has its centre far outside any picture");
   return K;
@@ -110,15 +109,14 @@ Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
   const std::vector<double>& k = distortion.values;
   static const std::set<std::size_t> kCounts = {0, 4, 5, 8, 12, 14};
   if (!kCounts.contains(k.size()))
-    Fail(
-        distortion,
-        fmt::format("has {} numbers; 4, 5 or 8 are wanted: k1 k2 p1 p2 [k3 [k4 k5 k6]]", k.size()));
+    Fail(distortion,
+         fmt::format("has {} numbers; expected 4, 5 or 8: k1 k2 p1 p2 [k3 [k4 k5 k6]]", k.size()));
   OpenCvLens lens{K, {}};
   const std::size_t kept = std::min(k.size(), lens.distortion.size());
   for (std::size_t i = kept; i < k.size(); ++i) {
     if (k[i] != 0)
-      Fail(distortion, fmt::format("has {} {}, of OpenCV's {} model, which is not known here; "
-                                   "calibrate with k1 to k6, p1 and p2 alone",
+      Fail(distortion, fmt::format("has {} {}, of OpenCV's {} model, which is not supported; "
+                                   "calibrate with k1 to k6, p1 and p2 only",
                                    i < 12    ? fmt::format("s{}", i - 7)
                                    : i == 12 ? "tau x"
                                              : "tau y",
@@ -131,16 +129,16 @@ Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
 Lens CheckLens(const ForeignCamera& found) {
   if (found.lens) {
     if (const double f = FocalPx(*found.lens); !(f > 0 && f <= kLongestFocal_px))
-      throw SetupError(found.where + fmt::format(": has a focal length of {} px; above 0 and up to "
-                                                 "{} are wanted",
-                                                 f, kLongestFocal_px));
+      throw SetupError(found.where +
+                       fmt::format(": has a focal length of {} px; expected above 0 and up to {}",
+                                   f, kLongestFocal_px));
     return *found.lens;
   }
   const Matrix3 K = CheckMatrix(found.matrix);
   RequireFinite(found.distortion);
   for (const double k : found.distortion.values) {
     if (std::abs(k) > kLargestCoefficient)
-      Fail(found.distortion, fmt::format("has {}, as no lens has", k));
+      Fail(found.distortion, fmt::format("has {}, which no lens has", k));
   }
   return found.is_fisheye ? CheckFisheye(K, found.distortion) : CheckPinhole(K, found.distortion);
 }
@@ -151,25 +149,25 @@ Matrix3 CheckRotation(const ForeignNumbers& rotation) {
   if (n.size() == 3) {
     const Vector3 w(n[0], n[1], n[2]);
     if (!(w.norm() < kMostTurns_rad))
-      Fail(rotation, "is no rotation vector: it turns too far; radians are wanted");
+      Fail(rotation, "is not a rotation vector: it turns too far; expected radians");
     return ExpRotation(w);
   }
   if (n.size() != 9)
-    Fail(rotation, fmt::format("has {} numbers; a rotation vector of 3, or a matrix of 3 x 3, is "
-                               "wanted",
-                               n.size()));
+    Fail(rotation,
+         fmt::format("has {} numbers; expected a rotation vector of 3, or a matrix of 3 x 3",
+                     n.size()));
   const Matrix3 R = Eigen::Map<const RowMajor3>(n.data());
   if (!((R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < kRotationTolerance))
-    Fail(rotation, "is no rotation; three rows that are perpendicular unit vectors are wanted");
+    Fail(rotation, "is not a rotation; expected three rows that are perpendicular unit vectors");
   if (R.determinant() < 0)
-    Fail(rotation, "is a reflection; a rotation, whose determinant is +1, is wanted");
+    Fail(rotation, "is a reflection; expected a rotation, whose determinant is +1");
   return NearestRotation(R);
 }
 
 Vector3 CheckTranslation(const ForeignNumbers& translation) {
   RequireFinite(translation);
   if (translation.values.size() != 3)
-    Fail(translation, fmt::format("has {} numbers; 3 are wanted", translation.values.size()));
+    Fail(translation, fmt::format("has {} numbers; expected 3", translation.values.size()));
   const Vector3 t(translation.values[0], translation.values[1], translation.values[2]);
   if (!(t.norm() <= kFarthest_mm))
     Fail(translation,
@@ -202,8 +200,8 @@ void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::s
   for (const CameraCalibration& camera : cameras) {
     if (!lowered.insert(Lowered(camera.name)).second)
       notes.push_back(source + ": " + camera.name +
-                      " has the name of another camera but for small and capital letters; on disks "
-                      "that do not tell those apart, files of both are one");
+                      " differs from the name of another camera only in case; on file systems that "
+                      "ignore case, both use the same file");
     if (const double folded = FoldedShare(camera); folded > 0)
       notes.push_back(fmt::format(
           "{}: {}: its lens folds inside the picture: {:.0f} % of it, at the rim, shows no "
@@ -219,10 +217,10 @@ void DoubtUnit(const std::string& source, const Cameras& cameras, std::vector<st
       widest_mm = std::max(widest_mm, (a.X_CW.Inverse().p - b.X_CW.Inverse().p).norm());
   }
   if (cameras.size() > 1 && widest_mm < kSmallestStudio_mm)
-    notes.push_back(fmt::format(
-        "{}: all cameras stand within {:.1f} mm; are its lengths in metres, and millimetres wanted "
-        "(--unit)?",
-        source, widest_mm));
+    notes.push_back(
+        fmt::format("{}: all cameras stand within {:.1f} mm; are its lengths in metres instead of "
+                    "millimetres (--unit)?",
+                    source, widest_mm));
 }
 
 }  // namespace
@@ -234,7 +232,7 @@ double FiniteNumber(std::string_view text, const std::string& where) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size();
   if (!is_number || digits.empty() || !std::isfinite(number))
-    throw SetupError(where + " is " + Quoted(text) + "; a finite number is wanted");
+    throw SetupError(where + " is " + Quoted(text) + "; expected a finite number");
   return number;
 }
 
@@ -265,15 +263,14 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     camera.height_px = height_px;
     camera.lens = CheckLens(foreign);
     if (HiddenShare(camera) == 1)
-      throw SetupError(
-          foreign.where + ": " + foreign.name +
-          ": the lens shows nothing in its picture; a focal length and centre that fit "
-          "it are wanted");
+      throw SetupError(foreign.where + ": " + foreign.name +
+                       ": the lens shows nothing in its picture; expected a focal length and "
+                       "centre that fit it");
     if (foreign.rotation.has_value() != foreign.translation_mm.has_value())
       throw SetupError(
           foreign.where + ": " + foreign.name + " has a " +
           (foreign.rotation ? "rotation and no translation" : "translation and no rotation") +
-          "; both are wanted, or neither");
+          "; expected both or neither");
     if (foreign.rotation) {
       camera.X_CW.R = CheckRotation(*foreign.rotation);
       camera.X_CW.p = CheckTranslation(*foreign.translation_mm);
@@ -284,9 +281,9 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     imported.cameras.push_back(std::move(camera));
   }
   if (imported.cameras.empty() && no_pose.empty())
-    throw SetupError(source + ": holds no camera with a lens; a calibration is wanted");
+    throw SetupError(source + ": contains no camera with a lens; expected a calibration");
   if (imported.cameras.empty())
-    throw SetupError(source + ": has no pose of any camera, but lenses alone (" + no_pose +
+    throw SetupError(source + ": has no pose of any camera, only intrinsics (" + no_pose +
                      "); add --lenses to keep those for mocap calibrate extrinsics --intrinsics");
   if (!no_lens.empty())
     imported.notes.push_back(source + ": has no lens of " + no_lens + "; left out");

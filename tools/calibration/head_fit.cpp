@@ -80,10 +80,9 @@ Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
 
 void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardDetection>& views) {
   if (static_cast<int>(views.size()) < kFewestViews)
-    throw SetupError(
-        fmt::format("{}: {} views do not determine a head; at least {} at different "
-                    "angles are wanted",
-                    name, views.size(), kFewestViews));
+    throw SetupError(fmt::format(
+        "{}: {} views do not determine a head; expected at least {} at different angles", name,
+        views.size(), kFewestViews));
   const auto span = [&](double PanTiltAngles::*angle) {
     const auto [low, high] = std::minmax_element(
         views.begin(), views.end(), [&](const BoardDetection& a, const BoardDetection& b) {
@@ -160,8 +159,8 @@ PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltA
         std::hypot(reading.pan_rad - readings[0].pan_rad, reading.tilt_rad - readings[0].tilt_rad);
     if (turned_rad > kStanding_rad)
       throw SetupError(
-          fmt::format("{}: its head turned by {:.1f} degrees while it was posed; let heads stand "
-                      "while the board is carried about",
+          fmt::format("{}: its head turned by {:.1f} degrees while its extrinsics were calibrated; "
+                      "keep heads still while the board is carried about",
                       camera, turned_rad * 180 / std::numbers::pi));
   }
   return readings[0];

@@ -55,10 +55,9 @@ SomeLens FitLensTo(const std::string& name, const Samples& samples, const SomeLe
   const double rms_px =
       std::sqrt(result.cost / std::max<double>(1, static_cast<double>(samples.pixels.size())));
   if (!(rms_px < kWorst_px))
-    throw SetupError(
-        fmt::format("{}: no {} lens maps like its own ({:.2f} px apart); a format with "
-                    "its lens model is wanted",
-                    name, model, rms_px));
+    throw SetupError(fmt::format(
+        "{}: no {} lens maps like its own ({:.2f} px apart); expected a format with its lens model",
+        name, model, rms_px));
   return std::get<SomeLens>(WithParameters(start, result.x.data()));
 }
 
@@ -77,7 +76,7 @@ OpenCvLens AsFiveCoefficients(const CameraCalibration& camera, const std::string
   if (lens.IsRational())
     throw SetupError(camera.name + ": its lens has OpenCV's eight coefficients, k4 to k6 among " +
                      "them; " + format +
-                     " knows five: mocap, pose2sim, opencv and easymocap hold it");
+                     " supports five: use mocap, pose2sim, opencv or easymocap");
   return lens;
 }
 

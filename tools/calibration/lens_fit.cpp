@@ -173,7 +173,7 @@ LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOpti
   if (static_cast<int>(views.size()) < kFewestViews)
     throw SetupError(
         fmt::format("{}: {} views of the board ({}) do not determine a lens; show it in at least "
-                    "{}, tilted this way and that and in all parts of the picture",
+                    "{}, tilted in different directions and in all parts of the picture",
                     c.name, views.size(), FramesText(detections, views), kFewestViews));
   const Zhang zhang = FirstLens(detections, camera, views);
   if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())

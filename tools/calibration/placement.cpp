@@ -23,7 +23,7 @@ std::vector<CameraCalibration> Matching(const std::vector<CameraCalibration>& ca
     const auto found = std::ranges::find(cameras, wanted.name, &CameraCalibration::name);
     if (found == cameras.end())
       throw SetupError("calibration: has no camera " + Quoted(wanted.name) +
-                       " as the one that it is compared with; wanted are the same cameras");
+                       ", which the other calibration has; expected the same cameras in both");
     matching.push_back(*found);
   }
   return matching;

@@ -30,12 +30,11 @@ void SettleTurns(const std::vector<CameraCalibration>& lenses,
   const FloorTurns turns = MatchFloors(views, still.board);
   if (views.size() > 1 &&
       (turns.agreement < kLeastAgreement || turns.agreement < turns.runner_up + kLeastLead))
-    throw SetupError(fmt::format(
-        "--board: a {} looks the same when it is turned by half a turn, and the floor around it "
-        "does "
-        "not tell (agreement {:.2f}, next best {:.2f}); a board with an odd and an even side, or a "
-        "ChArUco board, is wanted",
-        still.board.Text(), turns.agreement, turns.runner_up));
+    throw SetupError(
+        fmt::format("--board: a {} looks the same when it is turned by half a turn, and the floor "
+                    "around it does not tell (agreement {:.2f}, next best {:.2f}); expected a "
+                    "board with an odd and an even side, or a ChArUco board",
+                    still.board.Text(), turns.agreement, turns.runner_up));
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (turns.turned[i]) Turn(still.detections[i].corners);
   }

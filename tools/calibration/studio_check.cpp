@@ -51,8 +51,8 @@ void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) 
       2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * 180 / std::numbers::pi;
   if (field_deg < 10 || field_deg > 160)
     warn(
-        fmt::format("sees {:.0f} degrees wide, as few lenses do; is the board's square right, and "
-                    "the picture's size that of the recording?",
+        fmt::format("has a field of view of {:.0f} degrees, as few lenses do; is the board's "
+                    "square right, and the picture's size that of the recording?",
                     field_deg));
 }
 
@@ -99,9 +99,9 @@ void CheckRotations(const std::vector<CameraCalibration>& cameras, std::vector<F
   for (const CameraCalibration& camera : cameras) {
     const Matrix3& R = camera.X_CW.R;
     if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) continue;
-    findings.push_back({Severity::kWrong, camera.name +
-                                              ": its rotation is a reflection or none at all; the "
-                                              "calibration was mirrored on its way here"});
+    findings.push_back(
+        {Severity::kWrong, camera.name + ": its rotation is a reflection or not a rotation; the "
+                                         "calibration was mirrored on its way here"});
   }
 }
 
@@ -197,8 +197,7 @@ std::string Verdict(const std::vector<Finding>& findings) {
   };
   if (count(Severity::kWrong) > 0) return "Do not use this calibration: " + findings.front().text;
   if (count(Severity::kWarning) > 0)
-    return "This calibration can be used, but something is to be looked at: " +
-           findings.front().text;
+    return "This calibration can be used, but check this: " + findings.front().text;
   return "This calibration is good.";
 }
 
@@ -213,7 +212,7 @@ KnownDistance ParseDistance(const std::string& text) {
     const bool is_length = std::isfinite(distance.mm) && distance.mm > 0;
     if (*end == '\0' && is_length && distance.from != distance.to) return distance;
   }
-  throw SetupError("--distance " + Quoted(text) + ": wanted is CAMERA:CAMERA:MM");
+  throw SetupError("--distance " + Quoted(text) + ": expected CAMERA:CAMERA:MM");
 }
 
 double DistanceMm(const KnownDistance& distance, const std::vector<CameraCalibration>& cameras) {

@@ -63,7 +63,7 @@ std::vector<XmlTag> ReadXmlTags(const std::filesystem::path& file) {
                                         text.begin() + static_cast<std::ptrdiff_t>(close), '\n'));
     at = close + (comment ? 3 : 1);
   }
-  if (tags.empty()) throw SetupError(name + ": is no XML; a calibration is wanted");
+  if (tags.empty()) throw SetupError(name + ": is not XML; expected a calibration");
   return tags;
 }
 

@@ -87,7 +87,7 @@ class TreeMaker {
   }
 
   void Open(DataNode::Kind kind, std::string anchor) {
-    if (open_.size() >= kDeepest) Fail("is nested deeper than a calibration ever is");
+    if (open_.size() >= kDeepest) Fail("is nested too deeply for a calibration");
     OpenNode open;
     open.node.kind = kind;
     open.node.line = line_;
@@ -103,15 +103,15 @@ class TreeMaker {
 
   void AddAlias(const std::string& anchor) {
     const auto place = anchors_.find(anchor);
-    if (place == anchors_.end()) Fail("*" + Printable(anchor) + " stands for nothing");
+    if (place == anchors_.end()) Fail("*" + Printable(anchor) + " is not defined");
     nodes_ += CountNodes(place->second);
     if (nodes_ > kMostNodes || open_.size() + DepthOf(place->second) > kDeepest)
-      Fail("holds more than a calibration ever does");
+      Fail("is too large for a calibration");
     Add(place->second, "");
   }
 
   void Add(DataNode node, const std::string& anchor) {
-    if (++nodes_ > kMostNodes) Fail("holds more than a calibration ever does");
+    if (++nodes_ > kMostNodes) Fail("is too large for a calibration");
     if (node.line == 0) node.line = line_;
     if (!anchor.empty()) {
       nodes_ += CountNodes(node);
@@ -128,9 +128,9 @@ class TreeMaker {
       return;
     }
     if (parent.awaits_key) {
-      if (node.kind != DataNode::Kind::kText) Fail("has a key that is no text");
-      if (parent.node.keys.size() >= kMostKeys) Fail("holds more than a calibration ever does");
-      if (parent.node.Find(node.text) != nullptr) Fail(Quoted(node.text) + " stands there twice");
+      if (node.kind != DataNode::Kind::kText) Fail("has a key that is not text");
+      if (parent.node.keys.size() >= kMostKeys) Fail("is too large for a calibration");
+      if (parent.node.Find(node.text) != nullptr) Fail(Quoted(node.text) + " appears twice");
       parent.node.keys.push_back(std::move(node.text));
     } else {
       parent.node.items.push_back(std::move(node));
@@ -173,15 +173,15 @@ DataFile ReadYaml(const std::filesystem::path& path) {
     if (yaml_parser_parse(&parser, &event) == 0)
       throw SetupError(
           name + ":" + std::to_string(parser.problem_mark.line + 1) +
-          ": is no YAML: " + Printable(parser.problem != nullptr ? parser.problem : "no memory"));
+          ": is not YAML: " + Printable(parser.problem != nullptr ? parser.problem : "no memory"));
     const std::unique_ptr<yaml_event_t, void (*)(yaml_event_t*)> event_end(&event,
                                                                            yaml_event_delete);
     goes_on = tree.Take(event);
   }
-  if (!tree.has_root()) throw SetupError(name + ": is empty; a calibration is wanted");
+  if (!tree.has_root()) throw SetupError(name + ": is empty; expected a calibration");
   DataFile file{path, std::move(tree).Root()};
   if (file.root.kind != DataNode::Kind::kMapping)
-    throw SetupError(name + ": holds no keys with values; a calibration is wanted");
+    throw SetupError(name + ": contains no keys with values; expected a calibration");
   return file;
 }
 

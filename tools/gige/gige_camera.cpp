@@ -68,8 +68,10 @@ GigeCamera::GigeCamera(const GigeIdentity& identity, std::unique_ptr<CameraDrive
   server_.reset(arv_gv_fake_camera_new_full(identity.ip.c_str(), identity.serial.c_str(),
                                             description.path().c_str()));
   if (!arv_gv_fake_camera_is_running(server_.get())) {
-    throw SetupError(identity.ip + ": cannot be served; an address of this host is wanted at " +
-                     "which no other camera is: as root, ip addr add " + identity.ip + "/8 dev lo");
+    throw SetupError(identity.ip +
+                     ": cannot be served; expected an address of this host that no other camera "
+                     "uses: as root, ip addr add " +
+                     identity.ip + "/8 dev lo");
   }
   g_object_set(server_.get(), "gvsp-lost-ratio", faults.lost_packets, nullptr);
   registers_ = arv_gv_fake_camera_get_fake_camera(server_.get());

@@ -22,7 +22,7 @@ namespace {
 std::uint32_t Parse(const std::string& ip) {
   in_addr address{};
   if (inet_pton(AF_INET, ip.c_str(), &address) != 1) {
-    throw SetupError(Quoted(ip) + " is no IPv4 address, such as 127.0.0.11");
+    throw SetupError(Quoted(ip) + " is not an IPv4 address, such as 127.0.0.11");
   }
   return ntohl(address.s_addr);
 }

@@ -33,9 +33,9 @@ void RequireOwnConfig(const std::filesystem::path& file) {
   if (text.empty()) return;
   const std::size_t end = text.find('\n');
   if (end != std::string::npos && SignedConfig(text.substr(end + 1)) == text) return;
-  throw SetupError(file.string() +
-                   ": is there, and is not as mocap gige-studio wrote it; the name of a new file " +
-                   "is wanted");
+  throw SetupError(
+      file.string() +
+      ": exists and is not as mocap gige-studio wrote it; expected the name of a new file");
 }
 
 }  // namespace mocap

@@ -35,15 +35,15 @@ ExportRemarks RemarksOn(const SkeletonMotion& motion, double before_s) {
   ExportRemarks remarks;
   if (before_s > 0) {
     remarks.push_back(
-        fmt::format("not tracked in the first {:.2f} s, the first pose instead", before_s));
+        fmt::format("not tracked in the first {:.2f} s, which show the first pose", before_s));
   }
   if (motion.skipped_frames > 0) {
     remarks.push_back(
         fmt::format("frames before the first tracked one, left out: {}", motion.skipped_frames));
   }
   if (motion.held_frames > 0) {
-    remarks.push_back(
-        fmt::format("frames missing or not tracked, the last pose again: {}", motion.held_frames));
+    remarks.push_back(fmt::format("frames missing or not tracked, which repeat the last pose: {}",
+                                  motion.held_frames));
   }
   if (motion.worst_mm > 1) {
     remarks.push_back(

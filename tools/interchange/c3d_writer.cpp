@@ -151,7 +151,7 @@ ExportRemarks WriteC3d(const ExportScene& scene, std::ostream& out) {
   layout.events = notes.Take();
   ExportRemarks remarks;
   if (layout.events.size() > kMostEvents) {
-    remarks.push_back(fmt::format("starts and ends of tracking: {}, of which C3D holds {}",
+    remarks.push_back(fmt::format("starts and ends of tracking: {}, of which C3D can hold {}",
                                   layout.events.size(), kMostEvents));
     layout.events.resize(kMostEvents);
   }

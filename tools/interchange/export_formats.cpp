@@ -39,7 +39,7 @@ std::span<const ExportFormat> ExportFormats() { return kFormats; }
 
 const ExportFormat& FindExportFormat(std::string_view name) {
   const auto format = std::ranges::find(kFormats, name, &ExportFormat::name);
-  if (format == kFormats.end()) throw SetupError(std::string(name) + ": is no format of exports");
+  if (format == kFormats.end()) throw SetupError(std::string(name) + ": is not an export format");
   return *format;
 }
 

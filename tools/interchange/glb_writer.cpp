@@ -149,8 +149,8 @@ Json Material() {
 
 ExportRemarks RemarksOn(const SkeletonMotion& motion) {
   if (motion.held_frames == 0) return {};
-  return {
-      fmt::format("frames missing or not tracked, the last pose again: {}", motion.held_frames)};
+  return {fmt::format("frames missing or not tracked, which repeat the last pose: {}",
+                      motion.held_frames)};
 }
 
 }  // namespace

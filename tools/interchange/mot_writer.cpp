@@ -79,7 +79,7 @@ class Line {
 ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out) {
   const Result& result = scene.subjects.front().result;
   const std::vector<BodyAngles> frames = AnglesOf(result);
-  if (frames.empty()) throw SetupError("no frame of the result is tracked, wanted at least one");
+  if (frames.empty()) throw SetupError("no frame of the result is tracked; expected at least one");
   out << Header(frames.size());
   const std::int64_t first_ns = scene.moments.front().timestamp_ns;
   for (const BodyAngles& angles : frames) {

@@ -157,7 +157,7 @@ SkeletonMotion MakeSkeletonMotion(const Result& result) {
     }
   }
   if (motion.frames.empty()) {
-    throw SetupError("no frame of the result is tracked, wanted at least one");
+    throw SetupError("no frame of the result is tracked; expected at least one");
   }
   motion.bones[kHips] = Vector3::Zero();
   MeasureWorst(motion);

@@ -67,7 +67,7 @@ std::string Tiles(const StudioFit& fit, const SeenVolume& volume) {
 }
 
 std::string FindingList(const std::vector<Finding>& findings) {
-  if (findings.empty()) return "<p>Nothing was noticed.</p>\n";
+  if (findings.empty()) return "<p>No findings.</p>\n";
   std::string html = "<ul class=\"findings\">";
   for (const Finding& finding : findings) {
     const char* name = finding.severity == Severity::kWrong     ? "wrong"
@@ -159,7 +159,7 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
                     : "world of the first camera (x right, y down, z forward), millimetres",
       mood, EscapeHtml(Verdict(findings)), UtcText(made_s));
   html += Tiles(fit, volume);
-  html += "<h2>What was noticed</h2>\n" + FindingList(findings);
+  html += "<h2>Findings</h2>\n" + FindingList(findings);
   html += "<h2>Cameras</h2>\n" + CameraTable(fit);
   if (fit.has_floor)
     html +=
@@ -175,8 +175,8 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
             (WasCarried(fit) ? EscapeHtml(fit.cameras[c].coverage.Hint()) : "") +
             "</figcaption></figure>";
   html +=
-      "</div><p class=\"under\">Corners in each part of the picture; lines are errors, 40 times "
-      "as long as they are.</p>\n";
+      "</div><p class=\"under\">Corners in each part of the picture; lines are errors, magnified "
+      "40 times.</p>\n";
   html += "<h2>Worst views</h2>\n" + WorstViews(fit, errors);
   return html + "</main></html>\n";
 }

@@ -57,14 +57,14 @@ std::string Tiles(const PeopleEvaluation& evaluation) {
   if (!evaluation.truth.empty()) {
     const FollowedTruth& sum = evaluation.sum;
     tiles += Tile("Error of 14 points", ErrorText(sum), sum.found > 0 ? " mm" : "",
-                  "over everybody who was found") +
+                  "mean over all people found") +
              Tile("Found while covered", FoundPercent(sum), sum.covered > 0 ? " %" : "",
                   fmt::format("of {}", Counted(sum.covered, "frame"))) +
-             Tile("Switches", std::to_string(sum.switches), "", "people taken for one another") +
+             Tile("Switches", std::to_string(sum.switches), "", "tracks that changed person") +
              Tile("Phantom frames", std::to_string(evaluation.phantom_frames), "",
-                  "tracked where nobody is") +
+                  "tracks without a person") +
              Tile("Duplicate frames", std::to_string(evaluation.duplicate_frames), "",
-                  "of somebody whom another one follows already");
+                  "second tracks of the same person");
   }
   return tiles + "</div>\n";
 }
@@ -120,10 +120,9 @@ std::string Timelines(const PeopleEvaluation& evaluation) {
 
 std::string TrackedRows(const PeopleEvaluation& evaluation) {
   std::string html =
-      "<h3>Who was tracked</h3><table><tr><th>tracked</th><th class=\"n\">frames</th><th "
-      "class=\"n\">residual mm</th><th "
-      "class=\"n\">stature mm</th><th class=\"is\">is</th><th class=\"n\">error mm</th><th "
-      "class=\"n\">phantom</th><th class=\"n\">duplicate</th></tr>";
+      "<h3>Tracked people</h3><table><tr><th>tracked</th><th class=\"n\">frames</th><th "
+      "class=\"n\">residual mm</th><th class=\"n\">stature mm</th><th class=\"is\">is</th><th "
+      "class=\"n\">error mm</th><th class=\"n\">phantom</th><th class=\"n\">duplicate</th></tr>";
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {
     const TrackedPerson& person = evaluation.people[i];
     const Evaluation& one = person.evaluation;
@@ -146,7 +145,7 @@ std::string TrackedRows(const PeopleEvaluation& evaluation) {
 std::string TrueRows(const PeopleEvaluation& evaluation) {
   if (evaluation.truth.empty()) return {};
   std::string html =
-      "<h3>Who was there</h3><table><tr><th>true</th><th class=\"n\">frames</th><th "
+      "<h3>True people</h3><table><tr><th>true</th><th class=\"n\">frames</th><th "
       "class=\"n\">found</th><th class=\"n\">covered</th><th class=\"n\">found then %</th><th "
       "class=\"n\">switches</th><th class=\"n\">error mm</th></tr>";
   const auto add = [&](const std::string& name, const FollowedTruth& followed) {
@@ -217,7 +216,8 @@ std::string PathsFigure(const PeopleEvaluation& evaluation, const TakeSamples& s
   PlotAxes axes{"world x [m]", "world y [m]", 560, 520};
   axes.equal_scales = true;
   return "<div class=\"plan\">" +
-         Figure(axes, series, "<b>Ways of the torsos</b> from above, with the cameras.") + "</div>";
+         Figure(axes, series, "<b>Paths of the torsos</b> from above, with the cameras.") +
+         "</div>";
 }
 
 /// Everyone's error.
@@ -250,7 +250,7 @@ std::string PersonSections(const PeopleEvaluation& evaluation, const TakeSamples
     html += fmt::format("<details><summary>{}{}</summary>{}</details>\n", Swatch(i),
                         EscapeHtml(person.name), TrackingSections(person.evaluation, samples));
   }
-  return "<h2>One by one</h2>\n" + html;
+  return "<h2>Each person</h2>\n" + html;
 }
 
 std::vector<double> FramesOf(const PeopleEvaluation& evaluation, const TakeSamples& samples) {

@@ -65,8 +65,8 @@ std::string TrueTable(const PeopleEvaluation& evaluation) {
   }
   text += TrueRow("all", evaluation.sum);
   return text + fmt::format(
-                    "\nframes tracked where nobody is (phantom): {}\n"
-                    "frames tracked of somebody whom another one follows already (duplicate): {}\n",
+                    "\nframes of tracks without a person (phantom): {}\nframes of second tracks of "
+                    "the same person (duplicate): {}\n",
                     evaluation.phantom_frames, evaluation.duplicate_frames);
 }
 

@@ -67,7 +67,7 @@ std::string Tiles(const Evaluation& evaluation, const std::vector<CameraOverlap>
   }
   if (evaluation.first_tracked_pose >= 0) {
     tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
-                  evaluation.truth ? fmt::format("truly {:.0f} mm", evaluation.truth->stature_mm)
+                  evaluation.truth ? fmt::format("true: {:.0f} mm", evaluation.truth->stature_mm)
                                    : "as acquired");
   }
   return tiles + "</div>\n";
@@ -151,7 +151,7 @@ std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
   const std::string under = fmt::format(
       "{} in {:.1f} s from {} · body “{}”{}", Counted(poses.size(), "frame"), seconds,
       Counted(samples.cameras.size(), "camera"), EscapeHtml(evaluation.result.body.model),
-      evaluation.truth ? "" : " · no truth: accuracy cannot be told, precision can");
+      evaluation.truth ? "" : " · no truth: precision only, no accuracy");
   std::vector<double> frames;
   for (const SampledMoment& moment : samples.moments) {
     frames.push_back(static_cast<double>(RowAt(evaluation, moment).frame));

@@ -116,7 +116,7 @@ std::string OfParts(const Evaluation& evaluation, std::vector<PlotSeries>& serie
     if (found != evaluation.truth->lengths_mm.end()) truth.points.emplace_back(part, found->second);
   }
   series.push_back(std::move(estimated));
-  if (truth.points.empty()) return " The take does not tell the true sizes.";
+  if (truth.points.empty()) return " The take does not contain the true sizes.";
   series.push_back(std::move(truth));
   return " Rings: true sizes; the head’s is not known.";
 }
@@ -182,7 +182,7 @@ std::string TorsoPathFigure(const Evaluation& evaluation,
   PlotAxes axes{"world x [m]", "world y [m]", 560, 520};
   axes.equal_scales = true;
   return Figure(PlotSvg(axes, series),
-                "<b>Way of the torso’s centroid</b> from above, as in Fig. 21, with the cameras.");
+                "<b>Path of the torso’s centroid</b> from above, as in Fig. 21, with the cameras.");
 }
 
 std::string HipKneeFigure(const Evaluation& evaluation) {

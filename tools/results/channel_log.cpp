@@ -46,19 +46,19 @@ bool ChannelLog::IsWanted() {
 
 void ChannelLog::FailAsNoLog() const {
   const bool is_empty = reader_.damaged_bytes() == 0;
-  throw SetupError(log_ + (is_empty ? ": is empty" : ": is no LCM log") +
-                   "; one that lcm-logger recorded of mocapd is wanted");
+  throw SetupError(log_ + (is_empty ? ": is empty" : ": is not an LCM log") +
+                   "; expected one that lcm-logger recorded of mocapd");
 }
 
 std::vector<std::string> ChannelLog::Remarks() const {
   std::vector<std::string> remarks;
   if (reader_.damaged_places() > 0) {
     remarks.push_back(log_ + ": is damaged in " + Counted(reader_.damaged_places(), "place") +
-                      "; " + Counted(reader_.damaged_bytes(), "byte") + " passed over");
+                      "; " + Counted(reader_.damaged_bytes(), "byte") + " skipped");
   }
   for (const auto& [channel, count] : garbled_) {
     remarks.push_back(log_ + ": " + Counted(count, "message") + " on " + Printable(channel) +
-                      " not understood by this version, and left out");
+                      " not understood by this version, skipped");
   }
   return remarks;
 }
@@ -68,8 +68,8 @@ std::optional<std::string> ChannelLog::ChooseAmong(const std::vector<std::string
   if (wanted_prefix_) return wanted_prefix_;
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return found.front();
-  throw SetupError(log_ + ": holds " + of_what + " of several daemons, with the prefixes " +
-                   Listed(found) + "; --prefix with one of them is wanted");
+  throw SetupError(log_ + ": contains " + of_what + " of several daemons, with the prefixes " +
+                   Listed(found) + "; choose one of them with --prefix");
 }
 
 std::string ChannelLog::PrefixesText() const {
@@ -93,9 +93,9 @@ bool FrameOrder::Add(std::int64_t frame, std::int64_t timestamp_ns) {
 void FrameOrder::RequireOneDaemon(const std::filesystem::path& log,
                                   const std::string& channel) const {
   if (back_ <= 2 + frames_ / 20) return;
-  throw SetupError(log.string() + ": holds poses of several daemons in turns on " +
+  throw SetupError(log.string() + ": contains poses of several daemons in turns on " +
                    Printable(channel) +
-                   "; a log of one is wanted, or a prefix for each (lcm.prefix)");
+                   "; expected a log of one, or a prefix for each (lcm.prefix)");
 }
 
 }  // namespace mocap

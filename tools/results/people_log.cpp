@@ -84,8 +84,7 @@ class PeopleOfLog {
       Person& person = people_[number];
       if (person.poses.empty()) continue;
       if (!person.body) {
-        remarks.push_back(log.string() + ": " + NumberName(number) +
-                          " has no body, and is left out");
+        remarks.push_back(log.string() + ": " + NumberName(number) + " has no body and is skipped");
         continue;
       }
       results.emplace_back(name, Result{*person.body, std::move(person.poses), {}});
@@ -93,11 +92,11 @@ class PeopleOfLog {
     const auto tell = [&](std::int64_t count, const std::string& what) {
       if (count > 0) remarks.push_back(log.string() + ": " + Counted(count, "pose") + what);
     };
-    tell(wrong_, " with a number that is none, and left out");
-    tell(repeated_, " not later than the one before, and left out");
+    tell(wrong_, " with an invalid number, skipped");
+    tell(repeated_, " not later than the one before, skipped");
     if (before_ > 0) {
       remarks.push_back(log.string() +
-                        ": mocapd was started again; who came since has a number above " +
+                        ": mocapd was restarted; people who came since have numbers above " +
                         std::to_string(before_));
     }
     if (!results.empty()) results.front().second.remarks = std::move(remarks);
@@ -156,10 +155,9 @@ PeopleResults ReadPeopleLog(const std::filesystem::path& log,
     people = chosen->second.Take(log, channels.Remarks());
   }
   if (people.empty()) {
-    throw SetupError(
-        log.string() + ": holds nobody on " + Printable(prefix.value_or("")) +
-        std::string(kPeople) + channels.PrefixesText() +
-        "; a log that lcm-logger recorded of mocapd while it followed people is wanted");
+    throw SetupError(log.string() + ": contains no people on " + Printable(prefix.value_or("")) +
+                     std::string(kPeople) + channels.PrefixesText() +
+                     "; expected a log that lcm-logger recorded of mocapd while it tracked people");
   }
   return people;
 }

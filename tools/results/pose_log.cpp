@@ -85,7 +85,7 @@ void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& p
   for (std::size_t i = 1; i < poses.size(); ++i) {
     if (poses[i].timestamp_ns > poses[i - 1].timestamp_ns) continue;
     remarks.push_back(log.string() + ": capture times go back at frame " +
-                      std::to_string(poses[i].frame) + ": the clock was set meanwhile");
+                      std::to_string(poses[i].frame) + ": the clock was set while recording");
     return;
   }
 }
@@ -163,22 +163,22 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
   const auto chosen = name ? daemons.find(*name) : daemons.end();
   const bool has_poses = chosen != daemons.end();
   if (!has_poses || !chosen->second.body) {
-    throw SetupError(log.string() + ": holds no " + Printable(prefix.value_or("")) +
+    throw SetupError(log.string() + ": contains no " + Printable(prefix.value_or("")) +
                      std::string(has_poses ? kBody : kPose) + " message of this version" +
                      channels.PrefixesText() +
-                     "; a log that lcm-logger recorded of mocapd is wanted");
+                     "; expected a log that lcm-logger recorded of mocapd");
   }
   Daemon& daemon = chosen->second;
   daemon.order.RequireOneDaemon(log, chosen->first + std::string(kPose));
   Result result{*daemon.body, std::move(daemon.poses), channels.Remarks()};
   if (daemon.repeated > 0) {
     result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +
-                             " came twice, and count once");
+                             " appeared twice, counted once");
   }
   if (daemon.has_several_people) {
     result.remarks.push_back(log.string() +
-                             ": several people were followed at once, and this is whoever had been "
-                             "for longest; --people takes everybody");
+                             ": several people were tracked at once; this is the one tracked "
+                             "longest; --people reads all of them");
   }
   TellOfTimes(log, result.poses, result.remarks);
   return result;

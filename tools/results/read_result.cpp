@@ -72,7 +72,7 @@ void CheckOrder(const PoseRow& before, const PoseRow& row, const TextLines& line
   const bool is_time = row.frame > before.frame;
   lines.Fail(is_time ? "timestamp_ns " + std::to_string(row.timestamp_ns) + " follows " +
                            std::to_string(before.timestamp_ns) +
-                           "; times in nanoseconds that increase are wanted"
+                           "; expected times in nanoseconds that increase"
                      : "frame " + std::to_string(row.frame) + " follows " +
                            std::to_string(before.frame) + "; frame numbers must increase");
 }
@@ -88,8 +88,8 @@ void CheckTimes(const std::vector<PoseRow>& rows, const std::filesystem::path& f
   const std::int64_t usual_ns = apart_ns[apart_ns.size() / 2];
   if (usual_ns >= kNearest_ns) return;
   throw SetupError(file.string() + ": its frames are " + std::to_string(usual_ns) +
-                   " ns apart: are these microseconds or milliseconds? timestamp_ns in " +
-                   "nanoseconds is wanted");
+                   " ns apart: are these microseconds or milliseconds? Expected timestamp_ns in " +
+                   "nanoseconds");
 }
 
 std::vector<PoseRow> ReadPoses(const std::filesystem::path& file,
@@ -122,7 +122,7 @@ BodyRecord ReadBody(const std::filesystem::path& file) {
   body.model = root.Text("model");
   body.stature_mm = root.Number("stature_mm");
   std::optional<TomlSection> sizes = root.Section("sizes");
-  if (!sizes) root.Fail("sizes", "is missing; a table of the person's sizes is wanted");
+  if (!sizes) root.Fail("sizes", "is missing; expected a table of the person's sizes");
   for (const BodySizeField& field : kBodySizeFields) {
     body.sizes.*field.value = sizes->Number(std::string(field.name) + "_mm");
   }
@@ -144,9 +144,9 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
     if (!std::filesystem::is_directory(folder_or_log, error)) {
       return ReadPeopleLog(folder_or_log, prefix);
     }
-    throw SetupError(folder_or_log.string() +
-                     ": holds no person-1 or the like; what mocap track --people writes is wanted, "
-                     "or a log");
+    throw SetupError(
+        folder_or_log.string() +
+        ": contains no person-1 or the like; expected what mocap track --people writes, or a log");
   }
   PeopleResults people;
   for (const std::filesystem::path& person : PersonFolders(folder_or_log)) {
@@ -158,14 +158,14 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
 Result ReadResult(const std::filesystem::path& folder_or_log,
                   const std::optional<std::string>& prefix) {
   if (!IsThere(folder_or_log)) {
-    throw SetupError(folder_or_log.string() + ": is missing; " + kWanted + " is wanted, or a log");
+    throw SetupError(folder_or_log.string() + ": is missing; expected " + kWanted + ", or a log");
   }
   std::error_code error;
   if (!std::filesystem::is_directory(folder_or_log, error)) {
     return ReadPoseLog(folder_or_log, prefix);
   }
   if (prefix) {
-    throw SetupError(folder_or_log.string() + ": is no log, which alone has a prefix");
+    throw SetupError(folder_or_log.string() + ": is not a log; only a log has a prefix");
   }
   std::vector<std::string> remarks;
   std::vector<PoseRow> poses = ReadPoses(folder_or_log / "poses.csv", remarks);

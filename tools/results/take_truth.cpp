@@ -18,7 +18,7 @@ class TruthTable {
  public:
   explicit TruthTable(const std::filesystem::path& file) : lines_(file, "a table of joints") {
     std::string_view header;
-    if (!lines_.Next(header)) lines_.Fail("is empty; a header is wanted");
+    if (!lines_.Next(header)) lines_.Fail("is empty; expected a header");
     for (std::size_t begin = 0; begin <= header.size();) {
       const std::size_t end = std::min(header.find(',', begin), header.size());
       columns_.emplace_back(header.substr(begin, end - begin));
@@ -68,7 +68,7 @@ void ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm, Take
     if (!frames.empty() && frame.timestamp_ns <= frames.back().timestamp_ns) {
       table.Fail("timestamp_ns " + std::to_string(frame.timestamp_ns) + " follows " +
                  std::to_string(frames.back().timestamp_ns) +
-                 "; times in nanoseconds that increase are wanted");
+                 "; expected times in nanoseconds that increase");
     }
     for (int i = 0; i < kScoredPointCount; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -107,7 +107,7 @@ std::optional<TakeTruth> ReadTruthAmongOthers(const std::filesystem::path& folde
   if (std::optional<TomlSection> lengths = sizes.Section("lengths")) {
     for (const std::string& key : lengths->Keys()) {
       if (!key.ends_with("_mm"))
-        lengths->Fail(key, "has no unit; a name that ends in _mm is wanted");
+        lengths->Fail(key, "has no unit; expected a name that ends in _mm");
       truth.lengths_mm[key.substr(0, key.size() - 3)] = lengths->PositiveNumber(key);
     }
   }
@@ -120,7 +120,7 @@ std::optional<TakeTruth> ReadTakeTruth(const std::filesystem::path& take) {
   std::optional<TakeTruth> truth = ReadTruthAmongOthers(take);
   const std::filesystem::path table = TakeLayout{take}.TruthTable();
   if (!truth && IsThere(table)) {
-    throw SetupError(table.string() + ": has no rows; at least one is wanted");
+    throw SetupError(table.string() + ": has no rows; expected at least one");
   }
   return truth;
 }

@@ -26,7 +26,7 @@ std::map<std::string, Stretches> ReadCovered(const std::filesystem::path& take) 
     if (!person.Has("covered")) continue;
     Stretches stretches = person.AllNumbers("covered");
     if (stretches.size() % 2 != 0) {
-      person.Fail("covered", "has a first frame without a last one; pairs of both are wanted");
+      person.Fail("covered", "has a first frame without a last one; expected pairs of both");
     }
     covered[person.Text("folder")] = std::move(stretches);
   }

@@ -34,7 +34,7 @@ bool LogPlayer::Read() {
 bool LogPlayer::Play(std::chrono::nanoseconds longest_wait) {
   if (!has_message_ && !Read()) {
     if (due_ns_ != 0) return false;
-    throw SetupError(log_.string() + ": is no LCM log; one that lcm-logger recorded is wanted");
+    throw SetupError(log_.string() + ": is not an LCM log; expected one that lcm-logger recorded");
   }
   has_message_ = true;
   const std::chrono::nanoseconds wait(std::max<std::int64_t>(0, due_ns_ - SteadyNs()));

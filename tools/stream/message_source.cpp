@@ -26,7 +26,7 @@ MessageSource::MessageSource(const std::string& url) : url_(url) {
     live_ = OpenLcm(url);
     return;
   }
-  if (address.is_written) throw SetupError("--url: " + url + " is written; mode=r is wanted");
+  if (address.is_written) throw SetupError("--url: " + url + " is a log to write; expected mode=r");
   player_.emplace(address.file, address.speed);
 }
 
@@ -34,7 +34,7 @@ bool MessageSource::Handle(std::chrono::milliseconds longest_wait) {
   if (player_) return player_->Play(longest_wait);
   // A signal ends the wait, too.
   if (live_->handleTimeout(static_cast<int>(longest_wait.count())) < 0 && !StopAsked())
-    throw std::runtime_error(url_ + ": LCM cannot go on");
+    throw std::runtime_error(url_ + ": LCM failed");
   return true;
 }
 

@@ -31,8 +31,9 @@ Place ParsePlace(const std::string& text) {
   const bool is_port = error == std::errc() && end == port.data() + port.size() && number > 0;
   const bool has_more_colons = host.find(':') != std::string::npos && !text.starts_with('[');
   if (colon == std::string::npos || host.empty() || !is_port || has_more_colons) {
-    throw SetupError("--to: \"" + text +
-                     "\" is no address; HOST:PORT is wanted, like 127.0.0.1:39539 or [::1]:39539");
+    throw SetupError(
+        "--to: \"" + text +
+        "\" is not an address; expected HOST:PORT, like 127.0.0.1:39539 or [::1]:39539");
   }
   return {host, std::to_string(number)};
 }

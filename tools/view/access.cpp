@@ -26,7 +26,7 @@ bool IsFromOwnPage(const RequestSource& source, bool is_page) {
 std::string MakeToken() {
   std::array<unsigned char, 16> bits;
   if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size())) {
-    throw std::runtime_error("the system gives no random numbers for a token");
+    throw std::runtime_error("the system provides no random numbers for a token");
   }
   std::string token;
   for (const unsigned char byte : bits) {

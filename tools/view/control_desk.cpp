@@ -42,9 +42,9 @@ ViewReply ControlDesk::Answer(const ViewRequest& request) const {
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
   const bool is_request =
       body.is_object() && body.contains("request") && body["request"].is_string();
-  if (!is_request) return Wrong("{\"request\": \"…\"} is wanted");
+  if (!is_request) return Wrong("expected {\"request\": \"…\"}");
   const std::string line = body["request"];
-  if (!IsOffered(line)) return Wrong("the request is none that the page may make");
+  if (!IsOffered(line)) return Wrong("the page may not make this request");
   const ControlReply reply = ReplyOfDaemon(socket_, line);
   return {200, kJson,
           JsonText({{"outcome", kOutcomes[static_cast<std::size_t>(reply.outcome)]},

@@ -46,8 +46,7 @@ std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::s
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (is_number && number <= most) return number;
-  throw WrongRequest{name + " is " + Quoted(text) + "; 0 to " + std::to_string(most) +
-                     " is wanted"};
+  throw WrongRequest{name + " is " + Quoted(text) + "; expected 0 to " + std::to_string(most)};
 }
 
 std::string NameOf(const std::filesystem::path& folder) {

@@ -71,8 +71,8 @@ tcp::acceptor OpenPort(asio::io_context& io, std::uint16_t port) {
   acceptor.bind({asio::ip::address_v4::loopback(), port}, error);
   if (!error) acceptor.listen(kWaitingConnections, error);
   if (error) {
-    throw SetupError("127.0.0.1:" + std::to_string(port) + ": cannot be listened on: " +
-                     error.message() + "; --port with another one is wanted, or 0 for any");
+    throw SetupError("127.0.0.1:" + std::to_string(port) + ": the port cannot be opened: " +
+                     error.message() + "; choose another one with --port, or 0 for any");
   }
   return acceptor;
 }
@@ -180,7 +180,7 @@ class ViewServer::Impl {
     };
     const auto longest = std::ranges::min_element(connections_, {}, waits_since);
     const bool is_found = longest != connections_.end() && (*longest)->waits_since_ns;
-    refusals_.Add(is_found ? "a connection that waited longest, of too many"
+    refusals_.Add(is_found ? "a connection that waited longest, as there were too many"
                            : "a connection beyond the limit");
     if (!is_found) return false;
     (*longest)->waits_since_ns.reset();
@@ -205,7 +205,7 @@ class ViewServer::Impl {
   /// closed silently.
   Task<void> EndWithoutRequest(Connection& connection, ErrorCode error) {
     if (error == beast::error::timeout && connection.buffer.size() > 0) {
-      refusals_.Add("half a request");
+      refusals_.Add("an incomplete request");
     }
     if (!IsMalformed(error)) co_return;
     refusals_.Add("a request: " + error.message());
@@ -247,8 +247,8 @@ class ViewServer::Impl {
         }
         if (!is_sound) refusals_.Add("a WebSocket: data before it was accepted");
         response = Refuse(request, is_sound ? 404 : 400,
-                          is_sound ? "no WebSocket is served here, or too many are"
-                                   : "data is wanted after the WebSocket was accepted");
+                          is_sound ? "no WebSocket is served here, or too many are open"
+                                   : "data may only follow after the WebSocket was accepted");
         response.keep_alive(is_sound);
       } else {
         response = co_await Answer(request);
@@ -264,7 +264,7 @@ class ViewServer::Impl {
                                View(request["Sec-Fetch-Site"]), View(request["Sec-Fetch-Mode"])};
     if (!IsOwnHost(source.host)) return Refuse(request, 421, "the address is 127.0.0.1");
     if (!IsFromOwnPage(source, is_page)) {
-      return Refuse(request, 403, "this is for the page of mocap view alone");
+      return Refuse(request, 403, "only the page of mocap view may send this request");
     }
     return {};
   }
@@ -276,7 +276,7 @@ class ViewServer::Impl {
     asked.query = std::move(target.query);
     const bool is_get = request.method() == http::verb::get;
     if (!is_get && request.method() != http::verb::post) {
-      co_return Refuse(request, 405, "GET or POST is wanted");
+      co_return Refuse(request, 405, "expected GET or POST");
     }
     const auto file = options_.files.find(asked.path);
     if (is_get && file != options_.files.end()) {
@@ -287,7 +287,7 @@ class ViewServer::Impl {
     asked.body = request.body();
     ViewReply reply =
         co_await asio::co_spawn(pool_, AnswerAside(std::move(asked)), asio::use_awaitable);
-    if (reply.status == 404) co_return Refuse(request, 404, "nothing is here");
+    if (reply.status == 404) co_return Refuse(request, 404, "there is nothing at this address");
     co_return Respond(request, reply.status, reply.type, std::move(reply.body));
   }
 
@@ -350,7 +350,7 @@ class ViewServer::Impl {
         patience.expires_after(kPagePatience);
         patience.async_wait([this, page](ErrorCode stopped) {
           if (stopped) return;
-          refusals_.Add("a page that took nothing");
+          refusals_.Add("a page that did not read its messages");
           ErrorCode ignored;
           beast::get_lowest_layer(*page).socket().close(ignored);
         });

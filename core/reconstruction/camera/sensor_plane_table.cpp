@@ -47,7 +47,7 @@ SensorPlaneTable::SensorPlaneTable(const CameraCalibration& camera)
   const auto refuse = [&](const std::string& what) {
     throw SetupError("camera " + camera.name + ": the lens " + what + " in its picture of " +
                      std::to_string(width_px_) + " x " + std::to_string(height_px_) +
-                     " px; wanted a focal length, centre and distortion that fit it");
+                     " px; expected a focal length, centre and distortion that fit it");
   };
   if (!(low_.array() < high_.array()).all()) refuse("shows nothing");
   if (beyond_the_rim) {

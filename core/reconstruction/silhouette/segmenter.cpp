@@ -27,13 +27,13 @@ constexpr float kMuchLess = 0.8f;
 void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> background) {
   const std::string where = "background of camera " + camera.name + ": found ";
   if (background.size() < kFewestFrames)
-    throw SetupError(where + std::to_string(background.size()) + " frames, wanted at least " +
+    throw SetupError(where + std::to_string(background.size()) + " frames; expected at least " +
                      std::to_string(kFewestFrames));
   for (const BackgroundFrame& frame : background) {
     if (frame.image.width() == camera.width_px && frame.image.height() == camera.height_px)
       continue;
     throw SetupError(where + "a frame of " + std::to_string(frame.image.width()) + " x " +
-                     std::to_string(frame.image.height()) + " px, wanted " +
+                     std::to_string(frame.image.height()) + " px; expected " +
                      std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) +
                      " px as in the calibration");
   }

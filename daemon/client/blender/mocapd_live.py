@@ -22,7 +22,7 @@ bl_info = {
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > mocapd",
-    "description": "Moves an armature as the person does whom mocapd tracks",
+    "description": "Moves an armature like the person that mocapd tracks",
     "category": "Animation",
 }
 
@@ -244,7 +244,7 @@ class MOCAPD_OT_start(bpy.types.Operator):
         try:
             live_body = LiveBody(port)
         except OSError as error:
-            self.report({"ERROR"}, f"UDP port {port}: {error.strerror}; another port is wanted")
+            self.report({"ERROR"}, f"UDP port {port}: {error.strerror}; choose another port")
             return {"CANCELLED"}
         bpy.app.timers.register(tick, persistent=True)
         return {"FINISHED"}
@@ -253,7 +253,7 @@ class MOCAPD_OT_start(bpy.types.Operator):
 class MOCAPD_OT_stop(bpy.types.Operator):
     bl_idname = "mocapd.stop"
     bl_label = "Stop"
-    bl_description = "Listen no more; the armature stays"
+    bl_description = "Stop listening; the armature stays"
 
     @classmethod
     def poll(cls, context):

@@ -170,7 +170,7 @@ class StreamTest(unittest.TestCase):
                 self.assertGreater(result.sizes_mm["thigh"], 200)
                 with open(table, "a") as damaged:
                     damaged.write("1,2,tracking,x\n")
-                with self.assertRaisesRegex(ValueError, f"poses.csv: line {len(rows) + 2}: .*is wanted"):
+                with self.assertRaisesRegex(ValueError, f"poses.csv: line {len(rows) + 2}: .*expected"):
                     mocapd.read_result(os.path.dirname(table))
 
 

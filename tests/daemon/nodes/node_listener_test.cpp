@@ -229,12 +229,12 @@ TEST_F(NodeListenerTest, APictureThatCannotBeUnpackedIsTorn) {
 }
 
 TEST_F(NodeListenerTest, ANodeTellsOfItself) {
-  HearOfNode({"cam1 is lost: look at its cable and power"});
+  HearOfNode({"cam1 is lost: check its cable and power"});
   const NodeReport report = Report();
   EXPECT_TRUE(report.was_heard);
   EXPECT_TRUE(report.is_of_this_version);
   EXPECT_TRUE(report.has_this_clock);
-  EXPECT_THAT(report.complaints, ElementsAre("cam1 is lost: look at its cable and power"));
+  EXPECT_THAT(report.complaints, ElementsAre("cam1 is lost: check its cable and power"));
   EXPECT_THAT(report.missing, IsEmpty());
   EXPECT_THAT(report.miscalibrated, IsEmpty());
 }

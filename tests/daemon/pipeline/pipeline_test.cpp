@@ -116,7 +116,7 @@ TEST(Pipeline, SixtyFiveCamerasAreRefusedByTheStudiosName) {
   RecordingSink sink;
   const std::string said = testing::SetupErrorOf(
       [&] { Pipeline(std::move(studio), Waiting(), LoadBodyTable("full"), sink); });
-  EXPECT_EQ(said, name + ": has 65 cameras, wanted 1 to 64");
+  EXPECT_EQ(said, name + ": has 65 cameras; expected 1 to 64");
 }
 
 TEST(Pipeline, TracksEverySetInOrderWhenItMayWait) {

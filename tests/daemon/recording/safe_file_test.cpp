@@ -17,7 +17,7 @@ TEST(SafeFile, SaysWhatCannotBeKeptSafe) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path nowhere = folder.path() / "nowhere";
   const auto names = [](const std::string& what) {
-    return ThrowsMessage<std::runtime_error>(StartsWith(what + ": cannot be kept safe"));
+    return ThrowsMessage<std::runtime_error>(StartsWith(what + ": cannot be flushed"));
   };
   EXPECT_THAT([&] { SafeFile file(nowhere); }, names(nowhere.string()));
   EXPECT_THAT([&] { SyncFileSystem(nowhere); }, names(nowhere.string()));

@@ -98,7 +98,7 @@ TEST_F(BackgroundLearnerTest, GivesUpWhenTheDaemonEnds) {
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
   learner.RequestStop();
   EXPECT_THAT([&] { learner.Learn(true, 1e6); },
-              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("mocapd ends")));
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("mocapd is stopping")));
   EXPECT_FALSE(std::filesystem::exists(place_.folder));
 }
 
@@ -144,7 +144,7 @@ TEST_F(BackgroundLearnerTest, AFolderThatCannotBeMadeIsNamed) {
   place_.folder = folder_.path() / "file" / "background";
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
   EXPECT_THAT([&] { learner.Learn(false); },
-              ThrowsMessage<SetupError>(HasSubstr("file/background.partial: cannot be made")));
+              ThrowsMessage<SetupError>(HasSubstr("file/background.partial: cannot be created")));
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ using ::testing::HasSubstr;
 TEST(ClockWatch, TellsOfEachStepOnceWithItsDirectionAndSize) {
   ClockWatch watch;
   EXPECT_EQ(watch.Add(0), "");
-  EXPECT_THAT(watch.Add(-800'000'000), HasSubstr("put back by 0.80 s"));
+  EXPECT_THAT(watch.Add(-800'000'000), HasSubstr("set back by 0.80 s"));
   EXPECT_EQ(watch.Add(-800'000'000), "");
-  EXPECT_THAT(watch.Add(3'599'200'000'000), HasSubstr("put forward by 3600.00 s"));
+  EXPECT_THAT(watch.Add(3'599'200'000'000), HasSubstr("set forward by 3600.00 s"));
   EXPECT_EQ(watch.Add(3'599'200'000'000), "");
 }
 

@@ -27,7 +27,7 @@ TEST_F(StopSignalsDeathTest, AStartThatHangsIsEndedAndLosesNothing) {
         kill(getpid(), SIGTERM);
         Hang();
       },
-      ::testing::ExitedWithCode(0), "ended while it was starting");
+      ::testing::ExitedWithCode(0), "stopped while starting");
 }
 
 TEST_F(StopSignalsDeathTest, ATakeThatCannotBeCompletedIsTold) {

@@ -41,7 +41,8 @@ TEST(FollowedPerson, OfSeveralTheNumberTellsWhoIsMeant) {
 
 TEST(FollowedPerson, WhoeverAsksWronglyLearnsWhoIsThere) {
   const std::vector<FollowedPerson> people = {Person(2), Person(5, "anna")};
-  EXPECT_THAT(WhyNot(people, {}), HasSubstr("person 2, person 5 (anna); --person"));
+  EXPECT_THAT(WhyNot(people, {}),
+              HasSubstr("person 2, person 5 (anna); choose one of them with --person"));
   EXPECT_THAT(WhyNot(people, 3), HasSubstr("person 3 is not tracked"));
   EXPECT_THAT(WhyNot(people, 3), HasSubstr("person 2, person 5 (anna)"));
 }

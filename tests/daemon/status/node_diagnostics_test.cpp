@@ -36,7 +36,8 @@ TEST(NodeDiagnostics, HaveNothingToSayOfAGoodNode) { EXPECT_THAT(Told(Good()), I
 TEST(NodeDiagnostics, NameANodeThatIsSilent) {
   NodeReport node = Good();
   node.silent_ns = 3'000 * kMs;
-  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("nothing has been heard of node left for 3 s")));
+  EXPECT_THAT(Told(node),
+              ElementsAre(HasSubstr("nothing has been received from node left for 3 s")));
   node.was_heard = false;
   EXPECT_THAT(Told(node), ElementsAre(HasSubstr("since the start")));
   EXPECT_THAT(Told(node, "udpm://239.255.76.67:7667?ttl=0"), ElementsAre(HasSubstr("ttl=0")));
@@ -47,16 +48,17 @@ TEST(NodeDiagnostics, NameAClockThatIsOff) {
   NodeReport node = Good();
   node.clock_agrees = false;
   node.clock_apart_ns = 50 * kMs;
-  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("clock of node left is 50 ms behind the one")));
+  EXPECT_THAT(Told(node),
+              ElementsAre(HasSubstr("clock of node left is 50 ms behind the clock of this")));
   node.clock_apart_ns = -3'600'000 * kMs;
-  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("3600000 ms ahead of the one")));
+  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("3600000 ms ahead of the clock of this")));
   EXPECT_TRUE(IsOfLostNode({{node}, ""}, "left"));
 }
 
 TEST(NodeDiagnostics, NameAClockThatNobodyKeeps) {
   NodeReport node = Good();
   node.clock_is_kept = false;
-  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("nothing keeps the clock of node left right")));
+  EXPECT_THAT(Told(node), ElementsAre(HasSubstr("nothing synchronizes the clock of node left")));
   node.has_this_clock = true;
   EXPECT_THAT(Told(node), IsEmpty()) << "it is the one here";
   node = Good();
@@ -83,14 +85,14 @@ TEST(NodeDiagnostics, NameWhatIsLostOnTheWay) {
 
 TEST(NodeDiagnostics, PassOnWhatANodeSays) {
   NodeReport node = Good();
-  node.complaints = {"cam1 is lost: look at its cable and power"};
-  EXPECT_THAT(Told(node), ElementsAre("node left: cam1 is lost: look at its cable and power"));
+  node.complaints = {"cam1 is lost: check its cable and power"};
+  EXPECT_THAT(Told(node), ElementsAre("node left: cam1 is lost: check its cable and power"));
   EXPECT_FALSE(IsOfLostNode({{node}, ""}, "left"));
 }
 
 TEST(NodeDiagnostics, NameAStranger) {
   EXPECT_THAT(NodeDiagnostics({{}, "cam1 of node right"}, kUrl),
-              ElementsAre(HasSubstr("cam1 of node right sends to")));
+              ElementsAre(HasSubstr("cam1 of node right also sends to")));
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(ServiceReport, NamesTheCameraThatIsLostOrSlow) {
   report.now.frames_per_second[0] = 0;
   report.now.frames_per_second[1] = 20;
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 gives 20.0 of 25.0"),
+              ElementsAre(StartsWith("cam1 is lost"), StartsWith("cam2 delivers 20.0 of 25.0"),
                           StartsWith("only cam2 delivers frames")));
   EXPECT_THAT(ReportText(report), StartsWith("! cam1 is lost"));
   EXPECT_THAT(ReportLine(report), HasSubstr("1 of 2 cameras; cam1 is lost"));
@@ -103,7 +103,7 @@ TEST(ServiceReport, SaysOnceOfWhomCamerasWaitForTheTrigger) {
   report.now.status.cameras.push_back(third);
   for (const std::size_t i : {1, 2}) report.now.status.cameras[i].waits_for = "cam1";
   report.now.frames_per_second = {25, 25, 0};
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no trigger of cam1 reaches cam3: ")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no trigger from cam1 reaches cam3: ")));
   report.now.status.cameras[0].state = CameraState::kLost;
   report.now.frames_per_second = {0, 0, 0};
   report.now.sets_per_second = 0;
@@ -118,14 +118,14 @@ TEST(ServiceReport, ACameraIsHeldAgainstItsOwnRate) {
   report.now.frames_per_second[1] = 10;
   EXPECT_THAT(Diagnostics(report), IsEmpty());
   report.now.frames_per_second[1] = 5;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 gives 5.0 of 10.0")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 delivers 5.0 of 10.0")));
 }
 
 TEST(ServiceReport, CamerasWithoutSetsAreNotGood) {
   ServiceReport report = Good();
   report.now.sets_per_second = 0;
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre(StartsWith("no frame sets come about, though 2 of 2")));
+              ElementsAre(StartsWith("no frame sets are formed, although 2 of 2")));
   report.now.frames_per_second = {0, 0};
   EXPECT_THAT(Diagnostics(report), IsEmpty()) << "nothing was counted yet";
 }
@@ -162,7 +162,7 @@ TEST(ServiceReport, SetsThatNeverAreCompleteAreNotGood) {
   EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no frame set is complete")));
   report.now.late_per_second = {0, 25};
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre(StartsWith("frames come too late for their sets: cam2: ")));
+              ElementsAre(StartsWith("frames arrive too late for their sets: cam2: ")));
   report.now.sets_complete_lately = 100;
   report.now.late_per_second = {0, 1};
   EXPECT_THAT(Diagnostics(report), IsEmpty()) << "now and then is no matter";
@@ -176,13 +176,15 @@ TEST(ServiceReport, PosesThatReachNobodyAreNotGood) {
               ElementsAre(StartsWith("poses cannot be sent to udpm://x: Network is unreachable")));
   report.delivery = {};
   report.delivery.channel.silent_ns = 9'000'000'000;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("no message on udpm://x has come back")));
+  EXPECT_THAT(
+      Diagnostics(report),
+      ElementsAre(StartsWith("mocapd has received none of its own messages on udpm://x for")));
   report.delivery = {};
   report.delivery.channel.other_sender = true;
   EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("another mocapd, or a log")));
   report.delivery = {};
   report.delivery.channel.reaches_nobody = true;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("poses reach nobody outside")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("poses do not leave this process")));
 }
 
 TEST(ServiceReport, WhatNobodyRenewedIsNotGood) {
@@ -190,7 +192,8 @@ TEST(ServiceReport, WhatNobodyRenewedIsNotGood) {
   report.age_ns = 3'000'000'000;
   EXPECT_THAT(Diagnostics(report), IsEmpty());
   report.age_ns = 12'000'000'000;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("nothing has been heard of mocapd")));
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("mocapd's main thread has not responded")));
   EXPECT_THAT(Diagnostics(ServiceReport{}), ElementsAre(StartsWith("nothing is known yet")));
 }
 
@@ -201,11 +204,10 @@ TEST(ServiceReport, ADiskThatFailsOrStallsIsNotGood) {
   report.takes_problem = "Read-only file system";
   report.metrics_problem = "/m.prom";
   report.log_fails = true;
-  EXPECT_THAT(
-      Diagnostics(report),
-      ElementsAre(StartsWith("the disk has not answered for 12 s"),
-                  StartsWith("takes cannot be written to /takes: Read-only file system"),
-                  "the figures cannot be written to /m.prom", StartsWith("the log cannot be")));
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(StartsWith("the disk has not responded for 12 s"),
+                          StartsWith("takes cannot be written to /takes: Read-only file system"),
+                          "metrics cannot be written to /m.prom", StartsWith("the log cannot be")));
 }
 
 TEST(ServiceReport, WhatARecordingLostIsToldWithItsCause) {
@@ -214,22 +216,22 @@ TEST(ServiceReport, WhatARecordingLostIsToldWithItsCause) {
   report.recording.dropped = 12;
   report.recording.cause = LossCause::kOtherWork;
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre(StartsWith("12 frames had no room in the recording: the processor had "
-                                     "other work")));
+              ElementsAre(StartsWith(
+                  "12 frames dropped from the recording: the processor was busy with other")));
 }
 
 TEST(ServiceReport, DoesNotBlameCamerasForASetThatTakesLong) {
   ServiceReport report = Good();
   report.now.sets_per_second = 0;
   ++report.now.status.sets_complete;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("a frame set has been worked on")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("a frame set has been in processing")));
 }
 
 TEST(ServiceReport, DoesNotBlameCamerasForSetsThatTheProcessorLeftOut) {
   ServiceReport report = Good();
   report.now.sets_per_second = 0;
   report.now.sets_dropped_lately = 3;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("3 frame sets were left out lately")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("3 frame sets were dropped recently")));
 }
 
 TEST(ServiceReport, NamesSetsLeftOutAndCamerasOutOfStep) {
@@ -239,7 +241,7 @@ TEST(ServiceReport, NamesSetsLeftOutAndCamerasOutOfStep) {
   recorders[Stage::kSpread].Record(15'000'000);
   report.now.recent = StageHistograms(recorders);
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre(StartsWith("3 frame sets were left out"), HasSubstr("ms apart")));
+              ElementsAre(StartsWith("3 frame sets were dropped"), HasSubstr("ms apart")));
 }
 
 TEST(ServiceReport, AFailedRecordingComesFirst) {
@@ -254,9 +256,9 @@ TEST(ServiceReport, NamesOnlyTheCameraThatIsFarthestFromTheOthers) {
   ServiceReport report = Good();
   report.now.status.cameras[0].health = {.moments = 9, .shift_px = {2.5, 0}, .overlap = 0.8};
   report.now.status.cameras[1].health = {.moments = 9, .shift_px = {0, -6}, .overlap = 0.7};
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 sees the person 6.0 px beside")));
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 sees the person 6.0 px away")));
   report.now.status.cameras[1].health.moments = HealthWatch::kFewestMoments - 1;
-  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam1 sees the person 2.5 px beside")))
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam1 sees the person 2.5 px away")))
       << "what was hardly compared says nothing";
 }
 

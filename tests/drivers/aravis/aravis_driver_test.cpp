@@ -97,8 +97,7 @@ TEST_F(AravisDriverTest, ValuesThatTheCameraDoesNotTakeAreTold) {
   AravisDriver driver(Request(ip), settings);
   driver.Start();
   // This one exposes for whole microseconds.
-  EXPECT_THAT(driver.Facts().remarks,
-              Contains(HasSubstr("exposes for 20 us; asked for were 20.6")));
+  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("exposes for 20 us instead of 20.6")));
   EXPECT_THAT(driver.Facts().remarks, Not(Contains(HasSubstr("gain"))));
   driver.Stop();
   settings.exposure_us = 15'000;

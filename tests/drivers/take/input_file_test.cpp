@@ -45,18 +45,18 @@ TEST_F(InputFile, IsReadWhole) {
 }
 
 TEST_F(InputFile, EachReasonHasItsWord) {
-  EXPECT_THAT(ErrorOf(file_), EndsWith("a.toml: is missing; a TOML file is wanted"));
-  EXPECT_THAT(ErrorOf(folder_.path()), EndsWith(": is a folder; a TOML file is wanted"));
-  EXPECT_THAT(ErrorOf("/dev/null"), HasSubstr("is no regular file"));
+  EXPECT_THAT(ErrorOf(file_), EndsWith("a.toml: is missing; expected a TOML file"));
+  EXPECT_THAT(ErrorOf(folder_.path()), EndsWith(": is a folder; expected a TOML file"));
+  EXPECT_THAT(ErrorOf("/dev/null"), HasSubstr("is not a regular file"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("a path is empty"));
   ASSERT_EQ(mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(ErrorOf(folder_.path() / "pipe"), HasSubstr("is no regular file"));
+  EXPECT_THAT(ErrorOf(folder_.path() / "pipe"), HasSubstr("is not a regular file"));
   testing::WriteText(file_, "");
   EXPECT_THAT(ErrorOf(file_ / "below"), HasSubstr("is missing"));
   EXPECT_THAT(Error([&] { RequireFolder(file_, "a take"); }),
-              EndsWith(": is no folder; a take is wanted"));
+              EndsWith(": is not a folder; expected a take"));
   EXPECT_THAT(Error([&] { RequireFolder(folder_.path() / "absent", "a take"); }),
-              EndsWith(": is missing; a take is wanted"));
+              EndsWith(": is missing; expected a take"));
   std::filesystem::create_symlink(folder_.path() / "loop", folder_.path() / "loop");
   EXPECT_THAT(ErrorOf(folder_.path() / "loop"), HasSubstr("symbolic links"));
 }
@@ -68,7 +68,7 @@ TEST_F(InputFile, MissingPermissionIsNotToldAsAbsence) {
     testing::WriteText(file, "a = 1\n");
     std::filesystem::permissions(file, perms::owner_read);
   }
-  const auto told = AllOf(HasSubstr("Permission denied"), HasSubstr("is wanted"));
+  const auto told = AllOf(HasSubstr("Permission denied"), HasSubstr("expected"));
   std::filesystem::permissions(folder_.path(), perms::all);
   {
     const testing::AsNobody nobody;

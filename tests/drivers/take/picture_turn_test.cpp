@@ -81,7 +81,7 @@ TEST(PictureTurn, AVideoToBeShownAskewIsRefusedByName) {
   } catch (const SetupError& error) {
     reason = error.what();
   }
-  EXPECT_THAT(reason, HasSubstr("askew.mov: is to be shown turned"));
+  EXPECT_THAT(reason, HasSubstr("askew.mov: has a display rotation"));
   WriteTelephoneVideo(file, {0, 33}, kAsItIs);
   EXPECT_TRUE(VideoReader(file).turn().IsNone());
 }

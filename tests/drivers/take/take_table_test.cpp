@@ -162,7 +162,7 @@ TEST_F(TakeTableFile, OfACameraThatDeliveredNothingHoldsNoRows) {
 
 TEST_F(TakeTableFile, WhatIsNoTextIsOneShortLine) {
   const std::string binary("frame,timestamp_ns\n0,\0\0\n", 24);
-  EXPECT_THAT(Error(binary), HasSubstr(":2: holds a zero byte"));
+  EXPECT_THAT(Error(binary), HasSubstr(":2: contains a zero byte"));
   const std::string long_line = Error("frame,timestamp_ns\n" + std::string(3 << 20, '7') + "\n");
   EXPECT_THAT(long_line, HasSubstr(":2: is longer than"));
   EXPECT_LT(Error(std::string(500'000, 'x')).size(), 250u);

@@ -85,7 +85,7 @@ TEST_F(TextFileTest, WhatSomebodyElseWroteIsNotWrittenOver) {
   }
   WriteText(file_, "# a day's work");
   EXPECT_THAT(require, ThrowsMessage<SetupError>(AllOf(StartsWith(file_.string()),
-                                                       HasSubstr("is not a report of mocap's"))));
+                                                       HasSubstr("is not a report of mocap;"))));
   EXPECT_EQ(ReadText(file_), "# a day's work");
   RequireOwn("/dev/null", kOwn, "a report");
 }
@@ -93,15 +93,14 @@ TEST_F(TextFileTest, WhatSomebodyElseWroteIsNotWrittenOver) {
 TEST_F(TextFileTest, ErrorsSayWhyAndWhatIsWanted) {
   const std::filesystem::path nowhere = folder_.path() / "nowhere" / "a";
   const auto says = AllOf(StartsWith(nowhere.string() + ": cannot be written: No such file"),
-                          HasSubstr("is wanted"));
+                          HasSubstr("expected"));
   EXPECT_THAT([&] { WriteText(nowhere, ""); }, ThrowsMessage<std::runtime_error>(says));
   EXPECT_THAT([&] { ReplaceText(nowhere, ""); }, ThrowsMessage<std::runtime_error>(says));
   EXPECT_THAT([&] { RequireWritable(nowhere); }, ThrowsMessage<SetupError>(says));
   EXPECT_THAT([&] { RequireWritable(""); }, ThrowsMessage<SetupError>(HasSubstr("is empty")));
   EXPECT_THAT([] { WriteText("/dev/full", "x"); },
-              ThrowsMessage<std::runtime_error>(
-                  "/dev/full: cannot be written: No space left on device; room on its disk is "
-                  "wanted"));
+              ThrowsMessage<std::runtime_error>("/dev/full: cannot be written: No space left on "
+                                                "device; expected free space on its disk"));
 }
 
 }  // namespace

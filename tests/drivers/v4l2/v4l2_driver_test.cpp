@@ -78,7 +78,7 @@ TEST_F(V4l2, NamesOfNothingAndOfSeveralAreRefused) {
   EXPECT_THAT(StartError("same"),
               AllOf(HasSubstr("several"), HasSubstr("video0"), HasSubstr("video2")));
   EXPECT_THAT(StartError("other"), AllOf(HasSubstr("other"), HasSubstr("video2")));
-  EXPECT_THAT(StartError("/dev/v4l/by-id/absent"), HasSubstr("is not there"));
+  EXPECT_THAT(StartError("/dev/v4l/by-id/absent"), HasSubstr("does not exist"));
   EXPECT_THAT(StartError(machine_.Link("usb-Twin-video-index0", 2, 2)), HasSubstr("several"));
   EXPECT_EQ(StartError(machine_.Link("usb-Single-video-index0", 2, 1)), "none");
 }
@@ -136,7 +136,7 @@ TEST_F(V4l2, AnotherRateThanAskedForIsTold) {
   driver.Start();
   EXPECT_EQ(driver.Facts().fps, 25);
   EXPECT_THAT(driver.Facts().remarks,
-              ElementsAre(AllOf(HasSubstr("fps: asked for 30"), HasSubstr("set fps = 25"))));
+              ElementsAre(AllOf(HasSubstr("fps: requested 30"), HasSubstr("set fps = 25"))));
 }
 
 TEST_F(V4l2, SettingsAreManualAndReadBack) {
@@ -157,7 +157,7 @@ TEST_F(V4l2, SettingsAreManualAndReadBack) {
   EXPECT_EQ(camera.controls[V4L2_CID_AUTOGAIN].value, 0);
   EXPECT_EQ(camera.controls[V4L2_CID_POWER_LINE_FREQUENCY].value, 1);
   EXPECT_THAT(driver.Facts().remarks,
-              ElementsAre(AllOf(HasSubstr("gain: asked for 120, the camera took 100"),
+              ElementsAre(AllOf(HasSubstr("gain: requested 120, the camera set 100"),
                                 HasSubstr("0 to 100")),
                           HasSubstr("set white_balance_k"), HasSubstr("focus: the camera has no")));
 }
@@ -245,7 +245,7 @@ TEST_F(V4l2, AnotherCameraUnderTheSameNumberIsNotTakenForIt) {
   fs::remove_all(machine_.tree.sys / "devices");
   machine_.Plug(0, "B2").is_plugged_in = true;
   for (int i = 0; i < 4; ++i) EXPECT_EQ(driver.Grab(frame_, kTimeout), GrabStatus::kLost);
-  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("another camera now, B2")));
+  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("a different camera, B2")));
 }
 
 TEST_F(V4l2, BrokenStreamIsBegunAgain) {
@@ -275,7 +275,7 @@ TEST_F(V4l2, RowsThatCannotBeSoShortAreToldAndReadWithoutGaps) {
   V4l2Driver driver = machine_.Driver(machine_.Node(0));
   driver.Start();
   EXPECT_EQ(driver.Grab(frame_, kTimeout), GrabStatus::kFrame);
-  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("says that a row has 2 bytes")));
+  EXPECT_THAT(driver.Facts().remarks, Contains(HasSubstr("reports rows of 2 bytes")));
 }
 
 TEST_F(V4l2, TellsWhereItsTimesComeFrom) {

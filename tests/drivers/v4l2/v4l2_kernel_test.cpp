@@ -99,7 +99,7 @@ TEST_F(Vivid, GainIsSetAndReadBack) {
   V4l2Driver driver({nodes_[0].bus, 320, 180, 25}, {.format = "GREY", .gain = 300});
   driver.Start();
   EXPECT_THAT(driver.Facts().remarks,
-              ::testing::ElementsAre(HasSubstr("gain: asked for 300, the camera took 255")));
+              ::testing::ElementsAre(HasSubstr("gain: requested 300, the camera set 255")));
 }
 
 TEST_F(Vivid, StampsAreTheKernels) {

@@ -81,8 +81,8 @@ TEST(BoardTest, SaysWhatIsWrongWithADescription) {
   EXPECT_EQ(ReasonOf("chess:8x5:100"), "accepted");
   EXPECT_EQ(ReasonOf("charuco:4x5:54:DICT_4X4_1000:0.75:inverted"), "accepted");
   EXPECT_THAT(ReasonOf("chess:8x5"), HasSubstr("too few parts"));
-  EXPECT_THAT(ReasonOf("dots:8x5:100"), HasSubstr("no kind of board"));
-  EXPECT_THAT(ReasonOf("chess:8:100"), HasSubstr("no size"));
+  EXPECT_THAT(ReasonOf("dots:8x5:100"), HasSubstr("not a kind of board"));
+  EXPECT_THAT(ReasonOf("chess:8:100"), HasSubstr("not a size"));
   EXPECT_THAT(ReasonOf("chess:2x5:100"), HasSubstr("3 to 50"));
   EXPECT_THAT(ReasonOf("chess:8x5:0.1"), HasSubstr("1 to 2000 mm"));
   EXPECT_THAT(ReasonOf("chess:8x5:100:DICT_4X4_50"), HasSubstr("a chessboard has no"));

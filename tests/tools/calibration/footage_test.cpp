@@ -101,7 +101,7 @@ TEST_F(FootageTest, CamerasThatCountEachForThemselvesArePairedInOrderAndThatIsTo
   WritePicture("cam2/DSC_101.bmp");
   const Footage more = OpenFootage(folder_.path());
   EXPECT_EQ(Moments(more), "DSC_7+- DSC_8+- -+DSC_99 -+DSC_100 -+DSC_101");
-  EXPECT_THAT(more.notes, Contains(HasSubstr("cannot be told")));
+  EXPECT_THAT(more.notes, Contains(HasSubstr("cannot be paired")));
 }
 
 TEST_F(FootageTest, HiddenFilesOfOtherSystemsArePassedOver) {

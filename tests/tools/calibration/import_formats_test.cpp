@@ -145,7 +145,7 @@ TEST_F(ImportTest, HiddenFilesArePassedOver) {
   Write("oc/.DS_Store", "x");
   EXPECT_THAT(ImportCameras("opencv", folder_.path() / "oc").cameras, SizeIs(1));
   Write("cal/._cam1.cal", "x");
-  EXPECT_THAT(Why("willson", folder_.path() / "cal"), HasSubstr("holds no file NAME.cal"));
+  EXPECT_THAT(Why("willson", folder_.path() / "cal"), HasSubstr("contains no file NAME.cal"));
 }
 
 TEST_F(ImportTest, OpenCvsXmlWindowsLinesAndByteOrderMarksAreRead) {
@@ -206,16 +206,16 @@ TEST_F(ImportTest, HostileYamlIsOneLine) {
     for (int k = 0; k < 9; ++k) laughs += "*a" + std::to_string(i - 1) + ", ";
     laughs += "]\n";
   }
-  EXPECT_THAT(why(laughs), HasSubstr("more than a calibration"));
+  EXPECT_THAT(why(laughs), HasSubstr("too large for a calibration"));
   std::string many;
   for (int i = 0; i < 300'000; ++i) many += "k" + std::to_string(i) + ": 1\n";
-  EXPECT_THAT(why(many), HasSubstr("more than a calibration"));
+  EXPECT_THAT(why(many), HasSubstr("too large for a calibration"));
   EXPECT_THAT(why(""), HasSubstr("empty"));
   EXPECT_THAT(why("just words"), HasSubstr("no keys"));
   EXPECT_THAT(why("a: 1\na: 2\n"), HasSubstr("twice"));
   EXPECT_THAT(why("a: *b\n"), HasSubstr("*b"));
-  EXPECT_THAT(why("a: [1, 2"), HasSubstr("no YAML"));
-  EXPECT_THAT(why(std::string("\0\1\2", 3)), HasSubstr("no YAML"));
+  EXPECT_THAT(why("a: [1, 2"), HasSubstr("not YAML"));
+  EXPECT_THAT(why(std::string("\0\1\2", 3)), HasSubstr("not YAML"));
   EXPECT_THAT(why("<?xml version=\"1.0\"?><opencv_storage>"), HasSubstr("cam1.yml"));
 }
 
@@ -241,8 +241,8 @@ TEST_F(ImportTest, HostileXmlIsOneLine) {
   EXPECT_THAT(Why("opencv", Write("cam1.xml", std::string(300'000, '<'))),
               HasSubstr("does not end"));
   EXPECT_THAT(Why("opencv", Write("cam1.xml", std::string(300'000, '<') + ">")),
-              HasSubstr("no XML of OpenCV"));
-  EXPECT_THAT(Why("qualisys", Write("a.qca.txt", "")), HasSubstr("no XML"));
+              HasSubstr("not XML of OpenCV"));
+  EXPECT_THAT(Why("qualisys", Write("a.qca.txt", "")), HasSubstr("not XML"));
 }
 
 TEST_F(ImportTest, WhatIsNoReadableFileIsSaidAsItIs) {
@@ -251,7 +251,7 @@ TEST_F(ImportTest, WhatIsNoReadableFileIsSaidAsItIs) {
   for (const char* format : {"kalibr", "qualisys", "vicon"})
     EXPECT_THAT(Why(format, folder_.path()), HasSubstr("is a folder")) << format;
   for (const char* format : {"opencv", "willson"})
-    EXPECT_THAT(Why(format, folder_.path()), HasSubstr("holds no file")) << format;
+    EXPECT_THAT(Why(format, folder_.path()), HasSubstr("contains no file")) << format;
 }
 
 TEST_F(ImportTest, WillsonsNumbersAreReadToTheLast) {

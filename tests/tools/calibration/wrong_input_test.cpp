@@ -160,14 +160,14 @@ const WrongInput kWrongRecordings[] = {
        b.arguments.footage = b.folder.path() / "missing";
        return b.Intrinsics();
      },
-     {"missing: is missing", "a take or a folder of recordings is wanted"}},
+     {"missing: is missing", "expected a take or a folder of recordings"}},
     {"NothingInTheFolder", [](Bench& b) { return b.Intrinsics(); }, {"footage", "cam1.mkv"}},
     {"APictureThatIsNone",
      [](Bench& b) {
        WriteText(b.arguments.footage / "a.png", "not a picture");
        return b.Intrinsics();
      },
-     {"a.png", "is no picture", "take it out"}},
+     {"a.png", "is not a readable picture", "remove it"}},
     {"PicturesOfTwoSizes",
      [](Bench& b) {
        WriteBitmap(b.arguments.footage / "a.bmp", 640, 480);
@@ -226,7 +226,7 @@ const WrongInput kWrongRecordings[] = {
        b.arguments.board = "wand:500";
        return b.Intrinsics();
      },
-     {"wand:500", "shows no lens", "take a board"}},
+     {"wand:500", "does not determine intrinsics", "use a board"}},
     {"LensesOfAnotherResolution",
      [](Bench& b) {
        b.Write("cam1", b.seen);
@@ -315,7 +315,7 @@ const WrongInput kWrongDetections[] = {
        const std::vector<PanTiltAngles> readings = {{0.3, 0.1}, {0.32, 0.1}};
        return ReasonOf([&] { StandingAngles("cam4", readings); });
      },
-     {"cam4: its head turned", "let heads stand"}},
+     {"cam4: its head turned", "keep heads still"}},
 };
 
 const WrongInput kWrongWorlds[] = {
@@ -324,7 +324,7 @@ const WrongInput kWrongWorlds[] = {
        const std::vector<FloorPoint> points = {{0, 0, {1, 1}}, {1, 0, {1, 1}}, {0, 1, {5, 5}}};
        return ReasonOf([&] { WorldOnPoints(points, Rig()); });
      },
-     {"\"x\"", "two at least"}},
+     {"\"x\"", "at least two"}},
     {"ATableOfFloorPointsWithAnUnknownCamera",
      [](Bench& b) {
        const std::filesystem::path file = b.folder.path() / "points.csv";
@@ -379,7 +379,7 @@ const WrongInput kWrongWorlds[] = {
      [](Bench&) {
        return SwappedText({"cam2", "cam5"});
      },
-     {"cam2 and cam5", "exchange"}},
+     {"cam2 and cam5", "swap"}},
 };
 
 constexpr auto kNameOf = [](const ::testing::TestParamInfo<WrongInput>& info) {

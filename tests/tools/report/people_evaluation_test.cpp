@@ -134,7 +134,7 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   EXPECT_THAT(text, ::testing::ContainsRegex("person-7 +8 +8 +0\\.0 +0  - +- +8 +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("anna +10 +0 +10 +0\\.0 % +- +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("all +20 +10 +20 +50\\.0 % +10\\.0 +0\n"));
-  EXPECT_THAT(text, HasSubstr("frames tracked where nobody is (phantom): 8\n"));
+  EXPECT_THAT(text, HasSubstr("frames of tracks without a person (phantom): 8\n"));
   const std::string json = PeopleJson(evaluation);
   EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8, \"duplicate_frames\": 0}"));
   EXPECT_THAT(json, HasSubstr("\"name\": \"person-1\", \"true_person\": \"bert\""));

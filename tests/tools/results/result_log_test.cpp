@@ -130,7 +130,7 @@ TEST_F(PoseLog, OfTwoDaemonsIsNeverMixed) {
   const Result right = Read("right.");
   ASSERT_EQ(right.poses.size(), 5u);
   for (const PoseRow& row : right.poses) EXPECT_EQ(row.points_W(0, 0), 2);
-  EXPECT_THAT(Error("middle."), ::testing::AllOf(HasSubstr("holds no middle.MOCAP_POSE"),
+  EXPECT_THAT(Error("middle."), ::testing::AllOf(HasSubstr("contains no middle.MOCAP_POSE"),
                                                  HasSubstr("\"left.\", \"right.\"")));
 }
 
@@ -237,7 +237,8 @@ TEST_F(PeopleLog, OneWithNumbersThatAreNoneLeavesTheOthers) {
   ASSERT_EQ(people.size(), 2u);
   EXPECT_EQ(people[0].second.poses.size(), 1u);
   EXPECT_EQ(people[1].second.poses.size(), 2u);
-  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("1 pose with a number")));
+  EXPECT_THAT(people[0].second.remarks,
+              ::testing::ElementsAre(HasSubstr("1 pose with an invalid number")));
 }
 
 TEST_F(PeopleLog, AfterAnotherStartOfTheDaemonTheSameNumberIsSomebodyElse) {
@@ -252,7 +253,7 @@ TEST_F(PeopleLog, AfterAnotherStartOfTheDaemonTheSameNumberIsSomebodyElse) {
   EXPECT_EQ(people[0].second.poses.size(), 3u);
   EXPECT_EQ(people[2].first, "person-3");
   EXPECT_EQ(people[2].second.poses.size(), 1u);
-  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("started again")));
+  EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("restarted")));
 }
 
 TEST_F(PeopleLog, AMessageThatWasOvertakenIsNoOtherStart) {
@@ -287,7 +288,7 @@ TEST_F(PeopleLog, ThatIsDamagedOrNoLogIsTold) {
   EXPECT_EQ(people[0].second.poses.size(), 2u);
   EXPECT_THAT(people[0].second.remarks, ::testing::ElementsAre(HasSubstr("damaged in 1 place")));
   testing::WriteText(file_, "no log at all\n");
-  EXPECT_THAT(SetupErrorOf([&] { ReadPeople(file_); }), HasSubstr("is no LCM log"));
+  EXPECT_THAT(SetupErrorOf([&] { ReadPeople(file_); }), HasSubstr("is not an LCM log"));
   testing::WriteText(file_, "");
   EXPECT_THAT(SetupErrorOf([&] { ReadPeople(file_); }), HasSubstr("is empty"));
 }
@@ -301,7 +302,7 @@ TEST_F(PeopleLog, OfTwoDaemonsIsNeverMixed) {
   EXPECT_THAT(SetupErrorOf([&] { ReadPeople(file_); }), HasSubstr("\"left.\", \"right.\""));
   EXPECT_EQ(ReadPeople(file_, "left.").size(), 1u);
   EXPECT_THAT(SetupErrorOf([&] { ReadPeople(file_, "up."); }),
-              HasSubstr("nobody on up.MOCAP_PEOPLE"));
+              HasSubstr("no people on up.MOCAP_PEOPLE"));
 }
 
 TEST_F(PoseLog, OfTwoDaemonsOnOneChannelIsRefused) {
@@ -357,7 +358,7 @@ TEST(ResultLog, WithoutPosesIsASetupError) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "lcm.log";
   testing::WriteText(file, "no log at all\n");
-  EXPECT_THAT(SetupErrorOf([&] { ReadResult(file); }), HasSubstr("is no LCM log"));
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(file); }), HasSubstr("is not an LCM log"));
   testing::WriteText(file, "");
   EXPECT_THAT(SetupErrorOf([&] { ReadResult(file); }), HasSubstr("is empty"));
   {
@@ -365,7 +366,7 @@ TEST(ResultLog, WithoutPosesIsASetupError) {
     Log(log, "MOCAP_POSE", body_t{});
   }
   EXPECT_THAT(SetupErrorOf([&] { ReadResult(file); }),
-              HasSubstr("holds no MOCAP_POSE message of this version"));
+              HasSubstr("contains no MOCAP_POSE message of this version"));
 }
 
 }  // namespace

@@ -123,10 +123,10 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "2.250000", "2.25x");
   EXPECT_THAT(SetupErrorOf(read),
-              HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; a number is wanted"));
+              HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; expected a number"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", ",acquiring", "");
-  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 96 fields; 97 are wanted"));
+  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 96 fields; expected 97"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "timestamp_ns", "time");
   EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:1: "));
@@ -167,7 +167,7 @@ TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
     return SetupErrorOf([&] { ReadResult(folder.path()); });
   };
   for (int i = 0; i < 3; ++i) result.poses[i].timestamp_ns = 1'763'990'000'000'000 + i * 33'333;
-  EXPECT_THAT(error(), HasSubstr("nanoseconds is wanted"));
+  EXPECT_THAT(error(), HasSubstr("Expected timestamp_ns in nanoseconds"));
   result.poses[1].timestamp_ns = 5;
   EXPECT_THAT(error(), HasSubstr("poses.csv:3: timestamp_ns 5 follows 1763990000000000"));
 }
@@ -191,12 +191,12 @@ TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
   RequireRoomForResult(folder.path());
   testing::WriteText(folder.path() / "body.toml", "# my body table\nname = \"mine\"\n");
   EXPECT_THAT(SetupErrorOf([&] { RequireRoomForResult(folder.path()); }),
-              HasSubstr("body.toml: is there"));
+              HasSubstr("body.toml: exists"));
   const std::filesystem::path other = folder.path() / "other";
   WritePeople(other, {{1, SomeResult()}});
   testing::WriteText(other / "person-1" / "poses.csv", "my poses\n");
   EXPECT_THAT(SetupErrorOf([&] { RequireRoomForResult(other); }),
-              HasSubstr("person-1/poses.csv: is there"));
+              HasSubstr("person-1/poses.csv: exists"));
 }
 
 TEST(Result, ABodysNameMayHoldAnything) {

@@ -94,11 +94,11 @@ TEST_F(TakeTruthTest, NamesFileLineAndColumnOfWhatIsWrong) {
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 100));
   EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":3: timestamp_ns 100 follows 100"));
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 200, "word"));
-  EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"word\"; a number is wanted");
+  EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"word\"; expected a number");
   Write("truth.csv", Header() + Row(0, 100) + Row(1, 200, "nan"));
-  EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"nan\"; a number is wanted");
+  EXPECT_EQ(ErrorOfReading(), csv + ":3: head_x_mm is \"nan\"; expected a number");
   Write("truth.csv", Header() + "0,100\n");
-  EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":2: has 2 fields; 44 are wanted"));
+  EXPECT_THAT(ErrorOfReading(), StartsWith(csv + ":2: has 2 fields; expected 44"));
 }
 
 TEST_F(TakeTruthTest, IsReadHoweverASpreadsheetSavedIt) {

@@ -84,7 +84,7 @@ TEST_F(LogPlayerTest, WhatIsNoLogIsTold) {
   EXPECT_THAT(SetupErrorOf([&] { PlayAll(0); }), HasSubstr("LCM log"));
   for (const char* text : {"", "frame,timestamp_ns"}) {
     testing::WriteText(file_, text);
-    EXPECT_THAT(SetupErrorOf([&] { PlayAll(0); }), HasSubstr("is no LCM log"));
+    EXPECT_THAT(SetupErrorOf([&] { PlayAll(0); }), HasSubstr("is not an LCM log"));
   }
 }
 

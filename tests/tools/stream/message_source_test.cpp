@@ -36,7 +36,7 @@ TEST(MessageSource, ALogIsHeardToItsEndAndThenIsOver) {
 
 TEST(MessageSource, WhatCannotBeHeardIsRefusedByTheNameOfTheOption) {
   EXPECT_THAT(SetupErrorOf([] { MessageSource("file:///tmp/x?mode=w"); }),
-              AllOf(StartsWith("--url: "), HasSubstr("mode=r is wanted")));
+              AllOf(StartsWith("--url: "), HasSubstr("expected mode=r")));
   EXPECT_THAT(SetupErrorOf([] { MessageSource("nonsense"); }), StartsWith("--url: "));
 }
 

@@ -263,7 +263,7 @@ TEST(VmcSender, SaysHelloOfNobody) {
 TEST(VmcSender, AnAddressThatIsNoneIsTold) {
   for (const char* wrong : {"", "localhost", ":39539", "localhost:", "localhost:0",
                             "localhost:65536", "localhost:39539x", "::1:39539", "[::1]"}) {
-    EXPECT_THAT(SetupErrorOf([&] { VmcSender sender(wrong); }), HasSubstr("HOST:PORT is wanted"))
+    EXPECT_THAT(SetupErrorOf([&] { VmcSender sender(wrong); }), HasSubstr("expected HOST:PORT"))
         << wrong;
   }
 }

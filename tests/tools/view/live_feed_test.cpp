@@ -303,9 +303,9 @@ TEST_F(LiveFeedTest, ForgedPicturesAreLeftOut) {
 }
 
 TEST_F(LiveFeedTest, WhyThereAreNoPicturesIsTold) {
-  feed_.NoteControl("no mocapd runs here");
-  EXPECT_EQ(Json(LiveFeed::kNotice)["pictures"], "no mocapd runs here");
-  EXPECT_EQ(Json(LiveFeed::kNotice)["control"], "no mocapd runs here");
+  feed_.NoteControl("mocapd is not running here");
+  EXPECT_EQ(Json(LiveFeed::kNotice)["pictures"], "mocapd is not running here");
+  EXPECT_EQ(Json(LiveFeed::kNotice)["control"], "mocapd is not running here");
 }
 
 TEST_F(LiveFeedTest, WordsThatAreNoUtf8DoNoHarm) {

@@ -179,7 +179,7 @@ TEST(ViewServer, APortThatIsInUseIsRefusedWithARemedy) {
     ViewServer second({.port = first.port(), .files = {}, .answer = {}, .is_live = false});
     FAIL() << "it took the port";
   } catch (const SetupError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--port with another one is wanted"));
+    EXPECT_THAT(error.what(), HasSubstr("choose another one with --port"));
   }
 }
 

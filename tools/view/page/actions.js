@@ -5,7 +5,7 @@ import {PersonChoice} from './person_choice.js';
 
 const KEY = 'mocapd-view-token';
 const NAME = /^[A-Za-z0-9._-]{1,64}$/;
-const NO_TOKEN = 'This page only looks. To record and control, open the address that ' +
+const NO_TOKEN = 'This page is read-only. To record and control, open the address that ' +
     'mocap view printed, with its #token=…';
 
 /** Removes the token from the address bar, where others could read it. */
@@ -88,7 +88,7 @@ export class Actions {
     byId('action-forms').hidden = !isOn;
     byId('no-actions').hidden = isOn;
     const wrong = this.token && !this.isAllowed ?
-        'The token of this page does not hold (any more). ' + NO_TOKEN :
+        'The token of this page is not valid (any more). ' + NO_TOKEN :
         NO_TOKEN;
     setText(byId('no-actions'), this.why !== '' ? this.why : wrong);
   }
@@ -116,7 +116,7 @@ export class Actions {
   async save() {
     if (this.choice.isGone) {
       byId('subject-person').focus();
-      return this.answer('wrong', 'Who was chosen has left. Choose whose sizes are to be kept.');
+      return this.answer('wrong', 'The chosen person has left. Choose whose sizes to save.');
     }
     const {value} = this.choice;
     await this.withName('subject save', byId('subject-name'), value === '' ? '' : ` ${value}`);

@@ -37,7 +37,7 @@ async function askWhatToShow() {
     } catch {
       // The server is not running; the request is repeated below.
     }
-    setText(byId('connection'), 'mocap view does not answer. It is asked again.');
+    setText(byId('connection'), 'mocap view does not answer. Retrying.');
     await new Promise((resolve) => setTimeout(resolve, RETRY_MS));
   }
 }

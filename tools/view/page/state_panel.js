@@ -11,7 +11,7 @@ export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS,
     const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
     return {
       tone: 'bad',
-      text: `No connection to mocap view${since}. It is tried again.`,
+      text: `No connection to mocap view${since}. Retrying.`,
       lines: []
     };
   }
@@ -20,7 +20,7 @@ export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS,
   if (serviceAgeS > 3.5) {
     return {
       tone: 'bad',
-      text: `mocapd has told nothing for ${ageText(serviceAgeS)}.`,
+      text: `Nothing received from mocapd for ${ageText(serviceAgeS)}.`,
       lines: complaints
     };
   }
@@ -29,8 +29,8 @@ export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS,
     return {
       tone: 'bad',
       lines: [],
-      text: poseAgeS === null ? 'No pose has come yet.' :
-                                `No pose has come for ${ageText(poseAgeS)}.`
+      text: poseAgeS === null ? 'No pose received yet.' :
+                                `No pose received for ${ageText(poseAgeS)}.`
     };
   }
   return {tone: 'ok', text: 'all is good', lines: []};
@@ -140,7 +140,7 @@ export class StatePanel {
     block.dataset.state = state;
     const name = folder.split('/').filter((part) => part !== '').at(-1) ?? '';
     const words = {running: 'recording', complete: 'recorded', failed: 'recording failed'}[state];
-    const lost = dropped > 0 ? `, ${dropped} frames had no room` : '';
+    const lost = dropped > 0 ? `, ${dropped} frames dropped` : '';
     setText(byId('recording-text'), `${words ?? ''} ${name} · ${clockText(seconds)}${lost}`);
   }
 

@@ -29,7 +29,7 @@ export class ViewTools {
   bind() {
     for (const [key, layer] of Object.entries(LAYER_KEYS)) {
       bindKeys(
-          [key], [key.toUpperCase()], `${layer} shown or hidden`, () => this.toggleLayer(layer));
+          [key], [key.toUpperCase()], `show or hide ${layer}`, () => this.toggleLayer(layer));
     }
     bindKeys(
         [...'123456789'], ['1', '…', '9'], 'view through a camera',
@@ -45,7 +45,7 @@ export class ViewTools {
       this.seeThrough(null);
       this.scene?.orbit.reset();
     });
-    bindKeys(['f'], ['F'], 'look at who is there', () => this.lookAtPeople());
+    bindKeys(['f'], ['F'], 'look at the people', () => this.lookAtPeople());
   }
 
   toggleLayer(layer) {

@@ -105,8 +105,8 @@ def parse_group(url: str) -> tuple[str, int]:
     except ValueError:
         is_group = False
     if parts.scheme != "udpm" or not is_group or unknown:
-        raise ValueError(f"{url!r} is no address of LCM's that can be listened to; "
-                         "udpm://239.255.76.67:7667 or file:///path/to/a.log is wanted")
+        raise ValueError(f"{url!r} is not an LCM address that can be received; "
+                         "expected udpm://239.255.76.67:7667 or file:///path/to/a.log")
     return group, port
 
 

@@ -203,7 +203,7 @@ TEST(Segmenter, TooFewBackgroundFramesAreRefused) {
     Segmenter segmenter(SmallCamera(), background, {});
     FAIL();
   } catch (const SetupError& error) {
-    EXPECT_STREQ(error.what(), "background of camera cam3: found 3 frames, wanted at least 8");
+    EXPECT_STREQ(error.what(), "background of camera cam3: found 3 frames; expected at least 8");
   }
 }
 
@@ -216,7 +216,7 @@ TEST(Segmenter, ABackgroundOfAnotherSizeIsRefused) {
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(),
-                 "background of camera cam3: found a frame of 64 x 48 px, wanted 200 x 150 px as "
+                 "background of camera cam3: found a frame of 64 x 48 px; expected 200 x 150 px as "
                  "in the calibration");
   }
 }
