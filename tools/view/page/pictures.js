@@ -42,6 +42,7 @@ function drawLines(context, picture, width, height) {
 class CameraCard {
   constructor(camera, number, onChoose) {
     this.name = camera.name;
+    this.action = `View through ${camera.name}`;
     this.picture = null;  // the last drawn one, decoded
     this.bitmap = null;
     this.isDrawn = true;
@@ -55,7 +56,7 @@ class CameraCard {
           class: 'picture',
           type: 'button',
           'aria-pressed': 'false',
-          'aria-label': `View through ${camera.name}`
+          'aria-label': this.action
         },
         this.canvas, this.veil);
     this.button.addEventListener('click', () => onChoose(camera.name));
@@ -121,6 +122,7 @@ class CameraCard {
     setText(this.look, look === 'in the take' ? '' : look);
     setText(this.facts, facts);
     setText(this.veil, veil);
+    this.button.setAttribute('aria-label', veil === '' ? this.action : `${veil}. ${this.action}`);
     this.element.classList.toggle('old', veil !== '');
   }
 }

@@ -5,48 +5,18 @@ import {byId, setText} from './dom.js';
 import {bindKeys} from './keys.js';
 import {interpolate} from './pose_history.js';
 import {ResultPanel} from './result_panel.js';
+import {SeenFetcher} from './seen_fetcher.js';
 import {figureColor} from './theme.js';
 import {frameAt, PlayHead} from './timeline.js';
 import {TimelineView} from './timeline_view.js';
-import {decodeAll, decodePose, decodeSeen, PICTURE, STATES, VOXELS} from './wire.js';
+import {decodeAll, decodePose, PICTURE, STATES, VOXELS} from './wire.js';
 
-const RETRY_MS = 1000;
 const APART_MM = 1200;
 
 async function fetchBytes(url) {
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${url}: ${answer.status}`);
   return answer.arrayBuffer();
-}
-
-/** Fetches pictures of the newest requested frame: one request at a time, never a queue. */
-class SeenFetcher {
-  constructor(onSeen) {
-    this.onSeen = onSeen;
-    this.wanted = '';
-    this.loaded = '';
-    this.isBusy = false;
-    this.failedMs = -Infinity;
-    this.hasFailed = false;  // the last time
-  }
-
-  async want(frame, result) {
-    this.wanted = `frame=${frame}&result=${result}`;
-    const isTooSoon = performance.now() < this.failedMs + RETRY_MS;
-    if (this.isBusy || this.wanted === this.loaded || isTooSoon) return;
-    this.isBusy = true;
-    const query = this.wanted;
-    try {
-      const buffer = await fetchBytes(`/pictures.bin?${query}`);
-      this.loaded = query;
-      this.hasFailed = false;
-      this.onSeen(decodeAll(buffer, decodeSeen));
-    } catch {
-      this.failedMs = performance.now();
-      this.hasFailed = true;
-    }
-    this.isBusy = false;
-  }
 }
 
 export class Replay {
@@ -84,7 +54,7 @@ export class Replay {
     });
     this.hull = this.scene?.figure('hull', {color: 'stick'});
     this.hull?.show(null);
-    this.fetcher = new SeenFetcher((seen) => this.takeSeen(seen));
+    this.fetcher = new SeenFetcher(fetchBytes, (seen) => this.takeSeen(seen));
     this.bind();
   }
 
@@ -102,7 +72,7 @@ export class Replay {
     const {head} = this;
     bindKeys([' '], ['Space'], 'play or pause', () => head.toggle());
     bindKeys(
-        ['ArrowLeft', 'ArrowRight'], ['←', '→'], 'frame back or on; with Shift ten',
+        ['ArrowLeft', 'ArrowRight'], ['←', '→'], 'previous or next frame; with Shift ten',
         (key, event) => head.step((key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)));
     bindKeys(
         ['Home', 'End'], ['Home', 'End'], 'first or last frame',

@@ -25,7 +25,7 @@ test('all is good only when nothing is complained of, all is fresh, and the line
 });
 
 test('complaints are told word for word', () => {
-  const complaints = ['cam3 is lost: look at its cable and power', '<b>cam4</b>'];
+  const complaints = ['cam3 is lost: check its cable and power', '<b>cam4</b>'];
   assert.deepEqual(verdictOf({...GOOD, complaints}).lines, complaints);
 });
 
@@ -79,5 +79,5 @@ test('subjects are those lines of the list that tell a stature', () => {
   assert.deepEqual(
       subjectNames('anna                    stature 1780 mm\nbert  stature 1820 mm\n'),
       ['anna', 'bert']);
-  assert.deepEqual(subjectNames('no subject is kept yet\n'), []);
+  assert.deepEqual(subjectNames('no subject is saved yet\n'), []);
 });
