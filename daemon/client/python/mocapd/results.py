@@ -34,7 +34,9 @@ class Result:
     timestamp_ns: np.ndarray  #: n, of capture
     state: np.ndarray  #: n, words
     torso_mm: np.ndarray  #: n x 3
-    torso_rotation: np.ndarray  #: n x 3 x 3, from the torso's frame to the studio's
+    torso_axis: np.ndarray  #: n x 3, unit vectors about which the torso is turned
+    torso_angle_rad: np.ndarray  #: n
+    torso_rotation: np.ndarray  #: n x 3 x 3, the same turn: from the torso's frame to the studio's
     theta_rad: np.ndarray  #: n x 16, the angles of the paper's Table 1
     points_mm: np.ndarray  #: n x 23 x 3, in the order of POINT_NAMES
     residual_mm: np.ndarray  #: n
@@ -68,6 +70,8 @@ class Result:
         import pandas
         columns: dict[str, Any] = {"frame": self.frame, "timestamp_ns": self.timestamp_ns, "time_s": self.time_s,
                                    "state": self.state}
+        columns |= {f"torso_axis_{name}": self.torso_axis[:, i] for i, name in enumerate("xyz")}
+        columns["torso_angle_rad"] = self.torso_angle_rad
         columns |= {f"theta_{i + 1}_rad": self.theta_rad[:, i] for i in range(PAPER_ANGLES)}
         columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
         columns |= {f"{name}_{axis}_mm": self.points_mm[:, i, k] for i, name in enumerate(POINT_NAMES)
@@ -83,7 +87,7 @@ def read_result(folder: Path) -> Result:
     """
     poses = pathlib.Path(folder) / "poses.csv"
     if not poses.exists() and (pathlib.Path(folder) / "person-1").is_dir():
-        raise ValueError(f"{folder}: holds several people; read_people(), or one of its folders person-K, is wanted")
+        raise ValueError(f"{folder}: contains several people; use read_people(), or one of its folders person-K")
     body = tomllib.loads((pathlib.Path(folder) / "body.toml").read_text(encoding="utf-8"))
     rows = _Rows()
     with open(poses, newline="", encoding="utf-8") as table:
@@ -92,7 +96,7 @@ def read_result(folder: Path) -> Result:
             try:
                 rows.add_cells(row)
             except (KeyError, TypeError, ValueError, OverflowError) as error:
-                raise ValueError(f"{poses}: line {reader.line_num}: {error!r}; a row of poses.csv is wanted") from error
+                raise ValueError(f"{poses}: line {reader.line_num}: {error!r}; expected a row of poses.csv") from error
     sizes = {name.removesuffix("_mm"): size for name, size in body.get("sizes", {}).items()}
     return rows.result(body["model"], body["stature_mm"], sizes)
 
@@ -107,7 +111,7 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
     if person is not None:
         people = _read_people_log(path, prefix)
         if person not in people:
-            raise ValueError(f"{path}: holds no person {person}; there are {sorted(people)}")
+            raise ValueError(f"{path}: contains no person {person}; there are {sorted(people)}")
         return people[person][1]
     chosen = _choose_prefix(path, POSE, prefix)
     decoder, rows = PoseDecoder(), _Rows()
@@ -166,7 +170,7 @@ def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Res
 
 def _result_of(path: Path, rows: _Rows, body: Body | None) -> Result:
     if body is None:
-        raise ValueError(f"{path}: holds no body of mocapd's; a log of its messages is wanted")
+        raise ValueError(f"{path}: contains no body message of mocapd; expected a log of its messages")
     return rows.result(body.model, body.stature_mm, body.sizes_mm, body.joint_names)
 
 
@@ -175,9 +179,9 @@ def _choose_prefix(path: Path, name: str, wanted: str | None) -> str:
     if wanted is None and len(found) == 1:
         return found.pop()
     if wanted is None and found:
-        raise ValueError(f"{path}: holds several daemons' messages; a prefix of {sorted(found)} is wanted")
+        raise ValueError(f"{path}: contains messages of several daemons; choose a prefix of {sorted(found)}")
     if wanted is None or wanted not in found:
-        raise ValueError(f"{path}: holds no {wanted or ''}{name}; a log of mocapd's messages is wanted")
+        raise ValueError(f"{path}: contains no {wanted or ''}{name}; expected a log of mocapd's messages")
     return wanted
 
 
@@ -195,11 +199,10 @@ class _Rows:
         if row["state"] != TRACKING:
             self.poses.append(None)
             return
-        axis, angle = numbers(f"torso_axis_{axis}" for axis in "xyz"), float(row["torso_angle_rad"])
         points = numbers(f"{name}_{axis}_mm" for name in POINT_NAMES for axis in "xyz").reshape(-1, 3)
-        self.poses.append((points[0], rotation_matrix(axis, angle),
-                           numbers(f"theta_{i + 1}_rad" for i in range(PAPER_ANGLES)), points,
-                           np.array(float(row["residual_mm"])), np.empty(0)))
+        self.poses.append((points[0], numbers(f"torso_axis_{axis}" for axis in "xyz"),
+                           np.array(float(row["torso_angle_rad"])), numbers(f"theta_{i + 1}_rad" for i in range(PAPER_ANGLES)),
+                           points, np.array(float(row["residual_mm"])), np.empty(0)))
 
     def add_message(self, message: Any, utime: int, frame: int) -> None:
         state = state_name(message.state)
@@ -209,13 +212,13 @@ class _Rows:
             return
         self.heads.append(head)
         self.poses.append(None if state != TRACKING else (
-            np.array(message.torso_mm), rotation_matrix(message.torso_axis, message.torso_angle_rad),
+            np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
             np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float],
                joint_names: tuple[str, ...] = ()) -> Result:
-        shapes = ((3,), (3, 3), (PAPER_ANGLES,), (len(POINT_NAMES), 3), (), (len(joint_names),))
+        shapes = ((3,), (3,), (), (PAPER_ANGLES,), (len(POINT_NAMES), 3), (), (len(joint_names),))
         columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
         for i, pose in enumerate(self.poses):
             if pose is None:
@@ -225,8 +228,9 @@ class _Rows:
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
-        torso_mm, rotation, theta, points, residual, joints = columns
+        torso_mm, axes, angles, theta, points, residual, joints = columns
+        rotation = np.array([rotation_matrix(*turn) for turn in zip(axes, angles)]).reshape(-1, 3, 3)
         return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
                       timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
-                      torso_rotation=rotation, theta_rad=theta, points_mm=points, residual_mm=residual,
-                      joint_names=joint_names, joints_rad=joints)
+                      torso_axis=axes, torso_angle_rad=angles, torso_rotation=rotation, theta_rad=theta, points_mm=points,
+                      residual_mm=residual, joint_names=joint_names, joints_rad=joints)
