@@ -86,12 +86,20 @@ Motions DanceTogether(Bodies bodies, std::uint64_t seed) {
   return motions;
 }
 
-Motions SitAmong(Bodies bodies, std::uint64_t seed) {
+// @param make  for the first person, who sits.
+Motions SitAmong(Bodies bodies, std::uint64_t seed, decltype(MakeSit) make) {
   const double direction = Random(Mix(seed, Tag("seat"))).Uniform(0, kTurn);
   // The thighs are over the middle of the room.
   const Vector2 ahead(std::cos(direction), std::sin(direction));
   Motions motions;
-  motions.push_back(MakeSit(bodies[0], {bodies[0].thigh_mm / 2 * ahead, direction}));
+  motions.push_back(make(bodies[0], {bodies[0].thigh_mm / 2 * ahead, direction}));
+  AddRound(bodies.subspan(1), WalkingStyle, 1450, 1080, seed, motions);
+  return motions;
+}
+
+Motions StandInDoorway(Bodies bodies, std::uint64_t seed) {
+  Motions motions;
+  motions.push_back(MakeStand(bodies[0], {Vector2(kDoorX_mm - 25, kDoorY_mm), 0}, seed));
   AddRound(bodies.subspan(1), WalkingStyle, 1450, 1080, seed, motions);
   return motions;
 }
@@ -206,7 +214,8 @@ Motions InPlaces(Bodies bodies, std::uint64_t seed, Make make) {
 std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bodies bodies,
                                                        std::uint64_t seed) {
   if (bodies.size() == 1) {
-    if (name == "meet") throw SetupError("motion \"meet\": people is 1; expected 2 or more");
+    if (name == "meet" || name == "doorway")
+      throw SetupError("motion \"" + std::string(name) + "\": people is 1; expected 2 or more");
     Motions motions;
     motions.push_back(MakeMotion(name, bodies[0], seed));
     return motions;
@@ -214,7 +223,9 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
   if (name == "walk") return Cross(bodies, seed);
   if (name == "run") return Run(bodies, seed);
   if (name == "dance") return DanceTogether(bodies, seed);
-  if (name == "sit") return SitAmong(bodies, seed);
+  if (name == "sit") return SitAmong(bodies, seed, MakeSit);
+  if (name == "rest") return SitAmong(bodies, seed, MakeRest);
+  if (name == "doorway") return StandInDoorway(bodies, seed);
   if (name == "visit") return VisitThoseWhoStay(bodies, seed);
   if (name == "meet") return Meet(bodies, seed);
   if (name == "jump") return InPlaces(bodies, seed, MakeJump);

@@ -160,19 +160,27 @@ class Jump : public Motion {
 
 class Sit : public Motion {
  public:
-  Sit(const Anthropometry& body, const Spot& spot) : body_(body), spot_(spot) {
+  /// @param rest_s  time to sit still, without which the person looks around.
+  Sit(const Anthropometry& body, const Spot& spot, double rest_s)
+      : body_(body), spot_(spot), rest_s_(rest_s), restless_(rest_s > 0 ? 0.03 : 1) {
     seat_mm_ = body.shank_mm + body.ankle_to_sole_mm - 0.040 * body.stature_mm;
   }
 
   BodyPose PoseAt(double t_s) const override {
     const double h = body_.stature_mm;
     // 1 while seated; leaning forward on the way down and, more, on the way up.
-    constexpr std::array<Key, 4> kSeated = {{{1.0, 0}, {2.5, 1}, {4.6, 1}, {6.0, 0}}};
-    constexpr std::array<Key, 7> kLean = {
-        {{0.8, 0}, {1.8, 0.62}, {2.8, 0.05}, {4.3, 0.05}, {4.95, 0.75}, {5.9, 0.02}, {6.4, 0}}};
+    const std::array<Key, 4> seating = {
+        {{1.0, 0}, {2.5, 1}, {4.6 + rest_s_, 1}, {6.0 + rest_s_, 0}}};
+    const std::array<Key, 7> leaning = {{{0.8, 0},
+                                         {1.8, 0.62},
+                                         {2.8, 0.05},
+                                         {4.3 + rest_s_, 0.05},
+                                         {4.95 + rest_s_, 0.75},
+                                         {5.9 + rest_s_, 0.02},
+                                         {6.4 + rest_s_, 0}}};
     constexpr double kPeriod_s = 7;
-    const double t = Wrap(t_s, kPeriod_s);
-    const double seated = Evaluate(kSeated, t), lean = Evaluate(kLean, t);
+    const double t = Wrap(t_s, kPeriod_s + rest_s_);
+    const double seated = Evaluate(seating, t), lean = Evaluate(leaning, t);
     // The pelvis goes back before it goes down.
     const double back = Smoothstep(0, 0.9, seated), down = Smoothstep(0.05, 1, seated);
     const double sitting_mm = seat_mm_ + 0.052 * h;
@@ -181,8 +189,9 @@ class Sit : public Motion {
     BodyPose pose;
     PlacePelvis(spot_, 0.012 * h - (hip_back + 0.012 * h) * back, 0, 0.5 * lean - 0.10 * seated, 0,
                 0, pose);
-    BendTrunk(0.5 * lean + 0.12 * seated, 0, 0.05 * std::sin(0.9 * t_s) * seated, 0.8, pose);
-    pose.head.twist += 0.25 * std::sin(0.6 * t_s);
+    BendTrunk(0.5 * lean + 0.12 * seated, 0, 0.05 * restless_ * std::sin(0.9 * t_s) * seated, 0.8,
+              pose);
+    pose.head.twist += 0.25 * restless_ * std::sin(0.6 * t_s);
     for (ArmAngles& arm : pose.arms) {
       arm.flexion = 0.05 + 0.22 * seated + 0.35 * lean;
       arm.abduction = 0.16 + 0.04 * seated;
@@ -225,6 +234,7 @@ class Sit : public Motion {
  private:
   Anthropometry body_;
   Spot spot_;
+  double rest_s_, restless_;
   double seat_mm_ = 0;
 };
 
@@ -332,7 +342,11 @@ std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, const Spot& sp
   return std::make_unique<Jump>(body, spot, seed);
 }
 std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, const Spot& spot) {
-  return std::make_unique<Sit>(body, spot);
+  return std::make_unique<Sit>(body, spot, 0);
+}
+std::unique_ptr<const Motion> MakeRest(const Anthropometry& body, const Spot& spot) {
+  constexpr double kRest_s = 60;
+  return std::make_unique<Sit>(body, spot, kRest_s);
 }
 std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& spot) {
   return std::make_unique<Step>(body, spot);

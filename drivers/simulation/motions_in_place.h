@@ -23,6 +23,8 @@ std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, const Spot& sp
                                        std::uint64_t seed);
 /// Sits down on a stool, stays, and stands up.
 std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, const Spot& spot);
+/// Sits down on a stool, sits still for a minute, and stands up.
+std::unique_ptr<const Motion> MakeRest(const Anthropometry& body, const Spot& spot);
 /// Steps up a block and down again, one foot after the other.
 std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& spot);
 /// Stands with slightly raised arms and sways.

@@ -72,10 +72,11 @@ TEST_P(EveryCompany, StaysWithinTheLimitsOfJoints) {
 }
 
 TEST_P(EveryCompany, StaysInTheRoomButForVisitors) {
-  const bool is_visit = std::get<0>(GetParam()) == "visit";
+  const std::string_view motion = std::get<0>(GetParam());
   ForMoments([&](const std::vector<Person>& people, double t_s) {
-    const std::size_t staying = is_visit ? people.size() / 2 : people.size();
-    for (std::size_t i = 0; i < staying; ++i) {
+    const std::size_t first = motion == "doorway" ? 1 : 0;
+    const std::size_t end = motion == "visit" ? people.size() / 2 : people.size();
+    for (std::size_t i = first; i < end; ++i) {
       for (const Vector3& p_W : PointsOf(people[i].body(), people[i].BonesAt(Ns(t_s)))) {
         ASSERT_LT(p_W.head<2>().cwiseAbs().maxCoeff(), 2250) << t_s;
         ASSERT_GT(p_W.z(), 0) << t_s;
@@ -175,6 +176,30 @@ TEST(Company, VisitorsComeAndGoOneByOneWhileOthersStay) {
   EXPECT_LT(stays[3].last_s, 21.5);
 }
 
+TEST(Company, WhoRestsSitsStillForAMinuteWhileOthersWalk) {
+  const std::vector<Person> people = MakePeople(Company("rest", 2));
+  const auto points = [&](int i, double t_s) {
+    return PointsOf(people[i].body(), people[i].BonesAt(Ns(t_s)));
+  };
+  const TruePoints first = points(0, 4);
+  for (double t_s = 4; t_s < 63; t_s += 0.5) {
+    const TruePoints now = points(0, t_s);
+    for (int k = 0; k < kTruthPointCount; ++k)
+      ASSERT_LT((now[k] - first[k]).norm(), 10) << kTruthPointNames[k] << " at " << t_s;
+  }
+  EXPECT_GT((points(1, 5)[0] - points(1, 4)[0]).norm(), 500);
+  EXPECT_GT(points(0, 67)[0].z(), first[0].z() + 300) << "and stands up";
+}
+
+TEST(Company, WhoStandsInTheDoorwayIsHalfOutside) {
+  const std::vector<Person> people = MakePeople(Company("doorway", 2));
+  int outside = 0, inside = 0;
+  for (const Vector3& p_W : PointsOf(people[0].body(), people[0].BonesAt(Ns(3))))
+    ++(p_W.x() < kDoorX_mm ? outside : inside);
+  EXPECT_GT(outside, 2);
+  EXPECT_GT(inside, 2);
+}
+
 TEST(Company, OneAloneMovesAsEver) {
   const Anthropometry body = MakeAnthropometry(1600, 7);
   for (const std::string_view name : kMotionNames) {
@@ -203,6 +228,7 @@ TEST(Company, RefusesWhatCannotBeDone) {
   const std::vector<Anthropometry> bodies(2, MakeAnthropometry(1750, 1));
   EXPECT_THROW(MakeCompany("fly", bodies, 1), SetupError);
   EXPECT_THROW(MakeCompany("meet", std::span(bodies).first(1), 1), SetupError);
+  EXPECT_THROW(MakeCompany("doorway", std::span(bodies).first(1), 1), SetupError);
   EXPECT_THROW(MakePeople(Company("walk", 0)), SetupError);
   EXPECT_THROW(MakePeople(Company("walk", kMostSimulatedPeople + 1)), SetupError);
 }
