@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/vectorized.h"
+#include "core/kernels/equations.h"
 
 namespace mocap {
 namespace {
@@ -52,19 +52,6 @@ std::array<SizeMember, kSizes> RefinedMembers() {
   return members;
 }
 
-// Adds the outer product of a row with itself to the lower triangle. A residual depends on one
-// chain of joints and on few sizes: most of its row is zero.
-MOCAP_VECTORIZED
-void AddSquare(const double* row, std::ptrdiff_t count, double weight, double* columns) {
-  for (std::ptrdiff_t j = 0; j < count; ++j) {
-    if (row[j] == 0) continue;
-    const double factor = weight * row[j];
-    double* const column = columns + j * count;
-#pragma GCC ivdep
-    for (std::ptrdiff_t i = j; i < count; ++i) column[i] += factor * row[i];
-  }
-}
-
 // Returns the prior's information: the inverse of its covariance.
 Information PriorOf(const BodySizes& start) {
   const double stature_mm = start.Stature();
@@ -110,7 +97,8 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
     for (int i = 0; i < kSizes; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
     const double variance =
         residual.outside_mm > 0 ? kClothVariance * residual.variance : residual.variance;
-    AddSquare(row.data(), n, 1 / variance, H.data());
+    // A residual depends on one chain of joints and on few sizes: most of its row is zero.
+    kernels::AddSquareBelow(row.data(), n, 1 / variance, H.data());
     g += row * (residual.outside_mm / variance);
   }
   H = Information(H.selfadjointView<Eigen::Lower>());

@@ -1,35 +1,8 @@
 #include "core/tracking/chain_equations.h"
 
 #include <algorithm>
-#include <tuple>
-
-#include "core/lanes.h"
 
 namespace mocap {
-namespace {
-
-static_assert(std::tuple_size_v<WrenchRow> == 2 * kDoubles);
-
-MOCAP_VECTORIZED
-void AddTerms(const WrenchTerm* terms, std::size_t count, WrenchSum* sums) {
-  for (std::size_t term = 0; term < count; ++term) {
-    Doubles low, high;
-    LoadLanes(&terms[term].row[0], low), LoadLanes(&terms[term].row[kDoubles], high);
-    WrenchRow weighted;
-    StoreLanes(low / terms[term].variance, &weighted[0]);
-    StoreLanes(high / terms[term].variance, &weighted[kDoubles]);
-    WrenchSum& sum = sums[terms[term].part];
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      Doubles sum_low, sum_high;
-      LoadLanes(&sum[i][0], sum_low), LoadLanes(&sum[i][kDoubles], sum_high);
-      StoreLanes(sum_low + weighted[i] * low, &sum[i][0]);
-      StoreLanes(sum_high + weighted[i] * high, &sum[i][kDoubles]);
-    }
-  }
-}
-
-}  // namespace
-
 void ChainEquations::Reset(const BodyTable& table, const Posture& posture) {
   table_ = &table;
   posture_ = &posture;
@@ -52,8 +25,8 @@ void ChainEquations::AddPoint(int carrier, const Vector3& p_WQ, const Vector3& r
 }
 
 void ChainEquations::TakeContacts() {
-  std::fill_n(contacts_.begin(), table_->joints.size() + 1, WrenchSum{});
-  AddTerms(terms_.data(), terms_.size(), contacts_.data());
+  std::fill_n(contacts_.begin(), table_->joints.size() + 1, kernels::WrenchSum{});
+  kernels::AddWrenches(terms_.data(), terms_.size(), contacts_.data());
   for (std::size_t i = 0; i < table_->joints.size() + 1; ++i) {
     for (int row = 0; row < 6; ++row) {
       for (int column = 0; column < 6; ++column)

@@ -6,20 +6,10 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/kernels/equations.h"
 #include "core/tracking/pose_filter.h"
 
 namespace mocap {
-
-/// A wrench w and its residual r; the last entry is unused.
-using WrenchRow = std::array<double, 8>;
-/// Σ w (wᵀ r) / σ²: one row per component of the wrench.
-using WrenchSum = std::array<WrenchRow, 6>;
-/// A contact of a part.
-struct WrenchTerm {
-  WrenchRow row;
-  double variance;
-  int part;
-};
 
 /// Sums linearised measurements of points of one posed body along directions.
 ///
@@ -56,9 +46,10 @@ class ChainEquations {
 
   const BodyTable* table_ = nullptr;
   const Posture* posture_ = nullptr;
-  std::vector<WrenchTerm> terms_;
-  std::array<WrenchSum, kMaxJoints + 1> contacts_;  ///< Like `sums_`, for a part's own contacts.
-  std::array<Sum, kMaxJoints + 1> sums_;            ///< The torso's first.
+  std::vector<kernels::WrenchTerm> terms_;
+  std::array<kernels::WrenchSum, kMaxJoints + 1>
+      contacts_;                          ///< Like `sums_`, for a part's own contacts.
+  std::array<Sum, kMaxJoints + 1> sums_;  ///< The torso's first.
 };
 
 }  // namespace mocap

@@ -6,28 +6,18 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "core/lanes.h"
 
 namespace mocap {
 namespace {
 
-using Block = ContactMatcher::Block;
-using SlimCapsule = ContactMatcher::SlimCapsule;
-using SlimShape = ContactMatcher::SlimShape;
-using Best = ContactMatcher::Best;
-using Trial = ContactMatcher::Trial;
+using Block = kernels::ContactBlock;
+using kernels::SlimCapsule;
 
-// A point on the inside of the left leg is no evidence for the right leg. Perpendicular surfaces
-// count as this far apart.
-constexpr float kSquare_mm = 40;
 // Lower limit for squared lengths, to avoid division by zero.
 constexpr float kLeastSq_mm2 = 1e-3f;
-constexpr float kParallel = 1e-4f;
 // Share of all edges. If this many edges miss the hull and graze a part, its flesh was carved away.
 constexpr double kShareThatTells = 1.0 / 60;
 constexpr float kGrazes_mm = 40;
-// Larger than the rounding error of a distance between boxes.
-constexpr float kRounding_mm = 0.1f;
 // Contacts are sorted by cells of this size. Longer edges come separately, because their boxes are
 // large.
 constexpr double kCell_mm = 128;
@@ -38,141 +28,6 @@ constexpr int kKeyBits = 2 * kDigitBits;
 static_assert(kKeyBits >= 2 + 3 * kCellBits);
 // Number of blocks with the same initial guess.
 constexpr int kFirstTogether = 8;
-
-// The best matches so far for a block's contacts.
-struct BestLanes {
-  Floats mismatch, distance;
-  Ints capsule;
-};
-
-MOCAP_INLINE void LoadColumns(const std::array<Block::Column, 3>& columns, Floats& x, Floats& y,
-                              Floats& z) {
-  LoadLanes(columns[0].data(), x), LoadLanes(columns[1].data(), y), LoadLanes(columns[2].data(), z);
-}
-
-// Closest points of two segments (Ericson 2005, §5.1.9), without branches.
-MOCAP_INLINE void TryCapsule(const Block& block, const SlimCapsule& capsule, int index,
-                             BestLanes& best) {
-  const float cx = capsule.core.x(), cy = capsule.core.y(), cz = capsule.core.z();
-  const float core_sq = capsule.core_sq, per_core_sq = capsule.per_core_sq;
-  Floats lx, ly, lz, bx, by, bz, along_sq, per_along_sq;
-  LoadColumns(block.along, lx, ly, lz), LoadColumns(block.from, bx, by, bz);
-  LoadLanes(block.along_sq.data(), along_sq), LoadLanes(block.per_along_sq.data(), per_along_sq);
-  bx = capsule.a.x() - bx, by = capsule.a.y() - by, bz = capsule.a.z() - bz;
-  const Floats dot = cx * lx + cy * ly + cz * lz;
-  const Floats c = cx * bx + cy * by + cz * bz;
-  const Floats f = lx * bx + ly * by + lz * bz;
-  const Floats slant = core_sq * along_sq - dot * dot;
-  const Floats least = kParallel * core_sq * along_sq;
-  Floats first = (dot * f - c * along_sq) / (slant > least ? slant : least);
-  first = Clamped(first, 0.0f, 1.0f);
-  Floats on_segment = (dot * first + f) * per_along_sq;
-  on_segment = Clamped(on_segment, 0.0f, 1.0f);
-  Floats share = (dot * on_segment - c) * per_core_sq;
-  share = Clamped(share, 0.0f, 1.0f);
-  const Floats x = on_segment * lx - bx - share * cx;
-  const Floats y = on_segment * ly - by - share * cy;
-  const Floats z = on_segment * lz - bz - share * cz;
-  Floats length = x * x + y * y + z * z;
-  TakeRoots(length);
-  const Floats outside = length - capsule.radius - share * capsule.taper;
-  const Floats apart = outside > 0 ? outside : -outside;
-  Floats ox, oy, oz;
-  LoadColumns(block.outward, ox, oy, oz);
-  const Floats facing = (ox * x + oy * y + oz * z) / (length + 1);
-  const Floats value = apart + kSquare_mm * (1 - facing);
-  // Parts that share a joint are equally near to points beside it: the one with the lower index
-  // wins.
-  const Ints is_better =
-      (value < best.mismatch) | ((value == best.mismatch) & (index < best.capsule));
-  best.capsule = is_better ? Ints{} + index : best.capsule;
-  best.distance = is_better ? apart : best.distance;
-  best.mismatch = is_better ? value : best.mismatch;
-}
-
-MOCAP_VECTORIZED
-void TryAll(const Trial* trials, int count, const Block* blocks, const SlimCapsule* capsules,
-            Best* bests) {
-  for (int i = 0; i < count; ++i) {
-    const Trial& trial = trials[i];
-    Best& best = bests[trial.block];
-    BestLanes lanes;
-    LoadLanes(best.mismatch.data(), lanes.mismatch);
-    LoadLanes(best.distance.data(), lanes.distance);
-    LoadLanes(best.capsule.data(), lanes.capsule);
-    TryCapsule(blocks[trial.block], capsules[trial.capsule], trial.capsule, lanes);
-    StoreLanes(lanes.mismatch, best.mismatch.data());
-    StoreLanes(lanes.distance, best.distance.data());
-    StoreLanes(lanes.capsule, best.capsule.data());
-  }
-}
-
-// In a tree, so that no comparison waits for the previous one.
-MOCAP_INLINE float WorstOf(const std::array<float, Block::kContacts>& a) {
-  return std::max(std::max(std::max(a[0], a[1]), std::max(a[2], a[3])),
-                  std::max(std::max(a[4], a[5]), std::max(a[6], a[7])));
-}
-
-MOCAP_INLINE std::uint32_t UnionOf(const Ints& lanes) {
-  std::array<std::uint32_t, kFloats> a;
-  StoreLanes(lanes, a.data());
-  return ((a[0] | a[1]) | (a[2] | a[3])) | ((a[4] | a[5]) | (a[6] | a[7]));
-}
-
-MOCAP_INLINE bool HasAny(const Ints& lanes) {
-  std::array<std::uint64_t, kFloats / 2> a;
-  StoreLanes(lanes, a.data());
-  return ((a[0] | a[1]) | (a[2] | a[3])) != 0;
-}
-
-// The capsules whose box is within reach of the block's.
-MOCAP_INLINE std::uint32_t CapsulesWithin(const Block& block, const SlimShape& shape,
-                                          float reach_mm) {
-  Ints bits = {1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7};
-  Ints within{};
-  for (int k = 0; k < ContactMatcher::kMostCapsules; k += kFloats, bits <<= kFloats) {
-    Ints is_within = Ints{} - 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      Floats low, high;
-      LoadLanes(&shape.low[axis][k], low), LoadLanes(&shape.high[axis][k], high);
-      is_within &= (low <= block.high[axis] + reach_mm) & (high >= block.low[axis] - reach_mm);
-    }
-    within |= is_within & bits;
-  }
-  return UnionOf(within);
-}
-
-// Whether the ball around a capsule is near enough for a better match of one of a block's contacts.
-MOCAP_INLINE bool IsInReach(const Block& block, const SlimCapsule& capsule, const Best& best) {
-  Floats lx, ly, lz, x, y, z, per_along_sq, mismatch;
-  LoadColumns(block.along, lx, ly, lz), LoadColumns(block.from, x, y, z);
-  LoadLanes(block.per_along_sq.data(), per_along_sq);
-  LoadLanes(best.mismatch.data(), mismatch);
-  x = capsule.middle.x() - x, y = capsule.middle.y() - y, z = capsule.middle.z() - z;
-  Floats on_segment = (x * lx + y * ly + z * lz) * per_along_sq;
-  on_segment = Clamped(on_segment, 0.0f, 1.0f);
-  x -= on_segment * lx, y -= on_segment * ly, z -= on_segment * lz;
-  const Floats reach = mismatch + (capsule.reach + kRounding_mm);
-  const Ints is_within = x * x + y * y + z * z <= reach * reach;
-  return HasAny(is_within);
-}
-
-// Lists the capsules that may match a block's contacts better than its favourites: a mismatch is
-// never less than the gap. Returns their number.
-MOCAP_VECTORIZED
-int ListOthers(int begin, int end, const Block* blocks, const SlimShape& shape, const Best* bests,
-               Trial* trials) {
-  int count = 0;
-  for (int b = begin; b < end; ++b) {
-    std::uint32_t some =
-        CapsulesWithin(blocks[b], shape, WorstOf(bests[b].mismatch) + kRounding_mm);
-    for (some &= shape.all & ~blocks[b].favourites; some != 0; some &= some - 1) {
-      trials[count] = {b, std::countr_zero(some)};
-      count += IsInReach(blocks[b], shape.capsules[trials[count].capsule], bests[b]);
-    }
-  }
-  return count;
-}
 
 // Sorts by rows of cells, one above the other; edges come after the other contacts.
 std::uint32_t KeyOf(const Contact& contact) {
@@ -188,7 +43,9 @@ std::uint32_t KeyOf(const Contact& contact) {
   return key;
 }
 
-std::uint32_t CapsulesOf(const Best& best) {
+std::array<float, 3> ArrayOf(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+std::uint32_t CapsulesOf(const kernels::BestCapsules& best) {
   std::uint32_t capsules = 0;
   for (const std::int32_t k : best.capsule)
     if (k >= 0) capsules |= std::uint32_t{1} << k;
@@ -200,20 +57,22 @@ std::uint32_t CapsulesOf(const Best& best) {
 void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
   slim_.capsules.clear();
   for (const PosedCapsule& capsule : capsules) {
+    const Eigen::Vector3f a = capsule.a_W.cast<float>();
+    const Eigen::Vector3f core = (capsule.b_W - capsule.a_W).cast<float>();
+    const Eigen::Vector3f b = a + core;
     SlimCapsule slim;
-    slim.a = capsule.a_W.cast<float>();
-    slim.core = (capsule.b_W - capsule.a_W).cast<float>();
-    slim.middle = capsule.middle_W.cast<float>();
+    slim.a = ArrayOf(a);
+    slim.core = ArrayOf(core);
+    slim.middle = ArrayOf(capsule.middle_W.cast<float>());
     slim.reach = static_cast<float>(capsule.reach_mm);
-    slim.core_sq = std::max(slim.core.squaredNorm(), kLeastSq_mm2);
+    slim.core_sq = std::max(core.squaredNorm(), kLeastSq_mm2);
     slim.per_core_sq = 1 / slim.core_sq;
     slim.radius = static_cast<float>(capsule.radius_a_mm);
     slim.taper = static_cast<float>(capsule.radius_b_mm - capsule.radius_a_mm);
-    const Eigen::Vector3f b = slim.a + slim.core;
     const float widest = std::max(slim.radius, slim.radius + slim.taper);
     for (int axis = 0; axis < 3; ++axis) {
-      slim_.low[axis][slim_.capsules.size()] = std::min(slim.a[axis], b[axis]) - widest;
-      slim_.high[axis][slim_.capsules.size()] = std::max(slim.a[axis], b[axis]) + widest;
+      slim_.boxes.low[axis][slim_.capsules.size()] = std::min(a[axis], b[axis]) - widest;
+      slim_.boxes.high[axis][slim_.capsules.size()] = std::max(a[axis], b[axis]) + widest;
     }
     slim_.capsules.push_back(slim);
   }
@@ -273,8 +132,11 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
         std::max(static_cast<float>((contact.to_W - contact.from_W).squaredNorm()), kLeastSq_mm2);
     block.per_along_sq[i] = 1 / block.along_sq[i];
     block.favourites = 0;
-    block.low = i == 0 ? from.cwiseMin(to).eval() : block.low.cwiseMin(from).cwiseMin(to).eval();
-    block.high = i == 0 ? from.cwiseMax(to).eval() : block.high.cwiseMax(from).cwiseMax(to).eval();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({from[axis], to[axis]});
+      block.low[axis] = i == 0 ? low : std::min(block.low[axis], low);
+      block.high[axis] = i == 0 ? high : std::max(block.high[axis], high);
+    }
   }
 }
 
@@ -288,9 +150,10 @@ void ContactMatcher::MatchBlocks(int begin, int end, float reach_mm) {
     for (std::uint32_t some = slim_.all & blocks_[b].favourites; some != 0; some &= some - 1)
       trials_[count++] = {b, std::countr_zero(some)};
   }
-  TryAll(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
-  count = ListOthers(begin, end, blocks_.data(), slim_, bests_.data(), trials_.data());
-  TryAll(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
+  kernels::TryCapsules(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
+  count = kernels::ListNearCapsules(begin, end, blocks_.data(), slim_.capsules.data(), slim_.boxes,
+                                    slim_.all, bests_.data(), trials_.data());
+  kernels::TryCapsules(trials_.data(), count, blocks_.data(), slim_.capsules.data(), bests_.data());
   for (int b = begin; b < end; ++b) blocks_[b].favourites = CapsulesOf(bests_[b]);
 }
 
@@ -318,7 +181,7 @@ const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCaps
                                                        double reach_mm) {
   MatchAll(capsules, reach_mm);
   pairs_.clear();
-  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
+  ForEachBest([&](std::uint32_t contact, const kernels::BestCapsules& best, std::size_t i) {
     ContactMatch& match = matches_[contact];
     match.capsule = best.capsule[i];
     if (match.capsule < 0) return;
@@ -332,7 +195,7 @@ const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCaps
 const std::vector<float>& ContactMatcher::Distances(std::span<const PosedCapsule> capsules,
                                                     double reach_mm) {
   MatchAll(capsules, reach_mm);
-  ForEachBest([&](std::uint32_t contact, const Best& best, std::size_t i) {
+  ForEachBest([&](std::uint32_t contact, const kernels::BestCapsules& best, std::size_t i) {
     distances_[contact] = best.distance[i];
   });
   return distances_;
@@ -342,7 +205,7 @@ std::uint32_t ContactMatcher::CarvedAway() const {
   if (missing_.empty()) return 0;
   std::array<int, kMostCapsules> rays{};
   for (const std::size_t place : missing_) {
-    const Best& best = bests_[place / Block::kContacts];
+    const kernels::BestCapsules& best = bests_[place / Block::kContacts];
     const std::size_t i = place % Block::kContacts;
     if (best.capsule[i] >= 0 && best.distance[i] < kGrazes_mm) ++rays[best.capsule[i]];
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/kernels/contacts.h"
 #include "core/tracking/contact.h"
 #include "core/tracking/flesh_rules.h"
 #include "core/tracking/segment_distances.h"
@@ -43,58 +44,32 @@ class ContactMatcher {
   /// carved away because a camera did not see it. Refers to the last match.
   std::uint32_t CarvedAway() const;
 
-  static constexpr int kMostCapsules = 32;
-  /// A capsule in single precision.
-  struct SlimCapsule {
-    Eigen::Vector3f a, core, middle;
-    float core_sq, per_core_sq, radius, taper;
-    float reach;  ///< Radius of a bounding sphere around its middle.
-  };
-  /// A posed body in single precision.
-  struct SlimShape {
-    std::vector<SlimCapsule> capsules;
-    /// The corners of the bounding boxes.
-    alignas(32) std::array<std::array<float, kMostCapsules>, 3> low{}, high{};
-    std::uint32_t all;  ///< All of them, as bits.
-  };
-  /// Several contacts, in columns.
-  struct alignas(64) Block {
-    static constexpr int kContacts = 8;
-    using Column = std::array<float, kContacts>;
-
-    std::array<Column, 3> from, along, outward;
-    Column along_sq, per_along_sq;
-    Eigen::Vector3f low, high;     ///< The corners of a box around them.
-    std::uint32_t favourites = 0;  ///< The capsules that were best for some contact, as bits.
-  };
-  /// The best matches of a block's contacts.
-  struct Best {
-    alignas(32) std::array<float, Block::kContacts> mismatch, distance;
-    alignas(32) std::array<std::int32_t, Block::kContacts> capsule;
-  };
-  /// A capsule to be compared with a block's contacts.
-  struct Trial {
-    std::int32_t block, capsule;
-  };
+  static constexpr int kMostCapsules = kernels::kMostCapsules;
 
  private:
+  // A posed body in single precision.
+  struct SlimShape {
+    std::vector<kernels::SlimCapsule> capsules;
+    kernels::CapsuleBoxes boxes;
+    std::uint32_t all;  // All of them, as bits.
+  };
   void MatchAll(std::span<const PosedCapsule> capsules, double reach_mm);
   void MatchBlocks(int begin, int end, float reach_mm);
   template <typename Visit>
   void ForEachBest(const Visit& visit) const;
   void Slim(std::span<const PosedCapsule> capsules);
   void SortByPlace();
-  void FillBlock(std::size_t first, Block& block) const;
+  void FillBlock(std::size_t first, kernels::ContactBlock& block) const;
 
   std::vector<Contact> contacts_;
   std::vector<std::uint32_t> order_;  ///< The contacts in the order of the blocks.
   std::vector<std::uint32_t> keys_;   ///< The contacts' sort keys.
   std::vector<std::uint32_t> order_before_;
-  std::vector<Block> blocks_;
-  std::vector<Best> bests_;           ///< One per block.
-  std::vector<std::size_t> missing_;  ///< Positions in order_ of rays that miss the hull.
-  double rays_that_tell_ = 0;         ///< Number of rays that indicates carved-away flesh.
-  std::vector<Trial> trials_;
+  std::vector<kernels::ContactBlock> blocks_;
+  std::vector<kernels::BestCapsules> bests_;  ///< One per block.
+  std::vector<std::size_t> missing_;          ///< Positions in order_ of rays that miss the hull.
+  double rays_that_tell_ = 0;                 ///< Number of rays that indicates carved-away flesh.
+  std::vector<kernels::CapsuleTrial> trials_;
   bool has_favourites_ = false;
   SlimShape slim_;
   PlaceColumns surface_W_;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/lanes.h"
+#include "core/kernels/nearest.h"
 
 namespace mocap {
 namespace {
@@ -17,31 +17,6 @@ bool IsLowerArm(BodyPart part) {
 }
 bool IsThigh(BodyPart part) { return part == BodyPart::kThighL || part == BodyPart::kThighR; }
 bool IsCalf(BodyPart part) { return part == BodyPart::kCalfL || part == BodyPart::kCalfR; }
-
-MOCAP_VECTORIZED
-int FindNearest(const double* xs, const double* ys, const double* zs, int count,
-                const Vector3& p_W) {
-  const double px = p_W.x(), py = p_W.y(), pz = p_W.z();
-  Doubles least_sq = Doubles{} + std::numeric_limits<double>::infinity();
-  Doubles nearest{}, index = {0, 1, 2, 3};
-  for (int i = 0; i < count; i += kDoubles) {
-    Doubles x, y, z;
-    LoadLanes(xs + i, x), LoadLanes(ys + i, y), LoadLanes(zs + i, z);
-    x -= px, y -= py, z -= pz;
-    const Doubles distance_sq = x * x + y * y + z * z;
-    const auto is_nearer = distance_sq < least_sq;
-    least_sq = is_nearer ? distance_sq : least_sq;
-    nearest = is_nearer ? index : nearest;
-    index += kDoubles;
-  }
-  int best = 0;
-  for (int lane = 1; lane < kDoubles; ++lane) {
-    const bool is_nearer = least_sq[lane] < least_sq[best] ||
-                           (least_sq[lane] == least_sq[best] && nearest[lane] < nearest[best]);
-    if (is_nearer) best = lane;
-  }
-  return static_cast<int>(nearest[best]);
-}
 
 }  // namespace
 
@@ -62,13 +37,15 @@ void PlaceColumns::Set(std::span<const Contact> contacts) {
     for (int axis = 0; axis < 3; ++axis) axes_[axis].push_back(contact.from_W[axis]);
   }
   size_ = static_cast<int>(axes_[0].size());
-  const auto whole = static_cast<std::size_t>((size_ + kDoubles - 1) / kDoubles * kDoubles);
+  const auto whole = static_cast<std::size_t>((size_ + kernels::kPointStep - 1) /
+                                              kernels::kPointStep * kernels::kPointStep);
   for (std::vector<double>& axis : axes_)
     axis.resize(whole, std::numeric_limits<double>::infinity());
 }
 
 Vector3 PlaceColumns::NearestTo(const Vector3& p_W) const {
-  const int i = FindNearest(axes_[0].data(), axes_[1].data(), axes_[2].data(), size_, p_W);
+  const int i = kernels::FindNearestPoint(axes_[0].data(), axes_[1].data(), axes_[2].data(), size_,
+                                          {p_W.x(), p_W.y(), p_W.z()});
   return {axes_[0][i], axes_[1][i], axes_[2][i]};
 }
 

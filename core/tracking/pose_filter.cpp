@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/body/joint_rest.h"
-#include "core/vectorized.h"
+#include "core/kernels/equations.h"
 
 namespace mocap {
 namespace {
@@ -37,23 +37,6 @@ void AddJointPriors(const BodyTable& table, const PoseState& pose, UpdateEquatio
   }
 }
 
-// Adds the outer product of a row with itself to the upper triangle. A measurement depends on one
-// chain of joints: most of its row is zero.
-MOCAP_VECTORIZED
-void AddSquare(const UpdateEquations::Column& row, int dof, double weight,
-               UpdateEquations::Column* columns) {
-  constexpr int kStep = 8;
-  for (int j = 0; j < dof; ++j) {
-    if (row[j] == 0) continue;
-    const double factor = weight * row[j];
-    double* const column = columns[j].data();
-    for (int begin = 0; begin <= j; begin += kStep) {
-#pragma GCC ivdep
-      for (int i = begin; i < begin + kStep; ++i) column[i] += factor * row[i];
-    }
-  }
-}
-
 // Empty if rounding or a NaN measurement has made the matrix unusable.
 std::optional<PoseCovariance> InverseOfPositive(const PoseCovariance& matrix) {
   const Eigen::LLT<PoseCovariance> cholesky(matrix);
@@ -75,7 +58,8 @@ void UpdateEquations::Add(const PoseStep& J, double residual, double variance) {
   alignas(64) Column row;
   std::copy_n(J.data(), dof_, row.begin());
   std::fill(row.begin() + dof_, row.end(), 0);
-  AddSquare(row, dof_, 1 / variance, columns_.data());
+  // A measurement depends on one chain of joints: most of its row is zero.
+  kernels::AddSquareAbove(row.data(), dof_, 1 / variance, kPlaces, columns_[0].data());
   gradient_ += J * (residual / variance);
 }
 

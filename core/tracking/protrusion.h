@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/kernels/nearest.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
@@ -26,15 +27,9 @@ class SilhouetteBorder {
   /// @return  empty if the ball lies inside, or if the border is too far away to tell.
   std::optional<Protrusion> ProtrusionOf(const Vector3& center_W, double radius_mm) const;
 
-  static constexpr int kRays = 16;
-  /// Directions of neighbouring rays; zero beyond the last.
-  struct Block {
-    alignas(64) std::array<float, kRays> x{}, y{}, z{};
-  };
-
  private:
   const Outline* outline_ = nullptr;
-  std::vector<Block> blocks_;
+  std::vector<kernels::RayBlock> blocks_;
 };
 
 }  // namespace mocap

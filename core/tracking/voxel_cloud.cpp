@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/vectorized.h"
+#include "core/kernels/cells.h"
 
 namespace mocap {
 namespace {
@@ -48,32 +48,7 @@ constexpr auto kBitSums = [] {
   return sums;
 }();
 
-// Number of points of a line that are tested together.
-constexpr int kPlaces = 8;
-struct Cells {
-  std::array<int, kPlaces> word, x;
-};
-// Distances between rows and layers of bits.
-struct Pitch {
-  int row, layer;
-};
-
-// Rounds points down, from the i-th on; no point lies before cell -kAhead.
-MOCAP_VECTORIZED
-void FindCells(const VoxelCloud::Places& places, int i, const Pitch& pitch, Cells& cells) {
-  constexpr int kAhead = 1 << 10;
-  const double x = places.first.x() + kAhead, y = places.first.y() + kAhead,
-               z = places.first.z() + kAhead;
-  const double dx = places.step.x(), dy = places.step.y(), dz = places.step.z();
-  for (int place = 0; place < kPlaces; ++place) {
-    const double steps = i + place;
-    const int cell_x = static_cast<int>(x + steps * dx) - kAhead;
-    const int cell_y = static_cast<int>(y + steps * dy) - kAhead;
-    const int cell_z = static_cast<int>(z + steps * dz) - kAhead;
-    cells.word[place] = cell_z * pitch.layer + cell_y * pitch.row + (cell_x >> 6);
-    cells.x[place] = cell_x & 63;
-  }
-}
+constexpr int kPlaces = kernels::kLinePoints;
 
 }  // namespace
 
@@ -181,12 +156,14 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
 
 unsigned VoxelCloud::HeldFrom(const Places& places, int i, int end) const {
   const Word* const first = RowOf(0, 0);
-  const Pitch pitch{static_cast<int>(RowOf(1, 0) - first), static_cast<int>(RowOf(0, 1) - first)};
-  Cells cells;
-  FindCells(places, i, pitch, cells);
+  const kernels::BitPitch pitch{static_cast<int>(RowOf(1, 0) - first),
+                                static_cast<int>(RowOf(0, 1) - first)};
+  const Vector3 &p = places.first, &step = places.step;
+  kernels::LineCells cells;
+  kernels::FindCells({{p.x(), p.y(), p.z()}, {step.x(), step.y(), step.z()}}, i, pitch, cells);
   unsigned held = 0;
   for (int place = 0; place < std::min(kPlaces, end - i); ++place)
-    held |= static_cast<unsigned>(first[cells.word[place]] >> cells.x[place] & 1) << place;
+    held |= static_cast<unsigned>(first[cells.word[place]] >> cells.bit[place] & 1) << place;
   return held;
 }
 

@@ -3,60 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/vectorized.h"
+#include "core/kernels/expected_pixels.h"
+#include "core/kernels/mixing.h"
 
 namespace mocap {
 namespace {
 
 constexpr float kNoLimit = 1e6f;
 
-struct Source {
-  std::array<const float*, 3> mean, variance;
-  const float* alpha_limit;
-  const std::uint8_t* slope;
-};
 constexpr int kPixels = WeighedPixels::kPixels;
-
-inline std::uint16_t Rounded(float value) {
-  return static_cast<std::uint16_t>(static_cast<int>(std::min(value, 65535.0f) + 0.5f));
-}
-
-MOCAP_VECTORIZED
-void WeighGroups(const Source& from, int groups, float shift_sq, WeighedPixels* to, int stride) {
-  const auto [e0, e1, e2] = from.mean;
-  const auto [v0, v1, v2] = from.variance;
-  const float* const alpha_limit = from.alpha_limit;
-  const std::uint8_t* const slopes = from.slope;
-  for (int g = 0; g < groups; ++g) {
-    WeighedPixels& group = to[static_cast<std::ptrdiff_t>(g) * stride];
-    const int first = g * kPixels;
-#pragma GCC ivdep
-    for (int k = 0; k < kPixels; ++k) {
-      const int x = first + k;
-      const float slope = slopes[x];
-      const float more = shift_sq * slope * slope;
-      const float i0 = 1 / (v0[x] + more), i1 = 1 / (v1[x] + more), i2 = 1 / (v2[x] + more);
-      const float square = e0[x] * e0[x] * i0 + e1[x] * e1[x] * i1 + e2[x] * e2[x] * i2;
-      const float alpha_weight = std::min(std::sqrt(square), alpha_limit[x]);
-      group.mean[0][k] = Rounded(e0[x] / WeighedPixels::kMeanUnit);
-      group.mean[1][k] = Rounded(e1[x] / WeighedPixels::kMeanUnit);
-      group.mean[2][k] = Rounded(e2[x] / WeighedPixels::kMeanUnit);
-      group.inverse_sigma[0][k] = Rounded(std::sqrt(i0) / WeighedPixels::kInverseSigmaUnit);
-      group.inverse_sigma[1][k] = Rounded(std::sqrt(i1) / WeighedPixels::kInverseSigmaUnit);
-      group.inverse_sigma[2][k] = Rounded(std::sqrt(i2) / WeighedPixels::kInverseSigmaUnit);
-      group.alpha_weight[k] = Rounded(alpha_weight / WeighedPixels::kAlphaWeightUnit);
-    }
-  }
-}
-
-// Interpolates between pixels and their right and lower neighbours.
-MOCAP_VECTORIZED
-void MixPixels(const float* top, const float* bottom, int count, float a, float b, float* to) {
-  const float w0 = (1 - a) * (1 - b), w1 = a * (1 - b), w2 = (1 - a) * b, w3 = a * b;
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x)
-    to[x] = w0 * top[x] + w1 * top[x + 1] + w2 * bottom[x] + w3 * bottom[x + 1];
-}
 
 }  // namespace
 
@@ -85,13 +40,13 @@ void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
   const int group = begin / kPixels;
   const int groups = (end + kPixels - 1) / kPixels - group;
   const std::size_t first = static_cast<std::size_t>(y) * width + group * kPixels;
-  Source from{{}, {}, &alpha_limit[first], &slope[first]};
+  kernels::WeighedFrom from{{}, {}, &alpha_limit[first], &slope[first]};
   for (int c = 0; c < 3; ++c) {
     from.mean[c] = &mean[c][first];
     from.variance[c] = &variance[c][first];
   }
-  WeighGroups(from, groups, shift_px * shift_px,
-              &weighed_[static_cast<std::size_t>(group) * height + y], height);
+  kernels::WeighPixels(from, groups, shift_px * shift_px,
+                       &weighed_[static_cast<std::size_t>(group) * height + y], height);
 }
 
 void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& displacement, int y,
@@ -118,7 +73,8 @@ void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& 
   const std::size_t nearest = top + (a > 0.5f ? 1 : 0) + (b > 0.5f ? width : 0);
   const int count = last - first;
   for (int c = 0; c < 3; ++c) {
-    MixPixels(&from.mean[c][top], &from.mean[c][top + width], count, a, b, &mean[c][line + first]);
+    kernels::MixNeighbours(&from.mean[c][top], &from.mean[c][top + width], count, a, b,
+                           &mean[c][line + first]);
     std::copy_n(&from.variance[c][nearest], count, &variance[c][line + first]);
   }
   std::copy_n(&from.alpha_limit[nearest], count, &alpha_limit[line + first]);

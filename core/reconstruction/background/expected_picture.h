@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/kernels/expected_pixels.h"
 #include "core/reconstruction/background/conditions.h"
 
 namespace mocap {
@@ -13,19 +14,7 @@ namespace mocap {
 /// Variance where nothing is known: any colour is accepted.
 inline constexpr float kUnknownVariance = 1e8f;
 
-/// The background model of several adjacent pixels, packed for the cache.
-struct WeighedPixels {
-  static constexpr int kPixels = 16;
-  using Column = std::array<std::uint16_t, kPixels>;
-  // Units of the columns.
-  static constexpr float kMeanUnit = 1.0f / 256;
-  static constexpr float kInverseSigmaUnit = 1.0f / 65536;
-  static constexpr float kAlphaWeightUnit = 1.0f / 128;
-
-  std::array<Column, 3> mean;           ///< E.
-  std::array<Column, 3> inverse_sigma;  ///< 1/σ; σ is larger where contours shift.
-  Column alpha_weight;                  ///< 1/a.
-};
+using kernels::WeighedPixels;
 
 /// The background's colours and their variation per pixel, in planes of rows without gaps.
 ///
@@ -33,7 +22,7 @@ struct WeighedPixels {
 /// chromaticity distortion, b, is part of σ.
 struct ExpectedPicture {
   /// Near black, a colour has no direction.
-  static constexpr float kDarkestMean = 1;
+  static constexpr float kDarkestMean = kernels::kDarkestMean;
 
   ExpectedPicture() = default;
   ExpectedPicture(int picture_width, int picture_height);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/kernels/halving.h"
 #include "core/reconstruction/background/conditions.h"
 
 namespace mocap {
@@ -23,7 +24,7 @@ struct TileRun {
 /// It consists of tiles of kTile × kTile pixels. Zeros pad it to whole tiles of the full picture.
 struct HalfPicture {
   /// Side of a tile, in pixels of this picture.
-  static constexpr int kTile = 4;
+  static constexpr int kTile = kernels::kTileSide;
   /// Side of a tile, in pixels of the full picture.
   static constexpr int kTile_px = 2 * kTile;
 

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/kernels/expected_pixels.h"
+#include "core/kernels/mixing.h"
 #include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/background/view_warp.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
-#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -37,33 +38,6 @@ float Median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-MOCAP_VECTORIZED
-void Mix(const float* top, const float* bottom, int count, float b, float* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = top[i] + b * (bottom[i] - top[i]);
-}
-
-template <int width>
-MOCAP_VECTORIZED void SpreadCells(const float* corners, int count, float into, float* to) {
-  for (int i = 0; i < count; ++i) {
-    const float step = corners[i + 1] - corners[i];
-#pragma GCC ivdep
-    for (int k = 0; k < width; ++k)
-      to[i * width + k] = corners[i] + (into + static_cast<float>(k) / width) * step;
-  }
-}
-
-// Sets the variance of drawn pixels, the same in all channels, and marks the others as unknown.
-MOCAP_VECTORIZED
-void FinishDrawn(const std::uint8_t* is_known, int count, float variance, float* mean,
-                 float* variances) {
-#pragma GCC ivdep
-  for (int x = 0; x < count; ++x) {
-    mean[x] = is_known[x] ? std::max(mean[x], ExpectedPicture::kDarkestMean) : 255;
-    variances[x] = is_known[x] ? variance : kUnknownVariance;
-  }
 }
 
 class PanTiltBackground final : public BackgroundModel {
@@ -238,18 +212,19 @@ class PanTiltBackground final : public BackgroundModel {
   // Finds the positions of cells [first, end) of a row in a source's view. A cell is `width` pixels
   // wide; the first of them lies at the fraction `into` of the cell. Returns whether all lie in the
   // view.
-  template <int width>
-  bool FindPlaces(Source& source, float y, float into, int first, int end, float last_x,
+  bool FindPlaces(Source& source, int width, float y, float into, int first, int end, float last_x,
                   float last_y) {
     if (!source.is_projected) ProjectNodes(source);
     const int row = static_cast<int>(y) / kCell_px;
     const float b = y / kCell_px - static_cast<float>(row);
     const std::size_t top = static_cast<std::size_t>(row) * node_columns_ + first;
     const int count = end - first + 1;
-    Mix(&source.nodes_x[top], &source.nodes_x[top + node_columns_], count, b, cells_x_.data());
-    Mix(&source.nodes_y[top], &source.nodes_y[top + node_columns_], count, b, cells_y_.data());
-    SpreadCells<width>(cells_x_.data(), end - first, into, places_x_.data());
-    SpreadCells<width>(cells_y_.data(), end - first, into, places_y_.data());
+    kernels::MixRows(&source.nodes_x[top], &source.nodes_x[top + node_columns_], count, b,
+                     cells_x_.data());
+    kernels::MixRows(&source.nodes_y[top], &source.nodes_y[top + node_columns_], count, b,
+                     cells_y_.data());
+    kernels::SpreadCells(cells_x_.data(), end - first, width, into, places_x_.data());
+    kernels::SpreadCells(cells_y_.data(), end - first, width, into, places_y_.data());
     // Also false for NaN.
     const auto lies_within = [](const std::vector<float>& cells, int n, float last) {
       return std::all_of(cells.begin(), cells.begin() + n,
@@ -292,9 +267,8 @@ class PanTiltBackground final : public BackgroundModel {
       const BackgroundView& view = views_[sources_[k].view];
       const auto last_x = static_cast<float>(2 * view.half_width - 1);
       const auto last_y = static_cast<float>(2 * view.half_height - 1);
-      const bool has_all =
-          FindPlaces<kCell_px / 2>(sources_[k], static_cast<float>(2 * y) + 0.5f, 0.5f / kCell_px,
-                                   0, node_columns_ - 1, last_x, last_y);
+      const bool has_all = FindPlaces(sources_[k], kCell_px / 2, static_cast<float>(2 * y) + 0.5f,
+                                      0.5f / kCell_px, 0, node_columns_ - 1, last_x, last_y);
       const ViewPlaces places{places_x_.data(), places_y_.data()};
       const auto draw = [&](int begin, int count) {
         auto& color = half_.mean.color;
@@ -317,8 +291,8 @@ class PanTiltBackground final : public BackgroundModel {
       const auto last_x = static_cast<float>(view.width - 1);
       const auto last_y = static_cast<float>(view.height - 1);
       const bool has_all =
-          FindPlaces<kCell_px>(sources_[k], static_cast<float>(y), 0, run.begin / kCell_px,
-                               (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
+          FindPlaces(sources_[k], kCell_px, static_cast<float>(y), 0, run.begin / kCell_px,
+                     (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
       const int skipped = run.begin % kCell_px;
       const ViewPlaces places{&places_x_[skipped], &places_y_[skipped]};
       const auto draw = [&](int begin, int count) {
@@ -330,8 +304,8 @@ class PanTiltBackground final : public BackgroundModel {
       if (DrawUnknown(has_all && k == 0, places, last_x, last_y, length, draw)) break;
     }
     for (int c = 0; c < 3; ++c)
-      FinishDrawn(is_known_.data(), length, variance_, &expected_.mean[c][row],
-                  &expected_.variance[c][row]);
+      kernels::FinishDrawn(is_known_.data(), length, variance_, kUnknownVariance,
+                           &expected_.mean[c][row], &expected_.variance[c][row]);
     expected_.Weigh(std::hypot(shift_px_, conditions.shift_px), y, run.begin, run.end);
   }
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/kernels/mixing.h"
 #include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
 
-/// Blue, green, red and the slope of one pixel, from the lowest byte up.
-using PackedPixel = std::uint32_t;
+using kernels::PackedPixel;
 
 /// The empty studio as seen in one direction, at full and at half the resolution.
 struct BackgroundView {

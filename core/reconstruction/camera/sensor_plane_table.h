@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/kernels/octants.h"
 #include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
@@ -22,10 +23,7 @@ class SensorPlaneTable {
     std::int16_t y = -1;
   };
   /// A position in the picture, between pixel centres.
-  struct Place {
-    float x_px = 0;
-    float y_px = 0;
-  };
+  using Place = kernels::PicturePlace;
 
   /// @throws SetupError  if the lens shows nothing in its picture.
   explicit SensorPlaneTable(const CameraCalibration& camera);
@@ -73,20 +71,8 @@ class SensorPlaneTable {
   }
 
   /// The table in the form that loops over many directions need.
-  struct Nodes {
-    const Place* nodes = nullptr;
-    int columns = 0;
-    float origin_x = 0, origin_y = 0;
-    float cells_per_unit = 0;
-    float last_column = 0, last_row = 0;
-    float field_radius = 0;
-    /// The part of the sensor plane that the picture shows.
-    float low_x = 0, low_y = 0, high_x = 0, high_y = 0;
-    /// For each cell: an upper bound on the change of the slope of positions [px per cell] from one
-    /// cell to the next, within kBendReach_cells of it.
-    const float* bends_px = nullptr;
-  };
-  static constexpr int kBendReach_cells = 2;
+  using Nodes = kernels::SensorPlaneNodes;
+  static constexpr int kBendReach_cells = kernels::kBendReach_cells;
   Nodes nodes() const {
     return {nodes_.data(),
             columns_,

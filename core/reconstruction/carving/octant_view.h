@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/kernels/octants.h"
 #include "core/reconstruction/carving/carving_view.h"
 #include "core/reconstruction/carving/window_map.h"
 
@@ -18,11 +19,8 @@ struct OctantDecisions {
   std::uint8_t gap;      ///< All of it is in a gap; known for single pixels only.
 };
 
-/// What a camera knows about the samples of eight voxels, as in OctantDecisions: one byte per
-/// sample, one bit per voxel.
-struct SampleDecisions {
-  std::uint64_t inside, outside, unseen, gap;
-};
+/// What a camera knows about the samples of eight voxels.
+using kernels::SampleDecisions;
 
 /// Moves each bit to the lowest bit of its own byte.
 constexpr std::uint64_t SpreadBits(std::uint8_t bits) {
@@ -30,21 +28,7 @@ constexpr std::uint64_t SpreadBits(std::uint8_t bits) {
                                                                           << 49;
 }
 
-/// Positions of eight points in a camera's picture, and how they change around each point.
-///
-/// A point at offset `o` [mm] from `middle` appears at (x, y) + (along · o) / (1 + depth · o), up
-/// to `error` [px].
-struct OctantFrames {
-  static constexpr int kLanes = 8;
-  using Lanes = std::array<float, kLanes>;
-
-  alignas(32) std::array<Lanes, 3> middle;  ///< From the common origin [mm].
-  Lanes x, y;
-  std::array<Lanes, 3> along_x, along_y;  ///< [px per mm]
-  std::array<Lanes, 3> depth;             ///< [1/mm]
-  Lanes reach_x, reach_y;  ///< Largest extent of a cube [px per mm of half its side].
-  Lanes error;
-};
+using kernels::OctantFrames;
 
 /// One camera of a set, prepared to test many blocks. Borrows the table and the windows.
 class OctantView {
@@ -73,15 +57,8 @@ class OctantView {
                                     const Eigen::Vector3f& middle, float voxel_spread,
                                     float sample_spread, std::uint8_t asked) const;
 
-  struct Eye {
-    std::array<std::array<float, 3>, 3> R;
-    std::array<float, 3> p;
-    SensorPlaneTable::Nodes table;
-    WindowMap::Planes planes;
-  };
-
  private:
-  Eye eye_;
+  kernels::OctantCamera camera_;
 };
 
 }  // namespace mocap

@@ -4,73 +4,16 @@
 #include <array>
 #include <utility>
 
-#include "core/vectorized.h"
+#include "core/kernels/bit_columns.h"
 
 namespace mocap {
 namespace {
 
-using Word = std::uint32_t;
+using Word = kernels::ColumnWord;
 constexpr int kBits = 32;
 // Applied one after another, they dilate or erode by the width of a gap.
 constexpr std::array<int, 3> kGapSteps_px = {1, 2, 3};
 static_assert(kGapSteps_px[0] + kGapSteps_px[1] + kGapSteps_px[2] == WindowMap::kGap_px);
-
-// Columns follow one another with margins between them, so that one loop shifts all of them. The
-// bits that two columns shift into their common margin do not meet there. `stride` words further on
-// lies the column to the right.
-
-MOCAP_VECTORIZED
-void DilateAlong(const Word* from, int count, std::ptrdiff_t stride, int step, Word* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    to[i] = from[i] | from[i] << step | from[i - stride] >> (kBits - step) | from[i] >> step |
-            from[i + stride] << (kBits - step);
-}
-
-MOCAP_VECTORIZED
-void ErodeAlong(const Word* from, int count, std::ptrdiff_t stride, int step, Word* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    to[i] = from[i] & (from[i] << step | from[i - stride] >> (kBits - step)) &
-            (from[i] >> step | from[i + stride] << (kBits - step));
-}
-
-MOCAP_VECTORIZED
-void DilateAcross(const Word* from, int count, int step, Word* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] | from[i - step] | from[i + step];
-}
-
-MOCAP_VECTORIZED
-void ErodeAcross(const Word* from, int count, int step, Word* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] & from[i - step] & from[i + step];
-}
-
-// Windows grow to the right, and down.
-MOCAP_VECTORIZED
-void Widen(Word* bits, int count, std::ptrdiff_t stride, int step) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) bits[i] &= bits[i] >> step | bits[i + stride] << (kBits - step);
-}
-
-MOCAP_VECTORIZED
-void Heighten(Word* bits, int columns, std::ptrdiff_t stride, int rows, int step) {
-  for (int column = 0; column < columns; ++column, bits += stride) {
-#pragma GCC ivdep
-    for (int i = 0; i < rows - step; ++i) bits[i] &= bits[i + step];
-  }
-}
-
-// Splits words of 32 pixels into two columns of 16.
-MOCAP_VECTORIZED
-void Join(const Word* inside, const Word* outside, int rows, Word* left, Word* right) {
-#pragma GCC ivdep
-  for (int i = 0; i < rows; ++i) {
-    left[i] = (inside[i] & 0xffff) | outside[i] << 16;
-    right[i] = inside[i] >> 16 | (outside[i] & 0xffff0000);
-  }
-}
 
 // Bits [begin, begin + 32) of a row; zeros beyond its end.
 Word BitsAt(const std::uint64_t* row, int words, int begin) {
@@ -115,22 +58,22 @@ void WindowMap::CloseGaps() {
   std::fill(scratch_.begin(), scratch_.end(), 0);
   const int count = WordsBetween();
   for (const int step : kGapSteps_px) {
-    DilateAlong(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
+    kernels::DilateSideways(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   for (const int step : kGapSteps_px) {
-    DilateAcross(Column(outside_, 0), count, step, Column(scratch_, 0));
+    kernels::DilateUpAndDown(Column(outside_, 0), count, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   // Pixels beyond the picture's edge count as set.
   SetMargins(true, outside_);
   SetMargins(true, scratch_);
   for (const int step : kGapSteps_px) {
-    ErodeAlong(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
+    kernels::ErodeSideways(Column(outside_, 0), count, stride_, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
   for (const int step : kGapSteps_px) {
-    ErodeAcross(Column(outside_, 0), count, step, Column(scratch_, 0));
+    kernels::ErodeUpAndDown(Column(outside_, 0), count, step, Column(scratch_, 0));
     std::swap(outside_, scratch_);
   }
 }
@@ -159,7 +102,7 @@ void WindowMap::WritePlanes() {
     if (plane > 0) Grow(1 << (plane - 1));
     for (int i = 0; i < columns_; ++i) {
       Word* const to = &planes_[words * plane + static_cast<std::size_t>(2) * i * rows_];
-      Join(Column(inside_, i), Column(outside_, i), rows_, to, to + rows_);
+      kernels::JoinInsideAndOutside(Column(inside_, i), Column(outside_, i), rows_, to, to + rows_);
     }
   }
 }
@@ -167,8 +110,8 @@ void WindowMap::WritePlanes() {
 // Enlarges windows by `step`.
 void WindowMap::Grow(int step) {
   for (Bits* const bits : {&inside_, &outside_}) {
-    Widen(Column(*bits, 0), WordsBetween(), stride_, step);
-    Heighten(Column(*bits, 0), columns_, stride_, rows_, step);
+    kernels::WidenWindows(Column(*bits, 0), WordsBetween(), stride_, step);
+    kernels::HeightenWindows(Column(*bits, 0), columns_, stride_, rows_, step);
   }
   // Nothing below the region is inside.
   const int lowest = std::min(step, rows_);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/kernels/octants.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
@@ -21,19 +22,13 @@ class WindowMap {
   enum class Kind { kInside, kGap, kOutside };
 
   /// Windows of the first plane are one pixel wide. Each further plane doubles the width.
-  static constexpr int kPlanes = 6;
-  static constexpr int kLargest_px = 1 << (kPlanes - 1);
+  static constexpr int kPlanes = kernels::kWindowPlanes;
+  static constexpr int kLargest_px = kernels::kWidestWindow_px;
   /// Half the width of the gaps that are closed [px].
   static constexpr int kGap_px = 6;
 
   /// The planes in the form that loops over many windows need.
-  struct Planes {
-    const std::uint32_t* words = nullptr;
-    int words_per_column = 0, words_per_plane = 0;
-    /// Everything beside this region is outside; its last column and row are included.
-    int left = 0, top = 0, right = -1, bottom = -1;
-    int width_px = 0, height_px = 0;  ///< Of the picture.
-  };
+  using Planes = kernels::WindowPlanes;
 
   /// Measures a silhouette.
   /// @param box  the silhouette's bounding box.

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/kernels/statistics.h"
 #include "core/reconstruction/background/expected_picture.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 #include "core/reconstruction/silhouette/pixel_run.h"
-#include "core/vectorized.h"
 
 namespace mocap {
 namespace {
@@ -66,31 +66,10 @@ constexpr float kShade = 0.02f;
 
 float Square(float x) { return x * x; }
 
-// Quantile of non-negative values, two bits at a time: their bits sort them as integers do.
-MOCAP_VECTORIZED
-float QuantileOf(const float* values, int count, int rank) {
-  std::uint32_t result = 0;
-  for (int bits = 30; bits >= 0; bits -= 2) {
-    const std::uint32_t one = result | 1u << bits, two = result | 2u << bits, three = one | two;
-    int less_than_one = 0, less_than_two = 0, less_than_three = 0;
-    for (int i = 0; i < count; ++i) {
-      const auto value = std::bit_cast<std::uint32_t>(values[i]);
-      less_than_one += value < one;
-      less_than_two += value < two;
-      less_than_three += value < three;
-    }
-    result = less_than_three <= rank ? three
-             : less_than_two <= rank ? two
-             : less_than_one <= rank ? one
-                                     : result;
-  }
-  return std::bit_cast<float>(result);
-}
-
 float Quantile(const std::vector<float>& values, double share) {
   MOCAP_CHECK(!values.empty());
   const auto count = static_cast<int>(values.size());
-  return QuantileOf(values.data(), count, static_cast<int>(share * count));
+  return kernels::NumberAtRank(values.data(), count, static_cast<int>(share * count));
 }
 
 float Median(const std::vector<float>& values) { return Quantile(values, 0.5); }
@@ -284,9 +263,9 @@ void CoarseScan::FetchTiles(const ExpectedHalf& expected, const TileRun& run) {
   }
 }
 
-TilePixels CoarseScan::PixelsOf(const ExpectedHalf& expected, const TileRun& run) const {
+kernels::TilePixels CoarseScan::PixelsOf(const ExpectedHalf& expected, const TileRun& run) const {
   const std::size_t begin = live_.FirstPixelOf(run);
-  TilePixels tiles{{}, {}, &expected.variance[begin], &expected.slope[begin], live_.width};
+  kernels::TilePixels tiles{{}, {}, &expected.variance[begin], &expected.slope[begin], live_.width};
   for (int c = 0; c < 3; ++c) {
     tiles.live[c] = &live_.color[c][begin];
     tiles.expected[c] = &expected.mean.color[c][begin];
@@ -296,19 +275,19 @@ TilePixels CoarseScan::PixelsOf(const ExpectedHalf& expected, const TileRun& run
 
 void CoarseScan::MeasureChiSquare(const ExpectedHalf& expected, const TileRun& run) {
   const std::size_t first = live_.FirstTileOf(run);
-  MeasureChiSquares(PixelsOf(expected, run), run.end - run.begin, allowance_, &tiles_.alpha[first],
-                    &tiles_.chi_square[first]);
+  kernels::MeasureChiSquares(PixelsOf(expected, run), run.end - run.begin, allowance_,
+                             &tiles_.alpha[first], &tiles_.chi_square[first]);
 }
 
 void CoarseScan::MeasureTints(const ExpectedHalf& expected, const TileRun& run) {
   const std::size_t first = live_.FirstTileOf(run);
-  TileMeans tiles{{}, {}, &expected.tile_variance[first], &expected.tile_slope_sq[first]};
+  kernels::TileMeans tiles{{}, {}, &expected.tile_variance[first], &expected.tile_slope_sq[first]};
   for (int c = 0; c < 3; ++c) {
     tiles.live[c] = &live_.tile_mean[c][first];
     tiles.expected[c] = &expected.mean.tile_mean[c][first];
   }
-  MeasureTiles(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first], &tiles_.tint[first],
-               &tiles_.glare[first]);
+  kernels::MeasureTiles(tiles, run.end - run.begin, allowance_, &tiles_.alpha[first],
+                        &tiles_.tint[first], &tiles_.glare[first]);
 }
 
 void CoarseScan::Judge(const ExpectedHalf& expected) {
@@ -329,8 +308,8 @@ void CoarseScan::Judge(const ExpectedHalf& expected) {
       if (tiles_.tint[i] > kHarmlessTint || tiles_.alpha[i] < darkest_shadow_ + kDarkMargin ||
           tiles_.glare[i] > kHarmlessGlare ||
           (tiles_.chi_square[i] > harmless &&
-           ChiSquareBesideSlope(PixelsOf(expected, {look.row, column, column + 1}), allowance_) >
-               harmless))
+           kernels::ChiSquareBesideSlope(PixelsOf(expected, {look.row, column, column + 1}),
+                                         allowance_) > harmless))
         suspicious_.Set(column, look.row);
     }
   }

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/kernels/tiles.h"
 #include "core/reconstruction/background/conditions.h"
 #include "core/reconstruction/background/half_picture.h"
 #include "core/reconstruction/silhouette/shading.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
-#include "core/reconstruction/silhouette/tile_comparison.h"
 
 namespace mocap {
 
@@ -67,7 +67,7 @@ class CoarseScan {
   void FetchPicture(ImageView<const Bgr> image, const TileRun& run);
   void FetchTiles(const ExpectedHalf& expected, const TileRun& run);
   void MeasureTints(const ExpectedHalf& expected, const TileRun& run);
-  TilePixels PixelsOf(const ExpectedHalf& expected, const TileRun& run) const;
+  kernels::TilePixels PixelsOf(const ExpectedHalf& expected, const TileRun& run) const;
   void MeasureChiSquare(const ExpectedHalf& expected, const TileRun& run);
   void Judge(const ExpectedHalf& expected);
 
@@ -87,7 +87,7 @@ class CoarseScan {
   std::vector<float> values_;
   Conditions conditions_;
   float distance_ = 0, shift_px_ = 0;
-  Allowance allowance_;
+  kernels::Allowance allowance_;
   SilhouetteCleaner cleaner_;
   Silhouette suspicious_;
   Silhouette shaded_;  // Tiles darker than the empty studio.

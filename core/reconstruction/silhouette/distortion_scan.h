@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/kernels/windows.h"
 #include "core/reconstruction/background/expected_picture.h"
 #include "core/reconstruction/silhouette/region_of_interest.h"
-#include "core/reconstruction/silhouette/window_sums.h"
 
 namespace mocap {
 
@@ -24,20 +24,12 @@ namespace mocap {
 /// Thread-bound; reuses its memory.
 class DistortionScan {
  public:
-  /// One row. Each pointer has one value per pixel.
-  struct Row {
-    const float* alpha_shift = nullptr;    ///< α − 1; also valid for all measured pixels.
-    const float* cd_sq = nullptr;          ///< CD².
-    const float* alpha_weight = nullptr;   ///< 1/a: (α − 1)/a is normalised.
-    const float* inverse_sigma = nullptr;  ///< 1/σ of green.
-  };
+  /// One row. `alpha_shift` is also valid for all measured pixels.
+  using Row = kernels::DistortionRow;
   /// Two adjacent rows. The second may lie below the picture; its values mean nothing then. Valid
-  /// until the next two, for judged pixels. Values of other pixels in the same eight mean nothing
+  /// until the next two, for judged pixels. Values of other pixels in the same block mean nothing
   /// either.
-  struct RowPair {
-    std::array<Row, 2> rows;
-    WindowLines sums{};  ///< For JoinLines().
-  };
+  using RowPair = kernels::DistortionRowPair;
 
   /// Starts at the top of the frame of a region of interest. All arguments but `gain` are borrowed
   /// until the last rows.
@@ -56,12 +48,14 @@ class DistortionScan {
   }
 
  private:
-  static constexpr int kPad = kFloats;  // On both sides of the picture.
+  static constexpr int kPad = kernels::kBlock_px;  // On both sides of the picture.
   static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
-  static_assert(kLargestRadius_px <= RegionOfInterest::kMargin_px && kLargestRadius_px <= kPad);
+  static_assert(kernels::kLargestRadius_px <= RegionOfInterest::kMargin_px &&
+                kernels::kLargestRadius_px <= kPad);
   // Number of rows that are measured at a time: they have the same runs.
   static constexpr int kBand_px = RegionOfInterest::kMargin_px;
-  static_assert(kSumLines % kBand_px == 0 && kSumLines >= kPairLines + kBand_px - 1);
+  static_assert(kernels::kSumLines % kBand_px == 0 &&
+                kernels::kSumLines >= kernels::kPairLines + kBand_px - 1);
 
   // The last lines, padded by kPad.
   struct Lines {
@@ -83,7 +77,7 @@ class DistortionScan {
   Image<float> alpha_shift_;  // Padded by kPad.
   Lines lines_;
   Image<Bgr> last_;  // A band of the group in which the picture ends.
-  std::vector<BlockSums> sums_;
+  std::vector<kernels::BlockSums> sums_;
   RowPair pair_;
 };
 

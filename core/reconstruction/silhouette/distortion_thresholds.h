@@ -21,7 +21,7 @@ struct DistortionThresholds {
   float cd = 0;          ///< Chromaticity distortion of a pixel.
   float alpha_low = 0;   ///< Brightness distortion of a pixel, negative.
   float alpha_high = 0;  ///< Brightness distortion of a pixel, positive.
-  std::array<Window, kWindows> windows;
+  std::array<Window, kernels::kWindows> windows;
 };
 
 /// Collects the distortions of training frames in histograms and derives thresholds.
@@ -61,7 +61,7 @@ class DistortionHistograms {
   };
 
   Histogram cd_, alpha_low_, alpha_high_;
-  std::array<WindowHistograms, kWindows> windows_;
+  std::array<WindowHistograms, kernels::kWindows> windows_;
   RegionOfInterest everything_;
   DistortionScan scan_;
 };

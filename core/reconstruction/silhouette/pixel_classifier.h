@@ -28,7 +28,7 @@ class PixelClassifier {
   /// Factors by which thresholds must be exceeded. They allow for effects that an empty studio does
   /// not show: tinted shadows, and noise that a codec passes only where something moves. Measured
   /// on takes with true masks; a change by a tenth has little effect.
-  static constexpr std::array<float, kWindows> kWindowMargins = {1.1f, 1.35f};
+  static constexpr std::array<float, kernels::kWindows> kWindowMargins = {1.1f, 1.35f};
   /// A single pixel must differ more, because there are many of them.
   static constexpr float kPixelMargin = 1.6f;
 
@@ -62,7 +62,7 @@ class PixelClassifier {
   PixelBox frame_;
   DistortionScan scan_;
   Silhouette clear_pixels_;
-  std::array<Silhouette, kWindows> clear_windows_, doubtful_windows_, eroded_;
+  std::array<Silhouette, kernels::kWindows> clear_windows_, doubtful_windows_, eroded_;
   Silhouette foreground_, doubtful_, dark_;
 };
 

@@ -3,20 +3,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/vectorized.h"
+#include "core/kernels/bits.h"
 
 namespace mocap {
-namespace {
-
-MOCAP_VECTORIZED
-std::int64_t CountBits(const std::uint64_t* words, std::size_t count) {
-  std::int64_t bits = 0;
-  for (std::size_t i = 0; i < count; ++i) bits += std::popcount(words[i]);
-  return bits;
-}
-
-}  // namespace
-
 std::optional<PixelBox> Silhouette::FindBox() const {
   const auto is_empty = [](std::uint64_t word) { return word == 0; };
   const auto first = std::find_if_not(words_.begin(), words_.end(), is_empty);
@@ -43,7 +32,7 @@ std::optional<PixelBox> Silhouette::FindBox() const {
 
 double Silhouette::CoveredShare() const {
   if (width_ == 0 || height_ == 0) return 0;
-  const std::int64_t count = CountBits(words_.data(), words_.size());
+  const std::int64_t count = kernels::CountBits(words_.data(), words_.size());
   return static_cast<double>(count) / (static_cast<double>(width_) * height_);
 }
 

@@ -7,28 +7,20 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/kernels/windows_reference.h"
+
 namespace mocap {
 namespace {
 
-struct PlainWindow {
-  float alpha_shift, cd_sq, roughness_sq;
-};
+using kernels::kWindows;
+using kernels::reference::WindowDistortion;
 
 // Of the windows around a pixel of one of two rows.
-std::array<PlainWindow, kWindows> WindowsAround(int x, int row,
-                                                const DistortionScan::RowPair& pair) {
-  std::array<PlainWindow, kWindows> windows;
-  const int block = x / kFloats, lane = x % kFloats;
-  std::array<Floats, 2> weights;
-  for (int k = 0; k < 2; ++k) LoadLanes(pair.rows[k].alpha_weight + block * kFloats, weights[k]);
-  std::array<WindowDistortions, 2> d;
-  const auto take = [&](PlainWindow& window) {
-    window = {d[row].alpha_shift[lane], d[row].cd_sq[lane], d[row].roughness_sq[lane]};
-  };
-  JoinLines<0>(pair.sums, block, weights, d);
-  take(windows[0]);
-  JoinLines<1>(pair.sums, block, weights, d);
-  take(windows[1]);
+std::array<WindowDistortion, kWindows> WindowsAround(int x, int row,
+                                                     const DistortionScan::RowPair& pair) {
+  std::array<WindowDistortion, kWindows> windows;
+  for (std::size_t k = 0; k < kWindows; ++k)
+    windows[k] = kernels::reference::MeasureWindow(pair, row, x, k);
   return windows;
 }
 
@@ -50,7 +42,7 @@ TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   EXPECT_NEAR(row.alpha_shift[0], alpha - 1, 1e-5);
   EXPECT_NEAR(row.cd_sq[0], cd_sq, 1e-3);
   EXPECT_NEAR(row.alpha_weight[0], std::sqrt(3300.0), 1e-3);
-  for (const PlainWindow& window : WindowsAround(0, 0, pair)) {
+  for (const WindowDistortion& window : WindowsAround(0, 0, pair)) {
     EXPECT_NEAR(window.alpha_shift, alpha - 1, 1e-5);
     EXPECT_NEAR(window.cd_sq, cd_sq, 1e-2);
     EXPECT_NEAR(window.roughness_sq, 0, 1e-2);
@@ -77,7 +69,7 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
   for (int y = 0; y < 30; ++y) {
     if (y % 2 == 0) pair = scan.Next();
     for (std::size_t k = 0; k < kWindows; ++k) {
-      const int r = kWindowRadii_px[k];
+      const int r = kernels::kWindowRadii_px[k];
       for (int x = r; x < 40 - r && y >= r && y < 30 - r; ++x) {
         if (std::abs(x - 30) <= r && std::abs(y - 20) <= r) {
           EXPECT_GT(WindowsAround(x, y % 2, pair)[k].roughness_sq, 100);

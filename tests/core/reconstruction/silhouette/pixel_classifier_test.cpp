@@ -203,7 +203,7 @@ class PlainClassifier {
 
   bool IsClearWindow(std::size_t k, int x, int y, const DistortionThresholds::Window& t,
                      double darkest_shadow) const {
-    const int radius = kWindowRadii_px[k];
+    const int radius = kernels::kWindowRadii_px[k];
     const double margin = PixelClassifier::kWindowMargins[k];
     const double area = (2 * radius + 1) * (2 * radius + 1);
     const double spread = area * (area - 1) / 12;
@@ -227,7 +227,7 @@ class PlainClassifier {
   }
 
   bool AllClearAround(std::size_t k, int x, int y) const {
-    const int radius = kWindowRadii_px[k];
+    const int radius = kernels::kWindowRadii_px[k];
     for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height_ - 1); ++v)
       for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width_ - 1); ++u)
         if (!clear_windows_[k](u, v)) return false;

@@ -1,6 +1,4 @@
-#include "core/reconstruction/silhouette/tile_comparison.h"
-
-#include <gtest/gtest.h>
+#include "core/kernels/tiles.h"
 
 #include <array>
 #include <cmath>
@@ -8,10 +6,13 @@
 #include <random>
 #include <vector>
 
-namespace mocap {
+#include "core/kernels/tiles_reference.h"
+#include "tests/core/kernels/each_target.h"
+
+namespace mocap::kernels {
 namespace {
 
-constexpr int kTile = HalfPicture::kTile;
+constexpr int kTile = kTileSide;
 constexpr int kTiles = 5;
 constexpr int kStride = kTiles * kTile;
 constexpr int kPixels = kStride * kTile + kTile;  // As many as can be read.
@@ -88,7 +89,7 @@ struct SomeTiles {
   std::vector<std::uint8_t> slope;
 };
 
-TEST(TileComparison, ChiSquaresAreThoseOfThePlainDefinition) {
+TEST(TileKernels, ChiSquaresAreThoseOfThePlainDefinition) {
   const SomeTiles tiles;
   const std::array<float, kTiles> alphas = {1, 0.5f, 1.3f, 0.9f, 0.7f};
   for (int begin = 0; begin < kTiles; ++begin) {
@@ -106,7 +107,7 @@ TEST(TileComparison, ChiSquaresAreThoseOfThePlainDefinition) {
   }
 }
 
-TEST(TileComparison, ChiSquareBesideSlopeIsThatOfThePlainDefinition) {
+TEST(TileKernels, ChiSquareBesideSlopeIsThatOfThePlainDefinition) {
   const SomeTiles tiles;
   for (int tile = 0; tile < kTiles; ++tile) {
     const Plane plane = tiles.BrightnessOf(tile);
@@ -116,5 +117,52 @@ TEST(TileComparison, ChiSquareBesideSlopeIsThatOfThePlainDefinition) {
   }
 }
 
+TEST(TileKernels, BitsAreThoseOfTheReference) {
+  const SomeTiles tiles;
+  const std::array<float, kTiles> alphas = {1, 0.5f, 1.3f, 0.9f, 0.7f};
+  for (int count = 1; count <= kTiles; ++count) {
+    const auto measured = [&](const auto& measure) {
+      std::vector<float> chi_squares(static_cast<std::size_t>(count));
+      measure(tiles.From(0), count, kAllowance, alphas.data(), chi_squares.data());
+      return chi_squares;
+    };
+    ExpectSameBits([&] { return measured(reference::MeasureChiSquares); },
+                   [&] { return measured(MeasureChiSquares); });
+  }
+  for (int tile = 0; tile < kTiles; ++tile) {
+    ExpectSameBits(
+        [&] { return std::vector{reference::ChiSquareBesideSlope(tiles.From(tile), kAllowance)}; },
+        [&] { return std::vector{ChiSquareBesideSlope(tiles.From(tile), kAllowance)}; });
+  }
+}
+
+TEST(TileKernels, MeansAreMeasuredOneByOne) {
+  for (std::size_t count = 1; count < 40; ++count) {
+    Numbers numbers;
+    std::array<std::vector<float>, 8> from;
+    for (std::vector<float>& means : from) means = numbers.Floats(count, 0, 255);
+    from[0][0] = from[1][0] = from[2][0] = 0;  // Black is expected.
+    const auto measured = [&](const auto& measure) {
+      std::vector<float> results(3 * count);
+      measure(&results[0], &results[count], &results[2 * count]);
+      return results;
+    };
+    const auto at = [&](int i) { return from[i].data(); };
+    const TileMeans all{{at(3), at(4), at(5)}, {at(0), at(1), at(2)}, at(6), at(7)};
+    ExpectSameBits(
+        [&] {
+          return measured([&](float* alphas, float* tints, float* glares) {
+            for (std::size_t i = 0; i < count; ++i)
+              reference::MeasureTile(all, i, kAllowance, alphas[i], tints[i], glares[i]);
+          });
+        },
+        [&] {
+          return measured([&](float* alphas, float* tints, float* glares) {
+            MeasureTiles(all, static_cast<int>(count), kAllowance, alphas, tints, glares);
+          });
+        });
+  }
+}
+
 }  // namespace
-}  // namespace mocap
+}  // namespace mocap::kernels

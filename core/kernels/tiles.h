@@ -2,11 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "core/reconstruction/background/half_picture.h"
+#include "core/kernels/halving.h"
 
-namespace mocap {
+namespace mocap::kernels {
 
 /// Deviations of the whole picture, which do not count as a deviation of a tile.
 struct Allowance {
@@ -44,4 +45,4 @@ void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
 /// the tile, as at the soft edge of a shadow.
 float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance);
 
-}  // namespace mocap
+}  // namespace mocap::kernels

@@ -1,0 +1,142 @@
+#include "core/kernels/bit_columns.h"
+
+#include "tests/core/kernels/each_target.h"
+
+namespace mocap::kernels {
+namespace {
+
+using Words = std::vector<ColumnWord>;
+
+// Columns of rows with margins, as the kernels expect. Pixels are (column · 32 + bit, row).
+constexpr int kColumns = 3, kRows = 21, kMargin = 3, kStride = kRows + 2 * kMargin;
+constexpr int kCount = kColumns * kStride - 2 * kMargin;
+constexpr std::size_t kFirst = kStride + kMargin;
+
+Words SomeWords() {
+  Words words = Numbers(6).Integers<ColumnWord>((kColumns + 2) * kStride);
+  const Words more = Numbers(7).Integers<ColumnWord>(words.size());
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (i % 3 != 0) words[i] = i % 3 == 1 ? words[i] | more[i] : words[i] & more[i];
+  return words;
+}
+
+bool At(const Words& words, std::size_t i, int bit) {
+  // The word to the left or right holds pixels beyond this one.
+  const auto word = static_cast<std::ptrdiff_t>(i) + (bit < 0 ? -kStride : bit > 31 ? kStride : 0);
+  return (words[static_cast<std::size_t>(word)] >> (bit & 31) & 1) != 0;
+}
+
+// Writes combine(word, bit) for all pixels of some words.
+template <typename Combine>
+Words Combined(const Combine& combine) {
+  Words to((kColumns + 2) * kStride);
+  for (std::size_t i = kFirst; i < kFirst + kCount; ++i)
+    for (int bit = 0; bit < 32; ++bit) to[i] |= ColumnWord{combine(i, bit)} << bit;
+  return to;
+}
+template <typename Kernel>
+Words By(const Kernel& kernel) {
+  Words to((kColumns + 2) * kStride);
+  kernel(to.data() + kFirst);
+  return to;
+}
+
+TEST(BitColumnKernels, ColumnsGrowAndShrinkAsPixelByPixel) {
+  const Words from = SomeWords();
+  const ColumnWord* const first = &from[kFirst];
+  for (const int step : {1, 2, 3}) {
+    ExpectSameBits(
+        [&] {
+          return Combined([&](std::size_t i, int bit) {
+            return At(from, i, bit) || At(from, i, bit - step) || At(from, i, bit + step);
+          });
+        },
+        [&] {
+          return By([&](ColumnWord* to) { DilateSideways(first, kCount, kStride, step, to); });
+        });
+    ExpectSameBits(
+        [&] {
+          return Combined([&](std::size_t i, int bit) {
+            return At(from, i, bit) && At(from, i, bit - step) && At(from, i, bit + step);
+          });
+        },
+        [&] {
+          return By([&](ColumnWord* to) { ErodeSideways(first, kCount, kStride, step, to); });
+        });
+    const auto rows = static_cast<std::size_t>(step);
+    ExpectSameBits(
+        [&] {
+          return Combined([&](std::size_t i, int bit) {
+            return At(from, i, bit) || At(from, i - rows, bit) || At(from, i + rows, bit);
+          });
+        },
+        [&] { return By([&](ColumnWord* to) { DilateUpAndDown(first, kCount, step, to); }); });
+    ExpectSameBits(
+        [&] {
+          return Combined([&](std::size_t i, int bit) {
+            return At(from, i, bit) && At(from, i - rows, bit) && At(from, i + rows, bit);
+          });
+        },
+        [&] { return By([&](ColumnWord* to) { ErodeUpAndDown(first, kCount, step, to); }); });
+  }
+}
+
+TEST(BitColumnKernels, WindowsGrowAsPixelByPixel) {
+  const Words from = SomeWords();
+  for (const int step : {1, 2, 4, 16}) {
+    ExpectSameBits(
+        [&] {
+          Words to = from;
+          for (std::size_t i = kFirst; i < kFirst + kCount; ++i)
+            for (int bit = 0; bit < 32; ++bit)
+              if (!At(from, i, bit + step)) to[i] &= ~(ColumnWord{1} << bit);
+          return to;
+        },
+        [&] {
+          Words to = from;
+          WidenWindows(&to[kFirst], kCount, kStride, step);
+          return to;
+        });
+    ExpectSameBits(
+        [&] {
+          Words to = from;
+          for (int column = 0; column < kColumns; ++column) {
+            for (int row = 0; row < kRows - step; ++row) {
+              const auto i = kFirst + static_cast<std::size_t>(column * kStride + row);
+              to[i] &= from[i + static_cast<std::size_t>(step)];
+            }
+          }
+          return to;
+        },
+        [&] {
+          Words to = from;
+          HeightenWindows(&to[kFirst], kColumns, kStride, kRows, step);
+          return to;
+        });
+  }
+}
+
+TEST(BitColumnKernels, WordsAreSplitIntoHalves) {
+  for (std::size_t rows = 1; rows < 40; ++rows) {
+    const Words inside = Numbers(1).Integers<ColumnWord>(rows);
+    const Words outside = Numbers(2).Integers<ColumnWord>(rows);
+    ExpectSameBits(
+        [&] {
+          Words halves(2 * rows);
+          for (std::size_t i = 0; i < rows; ++i) {
+            halves[i] = (inside[i] & 0xffff) | (outside[i] & 0xffff) << 16;
+            halves[rows + i] = inside[i] >> 16 | outside[i] >> 16 << 16;
+          }
+          return halves;
+        },
+        [&] {
+          Words halves(2 * rows);
+          JoinInsideAndOutside(inside.data(), outside.data(), static_cast<int>(rows), halves.data(),
+                               &halves[rows]);
+          return halves;
+        });
+  }
+}
+
+}  // namespace
+}  // namespace mocap::kernels
