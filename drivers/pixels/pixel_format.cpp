@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/vectorized.h"
 #include "drivers/pixels/bayer.h"
+#include "drivers/pixels/pixel_rows.h"
 
 namespace mocap {
 namespace {
@@ -18,55 +18,11 @@ std::size_t StrideOf(const RawPicture& picture) {
                                   : LeastRowBytes(picture.format, picture.width_px);
 }
 
-std::uint8_t Clamped(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
-
 /// A row of pixels as three planes of luma and chroma, one byte per pixel each.
 struct YuvRow {
   explicit YuvRow(int width) : y(width + 1), u(width + 1), v(width + 1) {}
   std::vector<std::uint8_t> y, u, v;
 };
-
-MOCAP_VECTORIZED void ToBgr(const std::uint8_t* __restrict y, const std::uint8_t* __restrict u,
-                            const std::uint8_t* __restrict v, int width,
-                            std::uint8_t* __restrict out) {
-  for (int x = 0; x < width; ++x) {
-    const int bright = 298 * (y[x] - 16) + 128;
-    const int blue = u[x] - 128, red = v[x] - 128;
-    out[3 * x] = Clamped((bright + 516 * blue) >> 8);
-    out[3 * x + 1] = Clamped((bright - 100 * blue - 208 * red) >> 8);
-    out[3 * x + 2] = Clamped((bright + 409 * red) >> 8);
-  }
-}
-
-/// Splits four bytes of two pixels. `bright` is the index of the first Y, `colour` that of U.
-template <int bright, int colour>
-inline __attribute__((always_inline)) void Unpack(const std::uint8_t* __restrict in, int pairs,
-                                                  std::uint8_t* __restrict y,
-                                                  std::uint8_t* __restrict u,
-                                                  std::uint8_t* __restrict v) {
-  for (int i = 0; i < pairs; ++i) {
-    y[2 * i] = in[4 * i + bright];
-    y[2 * i + 1] = in[4 * i + bright + 2];
-    u[2 * i] = u[2 * i + 1] = in[4 * i + colour];
-    v[2 * i] = v[2 * i + 1] = in[4 * i + colour + 2];
-  }
-}
-
-MOCAP_VECTORIZED void UnpackYuyv(const std::uint8_t* in, int pairs, std::uint8_t* y,
-                                 std::uint8_t* u, std::uint8_t* v) {
-  Unpack<0, 1>(in, pairs, y, u, v);
-}
-MOCAP_VECTORIZED void UnpackUyvy(const std::uint8_t* in, int pairs, std::uint8_t* y,
-                                 std::uint8_t* u, std::uint8_t* v) {
-  Unpack<1, 0>(in, pairs, y, u, v);
-}
-MOCAP_VECTORIZED void UnpackPairs(const std::uint8_t* __restrict in, int pairs,
-                                  std::uint8_t* __restrict u, std::uint8_t* __restrict v) {
-  for (int i = 0; i < pairs; ++i) {
-    u[2 * i] = u[2 * i + 1] = in[2 * i];
-    v[2 * i] = v[2 * i + 1] = in[2 * i + 1];
-  }
-}
 
 std::uint8_t* Bytes(Bgr* row) { return &row->b; }
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/vectorized.h"
+#include "drivers/simulation/light_rows.h"
 #include "drivers/simulation/room_plan.h"
 
 namespace mocap::simulation {
@@ -23,26 +23,6 @@ constexpr std::array<std::uint16_t, 4> kLightLeft = {256, 220, 187, 159};
 const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3700),
                                                  Eigen::Vector3f(1600, -700, 3700),
                                                  Eigen::Vector3f(-200, 1500, 3700)};
-
-// Counts places within a rectangle that begins at `low`.
-MOCAP_VECTORIZED
-int CountWithin(const FloorPlace* places, std::size_t count, FloorPlace low, FloorPlace size) {
-  int within = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto x = static_cast<std::uint16_t>(places[i].x - low.x);
-    const auto y = static_cast<std::uint16_t>(places[i].y - low.y);
-    within += static_cast<int>(x < size.x) & static_cast<int>(y < size.y);
-  }
-  return within;
-}
-
-MOCAP_VECTORIZED
-void AverageThree(const std::uint16_t* a, const std::uint16_t* b, const std::uint16_t* c, int count,
-                  std::uint16_t* means) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    means[i] = static_cast<std::uint16_t>((a[i] + b[i] + c[i] + 1) / 3);
-}
 
 }  // namespace
 

@@ -4,33 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/vectorized.h"
+#include "drivers/simulation/light_rows.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
 namespace {
 
 constexpr int kNoiseValues = 1 << 17;
-
-// 16-bit arithmetic with 6 fractional bits, which compilers vectorize. The lamps' gain is in 64ths
-// and 16384ths.
-MOCAP_VECTORIZED void ExposeRow(const std::uint8_t* light, const std::int8_t* noise,
-                                std::uint16_t gain, std::uint16_t fine_gain, std::uint8_t* picture,
-                                int count) {
-  for (int i = 0; i < count; ++i) {
-    const std::uint16_t level = light[i];
-    const auto coarse = static_cast<std::int16_t>(level * gain);
-    const auto fine =
-        static_cast<std::uint16_t>(static_cast<std::uint16_t>(level * fine_gain) >> 8);
-    // Standard deviation 1.1 in the dark to 2.8 in white.
-    const auto amplitude = static_cast<std::int16_t>(18 + ((level * 7) >> 6));
-    const auto grain =
-        static_cast<std::int16_t>(static_cast<std::int16_t>(noise[i] * amplitude) >> 2);
-    const auto sum = static_cast<std::int16_t>(coarse + fine + grain + 32);
-    const auto value = static_cast<std::int16_t>(sum >> 6);
-    picture[i] = static_cast<std::uint8_t>(std::clamp(value, std::int16_t{0}, std::int16_t{255}));
-  }
-}
 
 }  // namespace
 
