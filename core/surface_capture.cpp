@@ -10,6 +10,7 @@
 #include "core/acquisition/model_acquirer.h"
 #include "core/acquisition/size_refiner.h"
 #include "core/tracking/evidence.h"
+#include "core/tracking/steady_pose.h"
 #include "core/tracking/tracker.h"
 
 namespace mocap {
@@ -79,7 +80,7 @@ class SurfaceCapture::Impl {
       empty_s_ = 0;
       SomebodyThere(dt_s);
     }
-    Report();
+    Report(dt_s);
     if (observer) observer->OnStageEnd(UpdateStage::kFilter);
     return result_;
   }
@@ -204,17 +205,23 @@ class SurfaceCapture::Impl {
     if (!SizesAreKnown()) ForgetPerson();
   }
 
-  void Report() {
+  void Report(double dt_s) {
     if (!tracker_) return;
     const BodyModel& body = tracker_->body();
     const PoseFilter& filter = tracker_->filter();
-    const Posture posture = body.PostureAt(filter.pose());
-    result_.pose = filter.pose();
-    result_.points_W = body.PointsAt(posture);
+    MeasureUncertainty(body, filter);
+    if (result_.state != CaptureState::kTracking) steady_.Reset();
+    result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
+    result_.points_W = body.PointsAt(body.PostureAt(result_.pose));
     result_.residual_mm = tracker_->quality().surface_mm;
+  }
+
+  void MeasureUncertainty(const BodyModel& body, const PoseFilter& filter) {
+    const Posture posture = body.PostureAt(filter.pose());
+    const BodyPoints points_W = body.PointsAt(posture);
     for (int i = 0; i < kPointCount; ++i) {
-      const Matrix3 covariance = CovarianceOf(body, posture, static_cast<Point>(i),
-                                              result_.points_W.col(i), filter.covariance());
+      const Matrix3 covariance =
+          CovarianceOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
       Eigen::SelfAdjointEigenSolver<Matrix3> axes;
       axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
       result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
@@ -225,6 +232,7 @@ class SurfaceCapture::Impl {
   BodyModel nobody_;
   Evidence evidence_;
   std::optional<Tracker> tracker_;
+  SteadyPose steady_;
   std::optional<BodySizes> known_;
   std::optional<BodySizes> given_;  ///< Known before the person was seen.
   std::optional<SizeRefiner> refiner_;
