@@ -35,20 +35,21 @@ PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
   const double still_mm2 =
       kStillMm * kStillMm * std::clamp(dt_s, kShortest_s, kLongest_s) / kStill_s;
   PoseState pose = filter.pose();
+  UpdateEquations equations;
   PointJacobian J(3, n);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Posture posture = body.PostureAt(pose);
     const BodyPoints now_W = body.PointsAt(posture);
-    PoseCovariance information = prior;
-    PoseStep gradient = prior * filter.pose().Minus(pose);
+    equations.Reset(n);
     for (int i = 0; i < kPointCount; ++i) {
       const Vector3 back_W = before_W.col(i) - now_W.col(i);
       const double scaled = back_W.norm() / std::max(kLeastMm, kNoiseShare * std_mm[i]);
-      const double weight = 1 / (still_mm2 * (1 + scaled * scaled) * (1 + scaled * scaled));
+      const double inflation = (1 + scaled * scaled) * (1 + scaled * scaled);
       body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), now_W.col(i), J);
-      information.noalias() += weight * J.transpose() * J;
-      gradient.noalias() += weight * J.transpose() * back_W;
+      equations.AddPoint(J, back_W, inflation * still_mm2);
     }
+    const PoseStep gradient = prior * filter.pose().Minus(pose) + equations.gradient();
+    const PoseCovariance information = prior + equations.information();
     pose.Add(Eigen::LLT<PoseCovariance>(information).solve(gradient));
   }
   return pose.IsFinite() ? pose : filter.pose();
