@@ -17,6 +17,7 @@ struct BoundingEdge {
   Vector3 outward_W;  ///< The person's normal at the point of contact; unit length.
   /// The ray misses the hull: another camera did not see what it grazes, so it was carved away.
   bool misses_hull = false;
+  SpreadRank rank = 0;  ///< Of the ray.
 };
 
 /// Cuts rays to bounding edges. Reuses its memory.

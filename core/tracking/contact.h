@@ -18,8 +18,10 @@ struct Contact {
   bool misses_hull = false;  ///< An edge of something that was carved away.
 };
 
-/// Selects contacts, spread evenly over a frame's surface voxels and bounding edges. Voxels come
-/// first. Reuses the memory of `contacts`.
+/// Selects contacts, spread evenly over a frame's surface voxels and bounding edges. Where nothing
+/// moves, the choice stays: otherwise a still body would tremble. Voxels come first. Reuses the
+/// memory of `contacts`.
+/// @param voxels, edges  limits for their numbers.
 void ChooseContacts(const Evidence& evidence, int voxels, int edges,
                     std::vector<Contact>& contacts);
 

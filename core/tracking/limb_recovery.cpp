@@ -24,9 +24,13 @@ constexpr std::size_t kExchangesTried = 4;
 // with the present one. Before that, a correct position costs up to this much more, a wrong one
 // less. Several positions are tried. The gain must be clear.
 constexpr double kElsewhereMm = 100;
-constexpr double kWorthDrawingMm = 1;
-constexpr std::size_t kDrawn = 2;
+constexpr double kWorthDrawingMm = 4;
+constexpr std::size_t kDrawn = 4;
 constexpr double kLimbBetterMm = 0.6;
+// A pose that costs this much less is taken at once. With a smaller gain, or if it costs at most
+// kRivalMm more, the next frames decide.
+constexpr double kSureMm = 3;
+constexpr double kRivalMm = 2;
 // Exchanged arms that cost at most this much more than the present ones may cost less once the
 // whole body is fitted, as the present one was. Their gain must be clear, because noise would
 // otherwise exchange folded arms again and again.
@@ -174,9 +178,18 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   candidates_.resize(std::min(candidates_.size(), kDrawn));
   for (Candidate& candidate : candidates_) DrawNear(body, fit, candidate);
   const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::cost_mm);
-  if (best.cost_mm > present.cost_mm - kLimbBetterMm) return false;
-  present = best;
-  return true;
+  return Offer(best, kLimbBetterMm, present);
+}
+
+bool LimbRecovery::Offer(const Candidate& offered, double least_mm, Candidate& present) {
+  if (offered.cost_mm <= present.cost_mm - (is_first_ ? least_mm : kSureMm)) {
+    present = offered;
+    return true;
+  }
+  const bool is_rival = offered.cost_mm <= present.cost_mm + kRivalMm &&
+                        (!rival_ || offered.cost_mm < rival_->cost_mm);
+  if (is_rival) rival_ = offered;
+  return false;
 }
 
 bool LimbRecovery::IsWorthSearching(double unexplained_share) const {
@@ -273,9 +286,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
     FindBest(search, StancesOf(left), present.pose, kPairRefined);
   };
   const Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
-  if (pair.cost_mm > present.cost_mm - kBetterMm) return false;
-  present = pair;
-  return true;
+  return Offer(pair, kBetterMm, present);
 }
 
 bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
@@ -288,30 +299,32 @@ bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
   Candidate pair = BestPair(body, evidence, left, right, fit, exchanged, present.pose);
   if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
   DrawNear(body, fit, pair);
-  if (pair.cost_mm > present.cost_mm - kClearlyBetterMm) return false;
-  present = pair;
-  return true;
+  return Offer(pair, kClearlyBetterMm, present);
 }
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
                                                SurfaceFit& fit, const PoseState& pose,
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
-  const bool is_first = std::exchange(is_first_, false);
-  allowance_ = is_first ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
+  rival_.reset();
+  allowance_ = is_first_ ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
   const double share = quality.unexplained_share;
   if (share < kUnexplainedShare) StartOver();
   const bool searches = allowance_ > 0 && IsWorthSearching(share);
   if (searches && next_ == 0) begun_share_ = share;
   const bool exchanges = HandsMeetAnew(body, pose);
-  if (!searches && !exchanges && !is_first) return std::nullopt;
+  if (!searches && !exchanges && !is_first_) return std::nullopt;
   ChooseContacts(evidence, kVoxels, kEdges, contacts_);
   matcher_.SetContacts(contacts_);
   Candidate present{pose, 0};
   DrawNear(body, fit, present);
   bool changed = searches && RecoverLost(body, evidence, fit, present);
   if (exchanges) changed |= Exchange(body, evidence, kPairs[0], fit, present);
-  if (is_first) changed |= Exchange(body, evidence, kPairs[1], fit, present);
+  if (is_first_) {
+    changed |= Exchange(body, evidence, kPairs[1], fit, present);
+    changed |= RecoverPair(body, evidence, kPairs[0], fit, present);
+  }
+  is_first_ = false;
   if (!changed) return std::nullopt;
   return present.pose;
 }

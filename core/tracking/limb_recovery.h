@@ -21,15 +21,15 @@ namespace mocap {
 /// help, both arms or both legs are tried together, because each may have taken the other's place.
 /// After a failed search, it rests until more of the outline is unexplained, or for a time that is
 /// shorter if there is more. Arms whose hands are close together are also tried exchanged, even if
-/// everything is explained, and again whenever the hands have moved. So are the legs at the first
-/// call. Only what the rest of the body does not explain is matched, so that a stance costs
-/// microseconds. Reuses its memory.
+/// everything is explained, and again whenever the hands have moved. At the first call, legs are
+/// tried exchanged, and both arms are searched, whatever is explained. Only what the rest of the
+/// body does not explain is matched, so that a stance costs microseconds. Reuses its memory.
 class LimbRecovery {
  public:
   explicit LimbRecovery(const BodyTable& table);
 
   /// Searches for a pose that explains clearly more of the evidence than `pose`, with limbs in
-  /// other positions.
+  /// other positions. At the first call less will do, because there is nothing to lose.
   /// @param fit      holds the evidence.
   /// @param quality  of the fit at that pose.
   /// @param dt_s     time since the last call; it limits the extent of the search. The first call
@@ -38,11 +38,15 @@ class LimbRecovery {
                                    const PoseState& pose, const SurfaceFitQuality& quality,
                                    double dt_s);
 
- private:
   struct Candidate {
     PoseState pose;
     double cost_mm;
   };
+  /// The best pose that the last call tried and did not return, if it costs about as much as `pose`
+  /// or less: the next frames will show which is right.
+  const std::optional<Candidate>& rival() const { return rival_; }
+
+ private:
   // A stance of one limb of a pair.
   struct Option {
     PoseState pose;
@@ -77,6 +81,9 @@ class LimbRecovery {
 
   // Fits the whole body to the evidence, starting at a candidate's pose.
   static void DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate);
+  // Replaces `present` by a pose that costs less by `margin_mm`. One that does not may be the
+  // rival.
+  bool Offer(const Candidate& offered, double margin_mm, Candidate& present);
 
   // These fill candidates_: the limb in each stance, the cheapest first;
   template <typename Cost>
@@ -97,13 +104,14 @@ class LimbRecovery {
 
   std::vector<JointAngles> arm_stances_;
   std::vector<JointAngles> leg_stances_;
-  bool is_first_ = true;                ///< Nobody was searched yet.
-  std::size_t next_ = 0;                ///< Limb, or pair after the limbs, to search next.
-  bool is_in_vain_ = true;              ///< The search so far.
-  double allowance_ = 0;                ///< Number of limbs that may be searched in this frame.
-  double rest_s_ = 0;                   ///< Until a failed search is repeated.
-  double begun_share_ = 0;              ///< Unexplained share of the outline when the search began,
-  double vain_share_ = 0;               ///< and when the last failed one began.
+  bool is_first_ = true;    ///< Nobody was searched yet.
+  std::size_t next_ = 0;    ///< Limb, or pair after the limbs, to search next.
+  bool is_in_vain_ = true;  ///< The search so far.
+  double allowance_ = 0;    ///< Number of limbs that may be searched in this frame.
+  double rest_s_ = 0;       ///< Until a failed search is repeated.
+  double begun_share_ = 0;  ///< Unexplained share of the outline when the search began,
+  double vain_share_ = 0;   ///< and when the last failed one began.
+  std::optional<Candidate> rival_;
   std::optional<Vector3> hands_met_T_;  ///< From right to left, when exchanged arms were tried.
   std::vector<Contact> contacts_;
   ContactMatcher matcher_;

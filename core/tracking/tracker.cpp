@@ -5,6 +5,8 @@ namespace {
 
 // Larger differences between motion and prediction are out of reach of the fit.
 constexpr double kLeapMm = 50;
+// A rival is replaced by another one that costs this much less.
+constexpr double kBetterRivalMm = 0.5;
 constexpr double kStartStdMm = 50;
 constexpr double kStartStdRad = 0.3;
 
@@ -42,11 +44,27 @@ void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {
 
 void Tracker::FollowSurface(const Evidence& evidence, double dt_s) {
   FitSurface();
+  if (rival_) FollowRival(dt_s);
   if (const auto recovered =
           limb_recovery_.Recover(body_, evidence, surface_fit_, filter_.pose(), quality_, dt_s)) {
     filter_.Jump(*recovered);
     FitSurface();
+    rival_.reset();
+  } else if (const auto& found = limb_recovery_.rival();
+             found && (!rival_ || found->cost_mm < rival_->cost_mm() - kBetterRivalMm)) {
+    rival_.emplace(filter_, found->pose, found->cost_mm);
   }
+}
+
+void Tracker::FollowRival(double dt_s) {
+  const RivalPose::Rank rank =
+      rival_->Follow(body_, surface_fit_, filter_.pose(), quality_.Cost(), dt_s);
+  if (rank == RivalPose::Rank::kUndecided) return;
+  if (rank == RivalPose::Rank::kBetter) {
+    filter_ = rival_->filter();
+    quality_ = surface_fit_.QualityAt(body_, filter_.pose());
+  }
+  rival_.reset();
 }
 
 void Tracker::FitSurface() {

@@ -7,6 +7,7 @@
 #include "core/tracking/evidence.h"
 #include "core/tracking/limb_recovery.h"
 #include "core/tracking/pose_filter.h"
+#include "core/tracking/rival_pose.h"
 #include "core/tracking/surface_fit.h"
 
 namespace mocap {
@@ -39,12 +40,14 @@ class Tracker {
   // better.
   void FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W);
   void FollowSurface(const Evidence& evidence, double dt_s);
+  void FollowRival(double dt_s);
   void FitSurface();  // Also measures the quality.
 
   BodyModel body_;
   PoseFilter filter_;
   SurfaceFit surface_fit_;
   LimbRecovery limb_recovery_;
+  std::optional<RivalPose> rival_;
   std::optional<Vector3> middle_W_;  ///< Of the voxels of the previous frame.
   SurfaceFitQuality quality_;
 };

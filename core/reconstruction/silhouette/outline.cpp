@@ -22,9 +22,9 @@ std::uint64_t BorderWord(const Silhouette& silhouette, int y, int word) {
   return row[word] & ~inner;
 }
 
-// Calls `visit` for the words of the border, row by row, without pixels near the picture's edge.
+// Visits the border's pixels row by row, without those near the picture's edge.
 template <typename Visit>
-void ForEachBorderWord(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
+void ForEachBorderPixel(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
   constexpr int kMargin_px = kWindow_px + 1;
   const int left = std::max(box.left, kMargin_px);
   const int right = std::min(box.right, silhouette.width() - 1 - kMargin_px);
@@ -37,7 +37,7 @@ void ForEachBorderWord(const Silhouette& silhouette, const PixelBox& box, const 
       std::uint64_t bits = BorderWord(silhouette, y, word);
       if (word == left / 64) bits &= all << left % 64;
       if (word == right / 64) bits &= all >> (63 - right % 64);
-      if (bits != 0) visit(word * 64, y, bits);
+      for (; bits != 0; bits &= bits - 1) visit(word * 64 + std::countr_zero(bits), y);
     }
   }
 }
@@ -95,11 +95,11 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
   outline.clear();
   const std::optional<PixelBox> box = silhouette.BoundingBox();
   if (!box) return;
-  std::int64_t length_px = 0;
-  ForEachBorderWord(silhouette, *box,
-                    [&](int, int, std::uint64_t bits) { length_px += std::popcount(bits); });
+  SpreadChoice choice;
+  ForEachBorderPixel(silhouette, *box, [&](int x, int y) { choice.Add(RankOfPixel(x, y)); });
+  const std::uint64_t limit = choice.LimitFor(static_cast<std::size_t>(most));
   const RigidTransform X_WC = X_CW.Inverse();
-  const GrazingRay empty{X_WC.p, Vector3::UnitZ(), Vector3::Zero()};
+  const GrazingRay empty{X_WC.p, Vector3::UnitZ(), Vector3::Zero(), 0};
   const auto trace = [&](int x, int y) {
     const std::optional<Vector2> outward = OutwardAt(silhouette, x, y);
     if (!outward) return empty;
@@ -110,22 +110,24 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
     const auto beside_C = DirectionOf(camera.lens, place + along);
     if (!ray_C || !beside_C) return empty;
     const Vector3 outward_C = beside_C->cross(*ray_C).normalized();
-    return GrazingRay{X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C};
+    return GrazingRay{X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C, 0};
   };
-  std::int64_t index = 0, taken = 0;
-  ForEachBorderWord(silhouette, *box, [&](int first_x, int y, std::uint64_t bits) {
-    for (; bits != 0; bits &= bits - 1, ++index) {
-      if (index * most < taken * length_px) continue;
-      ++taken;
-      outline.push_back(trace(first_x + std::countr_zero(bits), y));
-    }
+  ForEachBorderPixel(silhouette, *box, [&](int x, int y) {
+    const SpreadRank rank = RankOfPixel(x, y);
+    if (rank >= limit) return;
+    outline.push_back(trace(x, y));
+    outline.back().rank = rank;
   });
 }
 
 void ThinOutline(const Outline& dense, int step, Outline& thin) {
   thin.clear();
-  for (std::size_t i = 0; i < dense.size(); i += static_cast<std::size_t>(step))
-    if (!dense[i].empty()) thin.push_back(dense[i]);
+  SpreadChoice choice;
+  for (const GrazingRay& ray : dense) choice.Add(ray.rank);
+  const auto parts = static_cast<std::size_t>(step);
+  const std::uint64_t limit = choice.LimitFor((dense.size() + parts - 1) / parts);
+  for (const GrazingRay& ray : dense)
+    if (ray.rank < limit && !ray.empty()) thin.push_back(ray);
 }
 
 }  // namespace mocap

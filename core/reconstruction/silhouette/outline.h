@@ -6,6 +6,7 @@
 
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/silhouette.h"
+#include "core/spread_choice.h"
 
 namespace mocap {
 
@@ -14,6 +15,7 @@ struct GrazingRay {
   Vector3 eye_W;
   Vector3 direction_W;  ///< Unit length, away from the camera.
   Vector3 outward_W;    ///< The surface's normal where the ray touches it; unit length.
+  SpreadRank rank = 0;  ///< Of the border's pixel.
 
   /// Whether the border has no direction there, or the lens does not cover the position.
   bool empty() const { return outward_W == Vector3::Zero(); }
@@ -22,15 +24,16 @@ struct GrazingRay {
 /// The person's border in one camera.
 using Outline = std::vector<GrazingRay>;
 
-/// Traces a silhouette's border, holes included, by evenly spread rays. At the picture's edge the
-/// border is not the person's and gives no rays. Empty rays are kept, so that every n-th ray equals
-/// a trace with n times fewer rays.
+/// Traces a silhouette's border, holes included, by evenly spread rays. A part of the border that
+/// stays keeps its rays. At the picture's edge the border is not the person's and gives no rays.
+/// Empty rays are kept, so that ThinOutline yields the trace with fewer rays.
 /// @param most  limit for the number of rays.
 /// @param outline  overwritten; its memory is reused.
 void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
                   const Silhouette& silhouette, int most, Outline& outline);
 
-/// Copies every `step`-th ray that is not empty; reuses the memory of `thin`.
+/// Copies the `step`-th part of the rays, evenly spread, without empty ones; reuses the memory of
+/// `thin`.
 void ThinOutline(const Outline& dense, int step, Outline& thin);
 
 }  // namespace mocap

@@ -277,8 +277,8 @@ TEST_F(Fit, LimbsOfABodyThatIsNotDrawnYetStayWhereTheyAre) {
 }
 
 TEST_F(Fit, AtTheFirstLookCrossedLegsAreToldFromStraightOnesThatLookAlike) {
-  constexpr LegStance kFront{.hip = 15, .spread = -8, .knee = 40};
-  constexpr LegStance kBack{.hip = -15, .spread = -8, .knee = 40};
+  constexpr LegStance kFront{.hip = 10, .spread = -8, .knee = 40};
+  constexpr LegStance kBack{.hip = -10, .spread = -8, .knee = 40};
   const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
   const Evidence evidence = studio_.Show(body_, truth);
   const PoseState crossed = FitFromStance(evidence, {.leg_l = kBack, .leg_r = kFront});

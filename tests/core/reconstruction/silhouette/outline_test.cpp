@@ -54,7 +54,24 @@ TEST(Outline, RaysGrazeWhatTheLensShows) {
   }
 }
 
-TEST(Outline, EverySecondRayIsOneOfHalfAsMany) {
+TEST(Outline, KeepsItsRaysWhereNothingChanges) {
+  const CameraCalibration camera = DistortedCameras()[0].calibration;
+  Silhouette silhouette = SphereSeenBy(camera);
+  Outline before, after;
+  TraceOutline(camera, RigidTransform{}, silhouette, 100, before);
+  for (int y = 20; y < 32; ++y)
+    for (int x = 20; x < 32; ++x) silhouette.Set(x, y);
+  TraceOutline(camera, RigidTransform{}, silhouette, 100, after);
+  const auto is_old = [&](const GrazingRay& ray) {
+    return std::ranges::any_of(before, [&](const GrazingRay& old) {
+      return old.rank == ray.rank && old.direction_W == ray.direction_W;
+    });
+  };
+  // What is new has a tenth of the border.
+  EXPECT_GE(std::ranges::count_if(after, is_old), 80);
+}
+
+TEST(Outline, EveryThirdPartIsATraceOfAThirdAsMany) {
   const CameraCalibration camera = DistortedCameras()[0].calibration;
   const RigidTransform X_CW{ExpRotation(Vector3(0.3, -0.8, 0.2)), Vector3(100, 200, 300)};
   const Silhouette sphere = SphereSeenBy(camera);
