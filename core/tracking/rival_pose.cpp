@@ -10,7 +10,7 @@ namespace {
 constexpr double kMostLeadMm = 2;
 constexpr double kClearLeadMm_s = 0.12;
 // What is not decided by then is not worth the time.
-constexpr double kLongest_s = 1;
+constexpr double kLongest_s = 0.4;
 // Poses whose points have a smaller mean distance than this are equal.
 constexpr double kSameMm = 30;
 
