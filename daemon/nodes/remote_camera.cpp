@@ -62,7 +62,6 @@ CameraStatus RemoteCamera::Status() const {
   counters_.Fill(status);
   status.name = inbox_.calibration.name;
   status.node = inbox_.node;
-  status.dropped += inbox_.queue.dropped();
   return status;
 }
 

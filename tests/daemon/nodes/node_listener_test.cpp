@@ -163,6 +163,18 @@ TEST_F(NodeListenerTest, WhatTheNetworkLosesIsCounted) {
   EXPECT_EQ(remote_[0]->Status().dropped, 2);
 }
 
+TEST_F(NodeListenerTest, WhatWaitedTooLongIsCountedOnce) {
+  constexpr int kSent = 11, kWait = 8;
+  Send(0);
+  HearAll();
+  EXPECT_TRUE(Receive(0));
+  for (int i = 0; i < kSent; ++i) Send(0);
+  HearAll();
+  for (int i = 0; i < kWait; ++i) EXPECT_TRUE(Receive(0));
+  EXPECT_EQ(remote_[0]->Status().frames, 1 + kWait);
+  EXPECT_EQ(remote_[0]->Status().dropped, kSent - kWait);
+}
+
 TEST_F(NodeListenerTest, ANodeThatStartsAnewHasLostNothing) {
   Send(0);
   HearAll();
