@@ -40,11 +40,12 @@ HostClock::HostClock(std::function<ClockReading()> read)
 
 std::int64_t HostClock::OffsetNs(const ClockReading& now) {
   const std::int64_t offset_ns = BaseOf(now) - base_ns_;
-  const std::int64_t known_ns = offset_ns_.load(std::memory_order_relaxed);
+  const std::int64_t known_ns = offset_ns_.load(std::memory_order_acquire);
   if (std::abs(offset_ns - known_ns) <= kNoise_ns + now.width_ns) return known_ns;
   offset_before_ns_.store(known_ns, std::memory_order_relaxed);
   step_noticed_ns_.store(now.monotonic_ns, std::memory_order_relaxed);
-  offset_ns_.store(offset_ns, std::memory_order_relaxed);
+  // Last: who reads the new offset also reads when and from what it changed.
+  offset_ns_.store(offset_ns, std::memory_order_release);
   return offset_ns;
 }
 

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <utility>
 
-#include "core/errors.h"
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recorder.h"
 #include "daemon/service/metrics_file.h"
@@ -67,7 +67,7 @@ void Watch::Reload() {
     around_.manager.BeginReload();
     try {
       around_.control.Reload();
-    } catch (const SetupError& error) {
+    } catch (const std::exception& error) {
       spdlog::error("the configuration is unchanged: {}", error.what());
     }
     around_.manager.EndReload();
