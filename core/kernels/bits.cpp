@@ -73,24 +73,6 @@ void DilateAlong(BitWord* words, std::size_t count, std::size_t per_row, int rad
   CombineAlong<false>(words, count, per_row, radius);
 }
 
-// A word's pixels and their neighbours.
-HWY_INLINE BitWord Near(const BitWord* plane, std::ptrdiff_t stride) {
-  const BitWord above = plane[-stride], below = plane[stride];
-  const BitWord here = above | plane[0] | below;
-  const BitWord before = plane[-1 - stride] | plane[-1] | plane[-1 + stride];
-  const BitWord next = plane[1 - stride] | plane[1] | plane[1 + stride];
-  return here | here << 1 | here >> 1 | before >> 63 | next << 63;
-}
-
-void KeepPlanesApart(const BitWord* person, const BitWord* background, std::ptrdiff_t stride,
-                     std::ptrdiff_t count, BitWord* __restrict inside,
-                     BitWord* __restrict outside) {
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    inside[i] = person[i] & ~Near(background + i, stride);
-    outside[i] = background[i] & ~Near(person + i, stride);
-  }
-}
-
 }  // namespace
 }  // namespace mocap::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -126,12 +108,6 @@ void KeepCommonAlong(BitWord* words, std::size_t count, std::size_t per_row, int
 HWY_EXPORT(DilateAlong);
 void AddAllAlong(BitWord* words, std::size_t count, std::size_t per_row, int radius) {
   HWY_DYNAMIC_DISPATCH(DilateAlong)(words, count, per_row, radius);
-}
-
-HWY_EXPORT(KeepPlanesApart);
-void KeepApart(const BitWord* person, const BitWord* background, std::ptrdiff_t stride,
-               std::ptrdiff_t count, BitWord* inside, BitWord* outside) {
-  HWY_DYNAMIC_DISPATCH(KeepPlanesApart)(person, background, stride, count, inside, outside);
 }
 
 }  // namespace mocap::kernels

@@ -28,11 +28,4 @@ void KeepCommonAlong(BitWord* words, std::size_t count, std::size_t per_row, int
 /// Adds the neighbours to the left and right, within rows.
 void AddAllAlong(BitWord* words, std::size_t count, std::size_t per_row, int radius);
 
-/// Writes the pixels of each of two planes that do not touch the other plane, not even diagonally.
-/// @param stride   words from one row to the next. An empty word separates rows, and empty rows
-///                 are readable above and below.
-/// @param count    words, of all rows.
-void KeepApart(const BitWord* person, const BitWord* background, std::ptrdiff_t stride,
-               std::ptrdiff_t count, BitWord* inside, BitWord* outside);
-
 }  // namespace mocap::kernels

@@ -15,30 +15,19 @@ namespace mocap::kernels {
 void AddValues(const std::uint8_t* values, int count, float gain, float times, float* sum,
                float* sum_sq);
 
-/// Means and variances of pixels, per channel.
-struct PixelStatistics {
-  std::array<const float*, 3> mean, variance;
-};
-
-/// Adds the squared distortions of pixels to sums, which stay positive.
-void AddDistortions(const Bgr* pixels, int count, const std::array<float, 3>& gain, float times,
-                    const PixelStatistics& expected, float* alpha_shift_sq, float* cd_sq);
-
 /// Sums over the frames of a recording.
 struct PixelSums {
   std::array<const float*, 3> value, value_sq;
-  const float *alpha_shift_sq, *cd_sq;
 };
 struct LearnedPixels {
   std::array<float*, 3> mean, variance;
-  float* alpha_limit;
   const std::uint8_t* slope;
 };
 
 /// Near black, a colour has no direction: means are at least this.
 inline constexpr float kDarkestMean = 1;
 
-/// Derives means, variances and limits of the brightness distortion from sums.
+/// Derives means and variances from sums.
 /// @param shift_px  contours are expected to shift by this much.
 void ExpectPixels(const PixelSums& sums, int count, float frames, float shift_px,
                   const LearnedPixels& to);
@@ -46,7 +35,6 @@ void ExpectPixels(const PixelSums& sums, int count, float frames, float shift_px
 /// What pixels are weighed by.
 struct WeighedFrom {
   std::array<const float*, 3> mean, variance;
-  const float* alpha_limit;
   const std::uint8_t* slope;
 };
 

@@ -14,7 +14,7 @@ namespace mocap::kernels::HWY_NAMESPACE {
 namespace {
 
 constexpr int kTile = kTileSide;
-constexpr float kArea = kTile * kTile;
+constexpr float kArea = kTilePixels;
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -120,8 +120,8 @@ void HalveWholeTiles(const std::uint8_t* from, std::ptrdiff_t stride, int count,
   for (int end = 2; end < count + 2; end += 2) {
     const int tile = std::min(end, count) - 2;
     Columns columns = {hn::Zero(kShorts), hn::Zero(kShorts), hn::Zero(kShorts)};
-    for (int y = 0; y < kTile; ++y) {
-      const std::uint8_t* const top = from + 2 * y * stride + tile * kTile * 6;
+    for (int y = 0; y < kTileRows; ++y) {
+      const std::uint8_t* const top = from + kRowStep_px * y * stride + tile * kTile * 6;
       const int i = y * width + tile * kTile;
       HalveStrip(top, top + stride, b + i, g + i, r + i, columns);
     }
@@ -136,8 +136,7 @@ void HalveWholeTiles(const std::uint8_t* from, std::ptrdiff_t stride, int count,
 void AverageRowOfTiles(const std::uint8_t* pixels, int width, std::uint16_t* columns,
                        float* means) {
   for (int x = 0; x < width; ++x)
-    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x] + pixels[2 * width + x] +
-                                            pixels[3 * width + x]);
+    columns[x] = static_cast<std::uint16_t>(pixels[x] + pixels[width + x]);
   for (int i = 0; i < width / kTile; ++i)
     means[i] = static_cast<float>(columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] +
                                   columns[4 * i + 3]) /
@@ -146,15 +145,13 @@ void AverageRowOfTiles(const std::uint8_t* pixels, int width, std::uint16_t* col
 
 void AverageRowOfVariances(const float* variance, const std::uint8_t* slope, int width,
                            float* columns, float* mean_variance, float* mean_slope_sq) {
-  for (int x = 0; x < width; ++x)
-    columns[x] =
-        variance[x] + variance[width + x] + variance[2 * width + x] + variance[3 * width + x];
+  for (int x = 0; x < width; ++x) columns[x] = variance[x] + variance[width + x];
   for (int i = 0; i < width / kTile; ++i)
     mean_variance[i] =
         (columns[4 * i] + columns[4 * i + 1] + columns[4 * i + 2] + columns[4 * i + 3]) / kArea;
   for (int x = 0; x < width; ++x) {
     columns[x] = 0;
-    for (int y = 0; y < kTile; ++y)
+    for (int y = 0; y < kTileRows; ++y)
       columns[x] += static_cast<float>(slope[y * width + x] * slope[y * width + x]);
   }
   for (int i = 0; i < width / kTile; ++i)

@@ -1,4 +1,5 @@
-// §4: pictures at half the resolution, and means of their tiles.
+// §4: pictures at half the resolution, and means of their tiles. Of each four rows, the first two
+// are read: that halves the time for memory, and nothing that is three pixels high lies between.
 #pragma once
 
 #include <array>
@@ -7,8 +8,12 @@
 
 namespace mocap::kernels {
 
-/// Side of a tile, in pixels of the half picture.
+/// Width of a tile, in pixels of the half picture, and its rows there.
 inline constexpr int kTileSide = 4;
+inline constexpr int kTileRows = 2;
+inline constexpr int kTilePixels = kTileSide * kTileRows;
+/// Rows of the picture from one row of the half picture to the next.
+inline constexpr int kRowStep_px = 4;
 
 /// Averages a byte of two adjacent pixels and of the two below.
 inline std::uint8_t MeanOfFour(const std::uint8_t* top, const std::uint8_t* bottom) {
@@ -28,12 +33,12 @@ struct HalvedTiles {
 void HalveTiles(const std::uint8_t* from, std::ptrdiff_t stride, int count, const HalvedTiles& to);
 
 /// Averages a row of tiles of one channel.
-/// @param pixels   kTileSide rows of `width` pixels.
+/// @param pixels   kTileRows rows of `width` pixels.
 /// @param columns  scratch memory for a row.
 void AverageTiles(const std::uint8_t* pixels, int width, std::uint16_t* columns, float* means);
 
 /// Averages variances, and squares of slopes, in a row of tiles.
-/// @param variance, slope  kTileSide rows of `width` pixels.
+/// @param variance, slope  kTileRows rows of `width` pixels.
 /// @param columns          scratch memory for a row.
 void AverageVariances(const float* variance, const std::uint8_t* slope, int width, float* columns,
                       float* mean_variance, float* mean_slope_sq);

@@ -24,8 +24,8 @@ inline constexpr int kGainBits = 8;
 
 /// Adds a row of pixels. Gradients are doubled. Differences that no displacement explains do not
 /// count, and neither do pixels with a variance of `unknown` or more.
-/// @param stride  from the row of `expected` to the next; one row above and below is readable, and
-///                one pixel beside.
+/// @param stride  from the row of `expected` to the next; two rows above and below are readable,
+///                and one pixel beside.
 void AddGradients(const std::uint8_t* live, const std::uint8_t* expected, const float* variance,
                   int stride, int gain, float unknown, int count, GradientSums& sums);
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/kernels/tiles_reference.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/kernels/tiles.cpp"
 #include "core/kernels/each_target.h"
@@ -14,53 +12,16 @@ namespace mocap::kernels::HWY_NAMESPACE {
 namespace {
 
 constexpr int kTile = kTileSide;
-constexpr float kArea = kTile * kTile;
+constexpr float kArea = kTilePixels;
 
-// Deviations of adjacent pixels from pixel `i` on, in variances.
-template <typename D, typename V = hn::Vec<D>>
-HWY_INLINE V ChiSquares(D d, const TilePixels& tiles, std::ptrdiff_t i, const Allowance& allowance,
-                        V alphas) {
-  V squares = hn::Zero(d);
-  for (int c = 0; c < 3; ++c) {
-    const V difference = hn::Set(d, allowance.gain[c]) * LoadAsFloats(d, tiles.live[c] + i) -
-                         alphas * LoadAsFloats(d, tiles.expected[c] + i);
-    squares = squares + difference * difference;
-  }
-  const V slope = LoadAsFloats(d, tiles.slope + i);
-  return squares / (hn::LoadU(d, tiles.variance + i) + hn::Set(d, allowance.drift_sq) +
-                    hn::Set(d, allowance.shift_sq) * slope * slope);
-}
-
-// Two tiles are measured at once.
-void MeasureAllChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
-                          const float* alphas, float* chi_squares) {
-  constexpr FloatsUpTo<2 * kTile> d;
-  const Allowance allowed = allowance;  // A copy: the compiler must expect aliasing results.
-  for (int i = 0; i < count; i += 2) {
-    const bool is_last = i + 1 == count;
-    alignas(32) std::array<float, 2 * kTile> alpha, columns;
-    std::fill_n(alpha.begin(), kTile, alphas[i]);
-    std::fill_n(alpha.begin() + kTile, kTile, alphas[is_last ? i : i + 1]);
-    for (std::size_t k = 0; k < 2 * kTile; k += hn::MaxLanes(d)) {
-      const auto both = hn::Load(d, &alpha[k]);
-      auto sums = hn::Zero(d);
-      for (int y = 0; y < kTile; ++y)
-        sums = sums + ChiSquares(d, tiles, i * kTile + y * tiles.stride + k, allowed, both);
-      hn::Store(sums, d, &columns[k]);
-    }
-    chi_squares[i] = (columns[0] + columns[1] + columns[2] + columns[3]) / kArea;
-    if (is_last) break;
-    chi_squares[i + 1] = (columns[4] + columns[5] + columns[6] + columns[7]) / kArea;
-  }
-}
-
-void MeasureAllTiles(const TileMeans& tiles, int count, const Allowance& allowance, float* alphas,
-                     float* tints, float* glares) {
+void MeasureAllTiles(const TileMeans& tiles, int count, const Allowance& allowance,
+                     const TileDeviations& to) {
   const auto [gain0, gain1, gain2] = allowance.gain;
   const float drift_sq = allowance.drift_sq, shift_sq = allowance.shift_sq;
   const auto [l0, l1, l2] = tiles.live;
   const auto [e0, e1, e2] = tiles.expected;
   const float *const variances = tiles.variance, *const slope_sq = tiles.slope_sq;
+  const auto [alphas, tints, glares, weights] = to;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const float c0 = gain0 * l0[i], c1 = gain1 * l1[i], c2 = gain2 * l2[i];
@@ -72,63 +33,71 @@ void MeasureAllTiles(const TileMeans& tiles, int count, const Allowance& allowan
     alphas[i] = alpha;
     tints[i] = (d0 * d0 + d1 * d1 + d2 * d2) * weight;
     glares[i] = bright * bright * square * weight;
+    weights[i] = weight;
   }
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-float ChiSquareOfPlane(const TilePixels& tile, const Allowance& allowance) {
-  return reference::ChiSquareBesideSlope(tile, allowance);
-}
-
-#else
-
-using Row = hn::Vec<hn::FixedTag<float, kTile>>;
-
-HWY_INLINE float SumOf(Row row) {
-  const Row sums = row + hn::Shuffle1032(row);
-  return hn::GetLane(sums) + hn::GetLane(hn::Shuffle2301(sums));
-}
-
-// The brightness distortion of a row of pixels.
-HWY_INLINE Row AlphasOf(const TilePixels& tile, std::ptrdiff_t i, const Allowance& allowance) {
-  constexpr hn::FixedTag<float, kTile> d;
-  Row along = hn::Zero(d), square = hn::Set(d, 1);
-  for (int c = 0; c < 3; ++c) {
-    const Row expected = LoadAsFloats(d, tile.expected[c] + i);
-    along = along + hn::Set(d, allowance.gain[c]) * LoadAsFloats(d, tile.live[c] + i) * expected;
-    square = square + expected * expected;
+void MeasureAllChiSquares(const TilePixels& tiles, int count, const std::array<float, 3>& gain,
+                          const float* alphas, const float* weights, float* scratch,
+                          float* chi_squares) {
+  const int width = count * kTile;
+  float *const alpha = scratch, *const columns = scratch + width;
+  for (int x = 0; x < width; ++x) alpha[x] = alphas[x / kTile];
+  std::fill_n(columns, width, 0.0f);
+  for (int y = 0; y < kTileRows; ++y) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint8_t* const live = tiles.live[c] + y * tiles.stride;
+      const std::uint8_t* const expected = tiles.expected[c] + y * tiles.stride;
+      const float channel_gain = gain[c];
+#pragma GCC ivdep
+      for (int x = 0; x < width; ++x) {
+        const float difference = channel_gain * live[x] - alpha[x] * expected[x];
+        columns[x] += difference * difference;
+      }
+    }
   }
-  return along / square;
-}
-
-float ChiSquareOfPlane(const TilePixels& tile, const Allowance& allowance) {
-  // The sum of x² over a tile's pixels, relative to its centre.
-  constexpr float kSpread = kArea * (kArea - 1) / 12;
-  constexpr std::array<float, kTile> kFromMiddle = {-1.5f, -0.5f, 0.5f, 1.5f};
-  constexpr hn::FixedTag<float, kTile> d;
-  const Row right = hn::LoadU(d, kFromMiddle.data());
-  Row rows[kTile];
-  for (int y = 0; y < kTile; ++y) rows[y] = AlphasOf(tile, y * tile.stride, allowance);
-  // Fits a plane to the tile. Rows two apart are summed first.
-  const Row first = rows[0] + rows[2], second = rows[1] + rows[3];
-  const float middle = SumOf(first + second) / kArea;
-  const float to_right = SumOf(first * right + second * right) / kSpread;
-  const float to_bottom =
-      SumOf((rows[0] * hn::Set(d, kFromMiddle[0]) + rows[2] * hn::Set(d, kFromMiddle[2])) +
-            (rows[1] * hn::Set(d, kFromMiddle[1]) + rows[3] * hn::Set(d, kFromMiddle[3]))) /
-      kSpread;
-  Row squares[kTile];
-  for (int y = 0; y < kTile; ++y) {
-    Row plane = hn::Set(d, middle) + hn::Set(d, to_right) * right +
-                hn::Set(d, to_bottom * kFromMiddle[y % 2]);
-    if (y >= 2) plane = plane + hn::Set(d, 2 * to_bottom);
-    squares[y] = ChiSquares(d, tile, y * tile.stride, allowance, plane);
+  for (int i = 0; i < count; ++i) {
+    const float* const c = columns + i * kTile;
+    chi_squares[i] = (c[0] + c[1] + c[2] + c[3]) / kArea * weights[i];
   }
-  return SumOf((squares[0] + squares[2]) + (squares[1] + squares[3])) / kArea;
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+// Places of a tile's pixels, from its centre.
+HWY_INLINE float RightOf(int i) { return static_cast<float>(i % kTile) - (kTile - 1) / 2.0f; }
+HWY_INLINE float Below(int i) { return static_cast<float>(i / kTile) - (kTileRows - 1) / 2.0f; }
+
+float ChiSquareOfPlane(const TilePixels& tile, const std::array<float, 3>& gain, float weight) {
+  // Sums of x² and of y² over a tile's pixels, relative to its centre.
+  constexpr float kSpreadX = kArea * (kTile * kTile - 1) / 12;
+  constexpr float kSpreadY = kArea * (kTileRows * kTileRows - 1) / 12;
+  std::array<float, kTilePixels> along{}, square{}, squares{};
+  float middle = 0, to_right = 0, to_bottom = 0;
+  for (int i = 0; i < kTilePixels; ++i) {
+    square[i] = 1;
+    for (int c = 0; c < 3; ++c) {
+      const int at = i / kTile * tile.stride + i % kTile;
+      const float expected = tile.expected[c][at];
+      along[i] += gain[c] * tile.live[c][at] * expected;
+      square[i] += expected * expected;
+    }
+  }
+  for (int i = 0; i < kTilePixels; ++i) {
+    const float alpha = along[i] / square[i];
+    middle += alpha, to_right += alpha * RightOf(i), to_bottom += alpha * Below(i);
+  }
+  const float downwards = std::clamp(to_bottom / kSpreadY, -kSteepestShadow, kSteepestShadow);
+  float sum = 0;
+  for (int i = 0; i < kTilePixels; ++i) {
+    const float plane = middle / kArea + to_right / kSpreadX * RightOf(i) + downwards * Below(i);
+    for (int c = 0; c < 3; ++c) {
+      const int at = i / kTile * tile.stride + i % kTile;
+      const float difference = gain[c] * tile.live[c][at] - plane * tile.expected[c][at];
+      squares[i] += difference * difference;
+    }
+    sum += squares[i];
+  }
+  return sum / kArea * weight;
+}
 
 }  // namespace
 }  // namespace mocap::kernels::HWY_NAMESPACE
@@ -137,21 +106,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mocap::kernels {
 
-HWY_EXPORT(MeasureAllChiSquares);
-void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
-                       const float* alphas, float* chi_squares) {
-  HWY_DYNAMIC_DISPATCH(MeasureAllChiSquares)(tiles, count, allowance, alphas, chi_squares);
+HWY_EXPORT(MeasureAllTiles);
+void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
+                  const TileDeviations& to) {
+  HWY_DYNAMIC_DISPATCH(MeasureAllTiles)(tiles, count, allowance, to);
 }
 
-HWY_EXPORT(MeasureAllTiles);
-void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance, float* alphas,
-                  float* tints, float* glares) {
-  HWY_DYNAMIC_DISPATCH(MeasureAllTiles)(tiles, count, allowance, alphas, tints, glares);
+HWY_EXPORT(MeasureAllChiSquares);
+void MeasureChiSquares(const TilePixels& tiles, int count, const std::array<float, 3>& gain,
+                       const float* alphas, const float* weights, float* scratch,
+                       float* chi_squares) {
+  HWY_DYNAMIC_DISPATCH(MeasureAllChiSquares)
+  (tiles, count, gain, alphas, weights, scratch, chi_squares);
 }
 
 HWY_EXPORT(ChiSquareOfPlane);
-float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance) {
-  return HWY_DYNAMIC_DISPATCH(ChiSquareOfPlane)(tile, allowance);
+float ChiSquareBesideSlope(const TilePixels& tile, const std::array<float, 3>& gain, float weight) {
+  return HWY_DYNAMIC_DISPATCH(ChiSquareOfPlane)(tile, gain, weight);
 }
 
 }  // namespace mocap::kernels

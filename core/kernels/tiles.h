@@ -16,33 +16,43 @@ struct Allowance {
   float shift_sq = 0;  ///< Multiplies a slope's square, which is also added [pixels²].
 };
 
-/// Pixels of adjacent tiles, per channel, from the first pixel of the first tile on. One more tile
-/// must be readable after the last.
-struct TilePixels {
-  std::array<const std::uint8_t*, 3> live, expected;
-  const float* variance;
-  const std::uint8_t* slope;
-  int stride;  ///< From one row to the next.
-};
-
-/// Measures the mean squared deviation of tiles' pixels, in variances, relative to their tile's
-/// brightness.
-/// @param alphas  the tiles' brightness distortion.
-void MeasureChiSquares(const TilePixels& tiles, int count, const Allowance& allowance,
-                       const float* alphas, float* chi_squares);
-
-/// Means of tiles, per channel.
+/// Means of tiles, per channel, and their variances and squared slopes.
 struct TileMeans {
   std::array<const float*, 3> live, expected;
   const float *variance, *slope_sq;
 };
 
-/// Measures the brightness distortion of tiles, and how many variances they are tinted or brighter.
-void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance, float* alphas,
-                  float* tints, float* glares);
+/// Deviations of tiles.
+struct TileDeviations {
+  float* alpha;   ///< Brightness distortion.
+  float* tint;    ///< Of the colour [variances].
+  float* glare;   ///< Of the brightness, if it is larger [variances].
+  float* weight;  ///< 1 / variance.
+};
 
-/// Measures the mean chi-square of a tile's pixels [variances]. Brightness may change evenly across
-/// the tile, as at the soft edge of a shadow.
-float ChiSquareBesideSlope(const TilePixels& tile, const Allowance& allowance);
+/// Measures tiles by their means.
+void MeasureTiles(const TileMeans& tiles, int count, const Allowance& allowance,
+                  const TileDeviations& to);
+
+/// Pixels of adjacent tiles, per channel, from the first pixel of the first tile on.
+struct TilePixels {
+  std::array<const std::uint8_t*, 3> live, expected;
+  int stride;  ///< From one row to the next.
+};
+
+/// Measures the mean squared deviation of tiles' pixels, in variances, relative to their tile's
+/// brightness.
+/// @param scratch  memory for two numbers for each pixel of a row.
+void MeasureChiSquares(const TilePixels& tiles, int count, const std::array<float, 3>& gain,
+                       const float* alphas, const float* weights, float* scratch,
+                       float* chi_squares);
+
+/// Two rows fit any slope. Steeper ones [change of the brightness distortion from row to row] are
+/// edges of things, not of shadows.
+inline constexpr float kSteepestShadow = 0.08f;
+
+/// Measures it for one tile, whose brightness may change evenly across it, as at the soft edge of a
+/// shadow.
+float ChiSquareBesideSlope(const TilePixels& tile, const std::array<float, 3>& gain, float weight);
 
 }  // namespace mocap::kernels

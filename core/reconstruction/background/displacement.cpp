@@ -21,10 +21,10 @@ std::optional<Displacement> MeasureDisplacement(const HalfPicture& live, float g
                                                 const ExpectedHalf& expected) {
   MOCAP_CHECK(live.width == expected.mean.width && live.height == expected.mean.height);
   // Gradients in and beside the padding mean nothing.
-  const int margin = HalfPicture::kTile + 1;
+  const int margin = HalfPicture::kTile + 1, margin_below = HalfPicture::kTileRows + 2;
   kernels::GradientSums sums;
   const auto fixed_gain = static_cast<int>(std::lround(gain * (1 << kernels::kGainBits)));
-  for (int y = 1; y < live.height - margin; ++y) {
+  for (int y = 2; y < live.height - margin_below; ++y) {
     const std::size_t i = static_cast<std::size_t>(y) * live.width + 1;
     kernels::AddGradients(&live.color[1][i], &expected.mean.color[1][i], &expected.variance[i],
                           live.width, fixed_gain, kUnknownVariance, live.width - margin - 1, sums);
@@ -40,8 +40,9 @@ std::optional<Displacement> MeasureDisplacement(const HalfPicture& live, float g
   if (lesser < kLeastEvidence) return std::nullopt;
   // A pixel of the half picture is two pixels wide. The expected pixel x is seen at x +
   // displacement.
-  const Vector2 moved = -2 * normal.inverse() * right;
-  return Displacement{static_cast<float>(moved.x()), static_cast<float>(moved.y())};
+  const Vector2 moved = -normal.inverse() * right;
+  return Displacement{static_cast<float>(2 * moved.x()),
+                      static_cast<float>(HalfPicture::kRowStep_px * moved.y())};
 }
 
 }  // namespace mocap

@@ -9,8 +9,6 @@
 namespace mocap {
 namespace {
 
-constexpr float kNoLimit = 1e6f;
-
 constexpr int kPixels = WeighedPixels::kPixels;
 
 }  // namespace
@@ -23,24 +21,22 @@ ExpectedPicture::ExpectedPicture(int picture_width, int picture_height)
   const std::size_t size = static_cast<std::size_t>(width) * height + kPixels;
   for (auto& plane : mean) plane.resize(size, 255);
   for (auto& plane : variance) plane.resize(size, kUnknownVariance);
-  alpha_limit.resize(size, kNoLimit);
   slope.resize(size);
 }
 
 void ExpectedPicture::SetPixel(std::size_t i, const std::array<float, 3>& color,
-                               const std::array<float, 3>& sigma, float alpha_variation) {
+                               const std::array<float, 3>& sigma) {
   for (int c = 0; c < 3; ++c) {
     mean[c][i] = std::max(color[c], kDarkestMean);
     variance[c][i] = sigma[c] * sigma[c];
   }
-  alpha_limit[i] = 1 / std::max(alpha_variation, 1e-6f);
 }
 
 void ExpectedPicture::Weigh(float shift_px, int y, int begin, int end) {
   const int group = begin / kPixels;
   const int groups = (end + kPixels - 1) / kPixels - group;
   const std::size_t first = static_cast<std::size_t>(y) * width + group * kPixels;
-  kernels::WeighedFrom from{{}, {}, &alpha_limit[first], &slope[first]};
+  kernels::WeighedFrom from{{}, {}, &slope[first]};
   for (int c = 0; c < 3; ++c) {
     from.mean[c] = &mean[c][first];
     from.variance[c] = &variance[c][first];
@@ -62,7 +58,6 @@ void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& 
   const std::size_t line = static_cast<std::size_t>(y) * width;
   const auto forget = [&](int x) {
     for (int c = 0; c < 3; ++c) mean[c][line + x] = 255, variance[c][line + x] = kUnknownVariance;
-    alpha_limit[line + x] = kNoLimit;
     slope[line + x] = 0;
   };
   for (int x = begin; x < first; ++x) forget(x);
@@ -77,7 +72,6 @@ void ExpectedPicture::Displace(const ExpectedPicture& from, const Displacement& 
                            &mean[c][line + first]);
     std::copy_n(&from.variance[c][nearest], count, &variance[c][line + first]);
   }
-  std::copy_n(&from.alpha_limit[nearest], count, &alpha_limit[line + first]);
   std::copy_n(&from.slope[nearest], count, &slope[line + first]);
 }
 

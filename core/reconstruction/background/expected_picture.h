@@ -18,8 +18,8 @@ using kernels::WeighedPixels;
 
 /// The background's colours and their variation per pixel, in planes of rows without gaps.
 ///
-/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999; the variation of the
-/// chromaticity distortion, b, is part of σ.
+/// Channels are blue, green, red. Horprasert, Harwood, Davis 1999; the variations of the brightness
+/// and the chromaticity distortion, a and b, are those that σ causes.
 struct ExpectedPicture {
   /// Near black, a colour has no direction.
   static constexpr float kDarkestMean = kernels::kDarkestMean;
@@ -28,11 +28,9 @@ struct ExpectedPicture {
   ExpectedPicture(int picture_width, int picture_height);
 
   /// Writes the appearance of pixel `i`, which must then be weighed.
-  /// @param color, sigma     expected colour and its standard deviation [grey levels].
-  /// @param alpha_variation  measured standard deviation of the brightness distortion, or 0. At
-  /// least what `sigma` causes is assumed.
-  void SetPixel(std::size_t i, const std::array<float, 3>& color, const std::array<float, 3>& sigma,
-                float alpha_variation);
+  /// @param color, sigma  expected colour and its standard deviation [grey levels].
+  void SetPixel(std::size_t i, const std::array<float, 3>& color,
+                const std::array<float, 3>& sigma);
 
   /// Computes the weights of pixels [begin, end) of a row, and of the others in their groups.
   /// @param shift_px  additional shift of contours, compared with learning.
@@ -47,7 +45,6 @@ struct ExpectedPicture {
   int height = 0;
   std::array<std::vector<float>, 3> mean;      ///< E, at least kDarkestMean [grey levels].
   std::array<std::vector<float>, 3> variance;  ///< σ² [grey levels²].
-  std::vector<float> alpha_limit;              ///< 1/a as measured; large where it was not.
   std::vector<std::uint8_t> slope;             ///< Of the brightness [grey levels per pixel].
 
   /// Returns one row of a group, from column `group` · 16 and row `y` of the picture. The next

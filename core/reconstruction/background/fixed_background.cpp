@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/kernels/expected_pixels.h"
 #include "core/reconstruction/background/background_model.h"
-#include "core/reconstruction/background/background_sums.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 
 namespace mocap {
@@ -14,6 +14,23 @@ namespace {
 
 // This many frames fill the histograms well enough.
 constexpr std::size_t kMostHistogramFrames = 16;
+
+// Sums over frames, per channel.
+struct ColorSums {
+  explicit ColorSums(std::size_t pixels) {
+    for (auto* planes : {&value, &value_sq})
+      for (auto& plane : *planes) plane.resize(pixels);
+  }
+  // Adds a row, or subtracts it again.
+  void Add(const Bgr* row, int count, const std::array<float, 3>& gain, float times,
+           std::size_t begin) {
+    const std::array<const std::uint8_t*, 3> channels = {&row->b, &row->g, &row->r};
+    for (int c = 0; c < 3; ++c)
+      kernels::AddValues(channels[c], count, gain[c], times, &value[c][begin], &value_sq[c][begin]);
+  }
+
+  std::array<std::vector<float>, 3> value, value_sq;
+};
 
 class FixedBackground final : public BackgroundModel {
  public:
@@ -31,11 +48,10 @@ class FixedBackground final : public BackgroundModel {
       LearnHalf();
       LearnConditions();
     }
-    SumDistortions();
-    LearnThresholds(detection_rate);
     Expect();
+    LearnThresholds(detection_rate);
     frames_ = {};
-    sums_ = BackgroundSums(0), conditions_ = {};
+    sums_ = ColorSums(0), conditions_ = {};
   }
 
   const ExpectedHalf& CoarsePass(const PanTiltAngles&, const Displacement& displacement) override {
@@ -56,35 +72,44 @@ class FixedBackground final : public BackgroundModel {
       displaced_ = ExpectedPicture(expected_.width, expected_.height);
     ExpectedPicture& picture = is_displaced ? displaced_ : expected_;
     for (int y = 0; y < expected_.height; ++y) {
-      for (const PixelRun& run : roi.Measured(y)) {
+      roi.ForEachMeasured(y, [&](const PixelRun& run) {
         if (is_displaced)
           picture.Displace(expected_, conditions.displacement, y, run.begin, run.end);
         picture.Weigh(conditions.shift_px, y, run.begin, run.end);
-      }
+      });
     }
     is_weighed_plainly_ = is_weighed_plainly_ && is_displaced;
     return picture;
   }
 
  private:
-  float count() const { return static_cast<float>(frames_.size()); }
-
   const Bgr* RowOf(std::size_t frame, int y) const { return frames_[frame].image.row(y); }
   std::size_t BeginOf(int y) const { return static_cast<std::size_t>(y) * expected_.width; }
 
   void Expect() {
-    const int pixels = expected_.width * expected_.height;
-    sums_.Expect(0, pixels, count(), half_.usual_shift_px, 0, expected_);
-    for (int y = 0; y < expected_.height; ++y) expected_.Weigh(0, y, 0, expected_.width);
+    for (int y = 0; y < expected_.height; ++y)
+      ExpectRow(sums_, BeginOf(y), frames_.size(), y, expected_);
+  }
+
+  void ExpectRow(const ColorSums& sums, std::size_t begin, std::size_t frames, int y,
+                 ExpectedPicture& to) const {
+    const std::size_t row = BeginOf(y);
+    kernels::PixelSums of_row;
+    kernels::LearnedPixels learned{{}, {}, &to.slope[row]};
+    for (int c = 0; c < 3; ++c) {
+      of_row.value[c] = &sums.value[c][begin], of_row.value_sq[c] = &sums.value_sq[c][begin];
+      learned.mean[c] = &to.mean[c][row], learned.variance[c] = &to.variance[c][row];
+    }
+    kernels::ExpectPixels(of_row, to.width, static_cast<float>(frames), half_.usual_shift_px,
+                          learned);
+    to.Weigh(0, y, 0, to.width);
   }
 
   void SumColors() {
-    const int width = expected_.width;
-    for (int y = 0; y < expected_.height; ++y) {
-      sums_.Clear(BeginOf(y), static_cast<std::size_t>(width));
+    sums_ = ColorSums(frames_[0].image.pixels().size());
+    for (int y = 0; y < expected_.height; ++y)
       for (std::size_t f = 0; f < frames_.size(); ++f)
-        sums_.AddColors(RowOf(f, y), width, conditions_[f].gain, 1, BeginOf(y));
-    }
+        sums_.Add(RowOf(f, y), expected_.width, conditions_[f].gain, 1, BeginOf(y));
   }
 
   // Computes the half-size picture and its slopes from the full-size one.
@@ -102,9 +127,10 @@ class FixedBackground final : public BackgroundModel {
     }
     std::ranges::copy(SlopeOf(brightness, width, expected_.height), expected_.slope.begin());
     half_.LearnFrom(rounded.view());
-    for (int y = 0; y < expected_.height / 2; ++y) {
+    constexpr int kStep_px = HalfPicture::kRowStep_px;
+    for (int y = 0; y * kStep_px + 1 < expected_.height; ++y) {
       for (int x = 0; x < width / 2; ++x) {
-        const std::size_t i = static_cast<std::size_t>(2 * y) * width + 2 * x;
+        const std::size_t i = BeginOf(y * kStep_px) + 2 * x;
         float sum = 0;
         for (const auto& variance : expected_.variance)
           sum += variance[i] + variance[i + 1] + variance[i + width] + variance[i + width + 1];
@@ -124,29 +150,21 @@ class FixedBackground final : public BackgroundModel {
     }
   }
 
-  void SumDistortions() {
-    for (int y = 0; y < expected_.height; ++y)
-      for (std::size_t f = 0; f < frames_.size(); ++f)
-        sums_.AddDistortions(RowOf(f, y), expected_.width, conditions_[f].gain, 1, expected_,
-                             BeginOf(y), BeginOf(y));
-  }
-
   // Compares each frame with the background learned from the others alone.
   void LearnThresholds(double detection_rate) {
     DistortionHistograms histograms;
-    const int width = expected_.width;
     ExpectedPicture by_others = expected_;
-    BackgroundSums others(static_cast<std::size_t>(width));
+    ColorSums others(static_cast<std::size_t>(expected_.width));
     const std::size_t used = std::min(frames_.size(), kMostHistogramFrames);
     for (std::size_t k = 0; k < used; ++k) {
       const std::size_t f = k * frames_.size() / used;
       for (int y = 0; y < expected_.height; ++y) {
-        others.Copy(sums_, BeginOf(y), static_cast<std::size_t>(width));
-        others.AddColors(RowOf(f, y), width, conditions_[f].gain, -1, 0);
-        others.AddDistortions(RowOf(f, y), width, conditions_[f].gain, -1, expected_, BeginOf(y),
-                              0);
-        others.Expect(0, width, count() - 1, half_.usual_shift_px, BeginOf(y), by_others);
-        by_others.Weigh(0, y, 0, width);
+        for (int c = 0; c < 3; ++c) {
+          std::copy_n(&sums_.value[c][BeginOf(y)], expected_.width, others.value[c].data());
+          std::copy_n(&sums_.value_sq[c][BeginOf(y)], expected_.width, others.value_sq[c].data());
+        }
+        others.Add(RowOf(f, y), expected_.width, conditions_[f].gain, -1, 0);
+        ExpectRow(others, 0, frames_.size() - 1, y, by_others);
       }
       histograms.Add(by_others, frames_[f].image.view(), conditions_[f].gain);
     }
@@ -155,7 +173,7 @@ class FixedBackground final : public BackgroundModel {
 
   std::span<const BackgroundFrame> frames_;  // Only while learning.
   std::vector<Conditions> conditions_;
-  BackgroundSums sums_;
+  ColorSums sums_;
   ExpectedHalf half_;
   ExpectedPicture expected_;
   bool is_weighed_plainly_ = true;

@@ -14,38 +14,53 @@ namespace {
 int RoundUp(int value, int step) { return (value + step - 1) / step * step; }
 
 constexpr int kTile = HalfPicture::kTile;
-constexpr float kArea = kTile * kTile;
+constexpr int kTileRows = HalfPicture::kTileRows;
+constexpr int kRowStep_px = HalfPicture::kRowStep_px;
+
+Bgr MeanOfFour(ImageView<const Bgr> image, int x, int y) {
+  const Bgr &top = image(x, y), &bottom = image(x, y + 1);
+  return {kernels::MeanOfFour(&top.b, &bottom.b), kernels::MeanOfFour(&top.g, &bottom.g),
+          kernels::MeanOfFour(&top.r, &bottom.r)};
+}
 
 // Halves a tile, which may extend beyond the picture.
 void HalveTile(ImageView<const Bgr> image, int row, int column, HalfPicture& half) {
   std::array<int, 3> sums{};
-  for (int y = row * kTile; y < std::min((row + 1) * kTile, image.height() / 2); ++y) {
-    for (int x = column * kTile; x < std::min((column + 1) * kTile, image.width() / 2); ++x) {
+  for (int y = row * kTileRows; y < (row + 1) * kTileRows; ++y) {
+    for (int x = column * kTile; x < (column + 1) * kTile; ++x) {
+      if (y * kRowStep_px + 1 >= image.height() || 2 * x + 1 >= image.width()) continue;
+      const Bgr mean = MeanOfFour(image, 2 * x, y * kRowStep_px);
+      const std::array<std::uint8_t, 3> color = {mean.b, mean.g, mean.r};
       for (int c = 0; c < 3; ++c) {
-        const std::uint8_t mean =
-            kernels::MeanOfFour(&image(2 * x, 2 * y).b + c, &image(2 * x, 2 * y + 1).b + c);
-        half.color[c][static_cast<std::size_t>(y) * half.width + x] = mean;
-        sums[c] += mean;
+        half.color[c][static_cast<std::size_t>(y) * half.width + x] = color[c];
+        sums[c] += color[c];
       }
     }
   }
   for (int c = 0; c < 3; ++c)
     half.tile_mean[c][static_cast<std::size_t>(row) * half.tile_columns() + column] =
-        static_cast<float>(sums[c]) / kArea;
+        static_cast<float>(sums[c]) / kernels::kTilePixels;
 }
 
 }  // namespace
 
 HalfPicture::HalfPicture(int full_width, int full_height)
-    : width(RoundUp(full_width, kTile_px) / 2), height(RoundUp(full_height, kTile_px) / 2) {
-  for (auto& plane : color) plane.resize(size() + kTile);
+    : width(RoundUp(full_width, kTile_px) / 2),
+      height(RoundUp(full_height, kTile_px) / kRowStep_px) {
+  for (auto& plane : color) plane.resize(size());
   for (auto& plane : tile_mean) plane.resize(tiles());
+}
+
+void HalfPicture::Resize(int full_width, int full_height) {
+  if (2 * width != RoundUp(full_width, kTile_px) ||
+      kRowStep_px * height != RoundUp(full_height, kTile_px))
+    *this = HalfPicture(full_width, full_height);
 }
 
 ExpectedHalf::ExpectedHalf(int full_width, int full_height)
     : mean(full_width, full_height),
-      variance(mean.size() + kTile, kUnknownVariance),
-      slope(mean.size() + kTile),
+      variance(mean.size(), kUnknownVariance),
+      slope(mean.size()),
       tile_variance(mean.tiles(), kUnknownVariance),
       tile_slope_sq(mean.tiles()),
       sums_(static_cast<std::size_t>(mean.width)),
@@ -53,8 +68,8 @@ ExpectedHalf::ExpectedHalf(int full_width, int full_height)
 
 void ExpectedHalf::Finish() {
   for (int row = 0; row < mean.tile_rows(); ++row) {
-    const std::size_t begin = mean.FirstPixelOf(mean.RowOfTiles(row));
-    const std::size_t tile = mean.FirstTileOf(mean.RowOfTiles(row));
+    const std::size_t begin = mean.FirstPixelOf(row, 0);
+    const std::size_t tile = static_cast<std::size_t>(row) * mean.tile_columns();
     for (int c = 0; c < 3; ++c)
       kernels::AverageTiles(&mean.color[c][begin], mean.width, sums_.data(),
                             &mean.tile_mean[c][tile]);
@@ -67,26 +82,32 @@ void ExpectedHalf::Finish() {
       steep.push_back(static_cast<std::int32_t>(i));
 }
 
-void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
-  Halve(picture, mean);
-  // The padding repeats the picture's edge, so that the edge is no contour.
-  std::vector<float> brightness(mean.size());
-  for (int y = 0; y < mean.height; ++y) {
-    for (int x = 0; x < mean.width; ++x) {
-      const std::size_t i =
-          static_cast<std::size_t>(std::min(y, picture.height() / 2 - 1)) * mean.width +
-          std::min(x, picture.width() / 2 - 1);
-      brightness[static_cast<std::size_t>(y) * mean.width + x] =
-          static_cast<float>(mean.color[0][i] + mean.color[1][i] + mean.color[2][i]) / 3;
+WholeHalf::WholeHalf(ImageView<const Bgr> picture)
+    : color(picture.width() / 2, picture.height() / 2) {
+  std::vector<float> brightness;
+  for (int y = 0; y < color.height(); ++y) {
+    for (int x = 0; x < color.width(); ++x) {
+      const Bgr p = color(x, y) = MeanOfFour(picture, 2 * x, 2 * y);
+      brightness.push_back(static_cast<float>(p.b + p.g + p.r) / 3);
     }
   }
-  std::ranges::copy(SlopeOf(brightness, mean.width, mean.height), slope.begin());
+  slope = SlopeOf(brightness, color.width(), color.height());
+}
+
+void ExpectedHalf::LearnFrom(ImageView<const Bgr> picture) {
+  Halve(picture, mean);
+  const WholeHalf whole(picture);
+  constexpr int kStep = kRowStep_px / 2;
+  for (int y = 0; kStep * y < whole.color.height(); ++y)
+    std::copy_n(&whole.slope[static_cast<std::size_t>(kStep) * y * whole.color.width()],
+                whole.color.width(), &slope[static_cast<std::size_t>(y) * mean.width]);
 }
 
 void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displacement) {
   const int width = mean.width;
-  const float dx = std::floor(-displacement.x_px / 2), dy = std::floor(-displacement.y_px / 2);
-  const float a = -displacement.x_px / 2 - dx, b = -displacement.y_px / 2 - dy;
+  const float right = -displacement.x_px / 2, down = -displacement.y_px / kRowStep_px;
+  const float dx = std::floor(right), dy = std::floor(down);
+  const float a = right - dx, b = down - dy;
   const int shift = static_cast<int>(dx);
   std::array<int, 4> weights = {0, static_cast<int>(256 * a * (1 - b)),
                                 static_cast<int>(256 * (1 - a) * b), static_cast<int>(256 * a * b)};
@@ -111,28 +132,26 @@ void ExpectedHalf::Displace(const ExpectedHalf& from, const Displacement& displa
 }
 
 void Halve(ImageView<const Bgr> image, HalfPicture& half) {
-  for (int row = 0; row < half.tile_rows(); ++row) Halve(image, half.RowOfTiles(row), half);
-}
-
-void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half) {
   constexpr int kTile_px = HalfPicture::kTile_px;
   MOCAP_CHECK(RoundUp(image.width(), kTile_px) == 2 * half.width &&
-              RoundUp(image.height(), kTile_px) == 2 * half.height);
-  int column = run.begin;
-  const int whole_columns = std::min(run.end, image.width() / kTile_px);
-  if (whole_columns - column >= 2 && run.row < image.height() / kTile_px) {
-    const std::size_t pixel = half.FirstPixelOf(run), tile = half.FirstTileOf(run);
-    kernels::HalvedTiles to{{}, {}, half.width};
-    for (int c = 0; c < 3; ++c) {
-      to.color[c] = &half.color[c][pixel];
-      to.tile_mean[c] = &half.tile_mean[c][tile];
+              RoundUp(image.height(), kTile_px) == kRowStep_px * half.height);
+  const int whole_columns = image.width() / kTile_px >= 2 ? image.width() / kTile_px : 0;
+  for (int row = 0; row < half.tile_rows(); ++row) {
+    const bool is_whole = row < image.height() / kTile_px && whole_columns > 0;
+    if (is_whole) {
+      const std::size_t pixel = half.FirstPixelOf(row, 0);
+      kernels::HalvedTiles to{{}, {}, half.width};
+      for (int c = 0; c < 3; ++c) {
+        to.color[c] = &half.color[c][pixel];
+        to.tile_mean[c] = &half.tile_mean[c][static_cast<std::size_t>(row) * half.tile_columns()];
+      }
+      kernels::HalveTiles(&image(0, row * kTile_px).b,
+                          image.stride() * static_cast<std::ptrdiff_t>(sizeof(Bgr)), whole_columns,
+                          to);
     }
-    kernels::HalveTiles(&image(column * kTile_px, run.row * kTile_px).b,
-                        image.stride() * static_cast<std::ptrdiff_t>(sizeof(Bgr)),
-                        whole_columns - column, to);
-    column = whole_columns;
+    for (int column = is_whole ? whole_columns : 0; column < half.tile_columns(); ++column)
+      HalveTile(image, row, column, half);
   }
-  for (; column < run.end; ++column) HalveTile(image, run.row, column, half);
 }
 
 std::vector<std::uint8_t> SlopeOf(const std::vector<float>& brightness, int width, int height) {

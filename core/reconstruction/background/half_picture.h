@@ -12,41 +12,38 @@
 
 namespace mocap {
 
-/// Tiles [begin, end) of a row of tiles.
-struct TileRun {
-  int row = 0;
-  int begin = 0;
-  int end = 0;
-};
-
 /// A picture at half the resolution, in planes: blue, green, red. Each pixel is the mean of four.
 ///
-/// It consists of tiles of kTile × kTile pixels. Zeros pad it to whole tiles of the full picture.
+/// Of each four rows of the full picture, the first two make one row. It consists of tiles of
+/// kTile × kTileRows pixels. Zeros pad it to whole tiles of the full picture.
 struct HalfPicture {
-  /// Side of a tile, in pixels of this picture.
+  /// Width and height of a tile, in pixels of this picture.
   static constexpr int kTile = kernels::kTileSide;
+  static constexpr int kTileRows = kernels::kTileRows;
   /// Side of a tile, in pixels of the full picture.
   static constexpr int kTile_px = 2 * kTile;
+  /// Rows of the full picture from one row to the next.
+  static constexpr int kRowStep_px = kernels::kRowStep_px;
+  static_assert(kTileRows * kRowStep_px == kTile_px);
 
   HalfPicture() = default;
   /// Allocates the half of a picture of the given size.
   HalfPicture(int full_width, int full_height);
+  /// Allocates it, if it has another size.
+  void Resize(int full_width, int full_height);
 
   int tile_columns() const { return width / kTile; }
-  int tile_rows() const { return height / kTile; }
+  int tile_rows() const { return height / kTileRows; }
   std::size_t tiles() const { return static_cast<std::size_t>(tile_columns()) * tile_rows(); }
   std::size_t size() const { return static_cast<std::size_t>(width) * height; }
-  TileRun RowOfTiles(int row) const { return {row, 0, tile_columns()}; }
-  std::size_t FirstTileOf(const TileRun& run) const {
-    return static_cast<std::size_t>(run.row) * tile_columns() + run.begin;
-  }
-  std::size_t FirstPixelOf(const TileRun& run) const {
-    return (static_cast<std::size_t>(run.row) * width + run.begin) * kTile;
+  /// The first pixel of a tile.
+  std::size_t FirstPixelOf(int row, int column) const {
+    return static_cast<std::size_t>(row) * kTileRows * width + column * kTile;
   }
 
   int width = 0;
   int height = 0;
-  /// Row by row, plus one tile side: a single last tile is read as a pair.
+  /// Row by row.
   std::array<std::vector<std::uint8_t>, 3> color;
   /// Means of the tiles, row by row.
   std::array<std::vector<float>, 3> tile_mean;
@@ -68,7 +65,6 @@ class ExpectedHalf {
   /// Averages the tiles and lists the steep pixels, after pixels were written.
   void Finish();
 
-  // The planes extend by a tile side, as those of `mean` do.
   HalfPicture mean;
   /// σ² [grey levels²] of a pixel of the full picture; kUnknownVariance where nothing is known.
   std::vector<float> variance;
@@ -93,11 +89,16 @@ class ExpectedHalf {
 };
 
 /// Halves a picture and averages its tiles.
+/// @param half  allocated for pictures of that size.
 void Halve(ImageView<const Bgr> image, HalfPicture& half);
 
-/// Halves some tiles of a picture and averages them.
-/// @param half  allocated for pictures of that size.
-void Halve(ImageView<const Bgr> image, const TileRun& run, HalfPicture& half);
+/// A picture at half the resolution with all of its rows: colours and slopes.
+struct WholeHalf {
+  explicit WholeHalf(ImageView<const Bgr> picture);
+
+  Image<Bgr> color;
+  std::vector<std::uint8_t> slope;  ///< [grey levels per pixel of the half]
+};
 
 /// Measures the slope of the brightness on the steeper side of each pixel: an edge counts with its
 /// full step, not with half of it.

@@ -10,7 +10,6 @@
 #include "core/kernels/expected_pixels.h"
 #include "core/kernels/mixing.h"
 #include "core/reconstruction/background/background_model.h"
-#include "core/reconstruction/background/view_warp.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 
@@ -40,6 +39,35 @@ float Median(std::vector<float>& values) {
   return *middle;
 }
 
+// The empty studio as seen in one direction, at full and at half the resolution.
+struct BackgroundView {
+  BackgroundView(const PanTiltAngles& view_angles, const RigidTransform& X_CW_of_view,
+                 const Image<Bgr>& image)
+      : angles(view_angles), X_CW(X_CW_of_view) {
+    std::vector<float> brightness;
+    for (const Bgr& p : image.pixels())
+      brightness.push_back(static_cast<float>(p.b + p.g + p.r) / 3);
+    const std::vector<std::uint8_t> slope = SlopeOf(brightness, image.width(), image.height());
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+      const Bgr& p = image.pixels()[i];
+      pixels.push_back(Pack(p.b, p.g, p.r, slope[i]));
+    }
+    const WholeHalf whole(image.view());
+    for (std::size_t i = 0; i < whole.slope.size(); ++i) {
+      const Bgr& p = whole.color.pixels()[i];
+      half.push_back(Pack(p.b, p.g, p.r, whole.slope[i]));
+    }
+  }
+  static kernels::PackedPixel Pack(std::uint8_t b, std::uint8_t g, std::uint8_t r,
+                                   std::uint8_t slope) {
+    return b | g << 8 | r << 16 | static_cast<kernels::PackedPixel>(slope) << 24;
+  }
+
+  PanTiltAngles angles;
+  RigidTransform X_CW;
+  std::vector<kernels::PackedPixel> pixels, half;
+};
+
 class PanTiltBackground final : public BackgroundModel {
  public:
   PanTiltBackground(const CameraCalibration& camera, std::span<const BackgroundFrame> frames,
@@ -67,7 +95,7 @@ class PanTiltBackground final : public BackgroundModel {
   const ExpectedPicture& Expect(const RegionOfInterest& roi,
                                 const Conditions& conditions) override {
     for (int y = 0; y < camera_.height_px; ++y)
-      for (const PixelRun& run : roi.Measured(y)) DrawRun(y, run, conditions);
+      roi.ForEachMeasured(y, [&](const PixelRun& run) { DrawRun(y, run, conditions); });
     return expected_;
   }
 
@@ -181,7 +209,7 @@ class PanTiltBackground final : public BackgroundModel {
       sources_[k].view = order_[k];
       sources_[k].is_projected = false;
     }
-    for (int y = 0; y < camera_.height_px / 2; ++y) DrawHalfRow(y);
+    for (int y = 0; y * HalfPicture::kRowStep_px + 1 < camera_.height_px; ++y) DrawHalfRow(y);
     half_.Finish();
   }
 
@@ -233,51 +261,47 @@ class PanTiltBackground final : public BackgroundModel {
     return lies_within(cells_x_, count, last_x) && lies_within(cells_y_, count, last_y);
   }
 
-  // Calls draw(begin, count) for runs of unknown pixels whose positions lie in the view, up to
-  // (last_x, last_y), and marks them as known. Returns whether all pixels are known.
-  // @param has_all  no pixel is known yet and the view covers all of them.
-  template <typename Function>
-  bool DrawUnknown(bool has_all, const ViewPlaces& places, float last_x, float last_y, int count,
-                   Function draw) {
-    if (has_all) {
-      std::fill_n(is_known_.begin(), count, std::uint8_t{1});
-      draw(0, count);
-      return true;
-    }
+  // Draws `count` pixels of the cells [first, end) of a row, `width` pixels each: calls draw(view,
+  // x, y, begin, count) for runs of pixels whose places x, y lie in that view, up to the last ones.
+  // The nearest views come first. Pixels that were drawn are marked in is_known_.
+  template <typename Draw>
+  void DrawRow(int width, float y, float into, int first, int end, int count, float last_x,
+               float last_y, Draw draw) {
+    std::fill_n(is_known_.begin(), count, std::uint8_t{0});
     int known = 0;
-    for (int i = 0; i < count;) {
-      const int begin = i;
+    for (std::size_t k = 0; k < used_ && known < count; ++k) {
+      const bool has_all = FindPlaces(sources_[k], width, y, into, first, end, last_x, last_y);
+      const float *const px = places_x_.data(), *const py = places_y_.data();
+      if (has_all && k == 0) {
+        std::fill_n(is_known_.begin(), count, std::uint8_t{1});
+        return draw(views_[sources_[k].view], px, py, 0, count);
+      }
       // Also false for NaN.
-      while (i < count && !is_known_[i] && places.x[i] >= 0 && places.y[i] >= 0 &&
-             places.x[i] < last_x && places.y[i] < last_y)
-        is_known_[i++] = 1;
-      if (i > begin) draw(begin, i - begin);
-      known += i - begin;
-      for (; i < count && is_known_[i]; ++i) ++known;
-      if (i == begin) ++i;
+      const auto is_new = [&](int i) {
+        return !is_known_[i] && px[i] >= 0 && py[i] >= 0 && px[i] < last_x && py[i] < last_y;
+      };
+      for (int i = 0; i < count; ++i) {
+        const int begin = i;
+        while (i < count && is_new(i)) is_known_[i++] = 1;
+        if (i > begin) draw(views_[sources_[k].view], px + begin, py + begin, begin, i - begin);
+        known += i - begin;
+      }
     }
-    return known == count;
   }
 
   void DrawHalfRow(int y) {
-    const int columns = camera_.width_px / 2;
+    const int columns = camera_.width_px / 2, rows = camera_.height_px / 2;
     const std::size_t row = static_cast<std::size_t>(y) * half_.mean.width;
-    std::fill_n(is_known_.begin(), columns, std::uint8_t{0});
-    for (std::size_t k = 0; k < used_; ++k) {
-      const BackgroundView& view = views_[sources_[k].view];
-      const auto last_x = static_cast<float>(2 * view.half_width - 1);
-      const auto last_y = static_cast<float>(2 * view.half_height - 1);
-      const bool has_all = FindPlaces(sources_[k], kCell_px / 2, static_cast<float>(2 * y) + 0.5f,
-                                      0.5f / kCell_px, 0, node_columns_ - 1, last_x, last_y);
-      const ViewPlaces places{places_x_.data(), places_y_.data()};
-      const auto draw = [&](int begin, int count) {
-        auto& color = half_.mean.color;
-        const std::size_t to = row + begin;
-        DrawNearest(view, {places.x + begin, places.y + begin}, count,
-                    {&color[0][to], &color[1][to], &color[2][to]}, &half_.slope[to]);
-      };
-      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, columns, draw)) break;
-    }
+    DrawRow(
+        kCell_px / 2, static_cast<float>(y * HalfPicture::kRowStep_px) + 0.5f, 0.5f / kCell_px, 0,
+        node_columns_ - 1, columns, static_cast<float>(2 * columns - 1),
+        static_cast<float>(2 * rows - 1),
+        [&](const BackgroundView& view, const float* px, const float* py, int begin, int count) {
+          auto& color = half_.mean.color;
+          const std::size_t to = row + begin;
+          kernels::ReadNearestHalf(view.half.data(), columns, px, py, count,
+                                   {&color[0][to], &color[1][to], &color[2][to]}, &half_.slope[to]);
+        });
     for (int x = 0; x < columns; ++x)
       half_.variance[row + x] = is_known_[x] ? variance_ : kUnknownVariance;
   }
@@ -285,27 +309,19 @@ class PanTiltBackground final : public BackgroundModel {
   void DrawRun(int y, const PixelRun& run, const Conditions& conditions) {
     const int length = run.end - run.begin;
     const std::size_t row = static_cast<std::size_t>(y) * camera_.width_px + run.begin;
-    std::fill_n(is_known_.begin(), length, std::uint8_t{0});
-    for (std::size_t k = 0; k < used_; ++k) {
-      const BackgroundView& view = views_[sources_[k].view];
-      const auto last_x = static_cast<float>(view.width - 1);
-      const auto last_y = static_cast<float>(view.height - 1);
-      const bool has_all =
-          FindPlaces(sources_[k], kCell_px, static_cast<float>(y), 0, run.begin / kCell_px,
-                     (run.end + kCell_px - 1) / kCell_px, last_x, last_y);
-      const int skipped = run.begin % kCell_px;
-      const ViewPlaces places{&places_x_[skipped], &places_y_[skipped]};
-      const auto draw = [&](int begin, int count) {
-        auto& mean = expected_.mean;
-        const std::size_t to = row + begin;
-        DrawBetween(view, {places.x + begin, places.y + begin}, count,
-                    {&mean[0][to], &mean[1][to], &mean[2][to]}, &expected_.slope[to]);
-      };
-      if (DrawUnknown(has_all && k == 0, places, last_x, last_y, length, draw)) break;
-    }
+    auto& mean = expected_.mean;
+    DrawRow(
+        kCell_px, static_cast<float>(y), 0, run.begin / kCell_px,
+        (run.end + kCell_px - 1) / kCell_px, length, static_cast<float>(camera_.width_px - 1),
+        static_cast<float>(camera_.height_px - 1),
+        [&](const BackgroundView& view, const float* px, const float* py, int begin, int count) {
+          const std::size_t to = row + begin;
+          kernels::ReadBetween(view.pixels.data(), camera_.width_px, px, py, count,
+                               {&mean[0][to], &mean[1][to], &mean[2][to]}, &expected_.slope[to]);
+        });
     for (int c = 0; c < 3; ++c)
-      kernels::FinishDrawn(is_known_.data(), length, variance_, kUnknownVariance,
-                           &expected_.mean[c][row], &expected_.variance[c][row]);
+      kernels::FinishDrawn(is_known_.data(), length, variance_, kUnknownVariance, &mean[c][row],
+                           &expected_.variance[c][row]);
     expected_.Weigh(std::hypot(shift_px_, conditions.shift_px), y, run.begin, run.end);
   }
 

@@ -68,12 +68,4 @@ void Subtract(const Silhouette& from, Silhouette& to) {
   kernels::RemoveAll(from.row(0), from.words().size(), to.row(0));
 }
 
-void Paste(const Silhouette& from, int left, int top, Silhouette& to) {
-  MOCAP_CHECK(left % 64 == 0 && left + from.width() <= to.width() &&
-              top + from.height() <= to.height());
-  MOCAP_CHECK(from.width() % 64 == 0 || left + from.width() == to.width());
-  for (int y = 0; y < from.height(); ++y)
-    std::copy_n(from.row(y), from.words_per_row(), to.row(top + y) + left / 64);
-}
-
 }  // namespace mocap

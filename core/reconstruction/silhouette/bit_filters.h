@@ -23,9 +23,4 @@ void Intersect(const Silhouette& from, Silhouette& to);
 /// Clears every pixel of `to` that is set in `from`.
 void Subtract(const Silhouette& from, Silhouette& to);
 
-/// Copies `from` into a part of `to`; all other pixels of `to` stay.
-/// @param left, top  position in `to`. `left` is a multiple of 64, and `from` ends at such a
-/// multiple or at the end of `to`.
-void Paste(const Silhouette& from, int left, int top, Silhouette& to);
-
 }  // namespace mocap

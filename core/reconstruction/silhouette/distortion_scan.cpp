@@ -24,7 +24,7 @@ void DistortionScan::Begin(const ExpectedPicture& expected, ImageView<const Bgr>
   roi_ = &roi;
   image_ = image;
   gain_ = gain;
-  next_ = measured_ = roi.frame().top;
+  next_ = measured_ = 0;
   const int width = expected.width + kBeside;
   if (alpha_shift_.width() == width && alpha_shift_.height() == expected.height) return;
   alpha_shift_ = Image<float>(width, expected.height);
@@ -55,7 +55,8 @@ void DistortionScan::MeasureBand(int y) {
   const int rows = std::min(kBand_px, expected_->height - y);
   const int whole = expected_->width / kPixels;
   int done = 0;
-  for (const PixelRun& run : roi_->Measured(y)) {
+  bool is_at_end = false;
+  roi_->ForEachMeasured(y, [&](const PixelRun& run) {
     for (int row = 0; row < rows; ++row)
       FetchPixels(image_, y + kBand_px + row, run.begin, run.end);
     const int first = std::max(run.begin / kPixels, done);
@@ -63,10 +64,11 @@ void DistortionScan::MeasureBand(int y) {
     Measure(image_.Section(first * kPixels, y, (std::min(done, whole) - first) * kPixels, rows), y,
             first);
     if (done > whole) MeasureLast(y, rows);
-  }
-  for (int row = 0; row < rows; ++row) RepeatEnds(y + row);
+    is_at_end |= run.begin == 0 || run.end == expected_->width;
+  });
+  for (int row = 0; is_at_end && row < rows; ++row) RepeatEnds(y + row);
   // Sums beyond the ends are never used.
-  for (const PixelRun& run : roi_->Measured(y)) SumAlong(y, rows, run);
+  roi_->ForEachMeasured(y, [&](const PixelRun& run) { SumAlong(y, rows, run); });
 }
 
 // Measures the group in which the picture ends.
@@ -91,8 +93,6 @@ void DistortionScan::Measure(ImageView<const Bgr> pixels, int y, int group) {
 }
 
 void DistortionScan::RepeatEnds(int y) {
-  const std::span<const PixelRun> runs = roi_->Measured(y);
-  if (runs.empty() || (runs.front().begin > 0 && runs.back().end < expected_->width)) return;
   const int line = y % kSumLines;
   for (float* const values : {alpha_shift_.row(y), lines_.cd[0].row(line), lines_.cd[1].row(line),
                               lines_.cd[2].row(line)}) {

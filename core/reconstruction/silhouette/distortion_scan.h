@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/image.h"
@@ -31,8 +30,7 @@ class DistortionScan {
   /// either.
   using RowPair = kernels::DistortionRowPair;
 
-  /// Starts at the top of the frame of a region of interest. All arguments but `gain` are borrowed
-  /// until the last rows.
+  /// Starts at the top of a picture. All arguments but `gain` are borrowed until the last rows.
   /// @param expected  weighed for the measured pixels.
   /// @param gain      factor for each of the picture's channels.
   void Begin(const ExpectedPicture& expected, ImageView<const Bgr> image,
@@ -50,11 +48,11 @@ class DistortionScan {
  private:
   static constexpr int kPad = kernels::kBlock_px;  // On both sides of the picture.
   static constexpr int kBeside = 2 * kPad + WeighedPixels::kPixels;  // Whole groups are measured.
-  static_assert(kernels::kLargestRadius_px <= RegionOfInterest::kMargin_px &&
+  static_assert(kernels::kLargestRadius_px <= RegionOfInterest::kTile_px &&
                 kernels::kLargestRadius_px <= kPad);
   // Number of rows that are measured at a time: they have the same runs.
-  static constexpr int kBand_px = RegionOfInterest::kMargin_px;
-  static_assert(kernels::kSumLines % kBand_px == 0 &&
+  static constexpr int kBand_px = 4;
+  static_assert(RegionOfInterest::kTile_px % kBand_px == 0 && kernels::kSumLines % kBand_px == 0 &&
                 kernels::kSumLines >= kernels::kPairLines + kBand_px - 1);
 
   // The last lines, padded by kPad.

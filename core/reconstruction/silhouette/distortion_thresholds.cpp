@@ -10,37 +10,20 @@ namespace {
 
 constexpr int kBlock = 256;
 
-// Three values of each pixel of a row, or of the window around it.
-using Line = std::array<std::vector<float>, 3>;
-
-kernels::WindowRow WindowRowOf(Line& line) {
-  return {line[0].data(), line[1].data(), line[2].data()};
-}
-
 // Minimum over the window around each pixel, in place.
-void Erode(int radius, Image<float>& image) {
-  const auto width = static_cast<std::size_t>(image.width());
-  std::vector<float> line(width);
-  for (int y = 0; y < image.height(); ++y) {
-    float* const row = image.row(y);
-    std::copy_n(row, width, line.data());
-    for (std::size_t k = 1; k <= std::min<std::size_t>(radius, width - 1); ++k) {
-      kernels::TakeLesser(&line[k], width - k, row);
-      kernels::TakeLesser(line.data(), width - k, row + k);
+void Erode(int radius, int width, int height, Image<float>& image) {
+  const auto count = static_cast<std::size_t>(width);
+  Image<float> from = image;
+  for (int y = 0; y < height; ++y) {
+    for (std::size_t k = 1; k <= std::min<std::size_t>(radius, count - 1); ++k) {
+      kernels::TakeLesser(from.row(y) + k, count - k, image.row(y));
+      kernels::TakeLesser(from.row(y), count - k, image.row(y) + k);
     }
   }
-  // Original rows, for as long as they are needed.
-  std::vector<std::vector<float>> above(static_cast<std::size_t>(radius) + 1);
-  for (int y = 0; y < image.height(); ++y) {
-    float* const row = image.row(y);
-    above[static_cast<std::size_t>(y % (radius + 1))].assign(row, row + width);
-    for (int k = 1; k <= radius; ++k) {
-      if (y + k < image.height()) kernels::TakeLesser(image.row(y + k), width, row);
-      if (y - k >= 0)
-        kernels::TakeLesser(above[static_cast<std::size_t>((y - k) % (radius + 1))].data(), width,
-                            row);
-    }
-  }
+  from = image;
+  for (int y = 0; y < height; ++y)
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+      kernels::TakeLesser(from.row(v), count, image.row(y));
 }
 
 }  // namespace
@@ -52,13 +35,6 @@ void DistortionHistograms::Histogram::Add(const float* values, int count) {
     kernels::FindBins(values + begin, length, kBinsPerUnit, kBins, bins.data());
     for (int i = 0; i < length; ++i) ++counts_[static_cast<std::size_t>(bins[i])];
   }
-}
-
-void DistortionHistograms::WindowHistograms::Take(const std::array<std::vector<float>, 3>& line,
-                                                  int y) {
-  std::copy_n(line[0].data(), cd_image.width(), cd_image.row(y));
-  std::copy_n(line[1].data(), alpha_image.width(), alpha_image.row(y));
-  std::copy_n(line[2].data(), roughness_image.width(), roughness_image.row(y));
 }
 
 float DistortionHistograms::Histogram::Quantile(double rate) const {
@@ -76,43 +52,41 @@ float DistortionHistograms::Histogram::Quantile(double rate) const {
 
 void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
                                const std::array<float, 3>& gain) {
-  const int width = image.width();
-  const int height = image.height();
-  for (WindowHistograms& w : windows_)
+  const int width = image.width(), height = image.height();
+  // Whole blocks of two rows at once are written.
+  const int blocks = (width + kernels::kBlock_px - 1) / kernels::kBlock_px;
+  for (WindowValues& w : windows_)
     for (auto* values : {&w.cd_image, &w.alpha_image, &w.roughness_image})
-      if (values->width() != width || values->height() != height)
-        *values = Image<float>(width, height);
+      *values = Image<float>(blocks * kernels::kBlock_px, height + 1);
   everything_.SetAll(width, height);
   scan_.Begin(expected, image, gain, everything_);
-  std::array<Line, 2> lines;
-  for (Line& line : lines)
-    for (auto& values : line) values.resize(static_cast<std::size_t>(width) + kernels::kBlock_px);
-  const int blocks = (width + kernels::kBlock_px - 1) / kernels::kBlock_px;
+  std::vector<float> cd(width), low(width), high(width);
   for (int y = 0; y < height; y += 2) {
-    const int rows = std::min(2, height - y);
     const DistortionScan::RowPair& pair = scan_.Next();
-    for (int row = 0; row < rows; ++row) {
-      auto& [cd, low, high] = lines[row];
+    for (int row = 0; row < std::min(2, height - y); ++row) {
       kernels::NormalizePixels(pair.rows[row], width, cd.data(), low.data(), high.data());
       cd_.Add(cd.data(), width);
       alpha_low_.Add(low.data(), width);
       alpha_high_.Add(high.data(), width);
     }
     for (std::size_t k = 0; k < windows_.size(); ++k) {
-      kernels::NormalizeWindows(pair, blocks, k, {WindowRowOf(lines[0]), WindowRowOf(lines[1])});
-      for (int row = 0; row < rows; ++row) windows_[k].Take(lines[row], y + row);
+      WindowValues& w = windows_[k];
+      const auto row_of = [&w](int v) {
+        return kernels::WindowRow{w.cd_image.row(v), w.alpha_image.row(v),
+                                  w.roughness_image.row(v)};
+      };
+      kernels::NormalizeWindows(pair, blocks, k, {row_of(y), row_of(y + 1)});
     }
   }
-  const auto add = [](Image<float>& image_values, int radius, Histogram& histogram) {
-    Erode(radius, image_values);
-    histogram.Add(image_values.row(0), static_cast<int>(image_values.pixels().size()));
-  };
   for (std::size_t k = 0; k < windows_.size(); ++k) {
-    WindowHistograms& w = windows_[k];
-    const int radius = kernels::kWindowRadii_px[k];
-    add(w.cd_image, radius, w.cd);
-    add(w.alpha_image, radius, w.alpha);
-    add(w.roughness_image, radius, w.roughness);
+    const auto add = [&](Image<float>& values, Histogram& histogram) {
+      Erode(kernels::kWindowRadii_px[k], width, height, values);
+      for (int y = 0; y < height; ++y) histogram.Add(values.row(y), width);
+    };
+    WindowValues& w = windows_[k];
+    add(w.cd_image, w.cd);
+    add(w.alpha_image, w.alpha);
+    add(w.roughness_image, w.roughness);
   }
 }
 

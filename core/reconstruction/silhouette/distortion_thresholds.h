@@ -51,17 +51,14 @@ class DistortionHistograms {
     std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(kBins);
   };
 
-  struct WindowHistograms {
-    // Adds a row of all three.
-    void Take(const std::array<std::vector<float>, 3>& line, int y);
-
+  // Values of all pixels of the picture that is being added, and of its windows of each size.
+  struct WindowValues {
     Histogram cd, alpha, roughness;
-    // Of the picture that is being added.
     Image<float> cd_image, alpha_image, roughness_image;
   };
 
   Histogram cd_, alpha_low_, alpha_high_;
-  std::array<WindowHistograms, kernels::kWindows> windows_;
+  std::array<WindowValues, kernels::kWindows> windows_;
   RegionOfInterest everything_;
   DistortionScan scan_;
 };

@@ -10,19 +10,15 @@
 #include "core/reconstruction/silhouette/outline_refiner.h"
 #include "core/reconstruction/silhouette/pixel_classifier.h"
 #include "core/reconstruction/silhouette/region_of_interest.h"
+#include "core/reconstruction/silhouette/segmentation_constants.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
 
 namespace mocap {
 namespace {
 
+using namespace segmentation;
+
 constexpr std::size_t kFewestFrames = 8;
-// Smaller holes are noise, whatever their colour: first in the evidence, then in the refined
-// outline.
-constexpr int kSmallestGap_px = 12;
-constexpr int kSmallestHole_px = 20;
-// Smaller movements of a camera are not followed, nor those after which contours still do not fit.
-constexpr float kNudge_px = 0.25f;
-constexpr float kMuchLess = 0.8f;
 
 void Check(const CameraCalibration& camera, std::span<const BackgroundFrame> background) {
   const std::string where = "background of camera " + camera.name + ": found ";
@@ -53,8 +49,7 @@ class Segmenter::Impl {
  public:
   Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
        const SegmentationOptions& options)
-      : has_head_(camera.head.has_value()),
-        background_(Learn(camera, background, options.detection_rate)),
+      : background_(Learn(camera, background, options.detection_rate)),
         coarse_(static_cast<float>(options.darkest_shadow)),
         classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
         smallest_blob_px_(
@@ -67,42 +62,30 @@ class Segmenter::Impl {
     roi_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(roi_, conditions_);
     classifier_.Classify(expected, image, conditions_, roi_);
-    person_.Reserve(image.width(), image.height());
-    person_ = classifier_.foreground();
-    cleaner_.Clean(kSmallestGap_px, classifier_.doubtful(), smallest_blob_px_, person_);
-    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), roi_.frame(),
-                    person_);
-    cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, person_);
-    silhouette.Reset(image.width(), image.height());
-    Paste(person_, roi_.frame().left, roi_.frame().top, silhouette);
+    silhouette = classifier_.foreground();
+    cleaner_.Clean(kSmallestGap_px, classifier_.doubtful(), smallest_blob_px_, silhouette);
+    refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
+    cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, silhouette);
     silhouette.KeepBox();
-    MeasureShading(image.width(), image.height());
+    MeasureShading(silhouette);
   }
 
   const Conditions& conditions() const { return conditions_; }
   const Shading& shading() const { return shading_; }
 
  private:
-  void MeasureShading(int width, int height) {
-    const PixelBox& frame = roi_.frame();
-    dark_.Reserve(width, height);
-    dark_ = classifier_.dark();
-    Subtract(person_, dark_);
-    shading_.dark.Reset(width, height);
-    Paste(dark_, frame.left, frame.top, shading_.dark);
+  void MeasureShading(const Silhouette& silhouette) {
+    shading_.dark = classifier_.dark();
+    Subtract(silhouette, shading_.dark);
     shading_.tile_columns = coarse_.live().tile_columns();
     shading_.shades = coarse_.shades();
-    ListDarkTiles(frame, classifier_.alpha_shift(), shading_);
+    ListDarkTiles(classifier_.alpha_shift(), shading_);
   }
 
   // Compares the picture as a whole, and follows a camera that was nudged.
   Conditions CoarsePass(ImageView<const Bgr> image, const PanTiltAngles& angles) {
     const ExpectedHalf& expected = background_->CoarsePass(angles, {});
-    // While a head turns, the person's place in the last picture means little.
-    if (has_head_)
-      coarse_.Compare(expected, image);
-    else
-      coarse_.Watch(expected, image);
+    coarse_.Compare(expected, image);
     const Conditions conditions = coarse_.conditions();
     if (conditions.shift_px == 0) return conditions;
     const auto displacement = MeasureDisplacement(coarse_.live(), conditions.gain[1], expected);
@@ -119,7 +102,6 @@ class Segmenter::Impl {
     return conditions;
   }
 
-  bool has_head_;
   std::unique_ptr<BackgroundModel> background_;
   CoarseScan coarse_;
   Conditions conditions_;
@@ -127,7 +109,6 @@ class Segmenter::Impl {
   PixelClassifier classifier_;
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
-  Silhouette person_, dark_;  // Within the region of interest's frame.
   Shading shading_;
   int smallest_blob_px_, largest_thing_px_;
 };

@@ -23,14 +23,15 @@ struct Sum {
 
 }  // namespace
 
-void ListDarkTiles(const PixelBox& frame, ImageView<const float> shade, Shading& shading) {
+void ListDarkTiles(ImageView<const float> shade, Shading& shading) {
   shading.dark_tiles.clear();
   const Silhouette& dark = shading.dark;
-  for (int row = frame.top / kTile_px; row <= frame.bottom / kTile_px; ++row) {
-    const int end = std::min({(row + 1) * kTile_px, frame.bottom + 1, dark.height()});
-    for (int column = frame.left / kTile_px; column <= frame.right / kTile_px; ++column) {
+  const PixelBox box = dark.BoundingBox().value_or(PixelBox{0, 0, -1, -1});
+  for (int row = box.top / kTile_px; row * kTile_px <= box.bottom; ++row) {
+    const int end = std::min((row + 1) * kTile_px, dark.height());
+    for (int column = box.left / kTile_px; column * kTile_px <= box.right; ++column) {
       Sum sum;
-      for (int y = std::max(row * kTile_px, frame.top) + kFirstRow; y < end; y += kRowStep)
+      for (int y = row * kTile_px + kFirstRow; y < end; y += kRowStep)
         sum.Add(dark.row(y)[column / 8] >> column % 8 * 8 & 0xff, shade.row(y) + column * kTile_px);
       if (sum.count == 0) continue;
       shading.dark_tiles.push_back({static_cast<std::int16_t>(column),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +20,7 @@ struct Shading {
   /// The shade of places that the camera does not know.
   static constexpr Shade kUnknown = 1;
   static Shade ShadeOf(float brighter) {
-    return static_cast<Shade>(std::lround(kShadesPerUnit * std::clamp(brighter, -1.0F, 0.0F)));
+    return static_cast<Shade>(kShadesPerUnit * std::clamp(brighter, -1.0F, 0.0F) - 0.5F);
   }
 
   /// A tile with dark pixels.
@@ -42,8 +41,7 @@ struct Shading {
 };
 
 /// Lists tiles that have dark pixels in one row of four.
-/// @param frame  contains all dark pixels.
 /// @param shade  for every dark pixel.
-void ListDarkTiles(const PixelBox& frame, ImageView<const float> shade, Shading& shading);
+void ListDarkTiles(ImageView<const float> shade, Shading& shading);
 
 }  // namespace mocap

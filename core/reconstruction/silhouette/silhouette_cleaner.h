@@ -1,8 +1,7 @@
 // §4: cleanup: removes noise from a silhouette and fills what noise took from the person.
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "core/reconstruction/silhouette/silhouette.h"
@@ -31,45 +30,36 @@ class SilhouetteCleaner {
   void KeepPerson(int smallest_hole, int smallest_blob, int largest_thing, Silhouette& silhouette);
 
  private:
-  // Pixels of one kind in a row, from the end of the previous run. The runs of a row alternate:
-  // outside on the left, a blob, a hole, … a blob, outside on the right.
+  // Adjacent pixels of one kind in a row.
   struct Run {
-    int end;
+    int y, begin, end;
     int part;
   };
-  // A blob, a hole, or the outside. Parts are numbered in the order of their first pixels.
-  // Connected parts have the number of the first of them.
+  static constexpr int kFar = 1 << 30;
+  // A blob, a hole, or the outside, which is the first part. Parts are numbered in the order of
+  // their first pixels. Connected parts have the number of the first of them.
   struct Part {
-    int whole;   // The first part it is connected with.
-    int around;  // The part before its first pixel, which surrounds it.
-    int area;
+    int whole;   // A part with a lower number that it is connected with, or itself.
+    int around;  // The part to the left of its first pixel, which surrounds it.
     bool is_blob;
     bool is_set = false;
-    int doubtful = 0;
+    int area = 0;
+    int doubtful = 0;  // Pixels of the area.
+    PixelBox box{kFar, kFar, -1, -1};
   };
 
-  void Connect(const Silhouette& silhouette);
-  int CollectRuns(std::span<const std::uint64_t> row, int right, int first);
-  static bool GoesOn(const Run* above, const Run* here, int count);
-  void Follow(const Run* above, Run* here, int count);
-  void ConnectRow(const Run* above, Run* here, int count);
-  void Add(int begin, int part, Run& run);
+  void FindParts(const Silhouette& silhouette, const Silhouette* doubtful);
+  int PartOf(const Run& run, bool is_blob, bool is_outside, std::size_t above, std::size_t row);
   int WholeOf(int part);
   int Join(int a, int b);
-  template <typename Visit>
-  void ForEachRun(Visit visit);
-  void CountDoubtful(int smallest, const Silhouette& doubtful);
   template <typename IsFilled>
   void FillHoles(IsFilled is_filled);
   void KeepBlobs(int smallest);
   void DropThings(int largest_thing);
-  void MeasureBoxes();
   void Write(Silhouette& silhouette);
 
-  std::vector<Run> runs_;
-  std::vector<int> row_begins_;  // And the end of the last.
+  std::vector<Run> runs_;  // Row by row, from left to right.
   std::vector<Part> parts_;
-  std::vector<PixelBox> boxes_;  // Of blobs.
 };
 
 }  // namespace mocap

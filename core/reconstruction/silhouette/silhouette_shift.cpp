@@ -6,15 +6,16 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/kernels/bits.h"
+#include "core/reconstruction/silhouette/bit_filters.h"
+
 namespace mocap {
 namespace {
 
 constexpr int kFarthest_px = 14;
 
 std::int64_t CountOf(const Silhouette& bits) {
-  std::int64_t count = 0;
-  for (const std::uint64_t word : bits.words()) count += std::popcount(word);
-  return count;
+  return kernels::CountBits(bits.words().data(), bits.words().size());
 }
 
 // Counts the pixels that are set in `seen` and in `expected` moved by (dx, dy).
@@ -44,14 +45,6 @@ Silhouette InnerPart(int width, int height) {
   return inner;
 }
 
-Silhouette Common(const Silhouette& a, const Silhouette& b) {
-  Silhouette common = a;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int i = 0; i < a.words_per_row(); ++i) common.row(y)[i] &= b.row(y)[i];
-  }
-  return common;
-}
-
 }  // namespace
 
 bool TouchesBorder(const Silhouette& silhouette) {
@@ -64,7 +57,8 @@ SilhouetteShift MeasureShift(const Silhouette& silhouette, const Silhouette& exp
   const bool is_cut = TouchesBorder(silhouette) || TouchesBorder(expected);
   const Silhouette inner =
       is_cut ? InnerPart(silhouette.width(), silhouette.height()) : Silhouette();
-  const Silhouette seen = is_cut ? Common(silhouette, inner) : silhouette;
+  Silhouette seen = silhouette;
+  if (is_cut) Intersect(inner, seen);
   const std::int64_t seen_count = CountOf(seen), expected_count = CountOf(expected);
   const auto overlap = [&](int dx, int dy) {
     const std::int64_t common = CommonPixels(seen, expected, dx, dy);

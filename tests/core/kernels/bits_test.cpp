@@ -83,48 +83,5 @@ TEST(BitKernels, WordsAreCombinedAndCountedOneByOne) {
   }
 }
 
-TEST(BitKernels, PixelsBesideTheOtherPlaneAreRemoved) {
-  constexpr std::ptrdiff_t kStride = 4, kHeight = 9;
-  Numbers numbers(3);
-  // Sparse planes, with an empty word before each row and empty rows above and below.
-  Words person((kHeight + 2) * kStride + 1), background = person;
-  for (std::ptrdiff_t y = 1; y <= kHeight; ++y) {
-    for (std::ptrdiff_t i = 1; i < kStride; ++i) {
-      const Words random = numbers.Integers<BitWord>(6);
-      person[y * kStride + i] = random[0] & random[1] & random[2];
-      background[y * kStride + i] = random[3] & random[4] & random[5];
-    }
-  }
-  const auto bit = [&](const Words& plane, std::ptrdiff_t y, std::ptrdiff_t x) {
-    return x >= 0 && (plane[y * kStride + 1 + x / 64] >> (x % 64) & 1) != 0;
-  };
-  const auto apart = [&](const Words& plane, const Words& other, Words& to) {
-    for (std::ptrdiff_t y = 1; y <= kHeight; ++y) {
-      for (std::ptrdiff_t x = 0; x < (kStride - 1) * 64; ++x) {
-        bool touches = false;
-        for (std::ptrdiff_t v = y - 1; v <= y + 1; ++v)
-          for (std::ptrdiff_t u = x - 1; u <= x + 1; ++u) touches = touches || bit(other, v, u);
-        if (bit(plane, y, x) && !touches) to[(y - 1) * kStride + x / 64] |= BitWord{1} << (x % 64);
-      }
-    }
-  };
-  const auto joined = [](Words a, const Words& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-  };
-  ExpectSameBits(
-      [&] {
-        Words inside(kHeight * kStride), outside = inside;
-        apart(person, background, inside), apart(background, person, outside);
-        return joined(inside, outside);
-      },
-      [&] {
-        Words inside(kHeight * kStride), outside = inside;
-        KeepApart(&person[kStride + 1], &background[kStride + 1], kStride, kHeight * kStride - 1,
-                  inside.data(), outside.data());
-        return joined(inside, outside);
-      });
-}
-
 }  // namespace
 }  // namespace mocap::kernels

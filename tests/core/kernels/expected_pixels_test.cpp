@@ -8,8 +8,6 @@
 namespace mocap::kernels {
 namespace {
 
-constexpr std::array<float, 3> kGain = {1.1f, 0.9f, 1.02f};
-
 // Planes of random numbers for a row of pixels.
 class ExpectedPixelKernels : public testing::TestWithParam<std::size_t> {
  protected:
@@ -65,64 +63,33 @@ TEST_P(ExpectedPixelKernels, ValuesAreAddedOneByOne) {
       });
 }
 
-TEST_P(ExpectedPixelKernels, DistortionsAreAddedOneByOne) {
-  ExpectSameBits(
-      [&] {
-        return Both([&](float* alpha_shift_sq, float* cd_sq) {
-          for (std::size_t i = 0; i < count_; ++i) {
-            const std::array<std::uint8_t, 3> live = {pixels_[i].b, pixels_[i].g, pixels_[i].r};
-            float along = 0, length_sq = 0, total_sq = 0;
-            for (int c = 0; c < 3; ++c) {
-              const float sigma = std::sqrt(variance_[c][i]);
-              const float z = live[c] * kGain[c] / sigma, m = mean_[c][i] / sigma;
-              along += z * m, length_sq += m * m, total_sq += (z - m) * (z - m);
-            }
-            const float shift = along / length_sq - 1;
-            const float distance_sq = std::max(total_sq - shift * shift * length_sq, 0.0f);
-            alpha_shift_sq[i] = std::max(alpha_shift_sq[i] - shift * shift, 0.0f);
-            cd_sq[i] = std::max(cd_sq[i] - distance_sq, 0.0f);
-          }
-        });
-      },
-      [&] {
-        return Both([&](float* alpha_shift_sq, float* cd_sq) {
-          AddDistortions(pixels_.data(), count(), kGain, -1, {Planes(mean_), Planes(variance_)},
-                         alpha_shift_sq, cd_sq);
-        });
-      });
-}
-
 TEST_P(ExpectedPixelKernels, PixelsAreLearnedOneByOne) {
   constexpr float kFrames = 10, kShift_px = 0.3f;
   const auto learned = [&](const auto& learn) {
-    std::vector<float> planes(7 * count_);
+    std::vector<float> planes(6 * count_);
     const auto plane = [&](std::size_t i) { return &planes[i * count_]; };
     learn(LearnedPixels{
-        {plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}, plane(6), bytes_.data()});
+        {plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}, bytes_.data()});
     return planes;
   };
   ExpectSameBits(
       [&] {
         return learned([&](const LearnedPixels& to) {
           for (std::size_t i = 0; i < count_; ++i) {
-            const float widening = std::max(std::sqrt(second_[i] / kFrames / 2), 1.0f);
             for (int c = 0; c < 3; ++c) {
               const float mean = value_[c][i] / kFrames;
               const float spread =
                   (value_sq_[c][i] / kFrames - mean * mean) * kFrames / (kFrames - 1);
-              const float sigma = std::max(std::sqrt(std::max(spread, 0.0f)), 1.5f) * widening;
               const float shift = kShift_px * bytes_[i];
               to.mean[c][i] = std::max(mean, kDarkestMean);
-              to.variance[c][i] = sigma * sigma + shift * shift;
+              to.variance[c][i] = std::max(spread, 2.25f) + shift * shift;
             }
-            to.alpha_limit[i] = 1 / std::max(std::sqrt(first_[i] / kFrames), 1e-6f);
           }
         });
       },
       [&] {
         return learned([&](const LearnedPixels& to) {
-          ExpectPixels({Planes(value_), Planes(value_sq_), first_.data(), second_.data()}, count(),
-                       kFrames, kShift_px, to);
+          ExpectPixels({Planes(value_), Planes(value_sq_)}, count(), kFrames, kShift_px, to);
         });
       });
 }
@@ -175,15 +142,13 @@ TEST_P(ExpectedPixelKernels, GroupsAreWeighedPixelByPixel) {
               group.inverse_sigma[c][k] =
                   rounded(std::sqrt(weight) / WeighedPixels::kInverseSigmaUnit);
             }
-            group.alpha_weight[k] =
-                rounded(std::min(std::sqrt(square), first_[i]) / WeighedPixels::kAlphaWeightUnit);
+            group.alpha_weight[k] = rounded(std::sqrt(square) / WeighedPixels::kAlphaWeightUnit);
           }
         });
       },
       [&] {
         return weighed([&](WeighedPixels* to) {
-          WeighPixels({Planes(mean_), Planes(variance_), first_.data(), bytes_.data()}, groups,
-                      0.2f, to, 3);
+          WeighPixels({Planes(mean_), Planes(variance_), bytes_.data()}, groups, 0.2f, to, 3);
         });
       });
 }

@@ -11,13 +11,13 @@ TEST(HalvingKernels, TilesAreHalvedAsPixelByPixel) {
     const int width = tiles * kTileSide, stride = 6 * width + 5;
     // Nothing is read before the first byte or after the last.
     const std::vector<std::uint8_t> pixels = Numbers().Integers<std::uint8_t>(
-        static_cast<std::size_t>(stride * (2 * kTileSide - 1) + 6 * width));
+        static_cast<std::size_t>(stride * (kRowStep_px * (kTileRows - 1) + 1) + 6 * width));
     const auto halved = [&](const auto& halve) {
       std::array<std::vector<std::uint8_t>, 3> color;
       std::vector<float> means(static_cast<std::size_t>(3 * tiles));
       HalvedTiles to{{}, {}, width};
       for (int c = 0; c < 3; ++c) {
-        color[c].resize(static_cast<std::size_t>(width * kTileSide));
+        color[c].resize(static_cast<std::size_t>(width * kTileRows));
         to.color[c] = color[c].data();
         to.tile_mean[c] = &means[static_cast<std::size_t>(c * tiles)];
       }
@@ -35,7 +35,7 @@ TEST(HalvingKernels, EveryRoundingOfAMeanOfFourIsRight) {
   constexpr int kWidth = 2 * kTileSide, kStride = 6 * kWidth;
   for (int base = 0; base <= 252; base += 28) {
     for (int combination = 0; combination < 256; combination += kWidth) {
-      std::vector<std::uint8_t> pixels(kStride * 2 * kTileSide, 0);
+      std::vector<std::uint8_t> pixels(kStride * kRowStep_px * kTileRows, 0);
       for (int x = 0; x < kWidth; ++x) {
         const int levels = combination + x;
         const auto at = [&](int u, int v) -> std::uint8_t& {
@@ -47,7 +47,7 @@ TEST(HalvingKernels, EveryRoundingOfAMeanOfFourIsRight) {
         at(1, 1) = static_cast<std::uint8_t>(base + (levels >> 6 & 3));
       }
       ForEachTarget([&] {
-        std::vector<std::uint8_t> blue(kWidth * kTileSide), rest = blue;
+        std::vector<std::uint8_t> blue(kWidth * kTileRows), rest = blue;
         std::vector<float> means(2);
         HalveTiles(pixels.data(), kStride, 2,
                    {{blue.data(), rest.data(), rest.data()},
@@ -67,7 +67,7 @@ TEST(HalvingKernels, RowsOfTilesAreAveragedAsPixelByPixel) {
   for (int tiles = 1; tiles < 20; ++tiles) {
     const int width = tiles * kTileSide;
     const auto pixels =
-        Numbers().Integers<std::uint8_t>(static_cast<std::size_t>(width * kTileSide));
+        Numbers().Integers<std::uint8_t>(static_cast<std::size_t>(width * kTileRows));
     std::vector<std::uint16_t> columns(static_cast<std::size_t>(width));
     const auto averaged = [&](const auto& average) {
       std::vector<float> means(static_cast<std::size_t>(tiles));

@@ -54,8 +54,8 @@ TEST(StatisticsKernels, NumbersAreComparedAndSortedIntoBinsOneByOne) {
 
 TEST(StatisticsKernels, GradientsAreAddedPixelByPixel) {
   constexpr int kStride = 60, kGain = 250;
-  const auto expected = Numbers(1).Integers<std::uint8_t>(3 * kStride);
-  std::vector<std::uint8_t> live(expected.begin() + kStride, expected.begin() + 2 * kStride);
+  const auto expected = Numbers(1).Integers<std::uint8_t>(5 * kStride);
+  std::vector<std::uint8_t> live(expected.begin() + 2 * kStride, expected.begin() + 3 * kStride);
   for (std::size_t i = 0; i < live.size(); i += 2) live[i] = static_cast<std::uint8_t>(live[i] + i);
   const std::vector<float> variance = Numbers(2).Floats(kStride, 0, 10);
   for (int count = 1; count < kStride - 2; ++count) {
@@ -63,9 +63,11 @@ TEST(StatisticsKernels, GradientsAreAddedPixelByPixel) {
         [&] {
           std::vector<std::int64_t> sums(5);
           for (int i = 1; i <= count; ++i) {
-            const int x = kStride + i;
+            const int x = 2 * kStride + i;
             const int gx = expected[x + 1] - expected[x - 1];
-            const int gy = expected[x + kStride] - expected[x - kStride];
+            const int gy = (8 * (expected[x + kStride] - expected[x - kStride]) -
+                            (expected[x + 2 * kStride] - expected[x - 2 * kStride])) /
+                           6;
             const int d = (kGain * live[i] + 128) / 256 - expected[x];
             if (std::abs(d) > 4 + std::abs(gx) + std::abs(gy) || variance[i] >= 8) continue;
             sums[0] += gx * gx, sums[1] += gx * gy, sums[2] += gy * gy;
@@ -75,7 +77,7 @@ TEST(StatisticsKernels, GradientsAreAddedPixelByPixel) {
         },
         [&] {
           GradientSums sums;
-          AddGradients(&live[1], &expected[kStride + 1], &variance[1], kStride, kGain, 8, count,
+          AddGradients(&live[1], &expected[2 * kStride + 1], &variance[1], kStride, kGain, 8, count,
                        sums);
           return std::vector<std::int64_t>{sums.xx, sums.xy, sums.yy, sums.xd, sums.yd};
         });

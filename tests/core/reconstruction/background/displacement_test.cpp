@@ -81,7 +81,8 @@ TEST_F(DisplacementTest, WhatIsExpectedFollowsIt) {
     for (int x = 4; x < kWidth - 10; ++x) {
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(full.mean[c][static_cast<std::size_t>(y * kWidth + x)], wall(x, y)[c], 2.5);
-        const std::size_t i = static_cast<std::size_t>(y / 2 * half.mean.width + x / 2);
+        const std::size_t i =
+            static_cast<std::size_t>(y / HalfPicture::kRowStep_px * half.mean.width + x / 2);
         EXPECT_NEAR(half.mean.color[c][i], exact.color[c][i], 2.5);
       }
     }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/reconstruction/background/background_model.h"
@@ -126,91 +127,28 @@ TEST_F(CoarseScanTest, ShiftsOfContoursAreMeasured) {
   EXPECT_NEAR(Compare(sensor_.Take(stripes(0.8f))).shift_px, 0.8, 0.3);
 }
 
-// Looks as a camera that runs does, and as if every picture were the first.
-class WatchTest : public CoarseScanTest {
- protected:
-  void Show(const ExactPicture& picture) {
-    const Image<Bgr> image = sensor_.Take(picture);
-    scan_.Watch(background_->CoarsePass({}, {}), image.view());
-    plain_.Compare(background_->CoarsePass({}, {}), image.view());
-  }
-  ExactPicture PersonAt(const PixelBox& box) const {
-    ExactPicture picture = studio_;
-    Paint(picture, box, {60, 60, 70});
-    return picture;
-  }
-  bool SeesAll() const { return scan_.suspicious().words() == plain_.suspicious().words(); }
-
-  CoarseScan plain_;
-};
-
-TEST_F(WatchTest, WhoComesInIsSeenAtOnce) {
-  for (int i = 0; i < 10; ++i) Show(studio_);
-  for (int i = 0; i < CoarseScan::kBandRows; ++i) {
-    Show(PersonAt({0, 20, 10 + 4 * i, 119}));
-    EXPECT_GT(CountSet(scan_.suspicious()), 20);
-    EXPECT_TRUE(SeesAll()) << i;
-  }
-}
-
-TEST_F(WatchTest, WhoWalksOrLeapsIsSeenWhole) {
-  for (const int left : {20, 30, 34, 120, 128, 10, 14, 50}) {
-    Show(PersonAt({left, 20, left + 39, 119}));
-    EXPECT_TRUE(SeesAll()) << left;
-  }
-}
-
-TEST_F(WatchTest, SomebodyElseIsSeenBesideThePerson) {
-  for (int i = 0; i < 4; ++i) Show(PersonAt({20, 20, 49, 119}));
-  ExactPicture picture = PersonAt({20, 20, 49, 119});
-  Paint(picture, {150, 30, 179, 109}, {60, 60, 70});
-  Show(picture);
-  EXPECT_TRUE(SeesAll());
-}
-
-TEST_F(WatchTest, WhatIsSmallIsSeenWhenItsRowsTurnComes) {
-  for (int i = 0; i < 4; ++i) Show(studio_);
-  int pictures = 0;
-  do {
-    Show(PersonAt({120, 40, 139, 59}));
-    ++pictures;
-  } while (!SeesAll() && pictures < 3 * CoarseScan::kBandRows);
-  EXPECT_LE(pictures, CoarseScan::kBandRows);
-  Show(PersonAt({120, 40, 139, 59}));
-  EXPECT_TRUE(SeesAll());
-}
-
-TEST_F(WatchTest, FlickerIsMeasuredWhateverIsLookedAt) {
-  for (int i = 0; i < 20; ++i) {
-    const float light = i % 2 == 0 ? 0.96f : 1.03f;
-    ExactPicture picture = PersonAt({20 + 3 * i, 20, 59 + 3 * i, 119});
-    for (auto& color : picture.pixels())
-      for (float& value : color) value *= light;
-    Show(picture);
-    EXPECT_NEAR(scan_.conditions().gain[1], 1 / light, 0.01) << i;
-  }
-}
-
 TEST(RegionOfInterest, TakesInTheNeighboursOfSuspiciousTilesAndMeasuresBeyondThem) {
   Silhouette suspicious(9, 5);  // Of 67 × 35 pixels.
   suspicious.Set(4, 2);
   suspicious.Set(8, 2);
   RegionOfInterest roi;
   roi.Set(suspicious, 67, 35);
-  EXPECT_TRUE(roi.Judged(7).empty());
-  ASSERT_EQ(roi.Judged(8).size(), 2u);
-  EXPECT_EQ(roi.Judged(8)[0].begin, 24);
-  EXPECT_EQ(roi.Judged(8)[0].end, 48);
-  EXPECT_EQ(roi.Judged(8)[1].begin, 56);
-  EXPECT_EQ(roi.Judged(8)[1].end, 67);
-  EXPECT_EQ(roi.Judged(31).size(), 2u);
-  EXPECT_TRUE(roi.Judged(32).empty());
-  EXPECT_TRUE(roi.Measured(3).empty());
-  for (const int y : {4, 16, 34}) {
-    ASSERT_EQ(roi.Measured(y).size(), 1u) << y;
-    EXPECT_EQ(roi.Measured(y)[0].begin, 20);
-    EXPECT_EQ(roi.Measured(y)[0].end, 67);
-  }
+  const auto judged = [&](int y) {
+    std::vector<std::pair<int, int>> runs;
+    roi.ForEachJudged(y, [&](const PixelRun& run) { runs.emplace_back(run.begin, run.end); });
+    return runs;
+  };
+  const auto measured = [&](int y) {
+    std::vector<std::pair<int, int>> runs;
+    roi.ForEachMeasured(y, [&](const PixelRun& run) { runs.emplace_back(run.begin, run.end); });
+    return runs;
+  };
+  using Runs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(judged(7), Runs());
+  EXPECT_EQ(judged(8), (Runs{{24, 48}, {56, 67}}));
+  EXPECT_EQ(judged(31), (Runs{{24, 48}, {56, 67}}));
+  EXPECT_EQ(judged(32), Runs());
+  for (const int y : {0, 16, 34}) EXPECT_EQ(measured(y), (Runs{{16, 67}})) << y;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::array<WindowDistortion, kWindows> WindowsAround(int x, int row,
 
 TEST(DistortionScan, GivesWhatTheFormulasOfOnePixelGive) {
   ExpectedPicture expected(1, 1);
-  expected.SetPixel(0, {100, 80, 60}, {2, 4, 3}, 0);
+  expected.SetPixel(0, {100, 80, 60}, {2, 4, 3});
   expected.Weigh(0, 0, 0, 1);
   Image<Bgr> image(1, 1, {90, 85, 50});
   RegionOfInterest everything;
@@ -54,7 +54,7 @@ TEST(DistortionScan, ABrightnessThatChangesAlongASlopeIsNotRough) {
   Image<Bgr> image(40, 30);
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
-      expected.SetPixel(static_cast<std::size_t>(y * 40 + x), {100, 100, 100}, {1, 1, 1}, 0);
+      expected.SetPixel(static_cast<std::size_t>(y * 40 + x), {100, 100, 100}, {1, 1, 1});
       const auto value = static_cast<std::uint8_t>(60 + x + 2 * y);
       image(x, y) = {value, value, value};
     }

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "core/reconstruction/silhouette/segmentation_constants.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
 namespace mocap {
@@ -31,15 +32,9 @@ class PixelClassifierTest : public ::testing::Test {
                          everything);
   }
   // Of the pixels in a box.
-  double ShareOf(PixelClass wanted, const PixelBox& box) const {
-    int count = 0, all = 0;
-    for (int y = box.top; y <= box.bottom; ++y) {
-      for (int x = box.left; x <= box.right; ++x) {
-        count += classifier_.ClassOf(x, y) == wanted;
-        ++all;
-      }
-    }
-    return static_cast<double>(count) / all;
+  static double ShareOf(const Silhouette& pixels, const PixelBox& box) {
+    return CountSet(pixels, box) /
+           static_cast<double>((box.right + 1 - box.left) * (box.bottom + 1 - box.top));
   }
 
   static constexpr PixelBox kPatch{40, 30, 69, 59};
@@ -72,44 +67,44 @@ TEST(PixelClassifier, DecisionsEndWhereThePictureDoes) {
 
 TEST_F(PixelClassifierTest, TheEmptyStudioIsBackground) {
   Classify(studio_);
-  EXPECT_GT(ShareOf(PixelClass::kBackground, {0, 0, kWidth - 1, kHeight - 1}), 0.99);
-  EXPECT_LT(ShareOf(PixelClass::kForeground, {0, 0, kWidth - 1, kHeight - 1}), 0.001);
+  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kWidth - 1, kHeight - 1}), 0.001);
 }
 
 TEST_F(PixelClassifierTest, WhatIsEvenlyDarkerIsShadow) {
   ExactPicture picture = studio_;
   Dim(picture, kPatch, 0.82f);
   Classify(picture);
-  EXPECT_GT(ShareOf(PixelClass::kShadow, {44, 34, 65, 55}), 0.99);
+  EXPECT_GT(ShareOf(classifier_.dark(), {44, 34, 65, 55}), 0.99);
+  EXPECT_LT(ShareOf(classifier_.foreground(), {44, 34, 65, 55}), 0.01);
 }
 
-TEST_F(PixelClassifierTest, WhatIsABitBrighterIsHighlight) {
+TEST_F(PixelClassifierTest, WhatIsABitBrighterIsNoForeground) {
   ExactPicture picture = studio_;
   // Too small to be a thing of its own.
   Dim(picture, {50, 40, 50, 40}, 1.055f);
   Classify(picture);
-  EXPECT_EQ(ShareOf(PixelClass::kHighlight, {50, 40, 50, 40}), 1);
+  EXPECT_FALSE(classifier_.foreground().Test(50, 40));
 }
 
 TEST_F(PixelClassifierTest, WhatHasAnotherColourIsForeground) {
   ExactPicture picture = studio_;
   Paint(picture, kPatch, {90, 100, 160});
   Classify(picture);
-  EXPECT_EQ(ShareOf(PixelClass::kForeground, kPatch), 1);
+  EXPECT_EQ(ShareOf(classifier_.foreground(), kPatch), 1);
 }
 
 TEST_F(PixelClassifierTest, WhatIsDarkerThanAnyShadowIsForeground) {
   ExactPicture picture = studio_;
   Dim(picture, kPatch, 0.55f);
   Classify(picture);
-  EXPECT_EQ(ShareOf(PixelClass::kForeground, kPatch), 1);
+  EXPECT_EQ(ShareOf(classifier_.foreground(), kPatch), 1);
 }
 
 TEST_F(PixelClassifierTest, WhatIsMuchBrighterIsForeground) {
   ExactPicture picture = studio_;
   Dim(picture, kPatch, 1.3f);
   Classify(picture);
-  EXPECT_EQ(ShareOf(PixelClass::kForeground, kPatch), 1);
+  EXPECT_EQ(ShareOf(classifier_.foreground(), kPatch), 1);
 }
 
 TEST_F(PixelClassifierTest, ASoftEdgedShadowIsNoForegroundAnywhere) {
@@ -122,7 +117,7 @@ TEST_F(PixelClassifierTest, ASoftEdgedShadowIsNoForegroundAnywhere) {
     }
   }
   Classify(picture);
-  EXPECT_LT(ShareOf(PixelClass::kForeground, {0, 0, kWidth - 1, kHeight - 1}), 0.001);
+  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kWidth - 1, kHeight - 1}), 0.001);
 }
 
 TEST_F(PixelClassifierTest, ClothOfAShadowsBrightnessIsToldApartByItsGrain) {
@@ -133,7 +128,7 @@ TEST_F(PixelClassifierTest, ClothOfAShadowsBrightnessIsToldApartByItsGrain) {
   for (int y = kPatch.top; y <= kPatch.bottom; ++y)
     for (int x = kPatch.left; x <= kPatch.right; ++x) Dim(picture, {x, y, x, y}, grain(random));
   Classify(picture);
-  EXPECT_GT(ShareOf(PixelClass::kForeground, kPatch), 0.98);
+  EXPECT_GT(ShareOf(classifier_.foreground(), kPatch), 0.98);
 }
 
 TEST_F(PixelClassifierTest, AFaintTintShowsOverAWindow) {
@@ -141,7 +136,7 @@ TEST_F(PixelClassifierTest, AFaintTintShowsOverAWindow) {
   for (int y = kPatch.top; y <= kPatch.bottom; ++y)
     for (int x = kPatch.left; x <= kPatch.right; ++x) picture(x, y)[2] += 5;
   Classify(picture);
-  EXPECT_GT(ShareOf(PixelClass::kForeground, kPatch), 0.85);
+  EXPECT_GT(ShareOf(classifier_.foreground(), kPatch), 0.85);
 }
 
 TEST_F(PixelClassifierTest, WindowsReachNoFartherThanWhatTheyFind) {
@@ -168,9 +163,9 @@ class PlainClassifier {
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
         const double alpha = shift_(x, y) * weight_(x, y);
-        clear_(x, y) = distance_(x, y).norm() > PixelClassifier::kPixelMargin * thresholds.cd ||
+        clear_(x, y) = distance_(x, y).norm() > segmentation::kPixelMargin * thresholds.cd ||
                        (shift_(x, y) < darkest_shadow - 1 &&
-                        alpha < PixelClassifier::kPixelMargin * thresholds.alpha_low);
+                        alpha < segmentation::kPixelMargin * thresholds.alpha_low);
       }
     }
     for (const std::size_t k : {0, 1}) {
@@ -197,14 +192,14 @@ class PlainClassifier {
     }
     const double alpha = z.dot(m) / m.squaredNorm();
     shift_(x, y) = alpha - 1;
-    weight_(x, y) = std::min(m.norm(), static_cast<double>(expected.alpha_limit[i]));
+    weight_(x, y) = m.norm();
     distance_(x, y) = z - alpha * m;
   }
 
   bool IsClearWindow(std::size_t k, int x, int y, const DistortionThresholds::Window& t,
                      double darkest_shadow) const {
     const int radius = kernels::kWindowRadii_px[k];
-    const double margin = PixelClassifier::kWindowMargins[k];
+    const double margin = segmentation::kWindowMargins[k];
     const double area = (2 * radius + 1) * (2 * radius + 1);
     const double spread = area * (area - 1) / 12;
     double sum = 0, sum_sq = 0, along = 0, down = 0;
@@ -284,15 +279,11 @@ TEST_F(PixelClassifierTest, ARegionOfInterestShowsWhatTheWholePictureShows) {
   classifier_.Classify(expected, image.view(), {}, part);
   int judged = 0;
   for (int y = 0; y < kHeight; ++y) {
-    for (const PixelRun& run : part.Judged(y)) {
+    part.ForEachJudged(y, [&](const PixelRun& run) {
       // Windows that reach beyond are taken for background.
-      for (int x = run.begin; x < run.end; ++x, ++judged) {
-        if (whole.Test(x, y) !=
-            classifier_.foreground().Test(x - part.frame().left, y - part.frame().top)) {
-          ADD_FAILURE() << x << " " << y;
-        }
-      }
-    }
+      for (int x = run.begin; x < run.end; ++x, ++judged)
+        EXPECT_EQ(whole.Test(x, y), classifier_.foreground().Test(x, y)) << x << " " << y;
+    });
   }
   EXPECT_GT(judged, 4000);
   EXPECT_GT(CountSet(whole), 30 * 30 + 40 * 21 - 1);

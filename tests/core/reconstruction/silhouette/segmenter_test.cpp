@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/errors.h"
 #include "tests/core/reconstruction/lenses.h"
@@ -165,18 +166,52 @@ TEST_F(SegmenterTest, ADriftOfTheWallsHasNoSilhouette) {
   EXPECT_NEAR(CountSet(Segment(picture)), 30 * 80, 150);
 }
 
+// Segments pictures in turn, and each by a segmenter that has seen nothing else.
+void ExpectSameAsFresh(const CameraCalibration& camera,
+                       const std::vector<BackgroundFrame>& background,
+                       const std::vector<BackgroundFrame>& pictures) {
+  Segmenter seasoned(camera, background, {});
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    SCOPED_TRACE(i);
+    Segmenter fresh(camera, background, {});
+    Silhouette expected, silhouette;
+    fresh.Segment(pictures[i].image.view(), pictures[i].angles, expected);
+    seasoned.Segment(pictures[i].image.view(), pictures[i].angles, silhouette);
+    EXPECT_EQ(silhouette.words(), expected.words());
+    EXPECT_EQ(seasoned.shading().dark.words(), fresh.shading().dark.words());
+    EXPECT_EQ(seasoned.shading().dark_tiles, fresh.shading().dark_tiles);
+    EXPECT_EQ(seasoned.shading().shades, fresh.shading().shades);
+    EXPECT_EQ(seasoned.conditions().gain, fresh.conditions().gain);
+    EXPECT_EQ(seasoned.conditions().drift, fresh.conditions().drift);
+    EXPECT_EQ(seasoned.conditions().shift_px, fresh.conditions().shift_px);
+    EXPECT_EQ(seasoned.conditions().displacement, fresh.conditions().displacement);
+  }
+}
+
 TEST_F(SegmenterTest, WhatWentBeforeDoesNotMatter) {
-  ExactPicture person = studio_;
-  Paint(person, {80, 40, 109, 119}, {70, 80, 110});
-  const Image<Bgr> image = sensor_.Take(person);
-  Silhouette before, after;
-  segmenter_.Segment(image.view(), {}, before);
-  ExactPicture changed = studio_;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) changed(x, y)[2] += static_cast<float>(8 * std::sin(x / 11.0));
-  Segment(changed);
-  segmenter_.Segment(image.view(), {}, after);
-  EXPECT_EQ(before.words(), after.words());
+  std::vector<BackgroundFrame> pictures;
+  const auto take = [&](const ExactPicture& picture, float light) {
+    pictures.push_back({sensor_.Take(picture, light), {}});
+  };
+  // Somebody walks, leaps and leaves; something small lies apart; light and walls change.
+  for (const int left : {-1, 20, 26, 120, 128, -1, 60}) {
+    ExactPicture picture = studio_;
+    if (left >= 0) Paint(picture, {left, 40, left + 29, 119}, {70, 80, 110});
+    Dim(picture, {140, 100, 189, 139}, 0.85f);
+    if (left == 120) Paint(picture, {10, 10, 21, 21}, {40, 50, 110});
+    take(picture, left == 26 ? 0.95f : 1);
+    if (left != 20) continue;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        picture(x, y)[2] += static_cast<float>(8 * std::sin(x / 11.0));
+    take(picture, 1);
+    // A nudge.
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x + 1 < kWidth; ++x) picture(x, y) = picture(x + 1, y);
+    take(picture, 1);
+  }
+  NoisySensor sensor(2.0f, 21);
+  ExpectSameAsFresh(SmallCamera(), TakeBackground(studio_, 30, sensor), pictures);
 }
 
 TEST_F(SegmenterTest, AThingThatWasMovedIsLeftOutBesideAPerson) {
@@ -306,6 +341,18 @@ TEST_F(PanTiltSegmenterTest, APersonIsFoundInAnyDirection) {
   }
 }
 
+TEST_F(PanTiltSegmenterTest, WhatWentBeforeDoesNotMatter) {
+  std::vector<BackgroundFrame> pictures;
+  for (const PanTiltAngles& angles :
+       {PanTiltAngles{0.05, 0.05}, {-0.17, -0.06}, {0.24, 0.07}, {0.05, 0.05}}) {
+    ExactPicture picture = Look(angles);
+    const int left = pictures.size() == 3 ? 20 : 80;
+    Paint(picture, {left, 40, left + 29, 120}, {40, 40, 160});
+    pictures.push_back({sensor_.Take(picture), angles});
+  }
+  ExpectSameAsFresh(camera_, background_, pictures);
+}
+
 TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClosely) {
   const auto background = LearnPanTiltBackground(camera_, background_, 0.999);
   const PanTiltAngles angles{0.17, -0.04};
@@ -323,13 +370,13 @@ TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClose
   background->CoarsePass(angles, {});
   const ExpectedPicture& partly = background->Expect(part, {});
   for (int y = 0; y < kHeight; ++y) {
-    for (const PixelRun& run : part.Measured(y)) {
+    part.ForEachMeasured(y, [&](const PixelRun& run) {
       for (int x = run.begin; x < run.end; ++x) {
         const auto i = static_cast<std::size_t>(y * kWidth + x);
         ASSERT_EQ(partly.mean[1][i], whole.mean[1][i]) << x << " " << y;
         ASSERT_EQ(partly.InverseSigmaAt(x, y, 1), whole.InverseSigmaAt(x, y, 1)) << x << " " << y;
       }
-    }
+    });
   }
 }
 

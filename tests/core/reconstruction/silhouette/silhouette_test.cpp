@@ -75,19 +75,6 @@ TEST(Silhouette, AKeptBoundingBoxFollowsWhatIsWritten) {
   EXPECT_FALSE(s.BoundingBox().has_value());
 }
 
-TEST(Silhouette, PastingReplacesAPart) {
-  const Silhouette part = RandomSilhouette(70, 10, 50, 6);
-  const Silhouette before = RandomSilhouette(134, 30, 50, 7);
-  Silhouette s = before;
-  Paste(part, 64, 15, s);
-  for (int y = 0; y < s.height(); ++y) {
-    for (int x = 0; x < s.width(); ++x) {
-      const bool is_within = x >= 64 && y >= 15 && y < 25;
-      EXPECT_EQ(s.Test(x, y), is_within ? part.Test(x - 64, y - 15) : before.Test(x, y));
-    }
-  }
-}
-
 TEST(Silhouette, ErodingAndDilatingLookAtTheWholeSquare) {
   for (const int width : {64, 67, 130, 700}) {
     for (const int radius : {1, 2, 3}) {
