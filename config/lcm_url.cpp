@@ -50,7 +50,7 @@ std::vector<Option> SplitOptions(std::string_view text) {
 
 void CheckMulticastOption(const std::string& url, const Option& option, bool has_ports) {
   constexpr int kMostHops = 255;
-  constexpr int kMostBytes = 1 << 30;
+  constexpr int kLargestBuffer = 1 << 30;
   constexpr int kMostPorts = 65535;
   const auto require = [&](int min, int max) {
     if (Number(option.value, min, max)) return;
@@ -58,7 +58,7 @@ void CheckMulticastOption(const std::string& url, const Option& option, bool has
                   "; expected a number of " + std::to_string(min) + " to " + std::to_string(max));
   };
   if (option.key == "ttl") return require(0, kMostHops);
-  if (option.key == "recv_buf_size") return require(1, kMostBytes);
+  if (option.key == "recv_buf_size") return require(1, kLargestBuffer);
   if (has_ports && option.key == "nports") return require(1, kMostPorts);
   Fail(url,
        "has the unknown option " + std::string(option.key) + "; expected ttl or recv_buf_size");

@@ -85,7 +85,7 @@ Lens ReadLens(TomlSection& camera) {
   }
 }
 
-PanTiltHead ReadHead(TomlSection& section) {
+PanTiltHead ReadPanTiltHead(TomlSection& section) {
   PanTiltHead head;
   head.pan_axis_W = ReadAxis(section, "pan_axis");
   head.pan_point_W = section.Vector("pan_point_mm");
@@ -98,7 +98,7 @@ PanTiltHead ReadHead(TomlSection& section) {
   return head;
 }
 
-CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
+CameraCalibration ReadCalibratedCamera(const std::string& name, TomlSection section) {
   CameraCalibration camera;
   camera.name = name;
   const std::vector<double> size = section.Numbers("size_px", 2);
@@ -112,7 +112,8 @@ CameraCalibration ReadCamera(const std::string& name, TomlSection section) {
   camera.lens = ReadLens(section);
   camera.X_CW.R = ReadRotation(section);
   camera.X_CW.p = section.Vector("translation_mm");
-  if (std::optional<TomlSection> head = section.Section("pan_tilt")) camera.head = ReadHead(*head);
+  if (std::optional<TomlSection> head = section.Section("pan_tilt"))
+    camera.head = ReadPanTiltHead(*head);
   section.RejectUnknownKeys();
   return camera;
 }
@@ -156,7 +157,7 @@ std::vector<CameraCalibration> ReadCalibration(TomlSection root) {
       if (!IsCameraName(name)) {
         section->Fail(name, "is not a valid camera name; expected letters, digits, _ and -");
       }
-      cameras.push_back(ReadCamera(name, *section->Section(name)));
+      cameras.push_back(ReadCalibratedCamera(name, *section->Section(name)));
     }
   }
   ReadRecord(root);

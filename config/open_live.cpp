@@ -69,8 +69,8 @@ std::string SizeText(int width_px, int height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px);
 }
 
-CameraCalibration Find(const std::vector<CameraCalibration>& calibrations,
-                       const CameraConfig& camera, const std::filesystem::path& file) {
+CameraCalibration FindCalibration(const std::vector<CameraCalibration>& calibrations,
+                                  const CameraConfig& camera, const std::filesystem::path& file) {
   const auto found = std::ranges::find(calibrations, camera.name, &CameraCalibration::name);
   if (found == calibrations.end()) {
     std::string known;
@@ -129,7 +129,8 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
   for (const CameraConfig& camera : config.cameras) {
     LiveCamera& live = cameras.emplace_back();
     live.name = camera.name;
-    if (!calibrations.empty()) live.calibration = Find(calibrations, camera, config.calibration);
+    if (!calibrations.empty())
+      live.calibration = FindCalibration(calibrations, camera, config.calibration);
     live.request = RequestFor(config, camera, live.calibration);
     live.waits_for = MasterOf(config, camera);
     live.driver = MakeDriver(config.source.driver, camera, live.request);

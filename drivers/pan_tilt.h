@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <string>
 
 #include "core/reconstruction/camera/camera_model.h"
 
 namespace mocap {
+
+/// What V4L2 and UVC count angles in.
+inline constexpr double kArcSecond_rad = std::numbers::pi / (180 * 3600);
 
 /// Range of a head's angles.
 struct PanTiltLimits {

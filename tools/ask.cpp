@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A silent connection is closed after this time.
-constexpr std::chrono::milliseconds kPatience{10'000};
+constexpr std::chrono::milliseconds kAnswerPatience{10'000};
 
 /// Waits until standard input can be read or has ended.
 bool WaitForInput(Clock::time_point deadline) {
@@ -37,7 +37,7 @@ bool WaitForInput(Clock::time_point deadline) {
 /// Reads standard input to its end, up to the maximum size of a request.
 /// @return  empty if there is more.
 std::optional<std::string> ReadRequest() {
-  const Clock::time_point deadline = Clock::now() + kPatience;
+  const Clock::time_point deadline = Clock::now() + kAnswerPatience;
   std::string request;
   std::array<char, kLongestRequest + 1> bytes;
   while (request.size() <= kLongestRequest && WaitForInput(deadline)) {
@@ -54,7 +54,7 @@ ControlReply AnswerInput(const std::filesystem::path& socket) {
   if (!request) {
     return {ControlOutcome::kWrong, "the request does not end within " +
                                         std::to_string(kLongestRequest) + " bytes and " +
-                                        std::to_string(kPatience.count() / 1000) + " s"};
+                                        std::to_string(kAnswerPatience.count() / 1000) + " s"};
   }
   if (request->empty()) return {ControlOutcome::kWrong, "expected a request on standard input"};
   return ReplyOfDaemon(socket, *request);

@@ -53,14 +53,14 @@ bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
 }
 
-void Print(const std::string& text) {
+void PrintNow(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
 }
 
 AccuracyRow MeasureAndPrint(const AccuracyTrial& trial) {
   const AccuracyRow row = Measure(trial);
-  Print(AccuracyLine(row));
+  PrintNow(AccuracyLine(row));
   return row;
 }
 
@@ -83,7 +83,7 @@ std::vector<AccuracyRow> RunGrid(const BenchmarkOptions& options) {
 
 std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
   std::vector<PeopleRow> rows;
-  Print(PeopleHeader());
+  PrintNow(PeopleHeader());
   for (const std::string& motion : options.MotionsOr(kPeopleMotions)) {
     for (int people = 2; people <= simulation::kMostSimulatedPeople; ++people) {
       for (int seed = 1; seed <= options.SeedsOr(kPeopleSeeds); ++seed) {
@@ -93,7 +93,7 @@ std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
         studio.seed = static_cast<std::uint64_t>(seed);
         studio.seconds = options.SecondsOr(kPeopleSeconds);
         rows.push_back(RunPeopleTrial(studio));
-        Print(PeopleLine(rows.back()));
+        PrintNow(PeopleLine(rows.back()));
       }
     }
   }
@@ -103,13 +103,13 @@ std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
 std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
   std::vector<VarietyGrid> grids;
   for (const Filming& filming : Filmings()) {
-    Print(fmt::format("\nvaried people, {}\n{}", filming.label, VarietyHeader()));
+    PrintNow(fmt::format("\nvaried people, {}\n{}", filming.label, VarietyHeader()));
     VarietyGrid& grid = grids.emplace_back(VarietyGrid{filming, {}});
     for (int number = 1; number <= options.SeedsOr(kVariedPeople); ++number) {
       grid.rows.push_back(RunVarietyTrial(number, options.SecondsOr(kSeconds), filming));
-      Print(VarietyLine(grid.rows.back()));
+      PrintNow(VarietyLine(grid.rows.back()));
     }
-    Print(VarietySummaryText(grid.rows));
+    PrintNow(VarietySummaryText(grid.rows));
   }
   return grids;
 }
@@ -179,7 +179,7 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
     if (!Wants(options, part)) continue;
     AccuracySweep& sweep = sweeps.emplace_back(AccuracySweep{what, {}});
     for (const Step& step : steps) {
-      Print(fmt::format("\n{}: {}\n", what, step.label));
+      PrintNow(fmt::format("\n{}: {}\n", what, step.label));
       std::vector<AccuracyRow> rows;
       for (const char* motion : {"walk", "dance", "sit"}) {
         AccuracyTrial trial;
@@ -207,15 +207,15 @@ void RunBenchmark(const BenchmarkOptions& options) {
                               .sweeps = {},
                               .people_seconds = options.SecondsOr(kPeopleSeconds),
                               .people = {}};
-  if (HasTakesOfTheGrid(options)) Print(AccuracyHeader());
+  if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
   if (Wants(options, "grid")) {
     benchmark.grid = RunGrid(options);
-    Print("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
+    PrintNow("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
   }
   benchmark.sweeps = RunSweeps(options);
   if (Wants(options, kPeoplePart)) {
     benchmark.people = RunPeople(options);
-    Print("\n" + PeopleSummaryText(benchmark.people));
+    PrintNow("\n" + PeopleSummaryText(benchmark.people));
   }
   std::vector<VarietyGrid> variety;
   if (Wants(options, kVarietyPart)) variety = RunVariety(options);

@@ -23,7 +23,7 @@
 namespace mocap {
 namespace {
 
-constexpr std::chrono::milliseconds kGrabTimeout{200};
+constexpr std::chrono::milliseconds kBoardGrabTimeout{200};
 constexpr std::chrono::milliseconds kLookInterval{50};
 constexpr std::size_t kKeptPictures = 3;
 
@@ -50,7 +50,7 @@ class CameraRecording {
     Frame frame;
     std::int64_t last_beat = -1;
     do {
-      const GrabStatus status = camera_.driver->Grab(frame, kGrabTimeout);
+      const GrabStatus status = camera_.driver->Grab(frame, kBoardGrabTimeout);
       if (status == GrabStatus::kEnd) break;
       if (status != GrabStatus::kFrame) continue;
       const std::int64_t beat = frame.capture_ns / beat_ns_;

@@ -16,11 +16,11 @@
 namespace mocap {
 namespace {
 
-constexpr std::chrono::milliseconds kGrabTimeout{100};
+constexpr std::chrono::milliseconds kCheckGrabTimeout{100};
 /// Time for exposure and buffers to settle.
-constexpr std::int64_t kSettle_ns = 500'000'000;
+constexpr std::int64_t kCheckSettle_ns = 500'000'000;
 constexpr double kFullRate = 0.95;
-constexpr double kMostMissed = 0.005;
+constexpr double kMostMissedFrames = 0.005;
 /// Usable share of a bus's nominal bandwidth.
 constexpr double kUsableLink = 0.8;
 /// Largest offset between synchronized cameras, as a share of the period.
@@ -28,13 +28,13 @@ constexpr double kInStep = 0.15;
 constexpr double kMostIncomplete = 0.02;
 
 // Losses count from the start: they do not settle.
-void Watch(CameraDriver& driver, double seconds, CameraRun& run) {
-  const std::int64_t settled_ns = SteadyNs() + kSettle_ns;
+void WatchFrames(CameraDriver& driver, double seconds, CameraRun& run) {
+  const std::int64_t settled_ns = SteadyNs() + kCheckSettle_ns;
   const std::int64_t end_ns = settled_ns + std::llround(seconds * 1e9);
   bool was_lost = false;
   for (std::int64_t now_ns = SteadyNs(); now_ns < end_ns; now_ns = SteadyNs()) {
     Frame frame;
-    const GrabStatus status = driver.Grab(frame, kGrabTimeout);
+    const GrabStatus status = driver.Grab(frame, kCheckGrabTimeout);
     run.times_lost += status == GrabStatus::kLost && !was_lost;
     was_lost = status == GrabStatus::kLost;
     if (now_ns < settled_ns) continue;
@@ -56,7 +56,7 @@ CameraRun WatchCamera(LiveCamera& camera, double seconds) {
     run.error = error.what();
     return run;
   }
-  Watch(*camera.driver, seconds, run);
+  WatchFrames(*camera.driver, seconds, run);
   run.facts = camera.driver->Facts();
   camera.driver->Stop();
   return run;
@@ -198,7 +198,7 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
   if (run.times_lost > 0) return troubles;
   const std::int64_t missed = run.MissedFrames();
   const double taken = static_cast<double>(run.times_ns.size()) + static_cast<double>(missed);
-  if (static_cast<double>(missed) > kMostMissed * taken) {
+  if (static_cast<double>(missed) > kMostMissedFrames * taken) {
     troubles.push_back(fmt::format("{} of {:.0f} frames were lost: {}", missed, taken,
                                    WhyMissed(FindLoad(loads, run))));
   }

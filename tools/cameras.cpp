@@ -34,26 +34,27 @@ struct CamerasOptions {
 };
 
 /// Prints one line, without line breaks.
-void Print(const std::string& line) { std::puts(Printable(line).c_str()); }
+void PrintLine(const std::string& line) { std::puts(Printable(line).c_str()); }
 
 void PrintListed(const ListedCamera& camera) {
   std::string line = fmt::format("{}  {}, {}", camera.device, camera.model, camera.bus);
   if (!camera.serial.empty()) line += fmt::format(", serial {}", camera.serial);
   if (camera.link_mbit_s > 0) line += fmt::format(", {:g} Mbit/s", camera.link_mbit_s);
-  Print(line + fmt::format(" ({})", camera.driver));
-  for (const std::string& format : camera.formats) Print("    " + format);
-  for (const std::string& remark : camera.remarks) Print("  ! " + remark);
+  PrintLine(line + fmt::format(" ({})", camera.driver));
+  for (const std::string& format : camera.formats) PrintLine("    " + format);
+  for (const std::string& remark : camera.remarks) PrintLine("  ! " + remark);
 }
 
 /// Lists heads controlled separately from their cameras.
 void ListHeads() {
   try {
     for (const UvcHead& head : FindUvcHeads(UsbBus())) {
-      Print(fmt::format("{}  {}, port {}, serial {}, {:g} Mbit/s (head = \"uvc\")", head.usb.bus,
-                        head.usb.model, head.usb.port, head.usb.serial, head.usb.link_mbit_s));
+      PrintLine(fmt::format("{}  {}, port {}, serial {}, {:g} Mbit/s (head = \"uvc\")",
+                            head.usb.bus, head.usb.model, head.usb.port, head.usb.serial,
+                            head.usb.link_mbit_s));
     }
   } catch (const SetupError& error) {
-    Print(fmt::format("  ! {}", error.what()));
+    PrintLine(fmt::format("  ! {}", error.what()));
   }
 }
 
@@ -61,22 +62,22 @@ void List() {
   std::vector<ListedCamera> cameras = ListV4l2Cameras(*SystemVideoKernel());
   std::ranges::move(ListAravisCameras(), std::back_inserter(cameras));
   for (const ListedCamera& camera : cameras) PrintListed(camera);
-  if (cameras.empty()) Print("no camera is connected");
+  if (cameras.empty()) PrintLine("no camera is connected");
   ListHeads();
 }
 
 /// @return  the number of troubles.
 std::size_t PrintTroubles(const std::vector<std::string>& troubles) {
-  for (const std::string& trouble : troubles) Print("  ! " + trouble);
+  for (const std::string& trouble : troubles) PrintLine("  ! " + trouble);
   return troubles.size();
 }
 
 void PrintRun(const CameraRun& run) {
   if (!run.error.empty()) {
-    Print(run.name);
+    PrintLine(run.name);
     return;
   }
-  Print(fmt::format(
+  PrintLine(fmt::format(
       "{}  {}, {}: asked for {:g} frames a second, got {:.2f}; {} lost, {} damaged of {}; "
       "times: {}",
       run.name, run.facts.device, run.facts.format, run.request.fps, run.Fps(), run.MissedFrames(),
@@ -100,12 +101,13 @@ void Check(const CamerasOptions& options) {
   troubles += PrintTroubles(TriggerTroublesOf(runs));
   for (const BusLoad& load : loads) {
     if (load.link_mbit_s <= 0) continue;
-    Print(fmt::format("{}: {:.0f} of {:g} Mbit/s", load.bus, load.used_mbit_s, load.link_mbit_s));
+    PrintLine(
+        fmt::format("{}: {:.0f} of {:g} Mbit/s", load.bus, load.used_mbit_s, load.link_mbit_s));
     troubles += PrintTroubles(TroublesOf(load));
   }
   const SetSummary sets = SummarizeSets(runs);
   if (sets.sets > 0) {
-    Print(
+    PrintLine(
         fmt::format("sets: {} of {} complete; their times lie {:.1f} ms apart, 99 % within {:.1f}",
                     sets.complete, sets.sets, sets.median_spread_ms, sets.p99_spread_ms));
     troubles += PrintTroubles(TroublesOf(sets, runs));

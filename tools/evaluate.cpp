@@ -57,7 +57,7 @@ void TellRemarks(const Evaluation& evaluation) {
   }
 }
 
-void RunPeople(const EvaluateArguments& arguments) {
+void RunForPeople(const EvaluateArguments& arguments) {
   const PeopleEvaluation evaluation =
       EvaluatePeople(arguments.take, arguments.result, arguments.prefix);
   for (const TrackedPerson& person : evaluation.people) TellRemarks(person.evaluation);
@@ -67,7 +67,7 @@ void RunPeople(const EvaluateArguments& arguments) {
 }
 
 void RunEvaluate(const EvaluateArguments& arguments) {
-  if (arguments.people || IsOfPeople(arguments.result)) return RunPeople(arguments);
+  if (arguments.people || IsOfPeople(arguments.result)) return RunForPeople(arguments);
   const Evaluation evaluation = EvaluateOne(arguments.take, arguments.result, arguments.prefix);
   TellRemarks(evaluation);
   std::vector<CameraOverlap> overlaps;

@@ -61,10 +61,10 @@ TakeDescription Describe(const SimulateOptions& options,
   return description;
 }
 
-class Progress {
+class SimulationProgress {
  public:
-  explicit Progress(int total) : total_(total), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
+  explicit SimulationProgress(int total) : total_(total), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~SimulationProgress() {
     if (shown_) std::fputc('\n', stderr);
   }
   void Show(const char* what, int done) const {
@@ -78,7 +78,7 @@ class Progress {
 
 void WriteBackgrounds(const SimulatedStudio& studio, TakeWriter& writer) {
   const int cameras = static_cast<int>(studio.cameras().size());
-  const Progress progress(cameras);
+  const SimulationProgress progress(cameras);
   for (int c = 0; c < cameras; ++c) {
     progress.Show("background", c + 1);
     const std::vector<BackgroundFrame> frames = studio.Background(c);
@@ -139,7 +139,7 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
     cameras.push_back(studio.OpenCamera(static_cast<int>(c)));
     cameras.back()->Start();
   }
-  const Progress progress(options.frames());
+  const SimulationProgress progress(options.frames());
   for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -167,7 +167,7 @@ void SimulatePeople(const SimulateOptions& options) {
 void SimulateBoard(const SimulateOptions& options) {
   SimulatedBoard board(options.studio, kBoardPlaces.at(options.board), options.desk);
   TakeWriter writer(options.out, Describe(options, board.cameras()));
-  const Progress progress(options.frames());
+  const SimulationProgress progress(options.frames());
   for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
     for (int c = 0; c < options.studio.cameras; ++c)

@@ -26,9 +26,9 @@ namespace mocap {
 namespace {
 
 constexpr std::uint16_t kPort = 8077;
-constexpr const char* kSystemConfig = MOCAP_CONFIG_FILE;
+constexpr const char* kViewedConfig = MOCAP_CONFIG_FILE;
 constexpr std::size_t kLargestScript = 16 << 20;
-constexpr std::chrono::milliseconds kTick{250};
+constexpr std::chrono::milliseconds kEndTick{250};
 
 struct ViewOptions {
   std::filesystem::path take;
@@ -90,13 +90,13 @@ void ViewTake(const ViewOptions& options) {
 }
 
 /// Without other options, the studio is the system's, if installed.
-Config ConfigFor(const ViewOptions& options) {
+Config ViewedConfig(const ViewOptions& options) {
   if (!options.config.empty()) return LoadConfig(options.config);
-  return IsThere(kSystemConfig) ? LoadConfig(kSystemConfig) : Config();
+  return IsThere(kViewedConfig) ? LoadConfig(kViewedConfig) : Config();
 }
 
 void ViewLive(const ViewOptions& options) {
-  const Config config = ConfigFor(options);
+  const Config config = ViewedConfig(options);
   const std::string url = options.url.value_or(config.lcm.url);
   if (url.starts_with("file:"))
     throw SetupError("--url: " + url + " is a log; to view it: mocap view TAKE LOG");
@@ -113,7 +113,7 @@ void ViewLive(const ViewOptions& options) {
       *lcm, options.prefix.value_or(config.lcm.prefix), url,
       [&server](std::size_t slot, LiveMessage message) { server.Put(slot, std::move(message)); });
   server.OnReadable(lcm->getFileno(), [&lcm] { lcm->handleTimeout(0); });
-  server.Every(kTick, [&feed] { feed.Tick(); });
+  server.Every(kEndTick, [&feed] { feed.Tick(); });
   server.Every(ControlDesk::kLookPeriod, [&] {
     if (server.live_pages() == 0) return;
     const auto why = std::make_shared<std::string>();

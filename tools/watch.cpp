@@ -37,11 +37,11 @@
 namespace mocap {
 namespace {
 
-constexpr std::chrono::milliseconds kWait{50};
+constexpr std::chrono::milliseconds kWaitForNews{50};
 constexpr std::int64_t kPageNs = 250'000'000;
 constexpr std::int64_t kLineNs = 1'000'000'000;
 /// After this time without a pose, nobody publishes.
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr std::int64_t kQuietNs = 2'000'000'000;
 /// Time window for rate and latency.
 constexpr std::int64_t kWindowNs = 2'000'000'000;
 constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
@@ -68,7 +68,7 @@ class Hearing {
       arrivals_.pop_front();
     }
   }
-  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kSilenceNs; }
+  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kQuietNs; }
   double Rate() const {
     if (arrivals_.size() < 2) return 0;
     const auto span_ns = static_cast<double>(arrivals_.back().time_ns - arrivals_.front().time_ns);
@@ -273,7 +273,8 @@ void Show(const std::string& page) {
   std::fflush(stdout);
 }
 
-void Tell(const Hearing& hearing, std::int64_t now_ns, const std::string& url, bool on_terminal) {
+void TellHearing(const Hearing& hearing, std::int64_t now_ns, const std::string& url,
+                 bool on_terminal) {
   const std::string silence = SilenceText(url) + '\n';
   if (on_terminal) return Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, url));
   const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
@@ -295,16 +296,16 @@ void Watch(const WatchOptions& options) {
   if (on_terminal) std::fputs("\x1b[2J", stdout);
   const std::int64_t begin_ns = SteadyNs();
   std::int64_t next_ns = begin_ns + kPageNs;
-  while (!StopAsked() && source.Handle(kWait)) {
+  while (!StopAsked() && source.Handle(kWaitForNews)) {
     const std::int64_t now_ns = SteadyNs();
     if (options.seconds && static_cast<double>(now_ns - begin_ns) > *options.seconds * 1e9) break;
     if (now_ns < next_ns) continue;
     next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
     hearing.Age(now_ns);
-    Tell(hearing, now_ns, options.url, on_terminal);
+    TellHearing(hearing, now_ns, options.url, on_terminal);
   }
   // Print what the log had since the last line.
-  if (source.is_log() && !StopAsked()) Tell(hearing, SteadyNs(), options.url, on_terminal);
+  if (source.is_log() && !StopAsked()) TellHearing(hearing, SteadyNs(), options.url, on_terminal);
 }
 
 }  // namespace

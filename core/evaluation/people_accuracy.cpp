@@ -8,12 +8,13 @@
 namespace mocap {
 namespace {
 
-enum Column { kNeck = 1, kHipL = 8, kHipR = 9 };
-static_assert(kScoredPoints[kNeck] == Point::kNeck && kScoredPoints[kHipL] == Point::kHipL &&
-              kScoredPoints[kHipR] == Point::kHipR);
+enum JointColumn { kNeckColumn = 1, kHipLColumn = 8, kHipRColumn = 9 };
+static_assert(kScoredPoints[kNeckColumn] == Point::kNeck &&
+              kScoredPoints[kHipLColumn] == Point::kHipL &&
+              kScoredPoints[kHipRColumn] == Point::kHipR);
 
 Vector3 TrunkOf(const ScoredPoints& p) {
-  return (p.col(kNeck) + (p.col(kHipL) + p.col(kHipR)) / 2) / 2;
+  return (p.col(kNeckColumn) + (p.col(kHipLColumn) + p.col(kHipRColumn)) / 2) / 2;
 }
 
 double TrunkDistance(const ScoredPoints& a, const ScoredPoints& b) {

@@ -13,7 +13,7 @@ constexpr double kProportionStd = 100;   // Thigh, Calf, UpperArm, LowerArm give
 constexpr double kMeasurementStd = 200;  // Thm, Cm, UAm, LAm.
 constexpr double kMemoryStd = 100;       // Thm0, Cm0, UAm0, LAm0.
 constexpr double kHeightStd = 100;
-constexpr double kSignificant = 1.1;
+constexpr double kSignificantChange = 1.1;
 
 enum Node { kTorso = 0, kThigh, kCalf, kUpperArm, kLowerArm, kNodeCount };
 using Lengths = Eigen::Matrix<double, kNodeCount, 1>;
@@ -66,7 +66,7 @@ LengthMeasurements MeasureLengths(const MeasuredPoints& points, double height_le
 double SizeNetwork::Update(LengthMeasurements measured, BodySizes& sizes) {
   if (measured.thigh && measured.calf) {
     const double sum_mm = sizes.torso + *measured.thigh + *measured.calf;
-    if (sum_mm > kSignificant * measured.height) measured.height = sum_mm;
+    if (sum_mm > kSignificantChange * measured.height) measured.height = sum_mm;
   }
   const std::array<std::optional<double>, kNodeCount> leaves = {
       std::nullopt, measured.thigh, measured.calf, measured.upper_arm, measured.lower_arm};

@@ -12,7 +12,7 @@ namespace mocap {
 namespace {
 
 // A piece too small for a person belongs to a body that is closer than this.
-constexpr double kBesideMm = 300;
+constexpr double kBesideFleshMm = 300;
 // Cells around a share, so that normals follow from its surroundings.
 constexpr int kMargin = 3;
 constexpr double kNobody = std::numeric_limits<double>::infinity();
@@ -180,7 +180,7 @@ void FleshDivision::MakeStrangers(int piece) {
 int FleshDivision::ClaimBeside(const Eigen::AlignedBox3i& cells) const {
   const Eigen::AlignedBox3d box_W = BoxOf(cells, strange_);
   int nearest = -1;
-  double least_mm = kBesideMm;
+  double least_mm = kBesideFleshMm;
   for (std::size_t i = 0; i < claims_.size(); ++i) {
     if (claims_[i].cells.isEmpty()) continue;
     const double gap_mm = BoxOf(claims_[i].cells, strange_).exteriorDistance(box_W);

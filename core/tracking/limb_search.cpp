@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-constexpr double kReachMm = 150;
+constexpr double kSearchedMm = 150;
 // A contact this close to another part is no evidence for the limb.
 constexpr double kTakenMm = 20;
 constexpr double kNoiseMm = 40;
@@ -77,7 +77,7 @@ void LimbSearch::OpenContacts(ContactMatcher& contacts) {
   const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
   const double voxel_weight = kSurfaceWeight / std::max(1, surface_W_->size());
-  const std::vector<float>& others_mm = contacts.Distances(others_, kReachMm);
+  const std::vector<float>& others_mm = contacts.Distances(others_, kSearchedMm);
   contacts_.clear();
   terms_.clear();
   for (std::size_t i = 0; i < others_mm.size(); ++i) {
@@ -115,7 +115,7 @@ double LimbSearch::OverlapCost() const {
 
 const LimbClaim& LimbSearch::ClaimAt(const PoseState& pose) {
   PoseLimb(pose);
-  const std::vector<float>& distances_mm = open_.Distances(posed_, kReachMm);
+  const std::vector<float>& distances_mm = open_.Distances(posed_, kSearchedMm);
   claim_.distances_mm.clear();
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {
     claim_.distances_mm.push_back(std::min<double>(terms_[i].other_mm, distances_mm[i]));
@@ -164,7 +164,7 @@ void LimbSearch::Refine(PoseState& pose, int iterations) {
     PoseLimb(pose);
     LimbMatrix information = LimbMatrix::Zero(n, n);
     LimbVector gradient = LimbVector::Zero(n);
-    const std::vector<ContactMatch>& matches = open_.Match(posed_, kReachMm);
+    const std::vector<ContactMatch>& matches = open_.Match(posed_, kSearchedMm);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const ContactMatch& match = matches[i];
       if (match.capsule < 0 || std::abs(match.distance.outside_mm) > terms_[i].other_mm) continue;

@@ -7,10 +7,10 @@
 namespace mocap {
 namespace {
 
-using Block = kernels::RayBlock;
-constexpr int kRays = Block::kRays;
+using Rays = kernels::RayBlock;
+constexpr int kRays = Rays::kRays;
 
-constexpr double kReachMm = 150;
+constexpr double kProtrusionMm = 150;
 // If the nearest border runs past the ball, as at the picture's edge, it does not show on which
 // side the ball is.
 constexpr double kLeastFacing = 0.5;
@@ -19,10 +19,10 @@ constexpr double kLeastFacing = 0.5;
 
 void SilhouetteBorder::SetOutline(const Outline& outline) {
   outline_ = &outline;
-  blocks_.assign((outline.size() + kRays - 1) / kRays, Block{});
+  blocks_.assign((outline.size() + kRays - 1) / kRays, Rays{});
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector3f direction_W = outline[i].direction_W.cast<float>();
-    Block& block = blocks_[i / kRays];
+    Rays& block = blocks_[i / kRays];
     block.x[i % kRays] = direction_W.x();
     block.y[i % kRays] = direction_W.y();
     block.z[i % kRays] = direction_W.z();
@@ -41,7 +41,8 @@ std::optional<Protrusion> SilhouetteBorder::ProtrusionOf(const Vector3& center_W
   const double beyond_mm = ray.outward_W.dot(sight_W);
   if (beyond_mm + radius_mm <= 0) return std::nullopt;
   const double apart_mm = ray.direction_W.cross(sight_W).norm();
-  if (apart_mm > kReachMm || std::abs(beyond_mm) < kLeastFacing * apart_mm) return std::nullopt;
+  if (apart_mm > kProtrusionMm || std::abs(beyond_mm) < kLeastFacing * apart_mm)
+    return std::nullopt;
   return Protrusion{ray.outward_W, beyond_mm + radius_mm};
 }
 

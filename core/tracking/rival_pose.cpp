@@ -10,7 +10,7 @@ namespace {
 constexpr double kMostLeadMm = 2;
 constexpr double kClearLeadMm_s = 0.12;
 // What is not decided by then is not worth the time.
-constexpr double kLongest_s = 0.4;
+constexpr double kLongestRivalry_s = 0.4;
 // Poses whose points have a smaller mean distance than this are equal.
 constexpr double kSameMm = 30;
 
@@ -37,7 +37,7 @@ RivalPose::Rank RivalPose::Follow(const BodyModel& body, SurfaceFit& fit, const 
   const BodyPoints apart_W =
       body.PointsAt(body.PostureAt(filter_.pose())) - body.PointsAt(body.PostureAt(present));
   const bool is_same = apart_W.colwise().norm().mean() < kSameMm;
-  if (is_same || lead_mm_s_ < -kClearLeadMm_s || age_s_ > kLongest_s || !filter_.is_sound())
+  if (is_same || lead_mm_s_ < -kClearLeadMm_s || age_s_ > kLongestRivalry_s || !filter_.is_sound())
     return Rank::kWorse;
   return lead_mm > 0 && lead_mm_s_ > kClearLeadMm_s ? Rank::kBetter : Rank::kUndecided;
 }

@@ -13,7 +13,7 @@ constexpr double kShortest_s = 0.003, kLongest_s = 0.13;
 // Points that moved farther than this break free: a share of their noise, and at least.
 constexpr double kNoiseShare = 0.3;
 constexpr double kLeastMm = 1;
-constexpr int kIterations = 3;
+constexpr int kSteadyIterations = 3;
 
 using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
@@ -37,7 +37,7 @@ PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
   PoseState pose = filter.pose();
   UpdateEquations equations;
   PointJacobian J(3, n);
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kSteadyIterations; ++iteration) {
     const Posture posture = body.PostureAt(pose);
     const BodyPoints now_W = body.PointsAt(posture);
     equations.Reset(n);

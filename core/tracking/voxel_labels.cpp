@@ -5,7 +5,7 @@
 namespace mocap {
 namespace {
 
-constexpr double kReachMm = 150;
+constexpr double kLabelledMm = 150;
 
 struct PosedPart {
   PosedCapsule capsule;
@@ -25,7 +25,7 @@ std::vector<PosedPart> PosedPartsOf(std::span<const BodyInPlace> bodies) {
 
 std::int8_t LabelOf(const Vector3& p_W, const std::vector<PosedPart>& parts) {
   std::int8_t label = -1;
-  double nearest_mm = kReachMm;
+  double nearest_mm = kLabelledMm;
   for (const auto& [capsule, part] : parts) {
     const double far_mm = capsule.reach_mm + nearest_mm;
     if (far_mm < 0 || (capsule.middle_W - p_W).squaredNorm() > far_mm * far_mm) continue;

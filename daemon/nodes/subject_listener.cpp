@@ -11,10 +11,10 @@
 namespace mocap {
 namespace {
 
-constexpr std::chrono::seconds kReopen{10};
+constexpr std::chrono::seconds kReopenLog{10};
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
 
-void Pass(const lcm::ReceiveBuffer* buffer, const std::string&, SubjectListener* listener) {
+void PassSubject(const lcm::ReceiveBuffer* buffer, const std::string&, SubjectListener* listener) {
   listener->OnPeople({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
 }
 
@@ -25,9 +25,9 @@ SubjectListener::SubjectListener(const LcmConfig& lcm, std::shared_ptr<SubjectPo
 
 void SubjectListener::Listen() {
   const auto subscribe = [this](lcm::LCM& lcm) {
-    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + "MOCAP_PEOPLE"), &Pass, this);
+    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + "MOCAP_PEOPLE"), &PassSubject, this);
   };
-  listener_.emplace("studio", lcm_.url, kReopen,
+  listener_.emplace("studio", lcm_.url, kReopenLog,
                     LcmListener::Calls{subscribe, [this] { return Hears(); }});
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::seconds kLook{10};
 /// Time limits for a node's answer: usually, and for beginning or completing a take or learning a
 /// background.
-constexpr std::chrono::seconds kPatience{10}, kTakePatience{60};
+constexpr std::chrono::seconds kPatience{10}, kRecordPatience{60};
 
 std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
   std::vector<RecordedPerson> recorded;
@@ -90,10 +90,10 @@ std::string ServiceControl::Do(const ReloadRequest&) {
 std::string ServiceControl::Do(const RecordStartRequest& request) {
   const std::string text = StartRecording(request.name);
   const NodeRequests::Answers answers =
-      nodes_.Ask("record start " + request.name, kTakePatience).Wait();
+      nodes_.Ask("record start " + request.name, kRecordPatience).Wait();
   if (const std::string problem = answers.Problem(); !problem.empty()) {
     // A take that lacks some of its cameras is useless.
-    NodeRequests::Asked stopping = nodes_.Ask("record stop", kTakePatience);
+    NodeRequests::Asked stopping = nodes_.Ask("record stop", kRecordPatience);
     parts_.recorder.Stop();
     stopping.Wait();
     throw std::runtime_error(problem + "; the recording was stopped");
@@ -109,7 +109,7 @@ std::string ServiceControl::StartRecording(const std::string& name) {
 }
 
 std::string ServiceControl::Do(const RecordStopRequest&) {
-  NodeRequests::Asked asked = nodes_.Ask("record stop", kTakePatience);
+  NodeRequests::Asked asked = nodes_.Ask("record stop", kRecordPatience);
   const std::string text = StopRecording();
   const NodeRequests::Answers answers = asked.Wait();
   if (const std::string problem = answers.Problem(); !problem.empty())
@@ -166,7 +166,7 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
   NodeRequests::Asked asked =
-      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kTakePatience);
+      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kRecordPatience);
   const bool has_cameras = nodes_.empty() || config().source.driver != "none";
   const std::string text = has_cameras ? LearnBackground(request.anyway) : "";
   const NodeRequests::Answers answers = asked.Wait();

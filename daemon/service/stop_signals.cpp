@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-constexpr timespec kTick{0, 50'000'000};
+constexpr timespec kSignalTick{0, 50'000'000};
 constexpr int kFailed = 1;
 
 sigset_t HeldSignals() {
@@ -48,7 +48,7 @@ void StopSignals::Run() {
   pthread_setname_np(pthread_self(), "signals");
   const sigset_t signals = HeldSignals();
   while (!is_over_.load()) {
-    const int signal = sigtimedwait(&signals, nullptr, &kTick);
+    const int signal = sigtimedwait(&signals, nullptr, &kSignalTick);
     if (signal == SIGHUP) reload_.store(true);
     if (signal == SIGINT || signal == SIGTERM) NoteStop();
     if (signal > 0) {

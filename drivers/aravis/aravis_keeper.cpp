@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kWatchPeriod{20};
-constexpr milliseconds kProbePatience{100};
+constexpr milliseconds kPresencePatience{100};
 /// A camera is lost after it missed this many frames, and not before kLeastSilence: the host may be
 /// busy.
 constexpr double kMissedFrames = 4;
@@ -133,7 +133,7 @@ void AravisKeeper::SeekGige() {
   const Session session = this->session();
   // The camera is held by another program, perhaps one that died.
   if (!session && Clock::now() < next_look_) return;
-  const GigePresence presence = ProbeGigeCamera(target_.ip, kProbePatience);
+  const GigePresence presence = ProbeGigeCamera(target_.ip, kPresencePatience);
   const bool waits_for_trigger = !settings_.trigger.empty() && session && !session->control_lost();
   if (waits_for_trigger && presence == GigePresence::kHeld) return;
   lost_.store(true, std::memory_order_relaxed);

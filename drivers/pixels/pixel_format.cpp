@@ -11,18 +11,19 @@
 #include "drivers/pixels/pixel_rows.h"
 
 namespace mocap {
-namespace {
-
-std::size_t StrideOf(const RawPicture& picture) {
-  return picture.stride_bytes > 0 ? picture.stride_bytes
-                                  : LeastRowBytes(picture.format, picture.width_px);
-}
 
 /// A row of pixels as three planes of luma and chroma, one byte per pixel each.
 struct YuvRow {
   explicit YuvRow(int width) : y(width + 1), u(width + 1), v(width + 1) {}
   std::vector<std::uint8_t> y, u, v;
 };
+
+namespace {
+
+std::size_t StrideOf(const RawPicture& picture) {
+  return picture.stride_bytes > 0 ? picture.stride_bytes
+                                  : LeastRowBytes(picture.format, picture.width_px);
+}
 
 std::uint8_t* Bytes(Bgr* row) { return &row->b; }
 
@@ -81,7 +82,7 @@ BayerOrder OrderOf(PixelFormat format) {
 }
 
 /// Some cameras pad the end of their JPEGs. All other TurboJPEG warnings mean wrong pixels.
-bool IsHarmless(std::string_view warning) {
+bool IsHarmlessWarning(std::string_view warning) {
   return warning.find("extraneous bytes before marker 0xd9") != std::string_view::npos;
 }
 
@@ -191,7 +192,7 @@ class PixelConverter::Impl {
                       0) == 0) {
       return true;
     }
-    return tjGetErrorCode(jpeg_) == TJERR_WARNING && IsHarmless(tjGetErrorStr2(jpeg_));
+    return tjGetErrorCode(jpeg_) == TJERR_WARNING && IsHarmlessWarning(tjGetErrorStr2(jpeg_));
   }
 
   YuvRow row_{0};

@@ -11,7 +11,7 @@ namespace {
 // 1989): at 1755 mm chest 320 × 240, waist 310 × 225, hips 345 × 245, thigh 597 around, knee 386,
 // calf 378, ankle 222, upper arm 335, forearm 300, wrist 173, neck 380.
 // clang-format off
-constexpr std::array<Section, 15> kTorso = {{
+constexpr std::array<Section, 15> kTorsoSections = {{
     // s      cx      cy  front  back   outer  inner
     {-0.19,  0.000, 0, 0.022, 0.024, 0.022, 0.022},
     {-0.15,  0.000, 0, 0.046, 0.052, 0.055, 0.055},
@@ -30,7 +30,7 @@ constexpr std::array<Section, 15> kTorso = {{
     { 1.20,  0.006, 0, 0.029, 0.032, 0.031, 0.031},
 }};
 
-constexpr std::array<Section, 15> kLeg = {{
+constexpr std::array<Section, 15> kLegSections = {{
     {-0.14, -0.006, 0.004, 0.012, 0.012, 0.010, 0.010},
     {-0.12, -0.004, 0.003, 0.036, 0.040, 0.030, 0.032},
     {-0.06, -0.002, 0.000, 0.052, 0.064, 0.044, 0.040},
@@ -48,7 +48,7 @@ constexpr std::array<Section, 15> kLeg = {{
     { 2.06, -0.002, 0.000, 0.019, 0.021, 0.018, 0.018},
 }};
 
-constexpr std::array<Section, 19> kArm = {{
+constexpr std::array<Section, 19> kArmSections = {{
     {-0.20,  0.000, -0.014, 0.006, 0.006, 0.005, 0.006},
     {-0.18,  0.000, -0.012, 0.017, 0.017, 0.011, 0.016},
     {-0.10,  0.000, -0.006, 0.028, 0.029, 0.018, 0.028},
@@ -71,7 +71,7 @@ constexpr std::array<Section, 19> kArm = {{
 }};
 
 // Shares of the head's height.
-constexpr std::array<Section, 11> kHead = {{
+constexpr std::array<Section, 11> kHeadSections = {{
     {0.00, 0.20, 0, 0.10, 0.10, 0.08, 0.08},
     {0.04, 0.14, 0, 0.23, 0.18, 0.17, 0.17},
     {0.15, 0.06, 0, 0.35, 0.26, 0.245, 0.245},
@@ -85,7 +85,7 @@ constexpr std::array<Section, 11> kHead = {{
     {1.00, 0.00, 0, 0.04, 0.05, 0.04, 0.04},
 }};
 
-constexpr std::array<Section, 10> kFoot = {{
+constexpr std::array<Section, 10> kFootSections = {{
     {0.00, 0, 0.000, 0.020, 0, 0.007, 0.007},
     {0.04, 0, 0.000, 0.034, 0, 0.015, 0.015},
     {0.14, 0, 0.000, 0.046, 0, 0.0185, 0.0185},
@@ -153,7 +153,7 @@ Section Interpolate(std::span<const Section> table, double s) {
 }
 
 Section TorsoSection(const Anthropometry& body, double s) {
-  Section section = Scaled(Interpolate(kTorso, s), body.stature_mm);
+  Section section = Scaled(Interpolate(kTorsoSections, s), body.stature_mm);
   const double g = body.girth, f = body.femininity;
   const double trunk = 1 - Bump(s, 1.1, 0.35);
   section = Thickened(section, 1 + 0.10 * g * trunk + 0.04 * g);
@@ -168,22 +168,22 @@ Section TorsoSection(const Anthropometry& body, double s) {
 
 Section LegSection(const Anthropometry& body, double s) {
   const double thigh = 1 - std::clamp(s, 0.0, 1.0);
-  return Thickened(Scaled(Interpolate(kLeg, s), body.stature_mm),
+  return Thickened(Scaled(Interpolate(kLegSections, s), body.stature_mm),
                    1 + body.girth * (0.08 + 0.07 * thigh) + 0.03 * body.femininity * thigh);
 }
 
 Section ArmSection(const Anthropometry& body, double s) {
   const double hand = std::clamp(s - 1, 0.0, 1.0);
-  return Thickened(Scaled(Interpolate(kArm, s), body.stature_mm),
+  return Thickened(Scaled(Interpolate(kArmSections, s), body.stature_mm),
                    (1 + body.girth * 0.11 * (1 - 0.6 * hand)) * (1 - 0.08 * body.femininity));
 }
 
 Section HeadSection(const Anthropometry& body, double s) {
-  return Scaled(Interpolate(kHead, s), body.head_mm);
+  return Scaled(Interpolate(kHeadSections, s), body.head_mm);
 }
 
 Section FootSection(const Anthropometry& body, double s) {
-  return Scaled(Interpolate(kFoot, s), body.stature_mm);
+  return Scaled(Interpolate(kFootSections, s), body.stature_mm);
 }
 
 }  // namespace mocap::simulation

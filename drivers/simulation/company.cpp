@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/motions_in_place.h"
 #include "drivers/simulation/motions_together.h"
 #include "drivers/simulation/path_walker.h"
@@ -16,8 +17,6 @@ namespace {
 
 using Bodies = std::span<const Anthropometry>;
 using Motions = std::vector<std::unique_ptr<const Motion>>;
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 double MeanStature(Bodies bodies) {
   double sum = 0;
@@ -192,7 +191,7 @@ Motions Meet(Bodies bodies, std::uint64_t seed) {
 }
 
 // In places around the middle; nobody faces another.
-Spot PlaceOf(std::size_t place, std::size_t people, std::uint64_t seed) {
+Spot StandingPlace(std::size_t place, std::size_t people, std::uint64_t seed) {
   constexpr double kApart_mm = 1500;
   const auto count = static_cast<double>(people);
   const double around = Random(Mix(seed, Tag("places"))).Uniform(0, kTurn) +
@@ -205,7 +204,7 @@ template <typename Make>
 Motions InPlaces(Bodies bodies, std::uint64_t seed, Make make) {
   Motions motions;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    motions.push_back(make(bodies[i], PlaceOf(i, bodies.size(), seed), Mix(seed, i)));
+    motions.push_back(make(bodies[i], StandingPlace(i, bodies.size(), seed), Mix(seed, i)));
   return motions;
 }
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "core/geometry.h"
 
 namespace mocap::simulation {
+
+inline constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Key {
   double t = 0;

@@ -13,9 +13,9 @@ namespace {
 
 // A cell is 256 units of FloorPlace, so cell number and place within it take a byte each.
 constexpr float kCell_mm = 256 / kFloorUnitsPerMm;
-constexpr int kColumns = static_cast<int>(kRoomX_mm / kCell_mm) + 1;
-constexpr int kRows = static_cast<int>(kRoomY_mm / kCell_mm) + 1;
-static_assert(kColumns < kNoFloor / 256, "what shows no floor lies beside all cells");
+constexpr int kCellColumns = static_cast<int>(kRoomX_mm / kCell_mm) + 1;
+constexpr int kCellRows = static_cast<int>(kRoomY_mm / kCell_mm) + 1;
+static_assert(kCellColumns < kNoFloor / 256, "what shows no floor lies beside all cells");
 // Averages three cells.
 constexpr int kBlurCells = 1;
 // Remaining light by number of hidden lamps; full light is 256. Ambient light remains.
@@ -27,11 +27,11 @@ const std::array<Eigen::Vector3f, 3> kLamps_W = {Eigen::Vector3f(-1500, -1300, 3
 }  // namespace
 
 FloorShadow::FloorShadow()
-    : lamps_hidden_(kColumns * kRows, 0),
-      light_(kColumns * kRows, kLightLeft[0]),
-      scratch_(kColumns * kRows),
-      line_(kColumns + 2),
-      columns_(kColumns) {}
+    : lamps_hidden_(kCellColumns * kCellRows, 0),
+      light_(kCellColumns * kCellRows, kLightLeft[0]),
+      scratch_(kCellColumns * kCellRows),
+      line_(kCellColumns + 2),
+      columns_(kCellColumns) {}
 
 bool FloorShadow::Bounds(Eigen::Vector2f& low_W, Eigen::Vector2f& high_W) const {
   const Eigen::Vector2f corner(float(kRoomX_mm / 2), float(kRoomY_mm / 2));
@@ -50,10 +50,10 @@ bool FloorShadow::MayFallOn(std::span<const FloorPlace> places) const {
 
 void FloorShadow::Clear() {
   for (int y = y0_; y <= y1_; ++y) {
-    std::fill_n(&lamps_hidden_[y * kColumns + x0_], x1_ - x0_ + 1, 0);
-    std::fill_n(&light_[y * kColumns + x0_], x1_ - x0_ + 1, kLightLeft[0]);
+    std::fill_n(&lamps_hidden_[y * kCellColumns + x0_], x1_ - x0_ + 1, 0);
+    std::fill_n(&light_[y * kCellColumns + x0_], x1_ - x0_ + 1, kLightLeft[0]);
   }
-  x0_ = kColumns, y0_ = kRows, x1_ = y1_ = -1;
+  x0_ = kCellColumns, y0_ = kCellRows, x1_ = y1_ = -1;
 }
 
 void FloorShadow::Cast(const PersonMesh& mesh, const std::vector<Eigen::Vector3f>& p_W) {
@@ -78,8 +78,9 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
     if (area <= 0) continue;
     const int low_x = std::max(0, static_cast<int>(std::min({a.x(), b.x(), c.x()})));
     const int low_y = std::max(0, static_cast<int>(std::min({a.y(), b.y(), c.y()})));
-    const int high_x = std::min(kColumns - 1, static_cast<int>(std::max({a.x(), b.x(), c.x()})));
-    const int high_y = std::min(kRows - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
+    const int high_x =
+        std::min(kCellColumns - 1, static_cast<int>(std::max({a.x(), b.x(), c.x()})));
+    const int high_y = std::min(kCellRows - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
     if (low_x > high_x || low_y > high_y) continue;
     // Twice the areas opposite the corners, linear in x.
     const auto side = [](const Eigen::Vector2f& p, const Eigen::Vector2f& q, float x, float y) {
@@ -90,7 +91,7 @@ void FloorShadow::CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, cons
     for (int y = low_y; y <= high_y; ++y) {
       const float mx = float(low_x) + 0.5f, my = float(y) + 0.5f;
       float at_a = side(b, c, mx, my), at_b = side(c, a, mx, my), at_c = side(a, b, mx, my);
-      std::uint8_t* hidden = &lamps_hidden_[y * kColumns];
+      std::uint8_t* hidden = &lamps_hidden_[y * kCellColumns];
       for (int x = low_x; x <= high_x; ++x, at_a += step_a, at_b += step_b, at_c += step_c) {
         if (std::min({at_a, at_b, at_c}) < 0) continue;
         hidden[x] |= bit;
@@ -108,13 +109,13 @@ void FloorShadow::Blur() {
   if (x1_ < x0_) return;
   x0_ = std::max(0, x0_ - 2 * kBlurCells);
   y0_ = std::max(0, y0_ - 2 * kBlurCells);
-  x1_ = std::min(kColumns - 1, x1_ + 2 * kBlurCells);
-  y1_ = std::min(kRows - 1, y1_ + 2 * kBlurCells);
+  x1_ = std::min(kCellColumns - 1, x1_ + 2 * kBlurCells);
+  y1_ = std::min(kCellRows - 1, y1_ + 2 * kBlurCells);
   for (int y = y0_; y <= y1_; ++y)
     for (int x = x0_; x <= x1_; ++x)
-      light_[y * kColumns + x] = kLightLeft[std::popcount(lamps_hidden_[y * kColumns + x])];
+      light_[y * kCellColumns + x] = kLightLeft[std::popcount(lamps_hidden_[y * kCellColumns + x])];
   const int count = x1_ - x0_ + 1;
-  const auto cell = [this](int y) { return y * kColumns + x0_; };
+  const auto cell = [this](int y) { return y * kCellColumns + x0_; };
   for (int i = 0; i < 2; ++i) {
     for (int y = y0_; y <= y1_; ++y) {
       const std::uint16_t* const row = &light_[cell(y)];

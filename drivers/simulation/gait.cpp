@@ -7,9 +7,6 @@
 namespace mocap::simulation {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kGravity = 9810;  // mm/s²
-
 // Foot against ground over the cycle: Perry and Burnfield, Gait Analysis (2010): contact with the
 // heel, flat from a tenth to a third, heel off, toes off at 62 %, clearance, toes up again.
 constexpr std::array<Key, 9> kWalkingRoll = {{{0.00, -0.28},

@@ -11,6 +11,8 @@
 
 namespace mocap::simulation {
 
+inline constexpr double kGravity = 9810;  // mm/s²
+
 /// Places a foot on the ground.
 ///
 /// @param p_WSole   point on the ground under the ankle when the foot is flat.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/motions_in_place.h"
 #include "drivers/simulation/path_walker.h"
@@ -13,8 +14,6 @@
 
 namespace mocap::simulation {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 // Steps from side to side with a twisting waist and raised arms.
 class Dance : public Motion {

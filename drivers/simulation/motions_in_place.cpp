@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kGravity = 9810;  // mm/s²
 
 void PlacePelvis(const Spot& spot, double forward_mm, double left_mm, double pitch, double roll,
                  double yaw, BodyPose& pose) {

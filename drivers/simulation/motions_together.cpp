@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 double Between(double from, double to, double share) { return from + share * (to - from); }
 

@@ -11,13 +11,13 @@
 namespace mocap::simulation {
 namespace {
 
-constexpr double kReach_mm = 1500;
+constexpr double kArmReach_mm = 1500;
 constexpr double kBehind = 0.36, kDark = 0.16, kWhite = 0.92;
-constexpr int kSamples = 3;  // Per pixel, in each direction.
+constexpr int kBoardSamples = 3;  // Per pixel, in each direction.
 // A board that lies on something is not hidden by it.
 constexpr double kAsNear = 1.01;
 
-double Smoothstep(double x) {
+double SmoothShare(double x) {
   const double u = std::clamp(x, 0.0, 1.0);
   return u * u * (3 - 2 * u);
 }
@@ -35,7 +35,7 @@ RigidTransform HeldUp(Random& random) {
   const Vector3 right = into.cross(Vector3::UnitZ()).normalized();
   Matrix3 R_WB;
   R_WB << right, into.cross(right), into;
-  const Range reach{-kReach_mm, kReach_mm};
+  const Range reach{-kArmReach_mm, kArmReach_mm};
   const Vector3 middle_W = random.UniformIn(reach, reach, {600, 1500});
   return Centred(R_WB * ExpRotation({0, 0, random.Uniform(-0.6, 0.6)}), middle_W);
 }
@@ -62,14 +62,14 @@ std::optional<double> InkAt(const Vector2& p_B) {
   return is_dark ? kDark : kWhite;
 }
 
-struct PixelBox {
+struct BoardBox {
   int x0, y0, x1, y1;  // Half open.
 };
 
 // The pixels that may show the board; the whole picture if part of the rim is outside the lens'
 // field.
-PixelBox BoxOf(const CameraCalibration& camera, const RigidTransform& X_CB) {
-  const PixelBox whole{0, 0, camera.width_px, camera.height_px};
+BoardBox BoxOf(const CameraCalibration& camera, const RigidTransform& X_CB) {
+  const BoardBox whole{0, 0, camera.width_px, camera.height_px};
   Vector2 low = Vector2::Constant(1e9), high = -low;
   constexpr int kSteps = 6;
   constexpr double kRim = 1.6;
@@ -117,7 +117,7 @@ RigidTransform BoardPath::PoseAt(double t_s) const {
   const double places = std::max(0.0, t_s) / (kMoveBoard_s + kHoldBoard_s);
   const auto number = static_cast<std::uint64_t>(places);
   const double within_s = (places - static_cast<double>(number)) * (kMoveBoard_s + kHoldBoard_s);
-  const double share = Smoothstep((within_s - kHoldBoard_s) / kMoveBoard_s);
+  const double share = SmoothShare((within_s - kHoldBoard_s) / kMoveBoard_s);
   const RigidTransform from = PlaceOf(number), to = PlaceOf(number + 1);
   const Matrix3 R_WB = from.R * ExpRotation(share * LogRotation(from.R.transpose() * to.R));
   return Centred(
@@ -144,14 +144,14 @@ void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_CW,
   const bool is_front = X_BC.p.z() < 0;
   // Lamps are above; surfaces that face down are lit by the floor.
   const double light = 0.72 - 0.25 * (is_front ? X_WB.R(2, 2) : -X_WB.R(2, 2));
-  const PixelBox box = BoxOf(camera, X_CB);
+  const BoardBox box = BoxOf(camera, X_CB);
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {
       int covered = 0;
       double ink = 0;
-      for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const Vector2 pixel(x + (sample % kSamples + 0.5) / kSamples - 0.5,
-                            y + (sample / kSamples + 0.5) / kSamples - 0.5);
+      for (int sample = 0; sample < kBoardSamples * kBoardSamples; ++sample) {
+        const Vector2 pixel(x + (sample % kBoardSamples + 0.5) / kBoardSamples - 0.5,
+                            y + (sample / kBoardSamples + 0.5) / kBoardSamples - 0.5);
         const auto direction = NormalizedFromPixel(camera.lens, pixel);
         if (!direction) continue;
         const Vector3 ray_B = X_BC.R * direction->homogeneous();
@@ -162,7 +162,7 @@ void PaintBoard(const CameraCalibration& camera, const RigidTransform& X_CW,
         ++covered;
         ink += is_front ? *here : kBehind;
       }
-      constexpr double kAll = kSamples * kSamples;
+      constexpr double kAll = kBoardSamples * kBoardSamples;
       if (covered > 0) canvas(x, y) = Mixed(canvas(x, y), covered / kAll, light * ink / kAll);
     }
   }

@@ -19,9 +19,22 @@ struct LibavDeleter {
   void operator()(SwsContext* p) const { sws_freeContext(p); }
 };
 
+struct InputCloser {
+  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
+};
+
+struct OutputCloser {
+  void operator()(AVFormatContext* p) const {
+    avio_closep(&p->pb);
+    avformat_free_context(p);
+  }
+};
+
 using CodecPtr = std::unique_ptr<AVCodecContext, LibavDeleter>;
 using FramePtr = std::unique_ptr<AVFrame, LibavDeleter>;
 using PacketPtr = std::unique_ptr<AVPacket, LibavDeleter>;
 using ScalerPtr = std::unique_ptr<SwsContext, LibavDeleter>;
+using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
+using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
 
 }  // namespace mocap

@@ -18,12 +18,11 @@
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
-namespace {
 
 /// A text file whose write errors are reported.
-class TextFile {
+class TableFile {
  public:
-  explicit TextFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {
+  explicit TableFile(const std::filesystem::path& file) : name_(file.string()), out_(file) {
     Check();
   }
 
@@ -75,11 +74,13 @@ class RecordedVideo {
 
  private:
   VideoWriter video_;
-  std::optional<TextFile> table_;
+  std::optional<TableFile> table_;
   bool has_head_;
   std::int64_t last_ns_ = -1;
   std::uint64_t frame_ = 0;
 };
+
+namespace {
 
 std::string NotesText(const std::vector<std::pair<std::string, std::string>>& notes) {
   std::string text;
@@ -184,7 +185,7 @@ class TakeWriter::Impl {
     for (int i = 0; i < people; ++i) {
       const TakeLayout folder = people == 1 ? layout_ : layout_.Person(i + 1);
       std::filesystem::create_directory(folder.folder);
-      truths_.push_back({folder, TextFile(folder.TruthTable())});
+      truths_.push_back({folder, TableFile(folder.TruthTable())});
       truths_.back().table.Write(header + '\n');
     }
   }
@@ -284,7 +285,7 @@ class TakeWriter::Impl {
   std::vector<std::optional<VideoWriter>> masks_;
   struct Truth {
     TakeLayout folder;
-    TextFile table;
+    TableFile table;
   };
   std::vector<Truth> truths_;
   std::size_t truth_points_ = 0;

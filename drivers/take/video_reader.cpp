@@ -19,11 +19,6 @@ namespace {
 constexpr int kRowAlignment_px = 64;
 constexpr int kLargestSide_px = 16384;
 
-struct InputCloser {
-  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
-};
-using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
-
 /// No frame in an otherwise valid video.
 class NoFrame : public SetupError {
  public:

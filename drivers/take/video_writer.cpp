@@ -10,14 +10,6 @@
 namespace mocap {
 namespace {
 
-struct OutputCloser {
-  void operator()(AVFormatContext* p) const {
-    avio_closep(&p->pb);
-    avformat_free_context(p);
-  }
-};
-using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
-
 /// Storage of each kind of pixels.
 struct Storage {
   AVCodecID codec;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ReadLine(const fs::path& file) {
+std::string ReadPrintable(const fs::path& file) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
@@ -94,8 +94,8 @@ std::vector<UsbDevice> UsbBus::Devices() const {
     found.device = {list[i], [context = context_](libusb_device* d) { libusb_unref_device(d); }};
     found.port = bus + '-' + ports;
     found.bus = "usb-" + ControllerOf(folders, bus) + '-' + ports;
-    found.model = ReadLine(folders / found.port / "product");
-    found.serial = ReadLine(folders / found.port / "serial");
+    found.model = ReadPrintable(folders / found.port / "product");
+    found.serial = ReadPrintable(folders / found.port / "serial");
     found.link_mbit_s = LinkOf(list[i]);
   }
   libusb_free_device_list(list, /*unref_devices=*/0);

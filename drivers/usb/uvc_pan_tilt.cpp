@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
 #include "core/errors.h"
@@ -18,8 +17,6 @@ enum UvcRequest : std::uint8_t { kSetCur = 0x01, kGetCur = 0x81, kGetMin = 0x82,
 constexpr std::uint16_t kPanTiltAbsolute = 0x0d << 8;
 constexpr std::uint8_t kToInterface =
     std::uint8_t{LIBUSB_REQUEST_TYPE_CLASS} | std::uint8_t{LIBUSB_RECIPIENT_INTERFACE};
-/// UVC angles are in seconds of arc.
-constexpr double kUnit_rad = std::numbers::pi / (180 * 3600);
 /// Cameras answer within a few milliseconds. One that hangs must not delay its frames for long.
 constexpr unsigned kPatience_ms = 100;
 
@@ -29,11 +26,11 @@ using Message = std::array<std::uint8_t, 8>;
 double AngleAt(const Message& message, std::size_t at) {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < 4; ++i) bits |= std::uint32_t{message[at + i]} << (8 * i);
-  return static_cast<std::int32_t>(bits) * kUnit_rad;
+  return static_cast<std::int32_t>(bits) * kArcSecond_rad;
 }
 
 void PutAngle(double angle_rad, Message& message, std::size_t at) {
-  const auto bits = static_cast<std::uint32_t>(std::lround(angle_rad / kUnit_rad));
+  const auto bits = static_cast<std::uint32_t>(std::lround(angle_rad / kArcSecond_rad));
   for (std::size_t i = 0; i < 4; ++i) message[at + i] = static_cast<std::uint8_t>(bits >> (8 * i));
 }
 

@@ -14,9 +14,9 @@ namespace {
 /// After this long without a frame, the camera is lost.
 constexpr std::chrono::seconds kStall{2};
 /// Between attempts to open a lost camera.
-constexpr std::chrono::milliseconds kRetryPause{200};
+constexpr std::chrono::milliseconds kReopenPause{200};
 
-std::string TimeSource(const CaptureTime& time) {
+std::string TimeSourceOf(const CaptureTime& time) {
   switch (time.clock) {
     case V4l2Clock::kMonotonic:
       break;
@@ -110,7 +110,7 @@ GrabStatus V4l2Driver::Lose(const std::string& why) {
 }
 
 GrabStatus V4l2Driver::TryToReturn(std::chrono::milliseconds timeout) {
-  const auto due = last_sign_ + kRetryPause;
+  const auto due = last_sign_ + kReopenPause;
   if (Steady::now() < due) {
     std::this_thread::sleep_until(std::min(due, Steady::now() + timeout));
     return GrabStatus::kLost;
@@ -139,7 +139,7 @@ CameraFacts V4l2Driver::Facts() const {
   if (stream_) {
     facts.format = stream_->format().name;
     facts.fps = stream_->format().fps;
-    facts.time_source = TimeSource(time_);
+    facts.time_source = TimeSourceOf(time_);
     facts.remarks = stream_->remarks();
   }
   if (!trouble_.empty()) facts.remarks.push_back(trouble_);

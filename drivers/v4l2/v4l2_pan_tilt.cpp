@@ -3,7 +3,6 @@
 #include <linux/videodev2.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/errors.h"
@@ -11,20 +10,17 @@
 namespace mocap {
 namespace {
 
-/// V4L2 angles are in seconds of arc.
-constexpr double kUnit_rad = std::numbers::pi / (180 * 3600);
-
 std::optional<double> Get(VideoKernel& kernel, int handle, std::uint32_t id) {
   v4l2_control control{};
   control.id = id;
   if (kernel.Request(handle, VIDIOC_G_CTRL, &control) < 0) return std::nullopt;
-  return control.value * kUnit_rad;
+  return control.value * kArcSecond_rad;
 }
 
 bool Set(VideoKernel& kernel, int handle, std::uint32_t id, double angle_rad) {
   v4l2_control control{};
   control.id = id;
-  control.value = static_cast<int>(std::lround(angle_rad / kUnit_rad));
+  control.value = static_cast<int>(std::lround(angle_rad / kArcSecond_rad));
   return kernel.Request(handle, VIDIOC_S_CTRL, &control) >= 0;
 }
 
@@ -33,8 +29,8 @@ bool Range(VideoKernel& kernel, int handle, std::uint32_t id, double& least_rad,
   v4l2_queryctrl query{};
   query.id = id;
   if (kernel.Request(handle, VIDIOC_QUERYCTRL, &query) < 0) return false;
-  least_rad = query.minimum * kUnit_rad;
-  most_rad = query.maximum * kUnit_rad;
+  least_rad = query.minimum * kArcSecond_rad;
+  most_rad = query.maximum * kArcSecond_rad;
   return true;
 }
 

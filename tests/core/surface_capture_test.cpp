@@ -43,7 +43,7 @@ double MeanError(const BodyModel& truth, const PoseState& pose, const CaptureRes
   return (result.points_W - expected).colwise().norm().mean();
 }
 
-class Capture : public testing::TestWithParam<std::string> {
+class Capture : public ::testing::TestWithParam<std::string> {
  protected:
   const CaptureResult& See(const BodyModel& person, int frame) {
     return capture_.Update({Voxelize(person, Stroll(person, frame), 25), {}}, NextNs());
@@ -174,7 +174,7 @@ TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
   EXPECT_EQ(Allocations() - before, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Capture, testing::Values("mikic2003", "full"),
+INSTANTIATE_TEST_SUITE_P(Tables, Capture, ::testing::Values("mikic2003", "full"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -69,7 +69,7 @@ class CountingSink : public PoseSink {
   int tracked = 0;
 };
 
-constexpr int kFrames = 64;
+constexpr int kFollowedFrames = 64;
 
 /// Somebody walks at 1 m/s.
 SimulatedStudioOptions Walk() {
@@ -77,7 +77,7 @@ SimulatedStudioOptions Walk() {
   options.width_px = 320;
   options.height_px = 240;
   options.fps = 10;
-  options.seconds = kFrames / options.fps;
+  options.seconds = kFollowedFrames / options.fps;
   options.pan_tilt = options.follow = true;
   return options;
 }
@@ -87,7 +87,7 @@ double WalkedMm(const SimulatedTruth& truth) {
   const auto torso = [&truth](int frame) {
     return truth.At(Walk().start_ns + frame * 100'000'000LL)[0].head<2>().eval();
   };
-  for (int i = 1; i < kFrames; ++i) length_mm += (torso(i) - torso(i - 1)).norm();
+  for (int i = 1; i < kFollowedFrames; ++i) length_mm += (torso(i) - torso(i - 1)).norm();
   return length_mm;
 }
 
@@ -106,14 +106,14 @@ TEST(FollowingHeads, KeepAPersonWhoWalksSixMetersInViewOfAllCameras) {
                     {.overflow = Overflow::kWait, .latency_origin = LatencyOrigin::kArrival},
                     LoadBodyTable("full"), sink);
   pipeline.RunSerially();
-  EXPECT_GT(sink.tracked, kFrames * 9 / 10);
+  EXPECT_GT(sink.tracked, kFollowedFrames * 9 / 10);
   int whole_without_turning = 0;
   for (const InView& camera : seen) {
-    EXPECT_EQ(camera.frames, kFrames);
-    EXPECT_GE(camera.whole, kFrames * 95 / 100);
+    EXPECT_EQ(camera.frames, kFollowedFrames);
+    EXPECT_GE(camera.whole, kFollowedFrames * 95 / 100);
     whole_without_turning += camera.whole_without_turning;
   }
-  EXPECT_LT(whole_without_turning, kFrames * 6 * 85 / 100);
+  EXPECT_LT(whole_without_turning, kFollowedFrames * 6 * 85 / 100);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class LoopingDriver : public CameraDriver {
   std::int64_t next_ = 0;
 };
 
-class FramePathTest : public testing::Test {
+class FramePathTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";

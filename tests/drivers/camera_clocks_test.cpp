@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 
 constexpr int kWidth_px = 64, kHeight_px = 48;
 constexpr double kFps = 25;
-constexpr std::int64_t kPeriod_ns = 40'000'000;
+constexpr std::int64_t kCameraPeriod_ns = 40'000'000;
 constexpr std::int64_t kMinute_ns = 60'000'000'000;
 constexpr int kCameras = 4, kHalfRateCamera = 3;
 /// After so many, clocks are known, whatever this machine did to single frames.
@@ -70,7 +70,7 @@ TEST(CameraClocks, SetsAreRightWhateverTheClocksSay) {
   const std::string reason = testing::EnterPrivateNetwork();
   if (!reason.empty()) GTEST_SKIP() << reason;
   WrongClocks cameras;
-  Synchronizer synchronizer(kCameras, kPeriod_ns, kPatience_periods);
+  Synchronizer synchronizer(kCameras, kCameraPeriod_ns, kPatience_periods);
   std::array<int, kCameras> members{}, shown{};
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   for (int sets = 0; sets < kSets && std::chrono::steady_clock::now() < deadline;) {

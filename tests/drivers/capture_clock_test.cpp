@@ -8,7 +8,7 @@ namespace mocap {
 namespace {
 
 constexpr std::int64_t kNow_ns = 1'750'000'000'000'000'000;
-constexpr std::int64_t kSecond_ns = 1'000'000'000, kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kOneSecond_ns = 1'000'000'000, kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kExposure_ns = 4 * kMillisecond_ns;
 constexpr int kLeapSeconds = 37;
 
@@ -26,7 +26,8 @@ TEST(CaptureClock, WithoutStampsTheArrivalCounts) {
 
 TEST(CaptureClock, DeviceClockIsFittedToTheArrival) {
   CaptureClock clock(true, kLeapSeconds);
-  EXPECT_EQ(Middle(clock, 5 * kSecond_ns, false), kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+  EXPECT_EQ(Middle(clock, 5 * kOneSecond_ns, false),
+            kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
   EXPECT_EQ(clock.source(), TimeSource::kDeviceClock);
 }
 
@@ -38,19 +39,21 @@ TEST(CaptureClock, PtpIsTakenAtItsWord) {
 
 TEST(CaptureClock, LeapSecondsOfTaiAreTakenAway) {
   CaptureClock clock(true, kLeapSeconds);
-  EXPECT_EQ(Middle(clock, kNow_ns + kLeapSeconds * kSecond_ns, true), kNow_ns + kExposure_ns / 2);
+  EXPECT_EQ(Middle(clock, kNow_ns + kLeapSeconds * kOneSecond_ns, true),
+            kNow_ns + kExposure_ns / 2);
   EXPECT_EQ(clock.source(), TimeSource::kPtpTai);
 }
 
 TEST(CaptureClock, PtpWithAnEpochOfItsOwnIsFitted) {
   CaptureClock clock(true, kLeapSeconds);
-  EXPECT_EQ(Middle(clock, 5 * kSecond_ns, true), kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+  EXPECT_EQ(Middle(clock, 5 * kOneSecond_ns, true),
+            kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
   EXPECT_EQ(clock.source(), TimeSource::kDeviceClock);
 }
 
 TEST(CaptureClock, PtpGoesThroughTheTimeOfDayToTheTimeline) {
   CaptureClock clock(true, kLeapSeconds);
-  const std::int64_t ahead_ns = -3600 * kSecond_ns;
+  const std::int64_t ahead_ns = -3600 * kOneSecond_ns;
   const std::int64_t arrival_ns = kNow_ns + kExposure_ns + 2 * kMillisecond_ns;
   EXPECT_EQ(clock.MiddleOfExposure(kNow_ns + ahead_ns, arrival_ns, kExposure_ns, true, ahead_ns),
             kNow_ns + kExposure_ns / 2);
@@ -58,8 +61,8 @@ TEST(CaptureClock, PtpGoesThroughTheTimeOfDayToTheTimeline) {
 }
 
 TEST(CaptureClock, WherePtpStaysAndTheHostIsSetCaptureTimesGoOn) {
-  for (const std::int64_t step_ns :
-       {-3600 * kSecond_ns, -800 * kMillisecond_ns, 800 * kMillisecond_ns, 3600 * kSecond_ns}) {
+  for (const std::int64_t step_ns : {-3600 * kOneSecond_ns, -800 * kMillisecond_ns,
+                                     800 * kMillisecond_ns, 3600 * kOneSecond_ns}) {
     CaptureClock clock(true, kLeapSeconds);
     constexpr std::int64_t kPeriod_ns = 10 * kMillisecond_ns;
     for (int i = 0; i < 100; ++i) {
@@ -74,19 +77,20 @@ TEST(CaptureClock, WherePtpStaysAndTheHostIsSetCaptureTimesGoOn) {
 
 TEST(CaptureClock, CameraThatWasAwayKeepsItsClockIfItWentOn) {
   CaptureClock clock(true, kLeapSeconds);
-  Middle(clock, 5 * kSecond_ns, false);
+  Middle(clock, 5 * kOneSecond_ns, false);
   clock.Doubt();
   // Held up by 300 ms more than the frame before.
-  const std::int64_t late_ns = kNow_ns + kSecond_ns + kExposure_ns + 302 * kMillisecond_ns;
-  EXPECT_EQ(clock.MiddleOfExposure(6 * kSecond_ns, late_ns, kExposure_ns, false, 0),
-            kNow_ns + kSecond_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+  const std::int64_t late_ns = kNow_ns + kOneSecond_ns + kExposure_ns + 302 * kMillisecond_ns;
+  EXPECT_EQ(clock.MiddleOfExposure(6 * kOneSecond_ns, late_ns, kExposure_ns, false, 0),
+            kNow_ns + kOneSecond_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
 }
 
 TEST(CaptureClock, CameraThatWasSwitchedOffIsLearnedAnewAtOnce) {
   CaptureClock clock(true, kLeapSeconds);
-  Middle(clock, 500 * kSecond_ns, false);
+  Middle(clock, 500 * kOneSecond_ns, false);
   clock.Doubt();
-  EXPECT_EQ(Middle(clock, 3 * kSecond_ns, false), kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
+  EXPECT_EQ(Middle(clock, 3 * kOneSecond_ns, false),
+            kNow_ns + kExposure_ns / 2 + 2 * kMillisecond_ns);
 }
 
 TEST(FrameCounter, GoesOnWhereNumbersWrap) {

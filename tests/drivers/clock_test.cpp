@@ -5,10 +5,10 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kStart_ns = 1'750'000'000 * kSecond_ns, kBoot_ns = 5000 * kSecond_ns;
-constexpr std::int64_t kSteps_ns[] = {-3600 * kSecond_ns, -kSecond_ns * 8 / 10, kSecond_ns * 8 / 10,
-                                      3600 * kSecond_ns};
+constexpr std::int64_t kHostSecond_ns = 1'000'000'000;
+constexpr std::int64_t kStart_ns = 1'750'000'000 * kHostSecond_ns, kBoot_ns = 5000 * kHostSecond_ns;
+constexpr std::int64_t kSteps_ns[] = {-3600 * kHostSecond_ns, -kHostSecond_ns * 8 / 10,
+                                      kHostSecond_ns * 8 / 10, 3600 * kHostSecond_ns};
 
 /// A host whose clocks are set by the test.
 class HostClockTest : public ::testing::Test {
@@ -29,15 +29,15 @@ TEST_F(HostClockTest, TheTimelineBeginsWithTheTimeOfDayAndNeverSteps) {
     const std::int64_t before_ns = Now();
     now_.time_of_day_ns += step_ns;
     EXPECT_EQ(Now(), before_ns) << step_ns;
-    Pass(kSecond_ns);
-    EXPECT_EQ(Now(), before_ns + kSecond_ns);
+    Pass(kHostSecond_ns);
+    EXPECT_EQ(Now(), before_ns + kHostSecond_ns);
   }
 }
 
 TEST_F(HostClockTest, TheTimeOfDayFollowsEachStep) {
   for (const std::int64_t step_ns : kSteps_ns) {
     now_.time_of_day_ns += step_ns;
-    Pass(kSecond_ns);
+    Pass(kHostSecond_ns);
     EXPECT_EQ(clock_.ToTimeOfDay(Now()), now_.time_of_day_ns) << step_ns;
   }
 }
@@ -67,22 +67,22 @@ TEST_F(HostClockTest, AStampOfTheTimeOfDayIsUnderstoodAcrossAStep) {
 }
 
 TEST_F(HostClockTest, AStampOfTheFutureIsOfNow) {
-  EXPECT_EQ(clock_.FromRecentTimeOfDay(now_.time_of_day_ns + kSecond_ns, now_), Now());
+  EXPECT_EQ(clock_.FromRecentTimeOfDay(now_.time_of_day_ns + kHostSecond_ns, now_), Now());
 }
 
 TEST_F(HostClockTest, AStampThatWasHeldUpLongAfterAStepIsOfItsTime) {
   for (const std::int64_t step_ns : kSteps_ns) {
     now_.time_of_day_ns += step_ns;
     clock_.OffsetNs();
-    Pass(60 * kSecond_ns);
+    Pass(60 * kHostSecond_ns);
     const std::int64_t stamp_ns = now_.time_of_day_ns, stamped_ns = Now();
-    Pass(2 * kSecond_ns);
+    Pass(2 * kHostSecond_ns);
     EXPECT_EQ(clock_.FromRecentTimeOfDay(stamp_ns, now_), stamped_ns) << step_ns;
   }
 }
 
 TEST(Clock, SleepingUntilATimeThatIsPastReturns) {
-  SleepUntil(TimelineNs() - 3600 * kSecond_ns);
+  SleepUntil(TimelineNs() - 3600 * kHostSecond_ns);
   const std::int64_t due_ns = TimelineNs() + 1'000'000;
   SleepUntil(due_ns);
   EXPECT_GE(TimelineNs(), due_ns);

@@ -60,7 +60,7 @@ TEST(PrintableText, BytesThatAreNoUtf8AreSpelledOut) {
 TEST(PrintableText, IsShortenedBetweenCharacters) {
   EXPECT_EQ(Shortened("äöü", 3), "äöü");
   EXPECT_EQ(Shortened("äöü", 2), "äö...");
-  EXPECT_EQ(Quoted(std::string(50, 'x')), '"' + std::string(40, 'x') + "...\"");
+  EXPECT_EQ(Quoted(std::string(50, 'x')), std::string("\"").append(40, 'x').append("...\""));
 }
 
 TEST(PrintableText, CountsOneThing) {

@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-class RandomCapsules : public testing::Test {
+class RandomCapsules : public ::testing::Test {
  protected:
   Vector3 Place() { return 300 * Vector3(unit_(random_), unit_(random_), unit_(random_)); }
   PosedCapsule Capsule() {

@@ -19,7 +19,7 @@
 namespace mocap {
 namespace {
 
-constexpr double kSeconds = 2;
+constexpr double kRecordedSeconds = 2;
 
 /// A camera that needs no time for its frames.
 class StillCamera : public CameraDriver {
@@ -94,7 +94,7 @@ class BackgroundRecorder : public ::testing::Test {
 
 TEST_F(BackgroundRecorder, LeavesWhatAStudioOpensAsBackground) {
   LiveCamera camera = Camera(std::make_unique<StillCamera>(take_));
-  const BackgroundRecord record = RecordBackground(camera, folder_.path(), kSeconds);
+  const BackgroundRecord record = RecordBackground(camera, folder_.path(), kRecordedSeconds);
   EXPECT_EQ(record.frames, 50);
   EXPECT_EQ(record.changed, 0);
   const std::vector<BackgroundFrame> frames = Read();
@@ -106,12 +106,12 @@ TEST_F(BackgroundRecorder, NoticesSomebodyWhoComesIn) {
   auto driver = std::make_unique<StillCamera>(take_);
   driver->somebody_comes_at = 45;
   LiveCamera camera = Camera(std::move(driver));
-  EXPECT_GT(RecordBackground(camera, folder_.path(), kSeconds).changed, kMostChange);
+  EXPECT_GT(RecordBackground(camera, folder_.path(), kRecordedSeconds).changed, kMostChange);
 }
 
 TEST_F(BackgroundRecorder, HeadLooksInAllDirectionsThatTheStudioAllows) {
   LiveCamera camera = CameraOnHead();
-  const BackgroundRecord record = RecordBackground(camera, folder_.path(), kSeconds);
+  const BackgroundRecord record = RecordBackground(camera, folder_.path(), kRecordedSeconds);
   const std::vector<PanTiltAngles> directions = SweepDirections(camera);
   EXPECT_EQ(record.frames, 2 * static_cast<int>(directions.size()));
   const std::vector<BackgroundFrame> frames = Read();

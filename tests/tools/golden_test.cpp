@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/simulate.h"
 #include "tools/track.h"
@@ -14,12 +15,6 @@ namespace mocap {
 namespace {
 
 namespace fs = std::filesystem;
-
-void RunCommand(void (*add)(CLI::App&), const std::string& command_line) {
-  CLI::App app("mocap");
-  add(app);
-  app.parse(command_line);
-}
 
 std::vector<std::vector<std::string>> Rows(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
@@ -43,9 +38,9 @@ TEST(Golden, ASimulatedWalkGivesThePosesThatItGaveBefore) {
   const testing::TemporaryFolder folder;
   const fs::path take = folder.path() / "take";
   const fs::path result = folder.path() / "result";
-  RunCommand(AddSimulateCommand,
-             "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
-  RunCommand(AddTrackCommand, "track " + take.string() + " --out " + result.string());
+  testing::RunCommand(AddSimulateCommand,
+                      "simulate --motion walk --seconds 0.3 --seed 3 --out " + take.string());
+  testing::RunCommand(AddTrackCommand, "track " + take.string() + " --out " + result.string());
   const auto got = Rows(testing::ReadText(result / "poses.csv"));
   const auto golden =
       Rows(testing::ReadText(fs::path(MOCAP_SOURCE_DIR) / "tests/tools/golden/poses.csv"));

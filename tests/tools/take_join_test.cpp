@@ -17,6 +17,7 @@
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/toml_text.h"
+#include "tests/support/run_command.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
@@ -62,12 +63,6 @@ void Part(const fs::path& take, const std::vector<std::string>& all,
   ReplaceInFile(layout.Description(), "cameras = " + ListOf(all), "cameras = " + ListOf(own));
 }
 
-void RunCommand(void (*add)(CLI::App&), const std::string& command_line) {
-  CLI::App app("mocap");
-  add(app);
-  app.parse(command_line);
-}
-
 class JoinedTakes : public ::testing::Test {
  protected:
   /// Three cameras, of which one computer has two.
@@ -99,15 +94,17 @@ class JoinedTakes : public ::testing::Test {
 };
 
 TEST_F(JoinedTakes, AWalkOfSixCamerasGivesTheSamePosesSplitAndJoined) {
-  RunCommand(AddSimulateCommand,
-             "simulate --motion walk --seconds 0.5 --width 320 --seed 5 --out " + whole_.string());
+  testing::RunCommand(
+      AddSimulateCommand,
+      "simulate --motion walk --seconds 0.5 --width 320 --seed 5 --out " + whole_.string());
   const std::vector<std::string> all = {"cam1", "cam2", "cam3", "cam4", "cam5", "cam6"};
   Part(whole_, all, {"cam1", "cam2", "cam3"}, left_);
   Part(whole_, all, {"cam4", "cam5", "cam6"}, right_);
-  RunCommand(AddTakeCommand,
-             "take join " + left_.string() + ' ' + right_.string() + " --out " + joined_.string());
+  testing::RunCommand(AddTakeCommand, "take join " + left_.string() + ' ' + right_.string() +
+                                          " --out " + joined_.string());
   for (const fs::path& take : {whole_, joined_})
-    RunCommand(AddTrackCommand, "track " + take.string() + " --out " + take.string() + "-result");
+    testing::RunCommand(AddTrackCommand,
+                        "track " + take.string() + " --out " + take.string() + "-result");
   const std::string poses = ReadText(whole_.string() + "-result/poses.csv");
   EXPECT_GT(std::ranges::count(poses, '\n'), 10);
   EXPECT_EQ(ReadText(joined_.string() + "-result/poses.csv"), poses);

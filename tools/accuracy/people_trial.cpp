@@ -17,7 +17,7 @@ namespace {
 // Errors count from this time after a person has come in.
 constexpr double kSettle_s = 0.3;
 
-std::vector<PresenceBySet> TruthOf(const SimulatedStudioOptions& options) {
+std::vector<PresenceBySet> TrueCompany(const SimulatedStudioOptions& options) {
   const SimulatedStudio studio(options);
   const SimulatedTruth simulated(options);
   std::vector<PresenceBySet> truth(options.people);
@@ -81,7 +81,7 @@ PeopleRow RunPeopleTrial(const SimulatedStudioOptions& studio) {
   pipeline.Start();
   pipeline.Join();
   const auto settle_sets = static_cast<int>(std::ceil(kSettle_s * studio.fps));
-  return SumUp(studio, MeasurePeople(TruthOf(studio), FollowedIn(sink, studio), settle_sets));
+  return SumUp(studio, MeasurePeople(TrueCompany(studio), FollowedIn(sink, studio), settle_sets));
 }
 
 }  // namespace mocap

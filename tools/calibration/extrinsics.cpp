@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kFewestShared = 3;
 constexpr double kWorstView_px = 5;
-constexpr double kWorstRms_px = 3;
+constexpr double kWorstStudioRms_px = 3;
 constexpr double kLeastShareKept = 0.5;
 
 // Weighs a rotation of 1 rad like a metre.
@@ -199,7 +199,8 @@ void RefuseContradiction(const BoardDetections& before, const StudioFit& fit) {
       worst = c;
   }
   const CameraFit& camera = fit.cameras[worst];
-  if (fit.cameras.size() < 2 || (camera.rms_px < kWorstRms_px && share(worst) > kLeastShareKept))
+  if (fit.cameras.size() < 2 ||
+      (camera.rms_px < kWorstStudioRms_px && share(worst) > kLeastShareKept))
     return;
   throw SetupError(
       fmt::format("{}: contradicts the other cameras ({:.1f} px, {:.0f} % of what it shares with "

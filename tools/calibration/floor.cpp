@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kLargestTable = 1 << 20;
 constexpr double kWorstFloorRms_px = 3;
-constexpr const char* kPointNames[3] = {"origin", "x", "y"};
+constexpr const char* kFloorPointNames[3] = {"origin", "x", "y"};
 
 RigidTransform WorldOn(const Vector3& origin, const Vector3& along_x, const Vector3& up) {
   RigidTransform X_NW;
@@ -117,7 +117,7 @@ RigidTransform WorldOnPoints(const std::vector<FloorPoint>& points,
     if (seen.size() < 2)
       throw SetupError(
           fmt::format("floor point \"{}\" is seen by {} cameras; expected at least two",
-                      kPointNames[i], seen.size()));
+                      kFloorPointNames[i], seen.size()));
     p_W[i] = Triangulate(seen);
   }
   const Vector3 normal = (p_W[1] - p_W[0]).cross(p_W[2] - p_W[0]);
@@ -146,18 +146,18 @@ std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
     std::getline(row, camera, ',');
     std::getline(row, x, ',');
     std::getline(row, y, ',');
-    const auto place = std::find(std::begin(kPointNames), std::end(kPointNames), name);
+    const auto place = std::find(std::begin(kFloorPointNames), std::end(kFloorPointNames), name);
     const auto owner = std::find_if(cameras.begin(), cameras.end(),
                                     [&](const CameraCalibration& c) { return c.name == camera; });
     char* x_end = nullptr;
     char* y_end = nullptr;
     FloorPoint point;
     point.pixel = {std::strtod(x.c_str(), &x_end), std::strtod(y.c_str(), &y_end)};
-    if (place == std::end(kPointNames) || owner == cameras.end() || x_end == x.c_str() ||
+    if (place == std::end(kFloorPointNames) || owner == cameras.end() || x_end == x.c_str() ||
         y_end == y.c_str() || !point.pixel.allFinite())
       throw SetupError(fmt::format("{}:{}: {} is not a floor point; expected origin|x|y,CAMERA,X,Y",
                                    file, number, Quoted(line)));
-    point.point = static_cast<int>(place - std::begin(kPointNames));
+    point.point = static_cast<int>(place - std::begin(kFloorPointNames));
     point.camera = static_cast<int>(owner - cameras.begin());
     points.push_back(point);
   }

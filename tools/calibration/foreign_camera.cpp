@@ -27,7 +27,6 @@ constexpr double kLongestFocal_px = 1e6, kLargestCoefficient = 1e6;
 constexpr double kSmallestStudio_mm = 50;
 // Slightly below tan of 85 degrees, the limit of lenses that do not fold.
 constexpr double kWidestField = 11.4;
-constexpr int kColumns = 16, kRows = 12;
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
@@ -178,6 +177,7 @@ Vector3 CheckTranslation(const ForeignNumbers& translation) {
 // Share of the picture without a direction.
 double HiddenShare(const CameraCalibration& camera) {
   int hidden = 0;
+  constexpr int kColumns = 16, kRows = 12;
   for (int j = 0; j <= kRows; ++j) {
     for (int i = 0; i <= kColumns; ++i) {
       const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,

@@ -14,9 +14,9 @@
 namespace mocap {
 namespace {
 
-constexpr int kFewestViews = 8;
+constexpr int kFewestHeadViews = 8;
 constexpr double kLeastSpan_rad = 10 * std::numbers::pi / 180;
-constexpr double kWorstRms_px = 2;
+constexpr double kWorstHeadRms_px = 2;
 constexpr double kStanding_rad = 0.002;
 // Axis (2) and point (2) of pan and of tilt, both scales; then six per place.
 constexpr int kHeadParameters = 10;
@@ -79,10 +79,10 @@ Eigen::VectorXd Residuals(const CameraCalibration& camera, const Board& board,
 }
 
 void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardDetection>& views) {
-  if (static_cast<int>(views.size()) < kFewestViews)
+  if (static_cast<int>(views.size()) < kFewestHeadViews)
     throw SetupError(fmt::format(
         "{}: {} views do not determine a head; expected at least {} at different angles", name,
-        views.size(), kFewestViews));
+        views.size(), kFewestHeadViews));
   const auto span = [&](double PanTiltAngles::*angle) {
     const auto [low, high] = std::minmax_element(
         views.begin(), views.end(), [&](const BoardDetection& a, const BoardDetection& b) {
@@ -186,7 +186,7 @@ PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_a
         2 * result.cost / static_cast<double>(Residuals(camera, board, views, model).size()));
   }
   model.fit.views = static_cast<int>(views.size());
-  if (!(model.fit.rms_px < kWorstRms_px))
+  if (!(model.fit.rms_px < kWorstHeadRms_px))
     throw SetupError(fmt::format(
         "{}: no head explains its {} views ({:.1f} px remain); was the board moved while the head "
         "turned, or are the angles those of other frames, or in degrees?",

@@ -10,7 +10,6 @@
 namespace mocap {
 namespace {
 
-constexpr int kColumns = 16, kRows = 12;
 constexpr double kWorst_px = 0.25;
 
 /// Directions over the whole picture, and their pixels.
@@ -20,6 +19,7 @@ struct Samples {
 
 Samples SamplePicture(const CameraCalibration& camera) {
   Samples samples;
+  constexpr int kColumns = 16, kRows = 12;
   for (int j = 0; j <= kRows; ++j) {
     for (int i = 0; i <= kColumns; ++i) {
       const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,

@@ -17,9 +17,9 @@
 namespace mocap {
 namespace {
 
-constexpr int kFewestViews = 6;
+constexpr int kFewestLensViews = 6;
 constexpr double kWorstFocalSigma = 0.1;
-constexpr double kWorstRms_px = 2.5;
+constexpr double kWorstLensRms_px = 2.5;
 constexpr double kLeastTilts_rad = 0.25;
 
 using Cells = std::array<int, Coverage::kColumns * Coverage::kRows>;
@@ -170,11 +170,11 @@ void RefuseOneTilt(const std::string& name, const std::string& frames, const Bun
 LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOptions& options) {
   const DetectionCamera& c = detections.cameras[camera];
   const std::vector<int> views = ChooseViews(detections, camera, options.most_views);
-  if (static_cast<int>(views.size()) < kFewestViews)
+  if (static_cast<int>(views.size()) < kFewestLensViews)
     throw SetupError(
         fmt::format("{}: {} views of the board ({}) do not determine a lens; show it in at least "
                     "{}, tilted in different directions and in all parts of the picture",
-                    c.name, views.size(), FramesText(detections, views), kFewestViews));
+                    c.name, views.size(), FramesText(detections, views), kFewestLensViews));
   const Zhang zhang = FirstLens(detections, camera, views);
   if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())
     throw SetupError(
@@ -196,7 +196,7 @@ LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOpti
   fit.views = static_cast<int>(problem.detections.detections.size());
   fit.focal_sigma_share = zhang.focal_sigma_share;
   fit.used = views;
-  if (!settled || !(fit.rms_px < kWorstRms_px))
+  if (!settled || !(fit.rms_px < kWorstLensRms_px))
     throw SetupError(fmt::format(
         "{}: no lens explains the corners ({:.2f} px remain in {} views, most in {}); "
         "the board may be bent, its columns and rows swapped, or the focus or zoom "

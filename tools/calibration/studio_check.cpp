@@ -23,8 +23,8 @@ constexpr double kMuchFolded = 0.05;
 constexpr double kHip_mm = 1000;
 constexpr double kRoom_mm = 8000, kReach_mm = 2200;
 
-const CameraCalibration& Find(const std::string& name,
-                              const std::vector<CameraCalibration>& cameras) {
+const CameraCalibration& CameraNamed(const std::string& name,
+                                     const std::vector<CameraCalibration>& cameras) {
   const auto camera = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const CameraCalibration& c) { return c.name == name; });
   if (camera == cameras.end()) throw SetupError("--distance: there is no camera " + Quoted(name));
@@ -216,8 +216,8 @@ KnownDistance ParseDistance(const std::string& text) {
 }
 
 double DistanceMm(const KnownDistance& distance, const std::vector<CameraCalibration>& cameras) {
-  return (Find(distance.from, cameras).X_CW.Inverse().p -
-          Find(distance.to, cameras).X_CW.Inverse().p)
+  return (CameraNamed(distance.from, cameras).X_CW.Inverse().p -
+          CameraNamed(distance.to, cameras).X_CW.Inverse().p)
       .norm();
 }
 

@@ -14,7 +14,7 @@
 namespace mocap {
 namespace {
 
-constexpr int kFewestShared = 12;
+constexpr int kFewestSharedInstants = 12;
 constexpr int kSamples = 40;
 constexpr int kSampleMoments = 3;
 /// A larger distance on the normalized plane is no match.
@@ -243,7 +243,7 @@ void Turn(BoardDetection& s) {
 CameraLink LinkByWand(const BoardDetections& detections,
                       const std::vector<CameraCalibration>& cameras, int a, int b) {
   std::vector<WandPair> pairs = SharedWands(detections, cameras, a, b);
-  if (static_cast<int>(pairs.size()) < kFewestShared) return {};
+  if (static_cast<int>(pairs.size()) < kFewestSharedInstants) return {};
   RigidTransform X_BA = RelativePose(BestEssential(pairs), pairs);
   const double length = MedianLength(X_BA, pairs);
   if (!(length > 0)) return {};

@@ -8,9 +8,9 @@ namespace mocap {
 namespace {
 
 constexpr double kBrightShare = 0.6;
-constexpr int kLeastContrast = 60;
+constexpr int kLeastSpotContrast = 60;
 constexpr int kFewestPixels = 3;
-constexpr double kLargestShare = 0.003;
+constexpr double kLargestSpotShare = 0.003;
 constexpr std::size_t kMostSpots = 12;
 /// A spot within this distance in this share of the frames is a lamp.
 constexpr double kSamePlace_px = 4;
@@ -22,7 +22,7 @@ cv::Mat BrightPart(const cv::Mat& gray, int& level) {
   cv::minMaxLoc(gray, nullptr, &brightest);
   const double mean = cv::mean(gray)[0];
   level = static_cast<int>(mean + kBrightShare * (brightest - mean));
-  if (brightest - mean < kLeastContrast) return {};
+  if (brightest - mean < kLeastSpotContrast) return {};
   return gray > level;
 }
 
@@ -30,7 +30,7 @@ bool IsCompact(const cv::Mat& stats, int label, double picture_area) {
   const int width = stats.at<int>(label, cv::CC_STAT_WIDTH);
   const int height = stats.at<int>(label, cv::CC_STAT_HEIGHT);
   const int area = stats.at<int>(label, cv::CC_STAT_AREA);
-  return area >= kFewestPixels && area <= kLargestShare * picture_area &&
+  return area >= kFewestPixels && area <= kLargestSpotShare * picture_area &&
          2 * area >= width * height && width <= 3 * height && height <= 3 * width;
 }
 

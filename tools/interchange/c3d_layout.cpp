@@ -123,7 +123,7 @@ std::string Parameters(const C3dLayout& layout, int data_block) {
   return parameters.Section();
 }
 
-std::string Header(const C3dLayout& layout, int data_block) {
+std::string HeaderBlock(const C3dLayout& layout, int data_block) {
   constexpr std::uint16_t kLabelsOfFourLetters = 12345;
   constexpr std::size_t kBeforeLabels = 2 * 149;
   ByteWriter header;
@@ -149,7 +149,7 @@ std::string Header(const C3dLayout& layout, int data_block) {
 std::string C3dBeginning(const C3dLayout& layout) {
   const auto blocks = static_cast<int>(Parameters(layout, 0).size() / kC3dBlock);
   const int data_block = 2 + blocks;
-  return Header(layout, data_block) + Parameters(layout, data_block);
+  return HeaderBlock(layout, data_block) + Parameters(layout, data_block);
 }
 
 }  // namespace mocap

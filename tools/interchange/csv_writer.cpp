@@ -10,7 +10,7 @@
 namespace mocap {
 namespace {
 
-std::string Header() {
+std::string ColumnNames() {
   std::string line =
       "time_s,utime_us,frame,state,torso_x_mm,torso_y_mm,torso_z_mm,torso_axis_x,torso_axis_y,"
       "torso_axis_z,torso_angle_rad";
@@ -33,7 +33,7 @@ void AppendPose(const PoseRow& row, std::string& line) {
 }  // namespace
 
 ExportRemarks WriteCsv(const ExportScene& scene, std::ostream& out) {
-  out << Header();
+  out << ColumnNames();
   constexpr std::size_t kPoseCells = 3 + 4 + kPaperAngleCount + 3 * kPointCount + 1;
   for (const PoseRow& row : scene.subjects.front().result.poses) {
     const auto since_first_ns =

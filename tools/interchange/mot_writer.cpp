@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-constexpr double kDegreesPerRad = 180 / std::numbers::pi;
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 constexpr std::array kColumns = {"time",
                                  "pelvis_tilt",
@@ -42,7 +42,7 @@ constexpr std::array kColumns = {"time",
                                  "arm_rot_l",
                                  "elbow_flex_l"};
 
-std::string Header(std::size_t rows) {
+std::string MotHeader(std::size_t rows) {
   std::string text = fmt::format(
       "Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n"
       "Units are S.I. units (second, meters, Newtons, ...)\n"
@@ -57,7 +57,7 @@ std::string Header(std::size_t rows) {
 class Line {
  public:
   explicit Line(double time_s) : text_(FixedText(time_s, 6)) {}
-  void Angle(double rad) { text_ += '\t' + FixedText(kDegreesPerRad * rad, 5); }
+  void Angle(double rad) { text_ += '\t' + FixedText(kDegrees * rad, 5); }
   void Angles(const Vector3& rad) {
     for (const double angle : rad) Angle(angle);
   }
@@ -80,7 +80,7 @@ ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out) {
   const Result& result = scene.subjects.front().result;
   const std::vector<BodyAngles> frames = AnglesOf(result);
   if (frames.empty()) throw SetupError("no frame of the result is tracked; expected at least one");
-  out << Header(frames.size());
+  out << MotHeader(frames.size());
   const std::int64_t first_ns = scene.moments.front().timestamp_ns;
   for (const BodyAngles& angles : frames) {
     Line line(1e-9 * static_cast<double>(angles.time_ns - first_ns));

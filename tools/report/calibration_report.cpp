@@ -41,7 +41,7 @@ std::string Tile(const std::string& what, const std::string& value, const std::s
       value, unit, under);
 }
 
-std::string Tiles(const StudioFit& fit, const SeenVolume& volume) {
+std::string CalibrationTiles(const StudioFit& fit, const SeenVolume& volume) {
   const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
   double worst_mm = 0;
   std::size_t worst = 0;
@@ -158,7 +158,7 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
       fit.has_floor ? "world right-handed, z up, floor at z = 0, millimetres"
                     : "world of the first camera (x right, y down, z forward), millimetres",
       mood, EscapeHtml(Verdict(findings)), UtcText(made_s));
-  html += Tiles(fit, volume);
+  html += CalibrationTiles(fit, volume);
   html += "<h2>Findings</h2>\n" + FindingList(findings);
   html += "<h2>Cameras</h2>\n" + CameraTable(fit);
   if (fit.has_floor)

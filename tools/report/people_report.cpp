@@ -17,7 +17,7 @@
 namespace mocap {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kColors = 8;
 
 int ColorOf(std::size_t person) { return static_cast<int>(person % kColors); }
@@ -34,7 +34,7 @@ std::string ErrorText(const FollowedTruth& followed) {
 }
 
 /// First and last frame over all people.
-std::pair<double, double> FrameRange(const PeopleEvaluation& evaluation) {
+std::pair<double, double> PeopleFrameRange(const PeopleEvaluation& evaluation) {
   std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
   for (const TrackedPerson& person : evaluation.people) {
     if (person.evaluation.result.poses.empty()) continue;
@@ -48,7 +48,7 @@ std::string Swatch(std::size_t person) {
   return fmt::format("<i class=\"swatch\" style=\"background:var(--c{})\"></i>", ColorOf(person));
 }
 
-std::string Tiles(const PeopleEvaluation& evaluation) {
+std::string PeopleTiles(const PeopleEvaluation& evaluation) {
   std::string tiles =
       "<div class=\"tiles\">" + Tile("Tracked people", std::to_string(evaluation.people.size()), "",
                                      evaluation.truth.empty()
@@ -91,7 +91,7 @@ std::vector<Stretch> StretchesOf(const std::vector<PoseRow>& poses) {
 
 /// A band of states for each person, over the take's frames.
 std::string Timelines(const PeopleEvaluation& evaluation) {
-  const auto [first, last] = FrameRange(evaluation);
+  const auto [first, last] = PeopleFrameRange(evaluation);
   const double width = 1000 / std::max(1.0, last - first);
   std::string html;
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {
@@ -173,7 +173,7 @@ std::vector<ViewedBody> BodiesAt(const PeopleEvaluation& evaluation, std::int64_
   return bodies;
 }
 
-std::string ViewsSection(const PeopleEvaluation& evaluation, const TakeSamples& samples) {
+std::string PeopleViews(const PeopleEvaluation& evaluation, const TakeSamples& samples) {
   std::string html;
   for (const SampledMoment& moment : samples.moments) {
     const std::vector<ViewedBody> bodies = BodiesAt(evaluation, moment.timestamp_ns);
@@ -191,8 +191,8 @@ std::string ViewsSection(const PeopleEvaluation& evaluation, const TakeSamples& 
   return "<h2>Camera views</h2>\n" + html;
 }
 
-std::string Figure(const PlotAxes& axes, std::span<const PlotSeries> series,
-                   const std::string& caption) {
+std::string PlotFigure(const PlotAxes& axes, std::span<const PlotSeries> series,
+                       const std::string& caption) {
   return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", PlotSvg(axes, series),
                      caption);
 }
@@ -209,14 +209,14 @@ std::string PathsFigure(const PeopleEvaluation& evaluation, const TakeSamples& s
     PlotSeries path{evaluation.people[i].name, {}, ColorOf(i)};
     for (const PoseRow& row : evaluation.people[i].evaluation.result.poses) {
       path.points.push_back(IsTracked(row) ? Vector2(row.paper.torso_mm.head<2>() / 1000)
-                                           : Vector2(kNan, kNan));
+                                           : Vector2(kUnknown, kUnknown));
     }
     series.push_back(std::move(path));
   }
   PlotAxes axes{"world x [m]", "world y [m]", 560, 520};
   axes.equal_scales = true;
   return "<div class=\"plan\">" +
-         Figure(axes, series, "<b>Paths of the torsos</b> from above, with the cameras.") +
+         PlotFigure(axes, series, "<b>Paths of the torsos</b> from above, with the cameras.") +
          "</div>";
 }
 
@@ -230,16 +230,16 @@ std::string ErrorsFigure(const PeopleEvaluation& evaluation) {
       const auto& poses = evaluation.people[i].evaluation.result.poses;
       const auto frame = static_cast<double>(poses[static_cast<std::size_t>(match.pose)].frame);
       if (!curve.points.empty() && frame > curve.points.back().x() + 1.5) {
-        curve.points.emplace_back(frame - 1, kNan);
+        curve.points.emplace_back(frame - 1, kUnknown);
       }
       curve.points.emplace_back(frame, match.mean_mm);
     }
     series.push_back(std::move(curve));
   }
   PlotAxes axes{"frame number", "error [mm]", 900, 220};
-  const auto [first, last] = FrameRange(evaluation);
+  const auto [first, last] = PeopleFrameRange(evaluation);
   axes.x_range = Vector2(first, last);
-  return Figure(axes, series, "<b>Distance from the truth</b>, mean of 14 points.");
+  return PlotFigure(axes, series, "<b>Distance from the truth</b>, mean of 14 points.");
 }
 
 std::string PersonSections(const PeopleEvaluation& evaluation, const TakeSamples& samples) {
@@ -257,7 +257,7 @@ std::vector<double> FramesOf(const PeopleEvaluation& evaluation, const TakeSampl
   std::vector<double> frames;
   for (const SampledMoment& moment : samples.moments) {
     const std::vector<ViewedBody> bodies = BodiesAt(evaluation, moment.timestamp_ns);
-    frames.push_back(bodies.empty() ? kNan : static_cast<double>(bodies.front().row.frame));
+    frames.push_back(bodies.empty() ? kUnknown : static_cast<double>(bodies.front().row.frame));
   }
   return frames;
 }
@@ -280,8 +280,8 @@ std::string PeopleReportHtml(const PeopleEvaluation& evaluation, const TakeSampl
   const std::string under = CountedPeople(evaluation.people.size()) + " tracked, " +
                             Counted(samples.cameras.size(), "camera");
   return ReportPage(evaluation.take, under,
-                    Tiles(evaluation) + Timelines(evaluation) + TrackedRows(evaluation) +
-                        TrueRows(evaluation) + ViewsSection(evaluation, samples) +
+                    PeopleTiles(evaluation) + Timelines(evaluation) + TrackedRows(evaluation) +
+                        TrueRows(evaluation) + PeopleViews(evaluation, samples) +
                         PathsFigure(evaluation, samples) + ErrorsFigure(evaluation) +
                         PersonSections(evaluation, samples) + OverlapSection(frames, overlaps));
 }

@@ -18,7 +18,7 @@
 namespace mocap {
 namespace {
 
-constexpr std::string_view kPeople = "MOCAP_PEOPLE", kBodies = "MOCAP_BODIES";
+constexpr std::string_view kPeopleChannel = "MOCAP_PEOPLE", kBodies = "MOCAP_BODIES";
 
 /// Data of one person in a log.
 struct Person {
@@ -127,14 +127,14 @@ class PeopleOfLog {
   std::int64_t wrong_ = 0, repeated_ = 0;
 };
 
-using Daemons = std::map<std::string, PeopleOfLog>;
+using LogsOfPeople = std::map<std::string, PeopleOfLog>;
 
-Daemons ReadDaemons(ChannelLog& channels) {
-  Daemons daemons;
+LogsOfPeople ReadPeople(ChannelLog& channels) {
+  LogsOfPeople daemons;
   while (channels.Next()) {
     PeopleOfLog& daemon = daemons[channels.prefix()];
-    const bool is_ours = channels.name() == kPeople ? daemon.AddSet(channels.bytes())
-                                                    : daemon.AddBody(channels.bytes());
+    const bool is_ours = channels.name() == kPeopleChannel ? daemon.AddSet(channels.bytes())
+                                                           : daemon.AddBody(channels.bytes());
     if (!is_ours) channels.NoteGarbled();
   }
   std::erase_if(daemons, [](const auto& one) { return !one.second.HasPeople(); });
@@ -145,18 +145,18 @@ Daemons ReadDaemons(ChannelLog& channels) {
 
 PeopleResults ReadPeopleLog(const std::filesystem::path& log,
                             const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPeople, kBodies}, prefix);
-  Daemons daemons = ReadDaemons(channels);
+  ChannelLog channels(log, {kPeopleChannel, kBodies}, prefix);
+  LogsOfPeople daemons = ReadPeople(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "people");
   const auto chosen = name ? daemons.find(*name) : daemons.end();
   PeopleResults people;
   if (chosen != daemons.end()) {
-    chosen->second.order().RequireOneDaemon(log, chosen->first + std::string(kPeople));
+    chosen->second.order().RequireOneDaemon(log, chosen->first + std::string(kPeopleChannel));
     people = chosen->second.Take(log, channels.Remarks());
   }
   if (people.empty()) {
     throw SetupError(log.string() + ": contains no people on " + Printable(prefix.value_or("")) +
-                     std::string(kPeople) + channels.PrefixesText() +
+                     std::string(kPeopleChannel) + channels.PrefixesText() +
                      "; expected a log that lcm-logger recorded of mocapd while it tracked people");
   }
   return people;

@@ -15,7 +15,8 @@
 namespace mocap {
 namespace {
 
-constexpr std::string_view kPose = "MOCAP_POSE", kBody = "MOCAP_BODY", kPeople = "MOCAP_PEOPLE";
+constexpr std::string_view kPoseChannel = "MOCAP_POSE", kBodyChannel = "MOCAP_BODY",
+                           kPeopleOfPoses = "MOCAP_PEOPLE";
 /// Larger values are no valid time of day; nanoseconds do not overflow below.
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
 /// Data of one daemon in a log: of all channels with the same prefix.
@@ -68,12 +69,12 @@ Daemons ReadDaemons(ChannelLog& channels) {
   Daemons daemons;
   while (channels.Next()) {
     Daemon& daemon = daemons[channels.prefix()];
-    if (channels.name() == kPeople) {
+    if (channels.name() == kPeopleOfPoses) {
       NotePeople(channels.bytes(), daemon);
       continue;
     }
-    const bool is_ours = channels.name() == kPose ? AddPose(channels.bytes(), daemon)
-                                                  : AddBody(channels.bytes(), daemon);
+    const bool is_ours = channels.name() == kPoseChannel ? AddPose(channels.bytes(), daemon)
+                                                         : AddBody(channels.bytes(), daemon);
     if (!is_ours) channels.NoteGarbled();
   }
   std::erase_if(daemons, [](const auto& one) { return one.second.poses.empty(); });
@@ -157,19 +158,19 @@ std::optional<BodyRecord> BodyRecordOf(const body_t& message) {
 }
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPose, kBody, kPeople}, prefix);
+  ChannelLog channels(log, {kPoseChannel, kBodyChannel, kPeopleOfPoses}, prefix);
   Daemons daemons = ReadDaemons(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "poses");
   const auto chosen = name ? daemons.find(*name) : daemons.end();
   const bool has_poses = chosen != daemons.end();
   if (!has_poses || !chosen->second.body) {
     throw SetupError(log.string() + ": contains no " + Printable(prefix.value_or("")) +
-                     std::string(has_poses ? kBody : kPose) + " message of this version" +
-                     channels.PrefixesText() +
+                     std::string(has_poses ? kBodyChannel : kPoseChannel) +
+                     " message of this version" + channels.PrefixesText() +
                      "; expected a log that lcm-logger recorded of mocapd");
   }
   Daemon& daemon = chosen->second;
-  daemon.order.RequireOneDaemon(log, chosen->first + std::string(kPose));
+  daemon.order.RequireOneDaemon(log, chosen->first + std::string(kPoseChannel));
   Result result{*daemon.body, std::move(daemon.poses), channels.Remarks()};
   if (daemon.repeated > 0) {
     result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +

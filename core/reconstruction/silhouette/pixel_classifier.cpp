@@ -11,15 +11,15 @@ namespace {
 
 using namespace segmentation;
 
-constexpr float Square(float x) { return x * x; }
+constexpr float Squared(float x) { return x * x; }
 
 kernels::WindowLimits LimitsOf(const DistortionThresholds::Window& thresholds, float margin,
                                float darkest_shift) {
   return {{darkest_shift, -margin * thresholds.alpha},
-          1 / Square(thresholds.cd),
-          1 / Square(thresholds.alpha),
-          1 / Square(thresholds.roughness),
-          Square(margin)};
+          1 / Squared(thresholds.cd),
+          1 / Squared(thresholds.alpha),
+          1 / Squared(thresholds.roughness),
+          Squared(margin)};
 }
 
 std::uint8_t* BytesOf(std::uint64_t* words) {
@@ -32,7 +32,7 @@ std::uint8_t* BytesOf(std::uint64_t* words) {
 PixelClassifier::PixelClassifier(const DistortionThresholds& thresholds, float darkest_shadow) {
   const float darkest = darkest_shadow - 1;
   limits_.pixel = {{darkest, kPixelMargin * thresholds.alpha_low},
-                   Square(kPixelMargin * thresholds.cd)};
+                   Squared(kPixelMargin * thresholds.cd)};
   for (std::size_t k = 0; k < kernels::kWindows; ++k)
     limits_.windows[k] = LimitsOf(thresholds.windows[k], kWindowMargins[k], darkest);
 }

@@ -84,12 +84,12 @@ SilhouetteShift MeasureShift(const Silhouette& silhouette, const Silhouette& exp
   }
   // Three pixels in both directions: one is too sensitive to the outline's steps.
   const auto fraction = [&](int ux, int uy) {
-    constexpr int kReach = 3;
-    const double low = overlap(best_x - kReach * ux, best_y - kReach * uy);
-    const double high = overlap(best_x + kReach * ux, best_y + kReach * uy);
+    constexpr int kPeakReach = 3;
+    const double low = overlap(best_x - kPeakReach * ux, best_y - kPeakReach * uy);
+    const double high = overlap(best_x + kPeakReach * ux, best_y + kPeakReach * uy);
     const double left = best - low, right = best - high;
     // The overlap falls linearly on both sides: the lines meet at the maximum.
-    return left + right > 0 ? kReach * (left - right) / (2 * std::max(left, right)) : 0.0;
+    return left + right > 0 ? kPeakReach * (left - right) / (2 * std::max(left, right)) : 0.0;
   };
   const PixelBox box = seen.BoundingBox().value_or(PixelBox{});
   return {{best_x + fraction(1, 0), best_y + fraction(0, 1)},

@@ -15,7 +15,7 @@ namespace {
 constexpr LegStance kSeated{.hip = 85, .knee = 85};
 constexpr ArmStance kHandOnThigh{.elbow = 60};
 
-class Acquisition : public testing::Test {
+class Acquisition : public ::testing::Test {
  protected:
   /// Somebody who faces 50 degrees off x, with the torso's middle at a height.
   PoseState Pose(double height_mm, const Stance& stance) const {

@@ -30,7 +30,7 @@ PoseStep UnitStep(int dof, int index, double size) {
   return step;
 }
 
-class EveryBody : public testing::TestWithParam<std::string> {
+class EveryBody : public ::testing::TestWithParam<std::string> {
  protected:
   BodyModel body_{LoadBodyTable(GetParam()), AverageSizes(1750)};
   std::mt19937 random_{7};
@@ -154,7 +154,7 @@ TEST_P(EveryBody, BendsKneesBackwardAndElbowsForward) {
   EXPECT_GT(x(Point::kFingertipsR), x(Point::kElbowR) + 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, EveryBody, testing::Values("mikic2003", "full"),
+INSTANTIATE_TEST_SUITE_P(Tables, EveryBody, ::testing::Values("mikic2003", "full"),
                          [](const auto& test) { return test.param; });
 
 // Eq. (13) written out for the right foot: R0 (R12 (R14 (R16 p + t16) + t14) + t12) + t0.

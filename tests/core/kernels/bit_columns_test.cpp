@@ -8,12 +8,13 @@ namespace {
 using Words = std::vector<ColumnWord>;
 
 // Columns of rows with margins, as the kernels expect. Pixels are (column · 32 + bit, row).
-constexpr int kColumns = 3, kRows = 21, kMargin = 3, kStride = kRows + 2 * kMargin;
-constexpr int kCount = kColumns * kStride - 2 * kMargin;
-constexpr std::size_t kFirst = kStride + kMargin;
+constexpr int kBitColumns = 3, kBitRows = 21, kBitMargin = 3,
+              kBitStride = kBitRows + 2 * kBitMargin;
+constexpr int kBitCount = kBitColumns * kBitStride - 2 * kBitMargin;
+constexpr std::size_t kFirst = kBitStride + kBitMargin;
 
 Words SomeWords() {
-  Words words = Numbers(6).Integers<ColumnWord>((kColumns + 2) * kStride);
+  Words words = Numbers(6).Integers<ColumnWord>((kBitColumns + 2) * kBitStride);
   const Words more = Numbers(7).Integers<ColumnWord>(words.size());
   for (std::size_t i = 0; i < words.size(); ++i)
     if (i % 3 != 0) words[i] = i % 3 == 1 ? words[i] | more[i] : words[i] & more[i];
@@ -22,21 +23,23 @@ Words SomeWords() {
 
 bool At(const Words& words, std::size_t i, int bit) {
   // The word to the left or right holds pixels beyond this one.
-  const auto word = static_cast<std::ptrdiff_t>(i) + (bit < 0 ? -kStride : bit > 31 ? kStride : 0);
+  const auto word = static_cast<std::ptrdiff_t>(i) + (bit < 0    ? -kBitStride
+                                                      : bit > 31 ? kBitStride
+                                                                 : 0);
   return (words[static_cast<std::size_t>(word)] >> (bit & 31) & 1) != 0;
 }
 
 // Writes combine(word, bit) for all pixels of some words.
 template <typename Combine>
 Words Combined(const Combine& combine) {
-  Words to((kColumns + 2) * kStride);
-  for (std::size_t i = kFirst; i < kFirst + kCount; ++i)
+  Words to((kBitColumns + 2) * kBitStride);
+  for (std::size_t i = kFirst; i < kFirst + kBitCount; ++i)
     for (int bit = 0; bit < 32; ++bit) to[i] |= ColumnWord{combine(i, bit)} << bit;
   return to;
 }
 template <typename Kernel>
 Words By(const Kernel& kernel) {
-  Words to((kColumns + 2) * kStride);
+  Words to((kBitColumns + 2) * kBitStride);
   kernel(to.data() + kFirst);
   return to;
 }
@@ -52,7 +55,8 @@ TEST(BitColumnKernels, ColumnsGrowAndShrinkAsPixelByPixel) {
           });
         },
         [&] {
-          return By([&](ColumnWord* to) { DilateSideways(first, kCount, kStride, step, to); });
+          return By(
+              [&](ColumnWord* to) { DilateSideways(first, kBitCount, kBitStride, step, to); });
         });
     ExpectSameBits(
         [&] {
@@ -61,7 +65,7 @@ TEST(BitColumnKernels, ColumnsGrowAndShrinkAsPixelByPixel) {
           });
         },
         [&] {
-          return By([&](ColumnWord* to) { ErodeSideways(first, kCount, kStride, step, to); });
+          return By([&](ColumnWord* to) { ErodeSideways(first, kBitCount, kBitStride, step, to); });
         });
     const auto rows = static_cast<std::size_t>(step);
     ExpectSameBits(
@@ -70,14 +74,14 @@ TEST(BitColumnKernels, ColumnsGrowAndShrinkAsPixelByPixel) {
             return At(from, i, bit) || At(from, i - rows, bit) || At(from, i + rows, bit);
           });
         },
-        [&] { return By([&](ColumnWord* to) { DilateUpAndDown(first, kCount, step, to); }); });
+        [&] { return By([&](ColumnWord* to) { DilateUpAndDown(first, kBitCount, step, to); }); });
     ExpectSameBits(
         [&] {
           return Combined([&](std::size_t i, int bit) {
             return At(from, i, bit) && At(from, i - rows, bit) && At(from, i + rows, bit);
           });
         },
-        [&] { return By([&](ColumnWord* to) { ErodeUpAndDown(first, kCount, step, to); }); });
+        [&] { return By([&](ColumnWord* to) { ErodeUpAndDown(first, kBitCount, step, to); }); });
   }
 }
 
@@ -87,22 +91,22 @@ TEST(BitColumnKernels, WindowsGrowAsPixelByPixel) {
     ExpectSameBits(
         [&] {
           Words to = from;
-          for (std::size_t i = kFirst; i < kFirst + kCount; ++i)
+          for (std::size_t i = kFirst; i < kFirst + kBitCount; ++i)
             for (int bit = 0; bit < 32; ++bit)
               if (!At(from, i, bit + step)) to[i] &= ~(ColumnWord{1} << bit);
           return to;
         },
         [&] {
           Words to = from;
-          WidenWindows(&to[kFirst], kCount, kStride, step);
+          WidenWindows(&to[kFirst], kBitCount, kBitStride, step);
           return to;
         });
     ExpectSameBits(
         [&] {
           Words to = from;
-          for (int column = 0; column < kColumns; ++column) {
-            for (int row = 0; row < kRows - step; ++row) {
-              const auto i = kFirst + static_cast<std::size_t>(column * kStride + row);
+          for (int column = 0; column < kBitColumns; ++column) {
+            for (int row = 0; row < kBitRows - step; ++row) {
+              const auto i = kFirst + static_cast<std::size_t>(column * kBitStride + row);
               to[i] &= from[i + static_cast<std::size_t>(step)];
             }
           }
@@ -110,7 +114,7 @@ TEST(BitColumnKernels, WindowsGrowAsPixelByPixel) {
         },
         [&] {
           Words to = from;
-          HeightenWindows(&to[kFirst], kColumns, kStride, kRows, step);
+          HeightenWindows(&to[kFirst], kBitColumns, kBitStride, kBitRows, step);
           return to;
         });
   }

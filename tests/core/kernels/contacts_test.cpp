@@ -9,7 +9,7 @@
 namespace mocap::kernels {
 namespace {
 
-class ContactKernels : public testing::Test {
+class ContactKernels : public ::testing::Test {
  protected:
   static constexpr int kBlocks = 60, kCapsules = 19;
 

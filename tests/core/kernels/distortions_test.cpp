@@ -6,16 +6,16 @@
 namespace mocap::kernels {
 namespace {
 
-constexpr int kPixels = WeighedPixels::kPixels;
-constexpr std::array<float, 3> kGain = {1.1f, 0.9f, 1.03f};
+constexpr int kBlockPixels = WeighedPixels::kPixels;
+constexpr std::array<float, 3> kLightGain = {1.1f, 0.9f, 1.03f};
 
 // A band, and its expected pixels.
 struct Band {
-  Band(int groups_per_row, int rows) : width(groups_per_row * kPixels), height(rows) {
+  Band(int groups_per_row, int rows) : width(groups_per_row * kBlockPixels), height(rows) {
     Numbers numbers(7);
     groups.resize(static_cast<std::size_t>(groups_per_row * (height + 2)));
     for (WeighedPixels& group : groups) {
-      for (int k = 0; k < kPixels; ++k) {
+      for (int k = 0; k < kBlockPixels; ++k) {
         for (int c = 0; c < 3; ++c) {
           group.mean[c][k] = static_cast<std::uint16_t>(256 + numbers.Below(65280));
           group.inverse_sigma[c][k] = static_cast<std::uint16_t>(1 + numbers.Below(65535));
@@ -50,12 +50,12 @@ TEST(DistortionKernels, BandsAreMeasuredAsPixelByPixel) {
       ExpectSameBits(
           [&] {
             return band.Measured([](auto* from, int step, auto pixels, const auto& to) {
-              reference::MeasureDistortions(from, step, pixels, kGain, to);
+              reference::MeasureDistortions(from, step, pixels, kLightGain, to);
             });
           },
           [&] {
             return band.Measured([](auto* from, int step, auto pixels, const auto& to) {
-              MeasureDistortions(from, step, pixels, kGain, 0, to);
+              MeasureDistortions(from, step, pixels, kLightGain, 0, to);
             });
           });
     }

@@ -9,7 +9,7 @@ namespace mocap::kernels {
 namespace {
 
 // Planes of random numbers for a row of pixels.
-class ExpectedPixelKernels : public testing::TestWithParam<std::size_t> {
+class ExpectedPixelKernels : public ::testing::TestWithParam<std::size_t> {
  protected:
   ExpectedPixelKernels() : count_(GetParam()), bytes_(numbers_.Integers<std::uint8_t>(count_)) {
     for (std::size_t i = 0; i < count_; ++i) {
@@ -154,7 +154,7 @@ TEST_P(ExpectedPixelKernels, GroupsAreWeighedPixelByPixel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RowsOfAnyLength, ExpectedPixelKernels,
-                         testing::Values(1, 2, 7, 16, 33, 64, 101));
+                         ::testing::Values(1, 2, 7, 16, 33, 64, 101));
 
 }  // namespace
 }  // namespace mocap::kernels

@@ -9,7 +9,7 @@ namespace mocap::kernels {
 namespace {
 
 // A camera 3 m in front of the origin, which sees a disk.
-class OctantKernels : public testing::Test {
+class OctantKernels : public ::testing::Test {
  protected:
   static constexpr int kColumns = 45, kRows = 35;
   static constexpr int kLeft = 201, kTop = 111, kSide = 240, kWordColumns = kSide / 16;

@@ -13,7 +13,7 @@ namespace mocap::kernels {
 namespace {
 
 constexpr int kTiles = 5;
-constexpr int kStride = kTiles * kTileSide;
+constexpr int kTileStride = kTiles * kTileSide;
 constexpr Allowance kAllowance{.gain = {1.1f, 0.9f, 1.0f}, .drift_sq = 2, .shift_sq = 0.3f};
 
 // Over a tile, from its middle.
@@ -29,12 +29,12 @@ struct SomeTiles {
   SomeTiles() {
     Numbers numbers(7);
     for (auto* planes : {&live, &expected})
-      for (auto& plane : *planes) plane = numbers.Integers<std::uint8_t>(kStride * kTileRows);
+      for (auto& plane : *planes) plane = numbers.Integers<std::uint8_t>(kTileStride * kTileRows);
     weights = numbers.Floats(kTiles, 0.01f, 1);
     alphas = numbers.Floats(kTiles, 0.5f, 1.3f);
   }
   TilePixels From(int tile) const {
-    TilePixels pixels{{}, {}, kStride};
+    TilePixels pixels{{}, {}, kTileStride};
     for (int c = 0; c < 3; ++c) {
       pixels.live[c] = &live[c][tile * kTileSide];
       pixels.expected[c] = &expected[c][tile * kTileSide];
@@ -47,7 +47,7 @@ struct SomeTiles {
     for (int y = 0; y < kTileRows; ++y) {
       for (int x = 0; x < kTileSide; ++x) {
         for (int c = 0; c < 3; ++c) {
-          const int i = y * kStride + tile * kTileSide + x;
+          const int i = y * kTileStride + tile * kTileSide + x;
           visit(x, y, c, double{kAllowance.gain[c]} * live[c][i], double(expected[c][i]));
         }
       }
@@ -92,7 +92,7 @@ TEST(TileKernels, ChiSquaresAreThoseOfThePlainDefinition) {
       constexpr float kUntouched = -1;
       std::array<float, kTiles + 1> chi_squares;
       chi_squares.fill(kUntouched);
-      std::array<float, 2 * kStride> scratch;
+      std::array<float, 2 * kTileStride> scratch;
       MeasureChiSquares(tiles.From(begin), count, kAllowance.gain, &tiles.alphas[begin],
                         &tiles.weights[begin], scratch.data(), chi_squares.data());
       for (int i = 0; i < count; ++i) {
@@ -130,7 +130,7 @@ TEST(TileKernels, BitsAreThoseOfTheReference) {
         },
         [&] {
           std::vector<float> chi_squares(size);
-          std::array<float, 2 * kStride> scratch;
+          std::array<float, 2 * kTileStride> scratch;
           MeasureChiSquares(tiles.From(0), count, kAllowance.gain, tiles.alphas.data(),
                             tiles.weights.data(), scratch.data(), chi_squares.data());
           return chi_squares;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kPad = 3;
 
 // Measured pixels of as many lines as windows around two rows need, and the sums along them.
-class WindowKernels : public testing::Test {
+class WindowKernels : public ::testing::Test {
  protected:
   static constexpr int kBlocks = 5, kWidth = kBlocks * kBlock_px, kStep = kWidth + 2 * kPad;
   static constexpr int kLines = kPairLines;

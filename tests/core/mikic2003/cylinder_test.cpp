@@ -10,7 +10,7 @@ namespace mocap::mikic2003 {
 namespace {
 
 // A solid elliptic cylinder of 600 mm that hangs from the origin.
-class Trunk : public testing::Test {
+class Trunk : public ::testing::Test {
  protected:
   Trunk() {
     cloud_.Build(FillGrid({-400, -400, -900}, {400, 400, 200}, 25,

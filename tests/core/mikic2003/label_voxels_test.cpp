@@ -7,7 +7,7 @@
 namespace mocap::mikic2003 {
 namespace {
 
-class Figure8 : public testing::Test {
+class Figure8 : public ::testing::Test {
  protected:
   /// The share of the limbs' voxels whose label is that of the nearest part's axis.
   double ShareRight(const VoxelCloud& cloud, const PoseState& truth, const Labels& labels) const {

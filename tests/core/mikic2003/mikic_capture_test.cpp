@@ -23,7 +23,7 @@ Stance Stepping(int frame) {
   return stance;
 }
 
-class Figure9 : public testing::Test {
+class Figure9 : public ::testing::Test {
  protected:
   PoseState Truth(int frame) const {
     return person_.Pose(Stepping(frame), 0.4, Vector3(60.0 * frame, 0, 1200));

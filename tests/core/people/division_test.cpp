@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReachMm = 250;
 
-class Division : public testing::Test {
+class Division : public ::testing::Test {
  protected:
   PosedPerson At(double x_mm, double stature_mm) const {
     const BodyModel body(table_, AverageSizes(stature_mm));

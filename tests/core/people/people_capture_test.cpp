@@ -26,7 +26,7 @@ struct Someone {
   PoseState pose;
 };
 
-class Room : public testing::Test {
+class Room : public ::testing::Test {
  protected:
   explicit Room(int most = 4, SideWork* side = nullptr, double radius_mm = 3200)
       : studio_(radius_mm), people_([this] { return Make(); }, {.most = most, .side = side}) {}

@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-class Filter : public testing::Test {
+class Filter : public ::testing::Test {
  protected:
   PoseState Upright() const {
     PoseState pose;

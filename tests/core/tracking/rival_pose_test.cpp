@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeriod_s = 1.0 / 30;
 
-class Rival : public testing::Test {
+class Rival : public ::testing::Test {
  protected:
   PoseState With(const ArmStance& left) const {
     PoseState pose;

@@ -13,7 +13,7 @@
 namespace mocap {
 namespace {
 
-class Fit : public testing::Test {
+class Fit : public ::testing::Test {
  protected:
   PoseState Standing(const BodyModel& body, const Stance& stance) const {
     PoseState pose;

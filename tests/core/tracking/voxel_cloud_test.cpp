@@ -135,7 +135,7 @@ TEST(Cloud, HasNoSurfaceWhereItTouchesOthers) {
 
 // Rays along x that pass a ball above its highest voxels, and a camera's share of rays that miss
 // it.
-class Edges : public testing::Test {
+class Edges : public ::testing::Test {
  protected:
   Edges() {
     VoxelGrid grid = Room();

@@ -13,37 +13,37 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000'000;
 
 TEST(StatusRegister, OnesOwnStatusesAreNobodyElses) {
   StatusRegister heard;
   for (int i = 0; i < 100; ++i) {
-    heard.NoteSent(1000 + i, i * kSecond);
-    heard.NoteHeard(1000 + i, i * kSecond + 1);
-    EXPECT_FALSE(heard.Status(i * kSecond + 2).other_sender);
-    EXPECT_EQ(heard.Status(i * kSecond + 2).silent_ns, 0);
+    heard.NoteSent(1000 + i, i * kOneSecond);
+    heard.NoteHeard(1000 + i, i * kOneSecond + 1);
+    EXPECT_FALSE(heard.Status(i * kOneSecond + 2).other_sender);
+    EXPECT_EQ(heard.Status(i * kOneSecond + 2).silent_ns, 0);
   }
 }
 
 TEST(StatusRegister, AStatusThatOneDidNotSendIsSomebodyElsesForAWhile) {
   StatusRegister heard;
   heard.NoteSent(1, 0);
-  heard.NoteHeard(2, kSecond);
-  EXPECT_TRUE(heard.Status(2 * kSecond).other_sender);
-  EXPECT_FALSE(heard.Status(60 * kSecond).other_sender) << "it has ended";
+  heard.NoteHeard(2, kOneSecond);
+  EXPECT_TRUE(heard.Status(2 * kOneSecond).other_sender);
+  EXPECT_FALSE(heard.Status(60 * kOneSecond).other_sender) << "it has ended";
 }
 
 TEST(StatusRegister, StatusesThatDoNotComeBackAreTold) {
   StatusRegister heard;
-  for (int i = 0; i < 8; ++i) heard.NoteSent(i, i * kSecond);
-  EXPECT_EQ(heard.Status(8 * kSecond).silent_ns, 8 * kSecond);
-  heard.NoteHeard(7, 8 * kSecond);
-  EXPECT_EQ(heard.Status(9 * kSecond).silent_ns, 0);
+  for (int i = 0; i < 8; ++i) heard.NoteSent(i, i * kOneSecond);
+  EXPECT_EQ(heard.Status(8 * kOneSecond).silent_ns, 8 * kOneSecond);
+  heard.NoteHeard(7, 8 * kOneSecond);
+  EXPECT_EQ(heard.Status(9 * kOneSecond).silent_ns, 0);
 }
 
 TEST(StatusRegister, SaysNothingBeforeSomethingWasSent) {
   const StatusRegister heard;
-  EXPECT_EQ(heard.Status(60 * kSecond).silent_ns, 0);
+  EXPECT_EQ(heard.Status(60 * kOneSecond).silent_ns, 0);
 }
 
 TEST(ChannelWatch, WhatStaysInTheProcessReachesNobody) {

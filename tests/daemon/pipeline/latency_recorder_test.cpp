@@ -7,11 +7,11 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kLatencyMs = 1'000'000;
 
 TEST(LatencyRecorder, PercentilesKeepThreePercent) {
   LatencyRecorder recorder;
-  for (int ms = 1; ms <= 1000; ++ms) recorder.Record(ms * kMs);
+  for (int ms = 1; ms <= 1000; ++ms) recorder.Record(ms * kLatencyMs);
   const LatencyHistogram histogram = recorder.Snapshot();
   EXPECT_EQ(histogram.count(), 1000);
   EXPECT_NEAR(histogram.PercentileMs(0.5), 500, 15);
@@ -20,7 +20,7 @@ TEST(LatencyRecorder, PercentilesKeepThreePercent) {
 }
 
 TEST(LatencyRecorder, EveryDurationLiesInTheBucketThatItIsCountedIn) {
-  for (std::int64_t ns = 1; ns < 100'000 * kMs; ns = ns * 5 / 4 + 1) {
+  for (std::int64_t ns = 1; ns < 100'000 * kLatencyMs; ns = ns * 5 / 4 + 1) {
     const std::size_t bucket = LatencyBuckets::IndexOf(ns);
     EXPECT_GE(static_cast<double>(ns), LatencyBuckets::BeginNs(bucket));
     EXPECT_LT(static_cast<double>(ns), LatencyBuckets::BeginNs(bucket + 1));
@@ -40,9 +40,9 @@ TEST(LatencyRecorder, NothingRecordedIsZero) {
 
 TEST(LatencyRecorder, SinceTellsWhatIsNew) {
   LatencyRecorder recorder;
-  recorder.Record(1000 * kMs);
+  recorder.Record(1000 * kLatencyMs);
   const LatencyHistogram before = recorder.Snapshot();
-  recorder.Record(10 * kMs);
+  recorder.Record(10 * kLatencyMs);
   const LatencyHistogram later = recorder.Snapshot().Since(before);
   EXPECT_EQ(later.count(), 1);
   EXPECT_NEAR(later.MaxMs(), 10, 0.3);

@@ -8,23 +8,23 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kPeriod = 60'000'000;
+constexpr std::int64_t kLoadPeriod = 60'000'000;
 constexpr std::int64_t kDelay = 1000;
 constexpr auto kMost = LoadControl::kMostUnderWay;
 constexpr std::int64_t kTolerance = LoadControl::kPatienceNs;
-static_assert(LoadControl::kTolerancePeriods * kPeriod < kTolerance);
+static_assert(LoadControl::kTolerancePeriods * kLoadPeriod < kTolerance);
 
 /// Adds a set that had arrived a moment after its capture and is complete `age_ns` later.
 void Add(LoadControl& control, std::int64_t capture_ns, std::int64_t age_ns) {
   const std::int64_t arrival_ns = capture_ns + kDelay;
-  control.AddSet(capture_ns, arrival_ns, arrival_ns + age_ns, kPeriod);
+  control.AddSet(capture_ns, arrival_ns, arrival_ns + age_ns, kLoadPeriod);
 }
 
 TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
   LoadControl control;
   for (int i = 0; i < 10; ++i) {
-    Add(control, i * kPeriod, kTolerance);
-    control.SetUnderWay(std::min(i + 1, 7), i * kPeriod + 2 * kDelay);
+    Add(control, i * kLoadPeriod, kTolerance);
+    control.SetUnderWay(std::min(i + 1, 7), i * kLoadPeriod + 2 * kDelay);
   }
   EXPECT_LT(control.wanted_from_ns(), 0);
   EXPECT_EQ(control.skipped(), 0);
@@ -32,9 +32,9 @@ TEST(LoadControl, WantsEveryFrameWhileSetsAreYoungAndFew) {
 
 TEST(LoadControl, AnOldSetIsFollowedByTheNextFrameToBeCaptured) {
   LoadControl control;
-  constexpr std::int64_t kPeriods = kTolerance / kPeriod + 1;
-  Add(control, 0, kPeriods * kPeriod + 5);
-  EXPECT_EQ(control.wanted_from_ns(), kPeriods * kPeriod + kPeriod / 2);
+  constexpr std::int64_t kPeriods = kTolerance / kLoadPeriod + 1;
+  Add(control, 0, kPeriods * kLoadPeriod + 5);
+  EXPECT_EQ(control.wanted_from_ns(), kPeriods * kLoadPeriod + kLoadPeriod / 2);
 }
 
 TEST(LoadControl, IsPatientOnceAndThenKeepsSetsYoung) {
@@ -56,16 +56,16 @@ TEST(LoadControl, IsPatientOnceAndThenKeepsSetsYoung) {
 TEST(LoadControl, WantsNothingWhileTooManySetsAreUnderWay) {
   LoadControl control;
   Add(control, 0, 0);
-  control.SetUnderWay(kMost, kPeriod);
+  control.SetUnderWay(kMost, kLoadPeriod);
   EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::max());
-  control.SetUnderWay(1, 5 * kPeriod + 2 * kDelay);
-  EXPECT_EQ(control.wanted_from_ns(), 5 * kPeriod + kPeriod / 2);
+  control.SetUnderWay(1, 5 * kLoadPeriod + 2 * kDelay);
+  EXPECT_EQ(control.wanted_from_ns(), 5 * kLoadPeriod + kLoadPeriod / 2);
 }
 
 TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
   LoadControl control;
   Add(control, 0, 0);
-  Add(control, kPeriod, 0);
+  Add(control, kLoadPeriod, 0);
   const std::int64_t old_ns = kTolerance + 2 * kDelay;
   control.SetUnderWay(1, old_ns);
   EXPECT_LT(control.wanted_from_ns(), 0) << "one alone holds up nothing";
@@ -75,14 +75,14 @@ TEST(LoadControl, WantsNothingWhileASetWaitsBehindAnOldOne) {
 
 TEST(LoadControl, WantsAllAfterTheClockWasPutBack) {
   LoadControl control;
-  Add(control, 1'000'000 * kPeriod, 0);
-  control.SetUnderWay(kMost, 1'000'001 * kPeriod);
+  Add(control, 1'000'000 * kLoadPeriod, 0);
+  control.SetUnderWay(kMost, 1'000'001 * kLoadPeriod);
   control.StartAnew();
   EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::min());
   control.SetUnderWay(kMost, 0);
-  control.SetUnderWay(1, kPeriod);
+  control.SetUnderWay(1, kLoadPeriod);
   EXPECT_EQ(control.wanted_from_ns(), std::numeric_limits<std::int64_t>::min());
-  Add(control, 2 * kPeriod, 0);
+  Add(control, 2 * kLoadPeriod, 0);
   EXPECT_EQ(control.skipped(), 0);
 }
 
@@ -90,31 +90,31 @@ TEST(LoadControl, LosesNothingWhenThereIsRoomAgainBeforeTheNextFrame) {
   LoadControl control;
   Add(control, 0, 0);
   control.SetUnderWay(kMost, 100);
-  control.SetUnderWay(kMost - 1, kPeriod / 2);
-  Add(control, kPeriod, 0);
-  EXPECT_EQ(control.wanted_from_ns(), kPeriod / 2);
+  control.SetUnderWay(kMost - 1, kLoadPeriod / 2);
+  Add(control, kLoadPeriod, 0);
+  EXPECT_EQ(control.wanted_from_ns(), kLoadPeriod / 2);
   EXPECT_EQ(control.skipped(), 0);
 }
 
 TEST(LoadControl, CountsTheSetsThatWereLeftOut) {
   LoadControl control;
-  constexpr std::int64_t kTooOld = kTolerance / kPeriod + 1;
-  Add(control, 0, kTooOld * kPeriod);
+  constexpr std::int64_t kTooOld = kTolerance / kLoadPeriod + 1;
+  Add(control, 0, kTooOld * kLoadPeriod);
   EXPECT_EQ(control.skipped(), 0) << "the set after the gap has not come yet";
-  Add(control, (kTooOld + 1) * kPeriod + 100, kPeriod);
+  Add(control, (kTooOld + 1) * kLoadPeriod + 100, kLoadPeriod);
   EXPECT_EQ(control.skipped(), kTooOld);
-  Add(control, (kTooOld + 3) * kPeriod, kPeriod);
+  Add(control, (kTooOld + 3) * kLoadPeriod, kLoadPeriod);
   EXPECT_EQ(control.skipped(), kTooOld) << "a frame that no camera took was not left out here";
 }
 
 TEST(LoadControl, ADelayThatCannotBeIsForgotten) {
   // Of one set the arrival was read by a clock that had just been put back by 0.8 s.
   LoadControl control;
-  control.AddSet(0, kDelay - 800'000'000, kDelay, kPeriod);
-  constexpr std::int64_t kForgotten = (2 * LoadControl::kDelaySpanNs + 1'000'000'000) / kPeriod;
+  control.AddSet(0, kDelay - 800'000'000, kDelay, kLoadPeriod);
+  constexpr std::int64_t kForgotten = (2 * LoadControl::kDelaySpanNs + 1'000'000'000) / kLoadPeriod;
   std::int64_t left_out_before = 0, left_out_after = 0;
   for (int i = 1; i < 2 * kForgotten; ++i) {
-    const std::int64_t capture_ns = i * kPeriod;
+    const std::int64_t capture_ns = i * kLoadPeriod;
     // One set takes its time, after which those that follow have to be young.
     const std::int64_t age_ns = i == 5 ? kTolerance : 0;
     if (capture_ns < control.wanted_from_ns()) {
@@ -130,8 +130,8 @@ TEST(LoadControl, ADelayThatCannotBeIsForgotten) {
 TEST(LoadControl, AConstantDelayBeforeArrivalIsNoAge) {
   LoadControl control;
   for (int i = 0; i < 10; ++i) {
-    const std::int64_t arrival_ns = (i + 9) * kPeriod;
-    control.AddSet(i * kPeriod, arrival_ns, arrival_ns + kPeriod, kPeriod);
+    const std::int64_t arrival_ns = (i + 9) * kLoadPeriod;
+    control.AddSet(i * kLoadPeriod, arrival_ns, arrival_ns + kLoadPeriod, kLoadPeriod);
   }
   EXPECT_LT(control.wanted_from_ns(), 0);
 }

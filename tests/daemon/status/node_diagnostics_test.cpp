@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 constexpr std::int64_t kMs = 1'000'000;
 const std::string kUrl = "udpm://239.255.76.67:7667?ttl=1";
 
-NodeReport Good() {
+NodeReport GoodNode() {
   NodeReport node;
   node.name = "left";
   node.was_heard = true;
@@ -31,10 +31,10 @@ std::vector<std::string> Told(const NodeReport& node, const std::string& url = k
   return NodeDiagnostics({{node}, ""}, url);
 }
 
-TEST(NodeDiagnostics, HaveNothingToSayOfAGoodNode) { EXPECT_THAT(Told(Good()), IsEmpty()); }
+TEST(NodeDiagnostics, HaveNothingToSayOfAGoodNode) { EXPECT_THAT(Told(GoodNode()), IsEmpty()); }
 
 TEST(NodeDiagnostics, NameANodeThatIsSilent) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.silent_ns = 3'000 * kMs;
   EXPECT_THAT(Told(node),
               ElementsAre(HasSubstr("nothing has been received from node left for 3 s")));
@@ -45,7 +45,7 @@ TEST(NodeDiagnostics, NameANodeThatIsSilent) {
 }
 
 TEST(NodeDiagnostics, NameAClockThatIsOff) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.clock_agrees = false;
   node.clock_apart_ns = 50 * kMs;
   EXPECT_THAT(Told(node),
@@ -56,19 +56,19 @@ TEST(NodeDiagnostics, NameAClockThatIsOff) {
 }
 
 TEST(NodeDiagnostics, NameAClockThatNobodyKeeps) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.clock_is_kept = false;
   EXPECT_THAT(Told(node), ElementsAre(HasSubstr("nothing synchronizes the clock of node left")));
   node.has_this_clock = true;
   EXPECT_THAT(Told(node), IsEmpty()) << "it is the one here";
-  node = Good();
+  node = GoodNode();
   node.clock_keeper = "systemd-timesyn";
   node.clock_error_ms = 80;
   EXPECT_THAT(Told(node), ElementsAre(HasSubstr("may be off by 80 ms")));
 }
 
 TEST(NodeDiagnostics, NameWhatDoesNotMatch) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.version = "0.0.1";
   node.is_of_this_version = false;
   node.miscalibrated = {"cam1", "cam2"};
@@ -78,13 +78,13 @@ TEST(NodeDiagnostics, NameWhatDoesNotMatch) {
 }
 
 TEST(NodeDiagnostics, NameWhatIsLostOnTheWay) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.lost_share = 0.02;
   EXPECT_THAT(Told(node), ElementsAre(HasSubstr("2.0 % of the silhouettes of node left are lost")));
 }
 
 TEST(NodeDiagnostics, PassOnWhatANodeSays) {
-  NodeReport node = Good();
+  NodeReport node = GoodNode();
   node.complaints = {"cam1 is lost: check its cable and power"};
   EXPECT_THAT(Told(node), ElementsAre("node left: cam1 is lost: check its cable and power"));
   EXPECT_FALSE(IsOfLostNode({{node}, ""}, "left"));

@@ -31,7 +31,7 @@ Vector3 RightHand(const Person& person, double t_s) {
   return person.BonesAt(Ns(t_s))[kHandR] * Vector3(0, 0, -person.body().hand_mm / 2);
 }
 
-class EveryCompany : public testing::TestWithParam<std::tuple<std::string_view, int>> {
+class EveryCompany : public ::testing::TestWithParam<std::tuple<std::string_view, int>> {
  protected:
   // Some companies of all sizes, and moments of half a minute.
   template <typename Check>
@@ -46,8 +46,8 @@ class EveryCompany : public testing::TestWithParam<std::tuple<std::string_view, 
 };
 
 INSTANTIATE_TEST_SUITE_P(Simulated, EveryCompany,
-                         testing::Combine(testing::ValuesIn(kCompanyMotionNames),
-                                          testing::Values(2, 3, 4)),
+                         ::testing::Combine(::testing::ValuesIn(kCompanyMotionNames),
+                                            ::testing::Values(2, 3, 4)),
                          [](const auto& company) {
                            return std::string(std::get<0>(company.param)) +
                                   std::to_string(std::get<1>(company.param));

@@ -14,7 +14,7 @@
 namespace mocap::simulation {
 namespace {
 
-class EveryMotion : public testing::TestWithParam<std::string_view> {
+class EveryMotion : public ::testing::TestWithParam<std::string_view> {
  protected:
   // Some people of all sizes, and poses over more than a round of every motion.
   template <typename Check>
@@ -28,7 +28,7 @@ class EveryMotion : public testing::TestWithParam<std::string_view> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Simulated, EveryMotion, testing::ValuesIn(kMotionNames),
+INSTANTIATE_TEST_SUITE_P(Simulated, EveryMotion, ::testing::ValuesIn(kMotionNames),
                          [](const auto& motion) { return std::string(motion.param); });
 
 TEST_P(EveryMotion, StaysWithinTheLimitsOfJoints) {

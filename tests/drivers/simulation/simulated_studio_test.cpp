@@ -138,12 +138,12 @@ struct Scenario {
   int people;
 };
 
-class TruthInPictures : public testing::TestWithParam<Scenario> {};
+class TruthInPictures : public ::testing::TestWithParam<Scenario> {};
 INSTANTIATE_TEST_SUITE_P(Simulated, TruthInPictures,
-                         testing::Values(Scenario{"walk", 1}, Scenario{"run", 1},
-                                         Scenario{"jump", 1}, Scenario{"dance", 1},
-                                         Scenario{"stand", 1}, Scenario{"walk", 3},
-                                         Scenario{"dance", 4}, Scenario{"meet", 2}),
+                         ::testing::Values(Scenario{"walk", 1}, Scenario{"run", 1},
+                                           Scenario{"jump", 1}, Scenario{"dance", 1},
+                                           Scenario{"stand", 1}, Scenario{"walk", 3},
+                                           Scenario{"dance", 4}, Scenario{"meet", 2}),
                          [](const auto& scenario) {
                            return scenario.param.motion + std::to_string(scenario.param.people);
                          });

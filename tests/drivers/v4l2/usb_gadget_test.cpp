@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTimeout{500};
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::milliseconds kGadgetTimeout{500};
+constexpr std::chrono::seconds kGadgetPatience{60};
 /// The kernel knows a camera by then, or will not.
 constexpr std::chrono::seconds kPlugging{8};
 
@@ -74,13 +74,13 @@ class UsbGadget : public ::testing::Test {
   /// The kernel takes a moment to know a camera.
   static ::testing::AssertionResult Starts(V4l2Driver& driver, PluggedCamera& camera) {
     std::string reason;
-    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
+    for (const auto end = Clock::now() + kGadgetPatience; Clock::now() < end;) {
       try {
         driver.Start();
         return ::testing::AssertionSuccess();
       } catch (const SetupError& error) {
         reason = error.what();
-        std::this_thread::sleep_for(kTimeout);
+        std::this_thread::sleep_for(kGadgetTimeout);
         camera.StayPlugged();
       }
     }
@@ -88,8 +88,8 @@ class UsbGadget : public ::testing::Test {
   }
   static bool GrabUntil(V4l2Driver& driver, GrabStatus wanted, PluggedCamera* camera = nullptr) {
     Frame frame;
-    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
-      if (driver.Grab(frame, kTimeout) == wanted) return true;
+    for (const auto end = Clock::now() + kGadgetPatience; Clock::now() < end;) {
+      if (driver.Grab(frame, kGadgetTimeout) == wanted) return true;
       if (camera) camera->StayPlugged();
     }
     return false;

@@ -21,7 +21,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::chrono::milliseconds kTimeout{500};
+constexpr std::chrono::milliseconds kKernelTimeout{500};
 constexpr int kPatience = 100;
 
 V4l2Driver VividDriver(const V4l2Node& node, const std::string& format = "GREY", double fps = 25) {
@@ -50,7 +50,7 @@ class Vivid : public ::testing::Test {
   /// Grabs until a status comes; counts what else came.
   bool GrabUntil(V4l2Driver& driver, GrabStatus wanted) {
     for (int i = 0; i < kPatience; ++i) {
-      if (driver.Grab(frame_, kTimeout) == wanted) return true;
+      if (driver.Grab(frame_, kKernelTimeout) == wanted) return true;
     }
     return false;
   }
@@ -142,8 +142,8 @@ TEST_F(Vivid, AllCamerasStreamAtOnce) {
       driver.Start();
       Count count;
       Frame first, frame;
-      while (driver.Grab(first, kTimeout) != GrabStatus::kFrame) continue;
-      while (count.frames < 125 && driver.Grab(frame, kTimeout) != GrabStatus::kLost) {
+      while (driver.Grab(first, kKernelTimeout) != GrabStatus::kFrame) continue;
+      while (count.frames < 125 && driver.Grab(frame, kKernelTimeout) != GrabStatus::kLost) {
         ++count.frames;
       }
       count.taken = frame.sequence - first.sequence;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kAtOnce{0};
 
-class DisturbedCameraTest : public testing::Test {
+class DisturbedCameraTest : public ::testing::Test {
  protected:
   DisturbedCameraTest() {
     options_.width_px = 160;

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "drivers/simulation/camera_rig.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -46,15 +47,6 @@ void ExpectSameViews(const Cameras& a, const Cameras& b, double tolerance_px) {
           << a[c].name << " " << p_C.transpose();
     }
   }
-}
-
-std::string ReasonOf(const std::function<void()>& step) {
-  try {
-    step();
-  } catch (const SetupError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(ExchangeTest, Pose2SimComesBackTheSame) {
@@ -177,12 +169,13 @@ TEST(ExchangeTest, NamesFileAndLineOfWhatIsMissing) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "bad.qca.txt";
   WriteText(file, "<calibration>\n<camera serial=\"1\">\n<transform x=\"1\" y=\"2\"/>\n</camera>");
-  EXPECT_THAT(ReasonOf([&] { ImportCameras("qualisys", file); }),
+  EXPECT_THAT(testing::SetupErrorOf([&] { ImportCameras("qualisys", file); }),
               HasSubstr("bad.qca.txt:3: transform."));
   WriteText(file, "[cam]\nmatrix = [[1");
-  EXPECT_THAT(ReasonOf([&] { ImportCameras("pose2sim", file, {.unit_mm = 1000}); }),
+  EXPECT_THAT(testing::SetupErrorOf([&] { ImportCameras("pose2sim", file, {.unit_mm = 1000}); }),
               HasSubstr("bad.qca.txt:2"));
-  EXPECT_THAT(ReasonOf([&] { ImportCameras("easymocap", folder.path()); }), HasSubstr("intri.yml"));
+  EXPECT_THAT(testing::SetupErrorOf([&] { ImportCameras("easymocap", folder.path()); }),
+              HasSubstr("intri.yml"));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct HeadWalk {
   PanTiltAngles zero;
 };
 
-std::vector<CameraCalibration> Rig(unsigned seed) {
+std::vector<CameraCalibration> HeadRig(unsigned seed) {
   simulation::RigOptions options;
   options.pan_tilt = true;
   options.seed = seed;
@@ -69,7 +69,7 @@ std::string ReasonOf(const CameraCalibration& camera, const std::vector<BoardDet
 
 TEST(HeadFitTest, PlacesPointsWithinFourMillimetresAtAnyAngle) {
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const std::vector<CameraCalibration> truth = Rig(seed);
+    const std::vector<CameraCalibration> truth = HeadRig(seed);
     std::vector<CameraCalibration> found;
     for (const CameraCalibration& camera : truth) {
       const PanTiltFit fit =
@@ -104,7 +104,7 @@ TEST(HeadFitTest, PosesAreRightWhateverTheEncodersCount) {
   walk.pan_scale = 1.03;
   walk.tilt_scale = 0.98;
   walk.zero = {0.4, -0.15};
-  const CameraCalibration truth = Rig(4)[2];
+  const CameraCalibration truth = HeadRig(4)[2];
   const PanTiltFit fit = FitHead(WithoutHead(truth), walk.zero, walk.board, LookAbout(truth, walk));
   EXPECT_NEAR(fit.head.pan_scale, 1.03, 0.002);
   EXPECT_NEAR(fit.head.tilt_scale, 0.98, 0.003);
@@ -122,7 +122,7 @@ TEST(HeadFitTest, PosesAreRightWhateverTheEncodersCount) {
 TEST(HeadFitTest, FindsHeadsThatTurnTheOtherWay) {
   HeadWalk walk;
   walk.pan_scale = walk.tilt_scale = -1;
-  const CameraCalibration truth = Rig(5)[1];
+  const CameraCalibration truth = HeadRig(5)[1];
   const PanTiltFit fit = FitHead(WithoutHead(truth), {}, walk.board, LookAbout(truth, walk));
   EXPECT_LT(fit.head.pan_axis_W.z(), -0.9);
   EXPECT_NEAR(fit.head.pan_scale, 1, 0.002);
@@ -141,7 +141,7 @@ TEST(HeadFitTest, HeadsThatTurnedWhileTheyWerePosedAreRefused) {
 }
 
 TEST(HeadFitTest, RefusesWhatDoesNotDetermineAHead) {
-  const CameraCalibration camera = Rig(5)[0];
+  const CameraCalibration camera = HeadRig(5)[0];
   std::vector<BoardDetection> views = LookAbout(camera, {});
   EXPECT_THAT(ReasonOf(WithoutHead(camera), {views.begin(), views.begin() + 5}),
               HasSubstr("cam1: 5 views"));

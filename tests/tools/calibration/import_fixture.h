@@ -28,7 +28,7 @@ inline constexpr const char* kCameraInfo =
     "plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.1, 0.02, 0.0, 0.0, "
     "0.0]\n";
 
-inline std::string ReasonOf(const std::function<void()>& step) {
+inline std::string WhyRefused(const std::function<void()>& step) {
   try {
     step();
   } catch (const SetupError& error) {
@@ -51,7 +51,7 @@ class ImportTest : public ::testing::Test {
     return folder_.path() / name;
   }
   std::string Why(const std::string& format, const fs::path& in, ImportOptions options = {}) {
-    return ReasonOf([&] { ImportCameras(format, in, options); });
+    return WhyRefused([&] { ImportCameras(format, in, options); });
   }
   std::string WhyToml(const std::string& text) { return Why("pose2sim", Write("c.toml", text)); }
   // A pose2sim camera that is right, with one line changed.

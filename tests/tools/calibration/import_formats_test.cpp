@@ -30,7 +30,7 @@ TEST_F(ImportTest, AllEightCoefficientsOfOpenCvAreKept) {
               std::get<OpenCvLens>(cameras[0].lens).distortion);
   }
   for (const char* format : {"qualisys", "vicon"})
-    EXPECT_THAT(ReasonOf([&] { ExportCameras(format, folder_.path() / format, cameras); }),
+    EXPECT_THAT(WhyRefused([&] { ExportCameras(format, folder_.path() / format, cameras); }),
                 AllOf(HasSubstr("cam1"), HasSubstr(format), HasSubstr("eight")));
 }
 
@@ -275,7 +275,7 @@ TEST_F(ImportTest, AFormatThatCannotHoldALensIsRefusedBeforeAnythingIsWritten) {
       ImportCameras("opencv", Write("cam1.yml", OpenCv("-0.1, 0.02, 0.02, -0.02, 0", kOpenCvPose)))
           .cameras;
   const fs::path out = folder_.path() / "a.xcp";
-  EXPECT_THAT(ReasonOf([&] { ExportCameras("vicon", out, cameras); }),
+  EXPECT_THAT(WhyRefused([&] { ExportCameras("vicon", out, cameras); }),
               AllOf(StartsWith("--to vicon"), HasSubstr("cam1")));
   EXPECT_FALSE(fs::exists(out));
 }

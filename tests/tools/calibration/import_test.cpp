@@ -82,7 +82,7 @@ TEST_F(ImportTest, NoWriterLetsANameLeadOut) {
   camera.name = "../escaped";
   for (const std::string& format : ExportFormats()) {
     const fs::path out = folder_.path() / "a" / ("out_" + format);
-    EXPECT_THAT(ReasonOf([&] { ExportCameras(format, out, {camera}); }), HasSubstr("escaped"));
+    EXPECT_THAT(WhyRefused([&] { ExportCameras(format, out, {camera}); }), HasSubstr("escaped"));
     EXPECT_FALSE(fs::exists(out)) << format;
   }
 }

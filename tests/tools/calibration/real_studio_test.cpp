@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const fs::path kShared = MOCAP_SHARED_DIR;
 const fs::path kCharuco = kShared / "data/charuco/charuco_calibration/calibration/extrinsic";
-const fs::path kBoard = kShared / "data/board";
+const fs::path kBoardFolder = kShared / "data/board";
 const fs::path kSeated = kShared / "takes/real_seated";
 
 /// The camera centres [mm] that some moments' views give.
@@ -78,12 +78,12 @@ void ExpectAllPosedTheSameWay(const StudioFit& fit) {
 }
 
 TEST(RealStudioTest, PosesAllCamerasFromOneBoardOnTheFloorAndCarvesAPersonAsWellAsTheTakes) {
-  if (!fs::exists(kBoard) || !fs::exists(kSeated))
-    GTEST_SKIP() << "not both of " << kBoard << " and " << kSeated;
+  if (!fs::exists(kBoardFolder) || !fs::exists(kSeated))
+    GTEST_SKIP() << "not both of " << kBoardFolder << " and " << kSeated;
   DetectionOptions options;
   options.still = true;
   const BoardDetections still =
-      CollectDetections(OpenFootage(kBoard), ParseBoard("chess:8x6:115"), options);
+      CollectDetections(OpenFootage(kBoardFolder), ParseBoard("chess:8x6:115"), options);
   const StudioFit fit = FitToStillBoard(still, LoadCalibration(kSeated / "calibration.toml"),
                                         still.still_pictures, 0);
   ExpectAllPosedTheSameWay(fit);

@@ -14,6 +14,13 @@
 
 namespace mocap::testing {
 
+/// Cameras of a simulated studio, hung a little differently with each seed.
+inline std::vector<CameraCalibration> SeededRig(unsigned seed) {
+  simulation::RigOptions options;
+  options.seed = seed;
+  return simulation::HangCameras(options);
+}
+
 struct BoardWalk {
   Board board{BoardKind::kChessboard, 8, 5, 100, "", 0, false};
   int moments = 150;

@@ -3,6 +3,7 @@
 
 #include "core/errors.h"
 #include "drivers/simulation/printed_board.h"
+#include "tests/support/setup_error.h"
 #include "tests/tools/calibration/simulated_board.h"
 #include "tools/calibration/extrinsics.h"
 #include "tools/calibration/floor.h"
@@ -18,12 +19,6 @@ using testing::BoardWalk;
 using ::testing::HasSubstr;
 using testing::SeeStillBoard;
 using testing::WalkBoard;
-
-std::vector<CameraCalibration> Rig(unsigned seed) {
-  simulation::RigOptions options;
-  options.seed = seed;
-  return simulation::HangCameras(options);
-}
 
 std::vector<CameraCalibration> FitAllLenses(const BoardDetections& detections, LensModel model) {
   LensFitOptions options;
@@ -55,19 +50,10 @@ StudioFit Calibrate(const std::vector<CameraCalibration>& truth, const BoardWalk
   return fit;
 }
 
-std::string ReasonOf(const std::function<void()>& step) {
-  try {
-    step();
-  } catch (const SetupError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 class StudioFitTest : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(StudioFitTest, PlacesPointsInTheRoomWithinTwoMillimetres) {
-  const std::vector<CameraCalibration> truth = Rig(GetParam());
+  const std::vector<CameraCalibration> truth = testing::SeededRig(GetParam());
   BoardWalk walk;
   walk.seed = GetParam();
   const StudioFit fit = Calibrate(truth, walk, LensModel::kTsai);
@@ -83,7 +69,7 @@ TEST_P(StudioFitTest, PlacesPointsInTheRoomWithinTwoMillimetres) {
 INSTANTIATE_TEST_SUITE_P(Studios, StudioFitTest, ::testing::Values(1u, 2u, 3u));
 
 TEST(StudioFitTest, FitsOpenCvAndFisheyeLensesToo) {
-  std::vector<CameraCalibration> truth = Rig(4);
+  std::vector<CameraCalibration> truth = testing::SeededRig(4);
   truth.resize(3);
   BoardWalk walk;
   walk.moments = 120;
@@ -96,7 +82,7 @@ TEST(StudioFitTest, FitsOpenCvAndFisheyeLensesToo) {
 
 TEST(StudioFitTest, FindsACameraThatRunsLate) {
   const std::vector<CameraCalibration> truth = [] {
-    std::vector<CameraCalibration> rig = Rig(5);
+    std::vector<CameraCalibration> rig = testing::SeededRig(5);
     rig.resize(4);
     return rig;
   }();
@@ -146,45 +132,46 @@ TEST(StudioFitTest, FindsACameraThatRunsLate) {
 }
 
 TEST(StudioFitTest, NamesTheCameraThatSharesNoViews) {
-  const std::vector<CameraCalibration> truth = Rig(6);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(6);
   BoardDetections detections = WalkBoard(truth, {});
   // Camera 4 was recorded on another day.
   for (BoardDetection& s : detections.detections) {
     if (s.camera == 3) s.moment += detections.moments;
   }
   detections.moments *= 2;
-  const std::string reason = ReasonOf([&] { FitExtrinsics(detections, truth, {}); });
+  const std::string reason = testing::SetupErrorOf([&] { FitExtrinsics(detections, truth, {}); });
   EXPECT_THAT(reason, HasSubstr("cam4"));
   EXPECT_THAT(reason, HasSubstr("carry the board"));
 }
 
 TEST(StudioFitTest, NamesACameraWhoseRecordingIsAnothers) {
-  const std::vector<CameraCalibration> truth = Rig(7);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(7);
   BoardDetections detections = WalkBoard(truth, {});
   // Camera 5's pictures come a few moments late.
   for (BoardDetection& s : detections.detections) {
     if (s.camera == 4) s.moment = (s.moment + 5) % detections.moments;
   }
-  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(detections, truth, {}); }), HasSubstr("cam5"));
+  EXPECT_THAT(testing::SetupErrorOf([&] { FitExtrinsics(detections, truth, {}); }),
+              HasSubstr("cam5"));
 }
 
 TEST(StudioFitTest, RefusesABoardThatLooksTheSameTurned) {
   BoardWalk walk;
   walk.board.rows = 6;
-  const std::vector<CameraCalibration> truth = Rig(8);
-  EXPECT_THAT(ReasonOf([&] { FitExtrinsics(WalkBoard(truth, walk), truth, {}); }),
+  const std::vector<CameraCalibration> truth = testing::SeededRig(8);
+  EXPECT_THAT(testing::SetupErrorOf([&] { FitExtrinsics(WalkBoard(truth, walk), truth, {}); }),
               HasSubstr("half a turn"));
 }
 
 TEST(StudioFitTest, RefusesTooFewViewsForALens) {
   BoardWalk walk;
   walk.moments = 6;
-  const BoardDetections detections = WalkBoard(Rig(9), walk);
-  EXPECT_THAT(ReasonOf([&] { FitLens(detections, 0, {}); }), HasSubstr("cam1"));
+  const BoardDetections detections = WalkBoard(testing::SeededRig(9), walk);
+  EXPECT_THAT(testing::SetupErrorOf([&] { FitLens(detections, 0, {}); }), HasSubstr("cam1"));
 }
 
 TEST(StudioFitTest, TellsAWrongBoardSizeByATape) {
-  const std::vector<CameraCalibration> truth = Rig(10);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(10);
   std::vector<CameraCalibration> shrunk = truth;
   for (CameraCalibration& camera : shrunk) camera.X_CW.p *= 0.9;
   const double true_mm = (truth[0].X_CW.Inverse().p - truth[3].X_CW.Inverse().p).norm();
@@ -194,7 +181,7 @@ TEST(StudioFitTest, TellsAWrongBoardSizeByATape) {
 }
 
 TEST(StudioCheckTest, SeesAFloorThatIsUpsideDown) {
-  const std::vector<CameraCalibration> truth = Rig(11);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(11);
   BoardWalk walk;
   walk.moments = 60;
   StudioFit fit;
@@ -213,7 +200,7 @@ TEST(StudioCheckTest, SeesAFloorThatIsUpsideDown) {
 }
 
 TEST(FloorTest, SetsTheWorldFromThreePoints) {
-  const std::vector<CameraCalibration> truth = Rig(12);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(12);
   StudioFit fit;
   fit.bundle.cameras = truth;
   const RigidTransform away{ExpRotation({0.4, 1.1, -2}), {500, -900, 3000}};
@@ -231,7 +218,7 @@ TEST(FloorTest, SetsTheWorldFromThreePoints) {
   for (int c = 0; c < 6; ++c)
     EXPECT_NEAR((fit.bundle.cameras[c].X_CW.p - truth[c].X_CW.p).norm(), 0, 1e-3);
   for (FloorPoint& point : points) point.point = point.point == 0 ? 0 : 3 - point.point;
-  EXPECT_THAT(ReasonOf([&] { WorldOnPoints(points, truth); }), HasSubstr("swapped"));
+  EXPECT_THAT(testing::SetupErrorOf([&] { WorldOnPoints(points, truth); }), HasSubstr("swapped"));
 }
 
 }  // namespace

@@ -14,12 +14,6 @@ using ::testing::HasSubstr;
 
 constexpr double kLength_mm = 500;
 
-std::vector<CameraCalibration> Rig(unsigned seed) {
-  simulation::RigOptions options;
-  options.seed = seed;
-  return simulation::HangCameras(options);
-}
-
 std::optional<Vector2> PixelOf(const CameraCalibration& camera, const Vector3& p_W) {
   const Vector3 p_C = camera.X_CW * p_W;
   const auto pixel = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
@@ -56,7 +50,7 @@ BoardDetections WaveWand(const std::vector<CameraCalibration>& cameras, unsigned
 
 TEST(WandTest, PosesAllCamerasWhoeverEndIsWhich) {
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const std::vector<CameraCalibration> truth = Rig(seed);
+    const std::vector<CameraCalibration> truth = testing::SeededRig(seed);
     const StudioFit fit = FitExtrinsics(WaveWand(truth, seed), truth, {.refine_lenses = false});
     EXPECT_NEAR(fit.rms_px, 0.2 * std::sqrt(2.0), 0.05);
     // Found in the frame of the first camera.
@@ -70,7 +64,7 @@ TEST(WandTest, PosesAllCamerasWhoeverEndIsWhich) {
 }
 
 TEST(WandTest, NamesTheCameraThatSharesNoViews) {
-  const std::vector<CameraCalibration> truth = Rig(4);
+  const std::vector<CameraCalibration> truth = testing::SeededRig(4);
   BoardDetections detections = WaveWand(truth, 4);
   for (BoardDetection& s : detections.detections) {
     if (s.camera == 2) s.moment += detections.moments;

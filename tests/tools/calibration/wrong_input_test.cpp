@@ -12,6 +12,7 @@
 #include "drivers/simulation/printed_board.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/video_writer.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/calibration/board_picture.h"
 #include "tests/tools/calibration/simulated_board.h"
@@ -29,15 +30,6 @@ using ::testing::Not;
 using testing::TemporaryFolder;
 using testing::WalkBoard;
 using testing::WriteText;
-
-std::string ReasonOf(const std::function<void()>& step) {
-  try {
-    step();
-  } catch (const SetupError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 std::string FirstOf(const std::vector<Finding>& findings) {
   return findings.empty() ? "accepted" : findings[0].text;
@@ -125,10 +117,10 @@ struct Bench {
     WriteCalibration(arguments.intrinsics, std::vector<CameraCalibration>{a, b});
   }
   std::string Intrinsics() const {
-    return ReasonOf([this] { CalibrateIntrinsics(arguments); });
+    return testing::SetupErrorOf([this] { CalibrateIntrinsics(arguments); });
   }
   std::string Extrinsics() const {
-    return ReasonOf([this] { CalibrateExtrinsics(arguments); });
+    return testing::SetupErrorOf([this] { CalibrateExtrinsics(arguments); });
   }
 
   TemporaryFolder folder;
@@ -257,7 +249,7 @@ const WrongInput kWrongRecordings[] = {
        StudioFit fit;
        fit.bundle.cameras = {b.camera};
        b.arguments.floor = b.arguments.footage;
-       return ReasonOf([&] { SetWorld(b.arguments, fit); });
+       return testing::SetupErrorOf([&] { SetWorld(b.arguments, fit); });
      },
      {"\"cam9\" that is not calibrated", "cam1"}},
 };
@@ -273,7 +265,7 @@ const WrongInput kWrongDetections[] = {
          for (int row = 0; row < 5; ++row)
            std::reverse(s.corners.pixels.begin() + 8 * row, s.corners.pixels.begin() + 8 * row + 8);
        }
-       return ReasonOf([&] { FitExtrinsics(detections, Rig(), {}); });
+       return testing::SetupErrorOf([&] { FitExtrinsics(detections, Rig(), {}); });
      },
      {"cam3: contradicts", "not frame", "mirrored"}},
     {"ARecordingOfAnotherTime",
@@ -282,14 +274,14 @@ const WrongInput kWrongDetections[] = {
        for (BoardDetection& s : detections.detections) {
          if (s.camera == 1) s.moment = (s.moment + 40) % detections.moments;
        }
-       return ReasonOf([&] { FitExtrinsics(detections, Rig(), {}); });
+       return testing::SetupErrorOf([&] { FitExtrinsics(detections, Rig(), {}); });
      },
      {"cam2: contradicts", "not frame", "record all cameras at once"}},
     {"ABoardThatLooksTheSameTurned",
      [](Bench&) {
        BoardWalk walk;
        walk.board.rows = 6;
-       return ReasonOf([&] { FitExtrinsics(WalkBoard(Rig(), walk), Rig(), {}); });
+       return testing::SetupErrorOf([&] { FitExtrinsics(WalkBoard(Rig(), walk), Rig(), {}); });
      },
      {"8 x 6", "half a turn", "one side odd and the other even"}},
     {"RowsAndColumnsThatFitNoLens",
@@ -297,7 +289,7 @@ const WrongInput kWrongDetections[] = {
        BoardDetections detections = WalkBoard(Rig(), {});
        detections.board.columns = 5;
        detections.board.rows = 8;
-       return ReasonOf([&] { FitLens(detections, 3, {}); });
+       return testing::SetupErrorOf([&] { FitLens(detections, 3, {}); });
      },
      {"cam4: ", "most in frame", "columns and rows swapped"}},
     {"AFloorBoardThatWasMoved",
@@ -307,13 +299,13 @@ const WrongInput kWrongDetections[] = {
            testing::SeeStillBoard(Rig(), walk.board, simulation::BoardOnFloor(), walk.noise_px);
        still.detections[1].camera = 1;
        for (Vector2& pixel : still.detections[1].corners.pixels) pixel.x() += 25;
-       return ReasonOf([&] { FindStillBoard(still, Rig()); });
+       return testing::SetupErrorOf([&] { FindStillBoard(still, Rig()); });
      },
      {"cam2: sees the floor's board", "was it moved", "Record it again"}},
     {"AHeadThatTurned",
      [](Bench&) {
        const std::vector<PanTiltAngles> readings = {{0.3, 0.1}, {0.32, 0.1}};
-       return ReasonOf([&] { StandingAngles("cam4", readings); });
+       return testing::SetupErrorOf([&] { StandingAngles("cam4", readings); });
      },
      {"cam4: its head turned", "keep heads still"}},
 };
@@ -322,14 +314,14 @@ const WrongInput kWrongWorlds[] = {
     {"AFloorPointThatOneCameraSees",
      [](Bench&) {
        const std::vector<FloorPoint> points = {{0, 0, {1, 1}}, {1, 0, {1, 1}}, {0, 1, {5, 5}}};
-       return ReasonOf([&] { WorldOnPoints(points, Rig()); });
+       return testing::SetupErrorOf([&] { WorldOnPoints(points, Rig()); });
      },
      {"\"x\"", "at least two"}},
     {"ATableOfFloorPointsWithAnUnknownCamera",
      [](Bench& b) {
        const std::filesystem::path file = b.folder.path() / "points.csv";
        WriteText(file, "point,camera,x_px,y_px\norigin,cam1,3,4\nx,cam77,3,4\n");
-       return ReasonOf([&] { ReadFloorPoints(file.string(), Rig()); });
+       return testing::SetupErrorOf([&] { ReadFloorPoints(file.string(), Rig()); });
      },
      {"points.csv:3", "cam77", "origin|x|y,CAMERA,X,Y"}},
     {"ABoardOfAnotherSizeThanTyped",
@@ -348,7 +340,7 @@ const WrongInput kWrongWorlds[] = {
        StudioFit fit;
        fit.bundle.cameras = Rig();
        b.arguments.distance = "cam1:cam4";
-       return ReasonOf([&] { CheckAll(b.arguments, fit); });
+       return testing::SetupErrorOf([&] { CheckAll(b.arguments, fit); });
      },
      {"cam1:cam4", "CAMERA:CAMERA:MM"}},
     {"LengthsInMetres",

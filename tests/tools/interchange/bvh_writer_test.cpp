@@ -25,7 +25,7 @@ using testing::Swinging;
 using testing::SwingingResult;
 using testing::TrackedRow;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kBvhDegree = std::numbers::pi / 180;
 
 // A reader of BVH that knows nothing of the writer: what an animation program would do.
 struct ReadNode {
@@ -88,7 +88,7 @@ std::map<std::string, Eigen::Vector3d> PlacesAt(const ReadBvh& bvh, std::size_t 
     for (const std::string& channel : node.channels) {
       const Eigen::Vector3d axis(channel[0] == 'X', channel[0] == 'Y', channel[0] == 'Z');
       if (channel.ends_with("position")) X.translate(*value * axis);
-      if (channel.ends_with("rotation")) X.rotate(Eigen::AngleAxisd(*value * kDegree, axis));
+      if (channel.ends_with("rotation")) X.rotate(Eigen::AngleAxisd(*value * kBvhDegree, axis));
       ++value;
     }
     world.push_back(X);

@@ -25,15 +25,15 @@ using testing::ResultOf;
 using testing::RightArmRaised;
 using testing::SwingingResult;
 
-ReadC3d WriteAndRead(const ExportScene& scene) {
+ReadC3d WriteAndReadC3d(const ExportScene& scene) {
   std::ostringstream file;
   WriteC3d(scene, file);
   return testing::ReadC3dFile(file.str());
 }
 
-ReadC3d WriteAndRead(const Result& result) {
+ReadC3d WriteAndReadC3d(const Result& result) {
   const ExportSubject subject{"", result};
-  return WriteAndRead({std::span(&subject, 1), result.poses, "walk.c3d"});
+  return WriteAndReadC3d({std::span(&subject, 1), result.poses, "walk.c3d"});
 }
 
 void ExpectPoints(const ReadC3d& c3d, std::size_t frame, const PoseRow& row,
@@ -85,7 +85,7 @@ TEST(C3dReaderOfTests, ReadsAFileOfViconAsOpenSimDoes) {
 
 TEST(C3dWriter, KeepsEveryPointInPlaceAndSaysWhichAxisIsUp) {
   const Result result = SwingingResult(30);
-  const ReadC3d c3d = WriteAndRead(result);
+  const ReadC3d c3d = WriteAndReadC3d(result);
   ASSERT_EQ(c3d.frames.size(), 30u);
   for (std::size_t i = 0; i < 30; ++i) ExpectPoints(c3d, i, result.poses[i]);
   EXPECT_EQ(c3d.At("POINT:UNITS").texts[0], "mm");
@@ -99,7 +99,7 @@ TEST(C3dWriter, KeepsEveryPointInPlaceAndSaysWhichAxisIsUp) {
 
 TEST(C3dWriter, HasTheRaisedArmOnTheRight) {
   const BodyModel body = GrownBody();
-  const ReadC3d c3d = WriteAndRead(ResultOf(body, RightArmRaised(body)));
+  const ReadC3d c3d = WriteAndReadC3d(ResultOf(body, RightArmRaised(body)));
   // Who faces world x has his right at smaller y.
   EXPECT_GT(c3d.Point(0, "fingertips_r").z, c3d.Point(0, "head").z + 200);
   EXPECT_LT(c3d.Point(0, "fingertips_r").y, c3d.Point(0, "torso").y);
@@ -108,7 +108,7 @@ TEST(C3dWriter, HasTheRaisedArmOnTheRight) {
 }
 
 TEST(C3dWriter, AnglesArePointsOfATypeOfTheirOwn) {
-  const ReadC3d c3d = WriteAndRead(SwingingResult(2));
+  const ReadC3d c3d = WriteAndReadC3d(SwingingResult(2));
   EXPECT_THAT(
       c3d.At("POINT:ANGLES").texts,
       ElementsAre("LHipAngles", "RHipAngles", "LKneeAngles", "RKneeAngles", "LShoulderAngles",
@@ -122,7 +122,7 @@ TEST(C3dWriter, FramesWithoutTrackingAreNotSeenAndEventsTellOfThem) {
   Result result = SwingingResult(10);
   for (const int i : {0, 1, 6}) result.poses[i].state = CaptureState::kLost;
   result.poses.erase(result.poses.begin() + 3);
-  const ReadC3d c3d = WriteAndRead(result);
+  const ReadC3d c3d = WriteAndReadC3d(result);
   ASSERT_EQ(c3d.frames.size(), 10u) << "the missing frame is filled in";
   for (int i = 0; i < 10; ++i) {
     const bool is_seen = i != 0 && i != 1 && i != 3 && i != 6;
@@ -145,7 +145,7 @@ TEST(C3dWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
   second.poses.erase(second.poses.begin(), second.poses.begin() + 2);
   const ExportSubject subjects[] = {{"anna", first}, {"person-2", second}};
   const auto moments = MomentsOf({{"anna", first}, {"person-2", second}});
-  const ReadC3d c3d = WriteAndRead({subjects, moments, "both.c3d", true});
+  const ReadC3d c3d = WriteAndReadC3d({subjects, moments, "both.c3d", true});
   ASSERT_EQ(c3d.frames.size(), 4u);
   ExpectPoints(c3d, 1, first.poses[1], "anna:");
   ExpectPoints(c3d, 3, second.poses[1], "person-2:");
@@ -160,7 +160,7 @@ TEST(C3dWriter, EightPeopleHaveMoreLabelsThanOneArrayHolds) {
   const Result result = SwingingResult(1);
   std::vector<ExportSubject> subjects;
   for (int i = 1; i <= 8; ++i) subjects.push_back({"person-" + std::to_string(i), result});
-  const ReadC3d c3d = WriteAndRead({subjects, result.poses, "all.c3d", true});
+  const ReadC3d c3d = WriteAndReadC3d({subjects, result.poses, "all.c3d", true});
   ASSERT_EQ(c3d.labels.size(), 8u * 32);
   EXPECT_EQ(c3d.At("POINT:LABELS").texts.size(), 255u);
   EXPECT_EQ(c3d.labels.back(), "person-8:SpineAngles");
@@ -170,7 +170,7 @@ TEST(C3dWriter, MorePeopleThanItCanNameAreTold) {
   const Result result = SwingingResult(1);
   std::vector<ExportSubject> subjects;
   for (int i = 1; i <= 300; ++i) subjects.push_back({"person-" + std::to_string(i), result});
-  EXPECT_THROW(WriteAndRead({subjects, result.poses, "all.c3d", true}), SetupError);
+  EXPECT_THROW(WriteAndReadC3d({subjects, result.poses, "all.c3d", true}), SetupError);
 }
 
 TEST(C3dWriter, CountsMoreFramesThanSixteenBitsHold) {
@@ -180,7 +180,7 @@ TEST(C3dWriter, CountsMoreFramesThanSixteenBitsHold) {
     row.frame = i;
     row.timestamp_ns = result.poses[0].timestamp_ns + 10'000'000LL * i;
   }
-  const ReadC3d c3d = WriteAndRead(result);
+  const ReadC3d c3d = WriteAndReadC3d(result);
   EXPECT_EQ(c3d.frames.size(), 70'000u);
   EXPECT_EQ(c3d.header_last, 65'535);
   EXPECT_EQ(c3d.Number("POINT:FRAMES"), 65'535);
@@ -190,13 +190,13 @@ TEST(C3dWriter, CountsMoreFramesThanSixteenBitsHold) {
 TEST(C3dWriter, TellsTheCamerasOfALog) {
   Result result = SwingingResult(1);
   result.poses[0].first_cameras = 0b0101101;
-  EXPECT_EQ(WriteAndRead(result).Point(0, "head").cameras, 0b0101101);
+  EXPECT_EQ(WriteAndReadC3d(result).Point(0, "head").cameras, 0b0101101);
 }
 
 TEST(C3dWriter, RefusesAPauseThatWouldFillTheDisk) {
   Result result = SwingingResult(9);
   result.poses[8].timestamp_ns = std::int64_t{1} << 60;
-  EXPECT_THROW(WriteAndRead(result), SetupError);
+  EXPECT_THROW(WriteAndReadC3d(result), SetupError);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ ReadGlb WriteAndRead(const Result& result) {
   return ReadGlb(file.str());
 }
 
-void ExpectPlaces(const std::map<std::string, Vector3>& places, const PoseRow& row) {
+void ExpectNodes(const std::map<std::string, Vector3>& places, const PoseRow& row) {
   const std::pair<const char*, Point> points[] = {{"Spine", Point::kTorso},
                                                   {"Neck", Point::kNeck},
                                                   {"Head", Point::kHead},
@@ -144,7 +144,7 @@ TEST(GlbWriter, KeepsEveryJointInPlaceThoughWaistCollarBonesAndWristsTurn) {
   const Result result = SwingingResult(60);
   const ReadGlb glb = WriteAndRead(result);
   for (std::size_t i = 0; i < 60; ++i) {
-    ExpectPlaces(glb.PlacesAt(i), result.poses[i]);
+    ExpectNodes(glb.PlacesAt(i), result.poses[i]);
     EXPECT_NEAR(glb.times()[i], 0.04 * static_cast<double>(i), 1e-6);
   }
 }
@@ -164,7 +164,7 @@ TEST(GlbWriter, JointsFollowBonesThatChangeUntilSizesHaveSettled) {
   Append(settled, Swinging(settled, 1), result);
   const ReadGlb glb = WriteAndRead(result);
   // The collar bones' inner ends, which are no points, are those of the settled sizes.
-  for (std::size_t i = 0; i < 4; ++i) ExpectPlaces(glb.PlacesAt(i), result.poses[i]);
+  for (std::size_t i = 0; i < 4; ++i) ExpectNodes(glb.PlacesAt(i), result.poses[i]);
 }
 
 TEST(GlbWriter, HoldsThePoseInGapsAndKeepsTheTakesClock) {
@@ -174,8 +174,8 @@ TEST(GlbWriter, HoldsThePoseInGapsAndKeepsTheTakesClock) {
   const ReadGlb glb = WriteAndRead(result);
   ASSERT_EQ(glb.times().size(), 5u);
   EXPECT_NEAR(glb.times()[0], 0.04, 1e-6);
-  ExpectPlaces(glb.PlacesAt(2), result.poses[2]);
-  ExpectPlaces(glb.PlacesAt(3), result.poses[4]);
+  ExpectNodes(glb.PlacesAt(2), result.poses[2]);
+  ExpectNodes(glb.PlacesAt(3), result.poses[4]);
 }
 
 TEST(GlbWriter, TheMeshIsBoundToJointsAtRest) {

@@ -29,7 +29,7 @@ struct ReadMot {
   std::vector<Row> rows;
 };
 
-ReadMot WriteAndRead(const Result& result) {
+ReadMot WriteAndReadMot(const Result& result) {
   const ExportSubject subject{"", result};
   std::stringstream text;
   WriteMot({std::span(&subject, 1), result.poses, "walk.mot"}, text);
@@ -56,11 +56,11 @@ Row AnglesOfTurn(const std::string& joint, double degrees) {
   Turn(body, "shoulder_l_x", -90, pose);
   Turn(body, "shoulder_r_x", 90, pose);
   if (!joint.empty()) Turn(body, joint, degrees, pose);
-  return WriteAndRead(ResultOf(body, pose)).rows.at(0);
+  return WriteAndReadMot(ResultOf(body, pose)).rows.at(0);
 }
 
 TEST(MotWriter, WritesTheHeaderThatOpenSimReads) {
-  const ReadMot mot = WriteAndRead(SwingingResult(7));
+  const ReadMot mot = WriteAndReadMot(SwingingResult(7));
   ASSERT_GE(mot.header.size(), 5u);
   EXPECT_EQ(mot.header[0], "Coordinates");
   EXPECT_THAT(mot.header,
@@ -111,7 +111,7 @@ TEST(MotWriter, ReadsTurnsOfALimbAboutItselfFromItsBend) {
   Turn(body, "hip_l_z", 25, pose);  // The left thigh turned out.
   Turn(body, "knee_r_y", 80, pose);
   Turn(body, "hip_r_z", 25, pose);  // The right one in.
-  const Row row = WriteAndRead(ResultOf(body, pose)).rows.at(0);
+  const Row row = WriteAndReadMot(ResultOf(body, pose)).rows.at(0);
   EXPECT_NEAR(row.at("hip_rotation_l"), -25, 0.01);
   EXPECT_NEAR(row.at("hip_rotation_r"), 25, 0.01);
   EXPECT_NEAR(row.at("knee_angle_l"), 80, 0.01);
@@ -124,7 +124,7 @@ TEST(MotWriter, TurnsOfAStraightLimbAboutItselfFadeOut) {
     PoseState pose = Standing(body);
     Turn(body, "knee_l_y", bend, pose);
     Turn(body, "hip_l_z", 25, pose);
-    const double rotation = WriteAndRead(ResultOf(body, pose)).rows.at(0).at("hip_rotation_l");
+    const double rotation = WriteAndReadMot(ResultOf(body, pose)).rows.at(0).at("hip_rotation_l");
     if (bend < 10) {
       EXPECT_NEAR(rotation, 0, 0.01) << bend;
     }
@@ -154,7 +154,7 @@ Matrix3 Turned(double z_deg, double x_deg, double y_deg) {
 
 TEST(MotWriter, TheModelsJointsTurnedByTheAnglesPointWhereTheLimbsDo) {
   const Result result = SwingingResult(200);
-  const ReadMot mot = WriteAndRead(result);
+  const ReadMot mot = WriteAndReadMot(result);
   const Vector3 down = -Vector3::UnitY();
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     const PoseRow& pose = result.poses[i];
@@ -196,7 +196,7 @@ TEST(MotWriter, LeavesOutRowsOfFramesNotTracked) {
   Result result = SwingingResult(6);
   result.poses[0].state = CaptureState::kAcquiring;
   result.poses[3].state = CaptureState::kLost;
-  const ReadMot mot = WriteAndRead(result);
+  const ReadMot mot = WriteAndReadMot(result);
   ASSERT_EQ(mot.rows.size(), 4u);
   EXPECT_NEAR(mot.rows[0].at("time"), 0.04, 1e-9);
   EXPECT_NEAR(mot.rows[2].at("time"), 0.16, 1e-9);
@@ -205,7 +205,7 @@ TEST(MotWriter, LeavesOutRowsOfFramesNotTracked) {
 TEST(MotWriter, RefusesAResultWithoutATrackedFrame) {
   Result result = SwingingResult(1);
   result.poses[0].state = CaptureState::kLost;
-  EXPECT_THROW(WriteAndRead(result), SetupError);
+  EXPECT_THROW(WriteAndReadMot(result), SetupError);
 }
 
 }  // namespace

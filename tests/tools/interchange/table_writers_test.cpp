@@ -12,7 +12,7 @@
 namespace mocap {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Two frames 50 ms apart; the second is lost and has no pose.
 Result TwoFrames() {
@@ -169,7 +169,7 @@ TEST(TrcWriter, MarksCellsOfAFrameNotTrackedAsMissing) {
   ASSERT_EQ(row.size(), 2u + 3 * 23);
   EXPECT_EQ(row[0], "2");
   EXPECT_EQ(row[1], "0.050000");
-  EXPECT_THAT(std::vector(row.begin() + 2, row.end()), testing::Each("nan"));
+  EXPECT_THAT(std::vector(row.begin() + 2, row.end()), ::testing::Each("nan"));
 }
 
 TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {

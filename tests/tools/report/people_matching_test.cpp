@@ -5,10 +5,10 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kPeriodNs = 100;
+constexpr std::int64_t kFrameNs = 100;
 
 ScoredFrame At(int frame, double x_mm, bool tracked = true) {
-  ScoredFrame scored{frame * kPeriodNs, tracked, ScoredPoints::Zero()};
+  ScoredFrame scored{frame * kFrameNs, tracked, ScoredPoints::Zero()};
   scored.points_W.row(0).setConstant(x_mm);
   return scored;
 }
@@ -49,7 +49,7 @@ TEST(MatchPeople, NobodyIsTwoPeopleAtOnce) {
 
 TEST(MatchPeople, AFrameIsMatchedOnceThoughTwoPosesAreNearInTime) {
   std::vector<ScoredFrame> early = Still(0, 3, 10), late = Still(0, 3, 0);
-  for (ScoredFrame& frame : late) frame.timestamp_ns += kPeriodNs / 4;
+  for (ScoredFrame& frame : late) frame.timestamp_ns += kFrameNs / 4;
   const auto people = MatchPeople(Frames{Still(0, 3, 0)}, Frames{early, late});
   EXPECT_EQ(people[0].matches.size(), 3u);
   EXPECT_TRUE(people[1].matches.empty());

@@ -10,11 +10,11 @@
 namespace mocap {
 namespace {
 
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
-using testing::Pointwise;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pointwise;
 
 TEST(RoundTicks, AreRoundNumbersInsideTheRange) {
   EXPECT_THAT(RoundTicks(0, 119, 8), ElementsAre(0, 20, 40, 60, 80, 100));
@@ -62,7 +62,7 @@ TEST(PlotSvg, KeepsAPlansScalesEqual) {
 }
 
 TEST(PlotSvg, DrawsAnEmptyPlotToo) {
-  EXPECT_THAT(PlotSvg({"x", "y"}, {}), testing::EndsWith("</svg>\n"));
+  EXPECT_THAT(PlotSvg({"x", "y"}, {}), ::testing::EndsWith("</svg>\n"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::SetupErrorOf;
 
-constexpr std::chrono::hours kLong{1};
+constexpr std::chrono::hours kVeryLong{1};
 
 class LogPlayerTest : public ::testing::Test {
  protected:
@@ -36,7 +36,7 @@ class LogPlayerTest : public ::testing::Test {
   std::vector<std::string> PlayAll(double speed) {
     LogPlayer player(file_, speed);
     Subscribe(player);
-    while (player.Play(kLong)) {
+    while (player.Play(kVeryLong)) {
     }
     return heard_;
   }

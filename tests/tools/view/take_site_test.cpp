@@ -2,33 +2,26 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
 #include "tests/support/box_take.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/tools/view/number_at.h"
 
 namespace mocap {
 namespace {
 
 using ::mocap::testing::kFrames;
 
-template <typename T>
-T At(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
-
 /// Where each message of /pictures.bin begins.
 std::vector<std::size_t> PicturesIn(const std::string& bytes) {
   std::vector<std::size_t> begins;
   for (std::size_t at = 0; at + 32 <= bytes.size() && bytes[at] == 3;) {
     begins.push_back(at);
-    const std::size_t floats =
-        At<std::uint32_t>(bytes, at + 16) + At<std::uint32_t>(bytes, at + 20);
-    at += (32 + 4 * floats + At<std::uint32_t>(bytes, at + 24) + 7) / 8 * 8;
+    const std::size_t floats = testing::NumberAt<std::uint32_t>(bytes, at + 16) +
+                               testing::NumberAt<std::uint32_t>(bytes, at + 20);
+    at += (32 + 4 * floats + testing::NumberAt<std::uint32_t>(bytes, at + 24) + 7) / 8 * 8;
   }
   return begins;
 }
@@ -74,23 +67,25 @@ TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
       Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
   // A result without all sizes has no capsules.
   ASSERT_EQ(poses.size(), 3u * 320);
-  EXPECT_EQ(At<double>(poses, 320 + 24), 5);
+  EXPECT_EQ(testing::NumberAt<double>(poses, 320 + 24), 5);
   const std::string truth =
       Get(site, "/poses.bin", {{"truth", "0"}, {"from", "4"}, {"count", "1"}});
   ASSERT_EQ(truth.size(), 320u);
   const std::size_t head_z = 40 + 1 * 12 + 8;
-  EXPECT_NEAR(At<float>(poses, head_z) - At<float>(truth, head_z), 12, 1e-3);
+  EXPECT_NEAR(testing::NumberAt<float>(poses, head_z) - testing::NumberAt<float>(truth, head_z), 12,
+              1e-3);
 }
 
 TEST_F(TakeSiteTest, GivesThePictureOfEachCameraThatHasTheFrame) {
   TakeSite site(take_, {result_});
   const std::string all = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   ASSERT_EQ(PicturesIn(all).size(), 3u);
-  EXPECT_EQ(At<double>(all, 8), (testing::kFirstNs + 3 * testing::kPeriodNs) / 1e6);
+  EXPECT_EQ(testing::NumberAt<double>(all, 8), (testing::kFirstNs + 3 * testing::kPeriodNs) / 1e6);
   const std::string late = Get(site, "/pictures.bin", {{"frame", "15"}, {"result", "0"}});
   EXPECT_EQ(PicturesIn(late).size(), 2u) << "the camera in the west missed it";
-  EXPECT_EQ(At<double>(Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}}), 8),
-            At<double>(all, 8))
+  EXPECT_EQ(
+      testing::NumberAt<double>(Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}}), 8),
+      testing::NumberAt<double>(all, 8))
       << "going back";
 }
 
@@ -99,15 +94,15 @@ TEST_F(TakeSiteTest, SilhouettesAndVoxelsComeOnceTheEmptyStudioIsLearned) {
   // It is learned in threads of their own, and no answer waits for them.
   const auto has_voxels = [](const std::string& bytes) {
     const std::size_t last = PicturesIn(bytes).back();
-    const std::size_t floats =
-        At<std::uint32_t>(bytes, last + 16) + At<std::uint32_t>(bytes, last + 20);
+    const std::size_t floats = testing::NumberAt<std::uint32_t>(bytes, last + 16) +
+                               testing::NumberAt<std::uint32_t>(bytes, last + 20);
     const std::size_t end =
-        last + (32 + 4 * floats + At<std::uint32_t>(bytes, last + 24) + 7) / 8 * 8;
+        last + (32 + 4 * floats + testing::NumberAt<std::uint32_t>(bytes, last + 24) + 7) / 8 * 8;
     return end < bytes.size() && bytes[end] == 2;
   };
   std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   while (!has_voxels(bytes)) bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
-  EXPECT_GT(At<std::uint32_t>(bytes, 16), 0u) << "the silhouette's line";
+  EXPECT_GT(testing::NumberAt<std::uint32_t>(bytes, 16), 0u) << "the silhouette's line";
 }
 
 TEST_F(TakeSiteTest, NumbersOfNothingAreRefused) {

@@ -2,17 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include "tests/tools/view/number_at.h"
 
 namespace mocap {
 namespace {
-
-template <typename T>
-T At(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
 
 TEST(Wire, APoseLiesWhereThePageReadsIt) {
   DrawnPose pose;
@@ -30,17 +23,17 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   const std::string bytes = PoseBytes(pose);
   ASSERT_EQ(bytes.size(), 352u);
   EXPECT_EQ(bytes.substr(0, 4), std::string("\1\2\2\1", 4));
-  EXPECT_EQ(At<std::uint16_t>(bytes, 4), 23);
-  EXPECT_EQ(At<std::uint16_t>(bytes, 6), 1);
-  EXPECT_EQ(At<double>(bytes, 8), 1500.25);
-  EXPECT_EQ(At<double>(bytes, 16), 1234.5);
-  EXPECT_EQ(At<double>(bytes, 24), 77);
-  EXPECT_EQ(At<float>(bytes, 32), 12.5f);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 36), 3000u);
-  EXPECT_EQ(At<float>(bytes, 40 + 22 * 12 + 8), 3);
-  EXPECT_EQ(At<float>(bytes, 316 + 12), 50);
-  EXPECT_EQ(At<float>(bytes, 316 + 16), 7);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 348), 300u);
+  EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 4), 23);
+  EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 6), 1);
+  EXPECT_EQ(testing::NumberAt<double>(bytes, 8), 1500.25);
+  EXPECT_EQ(testing::NumberAt<double>(bytes, 16), 1234.5);
+  EXPECT_EQ(testing::NumberAt<double>(bytes, 24), 77);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32), 12.5f);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 36), 3000u);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 40 + 22 * 12 + 8), 3);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 316 + 12), 50);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 316 + 16), 7);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 348), 300u);
 }
 
 voxels_t Cube(int side) {
@@ -58,18 +51,18 @@ voxels_t Cube(int side) {
 
 TEST(Wire, OnlyVoxelsAtTheSurfaceGoOut) {
   const std::string bytes = VoxelBytes(Cube(5), 1);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 4), 125u - 27u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 4), 125u - 27u);
   EXPECT_EQ(bytes.size(), 32u + 8 * (125 - 27));
-  EXPECT_EQ(At<double>(bytes, 8), 2);
-  EXPECT_EQ(At<float>(bytes, 16), 25);
-  EXPECT_EQ(At<float>(bytes, 28), -50);
-  EXPECT_EQ(At<std::int16_t>(bytes, 38), 4);
+  EXPECT_EQ(testing::NumberAt<double>(bytes, 8), 2);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 16), 25);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 28), -50);
+  EXPECT_EQ(testing::NumberAt<std::int16_t>(bytes, 38), 4);
 }
 
 TEST(Wire, VoxelsWithoutLabelsHaveNone) {
   voxels_t voxels = Cube(1);
   voxels.label.clear();
-  EXPECT_EQ(At<std::int16_t>(VoxelBytes(voxels, 0), 38), -1);
+  EXPECT_EQ(testing::NumberAt<std::int16_t>(VoxelBytes(voxels, 0), 38), -1);
 }
 
 TEST(Wire, AForgedGridIsNotBelieved) {
@@ -80,7 +73,7 @@ TEST(Wire, AForgedGridIsNotBelieved) {
   EXPECT_EQ(VoxelBytes(voxels, 0), "");
   voxels = Cube(2);
   voxels.run = {0, 2'000'000'000, -5, 3};
-  EXPECT_EQ(At<std::uint32_t>(VoxelBytes(voxels, 0), 4), 8u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(VoxelBytes(voxels, 0), 4), 8u);
 }
 
 TEST(Wire, AHallFullOfPeopleIsNotBelieved) {
@@ -89,7 +82,7 @@ TEST(Wire, AHallFullOfPeopleIsNotBelieved) {
   voxels.run = {0, 400 * 400 * 400};
   EXPECT_EQ(VoxelBytes(voxels, 0), "");
   voxels.run = {400 * 400 * 400 - 1, 1};
-  EXPECT_EQ(At<std::uint32_t>(VoxelBytes(voxels, 0), 4), 1u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(VoxelBytes(voxels, 0), 4), 1u);
 }
 
 TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
@@ -104,12 +97,12 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   const std::string bytes = PictureBytes(picture);
   EXPECT_EQ(bytes.size() % 8, 0u);
   EXPECT_EQ(bytes[1], 3);
-  EXPECT_EQ(At<std::uint16_t>(bytes, 2), 640);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 16), 8u);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 20), 6u);
-  EXPECT_EQ(At<std::uint32_t>(bytes, 24), 3u);
-  EXPECT_EQ(At<float>(bytes, 32), 3);
-  EXPECT_EQ(At<float>(bytes, 32 + 8 * 4 + 4), 2 + 4 * 1);
+  EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 2), 640);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 16), 8u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 20), 6u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 24), 3u);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32), 3);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 8 * 4 + 4), 2 + 4 * 1);
   EXPECT_EQ(bytes.substr(32 + 14 * 4, 3), "\1\2\3");
 }
 

@@ -31,7 +31,7 @@ Silhouette Common(Silhouette a, const Silhouette& b) {
 }
 
 // Somebody whose trousers one camera cannot tell from the floor, and a shadow beside him.
-class Trousers : public testing::Test {
+class Trousers : public ::testing::Test {
  protected:
   explicit Trousers(const SyntheticStudio& studio = SyntheticStudio()) : studio_(studio) {
     studio_.Show({{{0, 0, 900}, {0, 0, 1600}, 180}});

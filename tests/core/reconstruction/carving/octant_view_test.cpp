@@ -9,7 +9,7 @@
 namespace mocap {
 namespace {
 
-class OctantViewTest : public testing::Test {
+class OctantViewTest : public ::testing::Test {
  protected:
   OctantViewTest() {
     studio_.Show(StandingPerson(0, 0));

@@ -22,7 +22,7 @@ VoxelGrid Speckled() {
   return grid;
 }
 
-class BlockOfCells : public testing::TestWithParam<AlignedBox3i> {
+class BlockOfCells : public ::testing::TestWithParam<AlignedBox3i> {
  protected:
   const VoxelGrid grid_ = Speckled();
 };
@@ -55,11 +55,11 @@ TEST_P(BlockOfCells, AndWhatLiesBesideAreAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VoxelBlock, BlockOfCells,
-                         testing::Values(AlignedBox3i(Vector3i(0, 0, 0), Vector3i(149, 6, 4)),
-                                         AlignedBox3i(Vector3i(3, 1, 1), Vector3i(66, 5, 3)),
-                                         AlignedBox3i(Vector3i(64, 0, 0), Vector3i(127, 6, 4)),
-                                         AlignedBox3i(Vector3i(70, 2, 2), Vector3i(149, 2, 2)),
-                                         AlignedBox3i(Vector3i(149, 6, 4), Vector3i(149, 6, 4))));
+                         ::testing::Values(AlignedBox3i(Vector3i(0, 0, 0), Vector3i(149, 6, 4)),
+                                           AlignedBox3i(Vector3i(3, 1, 1), Vector3i(66, 5, 3)),
+                                           AlignedBox3i(Vector3i(64, 0, 0), Vector3i(127, 6, 4)),
+                                           AlignedBox3i(Vector3i(70, 2, 2), Vector3i(149, 2, 2)),
+                                           AlignedBox3i(Vector3i(149, 6, 4), Vector3i(149, 6, 4))));
 
 TEST(VoxelBlock, OfABoxAreTheCellsThatItTouches) {
   const VoxelGrid grid = Speckled();

@@ -15,15 +15,15 @@ namespace mocap {
 namespace {
 
 // Neither is a multiple of a tile.
-constexpr int kWidth = 203;
-constexpr int kHeight = 149;
+constexpr int kScanWidth = 203;
+constexpr int kScanHeight = 149;
 constexpr PixelBox kPerson{60, 20, 99, 119};
 
 class CoarseScanTest : public ::testing::Test {
  protected:
   CoarseScanTest()
       : sensor_(2.0f, 31),
-        studio_(EmptyStudio(kWidth, kHeight)),
+        studio_(EmptyStudio(kScanWidth, kScanHeight)),
         background_(LearnFixedBackground(TakeBackground(studio_, 30, sensor_), 0.999)) {}
 
   const Conditions& Compare(const Image<Bgr>& image) {
@@ -103,8 +103,8 @@ TEST_F(CoarseScanTest, TheHardEdgeOfWhatIsGreyIsSuspicious) {
 
 TEST_F(CoarseScanTest, DriftOfWallsIsMeasured) {
   ExactPicture picture = studio_;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kScanHeight; ++y) {
+    for (int x = 0; x < kScanWidth; ++x) {
       const auto drift = static_cast<float>(5 * std::sin(x / 15.0) * std::cos(y / 20.0));
       picture(x, y)[0] += drift;
       picture(x, y)[2] -= drift;
@@ -115,9 +115,9 @@ TEST_F(CoarseScanTest, DriftOfWallsIsMeasured) {
 
 TEST_F(CoarseScanTest, ShiftsOfContoursAreMeasured) {
   const auto stripes = [](float shift) {
-    ExactPicture picture = EmptyStudio(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    ExactPicture picture = EmptyStudio(kScanWidth, kScanHeight);
+    for (int y = 0; y < kScanHeight; ++y)
+      for (int x = 0; x < kScanWidth; ++x)
         for (float& value : picture(x, y))
           value += 50 * std::sin((static_cast<float>(x) + shift) / 5);
     return picture;

@@ -8,18 +8,18 @@
 namespace mocap {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kThresholdWidth = 160;
+constexpr int kThresholdHeight = 120;
 
 TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearned) {
   NoisySensor sensor(2.0f, 13);
-  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
+  const ExactPicture studio = EmptyStudio(kThresholdWidth, kThresholdHeight);
   for (const double rate : {0.99, 0.999}) {
     SCOPED_TRACE(rate);
     const auto background = LearnFixedBackground(TakeBackground(studio, 30, sensor), rate);
     const DistortionThresholds& t = background->thresholds();
     RegionOfInterest everything;
-    everything.SetAll(kWidth, kHeight);
+    everything.SetAll(kThresholdWidth, kThresholdHeight);
     DistortionScan scan;
     CoarseScan coarse;
     int cd = 0, low = 0, high = 0, all = 0;
@@ -28,10 +28,10 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
       coarse.Compare(background->CoarsePass({}, {}), image.view());
       scan.Begin(background->Expect(everything, {}), image.view(), coarse.conditions().gain,
                  everything);
-      static_assert(kHeight % 2 == 0);
-      for (int y = 0; y < kHeight; y += 2) {
+      static_assert(kThresholdHeight % 2 == 0);
+      for (int y = 0; y < kThresholdHeight; y += 2) {
         for (const DistortionScan::Row& row : scan.Next().rows) {
-          for (int x = 0; x < kWidth; ++x) {
+          for (int x = 0; x < kThresholdWidth; ++x) {
             const float alpha = row.alpha_shift[x] * row.alpha_weight[x];
             cd += row.cd_sq[x] > t.cd * t.cd;
             low += alpha < t.alpha_low;

@@ -17,19 +17,21 @@
 namespace mocap {
 namespace {
 
-constexpr int kWidth = 300, kHeight = 90;
+constexpr int kOutlineWidth = 300, kOutlineHeight = 90;
 constexpr std::array<float, 3> kGain = {1.1f, 0.9f, 1.0f};
 
 // A person of other colours than the room, its edges torn, a pixel to the right of its silhouette,
 // and all of it noisy.
 struct Scene {
   explicit Scene(unsigned seed)
-      : expected(kWidth, kHeight), image(kWidth, kHeight), alpha_shift(kWidth, kHeight) {
+      : expected(kOutlineWidth, kOutlineHeight),
+        image(kOutlineWidth, kOutlineHeight),
+        alpha_shift(kOutlineWidth, kOutlineHeight) {
     std::mt19937 random(seed);
     const auto number = [&](int from, int to) {
       return std::uniform_int_distribution<int>(from, to)(random);
     };
-    Silhouette person(kWidth, kHeight);
+    Silhouette person(kOutlineWidth, kOutlineHeight);
     for (const auto& [x, y, size] : {std::array{0, 0, 20},
                                      {50, 30, 25},
                                      {140, 10, 30},
@@ -41,8 +43,8 @@ struct Scene {
              u < std::min(x + size + number(-2, 2), person.width()); ++u)
           person.Set(u, v);
     silhouette = person;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kOutlineHeight; ++y) {
+      for (int x = 0; x < kOutlineWidth; ++x) {
         const bool is_person = x > 0 && person.Test(x - 1, y);
         const auto channel = [&](int level) {
           return static_cast<std::uint8_t>(level + number(0, 40));
@@ -51,10 +53,10 @@ struct Scene {
                                 : Bgr{channel(80), channel(90), channel(100)};
         alpha_shift(x, y) = static_cast<float>(number(-100, 100)) / 500;
         const auto level = [&](int middle) { return static_cast<float>(middle + number(0, 30)); };
-        expected.SetPixel(static_cast<std::size_t>(y) * kWidth + x,
+        expected.SetPixel(static_cast<std::size_t>(y) * kOutlineWidth + x,
                           {level(80), level(90), level(110)}, {2, 2, 2});
       }
-      expected.Weigh(0, y, 0, kWidth);
+      expected.Weigh(0, y, 0, kOutlineWidth);
     }
   }
   ExpectedPicture expected;
@@ -112,8 +114,8 @@ TEST(OutlineRefiner, KeepsWhatThePersonCoversByHalf) {
         bool is_set = was_set;
         // Rows are judged in pairs, and columns in eights, if all that is around them is known.
         const int top = y - (y + 1) % 2, left = x / 8 * 8;
-        const bool is_at_edge =
-            top < 3 || top + 5 > kHeight || left < OutlineRefiner::kMargin_px || left + 12 > kWidth;
+        const bool is_at_edge = top < 3 || top + 5 > kOutlineHeight ||
+                                left < OutlineRefiner::kMargin_px || left + 12 > kOutlineWidth;
         if (near.Test(x, y) && !inside.Test(x, y) && !is_at_edge) {
           const Block block(scene, inside, near, x - (x + 1) % 2, y - (y + 1) % 2);
           const std::optional<double> cover = block.CoverOf(scene, x, y);

@@ -14,20 +14,20 @@
 namespace mocap {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kClassifiedWidth = 160;
+constexpr int kClassifiedHeight = 120;
 
 class PixelClassifierTest : public ::testing::Test {
  protected:
   PixelClassifierTest()
       : sensor_(2.0f, 11),
-        studio_(EmptyStudio(kWidth, kHeight)),
+        studio_(EmptyStudio(kClassifiedWidth, kClassifiedHeight)),
         background_(LearnFixedBackground(TakeBackground(studio_, 30, sensor_), 0.999)),
         classifier_(background_->thresholds(), 0.7f) {}
 
   void Classify(const ExactPicture& picture) {
     RegionOfInterest everything;
-    everything.SetAll(kWidth, kHeight);
+    everything.SetAll(kClassifiedWidth, kClassifiedHeight);
     classifier_.Classify(background_->Expect(everything, {}), sensor_.Take(picture).view(), {},
                          everything);
   }
@@ -67,7 +67,8 @@ TEST(PixelClassifier, DecisionsEndWhereThePictureDoes) {
 
 TEST_F(PixelClassifierTest, TheEmptyStudioIsBackground) {
   Classify(studio_);
-  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kWidth - 1, kHeight - 1}), 0.001);
+  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kClassifiedWidth - 1, kClassifiedHeight - 1}),
+            0.001);
 }
 
 TEST_F(PixelClassifierTest, WhatIsEvenlyDarkerIsShadow) {
@@ -109,15 +110,16 @@ TEST_F(PixelClassifierTest, WhatIsMuchBrighterIsForeground) {
 
 TEST_F(PixelClassifierTest, ASoftEdgedShadowIsNoForegroundAnywhere) {
   ExactPicture picture = studio_;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kClassifiedHeight; ++y) {
+    for (int x = 0; x < kClassifiedWidth; ++x) {
       const float distance = std::hypot(static_cast<float>(x - 80), static_cast<float>(y - 60));
       const float depth = 0.25f / (1 + std::exp((distance - 30) / 4));
       Dim(picture, {x, y, x, y}, 1 - depth);
     }
   }
   Classify(picture);
-  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kWidth - 1, kHeight - 1}), 0.001);
+  EXPECT_LT(ShareOf(classifier_.foreground(), {0, 0, kClassifiedWidth - 1, kClassifiedHeight - 1}),
+            0.001);
 }
 
 TEST_F(PixelClassifierTest, ClothOfAShadowsBrightnessIsToldApartByItsGrain) {
@@ -240,45 +242,45 @@ TEST_F(PixelClassifierTest, AgreesWithItsDefinitionPixelByPixel) {
   ExactPicture picture = studio_;
   Dim(picture, {0, 0, 40, 40}, 0.8f);
   Paint(picture, {30, 20, 62, 80}, {95, 105, 118});
-  Paint(picture, {100, 90, kWidth - 1, kHeight - 1}, {60, 60, 90});
+  Paint(picture, {100, 90, kClassifiedWidth - 1, kClassifiedHeight - 1}, {60, 60, 90});
   for (int y = 60; y < 100; ++y)
     for (int x = 20; x < 90; ++x) picture(x, y)[0] += static_cast<float>(y - 60) / 6;
   const Image<Bgr> image = sensor_.Take(picture);
   RegionOfInterest everything;
-  everything.SetAll(kWidth, kHeight);
+  everything.SetAll(kClassifiedWidth, kClassifiedHeight);
   const ExpectedPicture& expected = background_->Expect(everything, {});
   classifier_.Classify(expected, image.view(), {}, everything);
   const PlainClassifier plain(expected, image, background_->thresholds(), 0.7f);
   int foreground = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kClassifiedHeight; ++y) {
+    for (int x = 0; x < kClassifiedWidth; ++x) {
       ASSERT_EQ(classifier_.foreground().Test(x, y), plain.IsForeground(x, y)) << x << " " << y;
       foreground += plain.IsForeground(x, y);
     }
   }
   EXPECT_GT(foreground, 2000);
-  EXPECT_LT(foreground, kWidth * kHeight / 2);
+  EXPECT_LT(foreground, kClassifiedWidth * kClassifiedHeight / 2);
 }
 
 TEST_F(PixelClassifierTest, ARegionOfInterestShowsWhatTheWholePictureShows) {
   ExactPicture picture = studio_;
   Paint(picture, kPatch, {90, 100, 160});
-  Paint(picture, {120, 0, kWidth - 1, 20}, {60, 60, 90});
+  Paint(picture, {120, 0, kClassifiedWidth - 1, 20}, {60, 60, 90});
   const Image<Bgr> image = sensor_.Take(picture);
   RegionOfInterest everything, part;
-  everything.SetAll(kWidth, kHeight);
-  Silhouette suspicious(kWidth / 8, kHeight / 8);
+  everything.SetAll(kClassifiedWidth, kClassifiedHeight);
+  Silhouette suspicious(kClassifiedWidth / 8, kClassifiedHeight / 8);
   for (int y = 3; y <= 7; ++y)
     for (int x = 5; x <= 8; ++x) suspicious.Set(x, y);
   for (int x = 15; x < 20; ++x)
     for (int y = 0; y <= 2; ++y) suspicious.Set(x, y);
-  part.Set(suspicious, kWidth, kHeight);
+  part.Set(suspicious, kClassifiedWidth, kClassifiedHeight);
   const ExpectedPicture& expected = background_->Expect(everything, {});
   classifier_.Classify(expected, image.view(), {}, everything);
   const Silhouette whole = classifier_.foreground();
   classifier_.Classify(expected, image.view(), {}, part);
   int judged = 0;
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kClassifiedHeight; ++y) {
     part.ForEachJudged(y, [&](const PixelRun& run) {
       // Windows that reach beyond are taken for background.
       for (int x = run.begin; x < run.end; ++x, ++judged)
