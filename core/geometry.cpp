@@ -33,6 +33,10 @@ Matrix3 NearestRotation(const Matrix3& R) {
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
+Eigen::Quaterniond RotationBetween(const Vector3& from, const Vector3& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 RigidTransform RotationAbout(const Vector3& axis, const Vector3& point, double angle) {
   const Matrix3 R = ExpRotation(axis * angle);
   return {R, point - R * point};

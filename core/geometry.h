@@ -31,6 +31,10 @@ Vector3 LogRotation(const Matrix3& R);
 /// @param R  with a positive determinant.
 Matrix3 NearestRotation(const Matrix3& R);
 
+/// Returns the shortest rotation from one direction to another. Compiling Eigen's costs seconds, so
+/// that is done in one place.
+Eigen::Quaterniond RotationBetween(const Vector3& from, const Vector3& to);
+
 /// Transforms points from one frame to another: p_A = R_AB p_B + p_AB.
 struct RigidTransform {
   Matrix3 R = Matrix3::Identity();

@@ -52,7 +52,7 @@ bool Cylinder::Contains(const Vector3& p_WQ) const {
 }
 
 void Cylinder::TurnTo(const Vector3& axis) {
-  side_W = Eigen::Quaterniond::FromTwoVectors(axis_W, axis) * side_W;
+  side_W = RotationBetween(axis_W, axis) * side_W;
   axis_W = axis;
 }
 

@@ -77,7 +77,7 @@ PoseState MoveToTorso(const BodyModel& body, const PoseState& predicted, const V
                       const Vector3& down_W) {
   PoseState moved = predicted;
   const Vector3 up_W = predicted.X_WT.R.col(2);
-  moved.X_WT.R = Eigen::Quaterniond::FromTwoVectors(up_W, -down_W) * predicted.X_WT.R;
+  moved.X_WT.R = RotationBetween(up_W, -down_W) * predicted.X_WT.R;
   const Vector3 neck_T = body.reference_points_T().col(static_cast<int>(Point::kNeck));
   moved.X_WT.p = neck_W - moved.X_WT.R * neck_T;
   return moved;

@@ -202,8 +202,7 @@ BodyPose Gait::PoseAt(double t_s) const {
                     left * style_.sway_mm * stance * (0.4 + 0.6 * effort);
   pose.p_WPelvis << p.x(), p.y(), 0;
   const Vector3 up = Vector3(lean.x(), lean.y(), 1).normalized();
-  const Matrix3 R_lean =
-      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up).toRotationMatrix();
+  const Matrix3 R_lean = RotationBetween(Vector3::UnitZ(), up).toRotationMatrix();
   pose.R_WPelvis =
       R_lean * Turn(Vector3::UnitZ(), track.yaw - effort * style_.hip_yaw * stride) *
       Turn(Vector3::UnitY(), 0.4 * effort * style_.lean) *

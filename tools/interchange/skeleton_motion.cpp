@@ -65,7 +65,7 @@ class Poser {
     if (!IsAiming(joint)) return Matrix3::Identity();
     const Vector3 direction = R_WParent.transpose() * (places_W[joint + 1] - places_W[joint]);
     // The shortest rotation: points do not show a rotation about the bone itself.
-    return Eigen::Quaterniond::FromTwoVectors(direction_T_[joint], direction).toRotationMatrix();
+    return RotationBetween(direction_T_[joint], direction).toRotationMatrix();
   }
 
   JointOffsets PlacesOf(const PoseRow& row) const {
