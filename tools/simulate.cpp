@@ -205,6 +205,11 @@ void AddSimulateCommand(CLI::App& app) {
   command->add_option("--seconds", options->studio.seconds, "length of the take [s]")
       ->check(NumberFrom(0.001, 86400))
       ->capture_default_str();
+  command
+      ->add_option("--begin", options->studio.begin_s,
+                   "how much of the motion has passed when the take begins [s]")
+      ->check(NumberFrom(0, 86400))
+      ->capture_default_str();
   command->add_option("--fps", options->studio.fps, "frames per second")
       ->check(NumberFrom(1, 1000))
       ->capture_default_str();

@@ -96,6 +96,14 @@ Motions SitAmong(Bodies bodies, std::uint64_t seed, decltype(MakeSit) make) {
   return motions;
 }
 
+Motions LieAmong(Bodies bodies, std::uint64_t seed) {
+  const double direction = Random(Mix(seed, Tag("floor"))).Uniform(0, kTurn);
+  Motions motions;
+  motions.push_back(MakeLie(bodies[0], {Vector2::Zero(), direction}));
+  AddRound(bodies.subspan(1), WalkingStyle, 1500, 1080, seed, motions);
+  return motions;
+}
+
 Motions StandInDoorway(Bodies bodies, std::uint64_t seed) {
   Motions motions;
   motions.push_back(MakeStand(bodies[0], {Vector2(kDoorX_mm - 25, kDoorY_mm), 0}, seed));
@@ -224,6 +232,7 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
   if (name == "dance") return DanceTogether(bodies, seed);
   if (name == "sit") return SitAmong(bodies, seed, MakeSit);
   if (name == "rest") return SitAmong(bodies, seed, MakeRest);
+  if (name == "lie") return LieAmong(bodies, seed);
   if (name == "doorway") return StandInDoorway(bodies, seed);
   if (name == "visit") return VisitThoseWhoStay(bodies, seed);
   if (name == "meet") return Meet(bodies, seed);

@@ -133,6 +133,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "jump") return MakeJump(body, RandomSpot(seed), seed);
   if (name == "sit") return MakeSit(body, RandomSpot(seed));
   if (name == "rest") return MakeRest(body, RandomSpot(seed));
+  if (name == "lie") return MakeLie(body, RandomSpot(seed));
   if (name == "step") return MakeStep(body, RandomSpot(seed));
   if (name == "stand") return MakeStand(body, RandomSpot(seed), seed);
   std::string wanted;

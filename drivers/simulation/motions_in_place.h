@@ -25,6 +25,8 @@ std::unique_ptr<const Motion> MakeJump(const Anthropometry& body, const Spot& sp
 std::unique_ptr<const Motion> MakeSit(const Anthropometry& body, const Spot& spot);
 /// Sits down on a stool, sits still for a minute, and stands up.
 std::unique_ptr<const Motion> MakeRest(const Anthropometry& body, const Spot& spot);
+/// Lies down on the back, lies still for a minute, and gets up.
+std::unique_ptr<const Motion> MakeLie(const Anthropometry& body, const Spot& spot);
 /// Steps up a block and down again, one foot after the other.
 std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& spot);
 /// Stands with slightly raised arms and sways.

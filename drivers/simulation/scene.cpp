@@ -41,6 +41,8 @@ void Check(const SimulatedStudioOptions& options) {
   }
   if (!(options.seconds >= 0 && options.seconds < 1e6))
     refuse("seconds", options.seconds, "0 to 1000000");
+  if (!(options.begin_s >= 0 && options.begin_s < 1e6))
+    refuse("begin_s", options.begin_s, "0 to 1000000");
 }
 
 // The middle of the trunk, limited to where heads can follow it.
@@ -96,7 +98,8 @@ std::vector<Person> MakePeople(const SimulatedStudioOptions& options) {
       MakeCompany(options.motion, bodies, options.seed);
   std::vector<Person> people;
   for (int i = 0; i < options.people; ++i)
-    people.emplace_back(bodies[i], std::move(motions[i]), options.start_ns);
+    people.emplace_back(bodies[i], std::move(motions[i]),
+                        options.start_ns - std::llround(options.begin_s * 1e9));
   return people;
 }
 

@@ -38,6 +38,7 @@ struct SimulatedStudioOptions {
   /// Capture time at which the motion begins. It may stay 0 in real time: the motion then follows
   /// the clock, and any process with these options can compute the truth of a capture time.
   std::int64_t start_ns = 0;
+  double begin_s = 0;  ///< How much of the motion has passed at start_ns.
 };
 
 /// Options for frames rendered as fast as possible, starting at a fixed time: 1000 s after the Unix

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mocap::simulation {
 namespace {
@@ -70,18 +71,6 @@ void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, Bo
                      Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + 0.012 * body.stature_mm)};
 }
 
-// A two-link limb that reaches over a distance: the angles of the triangle, by the law of cosines.
-struct Fold {
-  double bend;     // At the joint between the links; 0 when they are in line.
-  double at_root;  // Between the line to the target and the first link.
-};
-
-Fold FoldTo(double distance_mm, double a, double b) {
-  const double distance = std::clamp(distance_mm, 0.3 * (a + b), 0.9999 * (a + b));
-  return {std::numbers::pi - std::acos((a * a + b * b - distance * distance) / (2 * a * b)),
-          std::acos((a * a + distance * distance - b * b) / (2 * a * distance))};
-}
-
 }  // namespace
 
 BonePoses PlaceBones(const Anthropometry& body, const BodyPose& pose) {
@@ -129,6 +118,12 @@ TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones) {
     set(TruthPoint::kToeL, side, bones[kToesL + side] * Vector3(toe_mm, 0, 0));
   }
   return points;
+}
+
+LimbFold FoldTo(double distance_mm, double a_mm, double b_mm) {
+  const double d = std::clamp(distance_mm, 0.3 * (a_mm + b_mm), 0.9999 * (a_mm + b_mm));
+  return {std::numbers::pi - std::acos((a_mm * a_mm + b_mm * b_mm - d * d) / (2 * a_mm * b_mm)),
+          std::acos((a_mm * a_mm + d * d - b_mm * b_mm) / (2 * a_mm * d))};
 }
 
 void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, BodyPose& pose) {

@@ -133,6 +133,13 @@ struct FootTarget {
   double toes_rad = 0;  ///< Extension of the toes against the foot.
 };
 
+/// Angles of a limb of two links that reaches over a distance, by the law of cosines [rad].
+struct LimbFold {
+  double bend = 0;     ///< Between the links; 0 when they are in line.
+  double at_root = 0;  ///< From the line to the target to the first link.
+};
+LimbFold FoldTo(double distance_mm, double first_mm, double second_mm);
+
 /// Bends a leg to bring its foot to the target, with the knee in the foot's direction. A target out
 /// of reach is approached with a straight leg.
 void PlaceLeg(const Anthropometry& body, int side, const FootTarget& target, BodyPose& pose);

@@ -12,7 +12,8 @@
 namespace mocap {
 namespace {
 
-constexpr std::array kMotions = {"walk", "dance", "stand", "sit", "run", "step", "jump"};
+constexpr std::array kMotions = {"walk", "dance", "stand", "sit", "run", "step", "jump", "lie"};
+constexpr double kLatestBegin_s = 8;
 constexpr double kFoundLate_s = 0.5, kLostLong_s = 0.3;
 constexpr std::size_t kWorst = 10;
 
@@ -65,6 +66,9 @@ VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming) {
       std::round(simulation::Random(simulation::Mix(seed, simulation::Tag("varied stature")))
                      .Uniform(1150, 1980));
   trial.studio.seconds = seconds;
+  // In the middle of a motion: crouched, in the air, lying.
+  trial.studio.begin_s = simulation::Random(simulation::Mix(seed, simulation::Tag("varied begin")))
+                             .Uniform(0, kLatestBegin_s);
   trial.studio.fps = filming.fps;
   trial.studio.cameras = filming.cameras;
   trial.covered_share = filming.covered_share;

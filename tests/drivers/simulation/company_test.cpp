@@ -191,6 +191,18 @@ TEST(Company, WhoRestsSitsStillForAMinuteWhileOthersWalk) {
   EXPECT_GT(points(0, 67)[0].z(), first[0].z() + 300) << "and stands up";
 }
 
+TEST(Company, WhoLiesStaysOnTheFloorForAMinuteWhileOthersWalk) {
+  const std::vector<Person> people = MakePeople(Company("lie", 2));
+  const auto points = [&](int i, double t_s) {
+    return PointsOf(people[i].body(), people[i].BonesAt(Ns(t_s)));
+  };
+  const TruePoints first = points(0, 6);
+  for (const Vector3& p_W : first) EXPECT_LT(p_W.z(), 350);
+  for (double t_s = 6; t_s < 64; t_s += 0.5) EXPECT_EQ(points(0, t_s), first) << "at " << t_s;
+  EXPECT_GT((points(1, 7)[0] - points(1, 6)[0]).norm(), 500);
+  EXPECT_GT(points(0, 71)[0].z(), first[0].z() + 700) << "and gets up";
+}
+
 TEST(Company, WhoStandsInTheDoorwayIsHalfOutside) {
   const std::vector<Person> people = MakePeople(Company("doorway", 2));
   int outside = 0, inside = 0;

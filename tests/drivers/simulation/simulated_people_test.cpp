@@ -39,6 +39,16 @@ TEST(SimulatedPeople, LeaveTheFirstAndTheRoomAsOneHasThem) {
             Pixels(SimulatedStudio(SmallStudio("walk", 1)).Background(2)[5].image.view()));
 }
 
+TEST(SimulatedPeople, MayBeInTheMiddleOfTheirMotionAtTheStart) {
+  SimulatedStudioOptions options = SmallStudio("lie", 2);
+  const SimulatedTruth whole(options);
+  options.begin_s = 8;
+  const SimulatedTruth late(options);
+  for (int person = 0; person < 2; ++person)
+    EXPECT_EQ(late.At(options.start_ns, person),
+              whole.At(options.start_ns + 8'000'000'000, person));
+}
+
 // Each figure alone, and all together, before the same empty view.
 TEST(SimulatedPeople, AreSeenAsIfAloneWhereNobodyStandsBefore) {
   const SimulatedStudioOptions options = SmallStudio("dance", 3);

@@ -386,6 +386,7 @@ TEST(SimulatedStudio, OptionsThatCannotBeAreRefused) {
   refused([](auto& o) { o.people = 0; });
   refused([](auto& o) { o.people = 5; });
   refused([](auto& o) { o.motion = "meet"; });
+  refused([](auto& o) { o.begin_s = -1; });
   refused([](auto& o) { o.stature_mm = 300; });
   refused([](auto& o) { o.stature_mm = std::numeric_limits<double>::quiet_NaN(); });
   refused([](auto& o) { o.fps = 0; });

@@ -60,5 +60,26 @@ TEST(PeopleTrial, FindsTwoWhoStandApart) {
   EXPECT_EQ(RunPeopleTrial(studio).mpjpe_mm, row.mpjpe_mm);
 }
 
+class WhoStaysInPlace : public ::testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Simulated, WhoStaysInPlace, ::testing::Values("rest", "lie", "doorway"),
+                         [](const auto& motion) { return std::string(motion.param); });
+
+TEST_P(WhoStaysInPlace, IsNeitherFurnitureNorPartOfWhoWalksAround) {
+  SimulatedStudioOptions studio = RecordedSimulation();
+  studio.motion = GetParam();
+  studio.people = 2;
+  studio.width_px = 320;
+  studio.height_px = 240;
+  studio.fps = 10;
+  studio.seconds = 9;
+  const PeopleRow row = RunPeopleTrial(studio);
+  EXPECT_EQ(row.never_found, 0);
+  EXPECT_EQ(row.switches, 0);
+  EXPECT_EQ(row.phantom_s, 0);
+  EXPECT_LT(row.longest_lost_s, 0.5);
+  EXPECT_LT(row.worst_person_mm, 60);
+}
+
 }  // namespace
 }  // namespace mocap
