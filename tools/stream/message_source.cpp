@@ -1,11 +1,11 @@
 #include "tools/stream/message_source.h"
 
+#include <cerrno>
 #include <stdexcept>
 
 #include "config/lcm_url.h"
 #include "core/errors.h"
 #include "daemon/messages/open_lcm.h"
-#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -32,8 +32,9 @@ MessageSource::MessageSource(const std::string& url) : url_(url) {
 
 bool MessageSource::Handle(std::chrono::milliseconds longest_wait) {
   if (player_) return player_->Play(longest_wait);
+  errno = 0;
   // A signal ends the wait, too.
-  if (live_->handleTimeout(static_cast<int>(longest_wait.count())) < 0 && !StopAsked())
+  if (live_->handleTimeout(static_cast<int>(longest_wait.count())) < 0 && errno != EINTR)
     throw std::runtime_error(url_ + ": LCM failed");
   return true;
 }
