@@ -27,8 +27,8 @@ namespace {
 // Defaults of a part.
 constexpr double kSeconds = 10, kPeopleSeconds = 20;
 constexpr int kSeeds = 3, kPeopleSeeds = 2, kVariedPeople = 200;
-const std::vector<std::string> kMotions = {"walk", "run",  "jump", "dance",
-                                           "sit",  "step", "lie",  "stand"};
+const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
+                                           "step", "lie", "stand", "gesture"};
 const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
 
 struct BenchmarkOptions {

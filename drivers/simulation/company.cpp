@@ -238,6 +238,7 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
   if (name == "meet") return Meet(bodies, seed);
   if (name == "jump") return InPlaces(bodies, seed, MakeJump);
   if (name == "stand") return InPlaces(bodies, seed, MakeStand);
+  if (name == "gesture") return InPlaces(bodies, seed, MakeGesture);
   if (name == "step")
     return InPlaces(bodies, seed, [](const Anthropometry& body, const Spot& spot, std::uint64_t) {
       return MakeStep(body, spot);

@@ -15,9 +15,9 @@ namespace mocap::simulation {
 inline constexpr int kMostSimulatedPeople = 4;
 
 /// Motions of several people: all motions of one person, meeting, and one in the doorway.
-inline constexpr std::array<std::string_view, 12> kCompanyMotionNames = {
-    "walk", "run",  "jump",  "dance", "sit",  "rest",
-    "lie",  "step", "stand", "visit", "meet", "doorway"};
+inline constexpr std::array<std::string_view, 13> kCompanyMotionNames = {
+    "walk", "run",   "jump",    "dance", "sit",  "rest",   "lie",
+    "step", "stand", "gesture", "visit", "meet", "doorway"};
 
 /// Makes a motion for each person. A single person moves as in MakeMotion(). Several people:
 ///
@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 12> kCompanyMotionNames = {
 /// for a minute · lie: so, but the first lies on the floor · doorway: the first stands half
 /// outside, the others walk around · visit: the first half stay, the others come in through the
 /// door one after the other, walk around those and leave · meet: pairs walk up to each other, shake
-/// hands and part; a third person stands by · jump, step, stand: each in a separate place.
+/// hands and part; a third person stands by · jump, step, stand, gesture: each in a separate place.
 ///
 /// @param bodies  1 to kMostSimulatedPeople.
 /// @return        one motion per body, in their order.

@@ -136,6 +136,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "lie") return MakeLie(body, RandomSpot(seed));
   if (name == "step") return MakeStep(body, RandomSpot(seed));
   if (name == "stand") return MakeStand(body, RandomSpot(seed), seed);
+  if (name == "gesture") return MakeGesture(body, RandomSpot(seed), seed);
   std::string wanted;
   for (const std::string_view known : kMotionNames)
     wanted += (wanted.empty() ? "" : ", ") + std::string(known);

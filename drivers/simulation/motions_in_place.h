@@ -33,4 +33,8 @@ std::unique_ptr<const Motion> MakeStep(const Anthropometry& body, const Spot& sp
 std::unique_ptr<const Motion> MakeStand(const Anthropometry& body, const Spot& spot,
                                         std::uint64_t seed);
 
+/// Stands, stretches the arms overhead, holds the hands before the face, and folds them.
+std::unique_ptr<const Motion> MakeGesture(const Anthropometry& body, const Spot& spot,
+                                          std::uint64_t seed);
+
 }  // namespace mocap::simulation

@@ -12,7 +12,8 @@
 namespace mocap {
 namespace {
 
-constexpr std::array kMotions = {"walk", "dance", "stand", "sit", "run", "step", "jump", "lie"};
+constexpr std::array kMotions = {"walk", "dance", "stand", "sit",    "run",
+                                 "step", "jump",  "lie",   "gesture"};
 constexpr double kLatestBegin_s = 8;
 constexpr double kFoundLate_s = 0.5, kLostLong_s = 0.3;
 constexpr std::size_t kWorst = 10;
