@@ -285,7 +285,9 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
   const auto best = [&](LimbSearch& search, LimbSearch&) {
     FindBest(search, StancesOf(left), present.pose, kPairRefined);
   };
-  const Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
+  Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
+  if (pair.cost_mm > present.cost_mm + kWorthDrawingMm) return false;
+  DrawNear(body, fit, pair);
   return Offer(pair, kBetterMm, present);
 }
 
