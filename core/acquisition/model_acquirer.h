@@ -1,4 +1,4 @@
-// §7: finds an unknown person and measures the body while tracking it. Fig. 9.
+// Replaces §7 and Fig. 9: finds an unknown person and measures the body while tracking it.
 #pragma once
 
 #include <optional>

@@ -255,11 +255,10 @@ void NormalizeBlocks(const DistortionRowPair& pair, int blocks, std::size_t wind
   if (window == 1) NormalizeSize<1>(pair, blocks, to);
 }
 
-void NormalizeRow(const DistortionRow& row, int count, float* cd, float* low, float* high) {
+void NormalizeRow(const DistortionRow& row, int count, float* cd, float* darker) {
   for (int x = 0; x < count; ++x) {
     cd[x] = std::sqrt(row.cd_sq[x]);
-    high[x] = row.alpha_shift[x] * row.alpha_weight[x];
-    low[x] = -high[x];
+    darker[x] = -row.alpha_shift[x] * row.alpha_weight[x];
   }
 }
 
@@ -286,8 +285,8 @@ void NormalizeWindows(const DistortionRowPair& pair, int blocks, std::size_t win
 }
 
 HWY_EXPORT(NormalizeRow);
-void NormalizePixels(const DistortionRow& row, int count, float* cd, float* low, float* high) {
-  HWY_DYNAMIC_DISPATCH(NormalizeRow)(row, count, cd, low, high);
+void NormalizePixels(const DistortionRow& row, int count, float* cd, float* darker) {
+  HWY_DYNAMIC_DISPATCH(NormalizeRow)(row, count, cd, darker);
 }
 
 }  // namespace mocap::kernels

@@ -103,6 +103,7 @@ void NormalizeWindows(const DistortionRowPair& pair, int blocks, std::size_t win
                       const std::array<WindowRow, 2>& to);
 
 /// Measures the distortions of single pixels of a row, normalised.
-void NormalizePixels(const DistortionRow& row, int count, float* cd, float* low, float* high);
+/// @param darker  how much darker than the background; negative if brighter.
+void NormalizePixels(const DistortionRow& row, int count, float* cd, float* darker);
 
 }  // namespace mocap::kernels

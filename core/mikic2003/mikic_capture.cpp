@@ -179,7 +179,7 @@ const CaptureResult& MikicCapture::Update(const Sighting& sighting, std::int64_t
 void MikicCapture::Forget() { impl_->StartOver({}); }
 void MikicCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
 const CaptureResult& MikicCapture::result() const { return impl_->result(); }
-// The filter's own prediction is that of points in Fig. 12; between frames a person stays near.
+// F is the identity: the prediction is the last pose.
 PoseState MikicCapture::PredictedPose(std::int64_t) const { return impl_->result().pose; }
 const BodyModel& MikicCapture::body() const { return impl_->body(); }
 int MikicCapture::acquisition_frames() const { return impl_->acquisition_frames(); }

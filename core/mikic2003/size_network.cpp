@@ -7,7 +7,7 @@
 namespace mocap::mikic2003 {
 namespace {
 
-// Table 3 [mm].
+// Standard deviations of Table 3 [mm]. Its weights β are in limbs.h.
 constexpr double kTorsoMean = 500, kTorsoStd = 300;
 constexpr double kProportionStd = 100;   // Thigh, Calf, UpperArm, LowerArm given Torso.
 constexpr double kMeasurementStd = 200;  // Thm, Cm, UAm, LAm.

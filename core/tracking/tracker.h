@@ -1,4 +1,4 @@
-// §6: tracks a body of known sizes from frame to frame. Fig. 4.
+// Replaces §6 and Fig. 4: tracks a body of known sizes from frame to frame.
 #pragma once
 
 #include <optional>

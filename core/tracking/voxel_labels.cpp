@@ -39,8 +39,8 @@ std::int8_t LabelOf(const Vector3& p_W, const std::vector<PosedPart>& parts) {
 
 }  // namespace
 
-void LabelVoxels(const VoxelGrid& grid, std::span<const BodyInPlace> bodies,
-                 std::vector<std::int8_t>& labels) {
+void LabelForViewers(const VoxelGrid& grid, std::span<const BodyInPlace> bodies,
+                     std::vector<std::int8_t>& labels) {
   const std::vector<PosedPart> parts = PosedPartsOf(bodies);
   labels.clear();
   for (int k = 0; k < grid.size().z(); ++k) {

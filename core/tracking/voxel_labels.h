@@ -18,7 +18,7 @@ struct BodyInPlace {
 
 /// Labels each voxel of a grid with the nearest part (BodyPart) of any body, in scan order: x, then
 /// y, then z; -1 if none is near.
-void LabelVoxels(const VoxelGrid& grid, std::span<const BodyInPlace> bodies,
-                 std::vector<std::int8_t>& labels);
+void LabelForViewers(const VoxelGrid& grid, std::span<const BodyInPlace> bodies,
+                     std::vector<std::int8_t>& labels);
 
 }  // namespace mocap

@@ -165,7 +165,7 @@ void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t 
 void FillVoxels(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
                 std::span<const BodyInPlace> bodies, voxels_t& message) {
   FillVoxelGrid(grid, capture_ns, frame, message);
-  if (!bodies.empty()) LabelVoxels(grid, bodies, message.label);
+  if (!bodies.empty()) LabelForViewers(grid, bodies, message.label);
   message.num_labels = static_cast<std::int32_t>(message.label.size());
 }
 

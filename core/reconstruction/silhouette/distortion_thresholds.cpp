@@ -60,14 +60,13 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
       *values = Image<float>(blocks * kernels::kBlock_px, height + 1);
   everything_.SetAll(width, height);
   scan_.Begin(expected, image, gain, everything_);
-  std::vector<float> cd(width), low(width), high(width);
+  std::vector<float> cd(width), darker(width);
   for (int y = 0; y < height; y += 2) {
     const DistortionScan::RowPair& pair = scan_.Next();
     for (int row = 0; row < std::min(2, height - y); ++row) {
-      kernels::NormalizePixels(pair.rows[row], width, cd.data(), low.data(), high.data());
+      kernels::NormalizePixels(pair.rows[row], width, cd.data(), darker.data());
       cd_.Add(cd.data(), width);
-      alpha_low_.Add(low.data(), width);
-      alpha_high_.Add(high.data(), width);
+      darker_.Add(darker.data(), width);
     }
     for (std::size_t k = 0; k < windows_.size(); ++k) {
       WindowValues& w = windows_[k];
@@ -94,8 +93,7 @@ DistortionThresholds DistortionHistograms::At(double detection_rate) const {
   MOCAP_CHECK(detection_rate > 0 && detection_rate < 1);
   DistortionThresholds thresholds;
   thresholds.cd = cd_.Quantile(detection_rate);
-  thresholds.alpha_low = -alpha_low_.Quantile(detection_rate);
-  thresholds.alpha_high = alpha_high_.Quantile(detection_rate);
+  thresholds.alpha_low = -darker_.Quantile(detection_rate);
   for (std::size_t k = 0; k < windows_.size(); ++k)
     thresholds.windows[k] = {windows_[k].cd.Quantile(detection_rate),
                              windows_[k].alpha.Quantile(detection_rate),

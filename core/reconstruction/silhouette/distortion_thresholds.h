@@ -18,9 +18,8 @@ struct DistortionThresholds {
     float alpha = 0;      ///< Mean brightness distortion, in both directions.
     float roughness = 0;  ///< Deviation of the brightness distortions from a plane.
   };
-  float cd = 0;          ///< Chromaticity distortion of a pixel.
-  float alpha_low = 0;   ///< Brightness distortion of a pixel, negative.
-  float alpha_high = 0;  ///< Brightness distortion of a pixel, positive.
+  float cd = 0;         ///< Chromaticity distortion of a pixel.
+  float alpha_low = 0;  ///< Brightness distortion of a pixel, negative.
   std::array<Window, kernels::kWindows> windows;
 };
 
@@ -57,7 +56,7 @@ class DistortionHistograms {
     Image<float> cd_image, alpha_image, roughness_image;
   };
 
-  Histogram cd_, alpha_low_, alpha_high_;
+  Histogram cd_, darker_;
   std::array<WindowValues, kernels::kWindows> windows_;
   RegionOfInterest everything_;
   DistortionScan scan_;

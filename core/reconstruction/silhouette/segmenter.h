@@ -28,7 +28,8 @@ struct SegmentationOptions {
   double largest_thing_share = 0.02;
 };
 
-/// Separates the person from the background in one camera: Horprasert's classes, then cleanup.
+/// Separates the person from the background in one camera: by the distortions of Horprasert et al.
+/// (1999) in windows of pixels, then cleanup.
 ///
 /// Thread-bound: one object per camera thread.
 class Segmenter {

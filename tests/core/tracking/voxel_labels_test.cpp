@@ -23,7 +23,7 @@ TEST(VoxelLabels, NameThePartThatAVoxelLiesIn) {
   // Somebody else is far away, and as good as not there.
   PoseState elsewhere = pose;
   elsewhere.X_WT.p.x() = 9000;
-  LabelVoxels(grid, std::array{BodyInPlace{body, elsewhere}, BodyInPlace{body, pose}}, labels);
+  LabelForViewers(grid, std::array{BodyInPlace{body, elsewhere}, BodyInPlace{body, pose}}, labels);
 
   const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
   std::size_t index = 0;
