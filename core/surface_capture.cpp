@@ -28,6 +28,10 @@ constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 // After each search without a better result, the wait doubles, up to this number of frames.
 constexpr int kLongestDoubt = 48;
+// Feet are looked at so often. Somebody whose feet point backwards for so long may face the other
+// way.
+constexpr double kFeetEveryS = 0.1;
+constexpr double kBackwardsAfterS = 0.3;
 constexpr double kForgetAfterS = 1.0;
 // The first search is a full one. Later ones, also for doubtful poses, are limited to about the
 // available time.
@@ -171,10 +175,21 @@ class SurfaceCapture::Impl {
   // Sizes from few frames may be the cause of a bad fit.
   bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
 
+  // Notes for how long the feet have pointed backwards.
+  void LookAtFeet(double dt_s) {
+    since_feet_s_ += dt_s;
+    if (since_feet_s_ < kFeetEveryS) return;
+    prior_ = PosePrior(feet_.ToesBeforeShins(evidence_.cloud));
+    const bool is_backwards = prior_.FacesBackwards(tracker_->filter().pose());
+    backwards_s_ = is_backwards ? backwards_s_ + since_feet_s_ : 0;
+    since_feet_s_ = 0;
+  }
+
   // Neither unknown sizes nor the person's heading are taken for granted.
   void LookAgainInDoubt(double dt_s) {
-    const double cost_mm = tracker_->quality().Cost();
-    if (cost_mm <= kDoubtCostMm) {
+    LookAtFeet(dt_s);
+    const bool may_turn = backwards_s_ > kBackwardsAfterS;
+    if (tracker_->quality().Cost() <= kDoubtCostMm && !may_turn) {
       doubtful_frames_ = 0;
       patience_ = kFramesToLose;
       return;
@@ -188,8 +203,11 @@ class SurfaceCapture::Impl {
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
-    if (sizes_are_known && !same_way) return;
-    if (found.quality().Cost() > kClearlyBetter * cost_mm) return;
+    if (sizes_are_known && !same_way && !may_turn) return;
+    const auto cost_mm = [&](const Tracker& tracker) {
+      return tracker.quality().Cost() + prior_.CostMm(tracker.filter().pose());
+    };
+    if (cost_mm(found) > (may_turn ? 1 : kClearlyBetter) * cost_mm(*tracker_)) return;
     tracker_ = found;
     patience_ = kFramesToLose;
     if (sizes_are_known) return;
@@ -229,6 +247,9 @@ class SurfaceCapture::Impl {
   }
 
   ModelAcquirer acquirer_;
+  FeetFinder feet_;
+  PosePrior prior_{std::nullopt};
+  double since_feet_s_ = 0, backwards_s_ = 0;
   BodyModel nobody_;
   Evidence evidence_;
   std::optional<Tracker> tracker_;

@@ -68,14 +68,15 @@ PoseContest& ModelAcquirer::ContestFor(const std::optional<BodySizes>& known) {
 bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySizes>& known,
                            double effort) {
   PoseContest& contest = ContestFor(known);
-  const std::vector<PoseCandidate> candidates = contest.Hold(evidence, effort);
+  const PosePrior prior = PriorOf(evidence);
+  const std::vector<PoseCandidate> candidates = contest.Hold(evidence, prior, effort);
   const std::size_t finalists = effort < 1 ? kFewFinalists : kFinalists;
   hypotheses_.clear();
   for (std::size_t i = 0; i < std::min(finalists, candidates.size()); ++i)
-    hypotheses_.push_back(Begin(contest, candidates[i], evidence, !known));
+    hypotheses_.push_back(Begin(contest, candidates[i], evidence, prior, !known));
   if (hypotheses_.empty()) return false;
-  const auto cost_mm = [](const Hypothesis& hypothesis) {
-    return CostOf(hypothesis.tracker) + OrientationPriorMm(hypothesis.tracker.filter().pose());
+  const auto cost_mm = [&](const Hypothesis& hypothesis) {
+    return CostOf(hypothesis.tracker) + prior.CostMm(hypothesis.tracker.filter().pose());
   };
   std::ranges::stable_sort(hypotheses_, {}, cost_mm);
   hypotheses_.resize(1, hypotheses_.front());
@@ -86,7 +87,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
     return FaceApart(candidate.pose, best.filter().pose());
   });
   if (opposite != candidates.end()) {
-    hypotheses_.push_back(Begin(contest, *opposite, evidence, !known));
+    hypotheses_.push_back(Begin(contest, *opposite, evidence, prior, !known));
     std::ranges::stable_sort(hypotheses_, {}, cost_mm);
   }
   frames_ = 1;
@@ -95,16 +96,18 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
 }
 
 bool ModelAcquirer::IsStranger(const Evidence& evidence, double effort) {
-  const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, effort);
+  const PosePrior prior = PriorOf(evidence);
+  const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, prior, effort);
   if (strangers.empty()) return false;
-  const Hypothesis stranger = Begin(strangers_, strangers.front(), evidence, true);
+  const Hypothesis stranger = Begin(strangers_, strangers.front(), evidence, prior, true);
   return CostOf(best()) > CostOf(stranger.tracker) + kStrangerBetterMm;
 }
 
 // @param measures  whether the sizes are unknown.
 ModelAcquirer::Hypothesis ModelAcquirer::Begin(const PoseContest& contest,
                                                const PoseCandidate& candidate,
-                                               const Evidence& evidence, bool measures) {
+                                               const Evidence& evidence, const PosePrior& prior,
+                                               bool measures) {
   const BodyModel& body = contest.body(candidate.body);
   Hypothesis hypothesis{Tracker(body, candidate.pose), SizeRefiner(body)};
   Tracker& tracker = hypothesis.tracker;
@@ -117,17 +120,18 @@ ModelAcquirer::Hypothesis ModelAcquirer::Begin(const PoseContest& contest,
     hypothesis.sizes = SizeRefiner(body);
     MeasureIn(tracker, hypothesis.sizes);
   }
-  hypothesis.cost_sum = tracker.quality().Cost();
+  hypothesis.cost_sum = tracker.quality().Cost() + prior.CostMm(tracker.filter().pose());
   return hypothesis;
 }
 
 void ModelAcquirer::Refine(const Evidence& evidence, double dt_s) {
   ++frames_;
+  const PosePrior prior = PriorOf(evidence);
   double change_mm = 0;
   for (Hypothesis& hypothesis : hypotheses_) {
     Tracker& tracker = hypothesis.tracker;
     tracker.Update(evidence, dt_s);
-    hypothesis.cost_sum += tracker.quality().Cost();
+    hypothesis.cost_sum += tracker.quality().Cost() + prior.CostMm(tracker.filter().pose());
     const double stature_mm = tracker.body().sizes().Stature();
     hypothesis.sizes.Add(tracker.body(), tracker.surface_fit(), tracker.filter().pose());
     tracker.Resize(hypothesis.sizes.Sizes());

@@ -47,11 +47,15 @@ class ModelAcquirer {
     SizeRefiner sizes;
     double cost_sum = 0;
   };
+  PosePrior PriorOf(const Evidence& evidence) {
+    return PosePrior(feet_.ToesBeforeShins(evidence.cloud));
+  }
   PoseContest& ContestFor(const std::optional<BodySizes>& known);
   Hypothesis Begin(const PoseContest& contest, const PoseCandidate& candidate,
-                   const Evidence& evidence, bool measures);
+                   const Evidence& evidence, const PosePrior& prior, bool measures);
 
   BodyTable table_;
+  FeetFinder feet_;
   PoseContest strangers_;
   std::optional<PoseContest> acquainted_;  ///< For a person of known sizes.
   std::vector<Hypothesis>

@@ -27,9 +27,6 @@ constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
 constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
-// Somebody upside down must explain the evidence better by this much than anybody upright does: a
-// gown looks like a trunk, and the arms above it like legs.
-constexpr double kUpsideDownMm = 12;
 // Height of a standing person's middle, as a share of the stature.
 constexpr double kMiddleShare = 0.55;
 
@@ -46,11 +43,6 @@ std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
 }
 
 }  // namespace
-
-double OrientationPriorMm(const PoseState& pose) {
-  const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2;
-  return kUpsideDownMm * upside_down * upside_down;
-}
 
 // Number of samples, iterations of the fit, and number of poses that remain.
 struct PoseContest::Round {
@@ -76,20 +68,21 @@ PoseContest::PoseContest(std::vector<BodyModel> bodies, int builds)
   for (const BodyModel& body : bodies_) libraries_.emplace_back(body);
 }
 
-const std::vector<PoseCandidate>& PoseContest::Hold(const Evidence& evidence, double effort) {
+const std::vector<PoseCandidate>& PoseContest::Hold(const Evidence& evidence,
+                                                    const PosePrior& prior, double effort) {
   constexpr Round kWeighing{40, 80, {0, 0}, 160};
   constexpr std::array kHeats = {Round{40, 80, {2, 4}, 48}, Round{80, 120, {3, 6}, 12}};
   constexpr Round kFinal{150, 200, {4, 15}, 20};
   const std::vector<PoseCandidate> best_before = std::exchange(candidates_, {});
   Propose(evidence.cloud);
-  Play(evidence, kWeighing, effort);
-  for (const Round& heat : kHeats) Play(evidence, heat, effort);
+  Play(evidence, prior, kWeighing, effort);
+  for (const Round& heat : kHeats) Play(evidence, prior, heat, effort);
   candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
-  Play(evidence, kFinal, 1);
+  Play(evidence, prior, kFinal, 1);
   KeepDistinct();
   for (int i = 0; i < kNeighbourhoods && bodies_.size() > 1; ++i) {
     ProposeNeighbours();
-    Play(evidence, kFinal, 1);
+    Play(evidence, prior, kFinal, 1);
     KeepDistinct();
   }
   return candidates_;
@@ -131,7 +124,8 @@ void PoseContest::ProposeNeighbours() {
   }
 }
 
-void PoseContest::Play(const Evidence& evidence, const Round& round, double effort) {
+void PoseContest::Play(const Evidence& evidence, const PosePrior& prior, const Round& round,
+                       double effort) {
   SurfaceFitOptions options;
   options.voxels = round.voxels;
   options.edges = round.edges;
@@ -150,8 +144,7 @@ void PoseContest::Play(const Evidence& evidence, const Round& round, double effo
           round.iterations);
       candidate.pose = filter.pose();
     }
-    candidate.cost_mm =
-        fit.QualityAt(body, candidate.pose).Cost() + OrientationPriorMm(candidate.pose);
+    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost() + prior.CostMm(candidate.pose);
   }
   std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);
   const auto kept = static_cast<std::size_t>(std::ceil(effort * round.kept));

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/acquisition/pose_prior.h"
 #include "core/acquisition/stance_library.h"
 #include "core/body/body_model.h"
 #include "core/tracking/evidence.h"
@@ -15,12 +16,8 @@ namespace mocap {
 struct PoseCandidate {
   int body = 0;  ///< Index of the body.
   PoseState pose;
-  double cost_mm = 0;  ///< Of the fit, and of its orientation.
+  double cost_mm = 0;  ///< Of the fit, and of the prior.
 };
-
-/// How much worse the fit of a pose counts because people seldom take it [mm]: little for a trunk
-/// that leans or lies, most for one upside down.
-double OrientationPriorMm(const PoseState& pose);
 
 /// Compares poses with frame after frame: those of a library, and the best of the previous frame.
 class PoseContest {
@@ -33,9 +30,11 @@ class PoseContest {
   const BodyModel& body(int index) const { return bodies_[index]; }
 
   /// Processes a frame.
+  /// @param prior   of its poses.
   /// @param effort  share of a full search, above 0: the share of poses that are fitted.
   /// @return  the best distinct poses, the best first; valid until the next call.
-  const std::vector<PoseCandidate>& Hold(const Evidence& evidence, double effort);
+  const std::vector<PoseCandidate>& Hold(const Evidence& evidence, const PosePrior& prior,
+                                         double effort);
 
   /// Adds a pose to the best of the previous frame.
   void Remember(const BodySizes& sizes, const PoseState& pose);
@@ -50,7 +49,7 @@ class PoseContest {
   void Propose(const VoxelCloud& cloud);
   void ProposeNeighbours();
   // Fits all poses to the evidence and keeps the best.
-  void Play(const Evidence& evidence, const Round& round, double effort);
+  void Play(const Evidence& evidence, const PosePrior& prior, const Round& round, double effort);
   void KeepDistinct();
 
   std::vector<BodyModel> bodies_;

@@ -51,5 +51,12 @@ TEST(Variety, ATrialGivesTheSameForTheSamePerson) {
   EXPECT_EQ(RunVarietyTrial(9, 0.5, filming).accuracy.mpjpe_mm, row.accuracy.mpjpe_mm);
 }
 
+// Helmet, skirt, backpack and bag.
+TEST(Variety, ABackpackIsNotTakenForAChest) {
+  const VarietyRow row = RunVarietyTrial(2, 1, {.label = "30 Hz"});
+  EXPECT_NE(row.looks.find("backpack"), std::string::npos);
+  EXPECT_LT(row.accuracy.mpjpe_mm, 120);
+}
+
 }  // namespace
 }  // namespace mocap

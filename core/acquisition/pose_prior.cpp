@@ -1,0 +1,32 @@
+#include "core/acquisition/pose_prior.h"
+
+#include <algorithm>
+
+namespace mocap {
+namespace {
+
+// Somebody upside down must explain the evidence better by this much than anybody upright does: a
+// gown looks like a trunk, and the arms above it like legs.
+constexpr double kUpsideDownMm = 12;
+// Likewise somebody who faces away from where the feet point: a backpack looks like a chest.
+constexpr double kBackwardsMm = 10;
+
+}  // namespace
+
+PosePrior::PosePrior(const std::optional<Vector3>& toes_W) : toes_W_(toes_W) {
+  if (toes_W_) toes_W_->normalize();
+}
+
+double PosePrior::CostMm(const PoseState& pose) const {
+  const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2, backwards = ShareBackwards(pose);
+  return kUpsideDownMm * upside_down * upside_down + kBackwardsMm * backwards * backwards;
+}
+
+double PosePrior::ShareBackwards(const PoseState& pose) const {
+  const Vector2 ahead = pose.X_WT.R.col(0).head<2>();
+  if (!toes_W_ || ahead.norm() == 0) return 0;
+  const double upright = std::max(0.0, pose.X_WT.R(2, 2));
+  return upright * (1 - ahead.normalized().dot(toes_W_->head<2>())) / 2;
+}
+
+}  // namespace mocap

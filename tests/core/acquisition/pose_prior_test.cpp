@@ -1,0 +1,95 @@
+#include "core/acquisition/pose_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "config/load_config.h"
+#include "core/body/stance.h"
+#include "tests/support/voxelized_body.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kDegree = EIGEN_PI / 180;
+
+class Feet : public ::testing::Test {
+ protected:
+  // Somebody with the soles at a height, turned about the vertical.
+  PoseState Standing(double yaw_deg, double soles_mm) const {
+    PoseState pose;
+    pose.X_WT.R = ExpRotation(Vector3(0, 0, yaw_deg * kDegree));
+    pose.theta = AnglesOf({}, body_.table());
+    pose.X_WT.p = Vector3(200, -100, 1000);
+    const auto points_W = body_.PointsAt(body_.PostureAt(pose));
+    pose.X_WT.p.z() += soles_mm - points_W.row(2).minCoeff();
+    return pose;
+  }
+  std::optional<Vector3> ToesAt(const PoseState& pose) {
+    VoxelCloud cloud;
+    cloud.Build(Voxelize(body_, pose, 25));
+    return finder_.ToesBeforeShins(cloud);
+  }
+
+  BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
+  FeetFinder finder_;
+};
+
+TEST_F(Feet, PointWhereThePersonFaces) {
+  for (double yaw_deg = 0; yaw_deg < 360; yaw_deg += 40) {
+    const PoseState pose = Standing(yaw_deg, 20);
+    const std::optional<Vector3> toes_W = ToesAt(pose);
+    ASSERT_TRUE(toes_W) << yaw_deg;
+    EXPECT_GT(toes_W->normalized().dot(pose.X_WT.R.col(0)), 0.9) << yaw_deg;
+    EXPECT_EQ(toes_W->z(), 0);
+  }
+}
+
+TEST_F(Feet, SayNothingInTheAir) { EXPECT_FALSE(ToesAt(Standing(0, 300))); }
+
+TEST_F(Feet, ABackpackChangesNothing) {
+  const PoseState pose = Standing(30, 20);
+  VoxelGrid grid = Voxelize(body_, pose, 25);
+  const std::optional<Vector3> without_W = ToesAt(pose);
+  const Vector3 pack_W = pose.X_WT.p - 150 * pose.X_WT.R.col(0);
+  for (int k = 0; k < grid.size().z(); ++k)
+    for (int j = 0; j < grid.size().y(); ++j)
+      for (int i = 0; i < grid.size().x(); ++i)
+        if ((grid.CenterOf(i, j, k) - pack_W).norm() < 200) grid.Set(i, j, k);
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  const std::optional<Vector3> with_W = finder_.ToesBeforeShins(cloud);
+  ASSERT_TRUE(without_W && with_W);
+  EXPECT_EQ(*without_W, *with_W);
+}
+
+TEST(PosePrior, CostsMoreTheFartherAnUprightTrunkIsTurnedFromTheFeet) {
+  const PosePrior prior(Vector3(0, 40, 0));
+  const auto turned = [](double degrees) {
+    PoseState pose;
+    pose.X_WT.R = ExpRotation(Vector3(0, 0, (90 + degrees) * kDegree));
+    return pose;
+  };
+  EXPECT_NEAR(prior.CostMm(turned(0)), 0, 1e-9);
+  EXPECT_LT(prior.CostMm(turned(60)), 1);
+  EXPECT_NEAR(prior.CostMm(turned(180)), 10, 1e-9);
+  for (double degrees = 0; degrees < 180; degrees += 20)
+    EXPECT_LT(prior.CostMm(turned(degrees)), prior.CostMm(turned(degrees + 20)));
+  EXPECT_FALSE(prior.FacesBackwards(turned(80)));
+  EXPECT_TRUE(prior.FacesBackwards(turned(100)));
+}
+
+TEST(PosePrior, LeavesWhoLiesOrHasNoFeetAlone) {
+  PoseState lying;
+  lying.X_WT.R = ExpRotation(Vector3(0, -90 * kDegree, 0));
+  const double without_feet = PosePrior(std::nullopt).CostMm(lying);
+  for (const Vector3& toes_W : {Vector3(40, 0, 0), Vector3(-40, 0, 0)})
+    EXPECT_NEAR(PosePrior(toes_W).CostMm(lying), without_feet, 1e-9);
+  EXPECT_EQ(PosePrior(std::nullopt).CostMm({}), 0);
+  PoseState upside_down;
+  upside_down.X_WT.R = ExpRotation(Vector3(0, 180 * kDegree, 0));
+  EXPECT_GT(PosePrior(std::nullopt).CostMm(upside_down), without_feet);
+}
+
+}  // namespace
+}  // namespace mocap
