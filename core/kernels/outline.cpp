@@ -37,8 +37,10 @@ using Floats = hn::Vec<decltype(kFloats)>;
 // The pixels around eight of a row. Words are little-endian in memory.
 HWY_INLINE std::uint16_t BitsAround(const BitWord* row, int pixel) {
   static_assert(std::endian::native == std::endian::little && kOutlineBefore_px <= 8);
-  std::uint32_t bits;
-  std::memcpy(&bits, reinterpret_cast<const std::uint8_t*>(row) + pixel / 8 - 1, sizeof bits);
+  // No more bytes than hold them: the last row may end there.
+  constexpr std::size_t kBytesAround = (8 - kOutlineBefore_px + kAround_px + 7) / 8;
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, reinterpret_cast<const std::uint8_t*>(row) + pixel / 8 - 1, kBytesAround);
   return static_cast<std::uint16_t>(bits >> (8 - kOutlineBefore_px));
 }
 

@@ -1,5 +1,9 @@
 #include "core/kernels/outline.h"
 
+#include <sys/mman.h>
+
+#include <algorithm>
+
 #include "core/kernels/outline_reference.h"
 #include "tests/core/kernels/each_target.h"
 
@@ -48,6 +52,46 @@ struct SomeSurroundings {
   std::vector<BitWord> inside, outside;
   std::array<WeighedPixels, 2> expected;
 };
+
+// Words that end where memory ends: reading beyond them is a fault.
+class WordsAtTheEnd {
+ public:
+  explicit WordsAtTheEnd(std::size_t words) : words_(words) {
+    mprotect(static_cast<char*>(memory_) + kPage, kPage, PROT_NONE);
+  }
+  WordsAtTheEnd(const WordsAtTheEnd&) = delete;
+  WordsAtTheEnd& operator=(const WordsAtTheEnd&) = delete;
+  ~WordsAtTheEnd() { munmap(memory_, 2 * kPage); }
+  BitWord* data() { return static_cast<BitWord*>(memory_) + kPage / sizeof(BitWord) - words_; }
+
+ private:
+  static constexpr std::size_t kPage = 65536;
+  std::size_t words_;
+  void* memory_ =
+      mmap(nullptr, 2 * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+};
+
+TEST(OutlineKernels, NothingBeyondTheLastRowIsRead) {
+  const SomeSurroundings some(1, 2);
+  WordsAtTheEnd inside(kAroundRows), outside(kAroundRows);
+  std::copy_n(some.inside.begin(), kAroundRows, inside.data());
+  std::copy_n(some.outside.begin(), kAroundRows, outside.data());
+  const auto judged = [&](const auto& judge) {
+    // The last that has all pixels around it in the row.
+    constexpr int kPixel = 64 - kAround_px;
+    const auto decisions =
+        judge(OutlineSurroundings{{some.pixels.data(), kAround_px, kAroundRows},
+                                  {some.shifts.data(), kAround_px, kAroundRows},
+                                  inside.data() + kOutlineReach_px,
+                                  outside.data() + kOutlineReach_px,
+                                  1,
+                                  kPixel},
+              std::array<float, 3>{1, 1, 1}, {&some.expected[0], &some.expected[1]}, 0);
+    return std::vector<std::uint8_t>{decisions[0].told, decisions[1].told};
+  };
+  ExpectSameBits([&] { return judged(reference::JudgeOutline); },
+                 [&] { return judged(JudgeOutline); });
+}
 
 TEST(OutlineKernels, PixelsAreJudgedOneByOne) {
   int told = 0, covered = 0;

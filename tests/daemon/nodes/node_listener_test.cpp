@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <algorithm>
 #include <atomic>
 #include <deque>
 #include <lcm/lcm-cpp.hpp>
@@ -82,7 +84,9 @@ class NodeListenerTest : public ::testing::Test {
   }
   /// Hears a message that was so long on its way.
   void Hear(const silhouette_t& message, std::int64_t transit_ns = kMs) {
-    time_of_day_ns_ = message.sent_ns + transit_ns;
+    time_of_day_ns_ =
+        std::min(message.sent_ns, std::numeric_limits<std::int64_t>::max() - transit_ns) +
+        transit_ns;
     Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
     listener_->OnSilhouette(bytes);
