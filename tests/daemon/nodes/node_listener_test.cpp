@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <algorithm>
 #include <atomic>
 #include <deque>
 #include <lcm/lcm-cpp.hpp>
@@ -84,9 +83,9 @@ class NodeListenerTest : public ::testing::Test {
   }
   /// Hears a message that was so long on its way.
   void Hear(const silhouette_t& message, std::int64_t transit_ns = kMs) {
-    time_of_day_ns_ =
-        std::min(message.sent_ns, std::numeric_limits<std::int64_t>::max() - transit_ns) +
-        transit_ns;
+    const std::int64_t latest_ns =
+        std::numeric_limits<std::int64_t>::max() - std::max<std::int64_t>(0, transit_ns);
+    time_of_day_ns_ = std::min(message.sent_ns, latest_ns) + transit_ns;
     Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
     listener_->OnSilhouette(bytes);
