@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/acquisition/facing_watch.h"
 #include "core/acquisition/model_acquirer.h"
 #include "core/acquisition/size_refiner.h"
 #include "core/tracking/evidence.h"
@@ -28,10 +29,6 @@ constexpr double kClearlyBetter = 0.85;
 constexpr int kFramesToLose = 3;
 // After each search without a better result, the wait doubles, up to this number of frames.
 constexpr int kLongestDoubt = 48;
-// Feet are looked at so often. Somebody whose feet point backwards for so long may face the other
-// way.
-constexpr double kFeetEveryS = 0.1;
-constexpr double kBackwardsAfterS = 0.3;
 constexpr double kForgetAfterS = 1.0;
 // The first search is a full one. Later ones, also for doubtful poses, are limited to about the
 // available time.
@@ -154,6 +151,7 @@ class SurfaceCapture::Impl {
 
   void TakeAcquired() {
     tracker_ = acquirer_.best();
+    facing_.StartOver();
     result_.body_changed = true;
     if (!acquirer_.settled()) return;
     result_.state = CaptureState::kTracking;
@@ -175,21 +173,10 @@ class SurfaceCapture::Impl {
   // Sizes from few frames may be the cause of a bad fit.
   bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
 
-  // Notes for how long the feet have pointed backwards.
-  void LookAtFeet(double dt_s) {
-    since_feet_s_ += dt_s;
-    if (since_feet_s_ < kFeetEveryS) return;
-    prior_ = PosePrior(feet_.ToesBeforeShins(evidence_.cloud));
-    const bool is_backwards = prior_.FacesBackwards(tracker_->filter().pose());
-    backwards_s_ = is_backwards ? backwards_s_ + since_feet_s_ : 0;
-    since_feet_s_ = 0;
-  }
-
   // Neither unknown sizes nor the person's heading are taken for granted.
   void LookAgainInDoubt(double dt_s) {
-    LookAtFeet(dt_s);
-    const bool may_turn = backwards_s_ > kBackwardsAfterS;
-    if (tracker_->quality().Cost() <= kDoubtCostMm && !may_turn) {
+    facing_.Look(evidence_.cloud, tracker_->filter().pose(), dt_s);
+    if (tracker_->quality().Cost() <= kDoubtCostMm && !facing_.is_backwards()) {
       doubtful_frames_ = 0;
       patience_ = kFramesToLose;
       return;
@@ -203,12 +190,14 @@ class SurfaceCapture::Impl {
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
+    const bool may_turn = facing_.is_backwards() && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
     const auto cost_mm = [&](const Tracker& tracker) {
-      return tracker.quality().Cost() + prior_.CostMm(tracker.filter().pose());
+      return tracker.quality().Cost() + facing_.prior().CostMm(tracker.filter().pose());
     };
     if (cost_mm(found) > (may_turn ? 1 : kClearlyBetter) * cost_mm(*tracker_)) return;
     tracker_ = found;
+    facing_.StartOver();
     patience_ = kFramesToLose;
     if (sizes_are_known) return;
     known_ = found.body().sizes();
@@ -247,9 +236,7 @@ class SurfaceCapture::Impl {
   }
 
   ModelAcquirer acquirer_;
-  FeetFinder feet_;
-  PosePrior prior_{std::nullopt};
-  double since_feet_s_ = 0, backwards_s_ = 0;
+  FacingWatch facing_;
   BodyModel nobody_;
   Evidence evidence_;
   std::optional<Tracker> tracker_;

@@ -11,12 +11,12 @@
 #include "daemon/recording/recorder.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
+#include "tools/chosen_config.h"
 #include "tools/doctor_checks.h"
 
 namespace mocap {
 namespace {
 
-constexpr const char* kSystemConfig = MOCAP_CONFIG_FILE;
 constexpr const char* kSystemTakes = "/var/lib/mocapd/takes";
 /// Six cameras of 640 x 480 pixels at 30 Hz, lossless.
 constexpr double kUsualRecording = 90e6;
@@ -43,18 +43,13 @@ bool IsOfSystem(const DoctorOptions& options) {
   return options.config.empty() && IsThere(kSystemConfig);
 }
 
-Config ConfigFor(const DoctorOptions& options) {
-  if (IsOfSystem(options)) return LoadConfig(kSystemConfig);
-  return options.config.empty() ? Config() : LoadConfig(options.config);
-}
-
 /// The system's daemon has its own folder, whichever user asks.
 std::filesystem::path TakesFor(const DoctorOptions& options, const RecordingConfig& recording) {
   return IsOfSystem(options) && recording.folder.empty() ? kSystemTakes : TakesFolder(recording);
 }
 
 void Doctor(const DoctorOptions& options) {
-  const Config config = ConfigFor(options);
+  const Config config = LoadChosenConfig(options.config);
   const Starter starter = IsOfSystem(options) ? Starter::kSystemd : Starter::kCaller;
   std::vector<Diagnosis> diagnoses = {
       CheckMulticastRoute(),

@@ -17,6 +17,7 @@
 #include "config/config.h"
 #include "core/errors.h"
 #include "daemon/base/number_option.h"
+#include "daemon/messages/channel_name.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
@@ -55,7 +56,7 @@ class Notice {
 std::string NothingHeard(const StreamOptions& options) {
   const PoseFeedOptions& feed = options.feed;
   const std::string channel =
-      feed.prefix + (feed.everybody || feed.person ? "MOCAP_PEOPLE" : "MOCAP_POSE");
+      feed.prefix + (feed.everybody || feed.person ? kPeopleChannel : kPoseChannel);
   const std::string of_whom = feed.person ? " of person " + std::to_string(*feed.person) : "";
   return options.url + ": has no pose" + of_whom + " on " + channel +
          "; expected a log of mocapd with this --prefix" + (feed.person ? " and person" : "");

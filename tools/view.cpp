@@ -14,6 +14,7 @@
 #include "daemon/messages/open_lcm.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
+#include "tools/chosen_config.h"
 #include "tools/view/access.h"
 #include "tools/view/control_desk.h"
 #include "tools/view/json_text.h"
@@ -26,7 +27,6 @@ namespace mocap {
 namespace {
 
 constexpr std::uint16_t kPort = 8077;
-constexpr const char* kViewedConfig = MOCAP_CONFIG_FILE;
 constexpr std::size_t kLargestScript = 16 << 20;
 constexpr std::chrono::milliseconds kEndTick{250};
 
@@ -89,14 +89,8 @@ void ViewTake(const ViewOptions& options) {
   server.Run();
 }
 
-/// Without other options, the studio is the system's, if installed.
-Config ViewedConfig(const ViewOptions& options) {
-  if (!options.config.empty()) return LoadConfig(options.config);
-  return IsThere(kViewedConfig) ? LoadConfig(kViewedConfig) : Config();
-}
-
 void ViewLive(const ViewOptions& options) {
-  const Config config = ViewedConfig(options);
+  const Config config = LoadChosenConfig(options.config);
   const std::string url = options.url.value_or(config.lcm.url);
   if (url.starts_with("file:"))
     throw SetupError("--url: " + url + " is a log; to view it: mocap view TAKE LOG");

@@ -55,9 +55,9 @@ class Hearing {
  public:
   Hearing(lcm::LCM& lcm, const std::string& named) {
     const std::string prefix = ChannelPattern(named);
-    lcm.subscribe(prefix + "MOCAP_POSE", &Hearing::OnPose, this);
-    lcm.subscribe(prefix + "MOCAP_BODY", &Hearing::OnBody, this);
-    lcm.subscribe(prefix + "MOCAP_PEOPLE", &Hearing::OnPeople, this);
+    lcm.subscribe(prefix + kPoseChannel, &Hearing::OnPose, this);
+    lcm.subscribe(prefix + kBodyChannel, &Hearing::OnBody, this);
+    lcm.subscribe(prefix + kPeopleChannel, &Hearing::OnPeople, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
     lcm.subscribe(prefix + "MOCAP_SERVICE", &Hearing::OnService, this);
   }

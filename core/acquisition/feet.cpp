@@ -1,12 +1,12 @@
 #include "core/acquisition/feet.h"
 
 #include <algorithm>
-#include <tuple>
+#include <cmath>
 
 namespace mocap {
 namespace {
 
-// Feet are below the first height, and what is between the two heights is shin.
+// Soles are below the first height, and what is between the two heights is shin.
 constexpr double kAnkleMm = 75;
 constexpr double kShinMm = 175;
 // A third of a foot; smaller pieces are scraps.
@@ -15,75 +15,55 @@ constexpr double kLeastFootLitres = 0.3;
 // foot under a gown.
 constexpr double kLeastOffsetMm = 15;
 
-bool IsBefore(const Eigen::Vector2i& a, const Eigen::Vector2i& b) {
-  return std::tie(a.y(), a.x()) < std::tie(b.y(), b.x());
+// Number of layers of cells with their middle below a height.
+int LayersBelow(const VoxelCloud& cloud, double height_mm) {
+  const double layers = (height_mm - cloud.box_W().min().z()) / cloud.voxel_mm() - 0.5;
+  return std::clamp(static_cast<int>(std::ceil(layers)), 0, cloud.size_cells().z());
 }
 
 }  // namespace
 
-void FeetFinder::CollectPiece(const VoxelCloud& cloud, int first) {
-  const auto floor = static_cast<int>(is_taken_.size());
-  piece_.assign(1, first);
-  is_taken_[first] = 1;
-  for (std::size_t next = 0; next < piece_.size(); ++next) {
-    const Eigen::Vector3i cell = cloud.voxels()[piece_[next]].cell;
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int beside = cloud.IndexAt(Eigen::Vector3i(cell + Eigen::Vector3i(dx, dy, dz)));
-          if (beside < 0 || beside >= floor || is_taken_[beside]) continue;
-          is_taken_[beside] = 1;
-          piece_.push_back(beside);
-        }
+void FeetFinder::Measure(const VoxelCloud& cloud, int sole_layers, int shin_layers) {
+  const Eigen::Vector3i& size = cloud.size_cells();
+  const Vector3 first = cloud.box_W().min() / cloud.voxel_mm();
+  floor_.Reset(first.array().round().cast<int>(), {size.x(), size.y(), sole_layers},
+               cloud.voxel_mm());
+  // Voxels are in scan order: from the floor up.
+  for (const Voxel& voxel : cloud.voxels()) {
+    if (voxel.cell.z() >= sole_layers) break;
+    floor_.Set(voxel.cell.x(), voxel.cell.y(), voxel.cell.z());
+  }
+  pieces_.Find(floor_);
+  feet_.assign(pieces_.sizes().size(), {});
+  for (const VoxelPieces::Run& run : pieces_.runs()) {
+    Foot& foot = feet_[run.piece];
+    for (int i = run.begin; i < run.end; ++i) {
+      foot.sole_W += floor_.CenterOf(i, run.j, run.k);
+      const bool is_lowest = run.k == 0 || !floor_.Test(i, run.j, run.k - 1);
+      for (int k = sole_layers; is_lowest && k < shin_layers; ++k) {
+        const int above = cloud.IndexAt(Eigen::Vector3i(i, run.j, k));
+        if (above < 0) continue;
+        foot.shin_W += cloud.voxels()[above].center_W;
+        ++foot.shin_voxels;
       }
     }
   }
-  columns_.clear();
-  for (const int i : piece_) columns_.emplace_back(cloud.voxels()[i].cell.head<2>());
-  std::ranges::sort(columns_, IsBefore);
-  columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
-}
-
-std::optional<Vector3> FeetFinder::OffsetOfPiece(const VoxelCloud& cloud) {
-  Vector3 foot_W = Vector3::Zero(), shin_W = Vector3::Zero();
-  for (const int i : piece_) foot_W += cloud.voxels()[i].center_W;
-  const Voxel& on_floor = cloud.voxels()[piece_.front()];
-  const auto layers_above = [&](double height_mm) {
-    return static_cast<int>((height_mm - on_floor.center_W.z()) / cloud.voxel_mm());
-  };
-  int count = 0;
-  for (const Eigen::Vector2i& column : columns_) {
-    for (int up = layers_above(kAnkleMm) + 1; up <= layers_above(kShinMm); ++up) {
-      const int i = cloud.IndexAt(Eigen::Vector3i(column.x(), column.y(), on_floor.cell.z() + up));
-      if (i < 0) continue;
-      shin_W += cloud.voxels()[i].center_W;
-      ++count;
-    }
-  }
-  if (count == 0) return std::nullopt;
-  Vector3 offset_W = foot_W / static_cast<double>(piece_.size()) - shin_W / count;
-  offset_W.z() = 0;
-  return offset_W;
 }
 
 std::optional<Vector3> FeetFinder::ToesBeforeShins(const VoxelCloud& cloud) {
-  // Voxels are listed from the floor up.
-  const auto end = std::ranges::find_if(
-      cloud.voxels(), [](const Voxel& voxel) { return voxel.center_W.z() >= kAnkleMm; });
-  is_taken_.assign(static_cast<std::size_t>(end - cloud.voxels().begin()), 0);
-  const double voxel_litres = cloud.voxel_mm() * cloud.voxel_mm() * cloud.voxel_mm() * 1e-6;
+  const int sole_layers = LayersBelow(cloud, kAnkleMm);
+  if (sole_layers == 0) return std::nullopt;
+  Measure(cloud, sole_layers, LayersBelow(cloud, kShinMm));
+  const double voxel_litres = std::pow(cloud.voxel_mm(), 3) * 1e-6;
   Vector3 sum_W = Vector3::Zero();
   double voxels = 0;
-  for (int i = 0; i < std::ssize(is_taken_); ++i) {
-    if (is_taken_[i]) continue;
-    CollectPiece(cloud, i);
-    const auto size = static_cast<double>(piece_.size());
-    if (size * voxel_litres < kLeastFootLitres) continue;
-    const std::optional<Vector3> offset_W = OffsetOfPiece(cloud);
-    if (!offset_W) continue;
-    sum_W += size * *offset_W;
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    const double size = pieces_.sizes()[i];
+    if (size * voxel_litres < kLeastFootLitres || feet_[i].shin_voxels == 0) continue;
+    sum_W += size * (feet_[i].sole_W / size - feet_[i].shin_W / feet_[i].shin_voxels);
     voxels += size;
   }
+  sum_W.z() = 0;
   if (voxels == 0 || sum_W.norm() < kLeastOffsetMm * voxels) return std::nullopt;
   return Vector3(sum_W / voxels);
 }

@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/reconstruction/carving/voxel_pieces.h"
 #include "core/tracking/voxel_cloud.h"
 
 namespace mocap {
 
-/// Finds feet on the floor. Reuses its memory.
+/// Finds feet on the floor, z = 0. Reuses its memory.
 class FeetFinder {
  public:
   /// Returns how far the toes are before the shins: the horizontal offset of each piece of flesh on
@@ -18,13 +19,17 @@ class FeetFinder {
   std::optional<Vector3> ToesBeforeShins(const VoxelCloud& cloud);
 
  private:
-  // A piece of flesh on the floor: its voxels' indices, and their columns of cells.
-  void CollectPiece(const VoxelCloud& cloud, int first);
-  std::optional<Vector3> OffsetOfPiece(const VoxelCloud& cloud);
+  // Sums of centres.
+  struct Foot {
+    Vector3 sole_W = Vector3::Zero(), shin_W = Vector3::Zero();
+    int shin_voxels = 0;
+  };
+  // Sums up the pieces in the lowest layers, and the layers above them up to `shin_layers`.
+  void Measure(const VoxelCloud& cloud, int sole_layers, int shin_layers);
 
-  std::vector<char> is_taken_;  // For each voxel on the floor.
-  std::vector<int> piece_;
-  std::vector<Eigen::Vector2i> columns_;
+  VoxelGrid floor_;
+  VoxelPieces pieces_;
+  std::vector<Foot> feet_;  // One for each piece.
 };
 
 }  // namespace mocap

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/acquisition/feet.h"
 #include "core/acquisition/pose_contest.h"
 #include "core/acquisition/size_refiner.h"
 #include "core/tracking/tracker.h"

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "core/acquisition/feet.h"
 #include "core/body/pose_state.h"
 
 namespace mocap {

@@ -30,6 +30,7 @@ class VoxelCloud {
   /// Does so for a person who is alone.
   void Build(const VoxelGrid& grid) { Build(grid, grid); }
 
+  /// In scan order: x, then y, then z.
   const std::vector<Voxel>& voxels() const { return voxels_; }
   int size() const { return static_cast<int>(voxels_.size()); }
   bool empty() const { return voxels_.empty(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "daemon/messages/channel_name.h"
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 
@@ -10,10 +11,10 @@ namespace mocap {
 PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras,
                              CaptureTimes times)
     : sender_(lcm, ParseLcmUrl(config.url).provider),
-      pose_channel_(config.prefix + "MOCAP_POSE"),
-      body_channel_(config.prefix + "MOCAP_BODY"),
-      people_channel_(config.prefix + "MOCAP_PEOPLE"),
-      bodies_channel_(config.prefix + "MOCAP_BODIES"),
+      pose_channel_(config.prefix + kPoseChannel),
+      body_channel_(config.prefix + kBodyChannel),
+      people_channel_(config.prefix + kPeopleChannel),
+      bodies_channel_(config.prefix + kBodiesChannel),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + "MOCAP_STATUS"),
       service_channel_(config.prefix + "MOCAP_SERVICE"),

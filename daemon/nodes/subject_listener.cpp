@@ -25,7 +25,7 @@ SubjectListener::SubjectListener(const LcmConfig& lcm, std::shared_ptr<SubjectPo
 
 void SubjectListener::Listen() {
   const auto subscribe = [this](lcm::LCM& lcm) {
-    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + "MOCAP_PEOPLE"), &PassSubject, this);
+    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kPeopleChannel), &PassSubject, this);
   };
   listener_.emplace("studio", lcm_.url, kReopenLog,
                     LcmListener::Calls{subscribe, [this] { return Hears(); }});

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "drivers/simulation/curve.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap::simulation {
@@ -16,11 +17,6 @@ constexpr double kBehind = 0.36, kDark = 0.16, kWhite = 0.92;
 constexpr int kBoardSamples = 3;  // Per pixel, in each direction.
 // A board that lies on something is not hidden by it.
 constexpr double kAsNear = 1.01;
-
-double SmoothShare(double x) {
-  const double u = std::clamp(x, 0.0, 1.0);
-  return u * u * (3 - 2 * u);
-}
 
 RigidTransform Centred(const Matrix3& R_WB, const Vector3& middle_W) {
   return {R_WB, middle_W - R_WB * PrintedBoard::Middle()};
@@ -117,7 +113,7 @@ RigidTransform BoardPath::PoseAt(double t_s) const {
   const double places = std::max(0.0, t_s) / (kMoveBoard_s + kHoldBoard_s);
   const auto number = static_cast<std::uint64_t>(places);
   const double within_s = (places - static_cast<double>(number)) * (kMoveBoard_s + kHoldBoard_s);
-  const double share = SmoothShare((within_s - kHoldBoard_s) / kMoveBoard_s);
+  const double share = Smoothstep(0, 1, (within_s - kHoldBoard_s) / kMoveBoard_s);
   const RigidTransform from = PlaceOf(number), to = PlaceOf(number + 1);
   const Matrix3 R_WB = from.R * ExpRotation(share * LogRotation(from.R.transpose() * to.R));
   return Centred(

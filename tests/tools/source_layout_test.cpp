@@ -31,7 +31,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kInner
       {"reconstruction", {"kernels"}},
       {"calibration", {"reconstruction"}},
       {"tracking", {"body", "kernels", "reconstruction"}},
-      {"acquisition", {"body", "kernels", "tracking"}},
+      {"acquisition", {"body", "kernels", "reconstruction", "tracking"}},
       {"mikic2003", {"body", "reconstruction", "tracking"}},
       {"evaluation", {"body"}},
       {"people", {"body", "reconstruction", "tracking"}}}},

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
 #include <ostream>
 #include <string>
 
@@ -16,7 +15,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kDegreesPerRad = 180 / std::numbers::pi;
 constexpr double kCmPerMm = 0.1;
 
 std::string Numbers(const Vector3& v, int decimals) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
 #include <ostream>
 
 #include "core/errors.h"
@@ -12,8 +11,6 @@
 
 namespace mocap {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 constexpr std::array kColumns = {"time",
                                  "pelvis_tilt",
@@ -57,7 +54,7 @@ std::string MotHeader(std::size_t rows) {
 class Line {
  public:
   explicit Line(double time_s) : text_(FixedText(time_s, 6)) {}
-  void Angle(double rad) { text_ += '\t' + FixedText(kDegrees * rad, 5); }
+  void Angle(double rad) { text_ += '\t' + FixedText(kDegreesPerRad * rad, 5); }
   void Angles(const Vector3& rad) {
     for (const double angle : rad) Angle(angle);
   }

@@ -17,7 +17,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kColors = 8;
 
 int ColorOf(std::size_t person) { return static_cast<int>(person % kColors); }
@@ -209,7 +208,7 @@ std::string PathsFigure(const PeopleEvaluation& evaluation, const TakeSamples& s
     PlotSeries path{evaluation.people[i].name, {}, ColorOf(i)};
     for (const PoseRow& row : evaluation.people[i].evaluation.result.poses) {
       path.points.push_back(IsTracked(row) ? Vector2(row.paper.torso_mm.head<2>() / 1000)
-                                           : Vector2(kUnknown, kUnknown));
+                                           : Vector2(kPlotGap, kPlotGap));
     }
     series.push_back(std::move(path));
   }
@@ -230,7 +229,7 @@ std::string ErrorsFigure(const PeopleEvaluation& evaluation) {
       const auto& poses = evaluation.people[i].evaluation.result.poses;
       const auto frame = static_cast<double>(poses[static_cast<std::size_t>(match.pose)].frame);
       if (!curve.points.empty() && frame > curve.points.back().x() + 1.5) {
-        curve.points.emplace_back(frame - 1, kUnknown);
+        curve.points.emplace_back(frame - 1, kPlotGap);
       }
       curve.points.emplace_back(frame, match.mean_mm);
     }
@@ -257,7 +256,7 @@ std::vector<double> FramesOf(const PeopleEvaluation& evaluation, const TakeSampl
   std::vector<double> frames;
   for (const SampledMoment& moment : samples.moments) {
     const std::vector<ViewedBody> bodies = BodiesAt(evaluation, moment.timestamp_ns);
-    frames.push_back(bodies.empty() ? kUnknown : static_cast<double>(bodies.front().row.frame));
+    frames.push_back(bodies.empty() ? kPlotGap : static_cast<double>(bodies.front().row.frame));
   }
   return frames;
 }

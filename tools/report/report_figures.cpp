@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tools/report/svg_plot.h"
 #include "tools/results/export_axes.h"
@@ -11,7 +10,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Left and right keep their colours throughout the report.
 constexpr int kLeftColor = 0, kRightColor = 1, kPlainColor = 2, kOtherColor = 3;
 
@@ -54,7 +52,7 @@ template <typename Value>
 std::vector<Vector2> Curve(const Evaluation& evaluation, Value value) {
   std::vector<Vector2> points;
   for (const PoseRow& row : evaluation.result.poses) {
-    points.emplace_back(static_cast<double>(row.frame), IsTracked(row) ? value(row) : kNan);
+    points.emplace_back(static_cast<double>(row.frame), IsTracked(row) ? value(row) : kPlotGap);
   }
   return points;
 }
@@ -66,7 +64,8 @@ std::vector<Vector2> TrueCurve(const Evaluation& evaluation, Value value) {
   if (!evaluation.accuracy) return points;
   for (const FrameError& error : evaluation.accuracy->frames) {
     const auto frame = static_cast<double>(evaluation.result.poses[error.pose].frame);
-    if (!points.empty() && frame > points.back().x() + 1.5) points.emplace_back(frame - 1, kNan);
+    if (!points.empty() && frame > points.back().x() + 1.5)
+      points.emplace_back(frame - 1, kPlotGap);
     points.emplace_back(frame, value(evaluation.truth->frames[error.truth].points_W));
   }
   return points;
@@ -175,7 +174,8 @@ std::string TorsoPathFigure(const Evaluation& evaluation,
   }
   PlotSeries path{"tracked", {}, kLeftColor};
   for (const PoseRow& row : evaluation.result.poses) {
-    path.points.push_back(IsTracked(row) ? from_above(row.paper.torso_mm) : Vector2(kNan, kNan));
+    path.points.push_back(IsTracked(row) ? from_above(row.paper.torso_mm)
+                                         : Vector2(kPlotGap, kPlotGap));
   }
   std::vector<PlotSeries> series = {std::move(seats), std::move(path)};
   if (!truth.points.empty()) series.push_back(std::move(truth));
@@ -240,8 +240,8 @@ std::string ErrorFigure(const Evaluation& evaluation) {
   for (const FrameError& error : evaluation.accuracy->frames) {
     const auto frame = static_cast<double>(evaluation.result.poses[error.pose].frame);
     if (!mean.points.empty() && frame > mean.points.back().x() + 1.5) {
-      mean.points.emplace_back(frame - 1, kNan);
-      worst.points.emplace_back(frame - 1, kNan);
+      mean.points.emplace_back(frame - 1, kPlotGap);
+      worst.points.emplace_back(frame - 1, kPlotGap);
     }
     mean.points.emplace_back(frame, error.point_mm.mean());
     worst.points.emplace_back(frame, error.point_mm.maxCoeff());

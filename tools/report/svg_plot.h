@@ -2,6 +2,7 @@
 // the CSS classes c0, c1 … (strokes and fills), `axis`, `grid` and `shade`.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,9 @@
 namespace mocap {
 
 enum class PlotMark { kLine, kDashed, kDots, kRings, kCrosses };
+
+/// A coordinate that interrupts a line.
+inline constexpr double kPlotGap = std::numeric_limits<double>::quiet_NaN();
 
 /// A curve or point cloud. A NaN interrupts the line.
 struct PlotSeries {

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/people/people_capture.h"
 #include "daemon/control/control_request.h"
+#include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "drivers/printable_text.h"
 #include "tools/results/channel_log.h"
@@ -17,8 +18,6 @@
 
 namespace mocap {
 namespace {
-
-constexpr std::string_view kPeopleChannel = "MOCAP_PEOPLE", kBodies = "MOCAP_BODIES";
 
 /// Data of one person in a log.
 struct Person {
@@ -127,10 +126,10 @@ class PeopleOfLog {
   std::int64_t wrong_ = 0, repeated_ = 0;
 };
 
-using LogsOfPeople = std::map<std::string, PeopleOfLog>;
+using PeopleByPrefix = std::map<std::string, PeopleOfLog>;
 
-LogsOfPeople ReadPeople(ChannelLog& channels) {
-  LogsOfPeople daemons;
+PeopleByPrefix ReadEveryPrefix(ChannelLog& channels) {
+  PeopleByPrefix daemons;
   while (channels.Next()) {
     PeopleOfLog& daemon = daemons[channels.prefix()];
     const bool is_ours = channels.name() == kPeopleChannel ? daemon.AddSet(channels.bytes())
@@ -145,8 +144,8 @@ LogsOfPeople ReadPeople(ChannelLog& channels) {
 
 PeopleResults ReadPeopleLog(const std::filesystem::path& log,
                             const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPeopleChannel, kBodies}, prefix);
-  LogsOfPeople daemons = ReadPeople(channels);
+  ChannelLog channels(log, {kPeopleChannel, kBodiesChannel}, prefix);
+  PeopleByPrefix daemons = ReadEveryPrefix(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "people");
   const auto chosen = name ? daemons.find(*name) : daemons.end();
   PeopleResults people;

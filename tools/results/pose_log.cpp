@@ -8,6 +8,7 @@
 
 #include "config/body_size_fields.h"
 #include "core/errors.h"
+#include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "drivers/printable_text.h"
 #include "tools/results/channel_log.h"
@@ -15,8 +16,6 @@
 namespace mocap {
 namespace {
 
-constexpr std::string_view kPoseChannel = "MOCAP_POSE", kBodyChannel = "MOCAP_BODY",
-                           kPeopleOfPoses = "MOCAP_PEOPLE";
 /// Larger values are no valid time of day; nanoseconds do not overflow below.
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;
 /// Data of one daemon in a log: of all channels with the same prefix.
@@ -69,7 +68,7 @@ Daemons ReadDaemons(ChannelLog& channels) {
   Daemons daemons;
   while (channels.Next()) {
     Daemon& daemon = daemons[channels.prefix()];
-    if (channels.name() == kPeopleOfPoses) {
+    if (channels.name() == kPeopleChannel) {
       NotePeople(channels.bytes(), daemon);
       continue;
     }
@@ -158,7 +157,7 @@ std::optional<BodyRecord> BodyRecordOf(const body_t& message) {
 }
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPoseChannel, kBodyChannel, kPeopleOfPoses}, prefix);
+  ChannelLog channels(log, {kPoseChannel, kBodyChannel, kPeopleChannel}, prefix);
   Daemons daemons = ReadDaemons(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "poses");
   const auto chosen = name ? daemons.find(*name) : daemons.end();

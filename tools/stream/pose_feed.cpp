@@ -42,11 +42,11 @@ PoseFeed::PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take)
     : options_(options), take_(std::move(take)), rate_(options.most_hz), heard_ns_(SteadyNs()) {
   const std::string prefix = ChannelPattern(options.prefix);
   if (options.everybody || options.person) {
-    lcm.subscribe(prefix + "MOCAP_PEOPLE", &PoseFeed::OnPeople, this);
-    lcm.subscribe(prefix + "MOCAP_BODIES", &PoseFeed::OnPersonBody, this);
+    lcm.subscribe(prefix + kPeopleChannel, &PoseFeed::OnPeople, this);
+    lcm.subscribe(prefix + kBodiesChannel, &PoseFeed::OnPersonBody, this);
   } else {
-    lcm.subscribe(prefix + "MOCAP_POSE", &PoseFeed::OnPose, this);
-    lcm.subscribe(prefix + "MOCAP_BODY", &PoseFeed::OnBody, this);
+    lcm.subscribe(prefix + kPoseChannel, &PoseFeed::OnPose, this);
+    lcm.subscribe(prefix + kBodyChannel, &PoseFeed::OnBody, this);
   }
 }
 

@@ -77,10 +77,10 @@ RigidTransform PoseOf(const preview_t& preview) {
 LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put)
     : url_(std::move(url)), put_(std::move(put)), heard_ns_(SteadyNs()) {
   const std::string named = ChannelPattern(prefix);
-  lcm.subscribe(named + "MOCAP_POSE", &LiveFeed::OnPose, this);
-  lcm.subscribe(named + "MOCAP_BODY", &LiveFeed::OnBody, this);
-  lcm.subscribe(named + "MOCAP_PEOPLE", &LiveFeed::OnPeople, this);
-  lcm.subscribe(named + "MOCAP_BODIES", &LiveFeed::OnPersonBody, this);
+  lcm.subscribe(named + kPoseChannel, &LiveFeed::OnPose, this);
+  lcm.subscribe(named + kBodyChannel, &LiveFeed::OnBody, this);
+  lcm.subscribe(named + kPeopleChannel, &LiveFeed::OnPeople, this);
+  lcm.subscribe(named + kBodiesChannel, &LiveFeed::OnPersonBody, this);
   lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + "MOCAP_SERVICE", &LiveFeed::OnService, this);

@@ -27,7 +27,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNsInMs = 1e6;
 constexpr std::size_t kMostPosesAtOnce = 2000;
 constexpr int kWidest_px = 800;
 constexpr int kJpegQuality = 85;
@@ -186,7 +185,7 @@ const PoseRow* TakeSite::RowOf(const ShownResult& result, std::size_t frame) con
 std::string TakeSite::TakeJson() const {
   Json times = Json::array();
   for (const std::int64_t time_ns : times_ns_) {
-    times.push_back(static_cast<double>(time_ns) / kNsInMs);
+    times.push_back(static_cast<double>(time_ns) / kNsPerMs);
   }
   Json json{{"name", pictures_.name()},
             {"fps", pictures_.fps_nominal()},
@@ -299,7 +298,7 @@ std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOut
   DrawnPicture drawn{.camera = picture.camera,
                      .width_px = picture.image.width(),
                      .height_px = picture.image.height(),
-                     .capture_ms = static_cast<double>(picture.capture_ns) / kNsInMs,
+                     .capture_ms = static_cast<double>(picture.capture_ns) / kNsPerMs,
                      .silhouette = {},
                      .bodies = std::move(bodies),
                      .jpeg = jpeg_};

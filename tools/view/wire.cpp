@@ -10,7 +10,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kNsPerMs = 1e6;
 /// More voxels than any room has; larger messages are rejected.
 constexpr std::int64_t kMostVoxels = std::int64_t{1} << 26;
 /// More than people occupy, at a voxel size of 10 mm.

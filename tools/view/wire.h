@@ -14,6 +14,9 @@
 
 namespace mocap {
 
+/// The page counts time in milliseconds.
+inline constexpr double kNsPerMs = 1e6;
+
 /// A pose for drawing.
 struct DrawnPose {
   int person = 0;  ///< Index of its colour.

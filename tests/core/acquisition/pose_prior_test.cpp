@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "config/load_config.h"
+#include "core/acquisition/facing_watch.h"
 #include "core/body/stance.h"
 #include "tests/support/voxelized_body.h"
 
@@ -61,6 +62,27 @@ TEST_F(Feet, ABackpackChangesNothing) {
   const std::optional<Vector3> with_W = finder_.ToesBeforeShins(cloud);
   ASSERT_TRUE(without_W && with_W);
   EXPECT_EQ(*without_W, *with_W);
+}
+
+TEST_F(Feet, MayTurnWhoIsTrackedBackToFrontButNoneTooSoon) {
+  const PoseState right = Standing(30, 20), backwards = Standing(210, 20);
+  VoxelCloud cloud;
+  cloud.Build(Voxelize(body_, right, 25));
+  FacingWatch watch;
+  const auto look = [&](const PoseState& pose, int frames) {
+    for (int i = 0; i < frames; ++i) watch.Look(cloud, pose, 0.05);
+  };
+  look(right, 20);
+  EXPECT_FALSE(watch.is_backwards());
+  look(backwards, 5);
+  EXPECT_FALSE(watch.is_backwards());
+  look(backwards, 5);
+  EXPECT_TRUE(watch.is_backwards());
+  look(right, 2);
+  EXPECT_FALSE(watch.is_backwards());
+  look(backwards, 10);
+  watch.StartOver();
+  EXPECT_FALSE(watch.is_backwards());
 }
 
 TEST(PosePrior, CostsMoreTheFartherAnUprightTrunkIsTurnedFromTheFeet) {

@@ -44,13 +44,18 @@ TEST(PeopleRow, SaysSoOfSomebodyWhoWasNeverFound) {
   EXPECT_THAT(PeopleSummaryText(std::vector{row}), HasSubstr("1 never found"));
 }
 
-TEST(PeopleTrial, FindsTwoWhoStandApart) {
+SimulatedStudioOptions TwoInASmallStudio(const std::string& motion, double seconds) {
   SimulatedStudioOptions studio = RecordedSimulation();
-  studio.motion = "stand";
+  studio.motion = motion;
   studio.people = 2;
   studio.width_px = 320;
   studio.height_px = 240;
-  studio.seconds = 1;
+  studio.seconds = seconds;
+  return studio;
+}
+
+TEST(PeopleTrial, FindsTwoWhoStandApart) {
+  const SimulatedStudioOptions studio = TwoInASmallStudio("stand", 1);
   const PeopleRow row = RunPeopleTrial(studio);
   EXPECT_EQ(row.never_found, 0);
   EXPECT_EQ(row.switches, 0);
@@ -66,13 +71,8 @@ INSTANTIATE_TEST_SUITE_P(Simulated, WhoStaysInPlace, ::testing::Values("rest", "
                          [](const auto& motion) { return std::string(motion.param); });
 
 TEST_P(WhoStaysInPlace, IsNeitherFurnitureNorPartOfWhoWalksAround) {
-  SimulatedStudioOptions studio = RecordedSimulation();
-  studio.motion = GetParam();
-  studio.people = 2;
-  studio.width_px = 320;
-  studio.height_px = 240;
+  SimulatedStudioOptions studio = TwoInASmallStudio(GetParam(), 9);
   studio.fps = 10;
-  studio.seconds = 9;
   const PeopleRow row = RunPeopleTrial(studio);
   EXPECT_EQ(row.never_found, 0);
   EXPECT_EQ(row.switches, 0);
