@@ -11,6 +11,7 @@
 #include "drivers/simulation/path_walker.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/room_plan.h"
+#include "drivers/simulation/wheelchair.h"
 
 namespace mocap::simulation {
 namespace {
@@ -72,6 +73,15 @@ void AddRound(Bodies bodies, GaitStyle (*style)(const Anthropometry&), double ra
 Motions Run(Bodies bodies, std::uint64_t seed) {
   Motions motions;
   AddRound(bodies, RunningStyle, 1500, 1700, seed, motions);
+  return motions;
+}
+
+Motions RollAround(Bodies bodies, std::uint64_t seed) {
+  const FloorPath path = OvalPath(Vector2::Zero(), kRollRadius_mm, seed);
+  const double apart_mm = path.length_mm() / static_cast<double>(bodies.size());
+  Motions motions;
+  for (const Anthropometry& body : bodies)
+    motions.push_back(MakeRoll(body, path, apart_mm * static_cast<double>(motions.size())));
   return motions;
 }
 
@@ -229,6 +239,7 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
   }
   if (name == "walk") return Cross(bodies, seed);
   if (name == "run") return Run(bodies, seed);
+  if (name == "roll") return RollAround(bodies, seed);
   if (name == "dance") return DanceTogether(bodies, seed);
   if (name == "sit") return SitAmong(bodies, seed, MakeSit);
   if (name == "rest") return SitAmong(bodies, seed, MakeRest);

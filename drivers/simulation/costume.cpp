@@ -9,17 +9,10 @@
 #include "drivers/simulation/curve.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/tube_builder.h"
+#include "drivers/simulation/wheelchair.h"
 
 namespace mocap::simulation {
 namespace {
-
-TubeStyle StyleOf(Material material, int rings, int sectors) {
-  return {.rings = rings,
-          .sectors = sectors,
-          .side = 1,
-          .fold = 0,
-          .material = [material](double, double) { return material; }};
-}
 
 Section Oval(double front_mm, double back_mm, double half_width_mm, double cx_mm = 0) {
   return {.s = 0,
@@ -34,7 +27,7 @@ Section Oval(double front_mm, double back_mm, double half_width_mm, double cx_mm
 // An ellipsoid that is fixed to a bone. Radii along the bone's axes.
 void AddEllipsoid(Bone bone, const Vector3& middle_B, const Vector3& radii_mm, Material material,
                   TubeBuilder& builder) {
-  builder.AddTube(1, -1, StyleOf(material, 13, 16), [&](double s) {
+  builder.AddTube(1, -1, PlainStyle(material, 13, 16), [&](double s) {
     const double height = std::sin(s * std::numbers::pi / 2);
     const double width = std::max(std::cos(s * std::numbers::pi / 2), 0.03);
     Ring ring;
@@ -51,7 +44,7 @@ void AddEllipsoid(Bone bone, const Vector3& middle_B, const Vector3& radii_mm, M
 // @param top_H  its beginning, in the head's frame.
 void AddHangingHair(const Vector3& top_H, double length_mm, double backward, const Section& section,
                     TubeBuilder& builder) {
-  builder.AddTube(1, 0, StyleOf(kHair, 14, 14), [&](double s) {
+  builder.AddTube(1, 0, PlainStyle(kHair, 14, 14), [&](double s) {
     const double down_mm = (1 - s) * length_mm;
     Ring ring;
     ring.X_WRing =
@@ -115,7 +108,7 @@ void AddDrape(const Anthropometry& body, const Costume& costume, TubeBuilder& bu
   const double waist_mm = 0.25 * body.torso_mm;
   const double hem_mm = std::min(costume.drape_end, 1.0) * body.thigh_mm +
                         std::max(costume.drape_end - 1, 0.0) * body.shank_mm;
-  TubeStyle style = StyleOf(costume.drape == Drape::kSkirt ? kTrousers : kShirt, 24, 22);
+  TubeStyle style = PlainStyle(costume.drape == Drape::kSkirt ? kTrousers : kShirt, 24, 22);
   style.fold = 0.03;
   builder.AddTube(0, 1, style, [&](double s) {
     const double below_hips_mm = s * (waist_mm + hem_mm) - waist_mm;
@@ -134,7 +127,7 @@ void AddDrape(const Anthropometry& body, const Costume& costume, TubeBuilder& bu
 void AddLoads(const Anthropometry& body, const Costume& costume, TubeBuilder& builder) {
   if (costume.backpack_mm > 0) {
     const double half_mm = costume.backpack_mm / 2;
-    builder.AddTube(0.9, 0.2, StyleOf(kLoad, 10, 16), [&](double s) {
+    builder.AddTube(0.9, 0.2, PlainStyle(kLoad, 10, 16), [&](double s) {
       Ring ring;
       ring.X_WRing = {Matrix3::Identity(),
                       builder.rest()[kPelvis].p + Vector3(0, 0, s * body.torso_mm)};
@@ -146,7 +139,7 @@ void AddLoads(const Anthropometry& body, const Costume& costume, TubeBuilder& bu
     });
   }
   if (costume.has_bag) {
-    builder.AddTube(0, 1, StyleOf(kLoad, 8, 16), [&](double s) {
+    builder.AddTube(0, 1, PlainStyle(kLoad, 8, 16), [&](double s) {
       Ring ring;
       ring.X_WRing = builder.rest()[kHandR] *
                      RigidTransform{Matrix3::Identity(), {0, 0, -0.8 * body.hand_mm - 260 * s}};
@@ -158,9 +151,37 @@ void AddLoads(const Anthropometry& body, const Costume& costume, TubeBuilder& bu
   }
 }
 
+// Forearm crutches: shafts that are held and reach the floor below hanging arms.
+void AddCrutches(const Anthropometry& body, TubeBuilder& builder) {
+  constexpr double kShaft_mm = 12, kCuff_mm = 45;
+  const double grip_mm = 0.5 * body.hand_mm;
+  const double wrist_mm =
+      body.hip_height_mm() + body.shoulder_mm - body.upper_arm_mm - body.forearm_mm;
+  for (const int side : {kLeft, kRight}) {
+    const auto add = [&](double top_mm, double bottom_mm, double radius_mm) {
+      builder.AddTube(top_mm, bottom_mm, PlainStyle(kLoad, 6, 8), [&](double z_mm) {
+        Ring ring;
+        ring.X_WRing =
+            builder.rest()[kHandL + side] * RigidTransform{Matrix3::Identity(), {0, 0, z_mm}};
+        ring.section = Oval(radius_mm, radius_mm, radius_mm);
+        ring.weights[kHandL + side] = 1;
+        return ring;
+      });
+    };
+    add(-grip_mm, -wrist_mm, kShaft_mm);
+    add(0.8 * body.forearm_mm, 0.65 * body.forearm_mm, kCuff_mm);
+  }
+}
+
+bool IsUpright(std::string_view motion) {
+  return motion == "walk" || motion == "stand" || motion == "gesture" || motion == "visit";
+}
+
 }  // namespace
 
-Costume MakeCostume(std::uint64_t seed) {
+Costume PlainCostume(std::string_view motion) { return {.has_wheelchair = motion == "roll"}; }
+
+Costume MakeCostume(std::uint64_t seed, std::string_view motion) {
   Random random(Mix(seed, Tag("costume")));
   const auto one_in = [&random](double count) { return random.Uniform(0, 1) * count < 1; };
   Costume costume;
@@ -190,6 +211,8 @@ Costume MakeCostume(std::uint64_t seed) {
   }
   if (one_in(5)) costume.backpack_mm = random.Uniform(110, 240);
   costume.has_bag = one_in(7);
+  costume.has_crutches = one_in(8) && IsUpright(motion);
+  costume.has_wheelchair = PlainCostume(motion).has_wheelchair;
   return costume;
 }
 
@@ -203,7 +226,8 @@ std::string Describe(const Costume& costume) {
        {kHairNames[static_cast<std::size_t>(costume.hair)],
         kHatNames[static_cast<std::size_t>(costume.hat)],
         kDrapeNames[static_cast<std::size_t>(costume.drape)], is_wide ? "wide sleeves" : "",
-        costume.backpack_mm > 0 ? "backpack" : "", costume.has_bag ? "bag" : ""}) {
+        costume.backpack_mm > 0 ? "backpack" : "", costume.has_bag ? "bag" : "",
+        costume.has_crutches ? "crutches" : "", costume.has_wheelchair ? "wheelchair" : ""}) {
     if (*part == '\0') continue;
     if (!text.empty()) text += ", ";
     text += part;
@@ -222,6 +246,8 @@ void AddCostume(const Anthropometry& body, const Costume& costume, TubeBuilder& 
   AddHat(body, costume.hat, builder);
   AddDrape(body, costume, builder);
   AddLoads(body, costume, builder);
+  if (costume.has_crutches) AddCrutches(body, builder);
+  if (costume.has_wheelchair) AddWheelchair(body, builder);
 }
 
 }  // namespace mocap::simulation

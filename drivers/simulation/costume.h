@@ -1,8 +1,9 @@
-// What people wear beyond shirt and trousers: hair, hats, loose clothes and loads.
+// What people wear and use beyond shirt and trousers: hair, hats, loose clothes, loads and aids.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "drivers/simulation/anthropometry.h"
 
@@ -26,10 +27,15 @@ struct Costume {
   double torso_slack_mm = 0, sleeve_slack_mm = 0;
   double backpack_mm = 0;  ///< Depth; 0: none.
   bool has_bag = false;    ///< In the right hand.
+  bool has_crutches = false;
+  bool has_wheelchair = false;
 };
 
-/// Chooses a costume at random.
-Costume MakeCostume(std::uint64_t seed);
+/// Nothing but what the motion needs: whoever rolls sits in a wheelchair.
+Costume PlainCostume(std::string_view motion);
+/// Chooses a costume at random, with what the motion needs. Only people who stay on their feet have
+/// crutches.
+Costume MakeCostume(std::uint64_t seed, std::string_view motion);
 /// Lists what is not plain, such as "afro, gown, backpack"; "plain" if nothing.
 std::string Describe(const Costume& costume);
 

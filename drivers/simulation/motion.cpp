@@ -11,6 +11,7 @@
 #include "drivers/simulation/path_walker.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/room_plan.h"
+#include "drivers/simulation/wheelchair.h"
 
 namespace mocap::simulation {
 namespace {
@@ -128,6 +129,7 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "run")
     return std::make_unique<PathWalker>(body, RunningStyle(body),
                                         OvalPath(Vector2::Zero(), 1500, seed), 1700 * pace);
+  if (name == "roll") return MakeRoll(body, OvalPath(Vector2::Zero(), kRollRadius_mm, seed));
   if (name == "dance") return std::make_unique<Dance>(body, seed);
   if (name == "visit") return std::make_unique<Visit>(body, seed);
   if (name == "jump") return MakeJump(body, RandomSpot(seed), seed);

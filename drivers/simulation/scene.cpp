@@ -113,7 +113,8 @@ Scene::Scene(const SimulatedStudioOptions& options)
   for (int i = 0; i < options.people; ++i) {
     const std::uint64_t seed = SeedOf(options, i);
     Outfit outfit = MakeOutfit(seed, room_.wall_color());
-    if (options.varied) outfit.costume = MakeCostume(seed);
+    outfit.costume =
+        options.varied ? MakeCostume(seed, options.motion) : PlainCostume(options.motion);
     figures_.push_back({outfit, BuildPersonMesh(people_[i].body(), outfit, seed)});
   }
 }

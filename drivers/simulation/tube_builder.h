@@ -30,6 +30,15 @@ struct TubeStyle {
   std::function<Material(double s, double angle)> material;
 };
 
+/// A round tube of one material, without folds.
+inline TubeStyle PlainStyle(Material material, int rings, int sectors) {
+  return {.rings = rings,
+          .sectors = sectors,
+          .side = 1,
+          .fold = 0,
+          .material = [material](double, double) { return material; }};
+}
+
 /// Adds tubes to a mesh.
 class TubeBuilder {
  public:

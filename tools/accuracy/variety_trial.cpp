@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array kMotions = {"walk", "dance", "stand", "sit",    "run",
                                  "step", "jump",  "lie",   "gesture"};
+constexpr double kWheelchairs = 0.07;  ///< As a share of the people.
 constexpr double kLatestBegin_s = 8;
 constexpr double kFoundLate_s = 0.5, kLostLong_s = 0.3;
 constexpr std::size_t kWorst = 10;
@@ -62,7 +63,10 @@ VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming) {
   AccuracyTrial trial;
   trial.studio.varied = true;
   trial.studio.seed = seed;
-  trial.studio.motion = kMotions[seed % kMotions.size()];
+  const bool rolls =
+      simulation::Random(simulation::Mix(seed, simulation::Tag("wheelchair"))).Uniform(0, 1) <
+      kWheelchairs;
+  trial.studio.motion = rolls ? "roll" : kMotions[seed % kMotions.size()];
   trial.studio.stature_mm =
       std::round(simulation::Random(simulation::Mix(seed, simulation::Tag("varied stature")))
                      .Uniform(1150, 1980));
@@ -74,7 +78,7 @@ VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming) {
   trial.studio.cameras = filming.cameras;
   trial.covered_share = filming.covered_share;
   VarietyRow row{.accuracy = Measure(trial),
-                 .looks = simulation::Describe(simulation::MakeCostume(seed))};
+                 .looks = simulation::Describe(simulation::MakeCostume(seed, trial.studio.motion))};
   if (row.accuracy.found_after >= 0) row.found_s = row.accuracy.found_after / filming.fps;
   row.lost_s = row.accuracy.longest_loss / filming.fps;
   return row;

@@ -47,7 +47,7 @@ const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ(), kBack = -Eigen::Vector3f::
 
 TEST(Costume, EveryOneIsMadeOfClosedSurfaces) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Costume costume = MakeCostume(seed);
+    const Costume costume = MakeCostume(seed, "walk");
     std::map<std::pair<int, int>, int> edges;
     for (const PersonMesh::Triangle& t : Dressed(costume, Upright()).mesh.triangles)
       for (int k = 0; k < 3; ++k) ++edges[{t.v[k], t.v[(k + 1) % 3]}];
@@ -62,20 +62,22 @@ TEST(Costume, AllKindsAreDrawn) {
   std::set<Hair> hair;
   std::set<Hat> hats;
   std::set<Drape> drapes;
-  int backpacks = 0, bags = 0;
+  int backpacks = 0, bags = 0, crutches = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Costume costume = MakeCostume(seed);
+    const Costume costume = MakeCostume(seed, "walk");
     hair.insert(costume.hair);
     hats.insert(costume.hat);
     drapes.insert(costume.drape);
     backpacks += costume.backpack_mm > 0;
     bags += costume.has_bag;
+    crutches += costume.has_crutches;
   }
   EXPECT_EQ(hair.size(), 6u);
   EXPECT_EQ(hats.size(), 3u);
   EXPECT_EQ(drapes.size(), 4u);
   EXPECT_GT(backpacks, 10);
   EXPECT_GT(bags, 10);
+  EXPECT_GT(crutches, 10);
 }
 
 TEST(Costume, HairAndHatsAreWhereTheyGrowAndSit) {
@@ -112,11 +114,32 @@ TEST(Costume, ASkirtFollowsTheLegThatIsRaised) {
   EXPECT_LT(right_mm, 100);
 }
 
+TEST(Costume, CrutchesReachTheFloorBelowHangingArms) {
+  const Figure figure = Dressed({.has_crutches = true}, Upright());
+  EXPECT_NEAR(Reach(figure, -kUp), 0, 8);
+  const std::size_t first = Dressed({}, Upright()).p_W.size();
+  float lowest_mm = 1e9F;
+  for (std::size_t i = first; i < figure.p_W.size(); ++i)
+    lowest_mm = std::min(lowest_mm, figure.p_W[i].z());
+  EXPECT_NEAR(lowest_mm, 0, 8);
+}
+
+TEST(Costume, WhoRollsHasAWheelchairAndNobodyWhoSitsOrRunsHasCrutches) {
+  EXPECT_EQ(Describe(PlainCostume("roll")), "wheelchair");
+  EXPECT_EQ(Describe(PlainCostume("walk")), "plain");
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    EXPECT_TRUE(MakeCostume(seed, "roll").has_wheelchair);
+    for (const char* motion : {"roll", "sit", "lie", "run"})
+      EXPECT_FALSE(MakeCostume(seed, motion).has_crutches) << motion;
+  }
+}
+
 TEST(Costume, IsDescribedInWords) {
   EXPECT_EQ(Describe({}), "plain");
   EXPECT_EQ(Describe({.hair = Hair::kAfro, .drape = Drape::kGown, .backpack_mm = 100}),
             "afro, gown, backpack");
   EXPECT_EQ(Describe({.sleeve_slack_mm = 30}), "wide sleeves");
+  EXPECT_EQ(Describe({.has_bag = true, .has_crutches = true}), "bag, crutches");
 }
 
 TEST(Costume, VariedBuildsKeepTheirStature) {

@@ -9,6 +9,7 @@
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/person_mesh.h"
 #include "drivers/simulation/room_plan.h"
+#include "drivers/simulation/wheelchair.h"
 #include "tests/support/joint_limits.h"
 
 namespace mocap::simulation {
@@ -96,7 +97,9 @@ TEST_P(EveryMotion, MovesWithoutJerks) {
 TEST_P(EveryMotion, PutsTheSolesOnTheFloor) {
   const Anthropometry body = MakeAnthropometry(1750, 6);
   const auto motion = MakeMotion(GetParam(), body, 6);
-  const PersonMesh mesh = BuildPersonMesh(body, MakeOutfit(6, {}), 6);
+  Outfit outfit = MakeOutfit(6, {});
+  outfit.costume = PlainCostume(GetParam());  // In a wheelchair, the wheels are on the floor.
+  const PersonMesh mesh = BuildPersonMesh(body, outfit, 6);
   std::vector<Eigen::Vector3f> p_W, n_W;
   double lowest = 1e9;
   for (double t = 0; t < 10; t += 0.03) {
@@ -120,6 +123,20 @@ TEST_P(EveryMotion, DependsOnTheSeedAlone) {
   };
   EXPECT_EQ(pelvis(6), pelvis(6));
   EXPECT_NE(pelvis(6), pelvis(7));
+}
+
+TEST(Wheelchair, FitsSmallAndTallPeople) {
+  for (const double stature_mm : {1100.0, 1750.0, 2000.0}) {
+    const Anthropometry body = MakeAnthropometry(stature_mm, 3);
+    const BonePoses bones = PlaceBones(body, MakeMotion("roll", body, 3)->PoseAt(0.4));
+    const Wheelchair chair = FitWheelchair(body);
+    for (const int side : {kLeft, kRight}) {
+      // The soles are on the footrest, the thighs level, the hands near the tyres' tops.
+      EXPECT_NEAR(bones[kFootL + side].p.z(), chair.footrest_mm + body.ankle_to_sole_mm, 2);
+      EXPECT_NEAR(bones[kShankL + side].p.z(), chair.hips_mm, 0.06 * stature_mm);
+      EXPECT_NEAR(bones[kHandL + side].p.z(), 2 * chair.wheel_radius_mm, 0.09 * stature_mm);
+    }
+  }
 }
 
 TEST(Gait, AFlatFootDoesNotSlide) {
