@@ -64,6 +64,23 @@ TEST_F(Feet, ABackpackChangesNothing) {
   EXPECT_EQ(*without_W, *with_W);
 }
 
+// The hull between the legs and the chair of somebody who sits: it lies beside the feet and joins
+// them.
+TEST_F(Feet, SayNothingWhereMoreThanFeetIsOnTheFloor) {
+  const PoseState pose = Standing(0, 20);
+  VoxelGrid grid = Voxelize(body_, pose, 25);
+  const Vector3 middle_W(pose.X_WT.p.x() - 100, pose.X_WT.p.y(), 0);
+  for (int k = 0; k < grid.size().z(); ++k)
+    for (int j = 0; j < grid.size().y(); ++j)
+      for (int i = 0; i < grid.size().x(); ++i) {
+        const Vector3 from_W = grid.CenterOf(i, j, k) - middle_W;
+        if (from_W.head<2>().norm() < 150 && from_W.z() < 200) grid.Set(i, j, k);
+      }
+  VoxelCloud cloud;
+  cloud.Build(grid);
+  EXPECT_FALSE(finder_.ToesBeforeShins(cloud));
+}
+
 TEST_F(Feet, MayTurnWhoIsTrackedBackToFrontButNoneTooSoon) {
   const PoseState right = Standing(30, 20), backwards = Standing(210, 20);
   VoxelCloud cloud;
