@@ -60,14 +60,21 @@ Motions Cross(Bodies bodies, std::uint64_t seed) {
 }
 
 // One after the other around the middle.
-void AddRound(Bodies bodies, GaitStyle (*style)(const Anthropometry&), double radius_mm,
-              double speed_mm_s, std::uint64_t seed, Motions& motions) {
+template <typename Make>
+void AddAround(Bodies bodies, double radius_mm, std::uint64_t seed, Motions& motions, Make make) {
   const FloorPath path = OvalPath(Vector2::Zero(), radius_mm, seed);
   const double apart_mm = path.length_mm() / static_cast<double>(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    motions.push_back(std::make_unique<PathWalker>(bodies[i], style(bodies[i]), path,
-                                                   CommonSpeed(bodies, speed_mm_s),
-                                                   apart_mm * static_cast<double>(i)));
+    motions.push_back(make(bodies[i], path, apart_mm * static_cast<double>(i)));
+}
+
+void AddRound(Bodies bodies, GaitStyle (*style)(const Anthropometry&), double radius_mm,
+              double speed_mm_s, std::uint64_t seed, Motions& motions) {
+  AddAround(bodies, radius_mm, seed, motions,
+            [&](const Anthropometry& body, const FloorPath& path, double start_mm) {
+              return std::make_unique<PathWalker>(body, style(body), path,
+                                                  CommonSpeed(bodies, speed_mm_s), start_mm);
+            });
 }
 
 Motions Run(Bodies bodies, std::uint64_t seed) {
@@ -77,11 +84,8 @@ Motions Run(Bodies bodies, std::uint64_t seed) {
 }
 
 Motions RollAround(Bodies bodies, std::uint64_t seed) {
-  const FloorPath path = OvalPath(Vector2::Zero(), kRollRadius_mm, seed);
-  const double apart_mm = path.length_mm() / static_cast<double>(bodies.size());
   Motions motions;
-  for (const Anthropometry& body : bodies)
-    motions.push_back(MakeRoll(body, path, apart_mm * static_cast<double>(motions.size())));
+  AddAround(bodies, kRollRadius_mm, seed, motions, MakeRoll);
   return motions;
 }
 

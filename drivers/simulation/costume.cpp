@@ -173,7 +173,8 @@ void AddCrutches(const Anthropometry& body, TubeBuilder& builder) {
   }
 }
 
-bool IsUpright(std::string_view motion) {
+// Crutches are fixed to the hands: where these are near the floor, they would be in it.
+bool KeepsHandsUp(std::string_view motion) {
   return motion == "walk" || motion == "stand" || motion == "gesture" || motion == "visit";
 }
 
@@ -211,7 +212,7 @@ Costume MakeCostume(std::uint64_t seed, std::string_view motion) {
   }
   if (one_in(5)) costume.backpack_mm = random.Uniform(110, 240);
   costume.has_bag = one_in(7);
-  costume.has_crutches = one_in(8) && IsUpright(motion);
+  costume.has_crutches = one_in(8) && KeepsHandsUp(motion);
   costume.has_wheelchair = PlainCostume(motion).has_wheelchair;
   return costume;
 }

@@ -33,8 +33,8 @@ struct Costume {
 
 /// Nothing but what the motion needs: whoever rolls sits in a wheelchair.
 Costume PlainCostume(std::string_view motion);
-/// Chooses a costume at random, with what the motion needs. Only people who stay on their feet have
-/// crutches.
+/// Chooses a costume at random, with what the motion needs. Crutches only go with motions of people
+/// who walk or stand.
 Costume MakeCostume(std::uint64_t seed, std::string_view motion);
 /// Lists what is not plain, such as "afro, gown, backpack"; "plain" if nothing.
 std::string Describe(const Costume& costume);

@@ -11,6 +11,7 @@ namespace mocap::simulation {
 namespace {
 
 constexpr double kSpeed_mm_s = 700, kPush_s = 1.3;
+constexpr double kTyre_mm = 14;  // Half its thickness.
 
 // A tube or box of the chair, in the pelvis's frame.
 Ring ChairRing(const TubeBuilder& builder, const RigidTransform& X_PRing, double half_x_mm,
@@ -41,8 +42,8 @@ void AddTyre(const Vector3& axle_P, const Wheelchair& chair, TubeBuilder& builde
     R_PRing << d, 0, -c,  //
         0, 1, 0,          //
         c, 0, d;
-    const Vector3 p_P = axle_P + chair.wheel_radius_mm * Vector3(d, 0, c);
-    return ChairRing(builder, {R_PRing, p_P}, chair.tyre_mm, chair.tyre_mm);
+    const Vector3 p_P = axle_P + (chair.wheel_radius_mm - kTyre_mm) * Vector3(d, 0, c);
+    return ChairRing(builder, {R_PRing, p_P}, kTyre_mm, kTyre_mm);
   });
 }
 
@@ -75,11 +76,11 @@ class Roll : public Motion {
   // The hand pushes the top of the tyre forward, and returns above it.
   Vector3 HandAt(int side, double phase) const {
     const double angle = 0.35 + 0.40 * std::sin(phase);
-    const double radius_mm = chair_.wheel_radius_mm + 0.022 * body_.stature_mm -
+    const double radius_mm = chair_.wheel_radius_mm + 0.014 * body_.stature_mm -
                              0.012 * body_.stature_mm * std::cos(phase);
     return {chair_.axle_forward_mm + radius_mm * std::sin(angle),
             SideSign(side) * chair_.wheel_out_mm,
-            chair_.wheel_radius_mm + chair_.tyre_mm + radius_mm * std::cos(angle)};
+            chair_.wheel_radius_mm + radius_mm * std::cos(angle)};
   }
 
   // Bends an arm towards a point with the elbow behind, as those who push wheels do.
@@ -105,11 +106,9 @@ class Roll : public Motion {
 Wheelchair FitWheelchair(const Anthropometry& body) {
   const double h = body.stature_mm;
   Wheelchair chair;
-  chair.tyre_mm = 14;
   chair.footrest_mm = 0.03 * h;
   chair.hips_mm = chair.footrest_mm + body.ankle_to_sole_mm + 0.94 * body.shank_mm;
-  chair.seat_below_mm = 0.052 * h;
-  chair.wheel_radius_mm = 0.150 * h;
+  chair.wheel_radius_mm = 0.158 * h;
   chair.axle_forward_mm = 0.02 * h;
   chair.wheel_out_mm = (0.125 + 0.015 * std::max(body.girth, 0.0)) * h;
   chair.feet_forward_mm = 0.97 * body.thigh_mm + 0.1 * body.shank_mm;
@@ -118,20 +117,20 @@ Wheelchair FitWheelchair(const Anthropometry& body) {
 
 void AddWheelchair(const Anthropometry& body, TubeBuilder& builder) {
   const Wheelchair chair = FitWheelchair(body);
-  const double h = body.stature_mm, seat_half = chair.wheel_out_mm - 2 * chair.tyre_mm;
+  const double h = body.stature_mm, seat_half = chair.wheel_out_mm - 2 * kTyre_mm;
   constexpr double kPlate_mm = 15;
-  const double seat_mm = -chair.seat_below_mm - kPlate_mm;
+  const double seat_mm = -0.052 * h - kPlate_mm;  // Below the thighs.
   AddBox({0.38 * body.thigh_mm, 0, seat_mm}, {0.5 * body.thigh_mm, seat_half, kPlate_mm}, builder);
   AddBox({-0.085 * h, 0, 0.09 * h}, {kPlate_mm, seat_half, 0.15 * h}, builder);
   AddBox({chair.feet_forward_mm + 0.03 * h, 0, chair.footrest_mm - kPlate_mm - chair.hips_mm},
          {0.07 * h, 0.09 * h, kPlate_mm}, builder);
   const double front_mm = 0.88 * body.thigh_mm, low_mm = chair.footrest_mm - chair.hips_mm;
   for (const double side : {1.0, -1.0}) {
-    AddTyre({chair.axle_forward_mm, side * chair.wheel_out_mm,
-             chair.wheel_radius_mm + chair.tyre_mm - chair.hips_mm},
-            chair, builder);
+    AddTyre(
+        {chair.axle_forward_mm, side * chair.wheel_out_mm, chair.wheel_radius_mm - chair.hips_mm},
+        chair, builder);
     AddBox({front_mm, side * 0.09 * h, 0.5 * (seat_mm + low_mm)},
-           {chair.tyre_mm, chair.tyre_mm, 0.5 * (seat_mm - low_mm)}, builder);
+           {kTyre_mm, kTyre_mm, 0.5 * (seat_mm - low_mm)}, builder);
   }
 }
 

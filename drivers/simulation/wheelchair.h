@@ -14,13 +14,11 @@ class TubeBuilder;
 /// Measures of a wheelchair that fits a person [mm].
 struct Wheelchair {
   double hips_mm = 0;          ///< Height of the hip joints.
-  double seat_below_mm = 0;    ///< Top of the seat below the hip joints.
-  double wheel_radius_mm = 0;  ///< Of the large wheels, to the middle of the tyre.
+  double wheel_radius_mm = 0;  ///< Of the large wheels, to the outside of the tyre.
   double axle_forward_mm = 0;  ///< Before the hips.
   double wheel_out_mm = 0;     ///< Distance of their planes from the middle.
   double footrest_mm = 0;      ///< Height of the footrest's top.
   double feet_forward_mm = 0;  ///< Ankles before the hips.
-  double tyre_mm = 0;          ///< Half its thickness.
 };
 
 Wheelchair FitWheelchair(const Anthropometry& body);

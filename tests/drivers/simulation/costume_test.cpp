@@ -47,13 +47,15 @@ const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ(), kBack = -Eigen::Vector3f::
 
 TEST(Costume, EveryOneIsMadeOfClosedSurfaces) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Costume costume = MakeCostume(seed, "walk");
-    std::map<std::pair<int, int>, int> edges;
-    for (const PersonMesh::Triangle& t : Dressed(costume, Upright()).mesh.triangles)
-      for (int k = 0; k < 3; ++k) ++edges[{t.v[k], t.v[(k + 1) % 3]}];
-    for (const auto& [edge, count] : edges) {
-      ASSERT_EQ(count, 1) << Describe(costume);
-      ASSERT_EQ(edges.count({edge.second, edge.first}), 1u) << Describe(costume);
+    for (const char* motion : {"walk", "roll"}) {
+      const Costume costume = MakeCostume(seed, motion);
+      std::map<std::pair<int, int>, int> edges;
+      for (const PersonMesh::Triangle& t : Dressed(costume, Upright()).mesh.triangles)
+        for (int k = 0; k < 3; ++k) ++edges[{t.v[k], t.v[(k + 1) % 3]}];
+      for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1) << Describe(costume);
+        ASSERT_EQ(edges.count({edge.second, edge.first}), 1u) << Describe(costume);
+      }
     }
   }
 }
