@@ -43,8 +43,10 @@ ServiceConfig ReadServiceConfig(TomlSection& root, const std::filesystem::path& 
     section->RejectUnknownKeys();
   }
   if (auto section = root.Section("realtime")) {
-    config.realtime.priority =
-        static_cast<int>(section->IntegerWithin("priority", 0, kHighestPriority, 0));
+    if (section->Has("priority")) {
+      config.realtime.priority =
+          static_cast<int>(section->IntegerWithin("priority", 0, kHighestPriority, 0));
+    }
     config.realtime.lock_memory = section->Flag("lock_memory", false);
     config.realtime.processors = section->Integers("processors", 0, kHighestProcessor);
     section->RejectUnknownKeys();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "drivers/take/video_writer.h"
@@ -28,7 +29,8 @@ struct MetricsConfig {
 
 /// [realtime]: gives frames precedence on a busy machine.
 struct RealtimeConfig {
-  int priority = 0;             ///< Of the frame path, SCHED_FIFO; 0: normal scheduling.
+  /// Of the frame path, SCHED_FIFO; 0: normal scheduling. Without a value, real-time if permitted.
+  std::optional<int> priority;
   bool lock_memory = false;     ///< Nothing is paged out.
   std::vector<int> processors;  ///< For the frame path; empty: all.
 };

@@ -21,6 +21,7 @@
 #include "daemon/control/control_socket.h"
 #include "daemon/control/remote_control.h"
 #include "daemon/messages/pose_publisher.h"
+#include "daemon/pipeline/realtime.h"
 #include "daemon/status/diagnostics.h"
 #include "drivers/clock.h"
 
@@ -146,20 +147,27 @@ Diagnosis CheckSocketBuffers() {
 
 Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter) {
   const bool by_systemd = starter == Starter::kSystemd;
-  const auto unit_or = [by_systemd](const char* name, std::uint64_t own) {
-    return by_systemd ? UnitLimit(name).value_or(own) : own;
+  const auto unit_limit = [by_systemd](const char* name) {
+    return by_systemd ? UnitLimit(name) : std::nullopt;
   };
-  const std::uint64_t priority = unit_or("LimitRTPRIO", OwnLimit(RLIMIT_RTPRIO));
-  const std::uint64_t locked = unit_or("LimitMEMLOCK", OwnLimit(RLIMIT_MEMLOCK));
-  const bool may_go_first = priority >= static_cast<std::uint64_t>(config.priority);
+  const int priority = config.priority.value_or(kUsualPriority);
+  const std::optional<std::uint64_t> highest = unit_limit("LimitRTPRIO");
+  const bool may_go_first =
+      highest ? *highest >= static_cast<std::uint64_t>(priority) : MayTakePriority(priority);
+  const std::uint64_t locked = unit_limit("LimitMEMLOCK").value_or(OwnLimit(RLIMIT_MEMLOCK));
   const bool may_lock = !config.lock_memory || locked == RLIM_INFINITY;
   if (may_go_first && may_lock) {
-    return {Verdict::kGood, "limits allow the priority and locked memory that are configured", ""};
+    return {Verdict::kGood, "limits allow real-time priority and what [realtime] asks for", ""};
   }
   const std::string fix =
       by_systemd
           ? "systemctl edit mocapd: [Service] LimitRTPRIO=49 LimitMEMLOCK=infinity"
           : "rtprio 49 and memlock unlimited in /etc/security/limits.conf, then log in again";
+  if (may_lock && !config.priority) {
+    return {Verdict::kAdvice,
+            "limits do not allow real-time priority; recordings and other programs delay poses",
+            fix};
+  }
   return {Verdict::kBad, "limits do not allow what [realtime] asks for", fix};
 }
 

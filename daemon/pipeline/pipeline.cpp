@@ -45,7 +45,7 @@ ThreadOptions ThreadsFor(const PipelineOptions& options) {
 std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options, SideThread::Guard guard) {
   const bool is_wanted = options.people > 1 && options.overflow == Overflow::kDropOldest;
   if (!is_wanted) return nullptr;
-  return std::make_unique<SideThread>("newcomers", options.processors, std::move(guard));
+  return std::make_unique<SideThread>("newcomers", ThreadsFor(options), std::move(guard));
 }
 
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {

@@ -45,6 +45,12 @@ bool TakePriority(int priority) {
                                &parameter) == 0;
 }
 
+bool MayTakePriority(int priority) {
+  const bool may = TakePriority(priority);
+  if (may) TakePriority(0);
+  return may;
+}
+
 void WorkInLongTurns() {
   constexpr std::uint64_t kLongestTurnNs = 100'000'000;  // The kernel's maximum.
   constexpr pid_t kThisThread = 0;
@@ -55,15 +61,17 @@ void WorkInLongTurns() {
   syscall(SYS_sched_setattr, kThisThread, &attributes, 0U);
 }
 
+int FramePathPriority(const RealtimeConfig& config) {
+  if (config.priority) return *config.priority;
+  return MayTakePriority(kUsualPriority) ? kUsualPriority : 0;
+}
+
 // Only tests the limits. The threads of the frame path apply these settings themselves.
 void PrepareRealtime(const RealtimeConfig& config) {
-  if (config.priority > 0) {
-    if (!TakePriority(config.priority)) {
-      throw SetupError("realtime.priority is " + std::to_string(config.priority) +
-                       ", which is above the limit; raise LimitRTPRIO= in the unit, or rtprio in "
-                       "/etc/security/limits.conf");
-    }
-    TakePriority(0);
+  if (config.priority && !MayTakePriority(*config.priority)) {
+    throw SetupError("realtime.priority is " + std::to_string(*config.priority) +
+                     ", which is above the limit; raise LimitRTPRIO= in the unit, or rtprio in "
+                     "/etc/security/limits.conf");
   }
   cpu_set_t before;
   pthread_getaffinity_np(pthread_self(), sizeof before, &before);

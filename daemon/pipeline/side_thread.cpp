@@ -17,12 +17,13 @@ constexpr std::size_t kMostWaiting = 32;
 
 }  // namespace
 
-SideThread::SideThread(const std::string& name, const std::vector<int>& processors, Guard guard)
+SideThread::SideThread(const std::string& name, const ThreadOptions& frame_path, Guard guard)
     : guard_(std::move(guard)), queue_(kMostWaiting, Overflow::kWait, bell_) {
-  thread_ = std::thread([this, name, processors] {
+  thread_ = std::thread([this, name, frame_path] {
     pthread_setname_np(pthread_self(), name.c_str());
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-    KeepToProcessors(processors);
+    // A frame path with real-time priority goes first anyway.
+    if (frame_path.priority == 0) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+    KeepToProcessors(frame_path.processors);
     Run();
   });
 }

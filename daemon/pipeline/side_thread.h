@@ -5,22 +5,22 @@
 #include <functional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "core/people/side_work.h"
 #include "daemon/pipeline/spsc_queue.h"
+#include "daemon/pipeline/thread_group.h"
 
 namespace mocap {
 
-/// Runs work in its own thread of lower priority. It still gets a share of a processor that is
-/// always busy. Work that is queued at the end is not run.
+/// Runs work in its own thread, of lower priority than the frame path. It still gets a share of a
+/// processor that is always busy. Work that is queued at the end is not run.
 class SideThread : public SideWork {
  public:
   using Guard = std::function<void(const std::function<void()>& work)>;
 
-  /// @param processors  that the thread is restricted to; empty: all.
+  /// @param frame_path  options of the threads that this one must not delay.
   /// @param guard       runs the work and handles its exceptions.
-  SideThread(const std::string& name, const std::vector<int>& processors, Guard guard);
+  SideThread(const std::string& name, const ThreadOptions& frame_path, Guard guard);
   ~SideThread() override;
 
   /// Call from one thread at a time.

@@ -105,7 +105,7 @@ PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<
           .latency_origin = can_wait ? LatencyOrigin::kArrival : LatencyOrigin::kCapture,
           .tracker = config.tracker,
           .people = config.people,
-          .priority = config.service.realtime.priority,
+          .priority = can_wait ? 0 : FramePathPriority(config.service.realtime),
           .processors = config.service.realtime.processors,
           .taps = std::move(taps)};
 }

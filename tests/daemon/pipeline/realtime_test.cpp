@@ -56,6 +56,16 @@ TEST(Realtime, TryingTheProcessorsLeavesTheThreadWhereItMayRun) {
   EXPECT_TRUE(CPU_EQUAL(&before, &after));
 }
 
+TEST(Realtime, FramePathIsAheadOfOtherProgramsWhereLimitsAllowIt) {
+  RealtimeConfig config;
+  EXPECT_EQ(FramePathPriority(config), MayTakePriority(kUsualPriority) ? kUsualPriority : 0);
+  EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+  for (const int configured : {0, 3}) {
+    config.priority = configured;
+    EXPECT_EQ(FramePathPriority(config), configured);
+  }
+}
+
 TEST(Realtime, LongTurnsKeepAThreadAsNiceAsItWas) {
   constexpr int kNice = 3;
   std::thread([&] {
