@@ -23,7 +23,7 @@ NodePath::~NodePath() { threads_.End(); }
 
 void NodePath::Start() {
   lines_.Launch(threads_, wanted_from_ns_);
-  threads_.Launch("send", [this] {
+  threads_.LaunchBelow("send", [this] {
     threads_.Guard([this] { RunSending(); });
     lines_.Close();
     finished_.store(true, std::memory_order_release);

@@ -95,13 +95,14 @@ Pipeline::~Pipeline() { threads_.End(); }
 
 void Pipeline::Start() {
   lines_->Launch(threads_, carve_->wanted_from_ns());
-  threads_.Launch("carve", [this] {
+  // Work on a set must not delay the next frames: cameras have few buffers.
+  threads_.LaunchBelow("carve", [this] {
     threads_.Guard([this] { RunCarving(); });
     carving_has_ended_.store(true, std::memory_order_relaxed);
     lines_->Close();
     sets_.Close();
   });
-  threads_.Launch("track", [this] {
+  threads_.LaunchBelow("track", [this] {
     threads_.Guard([this] { RunTracking(); });
     sets_.Close();
     finished_.store(true, std::memory_order_release);

@@ -14,11 +14,20 @@ constexpr std::size_t kLongestThreadName = 15;
 }  // namespace
 
 void ThreadGroup::Launch(const std::string& name, std::function<void()> body) {
-  threads_.emplace_back([this, name, body = std::move(body)] {
+  LaunchAt(options_.priority, name, std::move(body));
+}
+
+void ThreadGroup::LaunchBelow(const std::string& name, std::function<void()> body) {
+  const int priority = options_.priority;
+  LaunchAt(priority > 1 ? priority - 1 : priority, name, std::move(body));
+}
+
+void ThreadGroup::LaunchAt(int priority, const std::string& name, std::function<void()> body) {
+  threads_.emplace_back([this, priority, name, body = std::move(body)] {
     pthread_setname_np(pthread_self(), name.substr(0, kLongestThreadName).c_str());
     // Permission was tested at the start. Without it, frames are only late more often.
-    if (options_.priority > 0) {
-      TakePriority(options_.priority);
+    if (priority > 0) {
+      TakePriority(priority);
     } else if (options_.in_long_turns) {
       WorkInLongTurns();
     }

@@ -27,6 +27,8 @@ class ThreadGroup {
 
   /// @param name  cut to 15 characters.
   void Launch(const std::string& name, std::function<void()> body);
+  /// As Launch, with the next lower real-time priority, if there is one.
+  void LaunchBelow(const std::string& name, std::function<void()> body);
   /// Runs a function; an exception from it stops the group. Any thread.
   void Guard(const std::function<void()>& body);
   void RequestStop() { stop_.store(true, std::memory_order_relaxed); }
@@ -37,6 +39,8 @@ class ThreadGroup {
   void End();
 
  private:
+  void LaunchAt(int priority, const std::string& name, std::function<void()> body);
+
   const ThreadOptions options_;
   std::vector<std::thread> threads_;
   std::atomic<bool> stop_{false};
