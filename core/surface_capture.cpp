@@ -186,7 +186,7 @@ class SurfaceCapture::Impl {
     patience_ = std::min(2 * patience_, kLongestDoubt);
     const bool sizes_are_known = SizesAreKnown();
     const std::optional<BodySizes> sizes = sizes_are_known ? known_ : std::nullopt;
-    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s))) return;
+    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s), facing_.walks_W())) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;

@@ -66,9 +66,9 @@ PoseContest& ModelAcquirer::ContestFor(const std::optional<BodySizes>& known) {
 }
 
 bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySizes>& known,
-                           double effort) {
+                           double effort, const std::optional<Vector3>& walks_W) {
   PoseContest& contest = ContestFor(known);
-  const PosePrior prior = PriorOf(evidence);
+  const PosePrior prior = PriorOf(evidence, walks_W);
   const std::vector<PoseCandidate> candidates = contest.Hold(evidence, prior, effort);
   const std::size_t finalists = effort < 1 ? kFewFinalists : kFinalists;
   hypotheses_.clear();

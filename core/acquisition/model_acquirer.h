@@ -20,8 +20,10 @@ class ModelAcquirer {
   /// Searches for a body.
   /// @param known   sizes to keep; acquisition ends at once then.
   /// @param effort  as for PoseContest::Hold. Further calls try again what failed before.
+  /// @param walks_W  direction in which the person walks, if that is known.
   /// @return whether a body was found that explains the evidence.
-  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort);
+  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort,
+              const std::optional<Vector3>& walks_W = std::nullopt);
 
   /// Tests whether a body of other sizes explains the evidence clearly better than the one that was
   /// located with known sizes.
@@ -48,8 +50,9 @@ class ModelAcquirer {
     SizeRefiner sizes;
     double cost_sum = 0;
   };
-  PosePrior PriorOf(const Evidence& evidence) {
-    return PosePrior(feet_.ToesBeforeShins(evidence.cloud));
+  PosePrior PriorOf(const Evidence& evidence,
+                    const std::optional<Vector3>& walks_W = std::nullopt) {
+    return PosePrior(feet_.ToesBeforeShins(evidence.cloud), walks_W);
   }
   PoseContest& ContestFor(const std::optional<BodySizes>& known);
   Hypothesis Begin(const PoseContest& contest, const PoseCandidate& candidate,

@@ -9,24 +9,27 @@ namespace {
 // gown looks like a trunk, and the arms above it like legs.
 constexpr double kUpsideDownMm = 12;
 // Likewise somebody who faces away from where the feet point: a backpack looks like a chest.
-constexpr double kBackwardsMm = 10;
+constexpr double kAgainstFeetMm = 10;
+// Somebody who walks backwards: it happens.
+constexpr double kAgainstWayMm = 4;
 
 }  // namespace
 
-PosePrior::PosePrior(const std::optional<Vector3>& toes_W) : toes_W_(toes_W) {
-  if (toes_W_) toes_W_->normalize();
+PosePrior::PosePrior(const std::optional<Vector3>& toes_W, const std::optional<Vector3>& walks_W)
+    : ahead_W_(toes_W ? toes_W : walks_W), backwards_mm_(toes_W ? kAgainstFeetMm : kAgainstWayMm) {
+  if (ahead_W_) ahead_W_->normalize();
 }
 
 double PosePrior::CostMm(const PoseState& pose) const {
   const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2, backwards = ShareBackwards(pose);
-  return kUpsideDownMm * upside_down * upside_down + kBackwardsMm * backwards * backwards;
+  return kUpsideDownMm * upside_down * upside_down + backwards_mm_ * backwards * backwards;
 }
 
 double PosePrior::ShareBackwards(const PoseState& pose) const {
   const Vector2 ahead = pose.X_WT.R.col(0).head<2>();
-  if (!toes_W_ || ahead.norm() == 0) return 0;
+  if (!ahead_W_ || ahead.norm() == 0) return 0;
   const double upright = std::max(0.0, pose.X_WT.R(2, 2));
-  return upright * (1 - ahead.normalized().dot(toes_W_->head<2>())) / 2;
+  return upright * (1 - ahead.normalized().dot(ahead_W_->head<2>())) / 2;
 }
 
 }  // namespace mocap

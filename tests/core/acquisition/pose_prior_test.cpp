@@ -102,6 +102,40 @@ TEST_F(Feet, MayTurnWhoIsTrackedBackToFrontButNoneTooSoon) {
   EXPECT_FALSE(watch.is_backwards());
 }
 
+// Nobody's feet are seen here: there is no flesh.
+TEST_F(Feet, AreNotNeededToSeeWhichWaySomebodyWalks) {
+  FacingWatch watch;
+  const auto walk = [&](double mm_per_s, double yaw_deg) {
+    PoseState pose = Standing(yaw_deg, 20);
+    for (int i = 0; i < 25; ++i) {
+      watch.Look({}, pose, 0.04);
+      pose.X_WT.p.x() += 0.04 * mm_per_s;
+    }
+  };
+  walk(1000, 0);
+  ASSERT_TRUE(watch.walks_W());
+  EXPECT_GT(watch.walks_W()->x(), 0);
+  EXPECT_EQ(watch.walks_W()->z(), 0);
+  EXPECT_FALSE(watch.is_backwards());
+  watch.StartOver();
+  walk(1000, 180);
+  EXPECT_TRUE(watch.is_backwards());
+  watch.StartOver();
+  walk(300, 180);
+  EXPECT_FALSE(watch.walks_W());
+  EXPECT_FALSE(watch.is_backwards());
+}
+
+TEST(PosePrior, BelievesFeetMoreThanTheWay) {
+  PoseState pose;
+  pose.X_WT.R = ExpRotation(Vector3(0, 0, EIGEN_PI));
+  const Vector3 ahead_W(40, 0, 0), back_W(-500, 0, 0);
+  const double against_way_mm = PosePrior(std::nullopt, ahead_W).CostMm(pose);
+  EXPECT_GT(against_way_mm, 0);
+  EXPECT_GT(PosePrior(ahead_W).CostMm(pose), against_way_mm);
+  EXPECT_EQ(PosePrior(back_W, ahead_W).CostMm(pose), 0);
+}
+
 TEST(PosePrior, CostsMoreTheFartherAnUprightTrunkIsTurnedFromTheFeet) {
   const PosePrior prior(Vector3(0, 40, 0));
   const auto turned = [](double degrees) {
