@@ -186,11 +186,13 @@ class SurfaceCapture::Impl {
     patience_ = std::min(2 * patience_, kLongestDoubt);
     const bool sizes_are_known = SizesAreKnown();
     const std::optional<BodySizes> sizes = sizes_are_known ? known_ : std::nullopt;
-    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s), facing_.walks_W())) return;
+    const bool is_backwards = facing_.is_backwards();
+    const std::optional<Vector3> walks_W = is_backwards ? facing_.walks_W() : std::nullopt;
+    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s), walks_W)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
-    const bool may_turn = facing_.is_backwards() && !same_way;
+    const bool may_turn = is_backwards && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
     const auto cost_mm = [&](const Tracker& tracker) {
       return tracker.quality().Cost() + facing_.prior().CostMm(tracker.filter().pose());
