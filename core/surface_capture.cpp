@@ -113,6 +113,7 @@ class SurfaceCapture::Impl {
 
   void ForgetPerson() {
     tracker_.reset();
+    opposite_.reset();
     known_ = given_;
     refiner_.reset();
     acquirer_.StartOver();
@@ -132,8 +133,14 @@ class SurfaceCapture::Impl {
         break;
       case CaptureState::kTracking:
         tracker_->Update(evidence_, dt_s);
-        RefineSizes();
-        LookAgainInDoubt(dt_s);
+        RefineSizes(*tracker_, *refiner_);
+        facing_.Look(evidence_.cloud, tracker_->filter().pose(), dt_s);
+        if (opposite_) {
+          CompareFacings(dt_s);
+        } else {
+          LookAgainInDoubt(dt_s);
+        }
+        NoteSizes();
         NoticeLoss();
         break;
     }
@@ -155,19 +162,47 @@ class SurfaceCapture::Impl {
     result_.body_changed = true;
     if (!acquirer_.settled()) return;
     result_.state = CaptureState::kTracking;
-    if (!known_) acquisition_frames_ = frames_acquiring_;
+    opposite_.reset();
+    if (!known_) {
+      acquisition_frames_ = frames_acquiring_;
+      duel_ = acquirer_.duel();
+      if (const BodyHypothesis* opposite = acquirer_.opposite()) opposite_ = *opposite;
+    }
     known_ = tracker_->body().sizes();
     if (!refiner_) refiner_ = acquirer_.sizes();
     bad_frames_ = 0;
   }
 
-  void RefineSizes() {
-    if (given_ || refiner_->frames() >= kFramesToRefine) return;
-    if (tracker_->quality().Cost() > kDoubtCostMm) return;
-    refiner_->Add(tracker_->body(), tracker_->surface_fit(), tracker_->filter().pose());
-    tracker_->Resize(refiner_->Sizes());
+  void RefineSizes(Tracker& tracker, SizeRefiner& refiner) const {
+    if (given_ || refiner.frames() >= kFramesToRefine) return;
+    if (tracker.quality().Cost() > kDoubtCostMm) return;
+    refiner.Add(tracker.body(), tracker.surface_fit(), tracker.filter().pose());
+    tracker.Resize(refiner.Sizes());
+  }
+
+  void NoteSizes() {
+    if (*known_ == tracker_->body().sizes()) return;
     known_ = tracker_->body().sizes();
     result_.body_changed = true;
+  }
+
+  // Follows the body that faces the opposite way, and goes over to it while it costs less.
+  void CompareFacings(double dt_s) {
+    Tracker& other = opposite_->tracker;
+    other.Update(evidence_, dt_s);
+    RefineSizes(other, opposite_->sizes);
+    duel_.Add(CostMm(other) - CostMm(*tracker_), dt_s);
+    if (duel_.second_leads()) {
+      std::swap(*tracker_, other);
+      std::swap(*refiner_, opposite_->sizes);
+      duel_.Swap();
+    }
+    if (duel_.is_over()) opposite_.reset();
+  }
+
+  double CostMm(const Tracker& tracker) const {
+    return tracker.quality().Cost() +
+           facing_.prior().CostMm(tracker.body().sizes(), tracker.filter().pose());
   }
 
   // Sizes from few frames may be the cause of a bad fit.
@@ -175,7 +210,6 @@ class SurfaceCapture::Impl {
 
   // Neither unknown sizes nor the person's heading are taken for granted.
   void LookAgainInDoubt(double dt_s) {
-    facing_.Look(evidence_.cloud, tracker_->filter().pose(), dt_s);
     if (tracker_->quality().Cost() <= kDoubtCostMm && !facing_.is_backwards()) {
       doubtful_frames_ = 0;
       patience_ = kFramesToLose;
@@ -194,10 +228,7 @@ class SurfaceCapture::Impl {
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
     const bool may_turn = is_backwards && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
-    const auto cost_mm = [&](const Tracker& tracker) {
-      return tracker.quality().Cost() + facing_.prior().CostMm(tracker.filter().pose());
-    };
-    if (cost_mm(found) > (may_turn ? 1 : kClearlyBetter) * cost_mm(*tracker_)) return;
+    if (CostMm(found) > (may_turn ? 1 : kClearlyBetter) * CostMm(*tracker_)) return;
     tracker_ = found;
     facing_.StartOver();
     patience_ = kFramesToLose;
@@ -246,6 +277,8 @@ class SurfaceCapture::Impl {
   std::optional<BodySizes> known_;
   std::optional<BodySizes> given_;  ///< Known before the person was seen.
   std::optional<SizeRefiner> refiner_;
+  std::optional<BodyHypothesis> opposite_;  ///< Faces the opposite way, and may be right.
+  FacingDuel duel_;                         ///< Of the tracker with that.
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;

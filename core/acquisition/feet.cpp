@@ -11,9 +11,10 @@ constexpr double kAnkleMm = 75;
 constexpr double kShinMm = 175;
 // A third of a foot; smaller pieces are scraps.
 constexpr double kLeastFootLitres = 0.3;
-// Two large shoes side by side. A larger piece is more than feet: the hull between the legs of
-// somebody who sits, or a hem.
+// Two large shoes side by side, and their share of a person in clothes. A larger piece is more than
+// feet: the hull between the legs of somebody who sits, or a hem.
 constexpr double kMostFeetLitres = 3;
+constexpr double kMostFeetShare = 0.03;
 // Feet are 30 to 50 mm before the shins. Less is noise: of a sole that leaves the floor, or of a
 // foot under a gown.
 constexpr double kLeastOffsetMm = 15;
@@ -58,11 +59,12 @@ std::optional<Vector3> FeetFinder::ToesBeforeShins(const VoxelCloud& cloud) {
   if (sole_layers == 0) return std::nullopt;
   Measure(cloud, sole_layers, LayersBelow(cloud, kShinMm));
   const double voxel_litres = std::pow(cloud.voxel_mm(), 3) * 1e-6;
+  const double most_litres = std::min(kMostFeetLitres, kMostFeetShare * cloud.volume_litres());
   Vector3 sum_W = Vector3::Zero();
   double voxels = 0;
   for (std::size_t i = 0; i < feet_.size(); ++i) {
     const double size = pieces_.sizes()[i], litres = size * voxel_litres;
-    if (litres < kLeastFootLitres || litres > kMostFeetLitres) continue;
+    if (litres < kLeastFootLitres || litres > most_litres) continue;
     if (feet_[i].shin_voxels == 0) continue;
     sum_W += size * (feet_[i].sole_W / size - feet_[i].shin_W / feet_[i].shin_voxels);
     voxels += size;

@@ -19,13 +19,16 @@ constexpr std::size_t kFinalists = 3;
 constexpr std::size_t kFewFinalists = 1;
 constexpr double kSettledMm = 3;  // §8.1
 constexpr int kSizeIterations = 3;
-constexpr double kClearlyBetter = 1.12;  // of two facings
-constexpr int kFramesToDecide = 6;
+constexpr int kFramesToSettle = 6;
 
 bool LiesInFlesh(const Tracker& tracker) { return tracker.quality().hollow_mm < kMostHollowMm; }
 
 double CostOf(const Tracker& tracker) {
   return LiesInFlesh(tracker) ? tracker.quality().Cost() : std::numeric_limits<double>::infinity();
+}
+
+double PriorCostMm(const Tracker& tracker, const PosePrior& prior) {
+  return prior.CostMm(tracker.body().sizes(), tracker.filter().pose());
 }
 
 bool IsCredible(const Tracker& tracker) {
@@ -73,10 +76,10 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
   const std::size_t finalists = effort < 1 ? kFewFinalists : kFinalists;
   hypotheses_.clear();
   for (std::size_t i = 0; i < std::min(finalists, candidates.size()); ++i)
-    hypotheses_.push_back(Begin(contest, candidates[i], evidence, prior, !known));
+    hypotheses_.push_back(Begin(contest, candidates[i], evidence, !known));
   if (hypotheses_.empty()) return false;
-  const auto cost_mm = [&](const Hypothesis& hypothesis) {
-    return CostOf(hypothesis.tracker) + prior.CostMm(hypothesis.tracker.filter().pose());
+  const auto cost_mm = [&](const BodyHypothesis& hypothesis) {
+    return CostOf(hypothesis.tracker) + PriorCostMm(hypothesis.tracker, prior);
   };
   std::ranges::stable_sort(hypotheses_, {}, cost_mm);
   hypotheses_.resize(1, hypotheses_.front());
@@ -87,10 +90,11 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
     return FaceApart(candidate.pose, best.filter().pose());
   });
   if (opposite != candidates.end()) {
-    hypotheses_.push_back(Begin(contest, *opposite, evidence, prior, !known));
+    hypotheses_.push_back(Begin(contest, *opposite, evidence, !known));
     std::ranges::stable_sort(hypotheses_, {}, cost_mm);
   }
   frames_ = 1;
+  duel_ = {};
   settled_ = known.has_value();
   return true;
 }
@@ -99,17 +103,15 @@ bool ModelAcquirer::IsStranger(const Evidence& evidence, double effort) {
   const PosePrior prior = PriorOf(evidence);
   const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, prior, effort);
   if (strangers.empty()) return false;
-  const Hypothesis stranger = Begin(strangers_, strangers.front(), evidence, prior, true);
+  const BodyHypothesis stranger = Begin(strangers_, strangers.front(), evidence, true);
   return CostOf(best()) > CostOf(stranger.tracker) + kStrangerBetterMm;
 }
 
 // @param measures  whether the sizes are unknown.
-ModelAcquirer::Hypothesis ModelAcquirer::Begin(const PoseContest& contest,
-                                               const PoseCandidate& candidate,
-                                               const Evidence& evidence, const PosePrior& prior,
-                                               bool measures) {
+BodyHypothesis ModelAcquirer::Begin(const PoseContest& contest, const PoseCandidate& candidate,
+                                    const Evidence& evidence, bool measures) {
   const BodyModel& body = contest.body(candidate.body);
-  Hypothesis hypothesis{Tracker(body, candidate.pose), SizeRefiner(body)};
+  BodyHypothesis hypothesis{Tracker(body, candidate.pose), SizeRefiner(body)};
   Tracker& tracker = hypothesis.tracker;
   if (measures) {
     tracker.Look(evidence);
@@ -120,33 +122,36 @@ ModelAcquirer::Hypothesis ModelAcquirer::Begin(const PoseContest& contest,
     hypothesis.sizes = SizeRefiner(body);
     MeasureIn(tracker, hypothesis.sizes);
   }
-  hypothesis.cost_sum = tracker.quality().Cost() + prior.CostMm(tracker.filter().pose());
   return hypothesis;
 }
 
 void ModelAcquirer::Refine(const Evidence& evidence, double dt_s) {
   ++frames_;
-  const PosePrior prior = PriorOf(evidence);
-  double change_mm = 0;
-  for (Hypothesis& hypothesis : hypotheses_) {
+  const double stature_mm = best().body().sizes().Stature();
+  for (BodyHypothesis& hypothesis : hypotheses_) {
     Tracker& tracker = hypothesis.tracker;
     tracker.Update(evidence, dt_s);
-    hypothesis.cost_sum += tracker.quality().Cost() + prior.CostMm(tracker.filter().pose());
-    const double stature_mm = tracker.body().sizes().Stature();
     hypothesis.sizes.Add(tracker.body(), tracker.surface_fit(), tracker.filter().pose());
     tracker.Resize(hypothesis.sizes.Sizes());
-    if (&hypothesis == &hypotheses_.front())
-      change_mm = std::abs(tracker.body().sizes().Stature() - stature_mm);
   }
-  if (hypotheses_.size() == 2) {
-    if (hypotheses_[1].cost_sum < hypotheses_[0].cost_sum)
-      std::swap(hypotheses_[0], hypotheses_[1]);
-    const bool is_clear = hypotheses_[1].cost_sum > kClearlyBetter * hypotheses_[0].cost_sum;
-    if (is_clear || frames_ >= kFramesToDecide) hypotheses_.pop_back();
-  }
+  const double change_mm = std::abs(best().body().sizes().Stature() - stature_mm);
+  if (opposite()) CompareFacings(PriorOf(evidence), dt_s);
   // The lengths of somebody who crouches stay uncertain: tracking refines them later.
-  const bool at_rest = change_mm < kSettledMm || frames_ >= kFramesToDecide;
-  settled_ = hypotheses_.size() == 1 && at_rest;
+  settled_ = settled_ || change_mm < kSettledMm || frames_ >= kFramesToSettle;
+}
+
+void ModelAcquirer::CompareFacings(const PosePrior& prior, double dt_s) {
+  const auto cost_mm = [&](int i) {
+    const Tracker& tracker = hypotheses_[i].tracker;
+    return tracker.quality().Cost() + PriorCostMm(tracker, prior);
+  };
+  const double lead_mm = cost_mm(1) - cost_mm(0);
+  duel_.Add(lead_mm, dt_s);
+  if (duel_.second_leads()) {
+    std::swap(hypotheses_[0], hypotheses_[1]);
+    duel_.Swap();
+  }
+  if (duel_.is_over()) hypotheses_.pop_back();
 }
 
 }  // namespace mocap

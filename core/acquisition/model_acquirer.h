@@ -4,12 +4,19 @@
 #include <optional>
 #include <vector>
 
+#include "core/acquisition/facing_duel.h"
 #include "core/acquisition/feet.h"
 #include "core/acquisition/pose_contest.h"
 #include "core/acquisition/size_refiner.h"
 #include "core/tracking/tracker.h"
 
 namespace mocap {
+
+/// A body that is tracked while its sizes are refined.
+struct BodyHypothesis {
+  Tracker tracker;
+  SizeRefiner sizes;
+};
 
 /// Acquires one person: finds a pose in the first frame, then tracks it and refines the sizes until
 /// they stop changing.
@@ -34,37 +41,43 @@ class ModelAcquirer {
   /// Treats the next person as somebody else.
   void StartOver();
 
-  /// Tracks the located body through the next frame and refines its sizes.
+  /// Tracks the located body through the next frame and refines its sizes. Follows a body that
+  /// faces the opposite way beside it, until it is clear which is right.
   void Refine(const Evidence& evidence, double dt_s);
 
-  /// Whether the sizes have stopped changing and left and right are distinguished.
+  /// Whether the sizes have stopped changing.
   bool settled() const { return settled_; }
+  /// The body that faces the opposite way, as long as it is not clear which is right; otherwise
+  /// null.
+  const BodyHypothesis* opposite() const {
+    return hypotheses_.size() < 2 ? nullptr : &hypotheses_[1];
+  }
+  /// The comparison of both so far.
+  const FacingDuel& duel() const { return duel_; }
   /// The most likely body. @pre Locate has succeeded.
   const Tracker& best() const { return hypotheses_.front().tracker; }
   /// The size estimate from all frames so far. @pre as above.
   const SizeRefiner& sizes() const { return hypotheses_.front().sizes; }
 
  private:
-  struct Hypothesis {
-    Tracker tracker;
-    SizeRefiner sizes;
-    double cost_sum = 0;
-  };
   PosePrior PriorOf(const Evidence& evidence,
                     const std::optional<Vector3>& walks_W = std::nullopt) {
     return PosePrior(feet_.ToesBeforeShins(evidence.cloud), walks_W);
   }
   PoseContest& ContestFor(const std::optional<BodySizes>& known);
-  Hypothesis Begin(const PoseContest& contest, const PoseCandidate& candidate,
-                   const Evidence& evidence, const PosePrior& prior, bool measures);
+  BodyHypothesis Begin(const PoseContest& contest, const PoseCandidate& candidate,
+                       const Evidence& evidence, bool measures);
+  // Keeps the facing that has cost less so far first, and only it once that is clear.
+  void CompareFacings(const PosePrior& prior, double dt_s);
 
   BodyTable table_;
   FeetFinder feet_;
   PoseContest strangers_;
   std::optional<PoseContest> acquainted_;  ///< For a person of known sizes.
-  std::vector<Hypothesis>
+  std::vector<BodyHypothesis>
       hypotheses_;  ///< The most likely first, then the one that faces the opposite way.
   int frames_ = 0;
+  FacingDuel duel_;
   bool settled_ = false;
 };
 

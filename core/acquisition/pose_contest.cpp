@@ -19,6 +19,10 @@ constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
 // Every third stature is tried, with this build; then its neighbours.
 constexpr int kCoarseStep = 3;
 constexpr int kCoarseBuild = 1;
+// After the other builds comes this one in a skirt, with its drape as shares of the stature. It is
+// only tried as a neighbour: in a skirt, who faces backwards looks nearly the same.
+constexpr int kDrapedBuild = static_cast<int>(kBuilds.size());
+constexpr double kDrapeHip = 0.02, kDrapeKnee = 0.045, kDrapeCalf = 0.03;
 // Uncertainty of a proposed pose.
 constexpr double kStartStdMm = 100;
 constexpr double kStartStdRad = 0.5;
@@ -29,6 +33,12 @@ constexpr std::size_t kWithNeighbours = 3;
 constexpr int kNeighbourhoods = 2;
 // Height of a standing person's middle, as a share of the stature.
 constexpr double kMiddleShare = 0.55;
+
+BodySizes SizesOf(double stature_mm, double build) {
+  BodySizes sizes = AverageSizes(stature_mm);
+  for (const SizeMember width : kStoutWidths) sizes.*width *= build;
+  return sizes;
+}
 
 // Possible positions of a person's middle: that of the flesh; and if legs were carved away, that of
 // a person standing on the floor below.
@@ -54,13 +64,14 @@ struct PoseContest::Round {
 PoseContest PoseContest::OfStrangers(const BodyTable& table) {
   std::vector<BodyModel> bodies;
   for (double stature_mm = kSmallestMm; stature_mm < kLargestMm; stature_mm *= kStatureStep) {
-    for (const double build : kBuilds) {
-      BodySizes sizes = AverageSizes(stature_mm);
-      for (const SizeMember width : kStoutWidths) sizes.*width *= build;
-      bodies.emplace_back(table, sizes);
-    }
+    for (const double build : kBuilds) bodies.emplace_back(table, SizesOf(stature_mm, build));
+    BodySizes draped = SizesOf(stature_mm, kBuilds[kCoarseBuild]);
+    draped.drape_hip = kDrapeHip * stature_mm;
+    draped.drape_knee = kDrapeKnee * stature_mm;
+    draped.drape_calf = kDrapeCalf * stature_mm;
+    bodies.emplace_back(table, draped);
   }
-  return {std::move(bodies), static_cast<int>(kBuilds.size())};
+  return {std::move(bodies), kDrapedBuild + 1};
 }
 
 PoseContest::PoseContest(std::vector<BodyModel> bodies, int builds)
@@ -91,7 +102,8 @@ const std::vector<PoseCandidate>& PoseContest::Hold(const Evidence& evidence,
 void PoseContest::Remember(const BodySizes& sizes, const PoseState& pose) {
   const auto nearest = std::ranges::min_element(bodies_, {}, [&](const BodyModel& body) {
     return std::abs(body.sizes().Stature() - sizes.Stature()) +
-           std::abs(body.sizes().torso_depth - sizes.torso_depth);
+           std::abs(body.sizes().torso_depth - sizes.torso_depth) +
+           std::abs(body.sizes().drape_knee - sizes.drape_knee);
   });
   candidates_.push_back({static_cast<int>(nearest - bodies_.begin()), pose, 0});
 }
@@ -119,8 +131,13 @@ void PoseContest::ProposeNeighbours() {
     };
     propose(body - builds_);
     propose(body + builds_);
+    if (build == kDrapedBuild) {
+      propose(body - kDrapedBuild + kCoarseBuild);
+      continue;
+    }
     if (build > 0) propose(body - 1);
-    if (build + 1 < builds_) propose(body + 1);
+    if (build + 1 < kDrapedBuild) propose(body + 1);
+    propose(body - build + kDrapedBuild);
   }
 }
 
@@ -144,7 +161,8 @@ void PoseContest::Play(const Evidence& evidence, const PosePrior& prior, const R
           round.iterations);
       candidate.pose = filter.pose();
     }
-    candidate.cost_mm = fit.QualityAt(body, candidate.pose).Cost() + prior.CostMm(candidate.pose);
+    candidate.cost_mm =
+        fit.QualityAt(body, candidate.pose).Cost() + prior.CostMm(body.sizes(), candidate.pose);
   }
   std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);
   const auto kept = static_cast<std::size_t>(std::ceil(effort * round.kept));

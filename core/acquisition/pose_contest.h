@@ -43,7 +43,7 @@ class PoseContest {
 
  private:
   struct Round;
-  // Bodies of a stature are adjacent, from the leanest to the stoutest.
+  // Bodies of a stature are adjacent, from the leanest to the stoutest, then one in a skirt.
   PoseContest(std::vector<BodyModel> bodies, int builds);
 
   void Propose(const VoxelCloud& cloud);

@@ -12,6 +12,8 @@ constexpr double kUpsideDownMm = 12;
 constexpr double kAgainstFeetMm = 10;
 // Somebody who walks backwards: it happens.
 constexpr double kAgainstWayMm = 4;
+// Somebody in a skirt: its four sizes fit a part of the noise.
+constexpr double kDrapeMm = 1;
 
 }  // namespace
 
@@ -23,6 +25,10 @@ PosePrior::PosePrior(const std::optional<Vector3>& toes_W, const std::optional<V
 double PosePrior::CostMm(const PoseState& pose) const {
   const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2, backwards = ShareBackwards(pose);
   return kUpsideDownMm * upside_down * upside_down + backwards_mm_ * backwards * backwards;
+}
+
+double PosePrior::CostMm(const BodySizes& sizes, const PoseState& pose) const {
+  return CostMm(pose) + (sizes.IsDraped() ? kDrapeMm : 0);
 }
 
 double PosePrior::ShareBackwards(const PoseState& pose) const {

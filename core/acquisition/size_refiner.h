@@ -13,7 +13,8 @@ namespace mocap {
 /// linearised by pose and sizes, the pose is marginalised out, and the rest is summed.
 ///
 /// The prior is centred on the body that was found. The stature may be off by a few percent. Each
-/// part varies as it does among people of a stature and build (ANSUR, Gordon et al. 1989).
+/// part varies as it does among people of a stature and build (ANSUR, Gordon et al. 1989). If the
+/// body wears a drape, its sizes are refined as well.
 class SizeRefiner {
  public:
   /// @param body  the body that was found: the centre of the prior.
@@ -28,6 +29,7 @@ class SizeRefiner {
 
  private:
   BodySizes start_;
+  int count_;  ///< Of the sizes that are refined: the drape only of somebody who wears one.
   SizeJacobian by_size_;
   Eigen::MatrixXd prior_;        ///< Information without any frame.
   Eigen::MatrixXd information_;  ///< Information of the frames.

@@ -58,7 +58,7 @@ void BodyModel::PoseShape(const Posture& posture, std::vector<PosedCapsule>& pos
   posed.clear();
   for (const Capsule& capsule : shape_) {
     const RigidTransform& X = capsule.carrier < 0 ? posture.X_WT : posture.X_W[capsule.carrier];
-    posed.push_back({X * capsule.a_T, X * capsule.b_T, capsule.radius_a_mm, capsule.radius_b_mm});
+    posed.emplace_back(capsule, X);
   }
 }
 

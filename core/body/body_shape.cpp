@@ -18,8 +18,13 @@ class ShapeBuilder {
   Vector3 At(Point point) const { return points_T_.col(static_cast<int>(point)); }
   void Add(BodyPart part, Segment segment, const Vector3& a, const Vector3& b, double radius_a,
            double radius_b, bool ends_at_b = false) {
-    capsules_.push_back(
-        {part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b, ends_at_b});
+    capsules_.push_back({part, table_.carrier[static_cast<int>(segment)], a, b, radius_a, radius_b,
+                         0, 0, ends_at_b});
+  }
+  // Around the capsule that was added last.
+  void Drape(double cloth_a, double cloth_b) {
+    capsules_.back().cloth_a_mm = cloth_a;
+    capsules_.back().cloth_b_mm = cloth_b;
   }
 
   // The chest is deeper than the waist, and the shoulder blades lie behind. Soft tissue reaches
@@ -92,14 +97,20 @@ class ShapeBuilder {
     const Vector3 sole = At(foot_point) - Vector3(0, 0, kSole_mm);
     const double thigh_radius = s.thigh_width / 2;
     const double calf_radius = s.calf_width / 2;
-    const Vector3 front = hip + 0.55 * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);
+    constexpr double kFront = 0.55;
+    const Vector3 front = hip + kFront * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);
     const double front_radius = 0.5 * (1.1 * thigh_radius + 1.1 * calf_radius);
+    const double front_drape = s.drape_hip + kFront * (s.drape_knee - s.drape_hip);
     Add(upper, upper_segment, hip, front, 1.1 * thigh_radius, front_radius);
+    Drape(s.drape_hip, front_drape);
     Add(upper, upper_segment, front, knee, front_radius, 1.05 * calf_radius);
+    Drape(front_drape, s.drape_knee);
     const Vector3 ankle = At(ankle_point);
     const Vector3 belly = knee + 0.3 * (ankle - knee) - Vector3(0.35 * calf_radius, 0, 0);
     Add(lower, lower_segment, knee, belly, 1.05 * calf_radius, 1.1 * calf_radius);
+    Drape(s.drape_knee, s.drape_calf);
     Add(lower, lower_segment, belly, ankle, 1.1 * calf_radius, 0.7 * calf_radius);
+    Drape(s.drape_calf, s.drape_ankle);
     const double length = 0.152 * s.Stature();
     const double breadth = 0.055 * s.Stature();
     const double heel_radius = 0.38 * breadth;

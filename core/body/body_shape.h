@@ -18,6 +18,8 @@ struct Capsule {
   Vector3 b_T = Vector3::Zero();
   double radius_a_mm = 0;
   double radius_b_mm = 0;
+  double cloth_a_mm = 0;  ///< How far cloth hangs off it at each end.
+  double cloth_b_mm = 0;
   /// No further capsule continues beyond `b` in this direction: elbow, fingertips, toes.
   bool ends_at_b = false;
 };
@@ -27,13 +29,22 @@ struct Capsule {
 void BuildShape(const BodyTable& table, const BodySizes& sizes,
                 const BodyPlaces& reference_points_T, std::vector<Capsule>& capsules);
 
-/// A capsule in the world, for one pose.
+/// A capsule in the world, for one pose. Its surface is that of the cloth, where there is some.
 struct PosedCapsule {
   PosedCapsule(const Vector3& a, const Vector3& b, double radius_a, double radius_b)
+      : PosedCapsule(a, b, radius_a, radius_b, 0, 0) {}
+  PosedCapsule(const Capsule& capsule, const RigidTransform& X_WT)
+      : PosedCapsule(
+            X_WT * capsule.a_T, X_WT * capsule.b_T, capsule.radius_a_mm + capsule.cloth_a_mm,
+            capsule.radius_b_mm + capsule.cloth_b_mm, capsule.cloth_a_mm, capsule.cloth_b_mm) {}
+  PosedCapsule(const Vector3& a, const Vector3& b, double radius_a, double radius_b, double cloth_a,
+               double cloth_b)
       : a_W(a),
         b_W(b),
         radius_a_mm(radius_a),
         radius_b_mm(radius_b),
+        cloth_a_mm(cloth_a),
+        cloth_b_mm(cloth_b),
         middle_W((a + b) / 2),
         reach_mm((b - a).norm() / 2 + std::max(radius_a, radius_b)) {}
 
@@ -41,8 +52,12 @@ struct PosedCapsule {
   Vector3 b_W;
   double radius_a_mm;
   double radius_b_mm;
+  double cloth_a_mm;  ///< Shares of the radii.
+  double cloth_b_mm;
   Vector3 middle_W;
   double reach_mm;  ///< Radius of a bounding sphere around middle_W.
+
+  double ClothAt(double share) const { return cloth_a_mm + share * (cloth_b_mm - cloth_a_mm); }
 
   /// The point of the core nearest to a given point, and the signed distance from the surface.
   struct Distance {

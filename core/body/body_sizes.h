@@ -27,6 +27,15 @@ struct BodySizes {
   double shoulder_width = 0;  ///< Joint to joint.
   double hip_width = 0;       ///< Joint to joint.
 
+  /// How far a skirt or a coat hangs off the leg: at the hip, at the knee, at the thickest place of
+  /// the calf and at the ankle. Beyond the paper.
+  double drape_hip = 0;
+  double drape_knee = 0;
+  double drape_calf = 0;
+  double drape_ankle = 0;
+
+  bool IsDraped() const { return drape_knee > 0; }
+
   /// Height from sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
 
@@ -42,6 +51,9 @@ inline constexpr std::array<SizeMember, 6> kStoutWidths = {
     &BodySizes::torso_width,     &BodySizes::torso_depth, &BodySizes::upper_arm_width,
     &BodySizes::lower_arm_width, &BodySizes::thigh_width, &BodySizes::calf_width};
 inline constexpr double kWidthCorrelation = 0.75;
+
+inline constexpr std::array<SizeMember, 4> kDrapeSizes = {
+    &BodySizes::drape_hip, &BodySizes::drape_knee, &BodySizes::drape_calf, &BodySizes::drape_ankle};
 
 /// Returns the sizes of an average adult of a given stature [mm].
 ///

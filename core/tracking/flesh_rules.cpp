@@ -62,8 +62,8 @@ bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule
 
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
                     const PosedCapsule::Distance& to_other) {
-  return kHolds * limb.radius_a_mm - kGivesWay * RadiusAt(other, to_other.share) -
-         to_other.outside_mm;
+  const double outside_mm = to_other.outside_mm + other.ClothAt(to_other.share);
+  return kHolds * RadiusAt(limb, 0) - kGivesWay * RadiusAt(other, to_other.share) - outside_mm;
 }
 
 }  // namespace mocap

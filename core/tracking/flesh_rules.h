@@ -30,8 +30,10 @@ inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
 inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {
   return capsule.a_W + share * (capsule.b_W - capsule.a_W);
 }
+/// The flesh's, without cloth.
 inline double RadiusAt(const PosedCapsule& capsule, double share) {
-  return capsule.radius_a_mm + share * (capsule.radius_b_mm - capsule.radius_a_mm);
+  return capsule.radius_a_mm + share * (capsule.radius_b_mm - capsule.radius_a_mm) -
+         capsule.ClothAt(share);
 }
 
 /// Points in columns. After the last there may be some at infinite distance.

@@ -94,8 +94,7 @@ void LimbSearch::PoseLimb(const PoseState& pose) {
   posed_.clear();
   for (const int i : capsules_) {
     const Capsule& capsule = body_->shape()[i];
-    const RigidTransform& X = posture_.X_W[capsule.carrier];
-    posed_.push_back({X * capsule.a_T, X * capsule.b_T, capsule.radius_a_mm, capsule.radius_b_mm});
+    posed_.emplace_back(capsule, posture_.X_W[capsule.carrier]);
   }
 }
 

@@ -82,6 +82,36 @@ TEST_F(Acquisition, FindsPeopleWhateverTheyWear) {
   }
 }
 
+TEST_F(Acquisition, LegsAreInsideASkirtAndNotAtItsEdges) {
+  BodySizes skirt = AverageSizes(1650);
+  skirt.drape_hip = 40, skirt.drape_knee = 110, skirt.drape_calf = 60;
+  const BodyModel body(body_.table(), skirt);
+  const PoseState truth = Pose(skirt.torso / 2 + skirt.thigh + skirt.calf, {});
+  const Evidence evidence = studio_.Show(body, truth);
+  ModelAcquirer acquirer(body.table());
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
+  for (int i = 1; i < 6; ++i) acquirer.Refine(evidence, 0.03);
+  const BodyModel& found = acquirer.best().body();
+  EXPECT_TRUE(found.sizes().IsDraped());
+  const BodyPoints found_W = found.PointsAt(found.PostureAt(acquirer.best().filter().pose()));
+  const BodyPoints truth_W = body.PointsAt(body.PostureAt(truth));
+  for (const Point knee : {Point::kKneeL, Point::kKneeR}) {
+    const int i = static_cast<int>(knee);
+    EXPECT_LT((found_W.col(i) - truth_W.col(i)).norm(), 45);
+  }
+}
+
+TEST_F(Acquisition, FollowsBothFacingsForSomeTimeAtMost) {
+  const BodySizes& sizes = body_.sizes();
+  const PoseState truth = Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {});
+  const Evidence evidence = studio_.Show(body_, truth);
+  ModelAcquirer acquirer(body_.table());
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
+  for (int i = 0; i < 25 && acquirer.opposite() != nullptr; ++i) acquirer.Refine(evidence, 0.1);
+  EXPECT_EQ(acquirer.opposite(), nullptr);
+  EXPECT_GT(acquirer.best().filter().pose().X_WT.R.col(0).dot(truth.X_WT.R.col(0)), 0.9);
+}
+
 TEST_F(Acquisition, FindsPeopleHoweverTheyStand) {
   const BodySizes& sizes = body_.sizes();
   const double hips_mm = sizes.thigh + sizes.calf;

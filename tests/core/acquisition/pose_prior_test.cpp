@@ -18,11 +18,14 @@ class Feet : public ::testing::Test {
  protected:
   // Somebody with the soles at a height, turned about the vertical.
   PoseState Standing(double yaw_deg, double soles_mm) const {
+    return Standing(yaw_deg, soles_mm, body_);
+  }
+  PoseState Standing(double yaw_deg, double soles_mm, const BodyModel& body) const {
     PoseState pose;
     pose.X_WT.R = ExpRotation(Vector3(0, 0, yaw_deg * kDegree));
-    pose.theta = AnglesOf({}, body_.table());
+    pose.theta = AnglesOf({}, body.table());
     pose.X_WT.p = Vector3(200, -100, 1000);
-    const auto points_W = body_.PointsAt(body_.PostureAt(pose));
+    const auto points_W = body.PointsAt(body.PostureAt(pose));
     pose.X_WT.p.z() += soles_mm - points_W.row(2).minCoeff();
     return pose;
   }
@@ -65,20 +68,24 @@ TEST_F(Feet, ABackpackChangesNothing) {
 }
 
 // The hull between the legs and the chair of somebody who sits: it lies beside the feet and joins
-// them.
+// them. What is more than the feet of a child is less than those of an adult.
 TEST_F(Feet, SayNothingWhereMoreThanFeetIsOnTheFloor) {
-  const PoseState pose = Standing(0, 20);
-  VoxelGrid grid = Voxelize(body_, pose, 25);
-  const Vector3 middle_W(pose.X_WT.p.x() - 100, pose.X_WT.p.y(), 0);
-  for (int k = 0; k < grid.size().z(); ++k)
-    for (int j = 0; j < grid.size().y(); ++j)
-      for (int i = 0; i < grid.size().x(); ++i) {
-        const Vector3 from_W = grid.CenterOf(i, j, k) - middle_W;
-        if (from_W.head<2>().norm() < 150 && from_W.z() < 200) grid.Set(i, j, k);
-      }
-  VoxelCloud cloud;
-  cloud.Build(grid);
-  EXPECT_FALSE(finder_.ToesBeforeShins(cloud));
+  for (const double stature_mm : {1150, 1750}) {
+    const BodyModel body(body_.table(), AverageSizes(stature_mm));
+    const double scale = stature_mm / 1750;
+    const PoseState pose = Standing(0, 20, body);
+    VoxelGrid grid = Voxelize(body, pose, 25);
+    const Vector3 middle_W(pose.X_WT.p.x() - 100 * scale, pose.X_WT.p.y(), 0);
+    for (int k = 0; k < grid.size().z(); ++k)
+      for (int j = 0; j < grid.size().y(); ++j)
+        for (int i = 0; i < grid.size().x(); ++i) {
+          const Vector3 from_W = grid.CenterOf(i, j, k) - middle_W;
+          if (from_W.head<2>().norm() < 150 * scale && from_W.z() < 200) grid.Set(i, j, k);
+        }
+    VoxelCloud cloud;
+    cloud.Build(grid);
+    EXPECT_FALSE(finder_.ToesBeforeShins(cloud)) << stature_mm;
+  }
 }
 
 TEST_F(Feet, MayTurnWhoIsTrackedBackToFrontButNoneTooSoon) {

@@ -54,6 +54,27 @@ TEST(SizeRefiner, MeasuresTheStatureOfWhoIsLeanAndOfWhoIsStout) {
   EXPECT_NEAR(StatureMeasured(1750, 1.4), 1750, 25);
 }
 
+TEST(SizeRefiner, MeasuresTheDrapeOfWhoWearsOneAndGivesItToNobodyElse) {
+  const BodyTable table = LoadBodyTable("full");
+  BodySizes skirt = AverageSizes(1750);
+  skirt.drape_hip = 40, skirt.drape_knee = 130, skirt.drape_calf = 60;
+  BodySizes narrow = skirt;
+  narrow.drape_knee = 70;
+  const BodyModel person(table, skirt), found(table, narrow);
+  const PoseState pose = Upright(person);
+  const RoundStudio studio;
+  const Evidence evidence = studio.Show(person, pose);
+  const auto measured_by = [&](const BodyModel& body) {
+    SurfaceFit fit(SurfaceFitOptions{});
+    fit.SetEvidence(evidence);
+    SizeRefiner refiner(body);
+    refiner.Add(body, fit, pose);
+    return refiner.Sizes();
+  };
+  EXPECT_NEAR(measured_by(found).drape_knee, 130, 25);
+  EXPECT_FALSE(measured_by(BodyModel(table, AverageSizes(1750))).IsDraped());
+}
+
 // Half of the cameras see wide trousers, the others the legs.
 TEST(SizeRefiner, ClothCountsLessThanTheLimbWithin) {
   const BodyTable table = LoadBodyTable("full");

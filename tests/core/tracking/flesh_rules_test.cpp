@@ -30,5 +30,25 @@ TEST(Flesh, IsNotToBeFoundWhereNoneWasSeen) {
   EXPECT_FALSE(WayToFlesh(VoxelCloud(), PlaceColumns(), Vector3::Zero()));
 }
 
+TEST(Flesh, IsNotWhereOnlyClothIs) {
+  const Capsule leg{
+      .a_T = Vector3(0, 0, 400), .b_T = Vector3(0, 0, 0), .radius_a_mm = 60, .radius_b_mm = 40};
+  Capsule draped = leg;
+  draped.cloth_a_mm = 80, draped.cloth_b_mm = 120;
+  const RigidTransform beside{Matrix3::Identity(), Vector3(45, 0, 0)};
+  const PosedCapsule bare(leg, {}), other(leg, beside);
+  const PosedCapsule in_skirt(draped, {}), other_in_skirt(draped, beside);
+  for (const double share : kCoreShares) {
+    const Vector3 p_W = CorePlace(bare, share);
+    EXPECT_DOUBLE_EQ(RadiusAt(in_skirt, share), RadiusAt(bare, share));
+    EXPECT_NEAR(in_skirt.DistanceTo(p_W).outside_mm,
+                bare.DistanceTo(p_W).outside_mm - draped.cloth_a_mm -
+                    share * (draped.cloth_b_mm - draped.cloth_a_mm),
+                1e-9);
+    EXPECT_NEAR(OverlapDepth(in_skirt, other_in_skirt, other_in_skirt.DistanceTo(p_W)),
+                OverlapDepth(bare, other, other.DistanceTo(p_W)), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace mocap
