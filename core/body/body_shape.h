@@ -52,7 +52,7 @@ struct PosedCapsule {
   Vector3 b_W;
   double radius_a_mm;
   double radius_b_mm;
-  double cloth_a_mm;  ///< Shares of the radii.
+  double cloth_a_mm;  ///< Included in the radii.
   double cloth_b_mm;
   Vector3 middle_W;
   double reach_mm;  ///< Radius of a bounding sphere around middle_W.

@@ -34,7 +34,7 @@ struct BodySizes {
   double drape_calf = 0;
   double drape_ankle = 0;
 
-  bool IsDraped() const { return drape_knee > 0; }
+  bool IsDraped() const { return drape_hip + drape_knee + drape_calf + drape_ankle > 0; }
 
   /// Height from sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
