@@ -148,7 +148,7 @@ class SurfaceCapture::Impl {
 
   void Acquire(double dt_s) {
     const double effort = std::exchange(looks_anew_, false) ? 1 : EffortWithin(dt_s);
-    if (!acquirer_.Locate(evidence_, known_, effort)) return;
+    if (!acquirer_.Locate(evidence_, known_, {effort})) return;
     if (known_ && acquirer_.IsStranger(evidence_, effort)) return;
     looks_anew_ = true;
     frames_acquiring_ = 1;
@@ -222,7 +222,8 @@ class SurfaceCapture::Impl {
     const std::optional<BodySizes> sizes = sizes_are_known ? known_ : std::nullopt;
     const bool is_backwards = facing_.is_backwards();
     const std::optional<Vector3> walks_W = is_backwards ? facing_.walks_W() : std::nullopt;
-    if (!acquirer_.Locate(evidence_, sizes, EffortWithin(dt_s), walks_W)) return;
+    const SearchScope scope{EffortWithin(dt_s), tracker_->things()};
+    if (!acquirer_.Locate(evidence_, sizes, scope, walks_W)) return;
     const Tracker& found = acquirer_.best();
     const bool same_way =
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;

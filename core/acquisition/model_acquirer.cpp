@@ -69,11 +69,11 @@ PoseContest& ModelAcquirer::ContestFor(const std::optional<BodySizes>& known) {
 }
 
 bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySizes>& known,
-                           double effort, const std::optional<Vector3>& walks_W) {
+                           const SearchScope& scope, const std::optional<Vector3>& walks_W) {
   PoseContest& contest = ContestFor(known);
   const PosePrior prior = PriorOf(evidence, walks_W);
-  const std::vector<PoseCandidate> candidates = contest.Hold(evidence, prior, effort);
-  const std::size_t finalists = effort < 1 ? kFewFinalists : kFinalists;
+  const std::vector<PoseCandidate> candidates = contest.Hold(evidence, prior, scope);
+  const std::size_t finalists = scope.effort < 1 ? kFewFinalists : kFinalists;
   hypotheses_.clear();
   for (std::size_t i = 0; i < std::min(finalists, candidates.size()); ++i)
     hypotheses_.push_back(Begin(contest, candidates[i], evidence, !known));
@@ -101,7 +101,7 @@ bool ModelAcquirer::Locate(const Evidence& evidence, const std::optional<BodySiz
 
 bool ModelAcquirer::IsStranger(const Evidence& evidence, double effort) {
   const PosePrior prior = PriorOf(evidence);
-  const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, prior, effort);
+  const std::vector<PoseCandidate>& strangers = strangers_.Hold(evidence, prior, {effort});
   if (strangers.empty()) return false;
   const BodyHypothesis stranger = Begin(strangers_, strangers.front(), evidence, true);
   return CostOf(best()) > CostOf(stranger.tracker) + kStrangerBetterMm;
@@ -113,6 +113,7 @@ BodyHypothesis ModelAcquirer::Begin(const PoseContest& contest, const PoseCandid
   const BodyModel& body = contest.body(candidate.body);
   BodyHypothesis hypothesis{Tracker(body, candidate.pose), SizeRefiner(body)};
   Tracker& tracker = hypothesis.tracker;
+  tracker.Allow(candidate.things);
   if (measures) {
     tracker.Look(evidence);
     MeasureIn(tracker, hypothesis.sizes);

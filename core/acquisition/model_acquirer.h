@@ -26,15 +26,15 @@ class ModelAcquirer {
 
   /// Searches for a body.
   /// @param known   sizes to keep; acquisition ends at once then.
-  /// @param effort  as for PoseContest::Hold. Further calls try again what failed before.
+  /// @param scope   Further calls try again what failed before.
   /// @param walks_W  direction in which the person walks, if that is known.
   /// @return whether a body was found that explains the evidence.
-  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known, double effort,
-              const std::optional<Vector3>& walks_W = std::nullopt);
+  bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known,
+              const SearchScope& scope, const std::optional<Vector3>& walks_W = std::nullopt);
 
   /// Tests whether a body of other sizes explains the evidence clearly better than the one that was
   /// located with known sizes.
-  /// @param effort  as above.
+  /// @param effort  as in SearchScope.
   /// @pre Locate has succeeded.
   bool IsStranger(const Evidence& evidence, double effort);
 

@@ -26,6 +26,9 @@ constexpr double kDrapeHip = 0.02, kDrapeKnee = 0.045, kDrapeCalf = 0.03;
 // Uncertainty of a proposed pose.
 constexpr double kStartStdMm = 100;
 constexpr double kStartStdRad = 0.5;
+// Share of the edges that miss the hull. Beyond it, flesh is torn, and what no part explains is no
+// evidence of a thing.
+constexpr double kTooMuchMissing = 0.05;
 // Poses whose points have a smaller mean distance than this are equal.
 constexpr double kSameMm = 60;
 constexpr std::size_t kKept = 6;
@@ -80,20 +83,21 @@ PoseContest::PoseContest(std::vector<BodyModel> bodies, int builds)
 }
 
 const std::vector<PoseCandidate>& PoseContest::Hold(const Evidence& evidence,
-                                                    const PosePrior& prior, double effort) {
+                                                    const PosePrior& prior,
+                                                    const SearchScope& scope) {
   constexpr Round kWeighing{40, 80, {0, 0}, 160};
   constexpr std::array kHeats = {Round{40, 80, {2, 4}, 48}, Round{80, 120, {3, 6}, 12}};
   constexpr Round kFinal{150, 200, {4, 15}, 20};
   const std::vector<PoseCandidate> best_before = std::exchange(candidates_, {});
   Propose(evidence.cloud);
-  Play(evidence, prior, kWeighing, effort);
-  for (const Round& heat : kHeats) Play(evidence, prior, heat, effort);
+  Play(evidence, prior, kWeighing, scope);
+  for (const Round& heat : kHeats) Play(evidence, prior, heat, scope);
   candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
-  Play(evidence, prior, kFinal, 1);
+  Play(evidence, prior, kFinal, {1, scope.things});
   KeepDistinct();
   for (int i = 0; i < kNeighbourhoods && bodies_.size() > 1; ++i) {
     ProposeNeighbours();
-    Play(evidence, prior, kFinal, 1);
+    Play(evidence, prior, kFinal, {1, scope.things});
     KeepDistinct();
   }
   return candidates_;
@@ -142,11 +146,12 @@ void PoseContest::ProposeNeighbours() {
 }
 
 void PoseContest::Play(const Evidence& evidence, const PosePrior& prior, const Round& round,
-                       double effort) {
+                       const SearchScope& scope) {
   SurfaceFitOptions options;
   options.voxels = round.voxels;
   options.edges = round.edges;
   SurfaceFit fit(options);
+  if (evidence.MissingShare() < kTooMuchMissing) fit.Allow(scope.things);
   fit.SetEvidence(evidence);
   for (PoseCandidate& candidate : candidates_) {
     const BodyModel& body = bodies_[candidate.body];
@@ -161,11 +166,12 @@ void PoseContest::Play(const Evidence& evidence, const PosePrior& prior, const R
           round.iterations);
       candidate.pose = filter.pose();
     }
-    candidate.cost_mm =
-        fit.QualityAt(body, candidate.pose).Cost() + prior.CostMm(body.sizes(), candidate.pose);
+    const SurfaceFitQuality quality = fit.QualityAt(body, candidate.pose);
+    candidate.cost_mm = quality.Cost() + prior.CostMm(body.sizes(), candidate.pose);
+    candidate.things = quality.things;
   }
   std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);
-  const auto kept = static_cast<std::size_t>(std::ceil(effort * round.kept));
+  const auto kept = static_cast<std::size_t>(std::ceil(scope.effort * round.kept));
   candidates_.resize(std::min(candidates_.size(), kept));
 }
 

@@ -17,6 +17,13 @@ struct PoseCandidate {
   int body = 0;  ///< Index of the body.
   PoseState pose;
   double cost_mm = 0;  ///< Of the fit, and of the prior.
+  Things things = {};  ///< Those that it wears and carries.
+};
+
+/// What a search covers.
+struct SearchScope {
+  double effort = 1;           ///< Share of a full search, above 0: the share of poses fitted.
+  Things things = kAnyThings;  ///< What a person may wear or carry.
 };
 
 /// Compares poses with frame after frame: those of a library, and the best of the previous frame.
@@ -31,10 +38,9 @@ class PoseContest {
 
   /// Processes a frame.
   /// @param prior   of its poses.
-  /// @param effort  share of a full search, above 0: the share of poses that are fitted.
   /// @return  the best distinct poses, the best first; valid until the next call.
   const std::vector<PoseCandidate>& Hold(const Evidence& evidence, const PosePrior& prior,
-                                         double effort);
+                                         const SearchScope& scope);
 
   /// Adds a pose to the best of the previous frame.
   void Remember(const BodySizes& sizes, const PoseState& pose);
@@ -49,7 +55,8 @@ class PoseContest {
   void Propose(const VoxelCloud& cloud);
   void ProposeNeighbours();
   // Fits all poses to the evidence and keeps the best.
-  void Play(const Evidence& evidence, const PosePrior& prior, const Round& round, double effort);
+  void Play(const Evidence& evidence, const PosePrior& prior, const Round& round,
+            const SearchScope& scope);
   void KeepDistinct();
 
   std::vector<BodyModel> bodies_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/tracking/carried_things.h"
+
 namespace mocap {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr double kUpsideDownMm = 12;
 constexpr double kAgainstFeetMm = 10;
 // Somebody who walks backwards: it happens.
 constexpr double kAgainstWayMm = 4;
-// Somebody in a skirt: its four sizes fit a part of the noise.
-constexpr double kDrapeMm = 1;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ double PosePrior::CostMm(const PoseState& pose) const {
 }
 
 double PosePrior::CostMm(const BodySizes& sizes, const PoseState& pose) const {
-  return CostMm(pose) + (sizes.IsDraped() ? kDrapeMm : 0);
+  return CostMm(pose) + (sizes.IsDraped() ? kWornMm : 0);
 }
 
 double PosePrior::ShareBackwards(const PoseState& pose) const {

@@ -24,6 +24,9 @@ inline bool LacksLegs(double lowest_mm) {
 /// other, a calf into the other leg.
 bool MayOverlap(BodyPart limb, BodyPart other);
 
+/// Evidence farther than this from every part belongs to none: a thing, another person, a shadow.
+inline constexpr double kExplainedMm = 60;
+
 /// Points along each core that should lie in flesh, as shares of its length.
 inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
 

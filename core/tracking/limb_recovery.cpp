@@ -166,7 +166,7 @@ std::span<const LimbRecovery::Option> LimbRecovery::Claims(LimbSearch& search,
 bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                               SurfaceFit& fit, Candidate& present) {
   const PoseState& pose = present.pose;
-  search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose);
+  search_.Begin(body, evidence, matcher_, limb_end, limb_end, pose, fit.allowed());
   FindBest(search_, StancesOf(limb_end), pose, kRefined);
   const double now_mm = search_.CostAt(pose);
   const Vector3 tip_W = search_.TipAt(pose);
@@ -215,8 +215,8 @@ template <typename Stances>
 LimbRecovery::Candidate LimbRecovery::BestPair(const BodyModel& body, const Evidence& evidence,
                                                Segment left, Segment right, SurfaceFit& fit,
                                                const Stances& stances, const PoseState& pose) {
-  search_.Begin(body, evidence, matcher_, left, right, pose);
-  other_search_.Begin(body, evidence, matcher_, right, left, pose);
+  search_.Begin(body, evidence, matcher_, left, right, pose, fit.allowed());
+  other_search_.Begin(body, evidence, matcher_, right, left, pose, fit.allowed());
   stances(search_, other_search_);
   const std::span<const Option> lefts = Claims(search_, lefts_);
   stances(other_search_, search_);

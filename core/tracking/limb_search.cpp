@@ -35,7 +35,7 @@ void LimbSearch::ListRows(Segment limb_end, std::vector<int>& rows) const {
 }
 
 void LimbSearch::Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
-                       Segment limb_end, Segment absent, const PoseState& pose) {
+                       Segment limb_end, Segment absent, const PoseState& pose, Things things) {
   body_ = &body;
   cloud_ = &evidence.cloud;
   hollow_weight_ = HollowWeight(evidence.MissingShare());
@@ -43,7 +43,7 @@ void LimbSearch::Begin(const BodyModel& body, const Evidence& evidence, ContactM
   ListRows(limb_end, rows_);
   ListRows(absent, absent_rows_);
   TakeBodyApart(pose);
-  OpenContacts(contacts);
+  OpenContacts(contacts, things);
 }
 
 void LimbSearch::TakeBodyApart(const PoseState& pose) {
@@ -73,18 +73,25 @@ void LimbSearch::TakeBodyApart(const PoseState& pose) {
   }
 }
 
-void LimbSearch::OpenContacts(ContactMatcher& contacts) {
+void LimbSearch::OpenContacts(ContactMatcher& contacts, Things things) {
   const auto edges = std::ranges::count_if(contacts.contacts(), &Contact::is_edge);
   const double edge_weight = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, edges));
   const double voxel_weight = kSurfaceWeight / std::max(1, surface_W_->size());
   const std::vector<float>& others_mm = contacts.Distances(others_, kSearchedMm);
+  std::optional<ThingPlaces> places;
+  if (things.any()) places.emplace(*body_, posture_);
   contacts_.clear();
   terms_.clear();
   for (std::size_t i = 0; i < others_mm.size(); ++i) {
     if (others_mm[i] < kTakenMm) continue;
     const Contact& contact = contacts.contacts()[i];
+    double other_mm = others_mm[i];
+    if (places && other_mm > kOfThingMm) {
+      const auto thing = places->At(contact);
+      if (thing && things[static_cast<int>(*thing)]) other_mm = kOfThingMm;
+    }
     contacts_.push_back(contact);
-    terms_.push_back({others_mm[i], contact.is_edge ? edge_weight : voxel_weight});
+    terms_.push_back({other_mm, contact.is_edge ? edge_weight : voxel_weight});
   }
   open_.SetContacts(contacts_);
 }

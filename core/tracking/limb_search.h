@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/tracking/carried_things.h"
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
 
@@ -23,8 +24,9 @@ class LimbSearch {
   /// @param limb_end  the segment at the limb's end: a hand or a foot.
   /// @param absent    the end of another limb to ignore, or the same.
   /// @param pose      of the whole body; the limb's own angles do not matter.
+  /// @param things    what the body may wear or carry.
   void Begin(const BodyModel& body, const Evidence& evidence, ContactMatcher& contacts,
-             Segment limb_end, Segment absent, const PoseState& pose);
+             Segment limb_end, Segment absent, const PoseState& pose, Things things);
 
   /// Returns the cost of the limb with its angles in `pose` [mm]. Costs are comparable between
   /// poses that differ only in this limb.
@@ -51,7 +53,7 @@ class LimbSearch {
   };
   void ListRows(Segment limb_end, std::vector<int>& rows) const;
   void TakeBodyApart(const PoseState& pose);
-  void OpenContacts(ContactMatcher& contacts);
+  void OpenContacts(ContactMatcher& contacts, Things things);
   void PoseLimb(const PoseState& pose);
   double OverlapCost() const;
 

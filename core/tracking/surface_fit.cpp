@@ -1,6 +1,7 @@
 #include "core/tracking/surface_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/tracking/flesh_rules.h"
@@ -173,10 +174,10 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
   });
 }
 
-SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& pose) {
-  PoseCapsules(body, pose);
-  SurfaceFitQuality quality;
-  quality.missing_share = missing_share_;
+void SurfaceFit::MeasureContacts(const BodyModel& body, SurfaceFitQuality& quality) {
+  std::optional<ThingPlaces> places;
+  if (allowed_.any()) places.emplace(body, posture_);
+  std::array<double, kThingCount> edges_saved_mm{}, surface_saved_mm{};
   int edges = 0;
   const std::vector<float>& distances_mm = matcher_.Distances(posed_, options_.reach_mm);
   for (std::size_t i = 0; i < distances_mm.size(); ++i) {
@@ -185,13 +186,33 @@ SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& 
     (is_edge ? quality.edge_mm : quality.surface_mm) += distance_mm;
     edges += is_edge;
     quality.unexplained_share += is_edge && distance_mm >= kExplainedMm;
+    if (!places || distance_mm <= kOfThingMm) continue;
+    if (const auto thing = places->At(matcher_.contacts()[i])) {
+      (is_edge ? edges_saved_mm : surface_saved_mm)[static_cast<int>(*thing)] +=
+          distance_mm - kOfThingMm;
+    }
   }
   const int voxels = static_cast<int>(distances_mm.size()) - edges;
   quality.edge_mm /= std::max(1, edges);
   quality.unexplained_share /= std::max(1, edges);
   quality.surface_mm /= std::max(1, voxels);
+  for (int i = 0; i < kThingCount; ++i) {
+    const double edge_mm = edges_saved_mm[i] / std::max(1, edges);
+    const double surface_mm = surface_saved_mm[i] / std::max(1, voxels);
+    if (!allowed_[i] || edge_mm + kSurfaceWeight * surface_mm <= kWornMm) continue;
+    quality.things.set(i);
+    quality.edge_mm -= edge_mm;
+    quality.surface_mm -= surface_mm;
+  }
   // Without outlines, the hull's surface has to say what they would.
   if (edges == 0) quality.edge_mm = quality.surface_mm;
+}
+
+SurfaceFitQuality SurfaceFit::QualityAt(const BodyModel& body, const PoseState& pose) {
+  PoseCapsules(body, pose);
+  SurfaceFitQuality quality;
+  quality.missing_share = missing_share_;
+  MeasureContacts(body, quality);
   const double places = static_cast<double>(posed_.size() * kCoreShares.size());
   ForEachHollow([&](std::size_t, const Vector3&, const Vector3& way_W) {
     quality.hollow_mm += std::min(kMostHollowMm, way_W.norm()) / places;

@@ -8,6 +8,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/body_shape.h"
+#include "core/tracking/carried_things.h"
 #include "core/tracking/chain_equations.h"
 #include "core/tracking/contact_matcher.h"
 #include "core/tracking/evidence.h"
@@ -29,9 +30,6 @@ struct SurfaceFitOptions {
   double void_outlier_mm = 60;
 };
 
-/// Evidence farther than this from every part belongs to none: hair, a bag, a chair, a shadow.
-inline constexpr double kExplainedMm = 60;
-
 /// Quality of the fit of a posed body. Distances are cut at kExplainedMm, so that evidence of
 /// something else has the same weight everywhere.
 struct SurfaceFitQuality {
@@ -42,10 +40,11 @@ struct SurfaceFitQuality {
   double overlap_mm = 0;         ///< Mean depth of limbs inside other parts.
   double unexplained_share = 0;  ///< Share of the edges that belong to no part.
   double missing_share = 0;      ///< Of the evidence; see Evidence::MissingShare.
+  Things things;                 ///< Those that the evidence shows.
 
   double Cost() const {
     return edge_mm + kSurfaceWeight * surface_mm + HollowWeight(missing_share) * hollow_mm +
-           overlap_mm;
+           overlap_mm + kWornMm * static_cast<double>(things.count());
   }
   /// Cost for the decision whether somebody is there at all. Edges that miss the hull may be of
   /// stray blobs, which no pose explains: half of them are allowed for. Costs of poses are compared
@@ -71,6 +70,11 @@ class SurfaceFit {
  public:
   explicit SurfaceFit(const SurfaceFitOptions& options) : options_(options) {}
 
+  /// Selects what the body may wear or carry: flesh there costs less, if that is worth the thing's
+  /// own cost. At first nothing.
+  void Allow(Things things) { allowed_ = things; }
+  Things allowed() const { return allowed_; }
+
   /// Sets a new frame; `evidence` is borrowed until the next.
   void SetEvidence(const Evidence& evidence);
   /// Adds the linearised residuals at a pose; for PoseFilter::Update.
@@ -82,6 +86,8 @@ class SurfaceFit {
 
  private:
   void PoseCapsules(const BodyModel& body, const PoseState& pose);
+  // The mean distances of the contacts.
+  void MeasureContacts(const BodyModel& body, SurfaceFitQuality& quality);
   template <typename Visit>
   void ForEachResidual(const BodyModel& body, const Visit& visit);
   template <typename Visit>
@@ -97,6 +103,7 @@ class SurfaceFit {
   void ForEachOverlap(const BodyModel& body, const Visit& visit) const;
 
   SurfaceFitOptions options_;
+  Things allowed_;
   const Evidence* evidence_ = nullptr;
   double missing_share_ = 0;
   std::vector<Contact> contacts_;

@@ -26,6 +26,7 @@ void Tracker::Update(const Evidence& evidence, double dt_s) {
   surface_fit_.SetEvidence(evidence);
   FollowLeap(evidence.cloud, filter_.pose().X_WT.p - before_W);
   FollowSurface(evidence, dt_s);
+  surface_fit_.Allow(quality_.things);
 }
 
 void Tracker::FollowLeap(const VoxelCloud& cloud, const Vector3& foreseen_W) {

@@ -31,9 +31,13 @@ class Tracker {
   /// Changes the sizes; the pose stays.
   void Resize(const BodySizes& sizes) { body_.Resize(sizes); }
   const PoseFilter& filter() const { return filter_; }
+  /// Selects what the body may wear or carry, as for SurfaceFit. What a frame does not show is put
+  /// down for good.
+  void Allow(Things things) { surface_fit_.Allow(things); }
   SurfaceFit& surface_fit() { return surface_fit_; }
   /// Quality of the fit in the last frame.
   const SurfaceFitQuality& quality() const { return quality_; }
+  Things things() const { return surface_fit_.allowed(); }
 
  private:
   // Moves the body with the voxels if they moved farther than predicted and that explains them

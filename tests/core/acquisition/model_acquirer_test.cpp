@@ -30,7 +30,7 @@ class Acquisition : public ::testing::Test {
   double ErrorAfter(int frames, const PoseState& truth, const BodyModel& body) {
     const Evidence evidence = studio_.Show(body, truth);
     ModelAcquirer acquirer(body.table());
-    const bool located = acquirer.Locate(evidence, std::nullopt, 1);
+    const bool located = acquirer.Locate(evidence, std::nullopt, {});
     EXPECT_TRUE(located);
     if (!located) return 1e9;
     for (int i = 1; i < frames; ++i) acquirer.Refine(evidence, 0.03);
@@ -89,7 +89,7 @@ TEST_F(Acquisition, LegsAreInsideASkirtAndNotAtItsEdges) {
   const PoseState truth = Pose(skirt.torso / 2 + skirt.thigh + skirt.calf, {});
   const Evidence evidence = studio_.Show(body, truth);
   ModelAcquirer acquirer(body.table());
-  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, {}));
   for (int i = 1; i < 6; ++i) acquirer.Refine(evidence, 0.03);
   const BodyModel& found = acquirer.best().body();
   EXPECT_TRUE(found.sizes().IsDraped());
@@ -106,7 +106,7 @@ TEST_F(Acquisition, FollowsBothFacingsForSomeTimeAtMost) {
   const PoseState truth = Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {});
   const Evidence evidence = studio_.Show(body_, truth);
   ModelAcquirer acquirer(body_.table());
-  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, {}));
   for (int i = 0; i < 25 && acquirer.opposite() != nullptr; ++i) acquirer.Refine(evidence, 0.1);
   EXPECT_EQ(acquirer.opposite(), nullptr);
   EXPECT_GT(acquirer.best().filter().pose().X_WT.R.col(0).dot(truth.X_WT.R.col(0)), 0.9);
@@ -140,7 +140,7 @@ TEST_F(Acquisition, FindsSomebodyBitByBitWhereThereIsLittleTime) {
       studio_.Show(body_, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, {}));
   ModelAcquirer acquirer(body_.table());
   bool located = false;
-  for (int i = 0; i < 5 && !located; ++i) located = acquirer.Locate(evidence, std::nullopt, 0.1);
+  for (int i = 0; i < 5 && !located; ++i) located = acquirer.Locate(evidence, std::nullopt, {0.1});
   EXPECT_TRUE(located);
 }
 
@@ -150,7 +150,7 @@ TEST_F(Acquisition, RaisedArmsMakeNobodyTaller) {
   const Evidence evidence = studio_.Show(body_, Pose(sizes.torso / 2 + sizes.thigh + sizes.calf,
                                                      {.arm_l = kRaised, .arm_r = kRaised}));
   ModelAcquirer acquirer(body_.table());
-  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, 1));
+  ASSERT_TRUE(acquirer.Locate(evidence, std::nullopt, {}));
   EXPECT_NEAR(acquirer.best().body().sizes().Stature(), 1750, 50);
 }
 
