@@ -26,7 +26,7 @@ class ModelAcquirer {
 
   /// Searches for a body.
   /// @param known   sizes to keep; acquisition ends at once then.
-  /// @param scope   Further calls try again what failed before.
+  /// @param scope   what the search covers; further calls try again what failed before.
   /// @param walks_W  direction in which the person walks, if that is known.
   /// @return whether a body was found that explains the evidence.
   bool Locate(const Evidence& evidence, const std::optional<BodySizes>& known,

@@ -37,6 +37,7 @@ class Tracker {
   SurfaceFit& surface_fit() { return surface_fit_; }
   /// Quality of the fit in the last frame.
   const SurfaceFitQuality& quality() const { return quality_; }
+  /// What the body wears and carries.
   Things things() const { return surface_fit_.allowed(); }
 
  private:
