@@ -66,6 +66,8 @@ void PreviewPublisher::Look(std::chrono::seconds duration) {
 }
 
 void PreviewPublisher::Run() {
+  // A start may be ended at once; busy processors would delay the end of an idle thread.
+  bell_.WaitPast(0);
   GoBehind("preview");
   for (;;) {
     const int seen = bell_.count();

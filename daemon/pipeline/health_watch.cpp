@@ -44,6 +44,8 @@ HealthWatch::~HealthWatch() {
 }
 
 void HealthWatch::Run() {
+  // A start may be ended at once; busy processors would delay the end of an idle thread.
+  bell_.WaitPast(0);
   GoBehind("health");
   SetTap::Queue& queue = tap_.queue();
   for (;;) {

@@ -7,6 +7,7 @@
 #include "config/load_config.h"
 #include "core/body/body_sizes.h"
 #include "drivers/clock.h"
+#include "tests/support/idle_threads.h"
 
 namespace mocap {
 namespace {
@@ -64,6 +65,14 @@ TEST_F(PreviewPublisherTest, NothingIsTakenWhileNobodyLooks) {
   bool was_asked = false;
   publisher.taps().front().Offer([&](SeenFrame&) { return was_asked = true; });
   EXPECT_FALSE(was_asked);
+}
+
+// Idle threads end late on busy processors, and a start may be ended at once.
+TEST_F(PreviewPublisherTest, HasNoIdleThreadWhileNobodyHasLooked) {
+  PreviewPublisher publisher(sender_, {}, {camera_}, CaptureTimes::kRecorded);
+  EXPECT_EQ(testing::CountIdleThreads(), 0);
+  publisher.Look(kLong);
+  EXPECT_EQ(testing::CountIdleThreads(), 1);
 }
 
 TEST_F(PreviewPublisherTest, WhoLooksGetsPicturesWithTheirSilhouettes) {

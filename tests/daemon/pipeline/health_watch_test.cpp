@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/idle_threads.h"
 #include "tests/support/walking_silhouettes.h"
 
 namespace mocap {
@@ -46,6 +47,17 @@ TEST(HealthWatch, NamesTheCameraThatWasTurnedAsTheOneFarthestOff) {
     if (c == 3) continue;
     EXPECT_LT(health[c].shift_px.norm(), health[3].shift_px.norm()) << c;
   }
+}
+
+// Idle threads end late on busy processors, and a start may be ended at once.
+TEST(HealthWatch, HasNoIdleThreadBeforeTheFirstSet) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  EXPECT_EQ(testing::CountIdleThreads(), 0);
+  watch.tap().Offer([](SeenSet& set) {
+    set = SetAt(0);
+    return true;
+  });
+  EXPECT_EQ(testing::CountIdleThreads(), 1);
 }
 
 TEST(HealthWatch, WhoStandsStillCountsOnce) {
