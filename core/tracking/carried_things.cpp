@@ -1,5 +1,6 @@
 #include "core/tracking/carried_things.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -37,8 +38,8 @@ bool Reaches(const PosedCapsule& place, const Contact& contact) {
 
 }  // namespace
 
-ThingPlaces::ThingPlaces(const BodyModel& body, const Posture& posture)
-    : X_WT_(posture.X_WT), head_(Around(Vector3::Zero(), 0)), back_(head_) {
+ThingPlaces::ThingPlaces(const BodyModel& body, const Posture& posture, Things allowed)
+    : allowed_(allowed), X_WT_(posture.X_WT), head_(Around(Vector3::Zero(), 0)), back_(head_) {
   const BodySizes& sizes = body.sizes();
   const BodyPoints points_W = body.PointsAt(posture);
   const auto at = [&](Point point) -> Vector3 { return points_W.col(static_cast<int>(point)); };
@@ -86,12 +87,15 @@ bool ThingPlaces::IsOfSeat(const Contact& contact) const {
   return distance.outside_mm < 0 && distance.segment_W.z() < seat_top_mm_;
 }
 
+bool ThingPlaces::IsOfBag(const Contact& contact) const {
+  return std::ranges::any_of(bags_, [&](const auto& bag) { return bag && Reaches(*bag, contact); });
+}
+
 std::optional<Thing> ThingPlaces::At(const Contact& contact) const {
-  if (IsOnHead(contact)) return Thing::kHat;
-  if (IsOnBack(contact)) return Thing::kPack;
-  if (IsOfSeat(contact)) return Thing::kSeat;
-  for (const auto& bag : bags_)
-    if (bag && Reaches(*bag, contact)) return Thing::kBag;
+  if (Allows(Thing::kHat) && IsOnHead(contact)) return Thing::kHat;
+  if (Allows(Thing::kPack) && IsOnBack(contact)) return Thing::kPack;
+  if (Allows(Thing::kSeat) && IsOfSeat(contact)) return Thing::kSeat;
+  if (Allows(Thing::kBag) && IsOfBag(contact)) return Thing::kBag;
   return std::nullopt;
 }
 

@@ -34,16 +34,20 @@ inline constexpr double kOfThingMm = kExplainedMm / 2;
 /// The places where a posed body may have things.
 class ThingPlaces {
  public:
-  ThingPlaces(const BodyModel& body, const Posture& posture);
+  /// @param allowed  the things that the body may have.
+  ThingPlaces(const BodyModel& body, const Posture& posture, Things allowed);
 
-  /// The thing that a contact may belong to; empty if there is none.
+  /// The first allowed thing that a contact may belong to; empty if there is none.
   std::optional<Thing> At(const Contact& contact) const;
 
  private:
   bool IsOnHead(const Contact& contact) const;
   bool IsOnBack(const Contact& contact) const;
   bool IsOfSeat(const Contact& contact) const;
+  bool IsOfBag(const Contact& contact) const;
+  bool Allows(Thing thing) const { return allowed_[static_cast<std::size_t>(thing)]; }
 
+  Things allowed_;
   RigidTransform X_WT_;
   Vector3 up_W_;       ///< From the neck to the head.
   Vector3 chin_W_;     ///< Hats and hair are above it.

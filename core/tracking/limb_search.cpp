@@ -79,17 +79,14 @@ void LimbSearch::OpenContacts(ContactMatcher& contacts, Things things) {
   const double voxel_weight = kSurfaceWeight / std::max(1, surface_W_->size());
   const std::vector<float>& others_mm = contacts.Distances(others_, kSearchedMm);
   std::optional<ThingPlaces> places;
-  if (things.any()) places.emplace(*body_, posture_);
+  if (things.any()) places.emplace(*body_, posture_, things);
   contacts_.clear();
   terms_.clear();
   for (std::size_t i = 0; i < others_mm.size(); ++i) {
     if (others_mm[i] < kTakenMm) continue;
     const Contact& contact = contacts.contacts()[i];
     double other_mm = others_mm[i];
-    if (places && other_mm > kOfThingMm) {
-      const auto thing = places->At(contact);
-      if (thing && things[static_cast<int>(*thing)]) other_mm = kOfThingMm;
-    }
+    if (places && other_mm > kOfThingMm && places->At(contact)) other_mm = kOfThingMm;
     contacts_.push_back(contact);
     terms_.push_back({other_mm, contact.is_edge ? edge_weight : voxel_weight});
   }

@@ -176,7 +176,7 @@ void SurfaceFit::Linearize(const BodyModel& body, const PoseState& pose,
 
 void SurfaceFit::MeasureContacts(const BodyModel& body, SurfaceFitQuality& quality) {
   std::optional<ThingPlaces> places;
-  if (allowed_.any()) places.emplace(body, posture_);
+  if (allowed_.any()) places.emplace(body, posture_, allowed_);
   std::array<double, kThingCount> edges_saved_mm{}, surface_saved_mm{};
   int edges = 0;
   const std::vector<float>& distances_mm = matcher_.Distances(posed_, options_.reach_mm);
@@ -199,7 +199,7 @@ void SurfaceFit::MeasureContacts(const BodyModel& body, SurfaceFitQuality& quali
   for (int i = 0; i < kThingCount; ++i) {
     const double edge_mm = edges_saved_mm[i] / std::max(1, edges);
     const double surface_mm = surface_saved_mm[i] / std::max(1, voxels);
-    if (!allowed_[i] || edge_mm + kSurfaceWeight * surface_mm <= kWornMm) continue;
+    if (edge_mm + kSurfaceWeight * surface_mm <= kWornMm) continue;
     quality.things.set(i);
     quality.edge_mm -= edge_mm;
     quality.surface_mm -= surface_mm;

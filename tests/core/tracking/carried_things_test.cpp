@@ -32,9 +32,10 @@ class Carried : public ::testing::Test {
   Vector3 At(const PoseState& pose, Point point) const {
     return body_.PointsAt(body_.PostureAt(pose)).col(static_cast<int>(point));
   }
-  std::optional<Thing> ThingAt(const PoseState& pose, const Vector3& p_W) const {
+  std::optional<Thing> ThingAt(const PoseState& pose, const Vector3& p_W,
+                               Things allowed = kAnyThings) const {
     const Contact contact{p_W, p_W, Vector3::UnitZ(), false};
-    return ThingPlaces(body_, body_.PostureAt(pose)).At(contact);
+    return ThingPlaces(body_, body_.PostureAt(pose), allowed).At(contact);
   }
   /// The person with more flesh.
   Evidence Show(const PoseState& pose, const std::vector<PosedCapsule>& more) const {
@@ -86,6 +87,14 @@ TEST_F(Carried, OnlyWhoSitsHasASeat) {
     const Vector3 hips_W = (At(pose, Point::kHipL) + At(pose, Point::kHipR)) / 2;
     EXPECT_EQ(ThingAt(pose, hips_W - Vector3(0, 0, 200)), seat);
   }
+}
+
+TEST_F(Carried, WhereTwoThingsMayBeTheAllowedOneIs) {
+  const PoseState pose = Sitting();
+  const Vector3 behind_W = At(pose, Point::kHipL) - 200 * pose.X_WT.R.col(0);
+  EXPECT_EQ(ThingAt(pose, behind_W), Thing::kPack);
+  EXPECT_EQ(ThingAt(pose, behind_W, Only(Thing::kSeat)), Thing::kSeat);
+  EXPECT_EQ(ThingAt(pose, behind_W, Only(Thing::kHat)), std::nullopt);
 }
 
 TEST_F(Carried, BagsHangBelowAHandThatHangsDown) {
