@@ -200,9 +200,12 @@ class SurfaceCapture::Impl {
     if (duel_.is_over()) opposite_.reset();
   }
 
+  double PriorCostMm(const Tracker& tracker) const {
+    return facing_.prior().CostMm(tracker.body(), tracker.filter().pose());
+  }
+
   double CostMm(const Tracker& tracker) const {
-    return tracker.quality().Cost() +
-           facing_.prior().CostMm(tracker.body().sizes(), tracker.filter().pose());
+    return tracker.quality().Cost() + PriorCostMm(tracker);
   }
 
   // Sizes from few frames may be the cause of a bad fit.
@@ -229,7 +232,9 @@ class SurfaceCapture::Impl {
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
     const bool may_turn = is_backwards && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
-    if (CostMm(found) > (may_turn ? 1 : kClearlyBetter) * CostMm(*tracker_)) return;
+    const double tolerated = may_turn ? 1 : kClearlyBetter;
+    const double most_mm = tolerated * tracker_->quality().Cost() + PriorCostMm(*tracker_);
+    if (found.quality().Cost() + PriorCostMm(found) > most_mm) return;
     tracker_ = found;
     facing_.StartOver();
     patience_ = kFramesToLose;

@@ -28,7 +28,7 @@ double CostOf(const Tracker& tracker) {
 }
 
 double PriorCostMm(const Tracker& tracker, const PosePrior& prior) {
-  return prior.CostMm(tracker.body().sizes(), tracker.filter().pose());
+  return prior.CostMm(tracker.body(), tracker.filter().pose());
 }
 
 bool IsCredible(const Tracker& tracker) {

@@ -167,7 +167,7 @@ void PoseContest::Play(const Evidence& evidence, const PosePrior& prior, const R
       candidate.pose = filter.pose();
     }
     const SurfaceFitQuality quality = fit.QualityAt(body, candidate.pose);
-    candidate.cost_mm = quality.Cost() + prior.CostMm(body.sizes(), candidate.pose);
+    candidate.cost_mm = quality.Cost() + prior.CostMm(body, candidate.pose);
     candidate.things = quality.things;
   }
   std::ranges::stable_sort(candidates_, {}, &PoseCandidate::cost_mm);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/body/joint_rest.h"
 #include "core/tracking/carried_things.h"
 
 namespace mocap {
@@ -14,6 +15,9 @@ constexpr double kUpsideDownMm = 12;
 constexpr double kAgainstFeetMm = 10;
 // Somebody who walks backwards: it happens.
 constexpr double kAgainstWayMm = 4;
+// Angles that are a standard deviation from their rest. Whoever is taken for facing the opposite
+// way has twisted arms and feet.
+constexpr double kStrainMm = 0.5;
 
 }  // namespace
 
@@ -27,8 +31,9 @@ double PosePrior::CostMm(const PoseState& pose) const {
   return kUpsideDownMm * upside_down * upside_down + backwards_mm_ * backwards * backwards;
 }
 
-double PosePrior::CostMm(const BodySizes& sizes, const PoseState& pose) const {
-  return CostMm(pose) + (sizes.IsDraped() ? kWornMm : 0);
+double PosePrior::CostMm(const BodyModel& body, const PoseState& pose) const {
+  return CostMm(pose) + (body.sizes().IsDraped() ? kWornMm : 0) +
+         kStrainMm * ChiSquareFromRest(body.table(), pose.theta);
 }
 
 double PosePrior::ShareBackwards(const PoseState& pose) const {

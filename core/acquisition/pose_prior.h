@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/body/body_sizes.h"
+#include "core/body/body_model.h"
 #include "core/body/pose_state.h"
 
 namespace mocap {
@@ -19,8 +19,9 @@ class PosePrior {
   /// Cost of a pose's orientation [mm]: little for a trunk that leans or lies, most for one upside
   /// down, or upright and turned against the feet or the way.
   double CostMm(const PoseState& pose) const;
-  /// Likewise of a body in this pose. A drape explains a little more of anything.
-  double CostMm(const BodySizes& sizes, const PoseState& pose) const;
+  /// Likewise of a body in this pose. Joints far from their rest cost more. So does a drape, which
+  /// explains a little more of anything.
+  double CostMm(const BodyModel& body, const PoseState& pose) const;
 
   /// Whether an upright trunk faces away from where the feet point; without feet, from where the
   /// person walks.

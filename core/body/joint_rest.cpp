@@ -1,5 +1,7 @@
 #include "core/body/joint_rest.h"
 
+#include <iterator>
+
 namespace mocap {
 namespace {
 
@@ -39,6 +41,17 @@ JointRest RestOf(const BodyTable& table, int row, const JointAngles& theta) {
   const Elevation arm = ElevationOf(table, row, is_left ? Segment::kUpperArmL : Segment::kUpperArmR,
                                     is_left ? Vector3::UnitY() : Vector3(-Vector3::UnitY()), theta);
   return {joint.rest_rad + joint.rise_rad * (1 + arm.sine), joint.rise_rad * arm.J_by_angle};
+}
+
+double ChiSquareFromRest(const BodyTable& table, const JointAngles& theta) {
+  double chi_square = 0;
+  for (int row = 0; row < std::ssize(table.joints); ++row) {
+    const double std_rad = table.joints[row].rest_std_rad;
+    if (std_rad == 0) continue;
+    const double deviation = (theta[row] - RestOf(table, row, theta).rest_rad) / std_rad;
+    chi_square += deviation * deviation;
+  }
+  return chi_square;
 }
 
 }  // namespace mocap

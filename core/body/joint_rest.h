@@ -15,4 +15,7 @@ struct JointRest {
 /// Computes the rest angle of the joint in a row. A collarbone rises with the arm that it carries.
 JointRest RestOf(const BodyTable& table, int row, const JointAngles& theta);
 
+/// Computes the chi-square of angles against their rest: the sum over the joints that have one.
+double ChiSquareFromRest(const BodyTable& table, const JointAngles& theta);
+
 }  // namespace mocap

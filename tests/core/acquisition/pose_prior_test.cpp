@@ -7,6 +7,8 @@
 #include "config/load_config.h"
 #include "core/acquisition/facing_watch.h"
 #include "core/body/stance.h"
+#include "core/tracking/tracker.h"
+#include "tests/support/seen_body.h"
 #include "tests/support/voxelized_body.h"
 
 namespace mocap {
@@ -157,6 +159,25 @@ TEST(PosePrior, CostsMoreTheFartherAnUprightTrunkIsTurnedFromTheFeet) {
     EXPECT_LT(prior.CostMm(turned(degrees)), prior.CostMm(turned(degrees + 20)));
   EXPECT_FALSE(prior.FacesBackwards(turned(80)));
   EXPECT_TRUE(prior.FacesBackwards(turned(100)));
+}
+
+TEST(PosePrior, TwistsOfWhoFacesTheOppositeWayCost) {
+  const BodyModel body(LoadBodyTable("full"), AverageSizes(1750));
+  const ArmStance reaching{.raise = -60, .forward = 50, .elbow = 40};
+  PoseState pose;
+  pose.X_WT.p = Vector3(0, 0, body.sizes().thigh + body.sizes().calf + body.sizes().torso / 2);
+  pose.theta =
+      AnglesOf({.arm_l = reaching, .arm_r = reaching, .leg_l = {}, .leg_r = {}}, body.table());
+  const Evidence evidence = RoundStudio().Show(body, pose);
+  const PosePrior prior(std::nullopt);
+  const auto cost_mm = [&](double yaw) {
+    PoseState start = pose;
+    start.X_WT.R = ExpRotation(Vector3(0, 0, yaw));
+    Tracker tracker(body, start);
+    tracker.Update(evidence, 0);
+    return prior.CostMm(body, tracker.filter().pose());
+  };
+  EXPECT_LT(cost_mm(0) + 2, cost_mm(EIGEN_PI));
 }
 
 TEST(PosePrior, LeavesWhoLiesOrHasNoFeetAlone) {

@@ -47,6 +47,25 @@ TEST_F(Rest, OtherJointsRestWhereTheTableSays) {
   EXPECT_EQ(rest.J_by_angle, JointAngles::Zero(theta_.size()));
 }
 
+TEST_F(Rest, ChiSquareIsInStandardDeviationsOfTheTable) {
+  for (int row = 0; row < theta_.size(); ++row) {
+    if (table_.joints[row].rise_rad == 0) theta_[row] = table_.joints[row].rest_rad;
+  }
+  const double before = ChiSquareFromRest(table_, theta_);
+  theta_[RowOf("ankle_l_y")] += 40 * kRadPerDeg;
+  theta_[RowOf("waist_x")] -= 10 * kRadPerDeg;
+  EXPECT_NEAR(ChiSquareFromRest(table_, theta_) - before, 4 + 1, 1e-9);
+  theta_[RowOf("knee_l_y")] += 1;
+  EXPECT_NEAR(ChiSquareFromRest(table_, theta_) - before, 4 + 1, 1e-9) << "has no rest";
+}
+
+TEST_F(Rest, ChiSquareOfARaisedArmIsLeastWithARaisedCollarBone) {
+  theta_[RowOf("shoulder_l_z")] = -90 * kRadPerDeg;
+  const double lowered = ChiSquareFromRest(table_, theta_);
+  theta_[RowOf("clavicle_l_x")] = 36 * kRadPerDeg;
+  EXPECT_LT(ChiSquareFromRest(table_, theta_), lowered - 10);
+}
+
 TEST_F(Rest, ChangesAsItsJacobianSays) {
   constexpr double kStepRad = 1e-6;
   for (int i = 0; i < theta_.size(); ++i) theta_[i] = 0.4 - 0.07 * i;
