@@ -15,8 +15,8 @@ constexpr double kUpsideDownMm = 12;
 constexpr double kAgainstFeetMm = 10;
 // Somebody who walks backwards: it happens.
 constexpr double kAgainstWayMm = 4;
-// Angles that are a standard deviation from their rest. Whoever is taken for facing the opposite
-// way has twisted arms and feet.
+// One joint angle that is a standard deviation from its rest. Somebody who is taken to face the
+// opposite way has twisted arms and feet.
 constexpr double kStrainMm = 0.5;
 
 }  // namespace
