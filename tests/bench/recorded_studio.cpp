@@ -1,9 +1,11 @@
 #include "tests/bench/recorded_studio.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <thread>
 #include <tuple>
 
 #include "drivers/simulation/simulated_studio.h"
@@ -14,12 +16,16 @@ namespace {
 // Hands out frames of a recording, there and back again.
 class MemoryDriver : public CameraDriver {
  public:
-  MemoryDriver(const RecordedStudio& studio, int camera, int sets)
-      : studio_(studio), camera_(camera), sets_(sets) {}
+  MemoryDriver(const RecordedStudio& studio, int camera, int sets, RecordedStudio::Pace pace)
+      : studio_(studio), camera_(camera), sets_(sets), pace_(pace) {}
 
-  void Start() override {}
+  void Start() override { start_ = std::chrono::steady_clock::now(); }
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
     if (next_ == sets_) return GrabStatus::kEnd;
+    if (pace_ == RecordedStudio::Pace::kLive) {
+      std::this_thread::sleep_until(
+          start_ + std::chrono::nanoseconds(std::llround(1e9 * next_ / RecordedStudio::kFps)));
+    }
     frame.image = studio_.frame(camera_, RecordedStudio::SetAt(next_));
     frame.capture_ns = std::llround(1e9 * next_ / RecordedStudio::kFps);
     frame.sequence = static_cast<std::uint64_t>(next_++);
@@ -31,6 +37,8 @@ class MemoryDriver : public CameraDriver {
  private:
   const RecordedStudio& studio_;
   int camera_, sets_;
+  RecordedStudio::Pace pace_;
+  std::chrono::steady_clock::time_point start_;
   int next_ = 0;
 };
 
@@ -88,14 +96,14 @@ std::vector<CarvingView> RecordedStudio::Views(int set) const {
   return views;
 }
 
-Studio RecordedStudio::Open(int sets) const {
+Studio RecordedStudio::Open(int sets, Pace pace) const {
   Studio studio;
   studio.name = "frames in memory";
   studio.fps_nominal = kFps;
   for (int c = 0; c < size_.cameras; ++c) {
     StudioCamera& camera = studio.cameras.emplace_back();
     camera.calibration = cameras_[c];
-    camera.driver = std::make_unique<MemoryDriver>(*this, c, sets);
+    camera.driver = std::make_unique<MemoryDriver>(*this, c, sets, pace);
     camera.background = [this, c] { return background_[c]; };
   }
   return studio;

@@ -38,8 +38,10 @@ class RecordedStudio {
   /// The silhouettes of a set, to carve.
   std::vector<CarvingView> Views(int set) const;
 
+  enum class Pace { kAsTaken, kLive };  ///< Frames come as soon as they are taken, or at kFps.
+
   /// Opens the recording as a source of so many sets.
-  Studio Open(int sets) const;
+  Studio Open(int sets, Pace pace = Pace::kAsTaken) const;
 
  private:
   explicit RecordedStudio(const StudioSize& size);
