@@ -15,9 +15,18 @@ constexpr double kUpsideDownMm = 12;
 constexpr double kAgainstFeetMm = 10;
 // Somebody who walks backwards: it happens.
 constexpr double kAgainstWayMm = 4;
-// One joint angle that is a standard deviation from its rest. Somebody who is taken to face the
-// opposite way has twisted arms and feet.
-constexpr double kStrainMm = 0.5;
+// A joint angle or a stature that is a standard deviation from the usual. Somebody who is taken to
+// face the opposite way has twisted arms and feet.
+constexpr double kUnusualMm = 0.5;
+// Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a hull,
+// by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women and
+// children are shorter: nobody costs more for that.
+constexpr double kTallMm = 1800, kTallStdMm = 80;
+
+double ChiSquareOfStature(double stature_mm) {
+  const double deviation = std::max(0.0, stature_mm - kTallMm) / kTallStdMm;
+  return deviation * deviation;
+}
 
 }  // namespace
 
@@ -33,7 +42,8 @@ double PosePrior::CostMm(const PoseState& pose) const {
 
 double PosePrior::CostMm(const BodyModel& body, const PoseState& pose) const {
   return CostMm(pose) + (body.sizes().IsDraped() ? kWornMm : 0) +
-         kStrainMm * ChiSquareFromRest(body.table(), pose.theta);
+         kUnusualMm * (ChiSquareFromRest(body.table(), pose.theta) +
+                       ChiSquareOfStature(body.sizes().Stature()));
 }
 
 double PosePrior::ShareBackwards(const PoseState& pose) const {

@@ -19,8 +19,8 @@ class PosePrior {
   /// Cost of a pose's orientation [mm]: little for a trunk that leans or lies, most for one upside
   /// down, or upright and turned against the feet or the way.
   double CostMm(const PoseState& pose) const;
-  /// Likewise of a body in this pose. Joints far from their rest cost more. So does a drape, which
-  /// explains a little more of anything.
+  /// Likewise of a body in this pose. Joints far from their rest cost more. So do the unusually
+  /// tall and a drape, which explain a little more of anything.
   double CostMm(const BodyModel& body, const PoseState& pose) const;
 
   /// Whether an upright trunk faces away from where the feet point; without feet, from where the

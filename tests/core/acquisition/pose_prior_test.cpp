@@ -180,6 +180,18 @@ TEST(PosePrior, TwistsOfWhoFacesTheOppositeWayCost) {
   EXPECT_LT(cost_mm(0) + 2, cost_mm(EIGEN_PI));
 }
 
+TEST(PosePrior, GiantsCostMoreThanChildren) {
+  const BodyTable table = LoadBodyTable("full");
+  const auto cost_mm = [&](double stature_mm) {
+    PoseState pose;
+    pose.theta = AnglesOf({}, table);
+    return PosePrior(std::nullopt).CostMm(BodyModel(table, AverageSizes(stature_mm)), pose);
+  };
+  EXPECT_EQ(cost_mm(1100), cost_mm(1750));
+  EXPECT_LT(cost_mm(1900), cost_mm(1750) + 1);
+  EXPECT_GT(cost_mm(2050), cost_mm(1750) + 4);
+}
+
 TEST(PosePrior, LeavesWhoLiesOrHasNoFeetAlone) {
   PoseState lying;
   lying.X_WT.R = ExpRotation(Vector3(0, -90 * kDegree, 0));
