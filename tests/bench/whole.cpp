@@ -43,6 +43,14 @@ class Meter : public PoseSink {
   std::int64_t begin_ns_ = 0, end_ns_ = 0;
 };
 
+// The recording of a benchmark whose first arguments are cameras and height of the pictures [px].
+const RecordedStudio& StudioOf(const benchmark::State& state) {
+  const auto height_px = static_cast<int>(state.range(1));
+  return RecordedStudio::Get({.cameras = static_cast<int>(state.range(0)),
+                              .width_px = height_px * 4 / 3,
+                              .height_px = height_px});
+}
+
 void CountPercentiles(const LatencyHistogram& times, benchmark::State& state) {
   const double median_ms = times.PercentileMs(0.5);
   state.counters["p50_ms"] = median_ms;
@@ -51,10 +59,7 @@ void CountPercentiles(const LatencyHistogram& times, benchmark::State& state) {
 
 // Arguments: cameras, height of the pictures [px], edge of a voxel [mm], whether in one thread.
 void TrackSets(benchmark::State& state) {
-  const auto height_px = static_cast<int>(state.range(1));
-  const RecordedStudio& studio = RecordedStudio::Get({.cameras = static_cast<int>(state.range(0)),
-                                                      .width_px = height_px * 4 / 3,
-                                                      .height_px = height_px});
+  const RecordedStudio& studio = StudioOf(state);
   const BodyTable body = LoadBodyTable("full");
   for (auto _ : state) {
     Meter meter(kSets);
@@ -86,10 +91,7 @@ void TrackSets(benchmark::State& state) {
 // its pose, where frames come at the cameras' rate. Threads that get frames as fast as they take
 // them wait for processors: their percentiles say how many of those there are.
 void TrackLiveSets(benchmark::State& state) {
-  const auto height_px = static_cast<int>(state.range(1));
-  const RecordedStudio& studio = RecordedStudio::Get({.cameras = static_cast<int>(state.range(0)),
-                                                      .width_px = height_px * 4 / 3,
-                                                      .height_px = height_px});
+  const RecordedStudio& studio = StudioOf(state);
   const BodyTable body = LoadBodyTable("full");
   for (auto _ : state) {
     Meter meter(kLiveSets);
