@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/body/stance.h"
+#include "core/tracking/rival_pose.h"
 
 namespace mocap {
 namespace {
@@ -27,8 +28,9 @@ constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 4;
 constexpr std::size_t kDrawn = 4;
 constexpr double kLimbBetterMm = 0.6;
-// A pose that costs this much less is taken at once. With a smaller gain, or if it costs at most
-// kRivalMm more, the next frames decide.
+// A pose that costs this much less is taken at once, and with a smaller gain if frames are so rare
+// that a rival would need no second one. Otherwise, and if it costs at most kRivalMm more, the next
+// frames decide.
 constexpr double kSureMm = 3;
 constexpr double kRivalMm = 2;
 // Exchanged arms that cost at most this much more than the present ones may cost less once the
@@ -182,7 +184,7 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
 }
 
 bool LimbRecovery::Offer(const Candidate& offered, double least_mm, Candidate& present) {
-  if (offered.cost_mm <= present.cost_mm - (is_first_ ? least_mm : kSureMm)) {
+  if (offered.cost_mm <= present.cost_mm - (is_first_ ? least_mm : sure_mm_)) {
     present = offered;
     return true;
   }
@@ -309,6 +311,7 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
                                                const SurfaceFitQuality& quality, double dt_s) {
   rest_s_ -= dt_s;
   rival_.reset();
+  sure_mm_ = std::min(kSureMm, ClearLeadMm(dt_s));
   allowance_ = is_first_ ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
   const double share = quality.unexplained_share;
   if (share < kUnexplainedShare) StartOver();

@@ -108,6 +108,7 @@ class LimbRecovery {
   std::size_t next_ = 0;    ///< Limb, or pair after the limbs, to search next.
   bool is_in_vain_ = true;  ///< The search so far.
   double allowance_ = 0;    ///< Number of limbs that may be searched in this frame.
+  double sure_mm_ = 0;      ///< Gain that is taken at once.
   double rest_s_ = 0;       ///< Until a failed search is repeated.
   double begun_share_ = 0;  ///< Unexplained share of the outline when the search began,
   double vain_share_ = 0;   ///< and when the last failed one began.

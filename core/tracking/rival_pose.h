@@ -8,6 +8,9 @@
 
 namespace mocap {
 
+/// Lead after a frame that took so long, by which a pose is better without another frame [mm].
+double ClearLeadMm(double dt_s);
+
 /// Follows another pose beside the present one, until one of them explains the evidence clearly
 /// better over several frames.
 class RivalPose {

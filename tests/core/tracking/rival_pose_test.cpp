@@ -21,7 +21,7 @@ class Rival : public ::testing::Test {
   }
   /// Follows a rival through frames that all show `truth`.
   RivalPose::Rank Follow(const PoseState& present, const PoseState& rival, const PoseState& truth,
-                         int frames) const {
+                         int frames, double period_s = kPeriod_s) const {
     const Evidence evidence = studio_.Show(body_, truth);
     SurfaceFit fit{SurfaceFitOptions{}};
     fit.SetEvidence(evidence);
@@ -31,7 +31,7 @@ class Rival : public ::testing::Test {
     RivalPose pose(filter, rival, present_mm);
     RivalPose::Rank rank = RivalPose::Rank::kUndecided;
     for (int i = 0; i < frames && rank == RivalPose::Rank::kUndecided; ++i)
-      rank = pose.Follow(body_, fit, present, present_mm, kPeriod_s);
+      rank = pose.Follow(body_, fit, present, present_mm, period_s);
     return rank;
   }
 
@@ -50,6 +50,10 @@ TEST_F(Rival, ThatExplainsLessProvesWorse) {
 
 TEST_F(Rival, IsNotChosenByASingleFrame) {
   EXPECT_EQ(Follow(hanging_, raised_, raised_, 1), RivalPose::Rank::kUndecided);
+}
+
+TEST_F(Rival, IsChosenByASingleFrameIfFramesAreRare) {
+  EXPECT_EQ(Follow(hanging_, raised_, raised_, 1, 0.1), RivalPose::Rank::kBetter);
 }
 
 TEST_F(Rival, ThatBecomesThePresentPoseIsGivenUp) {
