@@ -23,9 +23,9 @@ constexpr double kLeastLitres = 12;
 // Higher than the limit for a first fit: errors of cameras should not end tracking.
 constexpr double kLostCostMm = 55;
 // If a fit is worse than this for some frames, it is compared with a new search, which must be
-// clearly better.
+// better by this share of its cost.
 constexpr double kDoubtCostMm = 28;
-constexpr double kClearlyBetter = 0.85;
+constexpr double kClearGain = 0.15;
 constexpr int kFramesToLose = 3;
 // After each search without a better result, the wait doubles, up to this number of frames.
 constexpr int kLongestDoubt = 48;
@@ -232,9 +232,11 @@ class SurfaceCapture::Impl {
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
     const bool may_turn = is_backwards && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
-    const double tolerated = may_turn ? 1 : kClearlyBetter;
-    const double most_mm = tolerated * tracker_->quality().Cost() + PriorCostMm(*tracker_);
-    if (found.quality().Cost() + PriorCostMm(found) > most_mm) return;
+    // A likelier pose must also fit better: arms overhead are strained, and true.
+    const double cost_mm = tracker_->quality().Cost();
+    const double wanted_mm = may_turn ? 0 : kClearGain * cost_mm;
+    const bool fits_better = may_turn || found.quality().Cost() < cost_mm;
+    if (!fits_better || CostMm(found) > CostMm(*tracker_) - wanted_mm) return;
     tracker_ = found;
     facing_.StartOver();
     patience_ = kFramesToLose;
