@@ -22,9 +22,9 @@ namespace {
 constexpr double kLeastLitres = 12;
 // Higher than the limit for a first fit: errors of cameras should not end tracking.
 constexpr double kLostCostMm = 55;
-// If a fit is worse than this for some frames, it is compared with a new search, which must be
-// better by this share of its cost.
+// If a fit is worse than this for some frames, it is compared with a new search,
 constexpr double kDoubtCostMm = 28;
+// which must be better by this share of its cost.
 constexpr double kClearGain = 0.15;
 constexpr int kFramesToLose = 3;
 // After each search without a better result, the wait doubles, up to this number of frames.
@@ -232,11 +232,11 @@ class SurfaceCapture::Impl {
         found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
     const bool may_turn = is_backwards && !same_way;
     if (sizes_are_known && !same_way && !may_turn) return;
-    // A likelier pose must also fit better: arms overhead are strained, and true.
     const double cost_mm = tracker_->quality().Cost();
+    // Being less strained does not make up for a worse fit: arms overhead are strained.
+    if (!may_turn && found.quality().Cost() >= cost_mm) return;
     const double wanted_mm = may_turn ? 0 : kClearGain * cost_mm;
-    const bool fits_better = may_turn || found.quality().Cost() < cost_mm;
-    if (!fits_better || CostMm(found) > CostMm(*tracker_) - wanted_mm) return;
+    if (CostMm(found) > CostMm(*tracker_) - wanted_mm) return;
     tracker_ = found;
     facing_.StartOver();
     patience_ = kFramesToLose;

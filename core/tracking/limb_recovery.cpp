@@ -28,9 +28,8 @@ constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 4;
 constexpr std::size_t kDrawn = 4;
 constexpr double kLimbBetterMm = 0.6;
-// A pose that costs this much less is taken at once, and with a smaller gain if frames are so rare
-// that a rival would need no second one. Otherwise, and if it costs at most kRivalMm more, the next
-// frames decide.
+// A pose that costs this much less is taken at once; where frames are rare, one with a smaller gain
+// too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
 constexpr double kSureMm = 3;
 constexpr double kRivalMm = 2;
 // Exchanged arms that cost at most this much more than the present ones may cost less once the

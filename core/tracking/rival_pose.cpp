@@ -9,7 +9,6 @@ namespace {
 // frames with holes or shadows should not decide alone.
 constexpr double kMostLeadMm = 2;
 constexpr double kClearLeadMm_s = 0.12;
-constexpr double kShortestFrameS = 1e-3;
 // What is not decided by then is not worth the time.
 constexpr double kLongestRivalry_s = 0.4;
 // Poses whose points have a smaller mean distance than this are equal.
@@ -17,7 +16,7 @@ constexpr double kSameMm = 30;
 
 }  // namespace
 
-double ClearLeadMm(double dt_s) { return kClearLeadMm_s / std::max(dt_s, kShortestFrameS); }
+double ClearLeadMm(double dt_s) { return kClearLeadMm_s / dt_s; }
 
 RivalPose::RivalPose(const PoseFilter& present, const PoseState& pose, double cost_mm)
     : filter_(present), cost_mm_(cost_mm) {

@@ -8,7 +8,8 @@
 
 namespace mocap {
 
-/// Lead after a frame that took so long, by which a pose is better without another frame [mm].
+/// How much less a pose must cost [mm], for a time `dt_s` to decide between it and another; without
+/// limit as dt_s goes to 0.
 double ClearLeadMm(double dt_s);
 
 /// Follows another pose beside the present one, until one of them explains the evidence clearly
