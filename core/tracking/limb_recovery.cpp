@@ -19,7 +19,7 @@ constexpr double kBetterMm = 0.5;
 constexpr std::size_t kRefined = 8;
 constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
-constexpr std::size_t kPairsTried = 3;
+constexpr std::size_t kPairsDrawn = 3;
 constexpr std::size_t kExchangesTried = 4;
 // A moved limb is compared after the whole body was fitted to the evidence with it, as was done
 // with the present one. Before that, a correct position costs up to this much more, a wrong one
@@ -32,10 +32,10 @@ constexpr double kLimbBetterMm = 0.6;
 // too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
 constexpr double kSureMm = 3;
 constexpr double kRivalMm = 2;
-// Exchanged arms that cost at most this much more than the present ones may cost less once the
-// whole body is fitted, as the present one was. Their gain must be clear, because noise would
-// otherwise exchange folded arms again and again.
-constexpr double kPromisingMm = 4;
+// Likewise for both arms or both legs, which move the trunk more.
+constexpr double kPairWorthDrawingMm = 7;
+// The gain of exchanged limbs must be clear, because noise would otherwise exchange folded arms
+// again and again.
 constexpr double kClearlyBetterMm = 1.5;
 // After a failed search at the least share that triggers one; shorter if more is unexplained.
 constexpr double kLongestRestS = 0.8;
@@ -213,9 +213,11 @@ bool LimbRecovery::HandsMeetAnew(const BodyModel& body, const PoseState& pose) {
 }
 
 template <typename Stances>
-LimbRecovery::Candidate LimbRecovery::BestPair(const BodyModel& body, const Evidence& evidence,
-                                               Segment left, Segment right, SurfaceFit& fit,
-                                               const Stances& stances, const PoseState& pose) {
+bool LimbRecovery::OfferPair(const BodyModel& body, const Evidence& evidence,
+                             const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
+                             const Stances& stances, double least_mm, Candidate& present) {
+  const auto [left, right] = limb_ends;
+  const PoseState& pose = present.pose;
   search_.Begin(body, evidence, matcher_, left, right, pose, fit.allowed());
   other_search_.Begin(body, evidence, matcher_, right, left, pose, fit.allowed());
   stances(search_, other_search_);
@@ -231,9 +233,13 @@ LimbRecovery::Candidate LimbRecovery::BestPair(const BodyModel& body, const Evid
     }
   }
   std::ranges::sort(pairs_, {}, &Candidate::cost_mm);
-  pairs_.resize(std::min(pairs_.size(), kPairsTried));
-  for (Candidate& pair : pairs_) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
-  return *std::ranges::min_element(pairs_, {}, &Candidate::cost_mm);
+  pairs_.resize(std::min(pairs_.size(), kPairsDrawn));
+  std::erase_if(pairs_, [&](const Candidate& pair) {
+    return fit.QualityAt(body, pair.pose).Cost() > present.cost_mm + kPairWorthDrawingMm;
+  });
+  if (pairs_.empty()) return false;
+  for (Candidate& pair : pairs_) DrawNear(body, fit, pair);
+  return Offer(*std::ranges::min_element(pairs_, {}, &Candidate::cost_mm), least_mm, present);
 }
 
 void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate) {
@@ -282,27 +288,19 @@ void LimbRecovery::StartOver() {
 bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
                                const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                                Candidate& present) {
-  const Segment left = limb_ends.first, right = limb_ends.second;
   const auto best = [&](LimbSearch& search, LimbSearch&) {
-    FindBest(search, StancesOf(left), present.pose, kPairRefined);
+    FindBest(search, StancesOf(limb_ends.first), present.pose, kPairRefined);
   };
-  Candidate pair = BestPair(body, evidence, left, right, fit, best, present.pose);
-  if (pair.cost_mm > present.cost_mm + kWorthDrawingMm) return false;
-  DrawNear(body, fit, pair);
-  return Offer(pair, kBetterMm, present);
+  return OfferPair(body, evidence, limb_ends, fit, best, kBetterMm, present);
 }
 
 bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
                             const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                             Candidate& present) {
-  const Segment left = limb_ends.first, right = limb_ends.second;
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
-    FindTowards(search, StancesOf(left), present.pose, other.TipAt(present.pose));
+    FindTowards(search, StancesOf(limb_ends.first), present.pose, other.TipAt(present.pose));
   };
-  Candidate pair = BestPair(body, evidence, left, right, fit, exchanged, present.pose);
-  if (pair.cost_mm > present.cost_mm + kPromisingMm) return false;
-  DrawNear(body, fit, pair);
-  return Offer(pair, kClearlyBetterMm, present);
+  return OfferPair(body, evidence, limb_ends, fit, exchanged, kClearlyBetterMm, present);
 }
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,
@@ -324,10 +322,8 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   DrawNear(body, fit, present);
   bool changed = searches && RecoverLost(body, evidence, fit, present);
   if (exchanges) changed |= Exchange(body, evidence, kPairs[0], fit, present);
-  if (is_first_) {
-    changed |= Exchange(body, evidence, kPairs[1], fit, present);
-    changed |= RecoverPair(body, evidence, kPairs[0], fit, present);
-  }
+  if (changed || is_first_) changed |= Exchange(body, evidence, kPairs[1], fit, present);
+  if (is_first_) changed |= RecoverPair(body, evidence, kPairs[0], fit, present);
   is_first_ = false;
   if (!changed) return std::nullopt;
   return present.pose;

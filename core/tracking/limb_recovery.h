@@ -21,8 +21,9 @@ namespace mocap {
 /// help, both arms or both legs are tried together, because each may have taken the other's place.
 /// After a failed search, it rests until more of the outline is unexplained, or for a time that is
 /// shorter if there is more. Arms whose hands are close together are also tried exchanged, even if
-/// everything is explained, and again whenever the hands have moved. At the first call, legs are
-/// tried exchanged, and both arms are searched, whatever is explained. Only what the rest of the
+/// everything is explained, and again whenever the hands have moved. Legs are tried exchanged when
+/// a lost limb was found, for it may be the other's. At the first call, legs are tried exchanged,
+/// and both arms are searched, whatever is explained. Only what the rest of the
 /// body does not explain is matched, so that a stance costs microseconds. Reuses its memory.
 class LimbRecovery {
  public:
@@ -58,11 +59,12 @@ class LimbRecovery {
   // Replaces `present`, whose body is fitted to the evidence, if another pose explains it better.
   bool RecoverOne(const BodyModel& body, const Evidence& evidence, Segment limb_end,
                   SurfaceFit& fit, Candidate& present);
-  // `stances` fills candidates_ with what to try for the first limb, searched with the second
-  // absent.
+  // Replaces `present` if both limbs of a pair explain it better in other stances. `stances` fills
+  // candidates_ with what to try for the first limb, searched with the second absent.
   template <typename Stances>
-  Candidate BestPair(const BodyModel& body, const Evidence& evidence, Segment left, Segment right,
-                     SurfaceFit& fit, const Stances& stances, const PoseState& pose);
+  bool OfferPair(const BodyModel& body, const Evidence& evidence,
+                 const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
+                 const Stances& stances, double least_mm, Candidate& present);
   bool RecoverPair(const BodyModel& body, const Evidence& evidence,
                    const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                    Candidate& present);
