@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/body/stance.h"
@@ -19,7 +20,7 @@ constexpr double kBetterMm = 0.5;
 constexpr std::size_t kRefined = 8;
 constexpr std::size_t kPairRefined = 14;
 constexpr double kApartMm = 150;
-constexpr std::size_t kPairsDrawn = 3;
+constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
 // A moved limb is compared after the whole body was fitted to the evidence with it, as was done
 // with the present one. Before that, a correct position costs up to this much more, a wrong one
@@ -32,8 +33,10 @@ constexpr double kLimbBetterMm = 0.6;
 // too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
 constexpr double kSureMm = 3;
 constexpr double kRivalMm = 2;
-// Likewise for both arms or both legs, which move the trunk more.
+// Likewise for both arms or both legs, which move the trunk more. If frames follow soon, the best
+// pair will do: the next frame is another chance.
 constexpr double kPairWorthDrawingMm = 7;
+constexpr double kPairsDrawnPerS = 30;
 // The gain of exchanged limbs must be clear, because noise would otherwise exchange folded arms
 // again and again.
 constexpr double kClearlyBetterMm = 1.5;
@@ -233,9 +236,12 @@ bool LimbRecovery::OfferPair(const BodyModel& body, const Evidence& evidence,
     }
   }
   std::ranges::sort(pairs_, {}, &Candidate::cost_mm);
-  pairs_.resize(std::min(pairs_.size(), kPairsDrawn));
+  pairs_.resize(std::min(pairs_.size(), kPairsTried));
+  for (Candidate& pair : pairs_) pair.cost_mm = fit.QualityAt(body, pair.pose).Cost();
+  std::ranges::sort(pairs_, {}, &Candidate::cost_mm);
+  pairs_.resize(std::min(pairs_.size(), pairs_drawn_));
   std::erase_if(pairs_, [&](const Candidate& pair) {
-    return fit.QualityAt(body, pair.pose).Cost() > present.cost_mm + kPairWorthDrawingMm;
+    return pair.cost_mm > present.cost_mm + kPairWorthDrawingMm;
   });
   if (pairs_.empty()) return false;
   for (Candidate& pair : pairs_) DrawNear(body, fit, pair);
@@ -309,6 +315,7 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   rest_s_ -= dt_s;
   rival_.reset();
   sure_mm_ = std::min(kSureMm, ClearLeadMm(dt_s));
+  pairs_drawn_ = std::max<std::size_t>(1, std::lround(kPairsDrawnPerS * dt_s));
   allowance_ = is_first_ ? kWholeSearch : std::min(allowance_, 0.0) + kLimbsPerS * dt_s;
   const double share = quality.unexplained_share;
   if (share < kUnexplainedShare) StartOver();
@@ -322,7 +329,8 @@ std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evid
   DrawNear(body, fit, present);
   bool changed = searches && RecoverLost(body, evidence, fit, present);
   if (exchanges) changed |= Exchange(body, evidence, kPairs[0], fit, present);
-  if (changed || is_first_) changed |= Exchange(body, evidence, kPairs[1], fit, present);
+  if (is_first_ || (changed && pairs_drawn_ > 1))
+    changed |= Exchange(body, evidence, kPairs[1], fit, present);
   if (is_first_) changed |= RecoverPair(body, evidence, kPairs[0], fit, present);
   is_first_ = false;
   if (!changed) return std::nullopt;

@@ -21,10 +21,10 @@ namespace mocap {
 /// help, both arms or both legs are tried together, because each may have taken the other's place.
 /// After a failed search, it rests until more of the outline is unexplained, or for a time that is
 /// shorter if there is more. Arms whose hands are close together are also tried exchanged, even if
-/// everything is explained, and again whenever the hands have moved. Legs are tried exchanged when
-/// a lost limb was found, for it may be the other's. At the first call, legs are tried exchanged,
-/// and both arms are searched, whatever is explained. Only what the rest of the
-/// body does not explain is matched, so that a stance costs microseconds. Reuses its memory.
+/// everything is explained, and again whenever the hands have moved. Where frames are rare, legs
+/// are tried exchanged when a lost limb was found, for it may be the other's. At the first call,
+/// legs are tried exchanged, and both arms are searched, whatever is explained. Only what the rest
+/// of the body does not explain is matched, so that a stance costs microseconds. Reuses its memory.
 class LimbRecovery {
  public:
   explicit LimbRecovery(const BodyTable& table);
@@ -106,14 +106,15 @@ class LimbRecovery {
 
   std::vector<JointAngles> arm_stances_;
   std::vector<JointAngles> leg_stances_;
-  bool is_first_ = true;    ///< Nobody was searched yet.
-  std::size_t next_ = 0;    ///< Limb, or pair after the limbs, to search next.
-  bool is_in_vain_ = true;  ///< The search so far.
-  double allowance_ = 0;    ///< Number of limbs that may be searched in this frame.
-  double sure_mm_ = 0;      ///< Gain that is taken at once.
-  double rest_s_ = 0;       ///< Until a failed search is repeated.
-  double begun_share_ = 0;  ///< Unexplained share of the outline when the search began,
-  double vain_share_ = 0;   ///< and when the last failed one began.
+  bool is_first_ = true;         ///< Nobody was searched yet.
+  std::size_t next_ = 0;         ///< Limb, or pair after the limbs, to search next.
+  bool is_in_vain_ = true;       ///< The search so far.
+  double allowance_ = 0;         ///< Number of limbs that may be searched in this frame.
+  double sure_mm_ = 0;           ///< Gain that is taken at once.
+  std::size_t pairs_drawn_ = 1;  ///< Of each two limbs, in this frame.
+  double rest_s_ = 0;            ///< Until a failed search is repeated.
+  double begun_share_ = 0;       ///< Unexplained share of the outline when the search began,
+  double vain_share_ = 0;        ///< and when the last failed one began.
   std::optional<Candidate> rival_;
   std::optional<Vector3> hands_met_T_;  ///< From right to left, when exchanged arms were tried.
   std::vector<Contact> contacts_;
