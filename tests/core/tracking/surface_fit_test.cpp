@@ -2,58 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "config/load_config.h"
 #include "core/acquisition/size_refiner.h"
-#include "core/body/stance.h"
-#include "core/tracking/limb_recovery.h"
 #include "core/tracking/tracker.h"
-#include "tests/support/allocation_counter.h"
-#include "tests/support/seen_body.h"
+#include "tests/support/fitted_body.h"
 
 namespace mocap {
 namespace {
 
-class Fit : public ::testing::Test {
- protected:
-  PoseState Standing(const BodyModel& body, const Stance& stance) const {
-    PoseState pose;
-    pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.4));
-    pose.X_WT.p = Vector3(50, -30, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
-    pose.theta = AnglesOf(stance, body.table());
-    return pose;
-  }
-  PoseState FitFrom(const PoseState& start, const BodyModel& body, SurfaceFit& fit) const {
-    PoseFilter filter{MotionNoise{}};
-    filter.Reset(start, 100, 0.5);
-    filter.Update(body.table(),
-                  [&](const PoseState& pose, UpdateEquations& equations) {
-                    fit.Linearize(body, pose, equations);
-                  },
-                  {12, 12});
-    return filter.pose();
-  }
-  PoseState FitFromStance(const Evidence& evidence, const Stance& stance) {
-    fit_.SetEvidence(evidence);
-    return FitFrom(Standing(body_, stance), body_, fit_);
-  }
-  /// @param dt_s  since the last search; by default all is searched at once.
-  std::optional<PoseState> Recover(const Evidence& evidence, const PoseState& pose,
-                                   double dt_s = 0.1) {
-    fit_.SetEvidence(evidence);
-    return recovery_.Recover(body_, evidence, fit_, pose, fit_.QualityAt(body_, pose), dt_s);
-  }
-  double Error(const PoseState& pose, const PoseState& truth) const {
-    return (body_.PointsAt(body_.PostureAt(pose)) - body_.PointsAt(body_.PostureAt(truth)))
-        .colwise()
-        .norm()
-        .mean();
-  }
-
-  RoundStudio studio_;
-  BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
-  SurfaceFit fit_{SurfaceFitOptions{}};
-  LimbRecovery recovery_{body_.table()};
-};
+using Fit = FittedBody;
 
 constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
 constexpr LegStance kStep{.hip = 25, .knee = 20};
@@ -138,73 +94,6 @@ TEST_F(Fit, AnUpperArmBesideTheBorderIsDrawnBack) {
   EXPECT_GE(drawn_in, 2);
 }
 
-TEST_F(Fit, ALostArmIsFoundAgain) {
-  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
-  const Evidence evidence = studio_.Show(body_, truth);
-  const PoseState lost = Standing(body_, {});
-  const std::optional<PoseState> found = Recover(evidence, lost);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-}
-
-TEST_F(Fit, FramesThatFollowEachOtherFastShareASearch) {
-  const PoseState truth = Standing(body_, {.arm_r = {.raise = 10, .elbow = 10}});
-  const Evidence evidence = studio_.Show(body_, truth);
-  const PoseState lost = Standing(body_, {});
-  ASSERT_FALSE(Recover(studio_.Show(body_, lost), lost)) << "the first look";
-  constexpr double kPeriodS = 0.01;
-  ASSERT_FALSE(Recover(evidence, lost, kPeriodS));  // The left arm was looked for.
-  const std::optional<PoseState> found = Recover(evidence, lost, kPeriodS);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-}
-
-TEST_F(Fit, LostArmsTakeNoMemoryTheSecondTime) {
-  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
-  const ArmStance raised{.raise = 30, .forward = 30, .elbow = 60};
-  const ArmStance before_chest{.forward = 40, .elbow = 90};
-  const PoseState lost = Standing(body_, {});
-  const Evidence one = studio_.Show(body_, Standing(body_, {.arm_l = raised}));
-  const Evidence both =
-      studio_.Show(body_, Standing(body_, {.arm_l = before_chest, .arm_r = before_chest}));
-  const auto look = [&] {
-    EXPECT_TRUE(Recover(one, lost));
-    EXPECT_TRUE(Recover(both, lost));
-  };
-  look();
-  const std::int64_t before = Allocations();
-  EXPECT_GT(before, 0);
-  look();
-  EXPECT_EQ(Allocations() - before, 0);
-}
-
-TEST_F(Fit, AfterASearchInVainNothingIsSearchedForAWhile) {
-  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
-  const Evidence evidence = studio_.Show(body_, truth);
-  PoseState elsewhere = truth;
-  elsewhere.X_WT.p.x() += 1500;
-  EXPECT_FALSE(Recover(evidence, elsewhere));
-  const PoseState lost = Standing(body_, {});
-  EXPECT_FALSE(Recover(evidence, lost, 0.001));
-  EXPECT_TRUE(Recover(evidence, lost, 0.05));
-}
-
-TEST_F(Fit, WhoHasAHatIsSearchedAtOnceWhenAnArmIsLostToo) {
-  BodySizes sizes = body_.sizes();
-  sizes.head += 150;
-  const BodyModel with_hat(body_.table(), sizes);
-  const PoseState lost = Standing(body_, {});
-  const Evidence hat = studio_.Show(with_hat, lost);
-  EXPECT_FALSE(Recover(hat, lost));
-  fit_.SetEvidence(hat);
-  EXPECT_GT(fit_.QualityAt(body_, lost).unexplained_share, 0.005);
-  const PoseState truth = Standing(body_, {.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
-  const Evidence evidence = studio_.Show(with_hat, truth);
-  const std::optional<PoseState> found = Recover(evidence, lost, 0.01);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-}
-
 TEST_F(Fit, StrayBlobsOfSilhouettesDoNotMakeARightPoseIncredible) {
   const PoseState truth = Standing(body_, {.arm_l = kArmOut});
   Evidence evidence = studio_.Show(body_, truth);
@@ -240,56 +129,6 @@ TEST_F(Fit, BonesOutsideOfAHullWithHolesWeighLess) {
               (with_holes.missing_share - whole.missing_share) * whole.hollow_mm, 0.01);
 }
 
-TEST_F(Fit, LegsThatTookEachOthersPlaceAreToldApart) {
-  constexpr LegStance kFront{.hip = 35, .knee = 15};
-  constexpr LegStance kBack{.hip = -15, .knee = 30};
-  const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
-  const Evidence evidence = studio_.Show(body_, truth);
-  const PoseState exchanged = FitFromStance(evidence, {.leg_l = kBack, .leg_r = kFront});
-  ASSERT_GT(Error(exchanged, truth), 40);
-  const std::optional<PoseState> found = Recover(evidence, exchanged);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-}
-
-TEST_F(Fit, ForearmsThatCrossedAreNotTakenForHandsThatTouched) {
-  constexpr ArmStance kCrossed{.raise = -45, .forward = 100, .twist = 40, .elbow = 40};
-  constexpr ArmStance kApart{.raise = -45, .forward = 70, .twist = 0, .elbow = 15};
-  const PoseState truth = Standing(body_, {.arm_l = kCrossed, .arm_r = kCrossed});
-  const Evidence evidence = studio_.Show(body_, truth);
-  const PoseState exchanged = FitFromStance(evidence, {.arm_l = kApart, .arm_r = kApart});
-  ASSERT_GT(Error(exchanged, truth), 40);
-  ASSERT_LT(fit_.QualityAt(body_, exchanged).unexplained_share, 0.01);
-  const std::optional<PoseState> found = Recover(evidence, exchanged);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-}
-
-TEST_F(Fit, LimbsOfABodyThatIsNotDrawnYetStayWhereTheyAre) {
-  const PoseState truth = Standing(body_, {.arm_l = kArmOut, .arm_r = {.raise = -80}});
-  const Evidence evidence = studio_.Show(body_, truth);
-  PoseState late = truth;
-  late.X_WT.p += Vector3(90, 40, 0);
-  late.X_WT.R = ExpRotation(Vector3(0, 0, 0.2)) * late.X_WT.R;
-  fit_.SetEvidence(evidence);
-  ASSERT_GT(fit_.QualityAt(body_, late).unexplained_share, 0.01);
-  EXPECT_FALSE(Recover(evidence, late));
-}
-
-TEST_F(Fit, AtTheFirstLookCrossedLegsAreToldFromStraightOnesThatLookAlike) {
-  constexpr LegStance kFront{.hip = 10, .spread = -8, .knee = 40};
-  constexpr LegStance kBack{.hip = -10, .spread = -8, .knee = 40};
-  const PoseState truth = Standing(body_, {.leg_l = kFront, .leg_r = kBack});
-  const Evidence evidence = studio_.Show(body_, truth);
-  const PoseState crossed = FitFromStance(evidence, {.leg_l = kBack, .leg_r = kFront});
-  ASSERT_GT(Error(crossed, truth), 40);
-  ASSERT_LT(fit_.QualityAt(body_, crossed).unexplained_share, 0.005);
-  const std::optional<PoseState> found = Recover(evidence, crossed, 0);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Error(FitFrom(*found, body_, fit_), truth), 15);
-  EXPECT_FALSE(Recover(evidence, crossed, 0));
-}
-
 TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
   PoseState truth = Standing(body_, {.arm_l = kArmOut});
   Tracker tracker(body_, truth);
@@ -297,12 +136,6 @@ TEST_F(Fit, ALeapBeyondTheReachIsFollowed) {
   truth.X_WT.p += Vector3(60, 0, 300);
   tracker.Update(studio_.Show(body_, truth), 0.1);
   EXPECT_LT(Error(tracker.filter().pose(), truth), 20);
-}
-
-TEST_F(Fit, NothingIsRecoveredWhereNothingIsLost) {
-  const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
-  const Evidence evidence = studio_.Show(body_, truth);
-  EXPECT_FALSE(Recover(evidence, truth));
 }
 
 TEST_F(Fit, SizesApproachTheTruthOverTheFrames) {
