@@ -29,14 +29,14 @@ constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 4;
 constexpr std::size_t kDrawn = 4;
 constexpr double kLimbBetterMm = 0.6;
-// A pose that costs this much less is taken at once; where frames are rare, one with a smaller gain
-// too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
-constexpr double kSureMm = 3;
-constexpr double kRivalMm = 2;
 // Likewise for both arms or both legs, which move the trunk more. If frames follow soon, the best
 // pair will do: the next frame is another chance.
 constexpr double kPairWorthDrawingMm = 7;
 constexpr double kPairsDrawnPerS = 30;
+// A pose that costs this much less is taken at once; where frames are rare, one with a smaller gain
+// too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
+constexpr double kSureMm = 3;
+constexpr double kRivalMm = 2;
 // The gain of exchanged limbs must be clear, because noise would otherwise exchange folded arms
 // again and again.
 constexpr double kClearlyBetterMm = 1.5;
