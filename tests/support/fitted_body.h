@@ -13,6 +13,9 @@
 
 namespace mocap {
 
+inline constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
+inline constexpr LegStance kStep{.hip = 25, .knee = 20};
+
 class FittedBody : public ::testing::Test {
  protected:
   PoseState Standing(const BodyModel& body, const Stance& stance) const {

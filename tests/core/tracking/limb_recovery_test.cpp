@@ -21,8 +21,6 @@ class Recovery : public FittedBody {
 
 constexpr double kAtThirtyHz_s = 1.0 / 30;
 constexpr double kAtTenHz_s = 0.1;
-constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
-constexpr LegStance kStep{.hip = 25, .knee = 20};
 constexpr LegStance kAhead{.hip = 45, .spread = 5, .knee = 20};
 constexpr LegStance kBehind{.hip = -20, .spread = 5, .knee = 80};
 

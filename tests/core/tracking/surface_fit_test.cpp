@@ -11,9 +11,6 @@ namespace {
 
 using Fit = FittedBody;
 
-constexpr ArmStance kArmOut{.raise = -20, .forward = 20, .elbow = 40};
-constexpr LegStance kStep{.hip = 25, .knee = 20};
-
 TEST_F(Fit, OutlinesDrawTheBodyToTheTruth) {
   const PoseState truth = Standing(body_, {.arm_l = kArmOut, .leg_r = kStep});
   const Evidence evidence = studio_.Show(body_, truth);
