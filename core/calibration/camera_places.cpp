@@ -1,0 +1,90 @@
+#include "core/calibration/camera_places.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace mocap {
+namespace {
+
+constexpr double kNearest_mm = 50;
+constexpr double kHighest_mm = 10000;
+/// Cameras around a person stand farther apart. In inches or centimetres they would not.
+constexpr double kSmallestStudio_mm = 800;
+
+std::string Rounded(double value) { return std::to_string(std::lround(value)); }
+
+Vector3 EyeOf(const CameraCalibration& camera) { return camera.X_CW.Inverse().p; }
+
+void CheckRotation(const CameraCalibration& camera, std::vector<Finding>& findings) {
+  const Matrix3& R = camera.X_CW.R;
+  if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) return;
+  findings.push_back({Severity::kWrong, camera.name +
+                                            ": its rotation is a reflection or not a rotation; the "
+                                            "calibration was mirrored on its way here"});
+}
+
+void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings) {
+  const Vector3 p_WC = EyeOf(camera);
+  if (p_WC.isZero(0) && camera.X_CW.R == Matrix3::Identity()) {
+    findings.push_back({Severity::kWrong,
+                        camera.name + ": stands at the origin and looks straight up: it has a lens "
+                                      "and no pose yet, or the floor is not set"});
+  }
+  if (p_WC.z() < 0) {
+    findings.push_back({Severity::kWrong,
+                        camera.name + ": hangs " + Rounded(-p_WC.z()) +
+                            " mm below the floor; the floor may be upside down, or this camera's "
+                            "pose mirrored"});
+  } else if (p_WC.z() > kHighest_mm) {
+    findings.push_back({Severity::kWarning, camera.name + ": hangs " + Rounded(p_WC.z() / 1000) +
+                                                " m high; are the board's squares given in mm?"});
+  }
+}
+
+void CheckHeights(std::span<const CameraCalibration> cameras, std::vector<Finding>& findings) {
+  const auto is_under = [](const CameraCalibration& camera) { return EyeOf(camera).z() < 0; };
+  if (!cameras.empty() && std::ranges::all_of(cameras, is_under)) {
+    findings.push_back(
+        {Severity::kWrong, "all cameras hang below the floor, " + cameras.front().name + " by " +
+                               Rounded(-EyeOf(cameras.front()).z()) +
+                               " mm: z points down; set the floor again (mocap calibrate floor)"});
+    return;
+  }
+  for (const CameraCalibration& camera : cameras) CheckHeight(camera, findings);
+}
+
+void CheckDistances(std::span<const CameraCalibration> cameras, std::vector<Finding>& findings) {
+  double widest_mm = 0;
+  for (std::size_t a = 0; a < cameras.size(); ++a) {
+    for (std::size_t b = a + 1; b < cameras.size(); ++b) {
+      const double apart_mm = (EyeOf(cameras[a]) - EyeOf(cameras[b])).norm();
+      widest_mm = std::max(widest_mm, apart_mm);
+      if (apart_mm >= kNearest_mm) continue;
+      findings.push_back({Severity::kWrong,
+                          cameras[a].name + " and " + cameras[b].name + ": stand " +
+                              Rounded(apart_mm) +
+                              " mm apart; is one the recording of the other, or are lengths given "
+                              "in metres?"});
+    }
+  }
+  if (widest_mm >= kNearest_mm && widest_mm < kSmallestStudio_mm) {
+    findings.push_back(
+        {Severity::kWarning, "all cameras stand within " + Rounded(widest_mm) +
+                                 " mm: are lengths given in inches or centimetres? Expected "
+                                 "millimetres"});
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> CheckPlaces(std::span<const CameraCalibration> cameras, bool has_floor) {
+  std::vector<Finding> findings;
+  for (const CameraCalibration& camera : cameras) CheckRotation(camera, findings);
+  if (has_floor) CheckHeights(cameras, findings);
+  CheckDistances(cameras, findings);
+  std::ranges::stable_sort(findings, std::greater(), &Finding::severity);
+  return findings;
+}
+
+}  // namespace mocap

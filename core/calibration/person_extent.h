@@ -1,0 +1,26 @@
+// §4, beyond the paper: how high a person reaches, by triangulation without voxels, so that it
+// holds for any unit of length and on either side of the floor.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/calibration/seen_shape.h"
+
+namespace mocap {
+
+/// How far a person reaches in height, in the calibration's frame and unit of length.
+struct PersonExtent {
+  int moments = 0;                       ///< Those in which it could be measured.
+  double lowest_mm = 0, highest_mm = 0;  ///< Medians over these moments.
+};
+
+/// Measures one upright person from the rims of the shapes that are whole in their pictures.
+/// @param cameras  of the moments' entries, in their order.
+/// @param of  indices of the cameras to use.
+PersonExtent MeasureExtent(std::span<const CameraCalibration> cameras,
+                           std::span<const SeenMoment> moments, std::span<const std::size_t> of);
+
+}  // namespace mocap

@@ -1,0 +1,279 @@
+#include "core/calibration/studio_diagnosis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/calibration/person_extent.h"
+#include "core/calibration/view_agreement.h"
+#include "core/quantile.h"
+
+namespace mocap {
+namespace {
+
+/// A standing person is at least as high in a picture whose pixels suffice for tracking.
+constexpr double kLeastHeightShare = 0.12;
+/// A person who moves is elsewhere in the picture by this share of its height.
+constexpr double kLeastMotionShare = 0.02;
+/// Pairs of calibrated cameras are above it, pairs of others below; see the tests.
+constexpr double kLeastAgreement = 0.85;
+/// Of all pairs that can be compared.
+constexpr double kMostPairs = 0.9;
+constexpr int kFewestMoments = 3;
+
+/// From somebody who crouches or sits to a tall man with raised arms.
+constexpr double kShortest_mm = 1000, kTallest_mm = 2600;
+/// Of the triangulated feet. A foot that is held towards a camera seems lower than it is.
+constexpr double kMostBelowFloor_mm = 350, kMostAboveFloor_mm = 100;
+/// Metres, feet, inches and centimetres. No height of a person fits two of them.
+constexpr std::array kUnits_mm = {1000.0, 304.8, 25.4, 10.0};
+
+/// Changes of a picture that cameras or their drivers make.
+enum class Flip { kNone, kRotated, kMirrored };
+
+/// How the pictures are assigned to the calibrations.
+struct Arrangement {
+  std::vector<std::size_t> calibration;  ///< Of each picture.
+  std::vector<Flip> flip;                ///< Of each picture.
+
+  explicit Arrangement(std::size_t cameras) : calibration(cameras), flip(cameras, Flip::kNone) {
+    std::iota(calibration.begin(), calibration.end(), std::size_t{0});
+  }
+};
+
+SeenShape Flipped(SeenShape shape, Flip flip, const CameraCalibration& camera) {
+  if (flip == Flip::kNone) return shape;
+  for (Vector2& corner : shape.rim_px) {
+    corner.x() = camera.width_px - 1 - corner.x();
+    if (flip == Flip::kRotated) corner.y() = camera.height_px - 1 - corner.y();
+  }
+  return shape;
+}
+
+bool IsStature(double mm) { return mm >= kShortest_mm && mm <= kTallest_mm; }
+
+void JudgeExtent(StudioDiagnosis& diagnosis) {
+  const PersonExtent& person = diagnosis.person;
+  if (person.moments < kFewestMoments) return;
+  const double height_mm = person.highest_mm - person.lowest_mm;
+  if (IsStature(height_mm)) {
+    const bool is_on_floor =
+        person.lowest_mm > -kMostBelowFloor_mm && person.lowest_mm < kMostAboveFloor_mm;
+    if (!is_on_floor) diagnosis.fault = StudioFault::kFloor;
+    return;
+  }
+  diagnosis.fault = StudioFault::kStature;
+  for (const double unit_mm : kUnits_mm) {
+    if (!IsStature(unit_mm * height_mm)) continue;
+    diagnosis.fault = StudioFault::kUnit;
+    diagnosis.unit_mm = unit_mm;
+  }
+}
+
+class Examination {
+ public:
+  Examination(std::span<const CameraCalibration> cameras, std::span<const SeenMoment> moments)
+      : cameras_(cameras), moments_(moments), as_is_(cameras.size()) {}
+
+  StudioDiagnosis Conclude() {
+    StudioDiagnosis diagnosis;
+    diagnosis.pairs = PairsOf(as_is_, {});
+    std::vector<std::size_t> agreeing = as_is_.calibration;
+    if (!Agree(diagnosis.pairs)) {
+      if (CountCompared(diagnosis.pairs) == 0 || FindRearrangement(diagnosis)) return diagnosis;
+      if (SeeDifferentPeople(diagnosis.pairs)) return diagnosis;
+      agreeing = WithoutThoseThatDisagree(diagnosis);
+      if (diagnosis.fault == StudioFault::kNoneAgree) return diagnosis;
+    }
+    diagnosis.person = MeasureExtent(cameras_, moments_, agreeing);
+    if (diagnosis.fault == StudioFault::kNone && CountCompared(diagnosis.pairs) > 0) {
+      JudgeExtent(diagnosis);
+    }
+    return diagnosis;
+  }
+
+ private:
+  /// Exchanging or flipping the pictures of others changes nothing of a pair.
+  std::vector<PairAgreement> PairsOf(const Arrangement& arrangement,
+                                     std::span<const std::size_t> changed) const {
+    std::vector<PairAgreement> pairs;
+    for (std::size_t a = 0; a < cameras_.size(); ++a) {
+      for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
+        const bool is_new = changed.empty() || std::ranges::count(changed, a) > 0 ||
+                            std::ranges::count(changed, b) > 0;
+        if (is_new) pairs.push_back(Compare(arrangement, a, b));
+      }
+    }
+    return pairs;
+  }
+
+  PairAgreement Compare(const Arrangement& arrangement, std::size_t a, std::size_t b) const {
+    PairAgreement pair;
+    pair.first = a;
+    pair.second = b;
+    std::vector<double> overlaps, contained;
+    for (const SeenMoment& moment : moments_) {
+      const auto cone_a = ConeIn(moment, arrangement, a), cone_b = ConeIn(moment, arrangement, b);
+      if (!cone_a || !cone_b) continue;
+      const auto agreement = AgreementOf(*cone_a, *cone_b);
+      if (!agreement) continue;
+      overlaps.push_back(agreement->overlap);
+      contained.push_back(agreement->contained);
+    }
+    pair.moments = static_cast<int>(overlaps.size());
+    if (pair.moments > 0) pair.views = {MedianOf(overlaps), MedianOf(contained)};
+    return pair;
+  }
+
+  std::optional<SeenCone> ConeIn(const SeenMoment& moment, const Arrangement& arrangement,
+                                 std::size_t picture) const {
+    const std::size_t calibration = arrangement.calibration[picture];
+    if (!moment[picture] || !moment[calibration]) return {};
+    if (moment[picture]->height_share < kLeastHeightShare) return {};
+    const CameraCalibration& camera = cameras_[calibration];
+    return ConeOf(Flipped(*moment[picture], arrangement.flip[picture], camera), camera.lens,
+                  moment[calibration]->X_CW);
+  }
+
+  static bool IsCompared(const PairAgreement& pair) { return pair.moments >= kFewestMoments; }
+  static bool Agrees(const PairAgreement& pair) { return pair.views.overlap >= kLeastAgreement; }
+  static std::ptrdiff_t CountCompared(const std::vector<PairAgreement>& pairs) {
+    return std::ranges::count_if(pairs, IsCompared);
+  }
+
+  /// Some cameras may show fewer of several people than others.
+  static bool SeeDifferentPeople(const std::vector<PairAgreement>& pairs) {
+    const auto is_contained = [](const PairAgreement& pair) {
+      return IsCompared(pair) && pair.views.contained >= kLeastAgreement;
+    };
+    return static_cast<double>(std::ranges::count_if(pairs, is_contained)) >=
+           kMostPairs * static_cast<double>(CountCompared(pairs));
+  }
+
+  static bool Agree(const std::vector<PairAgreement>& pairs) {
+    int compared = 0, agreeing = 0;
+    for (const PairAgreement& pair : pairs) {
+      compared += IsCompared(pair);
+      agreeing += IsCompared(pair) && Agrees(pair);
+    }
+    return compared > 0 && agreeing >= kMostPairs * compared;
+  }
+
+  /// Tries the changes that one mistake makes; takes the one with which the views agree best.
+  bool FindRearrangement(StudioDiagnosis& diagnosis) const {
+    double best = 0;
+    const auto attempt = [&](StudioFault fault, const Arrangement& arrangement,
+                             std::vector<std::size_t> changed) {
+      // The pairs of the others must agree as they are.
+      std::vector<PairAgreement> pairs = PairsOf(arrangement, changed);
+      if (CountCompared(pairs) == 0 || !Agree(pairs)) return;
+      const double agreement = MeanOf(pairs);
+      for (const PairAgreement& pair : diagnosis.pairs) {
+        const bool is_changed = std::ranges::count(changed, pair.first) > 0 ||
+                                std::ranges::count(changed, pair.second) > 0;
+        if (!is_changed) pairs.push_back(pair);
+      }
+      if (!Agree(pairs) || agreement <= best) return;
+      best = agreement;
+      diagnosis.fault = fault;
+      diagnosis.cameras = std::move(changed);
+    };
+    for (std::size_t a = 0; a < cameras_.size(); ++a) {
+      for (const auto& [flip, fault] : {std::pair(Flip::kRotated, StudioFault::kUpsideDown),
+                                        std::pair(Flip::kMirrored, StudioFault::kMirrored)}) {
+        Arrangement flipped = as_is_;
+        flipped.flip[a] = flip;
+        attempt(fault, flipped, {a});
+      }
+      for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
+        const bool is_possible = cameras_[a].width_px == cameras_[b].width_px &&
+                                 cameras_[a].height_px == cameras_[b].height_px;
+        if (!is_possible) continue;
+        Arrangement exchanged = as_is_;
+        std::swap(exchanged.calibration[a], exchanged.calibration[b]);
+        attempt(StudioFault::kExchanged, exchanged, {a, b});
+      }
+    }
+    return diagnosis.fault != StudioFault::kNone;
+  }
+
+  static double MeanOf(const std::vector<PairAgreement>& pairs) {
+    double sum = 0;
+    for (const PairAgreement& pair : pairs) sum += IsCompared(pair) ? pair.views.overlap : 0;
+    return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, CountCompared(pairs)));
+  }
+
+  /// Leaves out one camera after the other until the rest agrees.
+  /// @return  the rest.
+  std::vector<std::size_t> WithoutThoseThatDisagree(StudioDiagnosis& diagnosis) const {
+    std::vector<std::size_t> rest = as_is_.calibration;
+    std::vector<PairAgreement> pairs = diagnosis.pairs;
+    while (!Agree(pairs) && rest.size() > 2) {
+      const std::size_t worst = WorstIn(rest, pairs);
+      diagnosis.cameras.push_back(worst);
+      std::erase(rest, worst);
+      std::erase_if(pairs, [worst](const PairAgreement& pair) {
+        return pair.first == worst || pair.second == worst;
+      });
+    }
+    std::ranges::sort(diagnosis.cameras);
+    const bool is_majority = Agree(pairs) && rest.size() > diagnosis.cameras.size();
+    diagnosis.fault = is_majority ? StudioFault::kSomeDisagree : StudioFault::kNoneAgree;
+    if (!is_majority) diagnosis.cameras.clear();
+    return rest;
+  }
+
+  static std::size_t WorstIn(const std::vector<std::size_t>& rest,
+                             const std::vector<PairAgreement>& pairs) {
+    const auto mean_of = [&pairs](std::size_t camera) {
+      std::vector<PairAgreement> its;
+      for (const PairAgreement& pair : pairs)
+        if (pair.first == camera || pair.second == camera) its.push_back(pair);
+      return CountCompared(its) == 0 ? 1.0 : MeanOf(its);
+    };
+    return *std::ranges::min_element(rest, {}, mean_of);
+  }
+
+  const std::span<const CameraCalibration> cameras_;
+  const std::span<const SeenMoment> moments_;
+  const Arrangement as_is_;
+};
+
+}  // namespace
+
+bool ShowsPerson(const SeenMoment& moment) {
+  std::size_t there = 0, show = 0;
+  for (const auto& shape : moment) {
+    there += shape.has_value();
+    show += shape && shape->height_share >= kLeastHeightShare;
+  }
+  return show >= 2 && 2 * show > there;
+}
+
+bool Moves(std::span<const SeenMoment> moments) {
+  if (moments.empty()) return false;
+  std::size_t there = 0, moving = 0;
+  for (std::size_t c = 0; c < moments.front().size(); ++c) {
+    Eigen::AlignedBox2d middles;
+    double height_px = 0;
+    for (const SeenMoment& moment : moments) {
+      if (!moment[c] || moment[c]->rim_px.empty()) continue;
+      Eigen::AlignedBox2d box;
+      for (const Vector2& corner : moment[c]->rim_px) box.extend(corner);
+      middles.extend(box.center());
+      height_px = std::max(height_px, box.sizes().y() / moment[c]->height_share);
+    }
+    if (middles.isEmpty()) continue;
+    ++there;
+    moving += middles.diagonal().norm() >= kLeastMotionShare * height_px;
+  }
+  return 2 * moving > there;
+}
+
+StudioDiagnosis Diagnose(std::span<const CameraCalibration> cameras,
+                         std::span<const SeenMoment> moments) {
+  return Examination(cameras, moments).Conclude();
+}
+
+}  // namespace mocap

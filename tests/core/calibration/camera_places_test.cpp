@@ -1,0 +1,49 @@
+#include "core/calibration/camera_places.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/walking_silhouettes.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::vector<CameraCalibration> Studio() { return testing::WalkOfTenSeconds().cameras; }
+
+TEST(CameraPlaces, AStudioIsPlausible) { EXPECT_THAT(CheckPlaces(Studio(), true), IsEmpty()); }
+
+TEST(CameraPlaces, LengthsInInchesAreDoubted) {
+  std::vector<CameraCalibration> cameras = Studio();
+  for (CameraCalibration& camera : cameras) camera.X_CW.p /= 25.4;
+  const std::vector<Finding> findings = CheckPlaces(cameras, true);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].severity, Severity::kWarning);
+  EXPECT_THAT(findings[0].text, AllOf(HasSubstr("inches"), HasSubstr("Expected millimetres")));
+}
+
+TEST(CameraPlaces, AFloorThatIsUpsideDownIsToldOnce) {
+  std::vector<CameraCalibration> cameras = Studio();
+  for (CameraCalibration& camera : cameras) camera.X_CW.R.rightCols<2>() *= -1;
+  const std::vector<Finding> findings = CheckPlaces(cameras, true);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].severity, Severity::kWrong);
+  EXPECT_THAT(findings[0].text, HasSubstr("z points down"));
+  EXPECT_THAT(CheckPlaces(cameras, false), IsEmpty()) << "without a floor, heights mean nothing";
+}
+
+TEST(CameraPlaces, OneCameraBelowTheFloorIsNamed) {
+  std::vector<CameraCalibration> cameras = Studio();
+  const Vector3 p_WC = cameras[3].X_CW.Inverse().p;
+  cameras[3].X_CW.p = -(cameras[3].X_CW.R * Vector3(p_WC.x(), p_WC.y(), -500));
+  const std::vector<Finding> findings = CheckPlaces(cameras, true);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].text, HasSubstr("cam4: hangs 500 mm below the floor"));
+}
+
+}  // namespace
+}  // namespace mocap
