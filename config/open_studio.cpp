@@ -44,8 +44,7 @@ Studio OpenTakeAsSource(const Config& config) {
   // Nodes that replay the same take are in step.
   if (config.role == Role::kNode) options.begin_ns = [] { return std::int64_t{0}; };
   Studio studio = OpenTake(source.take, options);
-  RequireRoom(CalibrationsOf(studio), config.voxel_mm,
-              TakeLayout{source.take}.Calibration().string());
+  CheckRoom(studio, config.voxel_mm, TakeLayout{source.take}.Calibration().string());
   return studio;
 }
 
@@ -72,7 +71,7 @@ Studio OpenOwnCameras(const Config& config) {
   if (source.driver == "take") return OpenTakeAsSource(config);
   if (IsLive(source)) {
     Studio studio = OpenLiveStudio(config);
-    RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
+    CheckRoom(studio, config.voxel_mm, config.calibration.string());
     return studio;
   }
   Studio studio = OpenSimulatedStudio(LiveSimulation(source));
@@ -93,7 +92,7 @@ void AddNodes(const Config& config, Studio& studio) {
       studio.cameras.push_back({*camera, nullptr, {}});
     }
   }
-  RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
+  CheckRoom(studio, config.voxel_mm, config.calibration.string());
 }
 
 }  // namespace

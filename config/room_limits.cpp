@@ -3,7 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <vector>
 
+#include "config/open_studio.h"
+#include "core/calibration/camera_places.h"
 #include "core/errors.h"
 #include "core/reconstruction/carving/volume_of_interest.h"
 
@@ -26,8 +30,6 @@ std::string RoomText(const Vector3& size_mm) {
   const Vector3 size_m = size_mm / 1000;
   return Text("%.4g x %.4g x %.4g m", size_m.x(), size_m.y(), size_m.z());
 }
-
-}  // namespace
 
 void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
                  const std::string& where) {
@@ -61,6 +63,16 @@ void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
       Text("%.2g voxels of %g mm", voxels, voxel_mm) + "; expected " +
       Text("voxels of %.0f mm or more", std::ceil(std::cbrt(size_mm.prod() / kMostVoxels))) +
       ", or a calibration in millimetres");
+}
+
+}  // namespace
+
+void CheckRoom(Studio& studio, double voxel_mm, const std::string& where) {
+  const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
+  RequireRoom(cameras, voxel_mm, where);
+  for (const Finding& finding : CheckPlaces(cameras, true)) {
+    studio.remarks.push_back(where + ": " + finding.text);
+  }
 }
 
 }  // namespace mocap

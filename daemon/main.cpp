@@ -10,6 +10,7 @@
 #include "daemon/service/service.h"
 #include "daemon/service/service_setup.h"
 #include "daemon/service/stop_signals.h"
+#include "drivers/printable_text.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Markerless motion capture in real time, published on LCM", "mocapd");
@@ -24,7 +25,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MOCAP_VERSION);
   app.callback([&] {
     if (only_checks) {
-      mocap::CheckConfig(file ? mocap::LoadConfig(*file) : mocap::Config());
+      for (const std::string& remark :
+           mocap::CheckConfig(file ? mocap::LoadConfig(*file) : mocap::Config())) {
+        std::fprintf(stderr, "mocapd: warning: %s\n", mocap::Printable(remark).c_str());
+      }
       std::puts("the configuration is valid");
     } else {
       mocap::HoldSignals();

@@ -2,55 +2,84 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "config/load_config.h"
+#include "core/calibration/diagnosis_text.h"
+#include "core/errors.h"
 #include "drivers/clock.h"
+#include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibrate_steps.h"
 #include "tools/calibration/placement.h"
 #include "tools/calibration/studio_check.h"
 #include "tools/camera_health.h"
-#include "tools/camera_names.h"
+#include "tools/studio_examination.h"
 #include "tools/take_samples.h"
 
 namespace mocap {
 namespace {
 
-constexpr double kFeetTolerance_mm = 100;
-constexpr double kLowestHead_mm = 1100, kHighestHead_mm = 2400;
+constexpr int kMoments = 12;
+constexpr double kVoxel_mm = 50;
 
-// Checks that a person's feet are on the floor and the head has a plausible height.
-void CheckPerson(const std::filesystem::path& take, std::vector<Finding>& findings) {
-  const TakeSamples samples = SampleTake(take, ChooseHealthMoments(take, 0, 60, 10), 25);
-  if (const auto swapped = FindSwappedCameras(samples)) {
-    findings.insert(findings.begin(),
-                    {Severity::kWrong, take.string() + ": " + SwappedText(*swapped)});
-    return;
+// The cameras of the samples, as another file calibrates them.
+std::vector<CameraCalibration> CalibrationsFor(const TakeSamples& samples,
+                                               const std::vector<CameraCalibration>& cameras,
+                                               const std::filesystem::path& file) {
+  std::vector<CameraCalibration> calibrations;
+  for (const CameraCalibration& sampled : samples.cameras) {
+    const auto camera = std::ranges::find(cameras, sampled.name, &CameraCalibration::name);
+    if (camera == cameras.end())
+      throw SetupError(file.string() + ": has no camera " + Quoted(sampled.name) +
+                       ", which the take has; expected a calibration of the take's cameras");
+    calibrations.push_back(*camera);
   }
-  const StandingPerson person = MeasurePerson(samples);
+  return calibrations;
+}
+
+// Names the two cameras whose views agree least.
+std::string AgreementText(const StudioDiagnosis& diagnosis,
+                          const std::vector<CameraCalibration>& cameras) {
+  const PairAgreement* worst = nullptr;
+  for (const PairAgreement& pair : diagnosis.pairs) {
+    const bool is_worse = !worst || pair.views.overlap < worst->views.overlap;
+    if (pair.moments > 0 && is_worse) worst = &pair;
+  }
+  if (!worst) return "";
+  return fmt::format("any two cameras' views of people agree by at least {:.0f} % ({}, {})",
+                     100 * worst->views.overlap, cameras[worst->first].name,
+                     cameras[worst->second].name);
+}
+
+// Checks that the cameras agree on a person who stands on the floor.
+void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibration>& cameras,
+                 std::vector<Finding>& findings) {
+  const std::filesystem::path& take = a.footage;
+  const TakeSamples samples =
+      SampleTake(take, ChooseHealthMoments(take, 0, 60, kMoments), kVoxel_mm);
+  const std::vector<CameraCalibration> calibrations =
+      CalibrationsFor(samples, cameras, a.calibration);
+  const std::vector<SeenMoment> moments = MomentsOf(samples, calibrations);
   const auto add = [&](Severity severity, const std::string& text) {
     findings.insert(findings.begin(), {severity, take.string() + ": " + text});
   };
-  if (person.moments == 0) {
-    add(Severity::kWrong,
-        "the cameras' views of the person do not intersect; poses or camera names are mixed up");
+  if (std::ranges::none_of(moments, ShowsPerson)) {
+    add(Severity::kWarning, "nobody is seen; expected a take in which a person stands or walks");
     return;
   }
-  if (std::abs(person.lowest_mm) > kFeetTolerance_mm)
-    add(Severity::kWrong,
-        "the person's feet are at z = " + std::to_string(std::lround(person.lowest_mm)) +
-            " mm, not on the floor; set the floor again");
-  const std::string reach =
-      "the person reaches up to z = " + std::to_string(std::lround(person.highest_mm)) + " mm";
-  if (person.highest_mm < kLowestHead_mm || person.highest_mm > kHighestHead_mm)
-    add(Severity::kWarning,
-        reach + "; is the size of the board's squares right, and does a person stand there?");
-  else
-    findings.push_back({Severity::kNote, take.string() + ": " + reach});
+  const StudioDiagnosis diagnosis = Diagnose(calibrations, moments);
+  if (const auto fault = FindingOf(diagnosis, calibrations)) add(fault->severity, fault->text);
+  if (const std::string text = AgreementText(diagnosis, calibrations); !text.empty())
+    findings.push_back({Severity::kNote, take.string() + ": " + text});
+  if (diagnosis.person.moments == 0) return;
+  findings.push_back(
+      {Severity::kNote,
+       fmt::format("{}: the person reaches from z = {:.0f} to {:.0f} mm", take.string(),
+                   diagnosis.person.lowest_mm, diagnosis.person.highest_mm)});
 }
 
 std::string Days(std::int64_t from_s, std::int64_t to_s) {
@@ -92,7 +121,7 @@ void AddCheck(CLI::App* parent) {
   command->add_option("--distance", a->distance,
                       "distance between two cameras, measured with a tape: CAMERA:CAMERA:MM");
   command->add_option("--take", a->footage,
-                      "take with this calibration in which a person stands or walks");
+                      "take of these cameras in which a person stands or walks");
   const auto against = std::make_shared<std::filesystem::path>();
   command->add_option("--against", *against,
                       "calibration.toml of the same cameras to compare with");
@@ -101,7 +130,7 @@ void AddCheck(CLI::App* parent) {
     fit.bundle.cameras = LoadCalibration(a->calibration);
     fit.has_floor = true;
     std::vector<Finding> findings = CheckAll(*a, fit);
-    if (!a->footage.empty()) CheckPerson(a->footage, findings);
+    if (!a->footage.empty()) CheckPerson(*a, fit.bundle.cameras, findings);
     if (!against->empty()) Compare(fit.bundle.cameras, *against, findings);
     std::fputs(RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()).c_str(), stdout);
     for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/load_config.h"
+#include "core/calibration/diagnosis_text.h"
 #include "core/errors.h"
 #include "daemon/base/json_object.h"
 #include "drivers/clock.h"
@@ -18,7 +19,7 @@
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
 #include "tools/camera_health.h"
-#include "tools/camera_names.h"
+#include "tools/studio_examination.h"
 
 namespace mocap {
 namespace {
@@ -166,11 +167,21 @@ std::vector<CameraOffset> OffsetsOf(const std::vector<CameraShift>& shifts,
   return offsets;
 }
 
+// Corrections of poses cannot mend pictures of other cameras.
+void RequireRightPictures(const std::filesystem::path& take, const TakeSamples& samples) {
+  const StudioDiagnosis diagnosis = Diagnose(samples.cameras, MomentsOf(samples));
+  const bool are_others =
+      diagnosis.fault == StudioFault::kExchanged || diagnosis.fault == StudioFault::kUpsideDown ||
+      diagnosis.fault == StudioFault::kMirrored || diagnosis.fault == StudioFault::kUnit;
+  if (!are_others) return;
+  throw SetupError(take.string() + ": " + FindingOf(diagnosis, samples.cameras)->text);
+}
+
 TakeSamples Sample(const TakeArguments& a) {
   TakeSamples samples =
       SampleTake(a.take, ChooseHealthMoments(a.take, a.from_s, a.to_s, kHealthMoments), 50);
-  if (const auto swapped = FindSwappedCameras(samples))
-    throw SetupError(a.take.string() + ": " + SwappedText(*swapped));
+  TellRemarks("calibrate", samples.remarks);
+  RequireRightPictures(a.take, samples);
   return samples;
 }
 

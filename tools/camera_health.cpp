@@ -24,7 +24,6 @@ constexpr int kFewestMoments = 4;
 constexpr double kSettled_px = 0.25;
 constexpr double kLeastOverlap = 0.5;
 constexpr double kUsualFatness = 0.2;
-constexpr int kFewestInLayer = 3;
 
 /// Converts a mask to bits, for shifting.
 Silhouette BitsOf(const Image<std::uint8_t>& mask) {
@@ -183,34 +182,6 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
     shifts.push_back(shift);
   }
   return shifts;
-}
-
-StandingPerson MeasurePerson(const TakeSamples& samples) {
-  std::vector<double> lowest, highest;
-  for (const SampledMoment& moment : samples.moments) {
-    const VoxelGrid& grid = moment.voxels;
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (int k = 0; k < grid.size().z(); ++k) {
-      int filled = 0;
-      for (int j = 0; j < grid.size().y(); ++j) {
-        for (int i = 0; i < grid.size().x(); ++i) filled += grid.Test(i, j, k);
-      }
-      // Layers with few voxels are noise.
-      if (filled < kFewestInLayer) continue;
-      const double z = grid.CenterOf(0, 0, k).z();
-      low = std::min(low, z - grid.voxel_mm() / 2);
-      high = std::max(high, z + grid.voxel_mm() / 2);
-    }
-    if (!(low < high)) continue;
-    lowest.push_back(low);
-    highest.push_back(high);
-  }
-  if (lowest.empty()) return {};
-  const auto median = [](std::vector<double>& v) {
-    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-    return v[v.size() / 2];
-  };
-  return {static_cast<int>(lowest.size()), median(lowest), median(highest)};
 }
 
 RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {

@@ -39,14 +39,6 @@ std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take
 std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
                                        const std::vector<CameraCalibration>& cameras);
 
-/// Lowest and highest point of the carved person above the floor, median over moments [mm].
-struct StandingPerson {
-  int moments = 0;
-  double lowest_mm = 0, highest_mm = 0;
-};
-
-StandingPerson MeasurePerson(const TakeSamples& samples);
-
 /// Result of refining.
 struct RefinedStudio {
   std::vector<CameraCalibration> cameras;

@@ -59,6 +59,7 @@ void Doctor(const DoctorOptions& options) {
       CheckClock(),
       CheckProcessor(),
       CheckDisk(TakesFor(options, config.service.recording), kUsualRecording)};
+  std::ranges::move(CheckCalibration(config), std::back_inserter(diagnoses));
   std::ranges::move(CheckDevices(config), std::back_inserter(diagnoses));
   diagnoses.push_back(
       CheckControl(options.socket.empty() ? config.service.control.socket : options.socket));

@@ -16,6 +16,8 @@
 #include <memory>
 #include <optional>
 
+#include "config/load_config.h"
+#include "core/calibration/camera_places.h"
 #include "core/errors.h"
 #include "daemon/base/disk_space.h"
 #include "daemon/control/control_socket.h"
@@ -24,6 +26,7 @@
 #include "daemon/pipeline/realtime.h"
 #include "daemon/status/diagnostics.h"
 #include "drivers/clock.h"
+#include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
@@ -218,6 +221,26 @@ Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second
   if (recording_s < kLeastRecording_s)
     return {Verdict::kAdvice, what, "free some space, or choose another folder"};
   return {Verdict::kGood, what, ""};
+}
+
+std::vector<Diagnosis> CheckCalibration(const Config& config) {
+  if (!IsThere(config.calibration)) return {};
+  const std::string where = config.calibration.string();
+  std::vector<CameraCalibration> cameras;
+  try {
+    cameras = LoadCalibration(config.calibration);
+  } catch (const SetupError& error) {
+    return {{Verdict::kBad, error.what(), "calibrate again: mocap calibrate studio"}};
+  }
+  std::vector<Diagnosis> diagnoses;
+  for (const Finding& finding : CheckPlaces(cameras, true)) {
+    diagnoses.push_back({finding.severity == Severity::kWrong ? Verdict::kBad : Verdict::kAdvice,
+                         where + ": " + finding.text,
+                         "look at it with mocap calibrate check " + where});
+  }
+  if (diagnoses.empty())
+    diagnoses.push_back({Verdict::kGood, where + ": its cameras can stand where it says", ""});
+  return diagnoses;
 }
 
 std::vector<Diagnosis> CheckDevices(const Config& config) {

@@ -37,6 +37,9 @@ Diagnosis CheckProcessor();
 Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second);
 /// One diagnosis for each device of a live studio, and for the load of its bus.
 std::vector<Diagnosis> CheckDevices(const Config& config);
+/// One diagnosis for each implausible place of a camera in the calibration, or that all are good;
+/// none without a calibration.
+std::vector<Diagnosis> CheckCalibration(const Config& config);
 Diagnosis CheckControl(const std::filesystem::path& socket);
 /// Checks, for a studio with nodes, whether each of them answers.
 std::vector<Diagnosis> CheckNodes(const Config& config);

@@ -15,6 +15,7 @@
 #include "tools/report/people_report.h"
 #include "tools/report/people_text.h"
 #include "tools/report/report.h"
+#include "tools/studio_examination.h"
 #include "tools/take_samples.h"
 
 namespace mocap {
@@ -34,33 +35,35 @@ void RequireRoomForReport(const EvaluateArguments& arguments) {
   RequireOwn(arguments.report, kReportBeginnings, "a report");
 }
 
+TakeSamples SampleForReport(const std::filesystem::path& take,
+                            const std::vector<SampleRequest>& moments) {
+  TakeSamples samples = SampleTake(take, moments, kReportVoxelMm);
+  TellRemarks("evaluate", samples.remarks);
+  if (const auto fault = ExamineStudio(samples))
+    TellRemarks("evaluate", {take.string() + ": " + fault->text});
+  return samples;
+}
+
 void WritePeopleReport(const EvaluateArguments& arguments, const PeopleEvaluation& evaluation) {
   RequireRoomForReport(arguments);
-  const TakeSamples samples =
-      SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
+  const TakeSamples samples = SampleForReport(arguments.take, ChooseReportMoments(evaluation));
   ReplaceText(arguments.report, PeopleReportHtml(evaluation, samples, MeasureOverlaps(samples)));
 }
 
 std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
                                        const Evaluation& evaluation) {
   RequireRoomForReport(arguments);
-  const TakeSamples samples =
-      SampleTake(arguments.take, ChooseReportMoments(evaluation), kReportVoxelMm);
+  const TakeSamples samples = SampleForReport(arguments.take, ChooseReportMoments(evaluation));
   std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
   ReplaceText(arguments.report, ReportHtml(evaluation, samples, overlaps));
   return overlaps;
 }
 
-void TellRemarks(const Evaluation& evaluation) {
-  for (const std::string& remark : evaluation.result.remarks) {
-    std::fprintf(stderr, "mocap evaluate: %s\n", Printable(remark).c_str());
-  }
-}
-
 void RunForPeople(const EvaluateArguments& arguments) {
   const PeopleEvaluation evaluation =
       EvaluatePeople(arguments.take, arguments.result, arguments.prefix);
-  for (const TrackedPerson& person : evaluation.people) TellRemarks(person.evaluation);
+  for (const TrackedPerson& person : evaluation.people)
+    TellRemarks("evaluate", person.evaluation.result.remarks);
   if (!arguments.report.empty()) WritePeopleReport(arguments, evaluation);
   const std::string text = arguments.json ? PeopleJson(evaluation) : PeopleText(evaluation);
   std::fputs(text.c_str(), stdout);
@@ -69,7 +72,7 @@ void RunForPeople(const EvaluateArguments& arguments) {
 void RunEvaluate(const EvaluateArguments& arguments) {
   if (arguments.people || IsOfPeople(arguments.result)) return RunForPeople(arguments);
   const Evaluation evaluation = EvaluateOne(arguments.take, arguments.result, arguments.prefix);
-  TellRemarks(evaluation);
+  TellRemarks("evaluate", evaluation.result.remarks);
   std::vector<CameraOverlap> overlaps;
   if (!arguments.report.empty()) overlaps = WriteReport(arguments, evaluation);
   const std::string text =

@@ -86,9 +86,10 @@ TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm) {
   Studio studio = OpenTake(take, {});
   RequireCameraCount(studio);
-  RequireRoom(CalibrationsOf(studio), voxel_mm, TakeLayout{take}.Calibration().string());
+  CheckRoom(studio, voxel_mm, TakeLayout{take}.Calibration().string());
   const std::int64_t tolerance_ns = std::llround(0.5e9 / studio.fps_nominal);
   TakeSamples samples;
+  samples.remarks = studio.remarks;
   for (const SampleRequest& request : requests) {
     samples.moments.push_back({request.timestamp_ns, {}, {}});
     samples.moments.back().views.resize(studio.cameras.size());

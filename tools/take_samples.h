@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/image.h"
@@ -30,6 +31,7 @@ struct SampledMoment {
 struct TakeSamples {
   std::vector<CameraCalibration> cameras;  ///< All calibrated cameras, those with frames first.
   std::vector<SampledMoment> moments;
+  std::vector<std::string> remarks;  ///< On the take, for people.
 };
 
 /// A moment to sample.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "config/open_studio.h"
 #include "config/room_limits.h"
 #include "config/subject_file.h"
+#include "core/calibration/diagnosis_text.h"
+#include "core/calibration/studio_diagnosis.h"
 #include "core/errors.h"
 #include "daemon/base/json_object.h"
 #include "daemon/base/number_option.h"
@@ -25,6 +28,7 @@
 #include "drivers/take/take_layout.h"
 #include "tools/results/result.h"
 #include "tools/results/result_sink.h"
+#include "tools/studio_examination.h"
 
 namespace mocap {
 namespace {
@@ -63,14 +67,36 @@ const NamedTracker& TrackerOf(const std::string& name) {
   return *std::ranges::find(Trackers(), name, &NamedTracker::name);
 }
 
+/// One camera gives no depth.
+void RequireTwoCameras(const TrackOptions& options, const Studio& studio) {
+  if (studio.cameras.size() >= 2) return;
+  const std::string& only = studio.cameras.front().calibration.name;
+  throw SetupError(options.cameras.empty()
+                       ? options.take.string() + ": has frames of only " + only +
+                             "; expected at least two cameras, and four for good poses"
+                       : "--cameras: names only " + only +
+                             "; expected at least two cameras, and four for good poses");
+}
+
+/// Says why people could not be tracked as well as they might be.
+/// @throws std::runtime_error  if nobody was tracked because of it: a result is replaced only by a
+/// result.
+void TellFault(const TrackOptions& options, const std::optional<Finding>& fault,
+               std::size_t tracked) {
+  // Things that are no person may be all that is seen.
+  if (!fault || fault->severity != Severity::kWrong) return;
+  const std::string text = options.take.string() + ": " + fault->text;
+  if (tracked == 0) throw std::runtime_error("nobody was tracked: " + text);
+  TellRemarks("track", {text});
+}
+
 void Track(const TrackOptions& options) {
   const NamedTracker& tracker = TrackerOf(options.tracker);
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
-  RequireRoom(CalibrationsOf(studio), options.voxel_mm,
-              TakeLayout{options.take}.Calibration().string());
-  for (const std::string& remark : studio.remarks) {
-    std::fprintf(stderr, "mocap track: %s\n", Printable(remark).c_str());
-  }
+  RequireTwoCameras(options, studio);
+  CheckRoom(studio, options.voxel_mm, TakeLayout{options.take}.Calibration().string());
+  TellRemarks("track", studio.remarks);
+  const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
   RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1);
@@ -93,6 +119,8 @@ void Track(const TrackOptions& options) {
   if (sink.frames() == 0) {
     throw SetupError(options.take.string() + ": no frames of two cameras match in time");
   }
+  TellFault(options, FindingOf(Diagnose(cameras, pipeline.Moments()), cameras),
+            sink.tracked_frames());
   if (options.people)
     WritePeople(options.out, sink.people());
   else

@@ -15,6 +15,7 @@
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "tools/chosen_config.h"
+#include "tools/studio_examination.h"
 #include "tools/view/access.h"
 #include "tools/view/control_desk.h"
 #include "tools/view/json_text.h"
@@ -79,6 +80,7 @@ void Announce(const ViewServer& server, const std::string& token) {
 
 void ViewTake(const ViewOptions& options) {
   TakeSite site(options.take, options.results);
+  TellRemarks("view", site.remarks());
   std::map<std::string, PageFile> files = PageFiles();
   AddAbout("replay", site.name(), files);
   ViewServer server({.port = static_cast<std::uint16_t>(options.port),

@@ -73,7 +73,7 @@ ChannelWatch::ChannelWatch(const LcmConfig& config, LcmSender& sender)
     listener_.emplace("channel watch", config.url, kReopen,
                       LcmListener::Calls{
                           .subscribe =
-                              [this, channel = config.prefix + "MOCAP_STATUS"](lcm::LCM& lcm) {
+                              [this, channel = config.prefix + kStatusChannel](lcm::LCM& lcm) {
                                 lcm.subscribeFunction(ChannelPattern(channel), &NoteMessage,
                                                       &register_);
                               },

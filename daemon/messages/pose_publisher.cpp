@@ -16,7 +16,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       people_channel_(config.prefix + kPeopleChannel),
       bodies_channel_(config.prefix + kBodiesChannel),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
-      status_channel_(config.prefix + "MOCAP_STATUS"),
+      status_channel_(config.prefix + kStatusChannel),
       service_channel_(config.prefix + "MOCAP_SERVICE"),
       studio_channel_(config.prefix + "MOCAP_STUDIO"),
       cameras_(cameras),

@@ -72,6 +72,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   recorders_[Stage::kCarve].Record(carve_ns);
   recorders_[Stage::kSpread].Record(synchronizer_.spread_ns());
   if (seen_ && seen_pacer_.IsDue(SteadyNs())) OfferToWatch();
+  if (history_ && history_->Wants(set.frame)) history_->Add(PresentMoment());
   const bool complete = views_.size() == cameras_.size();
   (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
   return verdict;
@@ -79,6 +80,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
 
 void CarveStage::OfferToWatch() {
   seen_->Offer([this](SeenSet& copy) {
+    copy.capture_ns = synchronizer_.set_ns();
     copy.cameras.clear();
     copy.X_CW.clear();
     copy.silhouettes.resize(views_.size());
@@ -90,6 +92,16 @@ void CarveStage::OfferToWatch() {
     }
     return true;
   });
+}
+
+SeenMoment CarveStage::PresentMoment() const {
+  SeenMoment moment(cameras_.size());
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const SegmentedFrame& front = cameras_[i].front;
+    if (!synchronizer_.members()[i] || front.is_blind) continue;
+    moment[i] = ShapeOf(front.silhouette, front.X_CW);
+  }
+  return moment;
 }
 
 void CarveStage::SetTracked(std::int64_t sets) {

@@ -13,6 +13,7 @@
 #include "core/reconstruction/carving/floor_shadows.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
+#include "daemon/pipeline/moment_history.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/segmented_frame.h"
 #include "daemon/pipeline/stage.h"
@@ -51,6 +52,8 @@ class CarveStage {
   void ControlLoad() { load_control_.emplace(); }
   /// Offers copies of a set's silhouettes now and then; borrowed for the stage's life.
   void Show(SetTap& tap) { seen_ = &tap; }
+  /// Keeps what is seen at some moments; borrowed likewise.
+  void Keep(MomentHistory& history) { history_ = &history; }
 
   int camera_count() const { return static_cast<int>(cameras_.size()); }
   bool NeedsFrame(int camera) const { return !synchronizer_.has_front(camera); }
@@ -94,6 +97,7 @@ class CarveStage {
   void Gather(CarvedSet& set);
   void CompleteSilhouettes();
   void OfferToWatch();
+  SeenMoment PresentMoment() const;
   void PublishLoad();
 
   std::deque<Camera> cameras_;  // A deque: cameras with counters cannot move.
@@ -106,6 +110,7 @@ class CarveStage {
   std::vector<CarvingView> views_;
   std::vector<ShadedView> shaded_;
   SetTap* seen_ = nullptr;
+  MomentHistory* history_ = nullptr;
   Pacer seen_pacer_{HealthWatch::kHz};
   std::int64_t next_frame_ = 0;
   std::int64_t under_way_ = 0;

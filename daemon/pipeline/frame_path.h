@@ -12,6 +12,7 @@
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/camera_status.h"
 #include "daemon/pipeline/frame_progress.h"
+#include "daemon/pipeline/people_watch.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/silhouette_source.h"
 #include "daemon/pipeline/spsc_queue.h"
@@ -54,6 +55,7 @@ struct PipelineStatus {
   std::int64_t sets_dropped = 0;   ///< Dropped because the pipeline was behind.
   std::int64_t sets_tracked = 0;   ///< Handed on: sets, or silhouettes.
   std::vector<CameraStatus> cameras;
+  SeenPeople people;  ///< Live only.
   StageHistograms stages;
 };
 

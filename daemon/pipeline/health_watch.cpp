@@ -1,8 +1,8 @@
 #include "daemon/pipeline/health_watch.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "core/quantile.h"
 #include "drivers/go_behind.h"
 
 namespace mocap {
@@ -13,18 +13,16 @@ constexpr std::size_t kMoments = 12;
 /// A standing person counts once: one stance may mislead, several do not.
 constexpr double kAnotherPlace_mm = 150;
 
-double Median(const std::deque<SilhouetteShift>& shifts, int axis) {
+double MedianShift(const std::deque<SilhouetteShift>& shifts, int axis) {
   std::vector<double> values;
   for (const SilhouetteShift& shift : shifts) values.push_back(shift.shift_px[axis]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return MedianOf(values);
 }
 
 CameraHealth HealthOf(const std::deque<SilhouetteShift>& shifts) {
   CameraHealth health{.moments = static_cast<int>(shifts.size())};
   if (shifts.empty()) return health;
-  health.shift_px = {Median(shifts, 0), Median(shifts, 1)};
+  health.shift_px = {MedianShift(shifts, 0), MedianShift(shifts, 1)};
   for (const SilhouetteShift& shift : shifts) health.overlap += shift.overlap;
   health.overlap /= static_cast<double>(shifts.size());
   return health;
@@ -33,7 +31,7 @@ CameraHealth HealthOf(const std::deque<SilhouetteShift>& shifts) {
 }  // namespace
 
 HealthWatch::HealthWatch(const std::vector<CameraCalibration>& cameras)
-    : tables_(cameras.begin(), cameras.end()), shifts_(cameras.size()) {
+    : tables_(cameras.begin(), cameras.end()), people_watch_(cameras), shifts_(cameras.size()) {
   tap_.Open(kSetsQueued, {}, bell_);
   thread_ = std::thread([this] { Run(); });
 }
@@ -61,6 +59,21 @@ void HealthWatch::Run() {
 }
 
 void HealthWatch::Add(const SeenSet& set) {
+  LookForPeople(set);
+  CompareHulls(set);
+}
+
+void HealthWatch::LookForPeople(const SeenSet& set) {
+  SeenMoment moment(tables_.size());
+  for (std::size_t i = 0; i < set.cameras.size(); ++i) {
+    moment[static_cast<std::size_t>(set.cameras[i])] = ShapeOf(set.silhouettes[i], set.X_CW[i]);
+  }
+  SeenPeople people = people_watch_.Add(set.capture_ns, std::move(moment));
+  const std::scoped_lock lock(mutex_);
+  people_ = std::move(people);
+}
+
+void HealthWatch::CompareHulls(const SeenSet& set) {
   std::vector<CarvingView> views;
   for (std::size_t i = 0; i < set.cameras.size(); ++i) {
     const auto camera = static_cast<std::size_t>(set.cameras[i]);
@@ -78,6 +91,11 @@ void HealthWatch::Add(const SeenSet& set) {
     shifts.push_back(*measured[i]);
     if (shifts.size() > kMoments) shifts.pop_front();
   }
+}
+
+SeenPeople HealthWatch::People() const {
+  const std::scoped_lock lock(mutex_);
+  return people_;
 }
 
 std::vector<CameraHealth> HealthWatch::Health() const {

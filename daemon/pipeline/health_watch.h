@@ -11,6 +11,7 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/hull_agreement.h"
 #include "daemon/pipeline/doorbell.h"
+#include "daemon/pipeline/people_watch.h"
 #include "daemon/pipeline/tap.h"
 
 namespace mocap {
@@ -24,18 +25,19 @@ struct CameraHealth {
 
 /// The silhouettes of a set that will be compared.
 struct SeenSet {
+  std::int64_t capture_ns = 0;
   std::vector<int> cameras;
   std::vector<Silhouette> silhouettes;
   std::vector<RigidTransform> X_CW;
 };
 using SetTap = Tap<SeenSet>;
 
-/// Occasionally compares a set's silhouettes with the hulls from the other cameras, in a thread of
-/// low priority.
+/// Occasionally compares a set's silhouettes with the hulls from the other cameras, and looks for
+/// people whom the cameras see, in a thread of low priority.
 class HealthWatch {
  public:
   /// Maximum rate of sets.
-  static constexpr double kHz = 0.5;
+  static constexpr double kHz = 1;
   /// Fewer moments are not conclusive.
   static constexpr int kFewestMoments = 4;
 
@@ -46,18 +48,24 @@ class HealthWatch {
   SetTap& tap() { return tap_; }
   /// One for each camera. Any thread.
   std::vector<CameraHealth> Health() const;
+  /// Any thread.
+  SeenPeople People() const;
 
   /// Compares a set; called by the thread.
   void Add(const SeenSet& set);
 
  private:
   void Run();
+  void LookForPeople(const SeenSet& set);
+  void CompareHulls(const SeenSet& set);
 
   const std::vector<SensorPlaneTable> tables_;
   HullAgreement agreement_;
+  PeopleWatch people_watch_;
   std::optional<Vector3> last_place_W_;
   mutable std::mutex mutex_;
   std::vector<std::deque<SilhouetteShift>> shifts_;  ///< The latest per camera.
+  SeenPeople people_;
   Doorbell bell_;
   SetTap tap_;
   std::thread thread_;

@@ -86,6 +86,8 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     carve_->ControlLoad();
     health_ = std::make_unique<HealthWatch>(calibrations);
     carve_->Show(health_->tap());
+  } else {
+    carve_->Keep(history_);
   }
   lines_ = std::make_unique<CameraLines>(std::move(studio.cameras), options, rays, recorders_,
                                          carve_bell_);
@@ -214,6 +216,7 @@ PipelineStatus Pipeline::Status() const {
   if (health_) {
     const std::vector<CameraHealth> health = health_->Health();
     for (std::size_t i = 0; i < health.size(); ++i) status.cameras[i].health = health[i];
+    status.people = health_->People();
   }
   status.stages = StageHistograms(recorders_);
   return status;

@@ -64,6 +64,8 @@ class Pipeline : public FramePath {
     lines_->ReplaceBackground(camera, background);
   }
   PipelineStatus Status() const override;
+  /// What the cameras saw at some moments of a take. @pre  all threads have ended.
+  std::span<const SeenMoment> Moments() const { return history_.moments(); }
   FrameProgress Progress() const override;
 
  private:
@@ -79,6 +81,7 @@ class Pipeline : public FramePath {
   Doorbell carve_bell_;
   Doorbell track_bell_;
   std::unique_ptr<HealthWatch> health_;  ///< Live only.
+  MomentHistory history_;                ///< Of a take.
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
   GridMemory grids_;                  ///< Of sets_.

@@ -19,7 +19,7 @@
 #include "daemon/messages/preview_publisher.h"
 #include "daemon/nodes/node_listener.h"
 #include "daemon/nodes/silhouette_sender.h"
-#include "daemon/nodes/subject_listener.h"
+#include "daemon/nodes/studio_listener.h"
 #include "daemon/pipeline/node_path.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/recording/recorder.h"
@@ -121,6 +121,12 @@ LcmConfig OwnChannels(const Config& config) {
   return lcm;
 }
 
+std::vector<std::string> NamesOf(const std::vector<CameraCalibration>& cameras) {
+  std::vector<std::string> names;
+  for (const CameraCalibration& camera : cameras) names.push_back(camera.name);
+  return names;
+}
+
 /// Runs until there is nothing left to do.
 void RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
                      std::optional<double> seconds) {
@@ -176,12 +182,12 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
     };
   }
   std::optional<SilhouetteSender> silhouettes;
-  std::optional<SubjectListener> subject;
+  std::optional<StudioListener> studio_listener;
   std::unique_ptr<FramePath> path;
   Pipeline* pipeline = nullptr;
   if (config.role == Role::kNode) {
     silhouettes.emplace(publisher.sender(), config, cameras);
-    if (studio.person) subject.emplace(config.lcm, studio.person);
+    studio_listener.emplace(config.lcm, NamesOf(cameras), studio.person);
     path = std::make_unique<NodePath>(std::move(studio), options, *silhouettes);
   } else {
     auto tracking = std::make_unique<Pipeline>(std::move(studio), options, prepared.body, outlet);
@@ -191,15 +197,16 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   BackgroundLearner learner(*path, learning_taps, known, learning);
   const ServiceParts parts{live, *path, pipeline, publisher, preview, view, recorder, learner};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
-  Watch watch(parts,
-              {control, manager, channels, log, nodes ? &*nodes : nullptr,
-               silhouettes ? &*silhouettes : nullptr},
-              about);
+  Watch watch(
+      parts,
+      {control, manager, channels, log, nodes ? &*nodes : nullptr,
+       silhouettes ? &*silhouettes : nullptr, studio_listener ? &*studio_listener : nullptr},
+      about);
   const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
   signals.Allow(kEndPatience, false);
   if (nodes) nodes->Listen();
-  if (subject) subject->Listen();
+  if (studio_listener) studio_listener->Listen();
   path->Start();
   RunUntilStopped(*path, watch, signals, seconds);
   const auto is_recording = [&recorder] {

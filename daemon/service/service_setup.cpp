@@ -4,6 +4,7 @@
 
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "core/calibration/camera_places.h"
 #include "core/errors.h"
 #include "core/make_motion_capture.h"
 #include "daemon/base/service_folders.h"
@@ -87,13 +88,14 @@ PreparedService PrepareService(const Config& config) {
   return prepared;
 }
 
-void CheckConfig(const Config& config) {
+std::vector<std::string> CheckConfig(const Config& config) {
   PrepareRealtime(config.service.realtime);
   CheckLcm(config.lcm.url);
   const PreparedService prepared = Prepare(config);
   // Simulated pictures cannot be wrong, and rendering takes time.
-  if (config.source.driver == "simulated") return;
-  LearnBackgrounds(prepared.studio.cameras, config.segmentation);
+  if (config.source.driver != "simulated")
+    LearnBackgrounds(prepared.studio.cameras, config.segmentation);
+  return prepared.studio.remarks;
 }
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps) {
@@ -171,6 +173,11 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   report.lcm_url = config.lcm.url;
   report.node = config.node.name;
   report.calibration = CalibrationOf(config);
+  for (const Finding& finding : CheckPlaces(CalibrationsOf(studio), true)) {
+    if (finding.severity != Severity::kWrong) break;
+    report.calibration_fault = finding.text;
+    break;
+  }
   report.background = BackgroundOf(config);
   return report;
 }

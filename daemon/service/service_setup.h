@@ -33,9 +33,10 @@ struct PreparedService {
 PreparedService PrepareService(const Config& config);
 
 /// Checks whether RunService could start, including whether cameras answer. Rejects what RunService
-/// rejects, with the same messages. Creates no file and no socket, and sends nothing. @throws
-/// SetupError
-void CheckConfig(const Config& config);
+/// rejects, with the same messages. Creates no file and no socket, and sends nothing.
+/// @return  the remarks that a start would log.
+/// @throws SetupError
+std::vector<std::string> CheckConfig(const Config& config);
 
 /// Checks whether files can be written where the configuration wants them. @throws SetupError
 void RequirePlaces(const Config& config);

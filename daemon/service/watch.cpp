@@ -32,6 +32,7 @@ Watch::Watch(const ServiceParts& parts, const WatchParts& around, ServiceReport 
       around_(around),
       report_(std::move(about)),
       start_ns_(SteadyNs()),
+      found_ns_(start_ns_),
       status_pacer_(kStatusHz),
       metrics_pacer_(kMetricsHz) {
   report_.cut_off = FindCutOffTakes(TakesFolder(around_.control.config().service.recording));
@@ -98,6 +99,7 @@ void Watch::Report(const PipelineStatus& status) {
   report_.epoch_s = TimeOfDayS();
   report_.log_fails = around_.log.Fails(SteadyNs());
   if (around_.nodes) report_.nodes = around_.nodes->Report();
+  if (around_.studio) report_.link = around_.studio->Link(SteadyNs());
   LookAtClock();
   LookAtStudio(status);
   LookAtDelivery();
@@ -115,6 +117,10 @@ void Watch::LookAtClock() {
 }
 
 void Watch::LookAtStudio(const PipelineStatus& status) {
+  const bool is_found =
+      status.state == CaptureState::kTracking || status.state == CaptureState::kAcquiring;
+  if (is_found || status.sets_tracked == 0) found_ns_ = SteadyNs();
+  report_.nobody_ns = is_found ? 0 : SteadyNs() - found_ns_;
   const std::optional<LightChange> change = light_.Add(status, SteadyNs());
   const bool is_new =
       change && (!report_.light_change || change->time_ns != report_.light_change->time_ns);

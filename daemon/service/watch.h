@@ -11,6 +11,7 @@
 #include "daemon/messages/channel_watch.h"
 #include "daemon/nodes/node_listener.h"
 #include "daemon/nodes/silhouette_sender.h"
+#include "daemon/nodes/studio_listener.h"
 #include "daemon/pipeline/frame_progress.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/service/change_log.h"
@@ -34,6 +35,7 @@ struct WatchParts {
   const ServiceLog& log;
   NodeListener* nodes;            ///< At a studio; otherwise null.
   SilhouetteSender* silhouettes;  ///< At a node; otherwise null.
+  StudioListener* studio;         ///< Likewise.
 };
 
 /// Checks the running daemon some times a second and reports on it. Never waits for a disk.
@@ -59,6 +61,7 @@ class Watch {
   const WatchParts around_;
   ServiceReport report_;
   const std::int64_t start_ns_;
+  std::int64_t found_ns_;  ///< When somebody was last tracked, or could not have been.
   const bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
   ProgressWatch progress_;
   ChangeLog log_;

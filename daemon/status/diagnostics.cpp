@@ -287,6 +287,24 @@ void ComplainOfPlace(const PipelineStatus& status, List& list) {
       worst->name, off_px(*worst)));
 }
 
+/// A calibration that is wrong by itself explains whatever follows.
+void ComplainOfCalibration(const ServiceReport& report, List& list) {
+  if (report.calibration_fault.empty()) return;
+  list.push_back(fmt::format("{}: {}", report.calibration.where, report.calibration_fault));
+}
+
+/// Somebody walks before the cameras and is not found. In an empty room nothing is wrong.
+void ComplainOfNobody(const ServiceReport& report, List& list) {
+  const SeenPeople& people = report.now.status.people;
+  if (!people.is_somebody || report.nobody_ns < PeopleWatch::kWindow_ns) return;
+  list.push_back(fmt::format(
+      "somebody moves in most pictures, but nobody has been found for {}: {}",
+      Duration(report.nobody_ns),
+      people.fault ? people.fault->text
+                   : "check in mocap view that at least three cameras see the whole person, and "
+                     "nothing else as a person; mocap subject new searches from the start"));
+}
+
 void ComplainOfLight(const ServiceReport& report, List& list) {
   if (!report.light_change) return;
   const LightChange& change = *report.light_change;
@@ -319,8 +337,11 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfRecording(report, list);
   ComplainOfDisk(report, list);
   if (report.node.empty()) ComplainOfSets(report, list);
-  const List of_nodes = NodeDiagnostics(report.nodes, report.lcm_url);
-  list.insert(list.end(), of_nodes.begin(), of_nodes.end());
+  std::ranges::move(NodeDiagnostics(report.nodes, report.lcm_url), std::back_inserter(list));
+  if (report.link) {
+    std::ranges::move(LinkDiagnostics(*report.link, report.now.status.cameras, report.lcm_url),
+                      std::back_inserter(list));
+  }
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     ComplainOfFlow(report, i, list);
     ComplainOfPicture(report.now.status.cameras[i], list);
@@ -328,6 +349,8 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   if (report.node.empty()) ComplainOfOneAlone(report, list);
   ComplainOfTriggers(report, list);
   ComplainOfMatching(report, list);
+  ComplainOfCalibration(report, list);
+  ComplainOfNobody(report, list);
   ComplainOfPlace(report.now.status, list);
   ComplainOfLight(report, list);
   ComplainOfTime(report, list);

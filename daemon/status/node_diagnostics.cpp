@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "daemon/status/diagnostics.h"
@@ -15,16 +16,25 @@ constexpr double kMostLost = 0.001;
 /// A clock with a larger possible error is not kept well enough.
 constexpr double kMostError_ms = 5;
 
+/// A studio reports its status every second.
+constexpr std::int64_t kStudioSilence_ns = 5'000'000'000;
+
 using List = std::vector<std::string>;
+
+/// Without a ttl, LCM takes 0.
+std::string RangeHint(const std::string& lcm_url) {
+  const bool leaves =
+      !lcm_url.starts_with("udpm://") ||
+      (lcm_url.find("ttl=") != std::string::npos && lcm_url.find("ttl=0") == std::string::npos);
+  return leaves ? "" : "; lcm.url has ttl=0, which keeps messages on this computer";
+}
 
 std::string Silence(const NodeReport& node, const std::string& lcm_url) {
   const std::string since =
       node.was_heard ? " for " + Duration(node.silent_ns) : " since the start";
-  const bool stays_here = lcm_url.find("ttl=0") != std::string::npos;
   return fmt::format(
       "nothing has been received from node {}{}: check its power and network, and mocapd there{}",
-      node.name, since,
-      stays_here ? "; lcm.url has ttl=0, which keeps messages on one computer" : "");
+      node.name, since, RangeHint(lcm_url));
 }
 
 void DiagnoseClock(const NodeReport& node, List& list) {
@@ -79,6 +89,26 @@ void Diagnose(const NodeReport& node, const std::string& lcm_url, List& list) {
 }
 
 }  // namespace
+
+List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& cameras,
+                     const std::string& lcm_url) {
+  if (link.silent_ns > kStudioSilence_ns) {
+    return {fmt::format(
+        "no studio has been heard on {} for {}: silhouettes reach nobody; start mocapd there with "
+        "role = \"studio\" and the same lcm.url and lcm.prefix{}",
+        lcm_url, Duration(link.silent_ns), RangeHint(lcm_url))};
+  }
+  List lost;
+  for (const CameraStatus& camera : cameras) {
+    const bool is_lost = std::ranges::count(link.unreceived, camera.name) > 0;
+    if (is_lost && camera.state == CameraState::kStreaming) lost.push_back(camera.name);
+  }
+  if (lost.empty()) return {};
+  return {fmt::format(
+      "the studio does not receive {}: check that its [[nodes]] list them, its status, and the "
+      "network{}",
+      fmt::join(lost, ", "), RangeHint(lcm_url))};
+}
 
 bool IsOfLostNode(const NodesReport& report, const std::string& node) {
   for (const NodeReport& known : report.nodes)

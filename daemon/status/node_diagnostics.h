@@ -1,15 +1,22 @@
-// Faults of a studio's camera nodes, and their remedies.
+// Faults of a studio's camera nodes and of their connection, and their remedies.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "daemon/pipeline/camera_status.h"
 #include "daemon/status/node_report.h"
+#include "daemon/status/studio_link.h"
 
 namespace mocap {
 
 /// As Diagnostics(). @param lcm_url  the address at which nodes are heard.
 std::vector<std::string> NodeDiagnostics(const NodesReport& report, const std::string& lcm_url);
+
+/// The same of a node's connection to its studio.
+std::vector<std::string> LinkDiagnostics(const StudioLink& link,
+                                         const std::vector<CameraStatus>& cameras,
+                                         const std::string& lcm_url);
 
 /// Whether this node cannot be heard, or its times cannot be used. Its cameras are then reported
 /// with it.

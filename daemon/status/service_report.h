@@ -14,6 +14,7 @@
 #include "daemon/status/light_watch.h"
 #include "daemon/status/node_report.h"
 #include "daemon/status/status_window.h"
+#include "daemon/status/studio_link.h"
 
 namespace mocap {
 
@@ -48,6 +49,8 @@ struct ServiceReport {
   std::int64_t epoch_s = 0;  ///< Time of this report.
   std::int64_t up_ns = 0;    ///< Since the start.
   Made calibration;
+  std::string calibration_fault;  ///< Why it cannot be right; empty: nothing is known against it.
+  std::int64_t nobody_ns = 0;     ///< How long nobody has been tracked; 0: somebody is.
   Made background;
   std::optional<LightChange> light_change;
   RecordingStatus recording;
@@ -61,8 +64,9 @@ struct ServiceReport {
   std::int64_t age_ns = 0;         ///< Age of the report when it is requested.
   Delivery delivery;
   std::vector<CutOffTake> cut_off;
-  std::string node;   ///< The name of this node; empty: not a node.
-  NodesReport nodes;  ///< A studio's nodes.
+  std::string node;                ///< The name of this node; empty: not a node.
+  std::optional<StudioLink> link;  ///< Of a node with its studio.
+  NodesReport nodes;               ///< A studio's nodes.
 };
 
 /// One line: state, rate, latency, cameras, and the first diagnostic.

@@ -6,10 +6,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "core/reconstruction/camera/sensor_plane_table.h"
-#include "core/reconstruction/carving/carver.h"
 #include "tests/support/walking_silhouettes.h"
-#include "tools/camera_names.h"
 
 namespace mocap {
 namespace {
@@ -94,51 +91,6 @@ TEST(CameraHealthTest, PeopleWhomThePictureCutsOffAreComparedAsFarAsTheyAreSeen)
   const RefinedStudio refined = RefineFromSilhouettes(cut);
   EXPECT_THAT(refined.moved, ElementsAre("cam4"));
   EXPECT_LT(TurnBetween(refined.cameras[3], Walk().cameras[3]), 0.4 * kBump_rad);
-}
-
-/// The walk with a floor that lies so much too low.
-StandingPerson PersonAbove(double raised_mm) {
-  TakeSamples samples = Walk();
-  const std::vector<SensorPlaneTable> tables(samples.cameras.begin(), samples.cameras.end());
-  Carver carver({25});
-  for (SampledMoment& moment : samples.moments) {
-    std::vector<CarvingView> views;
-    for (std::size_t c = 0; c < tables.size(); ++c) {
-      RigidTransform X_CW = moment.views[c]->X_CW;
-      X_CW.p -= X_CW.R * Vector3(0, 0, raised_mm);
-      views.push_back({&tables[c], &moment.views[c]->silhouette, X_CW});
-    }
-    carver.Carve(views, moment.voxels);
-  }
-  return MeasurePerson(samples);
-}
-
-TEST(StandingPersonTest, ReachesFromTheFloorToTheStature) {
-  const StandingPerson person = PersonAbove(0);
-  EXPECT_EQ(person.moments, 10);
-  EXPECT_NEAR(person.lowest_mm, 0, 50);
-  EXPECT_NEAR(person.highest_mm, RecordedSimulation().stature_mm, 80);
-}
-
-TEST(StandingPersonTest, TellsAFloorThatLiesElsewhere) {
-  EXPECT_NEAR(PersonAbove(300).lowest_mm, 300, 50);
-}
-
-TEST(CameraNamesTest, FindsTwoRecordingsThatGoByEachOthersName) {
-  EXPECT_FALSE(FindSwappedCameras(Walk()));
-  TakeSamples swapped = Walk();
-  for (SampledMoment& moment : swapped.moments)
-    std::swap(moment.views[1]->silhouette, moment.views[4]->silhouette);
-  EXPECT_EQ(FindSwappedCameras(swapped), CameraPair("cam2", "cam5"));
-}
-
-TEST(CameraNamesTest, GuessesNothingWhereNoExchangeHelps) {
-  TakeSamples mixed = Walk();
-  for (SampledMoment& moment : mixed.moments)
-    std::swap(moment.views[0]->silhouette, moment.views[1]->silhouette);
-  for (SampledMoment& moment : mixed.moments)
-    std::swap(moment.views[2]->silhouette, moment.views[4]->silhouette);
-  EXPECT_FALSE(FindSwappedCameras(mixed));
 }
 
 TEST(CameraHealthTest, SaysSoWhenNobodyIsSeen) {

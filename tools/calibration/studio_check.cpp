@@ -56,55 +56,6 @@ void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) 
                     field_deg));
 }
 
-void CheckPlaces(const std::vector<CameraCalibration>& cameras, bool has_floor,
-                 std::vector<Finding>& findings) {
-  int under = 0;
-  for (std::size_t a = 0; a < cameras.size(); ++a) {
-    const Vector3 p_WC = cameras[a].X_CW.Inverse().p;
-    const bool is_lens_alone = p_WC.isZero(0) && cameras[a].X_CW.R == Matrix3::Identity();
-    if (has_floor && is_lens_alone)
-      findings.push_back(
-          {Severity::kWrong, cameras[a].name +
-                                 ": stands at the origin and looks straight up: it has a lens and "
-                                 "no pose yet, or the floor is not set"});
-    if (has_floor && p_WC.z() < 0) {
-      ++under;
-      findings.push_back(
-          {Severity::kWrong,
-           fmt::format("{}: hangs {:.0f} mm below the floor; the floor may be upside "
-                       "down, or this camera's pose mirrored",
-                       cameras[a].name, -p_WC.z())});
-    } else if (has_floor && p_WC.z() > 10000) {
-      findings.push_back(
-          {Severity::kWarning,
-           fmt::format("{}: hangs {:.1f} m high; are the board's squares given in mm?",
-                       cameras[a].name, p_WC.z() / 1000)});
-    }
-    for (std::size_t b = a + 1; b < cameras.size(); ++b) {
-      const double apart_mm = (p_WC - cameras[b].X_CW.Inverse().p).norm();
-      if (apart_mm < 50)
-        findings.push_back(
-            {Severity::kWrong,
-             fmt::format("{} and {}: stand {:.0f} mm apart; is one the recording of the "
-                         "other, or are lengths given in metres?",
-                         cameras[a].name, cameras[b].name, apart_mm)});
-    }
-  }
-  if (has_floor && under == static_cast<int>(cameras.size()))
-    findings.push_back(
-        {Severity::kWrong, "all cameras hang below the floor: z points down; set the floor again"});
-}
-
-void CheckRotations(const std::vector<CameraCalibration>& cameras, std::vector<Finding>& findings) {
-  for (const CameraCalibration& camera : cameras) {
-    const Matrix3& R = camera.X_CW.R;
-    if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) continue;
-    findings.push_back(
-        {Severity::kWrong, camera.name + ": its rotation is a reflection or not a rotation; the "
-                                         "calibration was mirrored on its way here"});
-  }
-}
-
 // A person carried the board, so it was hardly ever below the floor.
 void CheckBoardsAboveFloor(const StudioFit& fit, std::vector<Finding>& findings) {
   int under = 0, all = 0;
@@ -167,9 +118,7 @@ double MillimetresPerPixel(const CameraCalibration& camera, const Vector3& middl
 }
 
 std::vector<Finding> CheckCameras(const std::vector<CameraCalibration>& cameras, bool has_floor) {
-  std::vector<Finding> findings;
-  CheckRotations(cameras, findings);
-  CheckPlaces(cameras, has_floor, findings);
+  std::vector<Finding> findings = CheckPlaces(cameras, has_floor);
   for (const CameraCalibration& camera : cameras) CheckLens(camera, findings);
   return findings;
 }

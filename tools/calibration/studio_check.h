@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/calibration/camera_places.h"
 #include "tools/calibration/extrinsics.h"
 
 namespace mocap {
-
-enum class Severity { kNote, kWarning, kWrong };
-
-/// One finding, as a line with the remedy.
-struct Finding {
-  Severity severity = Severity::kNote;
-  std::string text;
-};
 
 /// Where a person stands: the point that all cameras face, at hip height if the floor is known.
 Vector3 MiddleOfRoom(const std::vector<CameraCalibration>& cameras);

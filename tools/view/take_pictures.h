@@ -35,6 +35,8 @@ class TakePictures {
   const std::string& name() const { return name_; }
   double fps_nominal() const { return fps_nominal_; }
   const std::vector<CameraCalibration>& cameras() const { return calibrations_; }
+  /// On the take, for people.
+  const std::vector<std::string>& remarks() const { return remarks_; }
   /// Pose of each camera in its first frame.
   std::vector<RigidTransform> FirstPoses() const;
   /// Frame times of the camera with most frames [ns].
@@ -60,6 +62,7 @@ class TakePictures {
   std::optional<Silhouette> Segment(Camera& camera, const PanTiltAngles& angles) const;
 
   std::string name_;
+  std::vector<std::string> remarks_;
   double fps_nominal_ = 0;
   std::vector<CameraCalibration> calibrations_;
   std::vector<Camera> cameras_;

@@ -26,6 +26,7 @@ class TakeSite {
   TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results);
 
   const std::string& name() const { return pictures_.name(); }
+  const std::vector<std::string>& remarks() const { return pictures_.remarks(); }
   /// Status 404 for unknown paths, 400 for invalid numbers.
   ViewReply Answer(const ViewRequest& request);
 

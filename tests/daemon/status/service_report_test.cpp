@@ -252,6 +252,51 @@ TEST(ServiceReport, AFailedRecordingComesFirst) {
   EXPECT_EQ(Diagnostics(report).front(), "the recording failed: the disk is gone");
 }
 
+TEST(ServiceReport, SomebodyWhoIsSeenAndNotFoundIsNotGood) {
+  ServiceReport report = Good();
+  report.now.status.people.is_somebody = true;
+  report.nobody_ns = 4'000'000'000;
+  EXPECT_THAT(Diagnostics(report), IsEmpty()) << "a search may take some seconds";
+  report.nobody_ns = 9'000'000'000;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("nobody has been found for 9 s: check")));
+  report.now.status.people.fault = {Severity::kWrong, "cam1 and cam2 are exchanged"};
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(HasSubstr("found for 9 s: cam1 and cam2 are exchanged")));
+  report.nobody_ns = 0;
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+}
+
+TEST(ServiceReport, AnEmptyRoomIsGood) {
+  ServiceReport report = Good();
+  report.nobody_ns = 3600'000'000'000;
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+}
+
+TEST(ServiceReport, ACalibrationThatCannotBeRightIsNotGood) {
+  ServiceReport report = Good();
+  report.calibration.where = "calibration.toml";
+  report.calibration_fault = "z points down";
+  EXPECT_THAT(Diagnostics(report), ElementsAre("calibration.toml: z points down"));
+}
+
+TEST(ServiceReport, ANodeThatNoStudioHearsIsNotGood) {
+  ServiceReport report = Good();
+  report.node = "left";
+  report.lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  report.link = StudioLink{};
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+  report.link->silent_ns = 7'000'000'000;
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre(::testing::AllOf(HasSubstr("no studio has been heard"),
+                                           HasSubstr("for 7 s"), HasSubstr("ttl=0"))));
+  report.lcm_url = "udpm://239.255.76.67:7667?ttl=1";
+  EXPECT_THAT(Diagnostics(report), ElementsAre(Not(HasSubstr("ttl=0"))));
+  report.link = StudioLink{0, {"cam2"}};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("the studio does not receive cam2")));
+  report.now.status.cameras[1].state = CameraState::kLost;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("cam2 is lost")));
+}
+
 TEST(ServiceReport, NamesOnlyTheCameraThatIsFarthestFromTheOthers) {
   ServiceReport report = Good();
   report.now.status.cameras[0].health = {.moments = 9, .shift_px = {2.5, 0}, .overlap = 0.8};

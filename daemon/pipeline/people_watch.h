@@ -1,0 +1,39 @@
+// Whether people are before the cameras, and whether the cameras agree where.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/calibration/camera_places.h"
+#include "core/calibration/seen_shape.h"
+
+namespace mocap {
+
+/// What the silhouettes of the last seconds show, whatever is tracked.
+struct SeenPeople {
+  /// Most cameras have shown something of a person's size that moves, for PeopleWatch::kWindow_ns.
+  bool is_somebody = false;
+  /// Why it cannot be tracked; empty if nothing speaks against it.
+  std::optional<Finding> fault = {};
+};
+
+/// Looks at moments of some seconds. Not thread-safe.
+class PeopleWatch {
+ public:
+  static constexpr std::int64_t kWindow_ns = 5'000'000'000;
+
+  explicit PeopleWatch(std::vector<CameraCalibration> cameras) : cameras_(std::move(cameras)) {}
+
+  /// @return  what is seen from this moment on.
+  SeenPeople Add(std::int64_t capture_ns, SeenMoment moment);
+
+ private:
+  const std::vector<CameraCalibration> cameras_;
+  std::deque<std::int64_t> times_ns_;
+  std::vector<SeenMoment> moments_;
+};
+
+}  // namespace mocap
