@@ -7,8 +7,9 @@
 
 namespace mocap {
 
-/// The installed configuration, of the system's daemon.
-inline constexpr const char* kSystemConfig = MOCAP_CONFIG_FILE;
+/// Returns where the configuration of the system's daemon is, if it is installed: in etc of this
+/// program's prefix, as systemd/install_folders.cmake.in decides.
+std::filesystem::path SystemConfig();
 
 /// Loads the named configuration; without a name, the system's if installed, or the defaults.
 /// @throws SetupError  for an invalid one.

@@ -40,7 +40,7 @@ const char* MarkOf(Verdict verdict) {
 
 /// Without other options, the daemon is the system's, if installed.
 bool IsOfSystem(const DoctorOptions& options) {
-  return options.config.empty() && IsThere(kSystemConfig);
+  return options.config.empty() && IsThere(SystemConfig());
 }
 
 /// The system's daemon has its own folder, whichever user asks.
