@@ -6,10 +6,9 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
-#include "config/toml_section.h"
+#include "config/take_header.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
-#include "drivers/take/input_file.h"
 #include "drivers/take/take_driver.h"
 #include "drivers/take/take_layout.h"
 
@@ -18,31 +17,6 @@ namespace {
 
 /// A rate that differs from the nominal one by these factors is wrong, or worth a remark.
 constexpr double kRefusedTimes = 50, kDoubtfulTimes = 4;
-
-/// The part of take.toml that replaying needs; it may contain more.
-struct TakeHeader {
-  std::string name;
-  double fps_nominal = 0;
-  std::vector<std::string> cameras;
-};
-
-TakeHeader ReadHeader(const std::filesystem::path& file) {
-  TomlSection section = TomlSection::ReadFile(file);
-  TakeHeader header;
-  header.name = section.Text("name");
-  header.fps_nominal = section.NumberWithin("fps_nominal", 0.1, 10000);
-  header.cameras = section.Texts("cameras");
-  if (header.cameras.empty()) section.Fail("cameras", "is empty; expected names of cameras");
-  for (const std::string& name : header.cameras) {
-    if (!IsCameraName(name)) {
-      section.Fail("cameras", "has a name that is not made of letters, digits, _ and -");
-    }
-    if (std::count(header.cameras.begin(), header.cameras.end(), name) > 1) {
-      section.Fail("cameras", "has \"" + name + "\" twice");
-    }
-  }
-  return header;
-}
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -135,9 +109,8 @@ ReplaySpan SpanOf(const std::vector<TakeTable>& tables, double fps_nominal,
 }  // namespace
 
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
-  RequireFolder(take, "a take");
+  const TakeHeader header = ReadTakeHeader(take);
   const TakeLayout layout{take};
-  const TakeHeader header = ReadHeader(layout.Description());
   const std::vector<CameraCalibration> calibrations = LoadCalibration(layout.Calibration());
   const std::vector<std::string> names = Choose(header, options.cameras, layout);
 

@@ -28,6 +28,7 @@
 #include "drivers/take/take_layout.h"
 #include "tools/results/result.h"
 #include "tools/results/result_sink.h"
+#include "tools/results/take_identity.h"
 #include "tools/studio_examination.h"
 
 namespace mocap {
@@ -99,7 +100,7 @@ void Track(const TrackOptions& options) {
   const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
   RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
-                  isatty(STDERR_FILENO) == 1);
+                  isatty(STDERR_FILENO) == 1, MarkOf(options.take));
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
                      .overflow = Overflow::kWait,

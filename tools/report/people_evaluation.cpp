@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "drivers/take/input_file.h"
 #include "tools/results/export_axes.h"
+#include "tools/results/take_identity.h"
 
 namespace mocap {
 namespace {
@@ -159,9 +159,10 @@ Evaluation EvaluateOne(Result result, const std::vector<TruePerson>& truth) {
 
 Evaluation EvaluateOne(const std::filesystem::path& take, const std::filesystem::path& result,
                        const std::optional<std::string>& prefix) {
-  RequireFolder(take, "a take");
+  const TakeIdentity identity(take);
   const std::vector<TruePerson> truth = ReadTruePeople(take);
   Result read = ReadResult(result, prefix);
+  identity.Require(result, read);
   TellOfOtherTimes(take, truth, read);
   Evaluation evaluation = EvaluateOne(std::move(read), truth);
   evaluation.take = NameOf(take);
@@ -171,10 +172,13 @@ Evaluation EvaluateOne(const std::filesystem::path& take, const std::filesystem:
 PeopleEvaluation EvaluatePeople(const std::filesystem::path& take,
                                 const std::filesystem::path& result,
                                 const std::optional<std::string>& prefix) {
-  RequireFolder(take, "a take");
+  const TakeIdentity identity(take);
   std::vector<TruePerson> truth = ReadTruePeople(take);
   PeopleResults people = ReadPeople(result, prefix);
-  for (auto& [name, read] : people) TellOfOtherTimes(take, truth, read);
+  for (auto& [name, read] : people) {
+    identity.Require(IsOfPeople(result) ? result / name : result, read);
+    TellOfOtherTimes(take, truth, read);
+  }
   PeopleEvaluation evaluation = EvaluatePeople(std::move(people), std::move(truth));
   evaluation.take = NameOf(take);
   return evaluation;

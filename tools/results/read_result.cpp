@@ -8,6 +8,7 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
 #include "drivers/take/text_table.h"
 #include "tools/results/people_log.h"
 #include "tools/results/pose_log.h"
@@ -116,8 +117,7 @@ std::vector<PoseRow> ReadPoses(const std::filesystem::path& file,
   return rows;
 }
 
-BodyRecord ReadBody(const std::filesystem::path& file) {
-  TomlSection root = TomlSection::ReadFile(file);
+BodyRecord ReadBody(TomlSection& root) {
   BodyRecord body;
   body.model = root.Text("model");
   body.stature_mm = root.Number("stature_mm");
@@ -129,12 +129,40 @@ BodyRecord ReadBody(const std::filesystem::path& file) {
   return body;
 }
 
+std::optional<TakeMark> ReadMark(TomlSection& root) {
+  std::optional<TomlSection> take = root.Section("take");
+  if (!take) return {};
+  return TakeMark{take->Text("name"), take->Text("calibration_fnv1a")};
+}
+
+bool IsOfOne(const std::filesystem::path& folder) { return IsThere(folder / "poses.csv"); }
+
+/// A take of several people has folders of the same names.
+bool IsOnlyTake(const std::filesystem::path& folder) {
+  return IsThere(TakeLayout{folder}.Description()) &&
+         std::ranges::none_of(PersonFolders(folder), IsOfOne) && !IsOfOne(folder);
+}
+
+/// @throws SetupError  for a folder whose poses are not one person's.
+void RequireOfOne(const std::filesystem::path& folder) {
+  if (IsOfOne(folder)) return;
+  if (IsOnlyTake(folder)) {
+    throw SetupError(folder.string() +
+                     ": is a take, not a result; expected what mocap track TAKE --out RESULT made");
+  }
+  if (IsOfPeople(folder)) {
+    throw SetupError(folder.string() +
+                     ": is a result of several people; expected that of one, such as " +
+                     PersonFolders(folder).front().string());
+  }
+}
+
 }  // namespace
 
 bool IsOfPeople(const std::filesystem::path& folder) {
   std::error_code error;
-  return std::filesystem::is_directory(folder, error) && !IsThere(folder / "poses.csv") &&
-         !PersonFolders(folder).empty();
+  return std::filesystem::is_directory(folder, error) && !IsOfOne(folder) &&
+         !IsOnlyTake(folder) && !PersonFolders(folder).empty();
 }
 
 PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
@@ -144,6 +172,11 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
     if (!std::filesystem::is_directory(folder_or_log, error)) {
       return ReadPeopleLog(folder_or_log, prefix);
     }
+    if (IsOfOne(folder_or_log)) {
+      throw SetupError(folder_or_log.string() +
+                       ": is a result of one person; expected that of several, or a log");
+    }
+    RequireOfOne(folder_or_log);
     throw SetupError(
         folder_or_log.string() +
         ": contains no person-1 or the like; expected what mocap track --people writes, or a log");
@@ -167,9 +200,13 @@ Result ReadResult(const std::filesystem::path& folder_or_log,
   if (prefix) {
     throw SetupError(folder_or_log.string() + ": is not a log; only a log has a prefix");
   }
-  std::vector<std::string> remarks;
-  std::vector<PoseRow> poses = ReadPoses(folder_or_log / "poses.csv", remarks);
-  return {ReadBody(folder_or_log / "body.toml"), std::move(poses), std::move(remarks)};
+  RequireOfOne(folder_or_log);
+  Result result;
+  result.poses = ReadPoses(folder_or_log / "poses.csv", result.remarks);
+  TomlSection body = TomlSection::ReadFile(folder_or_log / "body.toml");
+  result.body = ReadBody(body);
+  result.take = ReadMark(body);
+  return result;
 }
 
 }  // namespace mocap

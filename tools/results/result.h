@@ -37,11 +37,18 @@ struct BodyRecord {
   BodySizes sizes;
 };
 
+/// Table [take] of body.toml: what was tracked.
+struct TakeMark {
+  std::string name;         ///< As in take.toml.
+  std::string calibration;  ///< Checksum.
+};
+
 struct Result {
   BodyRecord body;
   std::vector<PoseRow> poses;  ///< In order of frames.
   /// What could not be read, such as damage of a log, one line each.
   std::vector<std::string> remarks = {};
+  std::optional<TakeMark> take = {};  ///< Not known of logs.
 };
 
 /// Makes the row of a frame set.
@@ -67,7 +74,7 @@ std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& fo
 /// of other people, or of one person.
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people);
 
-/// Whether a folder was written by WritePeople.
+/// Whether a folder was written by WritePeople. A take of several people is none.
 bool IsOfPeople(const std::filesystem::path& folder);
 /// Results of people tracked together, with names: person-1, or their own.
 using PeopleResults = std::vector<std::pair<std::string, Result>>;
@@ -79,7 +86,8 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
 
 /// Reads a folder of WriteResult, or a log of MOCAP_POSE and MOCAP_BODY messages by lcm-logger.
 /// @param prefix  in a log, of the channels' names; empty: any, of one daemon.
-/// @throws SetupError  when it is neither, or is damaged; names file and line.
+/// @throws SetupError  when it is neither, or is damaged; names file and line. Says when it is a
+/// take, or a result of several people.
 Result ReadResult(const std::filesystem::path& folder_or_log,
                   const std::optional<std::string>& prefix = {});
 

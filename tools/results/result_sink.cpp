@@ -5,16 +5,6 @@
 #include <string>
 
 namespace mocap {
-namespace {
-
-void Keep(const TrackedSet& set, const CaptureResult& captured, const BodyModel& body,
-          Result& result) {
-  result.poses.push_back(PoseRowOf(set.frame, set.capture_ns, captured, body));
-  result.body = RecordOf(body);
-}
-
-}  // namespace
-
 void ResultSink::OnSet(const TrackedSet& set) {
   const auto is_tracked = [](const PersonView& person) {
     return person.capture->result().state == CaptureState::kTracking;
@@ -29,6 +19,13 @@ void ResultSink::OnSet(const TrackedSet& set) {
       Keep(set, person.capture->result(), person.capture->body(), people_[person.id]);
   }
   if (shows_progress_) ShowProgress(set);
+}
+
+void ResultSink::Keep(const TrackedSet& set, const CaptureResult& captured, const BodyModel& body,
+                      Result& result) const {
+  result.poses.push_back(PoseRowOf(set.frame, set.capture_ns, captured, body));
+  result.body = RecordOf(body);
+  result.take = take_;
 }
 
 void ResultSink::ShowProgress(const TrackedSet& set) const {

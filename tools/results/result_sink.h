@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "daemon/pipeline/pose_sink.h"
 #include "tools/results/result.h"
@@ -19,7 +21,9 @@ enum class KeptPeople {
 class ResultSink : public PoseSink {
  public:
   /// @param shows_progress  print the progress on stderr, a terminal.
-  ResultSink(KeptPeople kept, bool shows_progress) : kept_(kept), shows_progress_(shows_progress) {}
+  /// @param take  what is tracked; empty: no take.
+  ResultSink(KeptPeople kept, bool shows_progress, std::optional<TakeMark> take = {})
+      : kept_(kept), shows_progress_(shows_progress), take_(std::move(take)) {}
 
   void OnSet(const TrackedSet& set) override;
   /// Clears the progress line.
@@ -34,10 +38,13 @@ class ResultSink : public PoseSink {
   int acquisition_frames() const { return acquisition_frames_; }
 
  private:
+  void Keep(const TrackedSet& set, const CaptureResult& captured, const BodyModel& body,
+            Result& result) const;
   void ShowProgress(const TrackedSet& set) const;
 
   const KeptPeople kept_;
   const bool shows_progress_;
+  const std::optional<TakeMark> take_;
   Result result_;
   std::map<int, Result> people_;
   std::size_t frames_ = 0;

@@ -53,7 +53,7 @@ std::string PosesCsv(const Result& result) {
   return text;
 }
 
-std::string BodyToml(const BodyRecord& body) {
+std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take) {
   std::string text = "model = " + TomlText(body.model) + "\n";
   text += "stature_mm = " + FixedText(body.stature_mm, 1);
   const auto append_table = [&](const char* name, const auto& fields) {
@@ -64,7 +64,10 @@ std::string BodyToml(const BodyRecord& body) {
   };
   append_table("lengths", kLengths);
   append_table("sizes", kBodySizeFields);
-  return text + '\n';
+  text += '\n';
+  if (!take) return text;
+  return text + "\n[take]\nname = " + TomlText(take->name) +
+         "\ncalibration_fnv1a = " + TomlText(take->calibration) + '\n';
 }
 
 const std::string kPersonPrefix = "person-";
@@ -139,7 +142,7 @@ void WriteResult(const std::filesystem::path& folder, const Result& result) {
   MakeFolder(folder);
   RemovePeople(folder);
   ReplaceText(folder / "poses.csv", PosesCsv(result));
-  ReplaceText(folder / "body.toml", BodyToml(result.body));
+  ReplaceText(folder / "body.toml", BodyToml(result.body, result.take));
 }
 
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people) {

@@ -131,18 +131,28 @@ Json ResultJson(const std::string& name, const Evaluation& evaluation,
 
 TakeSite::TakeSite(const std::filesystem::path& take,
                    const std::vector<std::filesystem::path>& results)
-    : pictures_(take), truth_(ReadTruePeople(take)) {
-  for (const std::filesystem::path& result : results) Add(PlainFolder(result));
+    : pictures_(take), truth_(ReadTruePeople(take)), remarks_(pictures_.remarks()) {
+  const TakeIdentity identity(take);
+  for (const std::filesystem::path& result : results) Add(identity, PlainFolder(result));
   ChooseTimes();
 }
 
-void TakeSite::Add(const std::filesystem::path& result) {
+void TakeSite::Accept(const TakeIdentity& take, const std::filesystem::path& result, Result& read) {
+  take.Require(result, read);
+  remarks_.insert(remarks_.end(), read.remarks.begin(), read.remarks.end());
+}
+
+void TakeSite::Add(const TakeIdentity& take, const std::filesystem::path& result) {
   const std::size_t group = groups_++;
   if (!IsOfPeople(result)) {
-    results_.push_back({NameOf(result), EvaluateOne(ReadResult(result), truth_), group});
+    Result read = ReadResult(result);
+    Accept(take, result, read);
+    results_.push_back({NameOf(result), EvaluateOne(std::move(read), truth_), group});
     return;
   }
-  PeopleEvaluation evaluation = EvaluatePeople(ReadPeople(result), truth_);
+  PeopleResults people = ReadPeople(result);
+  for (auto& [name, read] : people) Accept(take, result / name, read);
+  PeopleEvaluation evaluation = EvaluatePeople(std::move(people), truth_);
   for (TrackedPerson& person : evaluation.people) {
     results_.push_back({NameOf(result / person.name), std::move(person.evaluation), group,
                         person.name, person.true_person});

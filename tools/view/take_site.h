@@ -10,6 +10,7 @@
 #include "drivers/pixels/jpeg_encoder.h"
 #include "tools/report/body_outline.h"
 #include "tools/report/people_evaluation.h"
+#include "tools/results/take_identity.h"
 #include "tools/view/take_pictures.h"
 #include "tools/view/view_server.h"
 #include "tools/view/wire.h"
@@ -22,11 +23,13 @@ namespace mocap {
 class TakeSite {
  public:
   /// @param results  folders of mocap track or logs; a folder of several people counts as one
-  /// result for each. @throws SetupError  for a take or result that cannot be read.
+  /// result for each. @throws SetupError  for a take or result that cannot be read, and for a result
+  /// of another take.
   TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results);
 
   const std::string& name() const { return pictures_.name(); }
-  const std::vector<std::string>& remarks() const { return pictures_.remarks(); }
+  /// What is doubtful about the take and the results, one line each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
   /// Status 404 for unknown paths, 400 for invalid numbers.
   ViewReply Answer(const ViewRequest& request);
 
@@ -41,7 +44,9 @@ class TakeSite {
     std::vector<int> rows = {};  ///< Row of each frame; -1: none.
   };
 
-  void Add(const std::filesystem::path& result);
+  void Add(const TakeIdentity& take, const std::filesystem::path& result);
+  /// Checks that a result is of the take. @throws SetupError
+  void Accept(const TakeIdentity& take, const std::filesystem::path& result, Result& read);
   void ChooseTimes();
   std::string TakeJson() const;
   /// The requested result; null if the take has none.
@@ -62,6 +67,7 @@ class TakeSite {
   std::vector<std::uint8_t> jpeg_;
   std::vector<TruePerson> truth_;
   std::vector<ShownResult> results_;
+  std::vector<std::string> remarks_;
   std::size_t groups_ = 0;
   std::vector<std::int64_t> times_ns_;
 };

@@ -1,0 +1,50 @@
+#include "config/take_header.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "config/toml_section.h"
+#include "core/errors.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
+
+namespace mocap {
+namespace {
+
+/// Whether `mocap track` wrote the folder, for one person or several.
+bool IsResult(const std::filesystem::path& folder) {
+  if (IsThere(folder / "poses.csv")) return true;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const bool is_person = entry.path().filename().native().starts_with("person-");
+    if (is_person && IsThere(entry.path() / "poses.csv")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TakeHeader ReadTakeHeader(const std::filesystem::path& take) {
+  const TakeLayout layout{take};
+  RequireFolder(take, "a take");
+  if (!IsThere(layout.Description()) && IsResult(take)) {
+    throw SetupError(take.string() +
+                     ": is a result of tracking, not a take; expected a folder with take.toml");
+  }
+  TomlSection section = TomlSection::ReadFile(layout.Description());
+  TakeHeader header;
+  header.name = section.Text("name");
+  header.fps_nominal = section.NumberWithin("fps_nominal", 0.1, 10000);
+  header.cameras = section.Texts("cameras");
+  if (header.cameras.empty()) section.Fail("cameras", "is empty; expected names of cameras");
+  for (const std::string& name : header.cameras) {
+    if (!IsCameraName(name)) {
+      section.Fail("cameras", "has a name that is not made of letters, digits, _ and -");
+    }
+    if (std::count(header.cameras.begin(), header.cameras.end(), name) > 1) {
+      section.Fail("cameras", "has \"" + name + "\" twice");
+    }
+  }
+  return header;
+}
+
+}  // namespace mocap
