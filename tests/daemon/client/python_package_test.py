@@ -6,6 +6,7 @@ usage: python_package_test.py [TEST ...]      with the package in PYTHONPATH
 import os
 import random
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -114,6 +115,45 @@ class LogTest(unittest.TestCase):
         self.url = "file://" + self.log.path
 
 
+class FolderTest(unittest.TestCase):
+    """Folders that are taken for others."""
+
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+
+    def holds(self, *names):
+        for name in names:
+            path = os.path.join(self.folder, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            open(path, "w").close()
+        return self.folder
+
+    def test_one_person_is_not_read_as_several(self):
+        with self.assertRaisesRegex(ValueError, "is a result of one person; use read_result"):
+            mocapd.read_people(self.holds("poses.csv", "body.toml"))
+
+    def test_several_people_are_not_read_as_one_whatever_their_numbers(self):
+        with self.assertRaisesRegex(ValueError, "several people; use read_people"):
+            mocapd.read_result(self.holds("person-7/poses.csv"))
+
+    def test_a_take_is_no_result_whoever_is_in_it(self):
+        take = self.holds("take.toml", "person-1/truth.csv")
+        for read in (mocapd.read_result, mocapd.read_people):
+            with self.assertRaisesRegex(ValueError, "is a take, not a result; .*mocap track"):
+                read(take)
+
+    def test_folders_and_logs_are_not_mixed_up(self):
+        with self.assertRaisesRegex(ValueError, "is a folder; use read_result"):
+            mocapd.read_log(self.folder)
+        with self.assertRaisesRegex(ValueError, "use read_log"):
+            mocapd.read_result(self.holds("session.lcm") + "/session.lcm")
+
+    def test_nobody_is_an_empty_folder_and_no_other(self):
+        self.assertEqual(mocapd.read_people(self.folder), {})
+        with self.assertRaisesRegex(ValueError, "no person-1"):
+            mocapd.read_people(self.holds("notes.txt"))
+
+
 class ReassemblyTest(unittest.TestCase):
     DATA = bytes(random.Random(1).randbytes(4500))
 
@@ -175,6 +215,14 @@ class AddressTest(unittest.TestCase):
                 next(mocapd.listen(wrong))
 
 
+    def test_a_port_of_another_program_is_named(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+            other.bind(("", 0))
+            port = other.getsockname()[1]
+            with self.assertRaisesRegex(OSError, f"UDP port {port} is in use by another program: ss -ulpn"):
+                next(mocapd.listen(f"udpm://{GROUP}:{port}", timeout_s=1))
+
+
 class DecodeTest(unittest.TestCase):
     def test_damaged_messages_are_none_or_something_else_but_never_an_error(self):
         chance = random.Random(3)
@@ -208,6 +256,20 @@ class ListenTest(LogTest):
         np.testing.assert_allclose(pose.torso_rotation @ [1, 0, 0], [np.cos(0.5), np.sin(0.5), 0])
         self.assertEqual(pose.body.sizes_mm, {"thigh": 420.0})
         self.assertEqual(pose.points_mm.shape, (23, 3))
+
+    def test_names_that_are_none_are_answered_with_those_that_there_are(self):
+        self.log.add("MOCAP_BODY", body_message()).add("MOCAP_POSE", pose_message(3)).write()
+        pose, = mocapd.listen(self.url)
+        result = mocapd.read_log(self.log.path)
+        for some in (pose, result):
+            with self.assertRaisesRegex(ValueError, "no point 'wrist_l'; there are torso, head, .*, fingertips_l"):
+                some.point("wrist_l")
+            with self.assertRaisesRegex(ValueError, "no joint 'elbow_l'; there are neck_x, elbow_l_z"):
+                some.angle("elbow_l")
+        with self.assertRaisesRegex(ValueError, "no joint 'theta_17'; .* theta_16"):
+            result.angle("theta_17")
+        self.assertEqual(result.angle("theta_16")[0], result.theta_rad[0, 15])
+        self.assertEqual(result.angle("elbow_l_z")[0], 0.2)
 
     def test_whoever_is_not_tracked_is_nan(self):
         for frame, state in enumerate((pose_t.SEARCHING, pose_t.ACQUIRING, pose_t.LOST)):

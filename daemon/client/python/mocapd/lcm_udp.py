@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import collections
 import dataclasses
+import errno
 import ipaddress
 import socket
 import struct
@@ -111,14 +112,21 @@ def parse_group(url: str) -> tuple[str, int]:
 
 
 def open_socket(group: str, port: int) -> socket.socket:
-    """Joins a group. @raises OSError where there is no multicast route."""
+    """Joins a group. @raises OSError  where there is no multicast route, or another program has the port."""
     udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     if hasattr(socket, "SO_REUSEPORT"):
         udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
     udp.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER)
-    # Outside of Linux, a group cannot be bound to.
-    udp.bind((group if hasattr(socket, "SO_REUSEPORT") else "", port))
+    try:
+        # Outside of Linux, a group cannot be bound to.
+        udp.bind((group if hasattr(socket, "SO_REUSEPORT") else "", port))
+    except OSError as error:
+        udp.close()
+        if error.errno != errno.EADDRINUSE:
+            raise
+        raise OSError(error.errno, f"UDP port {port} is in use by another program: ss -ulpn names it; end it, or use another "
+                      "port") from error
     udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
                    struct.pack("=4sL", socket.inet_aton(group), socket.INADDR_ANY))
     return udp

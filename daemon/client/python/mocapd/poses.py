@@ -34,6 +34,13 @@ def decoded(kind: type[Message], data: bytes) -> Message | None:
         return None
 
 
+def place_of(name: str, names: tuple[str, ...], kind: str) -> int:
+    """Where a name is among those that there are. @raises ValueError  naming them."""
+    if name not in names:
+        raise ValueError(f"there is no {kind} {name!r}; there are {', '.join(names)}")
+    return names.index(name)
+
+
 def is_time(utime: int) -> bool:
     return 0 <= utime <= LATEST_US
 
@@ -108,12 +115,14 @@ class Pose:
         return self.utime * 1e-6
 
     def point(self, name: str) -> np.ndarray:
-        """Where one of POINT_NAMES lies; 3 [mm]."""
-        return self.points_mm[POINT_NAMES.index(name)]
+        """Where one of POINT_NAMES lies; 3 [mm]. @raises ValueError  for another name."""
+        return self.points_mm[place_of(name, POINT_NAMES, "point")]
 
     def angle(self, joint: str) -> float:
-        """How far one of body.joint_names is turned [rad]; NaN where nobody is tracked."""
-        return float("nan") if self.body is None else float(self.joints_rad[self.body.joint_names.index(joint)])
+        """How far one of body.joint_names is turned [rad]; NaN where nobody is tracked. @raises ValueError  for another name."""
+        if self.body is None:
+            return float("nan")
+        return float(self.joints_rad[place_of(joint, self.body.joint_names, "joint")])
 
     @classmethod
     def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,

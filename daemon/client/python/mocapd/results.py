@@ -14,7 +14,7 @@ import numpy as np
 from .lcm_log import read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, rotation_matrix, state_name
+from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, place_of, rotation_matrix, state_name
 
 if TYPE_CHECKING:
     import pandas
@@ -56,14 +56,18 @@ class Result:
         return (self.timestamp_ns - self.timestamp_ns[:1]) * 1e-9
 
     def point(self, name: str) -> np.ndarray:
-        """Where one of POINT_NAMES lies; n x 3 [mm]."""
-        return self.points_mm[:, POINT_NAMES.index(name)]
+        """Where one of POINT_NAMES lies; n x 3 [mm]. @raises ValueError  for another name."""
+        return self.points_mm[:, place_of(name, POINT_NAMES, "point")]
 
     def angle(self, joint: str) -> np.ndarray:
-        """How far a joint is turned; n [rad]. One of joint_names, or "theta_1" to "theta_16" of Table 1."""
-        if joint in self.joint_names:
-            return self.joints_rad[:, self.joint_names.index(joint)]
-        return self.theta_rad[:, [f"theta_{i + 1}" for i in range(PAPER_ANGLES)].index(joint)]
+        """How far a joint is turned; n [rad]. One of joint_names, or "theta_1" to "theta_16" of Table 1.
+
+        @raises ValueError  for another name; only results of logs have joint_names.
+        """
+        paper = tuple(f"theta_{i + 1}" for i in range(PAPER_ANGLES))
+        place = place_of(joint, self.joint_names + paper, "joint")
+        joints = len(self.joint_names)
+        return self.joints_rad[:, place] if place < joints else self.theta_rad[:, place - joints]
 
     def to_pandas(self) -> pandas.DataFrame:
         """A column a number, with the names of poses.csv; joints as NAME_rad. Needs pandas."""
@@ -83,11 +87,16 @@ class Result:
 def read_result(folder: Path) -> Result:
     """Reads a folder of `mocap track`, or RESULT/person-K of several people.
 
-    @raises OSError  where it is none. @raises ValueError  naming file and line of what is damaged, or for several people.
+    @raises OSError  where it is none. @raises ValueError  naming file and line of what is damaged, or what else it is: a log, a
+    take, or a result of several people.
     """
     poses = pathlib.Path(folder) / "poses.csv"
-    if not poses.exists() and (pathlib.Path(folder) / "person-1").is_dir():
-        raise ValueError(f"{folder}: contains several people; use read_people(), or one of its folders person-K")
+    if pathlib.Path(folder).is_file():
+        raise ValueError(f"{folder}: is a file; use read_log() for a log, or give the folder that mocap track made")
+    if not poses.exists():
+        if _person_folders(folder):
+            raise ValueError(f"{folder}: contains several people; use read_people(), or one of its folders person-K")
+        _refuse_take(folder)
     body = tomllib.loads((pathlib.Path(folder) / "body.toml").read_text(encoding="utf-8"))
     rows = _Rows()
     with open(poses, newline="", encoding="utf-8") as table:
@@ -106,8 +115,10 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
 
     @param prefix  what stands before the channels' names; None: whatever it is, if it is one.
     @param person  number, as in read_people().
-    @raises ValueError  when it holds none, or those of several daemons.
+    @raises ValueError  when it holds none, or those of several daemons, or is a folder.
     """
+    if pathlib.Path(path).is_dir():
+        raise ValueError(f"{path}: is a folder; use read_result() or read_people() for what mocap track made")
     if person is not None:
         people = _read_people_log(path, prefix)
         if person not in people:
@@ -129,17 +140,36 @@ def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Res
     """Reads everybody out of a folder of `mocap track --people`, or out of a log.
 
     @return  by "person-1" and so on; out of a log by the person's name, for whoever has one of his own.
+    @raises ValueError  for a folder of one person, for a take, and for other folders.
     """
     folder = pathlib.Path(folder_or_log)
+    if (folder / "poses.csv").exists():
+        raise ValueError(f"{folder}: is a result of one person; use read_result()")
     if folder.is_dir():
-        numbers = sorted(int(path.name.removeprefix("person-")) for path in folder.glob("person-*")
-                         if path.name.removeprefix("person-").isdecimal())
-        return {f"person-{number}": read_result(folder / f"person-{number}") for number in numbers}
+        people = _person_folders(folder)
+        if not people:
+            _refuse_take(folder)
+            # Where nobody was tracked, `mocap track --people` leaves an empty folder.
+            if any(folder.iterdir()):
+                raise ValueError(f"{folder}: contains no person-1 or the like; expected what mocap track --people makes, or a log")
+        return {person.name: read_result(person) for person in people}
     results: dict[str, Result] = {}
     for number, (name, result) in _read_people_log(folder, prefix).items():
         # Two people may have had the same name, one after the other.
         results[name if name and name not in results else f"person-{number}"] = result
     return results
+
+
+def _person_folders(folder: Path) -> list[pathlib.Path]:
+    """Results in RESULT/person-K, by number; a take has folders of these names without poses."""
+    numbers = {path: path.name.removeprefix("person-") for path in pathlib.Path(folder).glob("person-*")}
+    return sorted((path for path, number in numbers.items() if number.isdecimal() and (path / "poses.csv").exists()),
+                  key=lambda path: int(numbers[path]))
+
+
+def _refuse_take(folder: Path) -> None:
+    if (pathlib.Path(folder) / "take.toml").exists():
+        raise ValueError(f"{folder}: is a take, not a result; track it first: mocap track TAKE --out RESULT")
 
 
 def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Result]]:
