@@ -25,7 +25,9 @@ struct C3dPoint {
 };
 
 struct ReadC3d {
-  int header_points = 0, header_first = 0, header_last = 0;
+  int header_points = 0, header_first = 0, header_last = 0, header_data_block = 0;
+  int header_analog_values = 0, header_analog_samples = 0;  ///< Per frame: of all channels, of one.
+  float header_scale = 0, header_rate_hz = 0;
   std::map<std::string, C3dParameter> parameters;  ///< By "GROUP:NAME".
   std::vector<std::string> labels;
   std::vector<std::vector<C3dPoint>> frames;
@@ -111,9 +113,13 @@ inline ReadC3d ReadC3dFile(const std::string& file) {
   const std::size_t analog = bytes.Get<std::uint16_t>(4);
   c3d.header_first = bytes.Get<std::uint16_t>(6);
   c3d.header_last = bytes.Get<std::uint16_t>(8);
-  const double scale = bytes.Get<float>(12);
+  const double scale = c3d.header_scale = bytes.Get<float>(12);
   if (scale >= 0) throw std::runtime_error("integers, floats are wanted");
-  std::size_t at = 512 * (bytes.Get<std::uint16_t>(16) - 1);
+  c3d.header_data_block = bytes.Get<std::uint16_t>(16);
+  c3d.header_analog_values = static_cast<int>(analog);
+  c3d.header_analog_samples = bytes.Get<std::uint16_t>(18);
+  c3d.header_rate_hz = bytes.Get<float>(20);
+  std::size_t at = 512 * (c3d.header_data_block - 1);
   ReadC3dParameters(bytes, c3d);
   for (int part = 1;; ++part) {
     const auto labels =

@@ -57,12 +57,15 @@ void AddSubjects(const C3dLayout& layout, C3dParameters& parameters) {
   parameters.Texts("MARKER_SETS", std::vector<std::string>(layout.subjects.size(), "mocapd"));
 }
 
+/// Of each analog channel per frame. There is no channel, but readers compare this with the rates.
+constexpr std::uint16_t kAnalogSamples = 1;
+
 /// Empty groups that programs expect.
 void AddWhatIsMissing(const C3dLayout& layout, C3dParameters& parameters) {
   parameters.Group("ANALOG");
   parameters.Integer("USED", 0);
   parameters.Real("GEN_SCALE", 1);
-  parameters.Real("RATE", layout.rate_hz);
+  parameters.Real("RATE", kAnalogSamples * layout.rate_hz);
   parameters.Texts("LABELS", {});
   parameters.Texts("DESCRIPTIONS", {});
   parameters.Texts("UNITS", {});
@@ -130,13 +133,13 @@ std::string HeaderBlock(const C3dLayout& layout, int data_block) {
   header.Add(std::uint8_t{2});  // First block of the parameters.
   header.Add(std::uint8_t{0x50});
   header.Add(static_cast<std::uint16_t>(layout.labels.size()));
-  header.Add(std::uint16_t{0});  // Analog values per frame.
+  header.Add(std::uint16_t{0});  // Analog values of all channels per frame.
   header.Add(std::uint16_t{1});
   header.Add(static_cast<std::uint16_t>(Shortened(layout.frames)));
   header.Add(std::uint16_t{0});  // No interpolated gaps.
   header.Add(static_cast<float>(kC3dScale));
   header.Add(static_cast<std::uint16_t>(data_block));
-  header.Add(std::uint16_t{0});
+  header.Add(kAnalogSamples);
   header.Add(static_cast<float>(layout.rate_hz));
   header.PadTo(kBeforeLabels);
   header.Add(kLabelsOfFourLetters);

@@ -97,6 +97,17 @@ TEST(C3dWriter, KeepsEveryPointInPlaceAndSaysWhichAxisIsUp) {
   EXPECT_EQ(static_cast<int>(c3d.labels.size()), c3d.header_points);
 }
 
+TEST(C3dWriter, HeaderAndParametersAgreeAsReadersDemand) {
+  const ReadC3d c3d = WriteAndReadC3d(SwingingResult(30));
+  EXPECT_EQ(c3d.header_points, c3d.Number("POINT:USED"));
+  EXPECT_EQ(c3d.header_scale, c3d.Number("POINT:SCALE"));
+  EXPECT_EQ(c3d.header_rate_hz, c3d.Number("POINT:RATE"));
+  EXPECT_EQ(c3d.header_data_block, c3d.Number("POINT:DATA_START"));
+  EXPECT_EQ(c3d.header_last - c3d.header_first + 1, c3d.Number("POINT:FRAMES"));
+  EXPECT_EQ(c3d.header_analog_samples, c3d.Number("ANALOG:RATE") / c3d.Number("POINT:RATE"));
+  EXPECT_EQ(c3d.header_analog_values, c3d.Number("ANALOG:USED") * c3d.header_analog_samples);
+}
+
 TEST(C3dWriter, HasTheRaisedArmOnTheRight) {
   const BodyModel body = GrownBody();
   const ReadC3d c3d = WriteAndReadC3d(ResultOf(body, RightArmRaised(body)));
