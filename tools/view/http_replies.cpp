@@ -23,8 +23,11 @@ HttpResponse Respond(const HttpRequest& request, int status, const std::string& 
   response.set(http::field::cache_control, "no-store");
   if (!type.empty()) response.set(http::field::content_type, type);
   response.keep_alive(request.keep_alive());
-  if (request.method() != http::verb::head) response.body() = std::move(body);
+  const std::size_t size = body.size();
+  const bool is_head = request.method() == http::verb::head;
+  if (!is_head) response.body() = std::move(body);
   response.prepare_payload();
+  if (is_head && size > 0) response.content_length(size);
   return response;
 }
 

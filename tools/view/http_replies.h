@@ -10,7 +10,7 @@ namespace mocap {
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// Returns a response with the headers that protect the page.
+/// Returns a response with the headers that protect the page; for HEAD, of GET without its body.
 HttpResponse Respond(const HttpRequest& request, int status, const std::string& type,
                      std::string body);
 /// Returns a response of one line of text.

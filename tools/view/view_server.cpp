@@ -274,9 +274,9 @@ class ViewServer::Impl {
     ViewRequest asked;
     asked.path = std::move(target.path);
     asked.query = std::move(target.query);
-    const bool is_get = request.method() == http::verb::get;
+    const bool is_get = request.method() == http::verb::get || request.method() == http::verb::head;
     if (!is_get && request.method() != http::verb::post) {
-      co_return Refuse(request, 405, "expected GET or POST");
+      co_return Refuse(request, 405, "expected GET, HEAD or POST");
     }
     const auto file = options_.files.find(asked.path);
     if (is_get && file != options_.files.end()) {
