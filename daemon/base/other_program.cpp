@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
+#include <filesystem>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -203,6 +206,20 @@ ProgramRun Run(const std::vector<std::string>& command, std::string_view input,
 }
 
 }  // namespace
+
+bool IsProgram(const std::string& name) {
+  const auto is_executable = [](const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0;
+  };
+  if (name.find('/') != std::string::npos) return is_executable(name);
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (is_executable(std::filesystem::path(folder.empty() ? "." : folder) / name)) return true;
+  }
+  return false;
+}
 
 ProgramRun RunOtherProgram(const std::vector<std::string>& command, std::string_view input,
                            const ProgramLimits& limits) {

@@ -24,6 +24,9 @@ struct ProgramLimits {
   std::size_t longest_output = 0;         ///< [bytes]
 };
 
+/// Whether RunOtherProgram would find a program: a path, or a name in PATH.
+bool IsProgram(const std::string& name);
+
 /// Runs a program without a shell, in its own session, so that it cannot prompt on a terminal.
 ///
 /// In every case, the program and its process group are killed at the end: no process and no

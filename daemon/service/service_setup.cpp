@@ -7,10 +7,12 @@
 #include "core/calibration/camera_places.h"
 #include "core/errors.h"
 #include "core/make_motion_capture.h"
+#include "daemon/base/other_program.h"
 #include "daemon/base/service_folders.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/open_lcm.h"
 #include "daemon/pipeline/realtime.h"
+#include "drivers/quoted.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -52,6 +54,16 @@ void RequireMetricsPlace(const std::filesystem::path& file) {
   }
 }
 
+void RequireNodePrograms(const std::vector<StudioNode>& nodes) {
+  for (const StudioNode& node : nodes) {
+    if (node.control.empty() || IsProgram(node.control.front())) continue;
+    throw SetupError("nodes: control of the node " + Quoted(node.name) + " begins with " +
+                     Quoted(node.control.front()) +
+                     ", which is no program here; expected a program's path or its name in PATH, "
+                     "such as \"ssh\"");
+  }
+}
+
 void RequireTakesPlace(const std::filesystem::path& folder) {
   if (folder.empty()) return;
   if (const std::string why = WhyNotWritable(folder); !why.empty()) {
@@ -77,6 +89,7 @@ PreparedService Prepare(const Config& config) {
 void RequirePlaces(const Config& config) {
   RequireMetricsPlace(config.service.metrics.file);
   RequireTakesPlace(config.service.recording.folder);
+  RequireNodePrograms(config.nodes);
 }
 
 PreparedService PrepareService(const Config& config) {

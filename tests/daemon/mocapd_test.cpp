@@ -31,6 +31,7 @@ extern char** environ;
 namespace mocap {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using testing::SmallTake;
@@ -342,6 +343,26 @@ TEST_F(MocapdTest, WhatTheStartRefusesTheCheckRefusesWithTheSameWords) {
     testing::WriteText(config, "[source]\n" + take + "[lcm]\nurl = \"" + url + "\"\n");
     EXPECT_EQ(Daemon({"--config", config}, log_).Wait(), 2) << url;
     EXPECT_EQ(Daemon({"--config", config, "--check-config"}, log_).Wait(), 2) << url;
+  }
+}
+
+TEST_F(MocapdTest, AMisspeltProgramThatAsksANodeIsRefused) {
+  const std::string config = folder_.path() / "studio.toml";
+  const std::string missing = folder_.path() / "ssh";
+  for (const std::string& program : {std::string("shh"), missing, folder_.path().string()}) {
+    testing::WriteText(config,
+                       "role = \"studio\"\ncalibration = \"c.toml\"\n[source]\ndriver = \"none\"\n"
+                       "fps = 60\n[lcm]\nurl = \"memq://\"\n[[nodes]]\nname = \"left\"\n"
+                       "cameras = [\"cam1\"]\ncontrol = [\"" +
+                           program + "\", \"left\"]\n");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--check-config"}}) {
+      std::vector<std::string> arguments = {"--config", config};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      Daemon daemon(arguments, log_);
+      EXPECT_EQ(daemon.Wait(), 2);
+      EXPECT_THAT(daemon.Errors(), AllOf(HasSubstr("control of the node \"left\""),
+                                         HasSubstr("which is no program here")));
+    }
   }
 }
 
