@@ -69,6 +69,9 @@ void ReadPlace(const std::string& url, std::string_view place, LcmUrl& address) 
   if (place.empty()) return;
   const std::size_t colon = place.rfind(':');
   address.host = place.substr(0, colon);
+  if (place.starts_with('[')) {
+    Fail(url, "has an IPv6 address, and LCM knows only IPv4" + std::string(kWanted));
+  }
   constexpr int kHighestPort = 65535;
   const std::optional<int> port = colon == std::string_view::npos
                                       ? std::nullopt

@@ -43,6 +43,8 @@ TEST(LcmUrl, RefusesWhatLcmPassesOver) {
       {"udpm://239.255.76.67:7667?tll=1", "unknown option tll"},
       {"udpm://239.255.76.67:7667?nports=3", "unknown option nports"},
       {"tcpq://host", "no address with a port"},
+      {"tcpq://[::1]:7700", "LCM knows only IPv4"},
+      {"udpm://[ff02::1]:7667", "LCM knows only IPv4"},
       {"file://?mode=w", "has no file name"},
       {"file:///tmp/x?mode=x", "mode=x"},
       {"file:///tmp/x?speed=fast", "speed=fast"},

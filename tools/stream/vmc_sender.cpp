@@ -3,6 +3,8 @@
 #include <lo/lo.h>
 
 #include <charconv>
+#include <cstdlib>
+#include <memory>
 #include <string_view>
 
 #include "core/errors.h"
@@ -36,6 +38,15 @@ Place ParsePlace(const std::string& text) {
         "\" is not an address; expected HOST:PORT, like 127.0.0.1:39539 or [::1]:39539");
   }
   return {host, std::to_string(number)};
+}
+
+UdpSender OpenPlace(const std::string& text) {
+  const Place place = ParsePlace(text);
+  try {
+    return {place.host, place.port};
+  } catch (const SetupError& error) {
+    throw SetupError("--to: " + text + ": " + error.what());
+  }
 }
 
 struct Status {
@@ -79,9 +90,7 @@ Matrix3 UnityFromStudio() {
 }
 
 VmcSender::VmcSender(const std::string& place)
-    : address_(nullptr, &lo_address_free), bundle_(nullptr, &lo_bundle_free_recursive) {
-  const Place parsed = ParsePlace(place);
-  address_.reset(lo_address_new(parsed.host.c_str(), parsed.port.c_str()));
+    : receiver_(OpenPlace(place)), bundle_(nullptr, &lo_bundle_free_recursive) {
   SendState(CaptureState::kSearching, 0);
   if (!trouble_.empty()) throw SetupError("--to: " + place + ": " + trouble_);
 }
@@ -125,9 +134,11 @@ void VmcSender::Add(const char* path, void* message) {
 }
 
 void VmcSender::Flush() {
-  if (lo_send_bundle(address_.get(), bundle_.get()) >= 0) return;
-  const char* why = lo_address_errstr(address_.get());
-  trouble_ = why ? why : "it cannot be sent";
+  std::size_t size = 0;
+  const std::unique_ptr<void, void (*)(void*)> bytes(
+      lo_bundle_serialise(bundle_.get(), nullptr, &size), &std::free);
+  const std::string why = receiver_.Send({static_cast<const char*>(bytes.get()), size});
+  if (!why.empty()) trouble_ = why;
 }
 
 }  // namespace mocap

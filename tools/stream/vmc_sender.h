@@ -6,6 +6,7 @@
 
 #include "core/motion_capture.h"
 #include "tools/stream/humanoid.h"
+#include "tools/stream/udp_sender.h"
 
 namespace mocap {
 
@@ -38,7 +39,8 @@ class VmcSender {
   void Add(const char* path, void* message);
   void Flush();
 
-  Handle address_, bundle_;
+  UdpSender receiver_;
+  Handle bundle_;
   std::string trouble_;
 };
 

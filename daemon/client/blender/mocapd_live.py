@@ -88,8 +88,12 @@ class Receiver:
     """Hears the protocol and keeps the newest pose that is whole."""
 
     def __init__(self, port):
-        self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        # Of IPv6 and IPv4, where the system has both.
+        is_both = socket.has_dualstack_ipv6()
+        self.udp = socket.socket(socket.AF_INET6 if is_both else socket.AF_INET, socket.SOCK_DGRAM)
         try:
+            if is_both:
+                self.udp.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 0)
             self.udp.bind(("", port))
         except OSError:
             self.udp.close()

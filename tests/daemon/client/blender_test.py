@@ -52,6 +52,10 @@ def in_blender(mocap, log, port):
                     b"#bundle\0" + b"\0" * 8 + b"\x7f\xff\xff\xff"):
         stranger.sendto(garbage, ("127.0.0.1", port))
     live = mocapd_live.live_body
+    if socket.has_dualstack_ipv6():
+        with socket.socket(socket.AF_INET6, socket.SOCK_DGRAM) as neighbour:
+            neighbour.sendto(osc("/VMC/Ext/T", 12.5), ("::1", port))
+            assert not live.poll() and live.receiver.time_s == 12.5, live.receiver.time_s
     # Neither must whole poses of nothing, nor an armature that lost a bone.
     for number in ("x", float("nan"), 0.0):
         for bone in mocapd_live.PARENTS:

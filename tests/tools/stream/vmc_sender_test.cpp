@@ -54,12 +54,18 @@ class Receiver {
     sockaddr_in place{};
     place.sin_family = AF_INET;
     place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof place;
-    EXPECT_EQ(bind(fd_.get(), reinterpret_cast<sockaddr*>(&place), size), 0);
-    EXPECT_EQ(getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&place), &size), 0);
-    port_ = ntohs(place.sin_port);
+    port_ = Bind(place, place.sin_port);
   }
-  std::string place() const { return "127.0.0.1:" + std::to_string(port_); }
+  /// Of IPv6.
+  explicit Receiver(const in6_addr& host) : fd_(socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in6 place{};
+    place.sin6_family = AF_INET6;
+    place.sin6_addr = host;
+    port_ = Bind(place, place.sin6_port);
+  }
+  bool is_open() const { return port_ > 0; }
+  std::string port() const { return std::to_string(port_); }
+  std::string place() const { return "127.0.0.1:" + port(); }
 
   /// Reads what has come: on this host it is here when sending returns.
   Heard TakeAll() {
@@ -106,6 +112,15 @@ class Receiver {
         EXPECT_TRUE(heard.bones.emplace(name, sent).second) << name;
       }
     }
+  }
+
+  /// @return  the port; 0: there is no such address here.
+  template <typename Place>
+  int Bind(Place& place, const in_port_t& port) const {
+    socklen_t size = sizeof place;
+    if (bind(fd_.get(), reinterpret_cast<sockaddr*>(&place), size) != 0) return 0;
+    EXPECT_EQ(getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&place), &size), 0);
+    return ntohs(port);
   }
 
   FileDescriptor fd_;
@@ -257,6 +272,19 @@ INSTANTIATE_TEST_SUITE_P(Bodies, VmcSenderTest, ::testing::Values("full", "mikic
 TEST(VmcSender, SaysHelloOfNobody) {
   Receiver receiver;
   const VmcSender sender(receiver.place());
+  EXPECT_EQ(receiver.TakeAll().status, (std::vector<int>{0, 0, 0, 0}));
+}
+
+TEST(VmcSender, ReachesTheAddressOfIPv6ThatItsMessageOffers) {
+  Receiver receiver(in6addr_loopback);
+  if (!receiver.is_open()) GTEST_SKIP() << "there is no IPv6";
+  const VmcSender sender("[::1]:" + receiver.port());
+  EXPECT_EQ(receiver.TakeAll().status, (std::vector<int>{0, 0, 0, 0}));
+}
+
+TEST(VmcSender, ANameThatIsBothIsReachedByIPv4) {
+  Receiver receiver;
+  const VmcSender sender("localhost:" + receiver.port());
   EXPECT_EQ(receiver.TakeAll().status, (std::vector<int>{0, 0, 0, 0}));
 }
 
