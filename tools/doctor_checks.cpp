@@ -120,8 +120,8 @@ Diagnosis CheckMulticastEcho(const std::string& url) {
       CheckLcm(url);
       return {Verdict::kGood, "the log " + url + " can be written", ""};
     }
+    const std::unique_ptr<lcm::LCM> receiver = OpenLcmToListen(url);
     const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
-    const std::unique_ptr<lcm::LCM> receiver = OpenLcm(url);
     bool heard = false;
     receiver->subscribeFunction(
         kEchoChannel,

@@ -98,7 +98,7 @@ void ViewLive(const ViewOptions& options) {
     throw SetupError("--url: " + url + " is a log; to view it: mocap view TAKE LOG");
   const std::string token = MakeToken();
   ControlDesk desk(options.socket.empty() ? config.service.control.socket : options.socket, token);
-  const std::unique_ptr<lcm::LCM> lcm = OpenLcm(url);
+  const std::unique_ptr<lcm::LCM> lcm = OpenLcmToListen(url);
   std::map<std::string, PageFile> files = PageFiles();
   AddAbout("live", "mocapd", files);
   ViewServer server({.port = static_cast<std::uint16_t>(options.port),

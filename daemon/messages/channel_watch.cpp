@@ -93,6 +93,7 @@ void ChannelWatch::NoteSent(std::int64_t utime) { register_.NoteSent(utime, Stea
 ChannelStatus ChannelWatch::Status() const {
   ChannelStatus status;
   if (address_.provider == LcmProvider::kMulticast) status = register_.Status(SteadyNs());
+  if (listener_) status.receive_fault = listener_->Fault();
   status.reaches_nobody = address_.provider == LcmProvider::kMemory;
   return status;
 }

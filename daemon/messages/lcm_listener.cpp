@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "config/lcm_url.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/clock.h"
 
@@ -29,13 +28,28 @@ LcmListener::~LcmListener() {
   thread_.join();
 }
 
+std::string LcmListener::Fault() const {
+  const std::scoped_lock lock(mutex_);
+  return fault_;
+}
+
+/// Without a route or a port, LCM would print many lines.
+bool LcmListener::CanReceive(const LcmUrl& address) {
+  std::string fault = ReceiveFault(address);
+  const bool has_port = fault.empty();
+  {
+    const std::scoped_lock lock(mutex_);
+    fault_ = std::move(fault);
+  }
+  return has_port && (address.provider != LcmProvider::kMulticast || HasMulticastRoute());
+}
+
 void LcmListener::Run() {
   pthread_setname_np(pthread_self(), name_.c_str());
-  const bool needs_route = ParseLcmUrl(url_).provider == LcmProvider::kMulticast;
+  const LcmUrl address = ParseLcmUrl(url_);
   while (!stop_.load()) {
-    // Without a route, LCM would print many lines.
     std::unique_ptr<lcm::LCM> lcm;
-    if (!needs_route || HasMulticastRoute()) lcm = std::make_unique<lcm::LCM>(url_);
+    if (CanReceive(address)) lcm = std::make_unique<lcm::LCM>(url_);
     const bool is_open = lcm && lcm->good();
     if (is_open) calls_.subscribe(*lcm);
     std::int64_t heard_ns = SteadyNs(), asked_ns = heard_ns;

@@ -5,8 +5,11 @@
 #include <chrono>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <mutex>
 #include <string>
 #include <thread>
+
+#include "config/lcm_url.h"
 
 namespace mocap {
 
@@ -27,13 +30,19 @@ class LcmListener {
   LcmListener(const LcmListener&) = delete;
   LcmListener& operator=(const LcmListener&) = delete;
 
+  /// Why nothing can be received, as ReceiveFault; empty: it can. From any thread.
+  std::string Fault() const;
+
  private:
   void Run();
+  bool CanReceive(const LcmUrl& address);
 
   const std::string name_, url_;
   const std::chrono::nanoseconds reopen_;
   const Calls calls_;
   std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  std::string fault_;  ///< Guarded by mutex_.
   std::thread thread_;
 };
 

@@ -131,6 +131,33 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
                    "\" cannot be opened; expected one like udpm://239.255.76.67:7667?ttl=0");
 }
 
+std::string ReceiveFault(const LcmUrl& address) {
+  if (address.provider != LcmProvider::kMulticast) return "";
+  const FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const int is_shared = 1;
+  setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &is_shared, sizeof is_shared);
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_port = htons(address.port);
+  sockaddr place{};
+  static_assert(sizeof place == sizeof here);
+  std::memcpy(&place, &here, sizeof here);
+  if (bind(fd.get(), &place, sizeof place) == 0) return "";
+  const std::string port = "UDP port " + std::to_string(address.port);
+  const int error = errno;
+  if (error == EADDRINUSE) {
+    return port + " is in use by another program: ss -ulpn names it; end it, or use another port";
+  }
+  return port + " cannot be used: " + std::strerror(error) + "; expected a port above 1023";
+}
+
+std::unique_ptr<lcm::LCM> OpenLcmToListen(const std::string& url) {
+  if (const std::string fault = ReceiveFault(Parse(url)); !fault.empty()) {
+    throw SetupError("nothing can be received on " + Printable(url) + ": " + fault);
+  }
+  return OpenLcm(url);
+}
+
 std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
   return Parse(url).provider == LcmProvider::kMulticast ? OpenLcm(url) : nullptr;
 }

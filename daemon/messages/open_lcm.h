@@ -14,6 +14,15 @@ namespace mocap {
 /// adds one.
 std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url);
 
+/// Opens a connection for receiving.
+/// @throws SetupError  as OpenLcm, and with the text of ReceiveFault.
+std::unique_ptr<lcm::LCM> OpenLcmToListen(const std::string& url);
+
+/// Says why nothing can be received on a multicast address: its port belongs to another program, or
+/// to root. Asks the kernel as LCM does, which would print an error without an address. Empty: it
+/// can.
+std::string ReceiveFault(const LcmUrl& address);
+
 /// Opens a second connection to the same listeners, for a thread of low priority. LCM locks a
 /// connection while it sends, so a shared one would make others wait for that thread. Null if only
 /// one is possible: a server, a log, this process. @throws SetupError

@@ -55,6 +55,9 @@ void ComplainOfDelivery(const ServiceReport& report, List& list) {
         fmt::format("poses cannot be sent to {}: {}: check the network, its multicast route or the "
                     "LCM server; mocap doctor helps",
                     report.lcm_url, delivery.problem));
+  } else if (!delivery.channel.receive_fault.empty()) {
+    list.push_back(fmt::format("nobody on this host receives poses on {}: {}", report.lcm_url,
+                               delivery.channel.receive_fault));
   } else if (delivery.channel.silent_ns > 0) {
     list.push_back(
         fmt::format("mocapd has received none of its own messages on {} for {}: check the "

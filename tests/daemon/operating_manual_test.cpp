@@ -52,7 +52,7 @@ std::vector<ServiceReport> SilentReports() {
   }
   good.now.frames_per_second = {25, 25};
   good.now.late_per_second = {0, 0};
-  std::vector<ServiceReport> reports(6, good);
+  std::vector<ServiceReport> reports(7, good);
   reports[0].now.frames_per_second = {0, 0};
   reports[1].now.frames_per_second = {25, 0};
   reports[2].now.sets_per_second = 25;
@@ -67,6 +67,7 @@ std::vector<ServiceReport> SilentReports() {
   reports[4].delivery.problem = "Network is unreachable";
   reports[5].delivery.channel = {
       .reaches_nobody = true, .other_sender = true, .silent_ns = 12'000'000'000};
+  reports[6].delivery.channel.receive_fault = "UDP port 7667 is in use by another program";
   reports.emplace_back();
   return reports;
 }

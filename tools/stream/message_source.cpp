@@ -23,7 +23,7 @@ LcmUrl AddressOf(const std::string& url) {
 MessageSource::MessageSource(const std::string& url) : url_(url) {
   const LcmUrl address = AddressOf(url);
   if (address.provider != LcmProvider::kFile) {
-    live_ = OpenLcm(url);
+    live_ = OpenLcmToListen(url);
     return;
   }
   if (address.is_written) throw SetupError("--url: " + url + " is a log to write; expected mode=r");

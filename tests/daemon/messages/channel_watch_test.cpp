@@ -1,5 +1,6 @@
 #include "daemon/messages/channel_watch.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,9 +10,14 @@
 
 #include "core/errors.h"
 #include "daemon/messages/open_lcm.h"
+#include "tests/support/setup_error.h"
+#include "tests/support/taken_port.h"
 
 namespace mocap {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kOneSecond = 1'000'000'000;
 
@@ -85,6 +91,32 @@ TEST_F(MulticastChannel, AnotherSenderOfTheSamePrefixIsHeardAndOneOfAnotherIsNot
   }
   EXPECT_TRUE(watch.Status().other_sender);
   EXPECT_FALSE(watch.Status().reaches_nobody);
+}
+
+TEST_F(MulticastChannel, APortOfAnotherProgramIsToldAndLcmPrintsNothing) {
+  const testing::TakenPort taken;
+  config_.url = taken.Url();
+  const std::string said = "UDP port " + taken.number() + " is in use by another program";
+  ::testing::internal::CaptureStderr();
+  EXPECT_THAT(testing::SetupErrorOf([&] { OpenLcmToListen(config_.url); }),
+              AllOf(HasSubstr(config_.url), HasSubstr(said), HasSubstr("ss -ulpn")));
+  EXPECT_TRUE(OpenLcm(config_.url)->good()) << "sending needs no port";
+  lcm::LCM lcm(config_.url);
+  LcmSender sender(lcm, LcmProvider::kMulticast);
+  {
+    const ChannelWatch watch(config_, sender);
+    while (watch.Status().receive_fault.empty()) std::this_thread::yield();
+    EXPECT_THAT(watch.Status().receive_fault, HasSubstr(said));
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(MulticastChannel, APortThatListenersShareIsFree) {
+  const std::unique_ptr<lcm::LCM> one = OpenLcmToListen(config_.url);
+  one->subscribeFunction<int*>(
+      "X", [](const lcm::ReceiveBuffer*, const std::string&, int*) {}, nullptr);
+  EXPECT_EQ(ReceiveFault(ParseLcmUrl(config_.url)), "");
+  EXPECT_TRUE(OpenLcmToListen(config_.url));
 }
 
 TEST_F(MulticastChannel, ASecondWayReachesTheSameListeners) {

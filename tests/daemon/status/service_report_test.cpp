@@ -180,6 +180,10 @@ TEST(ServiceReport, PosesThatReachNobodyAreNotGood) {
       Diagnostics(report),
       ElementsAre(StartsWith("mocapd has received none of its own messages on udpm://x for")));
   report.delivery = {};
+  report.delivery.channel = {.receive_fault = "UDP port 7 is in use", .silent_ns = 9'000'000'000};
+  EXPECT_THAT(Diagnostics(report),
+              ElementsAre("nobody on this host receives poses on udpm://x: UDP port 7 is in use"));
+  report.delivery = {};
   report.delivery.channel.other_sender = true;
   EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("another mocapd, or a log")));
   report.delivery = {};

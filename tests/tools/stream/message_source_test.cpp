@@ -3,9 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
 #include "daemon/recording/message_log.h"
 #include "tests/support/setup_error.h"
+#include "tests/support/taken_port.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/commands.h"
+#include "tools/doctor_checks.h"
 
 namespace mocap {
 namespace {
@@ -38,6 +43,21 @@ TEST(MessageSource, WhatCannotBeHeardIsRefusedByTheNameOfTheOption) {
   EXPECT_THAT(SetupErrorOf([] { MessageSource("file:///tmp/x?mode=w"); }),
               AllOf(StartsWith("--url: "), HasSubstr("expected mode=r")));
   EXPECT_THAT(SetupErrorOf([] { MessageSource("nonsense"); }), StartsWith("--url: "));
+}
+
+TEST(MessageSource, APortOfAnotherProgramIsNamedByWhateverListens) {
+  const testing::TakenPort taken;
+  const auto is_told = HasSubstr("UDP port " + taken.number() + " is in use by another program");
+  for (const char* command : {"watch", "view", "stream json", "stream osc"}) {
+    EXPECT_THAT(SetupErrorOf([&] {
+                  CLI::App app("", "mocap");
+                  AddCommands(app);
+                  app.parse(std::string(command) + " --url " + taken.Url());
+                }),
+                is_told)
+        << command;
+  }
+  EXPECT_THAT(CheckMulticastEcho(taken.Url()).what, is_told);
 }
 
 }  // namespace
