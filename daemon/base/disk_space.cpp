@@ -2,6 +2,8 @@
 
 #include <sys/statvfs.h>
 
+#include <stdexcept>
+
 namespace mocap {
 
 std::filesystem::path NearestFolder(const std::filesystem::path& folder) {
@@ -11,6 +13,14 @@ std::filesystem::path NearestFolder(const std::filesystem::path& folder) {
     place = place.parent_path();
   }
   return place;
+}
+
+void RequireStillThere(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::is_directory(folder, error)) return;
+  throw std::runtime_error(folder.string() + " is gone, and what was in it; " +
+                           NearestFolder(folder).string() +
+                           " still exists: find out who took the rest away, then record again");
 }
 
 std::int64_t BytesFree(const std::filesystem::path& folder) {

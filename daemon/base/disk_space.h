@@ -9,6 +9,11 @@ namespace mocap {
 /// Returns the folder itself, or its nearest parent that exists and is visible.
 std::filesystem::path NearestFolder(const std::filesystem::path& folder);
 
+/// Checks that a folder in which files are being written was not taken away: writing would not
+/// fail.
+/// @throws std::runtime_error  naming it, and the nearest folder that still exists.
+void RequireStillThere(const std::filesystem::path& folder);
+
 /// Bytes that the daemon's user may still write in a folder, or in the nearest existing parent of
 /// one not made yet. 0 if unknown.
 std::int64_t BytesFree(const std::filesystem::path& folder);

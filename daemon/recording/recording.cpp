@@ -304,6 +304,7 @@ void Recording::KeepUntilStopped() {
   std::int64_t safe_ns = SteadyNs();
   while (!stop_.load()) {
     std::this_thread::sleep_for(kKeeperTick);
+    RequireStillThere(partial_);
     WriteMessages();
     if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
     safe_ns = SteadyNs();

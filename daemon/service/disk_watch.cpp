@@ -20,8 +20,9 @@ namespace mocap {
 DiskFindings RunErrand(const DiskErrand& errand) {
   DiskFindings findings;
   findings.bytes_free = BytesFree(errand.takes);
-  if (access(NearestFolder(errand.takes).c_str(), W_OK | X_OK) != 0) {
-    findings.takes_problem = std::strerror(errno);
+  findings.takes_place = NearestFolder(errand.takes);
+  if (access(findings.takes_place.c_str(), W_OK | X_OK) != 0) {
+    findings.takes_problem = findings.takes_place.string() + ": " + std::strerror(errno);
   }
   if (!errand.background.empty()) findings.background_made_s = WrittenAt(errand.background);
   for (const CutOffTake& take : errand.cut_off) {

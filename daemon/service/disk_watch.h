@@ -25,8 +25,9 @@ struct DiskErrand {
 
 /// Results of an errand.
 struct DiskFindings {
-  std::int64_t bytes_free = 0;  ///< For takes.
-  std::string takes_problem;    ///< Why takes cannot be written; empty: they can.
+  std::int64_t bytes_free = 0;        ///< For takes.
+  std::filesystem::path takes_place;  ///< The folder for takes, or its nearest existing parent.
+  std::string takes_problem;          ///< Why takes cannot be written; empty: they can.
   std::int64_t background_made_s = 0;
   std::vector<CutOffTake> cut_off;  ///< Those that still exist.
   bool could_write_metrics = true;

@@ -146,6 +146,7 @@ void Watch::LookAtDisk() {
   if (const std::optional<DiskFindings> found = disk_.Findings()) {
     report_.keep_free_mb = recording.keep_free_mb;
     report_.bytes_free = found->bytes_free;
+    report_.takes_place = found->takes_place;
     report_.takes_problem = found->takes_problem;
     report_.background.made_s = found->background_made_s;
     report_.cut_off = found->cut_off;

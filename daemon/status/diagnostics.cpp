@@ -119,7 +119,7 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
   if (static_cast<double>(report.bytes_free) < 1e6 * report.keep_free_mb) {
     list.push_back(fmt::format(
         "the disk for takes has {:.0f} MB left: nothing can be recorded; free some space in {}",
-        static_cast<double>(report.bytes_free) / 1e6, report.takes.string()));
+        static_cast<double>(report.bytes_free) / 1e6, report.takes_place.string()));
   }
 }
 

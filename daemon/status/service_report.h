@@ -54,8 +54,9 @@ struct ServiceReport {
   Made background;
   std::optional<LightChange> light_change;
   RecordingStatus recording;
-  std::filesystem::path takes;  ///< Folder for recordings.
-  std::int64_t bytes_free = 0;  ///< In that folder.
+  std::filesystem::path takes;        ///< Folder for recordings.
+  std::filesystem::path takes_place;  ///< The same, or its nearest existing parent.
+  std::int64_t bytes_free = 0;        ///< In that folder.
   double keep_free_mb = 0;
   std::string takes_problem;       ///< Why takes cannot be written; empty: they can.
   std::string metrics_problem;     ///< Why the metrics file cannot be written.

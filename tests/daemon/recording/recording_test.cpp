@@ -155,6 +155,19 @@ TEST_F(RecordingTest, FramesThatWaitForPosesAreWrittenBeforeTheyAreLost) {
   EXPECT_EQ(recorder_->Status().dropped, 0);
 }
 
+TEST_F(RecordingTest, AFolderThatIsTakenAwayEndsItAndIsNamed) {
+  recorder_->Start("walk", config_, {});
+  EXPECT_TRUE(Offer(0, 0));
+  std::filesystem::remove_all(config_.folder);
+  while (recorder_->Status().state == RecordingStatus::State::kRunning) std::this_thread::yield();
+  const RecordingStatus status = recorder_->Status();
+  EXPECT_EQ(status.state, RecordingStatus::State::kFailed);
+  EXPECT_THAT(status.problem,
+              AllOf(HasSubstr((config_.folder / "walk.partial").string() + " is gone"),
+                    HasSubstr("; " + folder_.path().string() + " still exists")));
+  EXPECT_EQ(OpenFiles(), 0);
+}
+
 TEST_F(RecordingTest, WhileItRunsTheTakeOpensAsPartial) {
   recorder_->Start("one", config_, {});
   const RecordingStatus status = recorder_->Status();

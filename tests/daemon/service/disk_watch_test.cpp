@@ -26,6 +26,7 @@ TEST(DiskWatch, FindsRoomAndWritesFigures) {
   const DiskFindings found = watch.Findings().value();
   EXPECT_GT(found.bytes_free, 0);
   EXPECT_EQ(found.takes_problem, "");
+  EXPECT_EQ(found.takes_place, folder.path()) << "the nearest folder that exists";
   EXPECT_GT(found.background_made_s, 0);
   ASSERT_EQ(found.cut_off.size(), 1u) << "what was taken away is forgotten";
   EXPECT_EQ(found.cut_off[0].folder, folder.path());

@@ -214,6 +214,15 @@ TEST(ServiceReport, ADiskThatFailsOrStallsIsNotGood) {
                           "metrics cannot be written to /m.prom", StartsWith("the log cannot be")));
 }
 
+TEST(ServiceReport, SpaceIsToBeFreedWhereThereIsAFolder) {
+  ServiceReport report = Good();
+  report.takes = "/disk/takes";
+  report.takes_place = "/disk";
+  report.bytes_free = 3'000'000;
+  report.keep_free_mb = 500;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(::testing::EndsWith("free some space in /disk")));
+}
+
 TEST(ServiceReport, WhatARecordingLostIsToldWithItsCause) {
   ServiceReport report = Good();
   report.recording.state = RecordingStatus::State::kRunning;
