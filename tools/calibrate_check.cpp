@@ -23,6 +23,8 @@
 namespace mocap {
 namespace {
 
+/// Calibrations of one studio do not differ by so much.
+constexpr double kOtherStudio_mm = 200;
 constexpr int kMoments = 12;
 constexpr double kVoxel_mm = 50;
 
@@ -105,11 +107,14 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
              std::vector<Finding>& findings) {
   const PlacementDifference difference = ComparePlacement(cameras, LoadCalibration(other));
   const Vector3& worst_W = difference.worst_at_W;
-  findings.push_back(
-      {Severity::kNote, fmt::format("points in the room lie {:.1f} mm from where {} has them, and "
-                                    "{:.1f} mm at worst (at {:.0f}, {:.0f}, {:.0f})",
-                                    difference.mean_mm, other.string(), difference.worst_mm,
-                                    worst_W.x(), worst_W.y(), worst_W.z())});
+  std::string text = fmt::format(
+      "points in the room lie {:.1f} mm from where {} has them, and {:.1f} mm at worst (at {:.0f}, "
+      "{:.0f}, {:.0f})",
+      difference.mean_mm, other.string(), difference.worst_mm, worst_W.x(), worst_W.y(),
+      worst_W.z());
+  const bool is_other = difference.mean_mm > kOtherStudio_mm;
+  if (is_other) text += "; is it of the same studio, with the same floor?";
+  findings.push_back({is_other ? Severity::kWarning : Severity::kNote, std::move(text)});
 }
 
 }  // namespace

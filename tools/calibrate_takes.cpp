@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/load_config.h"
+#include "config/take_header.h"
 #include "core/calibration/diagnosis_text.h"
 #include "core/errors.h"
 #include "daemon/base/json_object.h"
@@ -18,6 +19,7 @@
 #include "tools/calibration/detections.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
+#include "tools/calibration/same_calibration.h"
 #include "tools/camera_health.h"
 #include "tools/studio_examination.h"
 
@@ -185,7 +187,18 @@ TakeSamples Sample(const TakeArguments& a) {
   return samples;
 }
 
+/// What a take says of its cameras may only be noted in their own calibration.
+void RequireOwnCalibration(const TakeArguments& a) {
+  ReadTakeHeader(a.take);
+  const std::filesystem::path own = TakeLayout{a.take}.Calibration();
+  const std::string difference = DifferenceFrom(LoadCalibration(own), LoadCalibration(a.note));
+  if (difference.empty()) return;
+  throw SetupError(a.note.string() + ": " + difference + " than " + own.string() +
+                   "; expected the calibration with which the take was recorded");
+}
+
 void RunHealth(const TakeArguments& a) {
+  if (!a.note.empty()) RequireOwnCalibration(a);
   const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
   const std::string text =
       a.json ? ShiftJson(refined) : ShiftText(refined.before) + VerdictText(refined);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config/load_config.h"
+#include "config/take_header.h"
 #include "core/errors.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
@@ -119,6 +120,8 @@ Vector2 Median(std::vector<SilhouetteShift> matches) {
 
 std::vector<SampleRequest> ChooseHealthMoments(const std::filesystem::path& take, double from_s,
                                                double to_s, int count) {
+  // Says what else the folder is, if it is no take.
+  ReadTakeHeader(take);
   const TakeLayout layout{take};
   const std::vector<CameraCalibration> cameras = LoadCalibration(layout.Calibration());
   const auto sees = [&layout](const CameraCalibration& camera) {

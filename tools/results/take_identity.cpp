@@ -68,18 +68,18 @@ TakeIdentity::TakeIdentity(const std::filesystem::path& take) : take_(take), mar
 
 void TakeIdentity::Require(const std::filesystem::path& folder_or_log, Result& result) const {
   const std::string name = folder_or_log.string();
-  if (!result.take) return CompareTimes(folder_or_log, result);
-  if (result.take->name != mark_.name) {
-    throw SetupError(fmt::format("{}: is a result of the take {}, but {} is the take {}; expected "
-                                 "a result of the same take",
-                                 name, Quoted(result.take->name), take_.string(),
-                                 Quoted(mark_.name)));
+  if (result.take && result.take->name != mark_.name) {
+    throw SetupError(
+        fmt::format("{}: is a result of the take {}, but {} is the take {}; expected "
+                    "a result of the same take",
+                    name, Quoted(result.take->name), take_.string(), Quoted(mark_.name)));
   }
-  if (result.take->calibration != mark_.calibration) {
-    result.remarks.push_back(fmt::format(
-        "{}: was tracked with another calibration than that in {}: track it again", name,
-        take_.string()));
+  if (result.take && result.take->calibration != mark_.calibration) {
+    result.remarks.push_back(
+        fmt::format("{}: was tracked with another calibration than that in {}: track it again",
+                    name, take_.string()));
   }
+  CompareTimes(folder_or_log, result);
 }
 
 void TakeIdentity::CompareTimes(const std::filesystem::path& folder_or_log, Result& result) const {
@@ -101,9 +101,8 @@ void TakeIdentity::CompareTimes(const std::filesystem::path& folder_or_log, Resu
   if (is_log) return;
   if (outside > 0) result.remarks.push_back(spans + ": is it of another take?");
   const double interval_ns = SetIntervalNs(rows);
-  const bool is_of_other_rate =
-      interval_ns > kSameRate * static_cast<double>(times_->longest_ns) ||
-      kSameRate * interval_ns < static_cast<double>(times_->shortest_ns);
+  const bool is_of_other_rate = interval_ns > kSameRate * static_cast<double>(times_->longest_ns) ||
+                                kSameRate * interval_ns < static_cast<double>(times_->shortest_ns);
   if (interval_ns == 0 || times_->longest_ns == 0 || !is_of_other_rate) return;
   result.remarks.push_back(fmt::format(
       "{}: its frames are {:.1f} ms apart, those of {} {:.1f} ms: is it of another take?",

@@ -19,8 +19,9 @@ class TakeIdentity {
   /// @throws SetupError  when it is no take, or its tables are damaged.
   explicit TakeIdentity(const std::filesystem::path& take);
 
-  /// Checks that a result is of this take: by its mark, or without one by its times. Adds remarks
-  /// where it may not be, as with another calibration. A log may have been made at another time.
+  /// Checks that a result is of this take: by its mark, if it has one, and by its times. Adds
+  /// remarks where it may not be, as with another calibration. A log may have been made at another
+  /// time.
   /// @throws SetupError  when the result is of another take.
   void Require(const std::filesystem::path& folder_or_log, Result& result) const;
 
