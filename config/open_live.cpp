@@ -145,7 +145,8 @@ Studio OpenLiveStudio(const Config& config) {
     throw SetupError(config.calibration.string() +
                      ": is missing; `mocap calibrate studio` makes one");
   }
-  RequireFolder(config.background, "what `mocap background learn` makes while the studio is empty");
+  RequireFolder(config.background,
+                "what `mocap background learn --config FILE` makes while the studio is empty");
   Studio studio{"live studio", 0, {}};
   if (std::ranges::any_of(config.cameras, [](const auto& c) { return c.head.follow; })) {
     studio.person = std::make_shared<SubjectPosition>();

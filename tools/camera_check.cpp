@@ -205,7 +205,7 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
   if (run.TakenFps() < kFullRate * AskedFps(run)) {
     troubles.push_back(fmt::format(
         "takes {:.1f} frames a second instead of {:g}, as cameras do in the dark: set exposure_us "
-        "below {:.0f}",
+        "below {:.0f}; if it is, ask for fewer frames a second or fewer pixels",
         run.TakenFps(), AskedFps(run), 1e6 / AskedFps(run)));
   }
   return troubles;

@@ -79,7 +79,7 @@ void Announce(const ViewServer& server, const std::string& token) {
 }
 
 void ViewTake(const ViewOptions& options) {
-  TakeSite site(options.take, options.results);
+  TakeSite site(options.take, options.results, options.prefix);
   TellRemarks("view", site.remarks());
   std::map<std::string, PageFile> files = PageFiles();
   AddAbout("replay", site.name(), files);
@@ -138,7 +138,8 @@ void AddViewCommand(CLI::App& app) {
                       "mocapd control socket (default: from the configuration)");
   command->add_option("--url", options->url, "LCM URL (default: from the configuration)");
   command->add_option("--prefix", options->prefix,
-                      "prefix of the LCM channel names (default: from the configuration)");
+                      "prefix of the LCM channel names, also in logs (default: from the "
+                      "configuration)");
   command->add_option("--port", options->port, "TCP port on 127.0.0.1; 0: any free port")
       ->check(NumberFrom(0, 65535))
       ->capture_default_str();

@@ -8,6 +8,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -54,6 +55,19 @@ sockaddr_un AddressOf(const std::filesystem::path& path) {
 template <typename Call>
 int WithAddress(Call call, int fd, const sockaddr_un& address) {
   return call(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+/// How a person starts the daemon on this computer.
+std::string StartHint() {
+  std::error_code error;
+  bool is_service = std::filesystem::exists("/run/systemd/system", error);
+  const auto has_unit = [&error](const char* folder) {
+    return std::filesystem::exists(std::filesystem::path(folder) / "mocapd.service", error);
+  };
+  is_service &= std::ranges::any_of(
+      std::array{"/etc/systemd/system", "/usr/local/lib/systemd/system", "/lib/systemd/system"},
+      has_unit);
+  return is_service ? "start it: systemctl start mocapd" : "start it: mocapd --config FILE";
 }
 
 [[noreturn]] void RefusePlace(const std::filesystem::path& path, const std::string& why) {
@@ -187,7 +201,10 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
     if (!reply) throw std::runtime_error(place.string() + ": mocapd gave no answer");
     return *reply;
   }
-  throw std::runtime_error("mocapd is not running here; start it: systemctl start mocapd");
+  throw std::runtime_error("mocapd is not running here; " +
+                           (socket.empty() ? StartHint()
+                                           : "nothing answers at " + socket.string() +
+                                                 "; start one with that control.socket"));
 }
 
 ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request) {

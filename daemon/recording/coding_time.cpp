@@ -35,10 +35,12 @@ std::string TextOf(LossCause cause) {
     case LossCause::kOtherWork:
       return "the processor was busy with other programs: stop them, or raise recording.buffer_mb";
     case LossCause::kCodec:
-      return "the codec is too slow on this processor: set recording.codec to \"huffyuv\" or "
-             "\"raw\"";
+      return "the codec is too slow on this processor: use fewer frames a second, smaller pictures "
+             "or a faster recording.codec (\"raw\" is the fastest, then \"huffyuv\")";
     case LossCause::kDisk:
-      return "the disk is too slow: use a faster disk, or a codec that writes less";
+      return "the disk is too slow: use a faster disk, or a recording.codec that writes less "
+             "(\"ffv1\" "
+             "writes the least, then \"huffyuv\")";
     case LossCause::kPoses:
       return "tracking was behind and has priority: use larger voxels or a lower frame rate";
   }

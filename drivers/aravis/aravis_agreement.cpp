@@ -165,7 +165,8 @@ void Negotiation::SetExposure() {
     Remark("exposes for " + Number(got_us) + " us instead of " + Number(*settings_.exposure_us));
   }
   if (got_us * 1e-6 * agreed_.fps > 1) {
-    Remark("exposes for " + Number(got_us) + " us, longer than a frame lasts: set exposure_us");
+    Remark("exposes for " + Number(got_us) +
+           " us, longer than a frame lasts: set exposure_us below " + Number(1e6 / agreed_.fps));
   }
 }
 

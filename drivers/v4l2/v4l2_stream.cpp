@@ -52,9 +52,9 @@ void V4l2Stream::Open(const V4l2Node& node, const CameraRequest& request,
   const int result = kernel_->Request(handle_, VIDIOC_STREAMON, &type);
   if (result == -ENOSPC) {
     throw SetupError(where + ": the USB bandwidth of " + node.controller() +
-                     " is not enough for one more camera with " + format_.name +
-                     "; set format = \"MJPG\", a lower fps or smaller size_px, or plug it into "
-                     "another controller");
+                     " is not enough for one more camera with " + format_.name + "; set " +
+                     (format_.name == "MJPG" ? "" : "format = \"MJPG\", ") +
+                     "a lower fps or smaller size_px, or plug it into another controller");
   }
   if (result == -EBUSY) throw SetupError(InUse(where));
   if (result < 0) throw SetupError(where + ": does not stream: " + ErrorText(result));

@@ -104,7 +104,7 @@ TEST_F(LiveStudio, SaysHowToLearnAMissingBackground) {
   std::filesystem::remove(folder_.path() / "background/cam2.mkv");
   EXPECT_THAT(Error(Load()), HasSubstr("cam2.mkv"));
   std::filesystem::remove_all(folder_.path() / "background");
-  EXPECT_THAT(Error(Load()), HasSubstr("mocap background learn"));
+  EXPECT_THAT(Error(Load()), HasSubstr("mocap background learn --config FILE"));
 }
 
 TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {

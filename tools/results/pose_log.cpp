@@ -176,9 +176,10 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
                              " appeared twice, counted once");
   }
   if (daemon.has_several_people) {
-    result.remarks.push_back(log.string() +
-                             ": several people were tracked at once; this is the one tracked "
-                             "longest; --people reads all of them");
+    result.remarks.push_back(
+        log.string() +
+        ": several people were tracked at once; this is the one tracked "
+        "longest; mocap evaluate and mocap export read all of them with --people");
   }
   TellOfTimes(log, result.poses, result.remarks);
   return result;

@@ -130,10 +130,11 @@ Json ResultJson(const std::string& name, const Evaluation& evaluation,
 }  // namespace
 
 TakeSite::TakeSite(const std::filesystem::path& take,
-                   const std::vector<std::filesystem::path>& results)
+                   const std::vector<std::filesystem::path>& results,
+                   const std::optional<std::string>& prefix)
     : pictures_(take), truth_(ReadTruePeople(take)), remarks_(pictures_.remarks()) {
   const TakeIdentity identity(take);
-  for (const std::filesystem::path& result : results) Add(identity, PlainFolder(result));
+  for (const std::filesystem::path& result : results) Add(identity, PlainFolder(result), prefix);
   ChooseTimes();
 }
 
@@ -142,10 +143,12 @@ void TakeSite::Accept(const TakeIdentity& take, const std::filesystem::path& res
   remarks_.insert(remarks_.end(), read.remarks.begin(), read.remarks.end());
 }
 
-void TakeSite::Add(const TakeIdentity& take, const std::filesystem::path& result) {
+void TakeSite::Add(const TakeIdentity& take, const std::filesystem::path& result,
+                   const std::optional<std::string>& prefix) {
   const std::size_t group = groups_++;
   if (!IsOfPeople(result)) {
-    Result read = ReadResult(result);
+    const bool is_log = !std::filesystem::is_directory(result);
+    Result read = ReadResult(result, is_log ? prefix : std::nullopt);
     Accept(take, result, read);
     results_.push_back({NameOf(result), EvaluateOne(std::move(read), truth_), group});
     return;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ namespace mocap {
 class TakeSite {
  public:
   /// @param results  folders of mocap track or logs; a folder of several people counts as one
-  /// result for each. @throws SetupError  for a take or result that cannot be read, and for a result
-  /// of another take.
-  TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results);
+  /// result for each. @throws SetupError  for a take or result that cannot be read, and for a
+  /// result of another take.
+  /// @param prefix  of results that are logs, as of ReadResult.
+  TakeSite(const std::filesystem::path& take, const std::vector<std::filesystem::path>& results,
+           const std::optional<std::string>& prefix = {});
 
   const std::string& name() const { return pictures_.name(); }
   /// What is doubtful about the take and the results, one line each.
@@ -44,7 +47,8 @@ class TakeSite {
     std::vector<int> rows = {};  ///< Row of each frame; -1: none.
   };
 
-  void Add(const TakeIdentity& take, const std::filesystem::path& result);
+  void Add(const TakeIdentity& take, const std::filesystem::path& result,
+           const std::optional<std::string>& prefix);
   /// Checks that a result is of the take. @throws SetupError
   void Accept(const TakeIdentity& take, const std::filesystem::path& result, Result& read);
   void ChooseTimes();

@@ -1,6 +1,7 @@
 // When coding threads come forward, and what is blamed for frames that are lost.
 #include "daemon/recording/coder_watch.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <unistd.h>
@@ -9,6 +10,8 @@
 
 namespace mocap {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kTickNs = 20'000'000;
 
@@ -91,6 +94,11 @@ TEST(LossCause, IsWhereTheTimeWent) {
 
 TEST(LossCause, CodersThatKeepEachOtherFromTheProcessorAreTooSlow) {
   EXPECT_EQ(CauseOf({.ran_ns = 180, .queued_ns = 420, .wall_ns = 100}, 2), LossCause::kCodec);
+}
+
+TEST(LossCause, AdviceHoldsForEachCodec) {
+  EXPECT_THAT(TextOf(LossCause::kCodec), HasSubstr("\"raw\" is the fastest, then \"huffyuv\""));
+  EXPECT_THAT(TextOf(LossCause::kDisk), HasSubstr("\"ffv1\" writes the least, then \"huffyuv\""));
 }
 
 TEST(ThreadTimes, AThreadThatRanHasSpentTime) {

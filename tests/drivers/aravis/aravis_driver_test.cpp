@@ -103,7 +103,8 @@ TEST_F(AravisDriverTest, ValuesThatTheCameraDoesNotTakeAreTold) {
   settings.exposure_us = 15'000;
   AravisDriver blurred(Request(ip), settings);
   blurred.Start();
-  EXPECT_THAT(blurred.Facts().remarks, Contains(HasSubstr("longer than a frame lasts")));
+  EXPECT_THAT(blurred.Facts().remarks,
+              Contains(HasSubstr("longer than a frame lasts: set exposure_us below ")));
 }
 
 TEST_F(AravisDriverTest, CaptureTimesAreTheHostsWhateverTheCamerasClockSays) {

@@ -165,8 +165,11 @@ TEST_F(V4l2, SettingsAreManualAndReadBack) {
 TEST_F(V4l2, LostBandwidthPermissionAndBusyCamerasAreExplained) {
   FakeCamera& camera = machine_.Plug(0, "", "1.2");
   camera.stream_error = ENOSPC;
-  EXPECT_THAT(StartError(machine_.Node(0)),
-              AllOf(HasSubstr("bandwidth of usb-0000:00:14.0 "), HasSubstr("MJPG")));
+  EXPECT_THAT(StartError(machine_.Node(0)), AllOf(HasSubstr("bandwidth of usb-0000:00:14.0 "),
+                                                  HasSubstr("set format = \"MJPG\"")));
+  camera.modes = {{V4L2_PIX_FMT_MJPEG, 64, 48, {30}}};
+  EXPECT_THAT(StartError(machine_.Node(0)), HasSubstr("with MJPG; set a lower fps"))
+      << "what is set already is not asked for";
   camera.stream_error = 0;
   camera.buffers_error = EBUSY;
   EXPECT_THAT(StartError(machine_.Node(0)), HasSubstr("in use"));

@@ -15,9 +15,11 @@
 #include "config/load_config.h"
 #include "core/body/body_sizes.h"
 #include "daemon/messages/messages.h"
+#include "tests/support/box_take.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/results/result.h"
+#include "tools/view/take_site.h"
 
 namespace mocap {
 namespace {
@@ -132,6 +134,18 @@ TEST_F(PoseLog, OfTwoDaemonsIsNeverMixed) {
   for (const PoseRow& row : right.poses) EXPECT_EQ(row.points_W(0, 0), 2);
   EXPECT_THAT(Error("middle."), ::testing::AllOf(HasSubstr("contains no middle.MOCAP_POSE"),
                                                  HasSubstr("\"left.\", \"right.\"")));
+}
+
+TEST_F(PoseLog, IsShownOfTheDaemonThatItsMessageAsksFor) {
+  const std::filesystem::path take = folder_.path() / "take";
+  testing::WriteBoxTake(take);
+  for (const char* prefix : {"left.", "right."}) {
+    Body(prefix);
+    Pose(prefix, 0, testing::kFirstNs, 1);
+  }
+  log_.reset();
+  EXPECT_THAT(SetupErrorOf([&] { TakeSite(take, {file_}); }), HasSubstr("with --prefix"));
+  EXPECT_EQ(SetupErrorOf([&] { TakeSite(take, {file_}, "left."); }), "nothing was thrown");
 }
 
 /// A log of a daemon that follows several people.
