@@ -12,6 +12,7 @@
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
+#include "tools/calibration/picture_files.h"
 
 namespace mocap {
 namespace {
@@ -28,11 +29,6 @@ std::string Extension(const fs::path& file) {
 bool IsVideo(const fs::path& file) {
   const std::string e = Extension(file);
   return e == ".mkv" || e == ".mp4" || e == ".avi" || e == ".mov" || e == ".m4v" || e == ".webm";
-}
-
-bool IsPicture(const fs::path& file) {
-  const std::string e = Extension(file);
-  return e == ".png" || e == ".jpg" || e == ".jpeg" || e == ".tif" || e == ".tiff" || e == ".bmp";
 }
 
 std::vector<fs::path> Sorted(const fs::path& folder, bool (*wanted)(const fs::path&)) {
@@ -125,7 +121,7 @@ VideoReader OpenPicture(const fs::path& file) {
   try {
     return VideoReader(file);
   } catch (const SetupError&) {
-    throw SetupError(file.string() + ": is not a readable picture; remove it or save it again");
+    RefuseUnreadPicture(file);
   }
 }
 
@@ -195,6 +191,7 @@ Footage OpenFootage(const std::filesystem::path& folder) {
       const std::string name = inside.filename().string();
       const std::vector<fs::path> videos = Sorted(inside, IsVideo);
       const std::vector<fs::path> pictures = Sorted(inside, IsPicture);
+      RefuseUnreadPictures(inside);
       if (videos.size() == 1)
         footage.cameras.push_back(OpenVideoCamera(name, videos[0], footage.notes));
       if (videos.empty() && !pictures.empty())
@@ -202,15 +199,16 @@ Footage OpenFootage(const std::filesystem::path& folder) {
     }
   }
   if (footage.cameras.empty()) {
+    RefuseUnreadPictures(folder);
     const std::vector<fs::path> pictures = Sorted(folder, IsPicture);
     if (!pictures.empty())
       footage.cameras.push_back(
           OpenPictureCamera(folder.filename().string(), pictures, footage.notes));
   }
   if (footage.cameras.empty())
-    throw SetupError(folder.string() +
-                     ": contains no recording; expected cam1.mkv, cam2.mkv ... or a folder of "
-                     "pictures for each camera");
+    throw SetupError(folder.string() + ": contains no recording" + WhatIsThere(folder) +
+                     "; expected cam1.mkv, cam2.mkv ... or a folder of pictures (PNG, JPEG, TIFF, "
+                     "BMP or WebP) for each camera");
   for (const FootageCamera& camera : footage.cameras) {
     if (!IsCameraName(camera.name))
       throw SetupError(

@@ -45,8 +45,8 @@ struct Footage {
 /// Opens a take; a folder with one video per camera (cam1.mkv, cam1.mp4, cam1.avi …; times from
 /// cam1.csv, or Caliscope's timestamps.csv); or a folder with a folder of pictures or one video for
 /// each camera. Pictures of one moment have the same number, or else name. Skips hidden files.
-/// @throws SetupError  when there is nothing of that kind, a picture cannot be read or pictures of
-/// one camera differ in size.
+/// @throws SetupError  when there is nothing of that kind, a picture cannot be read or is of a kind
+/// that is not, or pictures of one camera differ in size.
 Footage OpenFootage(const std::filesystem::path& folder);
 
 /// A moment of the recording: index of each camera's frame, or -1.

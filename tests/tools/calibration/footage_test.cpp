@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <functional>
+#include <string_view>
 
 #include "core/errors.h"
 #include "drivers/take/video_writer.h"
@@ -102,6 +103,67 @@ TEST_F(FootageTest, CamerasThatCountEachForThemselvesArePairedInOrderAndThatIsTo
   const Footage more = OpenFootage(folder_.path());
   EXPECT_EQ(Moments(more), "DSC_7+- DSC_8+- -+DSC_99 -+DSC_100 -+DSC_101");
   EXPECT_THAT(more.notes, Contains(HasSubstr("cannot be paired")));
+}
+
+// 16 x 16, red: without loss, and with.
+constexpr std::string_view kLosslessWebP(
+    "RIFF\x1c\0\0\0WEBPVP8L\x0f\0\0\0\x2f\x0f\xc0\x03\0\x07\x10\xf5\x8f\xfe\x07\x22\xa2\xff\x01\0",
+    36);
+constexpr std::string_view kLossyWebP(
+    "RIFF\x3c\0\0\0WEBPVP8 "
+    "\x30\0\0\0\xd0\x01\0\x9d\x01\x2a\x10\0\x10\0\x02\0\x34\x25\xa0\x02\x74\xba\x01"
+    "\xf8\0\x03\xb0\0\xfe\xf0\xe8\xf7\xff\x20\xb9\x61\x75\xc8\xd7\xff\x20\x3f\xe4\x07\xfc\x80\xff"
+    "\xf8\xf2\0"
+    "\0\0",
+    68);
+
+TEST_F(FootageTest, PicturesInWebPAreRead) {
+  fs::create_directories(folder_.path() / "cam1");
+  WriteText(folder_.path() / "cam1/img1.webp", std::string(kLosslessWebP));
+  WriteText(folder_.path() / "cam1/img2.WEBP", std::string(kLossyWebP));
+  const Footage footage = OpenFootage(folder_.path());
+  ASSERT_THAT(footage.cameras, SizeIs(1));
+  EXPECT_EQ(footage.cameras[0].width_px, 16);
+  int red = 0;
+  footage.cameras[0].ForEach([&](int, ImageView<const Bgr> view) {
+    red += view(8, 8).r > 240 && view(8, 8).g < 20 && view(8, 8).b < 20;
+  });
+  EXPECT_EQ(red, 2);
+}
+
+TEST_F(FootageTest, PicturesOfKindsThatAreNotReadAreRefusedByTheirKind) {
+  WritePicture("cam1/img1.bmp");
+  for (const auto& [name, kind] : {std::pair("cam2/IMG_0001.HEIC", "HEIC pictures are not read"),
+                                   std::pair("cam2/img1.avif", "AVIF pictures are not read"),
+                                   std::pair("cam2/DSC_1.NEF", "Raw pictures are not read")}) {
+    fs::create_directories(folder_.path() / "cam2");
+    WriteText(folder_.path() / name, "x");
+    EXPECT_THAT(Why(), AllOf(HasSubstr(name), HasSubstr(kind), HasSubstr("convert them to JPEG")));
+    fs::remove_all(folder_.path() / "cam2");
+  }
+}
+
+TEST_F(FootageTest, APictureOfAKindThatIsNotReadMayLieBesideOneThatIs) {
+  WritePicture("cam1/DSC_1.bmp");
+  WriteText(folder_.path() / "cam1/DSC_1.NEF", "x");
+  EXPECT_THAT(OpenFootage(folder_.path()).cameras, SizeIs(1));
+}
+
+TEST_F(FootageTest, APictureWithTheNameOfAnotherKindIsRefusedByWhatItIs) {
+  fs::create_directories(folder_.path() / "cam1");
+  WriteText(folder_.path() / "cam1/img1.jpg", std::string("\0\0\0\x18"
+                                                          "ftypheic\0\0\0\0mif1heic",
+                                                          24));
+  EXPECT_THAT(Why(), AllOf(HasSubstr("img1.jpg"), HasSubstr("HEIC pictures are not read")));
+}
+
+TEST_F(FootageTest, WhereThereIsNoRecordingTheFilesThatThereAreAreNamed) {
+  fs::create_directories(folder_.path() / "cam1");
+  WriteText(folder_.path() / "cam1/take.mts", "x");
+  WriteText(folder_.path() / "cam1/more.mts", "x");
+  WriteText(folder_.path() / "readme", "x");
+  EXPECT_THAT(Why(), AllOf(HasSubstr("contains no recording"), HasSubstr("2 files .mts"),
+                           HasSubstr("1 file without an extension"), HasSubstr("JPEG")));
 }
 
 TEST_F(FootageTest, HiddenFilesOfOtherSystemsArePassedOver) {

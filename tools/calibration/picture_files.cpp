@@ -1,0 +1,128 @@
+#include "tools/calibration/picture_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "core/errors.h"
+#include "drivers/quoted.h"
+#include "drivers/take/take_layout.h"
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kReadExtensions[] = {".png",  ".jpg", ".jpeg", ".tif",
+                                                ".tiff", ".bmp", ".webp"};
+
+struct UnreadKind {
+  std::string_view extension, name;
+};
+
+// Kinds that cameras and telephones save.
+constexpr UnreadKind kUnreadKinds[] = {
+    {".heic", "HEIC"}, {".heif", "HEIF"}, {".hif", "HEIF"}, {".avif", "AVIF"}, {".jxl", "JPEG XL"},
+    {".dng", "Raw"},   {".cr2", "Raw"},   {".cr3", "Raw"},  {".nef", "Raw"},   {".arw", "Raw"},
+    {".raf", "Raw"},   {".orf", "Raw"},   {".rw2", "Raw"}};
+
+// Brands of ISO media files that hold a picture.
+constexpr UnreadKind kBrands[] = {{"heic", "HEIC"}, {"heix", "HEIC"}, {"hevc", "HEIC"},
+                                  {"heim", "HEIC"}, {"mif1", "HEIC"}, {"msf1", "HEIC"},
+                                  {"avif", "AVIF"}, {"avis", "AVIF"}};
+
+std::string LowerExtension(const fs::path& file) {
+  std::string text = file.extension().string();
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+template <std::size_t N>
+std::string_view NameOf(const UnreadKind (&kinds)[N], std::string_view key) {
+  const auto* kind = std::ranges::find(kinds, key, &UnreadKind::extension);
+  return kind == std::end(kinds) ? std::string_view() : kind->name;
+}
+
+// Visible files; none if the folder cannot be listed.
+std::vector<fs::path> FilesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    std::error_code unknown;
+    if (!IsHidden(entry->path()) && entry->is_regular_file(unknown)) files.push_back(entry->path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string_view KindByContent(const fs::path& file) {
+  std::array<char, 12> head{};
+  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+  const std::string_view bytes(head.data(), head.size());
+  return bytes.substr(4, 4) == "ftyp" ? NameOf(kBrands, bytes.substr(8, 4)) : std::string_view();
+}
+
+std::string ConvertText(std::string_view kind) {
+  return std::string(kind) + " pictures are not read; convert them to JPEG or PNG";
+}
+
+}  // namespace
+
+bool IsPicture(const fs::path& file) {
+  return std::ranges::count(kReadExtensions, LowerExtension(file)) > 0;
+}
+
+void RefuseUnreadPictures(const fs::path& folder) {
+  const std::vector<fs::path> files = FilesIn(folder);
+  const auto is_unread = [&](const fs::path& file) {
+    // Many cameras save each picture twice.
+    const auto is_twin = [&](const fs::path& other) {
+      return other.stem() == file.stem() && IsPicture(other);
+    };
+    return !NameOf(kUnreadKinds, LowerExtension(file)).empty() &&
+           std::ranges::none_of(files, is_twin);
+  };
+  const auto first = std::ranges::find_if(files, is_unread);
+  if (first == files.end()) return;
+  const auto others = std::ranges::count_if(first + 1, files.end(), is_unread);
+  throw SetupError(first->string() +
+                   (others > 0 ? " and " + std::to_string(others) + " more" : "") + ": " +
+                   ConvertText(NameOf(kUnreadKinds, LowerExtension(*first))));
+}
+
+void RefuseUnreadPicture(const fs::path& file) {
+  const std::string_view kind = KindByContent(file);
+  if (!kind.empty())
+    throw SetupError(file.string() + ": is a picture of another kind than its name says; " +
+                     ConvertText(kind));
+  throw SetupError(file.string() + ": is not a readable picture; remove it or save it again");
+}
+
+std::string WhatIsThere(const fs::path& folder) {
+  std::vector<fs::path> folders = {folder};
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    std::error_code unknown;
+    if (!IsHidden(entry->path()) && entry->is_directory(unknown)) folders.push_back(entry->path());
+  }
+  std::map<std::string, int> counts;
+  for (const fs::path& place : folders) {
+    for (const fs::path& file : FilesIn(place)) ++counts[LowerExtension(file)];
+  }
+  std::string text;
+  for (const auto& [extension, count] : counts) {
+    text += text.empty() ? "; it has " : ", ";
+    text += std::to_string(count) + (count == 1 ? " file " : " files ");
+    text += extension.empty() ? "without an extension" : Printable(extension);
+  }
+  return text;
+}
+
+}  // namespace mocap
