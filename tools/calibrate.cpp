@@ -56,8 +56,9 @@ void AddFootage(CLI::App* command, const Arguments& a) {
   command
       ->add_option("--board", a->board,
                    "board: chess:COLUMNSxROWS:MM (inner corners), "
-                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares) or, "
-                   "for extrinsics, wand:MM (two lights)")
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares), "
+                   "aprilgrid:COLUMNSxROWS:TAG_MM:SPACING (tags, as Kalibr prints them; gap over "
+                   "tag) or, for extrinsics, wand:MM (two lights)")
       ->required();
   command
       ->add_option("--most-frames", a->most_frames, "maximum number of frames to search per camera")

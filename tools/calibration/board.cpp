@@ -3,18 +3,23 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "tools/calibration/marker_dictionaries.h"
 
 namespace mocap {
 namespace {
 
+constexpr int kMostTagsAcross = 24;  // Kalibr's family has 587 tags.
+
 [[noreturn]] void Refuse(const std::string& text, const std::string& why) {
   throw SetupError("--board " + Quoted(text) + ": " + why +
                    "; expected chess:COLUMNSxROWS:MM (inner corners), "
-                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares) or "
+                   "charuco:COLUMNSxROWS:MM[:DICTIONARY][:MARKER_SHARE][:inverted] (squares), "
+                   "aprilgrid:COLUMNSxROWS:TAG_MM:SPACING (tags; gap over tag) or "
                    "wand:MM (from light to light)");
 }
 
@@ -30,63 +35,144 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-void ReadSize(const std::string& text, const std::string& size, Board& board) {
+void ReadSize(const std::string& text, const std::string& size, int fewest, int most,
+              Board& board) {
   const std::vector<std::string> sides = Split(size, 'x');
   double columns = 0, rows = 0;
   if (sides.size() != 2 || !ReadNumber(sides[0], columns) || !ReadNumber(sides[1], rows))
     Refuse(text, Quoted(size) + " is not a size");
-  const auto whole = [](double n) { return n == static_cast<int>(n) && n >= 3 && n <= 50; };
-  if (!whole(columns) || !whole(rows)) Refuse(text, Quoted(size) + " is not 3 to 50 each way");
+  const auto fits = [&](double n) { return n == static_cast<int>(n) && n >= fewest && n <= most; };
+  if (!fits(columns) || !fits(rows))
+    Refuse(text, fmt::format("{} is not {} to {} each way", Quoted(size), fewest, most));
   board.columns = static_cast<int>(columns);
   board.rows = static_cast<int>(rows);
 }
 
-}  // namespace
-
-std::string Board::Text() const {
-  if (kind == BoardKind::kWand) return fmt::format("wand with lights {} mm apart", square_mm);
-  if (kind == BoardKind::kChessboard)
-    return fmt::format("chessboard of {} x {} inner corners, squares of {} mm", columns, rows,
-                       square_mm);
-  return fmt::format("ChArUco board of {} x {} squares of {} mm, {}{}", columns + 1, rows + 1,
-                     square_mm, dictionary, inverted ? ", inverted" : "");
+void ReadLength(const std::string& text, const std::string& length, const char* what,
+                Board& board) {
+  if (!ReadNumber(length, board.square_mm) || !(board.square_mm >= 1 && board.square_mm <= 2000))
+    Refuse(text, Quoted(length) + " is not a " + what + "'s side of 1 to 2000 mm");
 }
 
-Board ParseBoard(const std::string& text) {
-  const std::vector<std::string> parts = Split(text, ':');
-  if (parts.size() == 2 && parts[0] == "wand") {
-    Board wand{BoardKind::kWand, 2, 1, 0, "", 0, false};
-    if (!ReadNumber(parts[1], wand.square_mm) || !(wand.square_mm >= 50 && wand.square_mm <= 3000))
-      Refuse(text, Quoted(parts[1]) + " is not a wand's length of 50 to 3000 mm");
-    return wand;
-  }
-  if (parts.size() < 3) Refuse(text, "has too few parts");
+// A name in upper or lower case.
+bool IsDictionary(const std::string& part) {
+  return part.size() > 5 && (part.starts_with("DICT_") || part.starts_with("dict_"));
+}
+
+std::string ReadDictionary(const std::string& part, int markers) {
+  const std::string name = DictionaryName(part);
+  if (name.empty())
+    throw SetupError("--board: there is no dictionary " + Quoted(part) + "; expected one of " +
+                     DictionaryNames());
+  const int has = DictionaryOf(name)->bytesList.rows;
+  if (markers > has)
+    throw SetupError(
+        fmt::format("--board: {} has {} markers; the board has {}", name, has, markers));
+  return name;
+}
+
+Board ParseWand(const std::string& text, const std::vector<std::string>& parts) {
+  Board wand{BoardKind::kWand, 2, 1, 0, "", 0, false};
+  if (!ReadNumber(parts[1], wand.square_mm) || !(wand.square_mm >= 50 && wand.square_mm <= 3000))
+    Refuse(text, Quoted(parts[1]) + " is not a wand's length of 50 to 3000 mm");
+  return wand;
+}
+
+Board ParseAprilGrid(const std::string& text, const std::vector<std::string>& parts) {
+  Board grid;
+  grid.kind = BoardKind::kAprilGrid;
+  grid.dictionary = kAprilGridDictionary;
+  ReadSize(text, parts[1], 2, kMostTagsAcross, grid);
+  grid.columns *= 2;
+  grid.rows *= 2;
+  ReadLength(text, parts[2], "tag", grid);
+  double spacing = 0;
+  if (parts.size() != 4) Refuse(text, "a grid of tags has four parts");
+  if (!ReadNumber(parts[3], spacing) || !(spacing >= 0.05 && spacing <= 1))
+    Refuse(text, Quoted(parts[3]) + " is not a gap of 0.05 to 1 times the tag's side");
+  grid.marker_share = 1 / (1 + spacing);
+  grid.square_mm /= grid.marker_share;
+  return grid;
+}
+
+Board ParseCharuco(const std::string& text, const std::vector<std::string>& parts) {
   Board board;
-  if (parts[0] == "charuco") {
-    board.kind = BoardKind::kCharuco;
-  } else if (parts[0] != "chess") {
-    Refuse(text, Quoted(parts[0]) + " is not a kind of board");
-  }
-  ReadSize(text, parts[1], board);
-  if (!ReadNumber(parts[2], board.square_mm) || !(board.square_mm >= 1 && board.square_mm <= 2000))
-    Refuse(text, Quoted(parts[2]) + " is not a square's side of 1 to 2000 mm");
+  board.kind = BoardKind::kCharuco;
+  ReadSize(text, parts[1], 3, 50, board);
+  ReadLength(text, parts[2], "square", board);
+  std::string dictionary = board.dictionary;
   for (std::size_t i = 3; i < parts.size(); ++i) {
     double share = 0;
-    if (board.kind != BoardKind::kCharuco) Refuse(text, "a chessboard has no " + Quoted(parts[i]));
     if (parts[i] == "inverted") {
       board.inverted = true;
-    } else if (parts[i].starts_with("DICT_")) {
-      board.dictionary = parts[i];
+    } else if (IsDictionary(parts[i])) {
+      dictionary = parts[i];
     } else if (ReadNumber(parts[i], share) && share > 0.1 && share < 1) {
       board.marker_share = share;
     } else {
       Refuse(text, Quoted(parts[i]) + " is not understood");
     }
   }
-  if (board.kind == BoardKind::kCharuco) {
-    --board.columns;
-    --board.rows;
-  }
+  board.dictionary = ReadDictionary(dictionary, board.columns * board.rows / 2);
+  --board.columns;
+  --board.rows;
+  return board;
+}
+
+// Without trailing zeros.
+std::string LengthText(double mm) {
+  return mm > 0 ? fmt::format("{:g}", std::round(mm * 1000) / 1000) : "MM";
+}
+
+double SpacingOf(const Board& grid) { return 1 / grid.marker_share - 1; }
+
+}  // namespace
+
+Vector3 Board::Corner(int id) const {
+  const int across = id % columns, along = id / columns;
+  if (kind != BoardKind::kAprilGrid) return {across * square_mm, along * square_mm, 0.0};
+  const auto place = [this](int i) {
+    return square_mm * (i / 2 + (i % 2 == 1 ? marker_share : 0));
+  };
+  return {place(across), -place(along), 0.0};
+}
+
+std::string Board::Text() const {
+  if (kind == BoardKind::kWand) return fmt::format("wand with lights {} mm apart", square_mm);
+  if (kind == BoardKind::kChessboard)
+    return fmt::format("chessboard of {} x {} inner corners, squares of {} mm", columns, rows,
+                       square_mm);
+  if (kind == BoardKind::kAprilGrid)
+    return fmt::format("grid of {} x {} AprilTags of {} mm, gaps of {} mm", columns / 2, rows / 2,
+                       LengthText(square_mm * marker_share),
+                       LengthText(square_mm * (1 - marker_share)));
+  return fmt::format("ChArUco board of {} x {} squares of {} mm, {}{}{}", columns + 1, rows + 1,
+                     square_mm, dictionary, inverted ? ", inverted" : "",
+                     older_layout ? ", in the older layout of before OpenCV 4.6" : "");
+}
+
+std::string Board::Spec() const {
+  if (kind == BoardKind::kWand) return "wand:" + LengthText(square_mm);
+  if (kind == BoardKind::kChessboard)
+    return fmt::format("chess:{}x{}:{}", columns, rows, LengthText(square_mm));
+  if (kind == BoardKind::kAprilGrid)
+    return fmt::format("aprilgrid:{}x{}:{}:{:.2g}", columns / 2, rows / 2,
+                       LengthText(square_mm * marker_share), SpacingOf(*this));
+  return fmt::format("charuco:{}x{}:{}:{}:{:.2g}{}", columns + 1, rows + 1, LengthText(square_mm),
+                     dictionary, marker_share, inverted ? ":inverted" : "");
+}
+
+Board ParseBoard(const std::string& text) {
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts.size() == 2 && parts[0] == "wand") return ParseWand(text, parts);
+  if (parts.size() < 3) Refuse(text, "has too few parts");
+  if (parts[0] == "charuco") return ParseCharuco(text, parts);
+  if (parts[0] == "aprilgrid") return ParseAprilGrid(text, parts);
+  if (parts[0] != "chess") Refuse(text, Quoted(parts[0]) + " is not a kind of board");
+  Board board;
+  ReadSize(text, parts[1], 3, 50, board);
+  ReadLength(text, parts[2], "square", board);
+  if (parts.size() > 3) Refuse(text, "a chessboard has no " + Quoted(parts[3]));
   return board;
 }
 

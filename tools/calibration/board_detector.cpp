@@ -1,64 +1,23 @@
 #include "tools/calibration/board_detector.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/errors.h"
-#include "drivers/quoted.h"
 #include "tools/calibration/board_rectifier.h"
+#include "tools/calibration/marker_board.h"
+#include "tools/calibration/shown_board.h"
 #include "tools/calibration/wand.h"
 
 namespace mocap {
 namespace {
 
-constexpr int kFewestCharucoCorners = 6;
 constexpr int kWidestCorner_px = 6;
 constexpr double kFarthestCorner_px = 1.5;
 const cv::TermCriteria kCornerPrecision(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-3);
 constexpr double kWideEdge_px = 4, kWideEdgeShare = 0.45;
-
-const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
-    {"DICT_4X4_50", cv::aruco::DICT_4X4_50},
-    {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
-    {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
-    {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
-    {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
-    {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
-    {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
-    {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
-    {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
-    {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
-    {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
-    {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
-    {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
-    {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
-    {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
-    {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
-    {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL}};
-
-cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board) {
-  const auto name = kDictionaries.find(board.dictionary);
-  if (name == kDictionaries.end())
-    throw SetupError("--board: there is no dictionary " + Quoted(board.dictionary) +
-                     "; expected OpenCV's name of one, such as DICT_4X4_50");
-  const cv::Ptr<cv::aruco::Dictionary> dictionary =
-      cv::aruco::getPredefinedDictionary(name->second);
-  const int markers = (board.columns + 1) * (board.rows + 1) / 2;
-  if (markers > dictionary->bytesList.rows)
-    throw SetupError("--board: " + board.dictionary + " has " +
-                     std::to_string(dictionary->bytesList.rows) + " markers; the board has " +
-                     std::to_string(markers));
-  return cv::aruco::CharucoBoard::create(
-      board.columns + 1, board.rows + 1, static_cast<float>(board.square_mm),
-      static_cast<float>(board.square_mm * board.marker_share), dictionary);
-}
 
 // Width of an edge between two squares, relative to the widest edge that counts as sharp.
 double EdgeExcess(const cv::Mat& gray, const cv::Point2f& from, const cv::Point2f& to) {
@@ -87,22 +46,28 @@ double EdgeExcess(const cv::Mat& gray, const cv::Point2f& from, const cv::Point2
 
 class BoardDetector::Impl {
  public:
-  explicit Impl(const Board& board) : board_(board) {
-    if (board.kind == BoardKind::kCharuco) charuco_ = MakeCharuco(board);
-    parameters_ = cv::aruco::DetectorParameters::create();
-    parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_NONE;
-  }
+  explicit Impl(const Board& board) : board_(board) {}
 
   std::optional<BoardCorners> Detect(ImageView<const Bgr> image, Effort effort) const {
     if (board_.kind == BoardKind::kWand) return DetectLights(image);
     const cv::Mat gray = Gray(image);
-    return charuco_ ? DetectCharuco(gray) : DetectChessboard(gray, effort);
+    return board_.HasMarkers() ? DetectMarkerBoard(gray, board_) : DetectChessboard(gray, effort);
   }
 
-  std::string WhyNot(ImageView<const Bgr> image) const {
-    if (board_.kind == BoardKind::kWand) return "";
+  std::optional<BoardMismatch> WhyNot(ImageView<const Bgr> image) const {
+    if (board_.kind == BoardKind::kWand) return std::nullopt;
     const cv::Mat gray = Gray(image);
-    return charuco_ ? WhyNoCharuco(gray) : WhyNoChessboard(gray);
+    if (!board_.HasMarkers() && IsThereBlurred(gray))
+      return BoardMismatch{"shows the board blurred; hold it still, focus, or shorten the exposure",
+                           board_.corners()};
+    if (const auto other = OtherBoard(gray)) return other;
+    return WhyNoMarkers(gray);
+  }
+
+  std::optional<BoardMismatch> WhyNotAfterAll(ImageView<const Bgr> image) const {
+    if (board_.kind != BoardKind::kChessboard) return std::nullopt;
+    const auto other = OtherBoard(Gray(image));
+    return other && other->corners_seen >= board_.corners() ? other : std::nullopt;
   }
 
  private:
@@ -115,33 +80,36 @@ class BoardDetector::Impl {
     return gray;
   }
 
-  std::string WhyNoCharuco(const cv::Mat& gray) const {
-    cv::Mat changed;
-    cv::flip(gray, changed, 1);
-    if (DetectCharuco(changed))
-      return "shows the board mirrored; switch mirroring off, or print the board unmirrored";
-    cv::bitwise_not(gray, changed);
-    if (!DetectCharuco(changed)) return "";
-    return board_.inverted ? "shows the board black on white; leave :inverted out of --board"
-                           : "shows the board white on black; add :inverted to --board";
+  std::optional<BoardMismatch> OtherBoard(const cv::Mat& gray) const {
+    const auto shown = FindShownBoard(gray, board_);
+    if (!shown || MayBe(*shown, board_)) return std::nullopt;
+    return BoardMismatch{LooksLikeText(*shown, board_), shown->corners()};
   }
 
-  std::string WhyNoChessboard(const cv::Mat& gray) const {
-    const int flags = cv::CALIB_CB_NORMALIZE_IMAGE;
-    const cv::Size size(board_.columns, board_.rows);
+  // Markers are read neither in a mirror nor as a negative.
+  std::optional<BoardMismatch> WhyNoMarkers(const cv::Mat& gray) const {
+    cv::Mat changed;
+    cv::flip(gray, changed, 1);
+    if (const auto shown = FindShownBoard(changed, board_); shown && shown->HasMarkers())
+      return BoardMismatch{
+          "shows the board mirrored; switch mirroring off, or print the board unmirrored",
+          shown->corners()};
+    cv::bitwise_not(gray, changed);
+    auto shown = FindShownBoard(changed, board_);
+    if (!shown || !shown->HasMarkers()) return std::nullopt;
+    shown->inverted = !board_.inverted;
+    if (!MayBe(*shown, board_))
+      return BoardMismatch{LooksLikeText(*shown, board_), shown->corners()};
+    return BoardMismatch{board_.inverted
+                             ? "shows the board black on white; leave :inverted out of --board"
+                             : "shows the board white on black; add :inverted to --board",
+                         shown->corners()};
+  }
+
+  bool IsThereBlurred(const cv::Mat& gray) const {
     std::vector<cv::Point2f> corners;
-    if (cv::findChessboardCornersSB(gray, size, corners, flags))
-      return "shows the board blurred; hold it still, focus, or shorten the exposure";
-    // Users may count squares in place of inner corners, or vice versa.
-    for (const int more : {-1, 1}) {
-      const cv::Size other(size.width + more, size.height + more);
-      if (other.width >= 3 && other.height >= 3 &&
-          cv::findChessboardCornersSB(gray, other, corners, flags))
-        return fmt::format(
-            "shows a board of {} x {} inner corners; --board counts those, not squares",
-            other.width, other.height);
-    }
-    return "";
+    return cv::findChessboardCornersSB(gray, {board_.columns, board_.rows}, corners,
+                                       cv::CALIB_CB_NORMALIZE_IMAGE);
   }
 
   // All lights: only motion shows which two are the wand's.
@@ -151,31 +119,6 @@ class BoardDetector::Impl {
     lights.ids.resize(lights.pixels.size());
     std::iota(lights.ids.begin(), lights.ids.end(), 0);
     return lights.ids.size() < 2 ? std::nullopt : std::optional(lights);
-  }
-
-  std::optional<BoardCorners> DetectCharuco(const cv::Mat& gray) const {
-    std::vector<std::vector<cv::Point2f>> markers;
-    std::vector<int> marker_ids;
-    cv::aruco::detectMarkers(gray, charuco_->dictionary, markers, marker_ids, parameters_);
-    if (marker_ids.empty()) return std::nullopt;
-    std::vector<cv::Point2f> corners;
-    std::vector<int> ids;
-    cv::aruco::interpolateCornersCharuco(markers, marker_ids, gray, charuco_, corners, ids);
-    if (static_cast<int>(ids.size()) < kFewestCharucoCorners || OnOneLine(ids)) return std::nullopt;
-    BoardCorners found;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      found.ids.push_back(ids[i]);
-      found.pixels.emplace_back(corners[i].x, corners[i].y);
-    }
-    return found;
-  }
-
-  bool OnOneLine(const std::vector<int>& ids) const {
-    const auto same = [&](auto part) {
-      return std::all_of(ids.begin(), ids.end(), [&](int id) { return part(id) == part(ids[0]); });
-    };
-    return same([&](int id) { return id / board_.columns; }) ||
-           same([&](int id) { return id % board_.columns; });
   }
 
   std::optional<BoardCorners> DetectChessboard(const cv::Mat& gray, Effort effort) const {
@@ -274,15 +217,19 @@ class BoardDetector::Impl {
   }
 
   Board board_;
-  cv::Ptr<cv::aruco::CharucoBoard> charuco_;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters_;
 };
 
 BoardDetector::BoardDetector(const Board& board) : impl_(std::make_unique<Impl>(board)) {}
 BoardDetector::~BoardDetector() = default;
 BoardDetector::BoardDetector(BoardDetector&&) noexcept = default;
 
-std::string BoardDetector::WhyNot(ImageView<const Bgr> image) const { return impl_->WhyNot(image); }
+std::optional<BoardMismatch> BoardDetector::WhyNot(ImageView<const Bgr> image) const {
+  return impl_->WhyNot(image);
+}
+
+std::optional<BoardMismatch> BoardDetector::WhyNotAfterAll(ImageView<const Bgr> image) const {
+  return impl_->WhyNotAfterAll(image);
+}
 
 std::optional<BoardCorners> BoardDetector::Detect(ImageView<const Bgr> image, Effort effort) const {
   return impl_->Detect(image, effort);

@@ -13,7 +13,7 @@ namespace {
 
 // Beyond this many intervals, frames do not determine the motion between them.
 constexpr double kLongestGaps = 1.8;
-constexpr int kFramesToDiagnose = 10;
+constexpr int kFramesToDiagnose = 10, kViewsToDoubt = 3;
 
 class MeanPicture {
  public:
@@ -90,22 +90,60 @@ void MeasureMotions(std::vector<BoardDetection>& detections, std::size_t first,
   }
 }
 
-// Searches some frames again for the reason of failure.
-[[noreturn]] void RefuseUnseen(const Footage& footage, const FootageCamera& camera,
-                               const Board& board, const BoardDetector& detector) {
+// Searches some frames of a camera again for the reason of failure; the frame that shows most of it
+// counts. Empty if nothing similar to a board is visible.
+std::string WhyUnseen(const FootageCamera& camera, const BoardDetector& detector) {
   std::string reason;
+  int most_seen = 0;
   const int step = std::max(1, static_cast<int>(camera.frames.size()) / kFramesToDiagnose);
   camera.ForEach([&](int frame, ImageView<const Bgr> view) {
-    if (!reason.empty() || frame % step != 0) return;
-    if (const std::string why = detector.WhyNot(view); !why.empty())
-      reason = camera.frames[frame].name + " " + why;
+    if (frame % step != 0) return;
+    const auto why = detector.WhyNot(view);
+    if (!why || why->corners_seen <= most_seen) return;
+    most_seen = why->corners_seen;
+    reason = camera.frames[frame].name + " " + why->text;
   });
-  if (!reason.empty())
+  return reason;
+}
+
+[[noreturn]] void RefuseUnseen(const Footage& footage, const FootageCamera& camera,
+                               const Board& board, const BoardDetector& detector) {
+  if (const std::string reason = WhyUnseen(camera, detector); !reason.empty())
     throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason);
   throw SetupError(footage.folder.string() + ": " + camera.name + " sees no board in its " +
                    std::to_string(camera.frames.size()) + " frames; expected a " + board.Text() +
                    ": compare that with the board, show all of it, sharp and evenly lit");
 }
+
+// Where one camera would do: refuses if none sees the board and one sees why.
+void RefuseUnseenByAll(const Footage& footage, const BoardDetector& detector) {
+  for (const FootageCamera& camera : footage.cameras) {
+    if (const std::string reason = WhyUnseen(camera, detector); !reason.empty())
+      throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason);
+  }
+}
+
+// What the first views of a camera are of, if that is another board.
+class FirstViews {
+ public:
+  void Look(const BoardDetector& detector, ImageView<const Bgr> view, const std::string& frame) {
+    if (looked_at_ >= kViewsToDoubt) return;
+    ++looked_at_;
+    const auto why = detector.WhyNotAfterAll(view);
+    if (!why) return;
+    ++others_;
+    if (reason_.empty()) reason_ = frame + " " + why->text;
+  }
+
+  void RefuseOther(const Footage& footage, const FootageCamera& camera) const {
+    if (others_ > 0 && others_ == looked_at_)
+      throw SetupError(footage.folder.string() + ": " + camera.name + ": " + reason_);
+  }
+
+ private:
+  int looked_at_ = 0, others_ = 0;
+  std::string reason_;
+};
 
 std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std::size_t camera,
                                  std::size_t frames) {
@@ -163,11 +201,15 @@ BoardDetections CollectDetections(const Footage& footage, const Board& board,
     result.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
     MeanPicture mean;
     int found = 0;
+    FirstViews first_views;
     const std::size_t first = result.detections.size();
     std::vector<double> times_s;
-    const auto keep = [&](std::optional<BoardCorners> corners, int frame, int moment) {
+    const auto keep = [&](ImageView<const Bgr> view, Effort effort, int frame, int moment) {
+      std::optional<BoardCorners> corners = detector.Detect(view, effort);
       if (!corners) return;
       ++found;
+      first_views.Look(detector, view, camera.frames[frame].name);
+      result.board.older_layout = result.board.older_layout || corners->older_layout;
       const FootageFrame& f = camera.frames[frame];
       const double late_s =
           result.timed ? 1e-9 * static_cast<double>(f.time_ns - moments[moment].time_ns) : 0;
@@ -184,7 +226,7 @@ BoardDetections CollectDetections(const Footage& footage, const Board& board,
       // The same moments for all cameras.
       if (moment_of[frame] % stride != 0) return;
       ++looked_at;
-      keep(detector.Detect(view, options.effort), frame, moment_of[frame]);
+      keep(view, options.effort, frame, moment_of[frame]);
       if (options.progress)
         options.progress(camera.name, moment_of[frame] + 1, total, found,
                          CoverageOf(result, id).Hint());
@@ -192,14 +234,16 @@ BoardDetections CollectDetections(const Footage& footage, const Board& board,
     if (!mean.empty()) {
       looked_at = 1;
       result.still_pictures.push_back(mean.Get());
-      keep(detector.Detect(result.still_pictures.back().view(), Effort::kThorough), 0, 0);
+      keep(result.still_pictures.back().view(), Effort::kThorough, 0, 0);
     }
+    first_views.RefuseOther(footage, camera);
     result.cameras.back().frames = looked_at;
     if (board.kind == BoardKind::kWand) found = KeepWandsFrom(first, result, times_s);
     if (!options.still && result.timed)
       MeasureMotions(result.detections, first, times_s, kLongestGaps * stride * interval_s);
     if (found == 0 && options.all_must_see) RefuseUnseen(footage, camera, board, detector);
   }
+  if (result.detections.empty()) RefuseUnseenByAll(footage, detector);
   return result;
 }
 

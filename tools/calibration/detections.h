@@ -52,7 +52,7 @@ struct DetectionCamera {
 };
 
 struct BoardDetections {
-  Board board;
+  Board board;  ///< With the layout that was found.
   std::vector<DetectionCamera> cameras;
   int moments = 0;
   bool timed = false;     ///< Capture times are known.
@@ -75,7 +75,8 @@ struct DetectionOptions {
 };
 
 /// Searches all pictures for the board.
-/// @throws SetupError  when a camera sees no board at all, naming it and the remedy.
+/// @throws SetupError  when a camera sees no board at all, or another one, naming it and the
+/// remedy.
 BoardDetections CollectDetections(const Footage& footage, const Board& board,
                                   const DetectionOptions& options);
 

@@ -11,6 +11,7 @@
 namespace mocap {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::PaintBoard;
 
@@ -86,7 +87,15 @@ TEST(BoardTest, SaysWhatIsWrongWithADescription) {
   EXPECT_THAT(ReasonOf("chess:2x5:100"), HasSubstr("3 to 50"));
   EXPECT_THAT(ReasonOf("chess:8x5:0.1"), HasSubstr("1 to 2000 mm"));
   EXPECT_THAT(ReasonOf("chess:8x5:100:DICT_4X4_50"), HasSubstr("a chessboard has no"));
-  EXPECT_THAT(ReasonOf("charuco:8x5:100:DICT_9X9_50"), HasSubstr("no dictionary"));
+  EXPECT_THAT(ReasonOf("charuco:8x5:100:DICT_9X9_50"),
+              AllOf(HasSubstr("no dictionary"), HasSubstr("DICT_APRILTAG_36h11"),
+                    HasSubstr("DICT_7X7_1000")));
+  EXPECT_EQ(ReasonOf("charuco:8x5:100:DICT_APRILTAG_36h11"), "accepted");
+  EXPECT_EQ(ReasonOf("charuco:8x5:100:dict_apriltag_16H5"), "accepted");
+  EXPECT_EQ(ReasonOf("aprilgrid:6x6:88:0.3"), "accepted");
+  EXPECT_THAT(ReasonOf("aprilgrid:6x6:88"), HasSubstr("has four parts"));
+  EXPECT_THAT(ReasonOf("aprilgrid:6x6:88:30"), HasSubstr("not a gap of 0.05 to 1"));
+  EXPECT_THAT(ReasonOf("aprilgrid:30x6:88:0.3"), HasSubstr("2 to 24 each way"));
   EXPECT_THAT(ReasonOf("charuco:20x20:30:DICT_4X4_50"), HasSubstr("the board has 200"));
 }
 
