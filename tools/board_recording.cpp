@@ -132,7 +132,7 @@ class Looker {
  public:
   Looker(const Board& board, const std::vector<LiveCamera>& cameras) : detector_(board) {
     seen_.board = board;
-    for (const LiveCamera& camera : cameras) seen_.cameras.push_back({camera.name, 1, 1, 0});
+    for (const LiveCamera& camera : cameras) seen_.cameras.push_back({camera.name, 1, 1, 0, ""});
   }
 
   /// @return  false when there is no new beat.
@@ -143,13 +143,18 @@ class Looker {
     const std::int64_t beat = newest - 1;
     if (beat <= last_beat_) return false;
     last_beat_ = beat;
+    // It takes longer than a search.
+    doubted_ = (doubted_ + 1) % recordings.size();
     for (std::size_t c = 0; c < recordings.size(); ++c) {
       const std::optional<Image<Bgr>> picture = recordings[c]->PictureAt(beat);
       if (!picture) continue;
       seen_.cameras[c].width_px = picture->width();
       seen_.cameras[c].height_px = picture->height();
       auto corners = detector_.Detect(picture->view(), Effort::kQuick);
-      if (!corners) continue;
+      if (!corners) {
+        if (c == doubted_) Doubt(c, *picture);
+        continue;
+      }
       BoardDetection& detection = seen_.detections.emplace_back();
       detection.camera = static_cast<int>(c);
       detection.moment = seen_.moments;
@@ -162,9 +167,17 @@ class Looker {
   std::vector<CameraHint> Hints() const { return HintsFor(seen_); }
 
  private:
+  // Finds out why a camera has not seen the board yet.
+  void Doubt(std::size_t camera, const Image<Bgr>& picture) {
+    if (seen_.CountOf(static_cast<int>(camera)) > 0) return;
+    if (const auto why = detector_.WhyNot(picture.view()))
+      seen_.cameras[camera].mismatch = why->text;
+  }
+
   BoardDetector detector_;
   BoardDetections seen_;
   std::int64_t last_beat_ = -1;
+  std::size_t doubted_ = 0;
 };
 
 /// Stops threads when the block that waits for them is left in any way.

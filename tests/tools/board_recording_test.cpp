@@ -89,6 +89,18 @@ TEST_F(BoardRecordingTest, LeavesFootageOfTheSameMomentsOfAllCameras) {
   EXPECT_EQ(CollectDetections(footage, options_.board, {}).CountOf(1), 5);
 }
 
+TEST_F(BoardRecordingTest, NamesAnotherBoardThatIsShownInstead) {
+  options_.board = ParseBoard("chess:9x6:100");
+  AddCamera("cam1", seen_, 30);
+  std::vector<CameraHint> last;
+  RecordBoard(cameras_, options_, [&](const std::vector<CameraHint>& hints) {
+    last = hints;
+    return false;
+  });
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_THAT(last[0].missing, HasSubstr("looks like chess:8x5:100, not chess:9x6:100"));
+}
+
 TEST_F(BoardRecordingTest, EndsWhenNothingIsMissing) {
   AddCamera("cam1", seen_, 1'000'000'000);
   RecordBoard(cameras_, options_, [](const std::vector<CameraHint>&) { return true; });

@@ -65,7 +65,8 @@ std::vector<CameraHint> HintsFor(const BoardDetections& detections) {
     const Coverage coverage = CoverageOf(detections, camera);
     CameraHint hint{detections.cameras[c].name, detections.CountOf(camera), coverage.share, ""};
     if (hint.views == 0) {
-      hint.missing = "has not seen the board";
+      const std::string& mismatch = detections.cameras[c].mismatch;
+      hint.missing = mismatch.empty() ? "has not seen the board" : mismatch;
     } else if (const std::string parts = coverage.Hint(); !parts.empty()) {
       hint.missing = parts;
     } else if (hint.views < kEnoughViews) {

@@ -17,7 +17,7 @@ struct CameraHint {
 };
 
 /// Returns what each camera still lacks: views, parts of the picture, or views shared with other
-/// cameras.
+/// cameras. Without any view, what it shows instead of the board, if that is known.
 std::vector<CameraHint> HintsFor(const BoardDetections& detections);
 
 }  // namespace mocap

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "tools/calibration/board_flatness.h"
 #include "tools/calibration/wand.h"
 
 namespace mocap {
@@ -154,8 +155,8 @@ std::vector<int> MomentsOfFrames(const std::vector<FootageMoment>& moments, std:
   return moment_of;
 }
 
-// Removes lights that are not the wand's from a camera's detections. @return  the remaining number.
-int KeepWandsFrom(std::size_t first, BoardDetections& detections, std::vector<double>& times_s) {
+// Removes lights that are not the wand's from a camera's detections.
+void KeepWandsFrom(std::size_t first, BoardDetections& detections, std::vector<double>& times_s) {
   const auto begin = detections.detections.begin() + static_cast<std::ptrdiff_t>(first);
   std::vector<BoardDetection> of_camera(begin, detections.detections.end());
   KeepWands(of_camera);
@@ -165,13 +166,106 @@ int KeepWandsFrom(std::size_t first, BoardDetections& detections, std::vector<do
     times_s.push_back(s.time_s);
     detections.detections.push_back(std::move(s));
   }
-  return static_cast<int>(of_camera.size());
 }
 
 double MeanInterval(const FootageCamera& camera) {
   return 1e-9 * static_cast<double>(camera.frames.back().time_ns - camera.frames.front().time_ns) /
          std::max<double>(1, static_cast<double>(camera.frames.size()) - 1);
 }
+
+/// Searches the pictures of one camera after the other.
+class BoardSearch {
+ public:
+  BoardSearch(const Footage& footage, const Board& board, const DetectionOptions& options)
+      : footage_(footage), options_(options), detector_(board), moments_(MatchMoments(footage)) {
+    result_.board = board;
+    result_.moments = options.still ? 1 : static_cast<int>(moments_.size());
+    result_.timed = std::all_of(footage.cameras.begin(), footage.cameras.end(),
+                                [](const FootageCamera& camera) { return camera.timed; });
+  }
+
+  BoardDetections Run() {
+    for (std::size_t c = 0; c < footage_.cameras.size(); ++c) SearchCamera(c);
+    if (result_.detections.empty()) RefuseUnseenByAll(footage_, detector_);
+    return std::move(result_);
+  }
+
+ private:
+  void SearchCamera(std::size_t c) {
+    const FootageCamera& camera = footage_.cameras[c];
+    const double interval_s = MeanInterval(camera);
+    const int total = static_cast<int>(moments_.size());
+    const int stride = std::max(1, (total + options_.most_frames - 1) / options_.most_frames);
+    result_.interval_s = c == 0 ? interval_s : std::min(result_.interval_s, interval_s);
+    result_.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0, ""});
+    first_ = result_.detections.size();
+    first_views_ = {};
+    times_s_.clear();
+    if (options_.still) {
+      SearchMean(camera);
+    } else {
+      SearchFrames(camera, MomentsOfFrames(moments_, c, camera.frames.size()), stride, total);
+    }
+    first_views_.RefuseOther(footage_, camera);
+    if (result_.board.kind == BoardKind::kWand) KeepWandsFrom(first_, result_, times_s_);
+    if (!options_.still && result_.timed)
+      MeasureMotions(result_.detections, first_, times_s_, kLongestGaps * stride * interval_s);
+    if (found() == 0 && options_.all_must_see)
+      RefuseUnseen(footage_, camera, result_.board, detector_);
+    RefuseUneven(footage_.folder.string() + ": " + camera.name, result_, first_);
+  }
+
+  void SearchMean(const FootageCamera& camera) {
+    MeanPicture mean;
+    camera.ForEach([&](int, ImageView<const Bgr> view) { mean.Add(view); });
+    if (mean.empty()) return;
+    result_.cameras.back().frames = 1;
+    result_.still_pictures.push_back(mean.Get());
+    Search(camera, result_.still_pictures.back().view(), Effort::kThorough, 0, 0);
+  }
+
+  void SearchFrames(const FootageCamera& camera, const std::vector<int>& moment_of, int stride,
+                    int total) {
+    camera.ForEach([&](int frame, ImageView<const Bgr> view) {
+      // The same moments for all cameras.
+      if (moment_of[frame] % stride != 0) return;
+      ++result_.cameras.back().frames;
+      Search(camera, view, options_.effort, frame, moment_of[frame]);
+      if (options_.progress)
+        options_.progress(camera.name, moment_of[frame] + 1, total, found(),
+                          CoverageOf(result_, id()).Hint());
+    });
+  }
+
+  void Search(const FootageCamera& camera, ImageView<const Bgr> view, Effort effort, int frame,
+              int moment) {
+    std::optional<BoardCorners> corners = detector_.Detect(view, effort);
+    if (!corners) return;
+    first_views_.Look(detector_, view, camera.frames[frame].name);
+    result_.board.older_layout = result_.board.older_layout || corners->older_layout;
+    const FootageFrame& f = camera.frames[frame];
+    const auto seconds_since = [](std::int64_t to_ns, std::int64_t from_ns) {
+      return 1e-9 * static_cast<double>(to_ns - from_ns);
+    };
+    const double late_s = result_.timed ? seconds_since(f.time_ns, moments_[moment].time_ns) : 0;
+    times_s_.push_back(seconds_since(f.time_ns, moments_[0].time_ns));
+    result_.detections.push_back(
+        {id(), moment, std::move(*corners), f.angles, f.name, times_s_.back(), late_s, {}});
+  }
+
+  int id() const { return static_cast<int>(result_.cameras.size()) - 1; }
+  int found() const { return static_cast<int>(result_.detections.size() - first_); }
+
+  const Footage& footage_;
+  const DetectionOptions& options_;
+  const BoardDetector detector_;
+  const std::vector<FootageMoment> moments_;
+  BoardDetections result_;
+  // Of the camera that is searched.
+  std::size_t first_ = 0;
+  FirstViews first_views_;
+  std::vector<double> times_s_;
+};
 
 }  // namespace
 
@@ -183,68 +277,7 @@ int BoardDetections::CountOf(int camera) const {
 
 BoardDetections CollectDetections(const Footage& footage, const Board& board,
                                   const DetectionOptions& options) {
-  const BoardDetector detector(board);
-  const std::vector<FootageMoment> moments = MatchMoments(footage);
-  BoardDetections result;
-  result.board = board;
-  result.moments = options.still ? 1 : static_cast<int>(moments.size());
-  result.timed = std::all_of(footage.cameras.begin(), footage.cameras.end(),
-                             [](const FootageCamera& camera) { return camera.timed; });
-  for (std::size_t c = 0; c < footage.cameras.size(); ++c) {
-    const FootageCamera& camera = footage.cameras[c];
-    const int id = static_cast<int>(c);
-    const std::vector<int> moment_of = MomentsOfFrames(moments, c, camera.frames.size());
-    const double interval_s = MeanInterval(camera);
-    result.interval_s = c == 0 ? interval_s : std::min(result.interval_s, interval_s);
-    const int total = static_cast<int>(moments.size());
-    const int stride = std::max(1, (total + options.most_frames - 1) / options.most_frames);
-    result.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
-    MeanPicture mean;
-    int found = 0;
-    FirstViews first_views;
-    const std::size_t first = result.detections.size();
-    std::vector<double> times_s;
-    const auto keep = [&](ImageView<const Bgr> view, Effort effort, int frame, int moment) {
-      std::optional<BoardCorners> corners = detector.Detect(view, effort);
-      if (!corners) return;
-      ++found;
-      first_views.Look(detector, view, camera.frames[frame].name);
-      result.board.older_layout = result.board.older_layout || corners->older_layout;
-      const FootageFrame& f = camera.frames[frame];
-      const double late_s =
-          result.timed ? 1e-9 * static_cast<double>(f.time_ns - moments[moment].time_ns) : 0;
-      times_s.push_back(1e-9 * static_cast<double>(f.time_ns - moments[0].time_ns));
-      result.detections.push_back(
-          {id, moment, std::move(*corners), f.angles, f.name, times_s.back(), late_s, {}});
-    };
-    int looked_at = 0;
-    camera.ForEach([&](int frame, ImageView<const Bgr> view) {
-      if (options.still) {
-        mean.Add(view);
-        return;
-      }
-      // The same moments for all cameras.
-      if (moment_of[frame] % stride != 0) return;
-      ++looked_at;
-      keep(view, options.effort, frame, moment_of[frame]);
-      if (options.progress)
-        options.progress(camera.name, moment_of[frame] + 1, total, found,
-                         CoverageOf(result, id).Hint());
-    });
-    if (!mean.empty()) {
-      looked_at = 1;
-      result.still_pictures.push_back(mean.Get());
-      keep(result.still_pictures.back().view(), Effort::kThorough, 0, 0);
-    }
-    first_views.RefuseOther(footage, camera);
-    result.cameras.back().frames = looked_at;
-    if (board.kind == BoardKind::kWand) found = KeepWandsFrom(first, result, times_s);
-    if (!options.still && result.timed)
-      MeasureMotions(result.detections, first, times_s, kLongestGaps * stride * interval_s);
-    if (found == 0 && options.all_must_see) RefuseUnseen(footage, camera, board, detector);
-  }
-  if (result.detections.empty()) RefuseUnseenByAll(footage, detector);
-  return result;
+  return BoardSearch(footage, board, options).Run();
 }
 
 void MatchAgain(const std::vector<double>& lateness_s, BoardDetections& detections) {

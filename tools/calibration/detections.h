@@ -48,7 +48,8 @@ struct BoardDetection {
 struct DetectionCamera {
   std::string name;
   int width_px = 0, height_px = 0;
-  int frames = 0;  ///< Number of frames searched.
+  int frames = 0;        ///< Number of frames searched.
+  std::string mismatch;  ///< While no view is found: why, as of BoardDetector::WhyNot.
 };
 
 struct BoardDetections {

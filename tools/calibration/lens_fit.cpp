@@ -70,6 +70,8 @@ struct Zhang {
   Matrix3 K = Matrix3::Identity();
   double k1 = 0, k2 = 0;
   double focal_sigma_share = 0;
+  double rms_px = 0;
+  int worst_view = 0;  ///< Of those that were given.
 };
 
 Zhang FirstLens(const BoardDetections& detections, int camera, const std::vector<int>& views) {
@@ -89,10 +91,14 @@ Zhang FirstLens(const BoardDetections& detections, int camera, const std::vector
   const DetectionCamera& c = detections.cameras[camera];
   cv::Mat K, distortion, sigma, pose_sigma, view_errors;
   std::vector<cv::Mat> rotations, translations;
-  cv::calibrateCamera(points, pixels, {c.width_px, c.height_px}, K, distortion, rotations,
-                      translations, sigma, pose_sigma, view_errors,
-                      cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST);
+  const double rms_px = cv::calibrateCamera(
+      points, pixels, {c.width_px, c.height_px}, K, distortion, rotations, translations, sigma,
+      pose_sigma, view_errors, cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST);
   Zhang zhang;
+  zhang.rms_px = rms_px;
+  const auto errors = cv::Mat_<double>(view_errors);
+  zhang.worst_view =
+      static_cast<int>(std::max_element(errors.begin(), errors.end()) - errors.begin());
   for (int i = 0; i < 9; ++i) zhang.K(i / 3, i % 3) = K.at<double>(i / 3, i % 3);
   zhang.k1 = distortion.at<double>(0);
   zhang.k2 = distortion.at<double>(1);
@@ -165,6 +171,28 @@ void RefuseOneTilt(const std::string& name, const std::string& frames, const Bun
                     name, bundle.X_WB.size(), frames, widest_rad * 180 / std::numbers::pi));
 }
 
+[[noreturn]] void RefuseMisfit(const std::string& name, double rms_px, int views,
+                               const std::string& worst_frame) {
+  throw SetupError(
+      fmt::format("{}: no lens explains the corners ({:.2f} px remain in {} views, most in {}); "
+                  "the board may be bent, its columns and rows swapped, or the focus or zoom "
+                  "changed while it was shown",
+                  name, rms_px, views, worst_frame));
+}
+
+// Whoever holds the board can do nothing about corners that fit no plane.
+void RefuseUncertainFocus(const std::string& name, const BoardDetections& detections,
+                          const std::vector<int>& views, const Zhang& zhang) {
+  if (zhang.focal_sigma_share < kWorstFocalSigma && zhang.K.allFinite()) return;
+  const int count = static_cast<int>(views.size());
+  if (!(zhang.rms_px < kWorstLensRms_px))
+    RefuseMisfit(name, zhang.rms_px, count, detections.detections[views[zhang.worst_view]].name);
+  throw SetupError(fmt::format(
+      "{}: its {} views ({}) leave the focal length uncertain by {:.0f} %; tilt the "
+      "board by 30 degrees and more, in all directions",
+      name, count, FramesText(detections, views), std::min(999.0, 100 * zhang.focal_sigma_share)));
+}
+
 }  // namespace
 
 LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOptions& options) {
@@ -176,12 +204,7 @@ LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOpti
                     "{}, tilted in different directions and in all parts of the picture",
                     c.name, views.size(), FramesText(detections, views), kFewestLensViews));
   const Zhang zhang = FirstLens(detections, camera, views);
-  if (!(zhang.focal_sigma_share < kWorstFocalSigma) || !zhang.K.allFinite())
-    throw SetupError(
-        fmt::format("{}: its {} views ({}) leave the focal length uncertain by {:.0f} %; tilt the "
-                    "board by 30 degrees and more, in all directions",
-                    c.name, views.size(), FramesText(detections, views),
-                    std::min(999.0, 100 * zhang.focal_sigma_share)));
+  RefuseUncertainFocus(c.name, detections, views, zhang);
   LensProblem problem = MakeProblem(detections, camera, views, MakeLens(zhang, options));
   RefuseOneTilt(c.name, FramesText(detections, views), problem.bundle);
   BundleOptions refine;
@@ -197,12 +220,9 @@ LensFit FitLens(const BoardDetections& detections, int camera, const LensFitOpti
   fit.focal_sigma_share = zhang.focal_sigma_share;
   fit.used = views;
   if (!settled || !(fit.rms_px < kWorstLensRms_px))
-    throw SetupError(fmt::format(
-        "{}: no lens explains the corners ({:.2f} px remain in {} views, most in {}); "
-        "the board may be bent, its columns and rows swapped, or the focus or zoom "
-        "changed while it was shown",
+    RefuseMisfit(
         c.name, fit.rms_px, fit.views,
-        WorstView(BundleErrors(problem.detections, problem.bundle), problem.detections, 0).frame));
+        WorstView(BundleErrors(problem.detections, problem.bundle), problem.detections, 0).frame);
   return fit;
 }
 

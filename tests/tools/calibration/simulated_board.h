@@ -76,7 +76,7 @@ inline BoardDetections DetectionsFor(const std::vector<CameraCalibration>& camer
   BoardDetections detections;
   detections.board = board;
   for (const CameraCalibration& camera : cameras)
-    detections.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0});
+    detections.cameras.push_back({camera.name, camera.width_px, camera.height_px, 0, ""});
   return detections;
 }
 

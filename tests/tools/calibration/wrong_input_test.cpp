@@ -180,30 +180,6 @@ const WrongInput kWrongRecordings[] = {
        return b.Intrinsics();
      },
      {"cam1: frame 0", "looks like chess:8x5:100, not chess:9x6:100", "inner corners"}},
-    {"ColumnsAndRowsExchanged",
-     [](Bench& b) {
-       b.Write("cam1", Charuco());
-       b.arguments.board = "charuco:4x5:40";
-       return b.Intrinsics();
-     },
-     {"cam1: frame 0", "looks like charuco:5x4:40:DICT_4X4_50:0.75, not charuco:4x5:40"}},
-    {"ACharucoBoardWhoseCornersAreThoseOfTheChessboard",
-     [](Bench& b) {
-       b.Write("cam1", Charuco());
-       b.arguments.board = "chess:4x3:40";
-       return b.Intrinsics();
-     },
-     {"cam1: frame 0", "looks like charuco:5x4:MM:DICT_4X4_50:0.75, not chess:4x3:40"}},
-    {"AnotherBoardOnTheFloor",
-     [](Bench& b) {
-       b.Write("cam1", Charuco());
-       StudioFit fit;
-       fit.bundle.cameras = {b.camera};
-       b.arguments.floor = b.arguments.footage;
-       b.arguments.board = "charuco:7x6:40";
-       return testing::SetupErrorOf([&] { SetWorld(b.arguments, fit); });
-     },
-     {"cam1: frame 0", "looks like charuco:5x4:40:DICT_4X4_50:0.75, not charuco:7x6:40"}},
     {"ABlurredBoard",
      [](Bench& b) {
        b.Write("cam1", Blurred(b.seen));
