@@ -60,14 +60,18 @@ class BoardDetector::Impl {
     if (!board_.HasMarkers() && IsThereBlurred(gray))
       return BoardMismatch{"shows the board blurred; hold it still, focus, or shorten the exposure",
                            board_.corners()};
-    if (const auto other = OtherBoard(gray)) return other;
-    return WhyNoMarkers(gray);
+    for (const auto why : {&Impl::OtherBoard, &Impl::WhyMirrored, &Impl::WhyNegative}) {
+      if (auto mismatch = (this->*why)(gray)) return mismatch;
+    }
+    return std::nullopt;
   }
 
   std::optional<BoardMismatch> WhyNotAfterAll(ImageView<const Bgr> image) const {
     if (board_.kind != BoardKind::kChessboard) return std::nullopt;
-    const auto other = OtherBoard(Gray(image));
-    return other && other->corners_seen >= board_.corners() ? other : std::nullopt;
+    const cv::Mat gray = Gray(image);
+    const auto other = OtherBoard(gray);
+    if (other) return other->corners_seen >= board_.corners() ? other : std::nullopt;
+    return WhyNegative(gray);
   }
 
  private:
@@ -87,16 +91,21 @@ class BoardDetector::Impl {
   }
 
   // Markers are read neither in a mirror nor as a negative.
-  std::optional<BoardMismatch> WhyNoMarkers(const cv::Mat& gray) const {
-    cv::Mat changed;
-    cv::flip(gray, changed, 1);
-    if (const auto shown = FindShownBoard(changed, board_); shown && shown->HasMarkers())
-      return BoardMismatch{
-          "shows the board mirrored; switch mirroring off, or print the board unmirrored",
-          shown->corners()};
-    cv::bitwise_not(gray, changed);
-    auto shown = FindShownBoard(changed, board_);
-    if (!shown || !shown->HasMarkers()) return std::nullopt;
+  std::optional<BoardMismatch> WhyMirrored(const cv::Mat& gray) const {
+    cv::Mat mirrored;
+    cv::flip(gray, mirrored, 1);
+    const auto shown = FindShownMarkerBoard(mirrored, board_);
+    if (!shown) return std::nullopt;
+    return BoardMismatch{
+        "shows the board mirrored; switch mirroring off, or print the board unmirrored",
+        shown->corners()};
+  }
+
+  std::optional<BoardMismatch> WhyNegative(const cv::Mat& gray) const {
+    cv::Mat negative;
+    cv::bitwise_not(gray, negative);
+    auto shown = FindShownMarkerBoard(negative, board_);
+    if (!shown) return std::nullopt;
     shown->inverted = !board_.inverted;
     if (!MayBe(*shown, board_))
       return BoardMismatch{LooksLikeText(*shown, board_), shown->corners()};

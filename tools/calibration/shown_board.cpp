@@ -137,10 +137,15 @@ std::optional<Board> FindShownChessboard(const cv::Mat& gray, const Board& expec
 
 }  // namespace
 
+std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expected) {
+  const auto markers = FindShownMarkers(gray);
+  return markers ? std::optional(BoardOf(gray, *markers, expected)) : std::nullopt;
+}
+
 std::optional<Board> FindShownBoard(const cv::Mat& gray, const Board& expected) {
   // A chessboard is found on ChArUco boards too.
-  if (const auto markers = FindShownMarkers(gray)) return BoardOf(gray, *markers, expected);
-  return FindShownChessboard(gray, expected);
+  const auto board = FindShownMarkerBoard(gray, expected);
+  return board ? board : FindShownChessboard(gray, expected);
 }
 
 bool MayBe(const Board& shown, const Board& expected) {

@@ -14,6 +14,9 @@ namespace mocap {
 /// what agrees is as expected. Empty if none is recognized.
 std::optional<Board> FindShownBoard(const cv::Mat& gray, const Board& expected);
 
+/// The same for boards with markers only.
+std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expected);
+
 /// Whether a board that was seen, perhaps in part, may be the expected one.
 bool MayBe(const Board& shown, const Board& expected);
 

@@ -68,6 +68,8 @@ const OtherBoard kOtherBoards[] = {
      "looks like charuco:7x6:MM:DICT_5X5_50:0.75, not chess:8x5:60; MM is the side of a square"},
     {"CharucoForAChessboardOfItsCorners", "chess:6x5:60", "charuco:7x6:60", false,
      "looks like charuco:7x6:MM:DICT_4X4_50:0.75"},
+    {"WhiteOnBlackForAChessboardOfItsCorners", "chess:4x3:60", "charuco:5x4:60:inverted", false,
+     "looks like charuco:5x4:MM:DICT_4X4_50:0.75:inverted"},
     {"ChessboardForCharuco", "charuco:7x6:60", "chess:8x5:60", false,
      "looks like chess:8x5:MM, not charuco:7x6:60"},
     {"ChessboardWithMoreCorners", "chess:7x4:60", "chess:8x5:60", false,
