@@ -53,6 +53,9 @@ struct BoardCorners {
   std::vector<int> ids;
   std::vector<Vector2> pixels;  ///< One for each id.
   bool older_layout = false;    ///< As of Board.
+  /// The markers that are seen fit both layouts. Then corners are those of the newer one; in the
+  /// older one, each is that before.
+  bool layout_open = false;
 };
 
 }  // namespace mocap

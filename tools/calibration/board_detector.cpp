@@ -57,10 +57,9 @@ class BoardDetector::Impl {
   std::optional<BoardMismatch> WhyNot(ImageView<const Bgr> image) const {
     if (board_.kind == BoardKind::kWand) return std::nullopt;
     const cv::Mat gray = Gray(image);
-    if (!board_.HasMarkers() && IsThereBlurred(gray))
-      return BoardMismatch{"shows the board blurred; hold it still, focus, or shorten the exposure",
-                           board_.corners()};
-    for (const auto why : {&Impl::OtherBoard, &Impl::WhyMirrored, &Impl::WhyNegative}) {
+    // Chessboards are found on ChArUco boards too, sharp or not.
+    for (const auto why : {&Impl::OtherMarkers, &Impl::WhyBlurred, &Impl::OtherChessboard,
+                           &Impl::WhyMirrored, &Impl::WhyNegative}) {
       if (auto mismatch = (this->*why)(gray)) return mismatch;
     }
     return std::nullopt;
@@ -69,9 +68,11 @@ class BoardDetector::Impl {
   std::optional<BoardMismatch> WhyNotAfterAll(ImageView<const Bgr> image) const {
     if (board_.kind != BoardKind::kChessboard) return std::nullopt;
     const cv::Mat gray = Gray(image);
-    const auto other = OtherBoard(gray);
-    if (other) return other->corners_seen >= board_.corners() ? other : std::nullopt;
-    return WhyNegative(gray);
+    for (const auto why : {&Impl::OtherMarkers, &Impl::OtherChessboard, &Impl::WhyNegative}) {
+      const auto other = (this->*why)(gray);
+      if (other && other->corners_seen >= board_.corners()) return other;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -84,10 +85,17 @@ class BoardDetector::Impl {
     return gray;
   }
 
-  std::optional<BoardMismatch> OtherBoard(const cv::Mat& gray) const {
-    const auto shown = FindShownBoard(gray, board_);
+  std::optional<BoardMismatch> Other(const std::optional<Board>& shown) const {
     if (!shown || MayBe(*shown, board_)) return std::nullopt;
     return BoardMismatch{LooksLikeText(*shown, board_), shown->corners()};
+  }
+
+  std::optional<BoardMismatch> OtherMarkers(const cv::Mat& gray) const {
+    return Other(FindShownMarkerBoard(gray, board_));
+  }
+
+  std::optional<BoardMismatch> OtherChessboard(const cv::Mat& gray) const {
+    return Other(FindShownChessboard(gray, board_));
   }
 
   // Markers are read neither in a mirror nor as a negative.
@@ -107,18 +115,20 @@ class BoardDetector::Impl {
     auto shown = FindShownMarkerBoard(negative, board_);
     if (!shown) return std::nullopt;
     shown->inverted = !board_.inverted;
-    if (!MayBe(*shown, board_))
-      return BoardMismatch{LooksLikeText(*shown, board_), shown->corners()};
+    if (auto other = Other(shown); other) return other;
     return BoardMismatch{board_.inverted
                              ? "shows the board black on white; leave :inverted out of --board"
                              : "shows the board white on black; add :inverted to --board",
                          shown->corners()};
   }
 
-  bool IsThereBlurred(const cv::Mat& gray) const {
+  std::optional<BoardMismatch> WhyBlurred(const cv::Mat& gray) const {
     std::vector<cv::Point2f> corners;
-    return cv::findChessboardCornersSB(gray, {board_.columns, board_.rows}, corners,
-                                       cv::CALIB_CB_NORMALIZE_IMAGE);
+    if (board_.HasMarkers() || !cv::findChessboardCornersSB(gray, {board_.columns, board_.rows},
+                                                            corners, cv::CALIB_CB_NORMALIZE_IMAGE))
+      return std::nullopt;
+    return BoardMismatch{"shows the board blurred; hold it still, focus, or shorten the exposure",
+                         board_.corners()};
   }
 
   // All lights: only motion shows which two are the wand's.

@@ -173,6 +173,27 @@ double MeanInterval(const FootageCamera& camera) {
          std::max<double>(1, static_cast<double>(camera.frames.size()) - 1);
 }
 
+// Decides views whose markers fit both layouts. In the older one, they are a column farther left.
+void SettleOpenLayouts(BoardDetections& detections, std::size_t first, bool older) {
+  for (std::size_t s = first; s < detections.detections.size(); ++s) {
+    BoardCorners& corners = detections.detections[s].corners;
+    if (!corners.layout_open) continue;
+    corners.layout_open = false;
+    corners.older_layout = older;
+    for (int& id : corners.ids) id -= older ? 1 : 0;
+  }
+}
+
+// How many views show the older layout, less those that show the newer.
+int CountOlderLayouts(const BoardDetections& detections, std::size_t first) {
+  int count = 0;
+  for (std::size_t s = first; s < detections.detections.size(); ++s) {
+    const BoardCorners& corners = detections.detections[s].corners;
+    if (!corners.layout_open) count += corners.older_layout ? 1 : -1;
+  }
+  return count;
+}
+
 /// Searches the pictures of one camera after the other.
 class BoardSearch {
  public:
@@ -187,6 +208,8 @@ class BoardSearch {
   BoardDetections Run() {
     for (std::size_t c = 0; c < footage_.cameras.size(); ++c) SearchCamera(c);
     if (result_.detections.empty()) RefuseUnseenByAll(footage_, detector_);
+    result_.board.older_layout = CountOlderLayouts(result_, 0) > 0;
+    SettleOpenLayouts(result_, 0, result_.board.older_layout);
     return std::move(result_);
   }
 
@@ -208,6 +231,9 @@ class BoardSearch {
     }
     first_views_.RefuseOther(footage_, camera);
     if (result_.board.kind == BoardKind::kWand) KeepWandsFrom(first_, result_, times_s_);
+    // Before motions, which compare corners of one number.
+    if (const int older = CountOlderLayouts(result_, first_); older != 0)
+      SettleOpenLayouts(result_, first_, older > 0);
     if (!options_.still && result_.timed)
       MeasureMotions(result_.detections, first_, times_s_, kLongestGaps * stride * interval_s);
     if (found() == 0 && options_.all_must_see)
@@ -242,7 +268,6 @@ class BoardSearch {
     std::optional<BoardCorners> corners = detector_.Detect(view, effort);
     if (!corners) return;
     first_views_.Look(detector_, view, camera.frames[frame].name);
-    result_.board.older_layout = result_.board.older_layout || corners->older_layout;
     const FootageFrame& f = camera.frames[frame];
     const auto seconds_since = [](std::int64_t to_ns, std::int64_t from_ns) {
       return 1e-9 * static_cast<double>(to_ns - from_ns);

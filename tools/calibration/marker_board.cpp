@@ -184,18 +184,23 @@ std::optional<BoardCorners> DetectMarkerBoard(const cv::Mat& gray, const Board& 
   const std::vector<Marker> markers = FindMarkers(gray, board.dictionary, style);
   std::optional<GridMatch> match;
   MarkerGrid grid;
+  bool fits_both = false;
   for (const MarkerGrid& candidate : GridsOf(board)) {
     auto with = MatchGrid(candidate, markers);
+    fits_both = with && match && with->pairs == match->pairs;
     if (!with || (match && match->pairs >= with->pairs)) continue;
     match = std::move(with);
     grid = candidate;
   }
   if (!match || match->last_id >= MarkersOf(board)) return std::nullopt;
+  const bool even_rows = board.rows % 2 == 1;  // Of squares.
+  if (grid.layout == MarkerGrid::Layout::kWhiteFirst && !even_rows) return std::nullopt;
   if (!IsMarkerShare(MeasureMarkerShare(gray, grid, match->markers, style), board))
     return std::nullopt;
   BoardCorners found = board.kind == BoardKind::kAprilGrid
                            ? TagCorners(board, grid, match->markers)
                            : CharucoCorners(gray, board, grid, match->markers);
+  found.layout_open = fits_both && even_rows;
   const bool enough =
       static_cast<int>(found.ids.size()) >= kFewestMarkerCorners && !OnOneLine(board, found.ids);
   return enough ? std::optional(std::move(found)) : std::nullopt;

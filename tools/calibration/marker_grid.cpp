@@ -63,9 +63,7 @@ Vector2 MarkerGrid::PlaceOf(int id) const {
 std::vector<MarkerGrid> GridsOf(const Board& board) {
   using Layout = MarkerGrid::Layout;
   if (board.kind == BoardKind::kAprilGrid) return {{Layout::kTags, board.columns / 2}};
-  const int columns = board.columns + 1;
-  if (board.rows % 2 == 0) return {{Layout::kBlackFirst, columns}};
-  return {{Layout::kBlackFirst, columns}, {Layout::kWhiteFirst, columns}};
+  return {{Layout::kBlackFirst, board.columns + 1}, {Layout::kWhiteFirst, board.columns + 1}};
 }
 
 std::optional<GridMatch> MatchGrid(const MarkerGrid& grid, const std::vector<Marker>& markers) {

@@ -34,7 +34,7 @@ struct MarkerGrid {
   int turn() const { return layout == Layout::kTags ? 2 : 0; }
 };
 
-/// Layouts that markers of a board may have: two if it has an even number of rows of squares.
+/// Grids with the board's number of columns, whether the board can have them or not.
 std::vector<MarkerGrid> GridsOf(const Board& board);
 
 /// How well markers in a picture agree with a grid.

@@ -114,6 +114,13 @@ bool IsPlain(const cv::Mat& gray, const std::vector<cv::Point2f>& corners, const
          kPlainSquares * static_cast<double>(ranges[0].size() + ranges[1].size());
 }
 
+}  // namespace
+
+std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expected) {
+  const auto markers = FindShownMarkers(gray);
+  return markers ? std::optional(BoardOf(gray, *markers, expected)) : std::nullopt;
+}
+
 std::optional<Board> FindShownChessboard(const cv::Mat& gray, const Board& expected) {
   std::vector<cv::Point2f> corners;
   cv::Mat meta;
@@ -133,19 +140,6 @@ std::optional<Board> FindShownChessboard(const cv::Mat& gray, const Board& expec
     if (expected.columns < expected.rows) std::swap(board.columns, board.rows);
   }
   return board;
-}
-
-}  // namespace
-
-std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expected) {
-  const auto markers = FindShownMarkers(gray);
-  return markers ? std::optional(BoardOf(gray, *markers, expected)) : std::nullopt;
-}
-
-std::optional<Board> FindShownBoard(const cv::Mat& gray, const Board& expected) {
-  // A chessboard is found on ChArUco boards too.
-  const auto board = FindShownMarkerBoard(gray, expected);
-  return board ? board : FindShownChessboard(gray, expected);
 }
 
 bool MayBe(const Board& shown, const Board& expected) {

@@ -9,13 +9,13 @@
 
 namespace mocap {
 
-/// Finds the board that a picture shows: a ChArUco board of any dictionary, a grid of tags or a
-/// chessboard. Its rows are those that are seen. What a picture does not show, such as lengths, and
-/// what agrees is as expected. Empty if none is recognized.
-std::optional<Board> FindShownBoard(const cv::Mat& gray, const Board& expected);
-
-/// The same for boards with markers only.
+/// Finds the ChArUco board, of any dictionary, or grid of tags that a picture shows. Its rows are
+/// those that are seen. What a picture does not show, such as lengths, and what agrees is as
+/// expected. Empty if none is recognized.
 std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expected);
+
+/// The same for a chessboard without markers.
+std::optional<Board> FindShownChessboard(const cv::Mat& gray, const Board& expected);
 
 /// Whether a board that was seen, perhaps in part, may be the expected one.
 bool MayBe(const Board& shown, const Board& expected);

@@ -72,6 +72,37 @@ TEST_F(MarkerRecordingTest, ALensIsFoundFromTheOlderLayoutAndThatIsSaid) {
   EXPECT_THAT(FitText(fit_, {}), HasSubstr("in the older layout of before OpenCV 4.6"));
 }
 
+TEST_F(MarkerRecordingTest, ViewsThatFitBothLayoutsAreOfTheOneThatOthersShow) {
+  Board board = ParseBoard("charuco:7x6:60");
+  for (const bool older : {false, true}) {
+    board.older_layout = older;
+    VideoWriter writer(arguments_.footage / "cam1.mkv", camera_.width_px, camera_.height_px, 10,
+                       VideoPixels::kBgr);
+    std::vector<RigidTransform> poses;
+    // Without the outer columns on the right and on the left, and whole.
+    for (const double x_mm : {120., -420., -150., -150., -420.}) {
+      const double turn = 0.05 * static_cast<double>(poses.size());
+      poses.push_back({ExpRotation({0.1, turn, turn}), Vector3(x_mm, -100, 560)});
+      writer.Write(testing::PaintMarkerBoard(camera_, poses.back(), board).view());
+    }
+    writer.Finish();
+    const BoardDetections found =
+        CollectDetections(OpenFootage(arguments_.footage), ParseBoard("charuco:7x6:60"), {});
+    EXPECT_EQ(found.board.older_layout, older);
+    ASSERT_EQ(found.detections.size(), 5u);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const BoardCorners& corners = found.detections[i].corners;
+      for (std::size_t k = 0; k < corners.ids.size(); ++k) {
+        const Vector3 p_C = poses[i] * board.Corner(corners.ids[k]);
+        EXPECT_LT((*PixelFromNormalized(camera_.lens, p_C.head<2>() / p_C.z()) - corners.pixels[k])
+                      .norm(),
+                  0.6)
+            << older << " " << i << " " << corners.ids[k];
+      }
+    }
+  }
+}
+
 TEST_F(MarkerRecordingTest, ALensIsFoundFromAprilTagsAndNoOtherLayoutIsSaid) {
   Record(ParseBoard("charuco:7x6:60:DICT_APRILTAG_36h11"), 14);
   EXPECT_NEAR(FocalLengthPx("charuco:7x6:60:DICT_APRILTAG_36H11"), 600, 4);
