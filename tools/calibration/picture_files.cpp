@@ -62,10 +62,13 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
 }
 
 std::string_view KindByContent(const fs::path& file) {
-  std::array<char, 12> head{};
+  std::array<char, 21> head{};
   std::ifstream(file, std::ios::binary).read(head.data(), head.size());
   const std::string_view bytes(head.data(), head.size());
-  return bytes.substr(4, 4) == "ftyp" ? NameOf(kBrands, bytes.substr(8, 4)) : std::string_view();
+  if (bytes.substr(4, 4) == "ftyp") return NameOf(kBrands, bytes.substr(8, 4));
+  constexpr char kAnimation = 0x02;
+  const bool moves = bytes.substr(8, 8) == "WEBPVP8X" && (bytes[20] & kAnimation) != 0;
+  return moves ? "Animated WebP" : "";
 }
 
 std::string ConvertText(std::string_view kind) {
@@ -99,7 +102,7 @@ void RefuseUnreadPictures(const fs::path& folder) {
 void RefuseUnreadPicture(const fs::path& file) {
   const std::string_view kind = KindByContent(file);
   if (!kind.empty())
-    throw SetupError(file.string() + ": is a picture of another kind than its name says; " +
+    throw SetupError(file.string() + ": is " + std::string(kind) + " by its content; " +
                      ConvertText(kind));
   throw SetupError(file.string() + ": is not a readable picture; remove it or save it again");
 }

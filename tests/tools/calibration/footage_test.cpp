@@ -149,12 +149,17 @@ TEST_F(FootageTest, APictureOfAKindThatIsNotReadMayLieBesideOneThatIs) {
   EXPECT_THAT(OpenFootage(folder_.path()).cameras, SizeIs(1));
 }
 
-TEST_F(FootageTest, APictureWithTheNameOfAnotherKindIsRefusedByWhatItIs) {
+TEST_F(FootageTest, APictureWhoseNameDoesNotTellItsKindIsRefusedByWhatItIs) {
   fs::create_directories(folder_.path() / "cam1");
   WriteText(folder_.path() / "cam1/img1.jpg", std::string("\0\0\0\x18"
                                                           "ftypheic\0\0\0\0mif1heic",
                                                           24));
   EXPECT_THAT(Why(), AllOf(HasSubstr("img1.jpg"), HasSubstr("HEIC pictures are not read")));
+  fs::remove(folder_.path() / "cam1/img1.jpg");
+  WriteText(folder_.path() / "cam1/img1.webp",
+            std::string("RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x0f\0\0\x0f\0\0", 30));
+  EXPECT_THAT(Why(),
+              AllOf(HasSubstr("img1.webp"), HasSubstr("Animated WebP pictures are not read")));
 }
 
 TEST_F(FootageTest, WhereThereIsNoRecordingTheFilesThatThereAreAreNamed) {
