@@ -128,7 +128,8 @@ void RefuseUnseenByAll(const Footage& footage, const BoardDetector& detector) {
 class FirstViews {
  public:
   void Look(const BoardDetector& detector, ImageView<const Bgr> view, const std::string& frame) {
-    if (looked_at_ >= kViewsToDoubt) return;
+    // One that is of the board is enough.
+    if (looked_at_ > others_ || looked_at_ >= kViewsToDoubt) return;
     ++looked_at_;
     const auto why = detector.WhyNotAfterAll(view);
     if (!why) return;

@@ -20,12 +20,19 @@ using ::testing::Not;
 using testing::SetupErrorOf;
 using testing::WalkBoard;
 
+BoardWalk ShortWalk(const char* spec = "chess:8x5:100") {
+  BoardWalk walk;
+  walk.board = ParseBoard(spec);
+  walk.moments = 45;
+  return walk;
+}
+
 std::string WhyUneven(const BoardDetections& detections) {
   return SetupErrorOf([&] { RefuseUneven("carried: cam1", detections, 0); });
 }
 
 TEST(BoardFlatnessTest, RowsThatAreNotWhereTheBoardHasThemAreToldOfTheBoard) {
-  BoardDetections detections = WalkBoard(simulation::HangCameras({}), {});
+  BoardDetections detections = WalkBoard(simulation::HangCameras({}), ShortWalk());
   for (BoardDetection& s : detections.detections) {
     // Every second row is nearer to the one before.
     for (std::size_t i = 0; i < s.corners.pixels.size(); ++i) {
@@ -40,16 +47,15 @@ TEST(BoardFlatnessTest, RowsThatAreNotWhereTheBoardHasThemAreToldOfTheBoard) {
 }
 
 TEST(BoardFlatnessTest, CornersCountedByAnotherNumberOfColumnsAreToldOfTheBoard) {
-  BoardDetections detections = WalkBoard(simulation::HangCameras({}), {});
+  BoardDetections detections = WalkBoard(simulation::HangCameras({}), ShortWalk());
   detections.board.columns = 5;
   detections.board.rows = 8;
   EXPECT_THAT(WhyUneven(detections), HasSubstr("the corners lie on no plane"));
 }
 
 TEST(BoardFlatnessTest, AGridOfTagsWithOtherGapsIsToldOfTheBoard) {
-  BoardWalk walk;
-  walk.board = ParseBoard("aprilgrid:6x6:88:0.3");
-  BoardDetections detections = WalkBoard(simulation::HangCameras({}), walk);
+  BoardDetections detections =
+      WalkBoard(simulation::HangCameras({}), ShortWalk("aprilgrid:6x6:88:0.3"));
   detections.board = ParseBoard("aprilgrid:6x6:88:0.6");
   EXPECT_THAT(WhyUneven(detections), HasSubstr("grid of 6 x 6 AprilTags"));
 }
@@ -61,15 +67,14 @@ TEST(BoardFlatnessTest, BoardsAsDescribedAreFlatWhateverTheLensAndTheNoise) {
   for (std::size_t c = 0; c < cameras.size(); c += 2)
     cameras[c].lens = FisheyeLens{K, {0.02, -0.01, 0, 0}};
   for (const char* spec : {"chess:8x5:100", "charuco:5x4:200", "aprilgrid:6x6:88:0.3"}) {
-    BoardWalk walk;
-    walk.board = ParseBoard(spec);
+    BoardWalk walk = ShortWalk(spec);
     walk.noise_px = 0.4;
     EXPECT_EQ(WhyUneven(WalkBoard(cameras, walk)), "nothing was thrown") << spec;
   }
 }
 
 TEST(BoardFlatnessTest, ALensIsNotAskedOfCornersThatFitNone) {
-  BoardDetections detections = WalkBoard(simulation::HangCameras({}), {});
+  BoardDetections detections = WalkBoard(simulation::HangCameras({}), ShortWalk());
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 30);
   for (BoardDetection& s : detections.detections) {
