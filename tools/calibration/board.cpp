@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -54,9 +55,8 @@ void ReadLength(const std::string& text, const std::string& length, const char* 
     Refuse(text, Quoted(length) + " is not a " + what + "'s side of 1 to 2000 mm");
 }
 
-// A name in upper or lower case.
-bool IsDictionary(const std::string& part) {
-  return part.size() > 5 && (part.starts_with("DICT_") || part.starts_with("dict_"));
+bool IsName(const std::string& part) {
+  return !part.empty() && std::isalpha(static_cast<unsigned char>(part[0])) != 0;
 }
 
 std::string ReadDictionary(const std::string& part, int markers) {
@@ -105,7 +105,7 @@ Board ParseCharuco(const std::string& text, const std::vector<std::string>& part
     double share = 0;
     if (parts[i] == "inverted") {
       board.inverted = true;
-    } else if (IsDictionary(parts[i])) {
+    } else if (IsName(parts[i])) {
       dictionary = parts[i];
     } else if (ReadNumber(parts[i], share) && share > 0.1 && share < 1) {
       board.marker_share = share;

@@ -91,7 +91,9 @@ TEST(BoardTest, SaysWhatIsWrongWithADescription) {
               AllOf(HasSubstr("no dictionary"), HasSubstr("DICT_APRILTAG_36h11"),
                     HasSubstr("DICT_7X7_1000")));
   EXPECT_EQ(ReasonOf("charuco:8x5:100:DICT_APRILTAG_36h11"), "accepted");
-  EXPECT_EQ(ReasonOf("charuco:8x5:100:dict_apriltag_16H5"), "accepted");
+  EXPECT_EQ(ReasonOf("charuco:8x5:100:Dict_AprilTag_16H5"), "accepted");
+  EXPECT_THAT(ReasonOf("charuco:8x5:100:tag36h11"),
+              AllOf(HasSubstr("no dictionary \"tag36h11\""), HasSubstr("DICT_APRILTAG_36h11")));
   EXPECT_EQ(ReasonOf("aprilgrid:6x6:88:0.3"), "accepted");
   EXPECT_THAT(ReasonOf("aprilgrid:6x6:88"), HasSubstr("has four parts"));
   EXPECT_THAT(ReasonOf("aprilgrid:6x6:88:30"), HasSubstr("not a gap of 0.05 to 1"));

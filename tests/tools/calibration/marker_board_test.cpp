@@ -89,6 +89,25 @@ constexpr auto kNameOfBoard = [](const ::testing::TestParamInfo<MarkerBoardCase>
 
 INSTANTIATE_TEST_SUITE_P(Boards, MarkerBoardTest, ::testing::ValuesIn(kMarkerBoards), kNameOfBoard);
 
+TEST(MarkerGridTest, AWideLensDoesNotMakeItAnotherBoard) {
+  Matrix3 K;
+  K << 260, 0, 318, 0, 260, 242, 0, 0, 1;
+  const CameraCalibration camera{"cam1", 640, 480, FisheyeLens{K, {0.02, -0.005, 0, 0}}, {}, {}};
+  Board older = ParseBoard("charuco:8x6:60");
+  older.older_layout = true;
+  for (const Board& printed :
+       {older, ParseBoard("charuco:8x6:60"), ParseBoard("aprilgrid:5x4:80:0.3")}) {
+    Board asked = printed;
+    asked.older_layout = false;
+    const RigidTransform X_CB = HeldBefore(asked, {0.5, -0.4, 0.1}, 330);
+    const Image<Bgr> picture = PaintMarkerBoard(camera, X_CB, printed);
+    const auto found = BoardDetector(asked).Detect(picture.view(), Effort::kQuick);
+    ASSERT_TRUE(found) << printed.Text();
+    EXPECT_EQ(found->older_layout, printed.older_layout);
+    EXPECT_LT(ErrorsOf(camera, X_CB, asked, *found).mean_px, 0.25) << printed.Text();
+  }
+}
+
 TEST(AprilGridTest, CornersCountFromTheLowerLeftAndPartOfTheGridIsEnough) {
   const Board grid = ParseBoard("aprilgrid:6x5:55:0.3");
   EXPECT_EQ(grid.corners(), 120);
