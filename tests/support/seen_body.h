@@ -46,16 +46,17 @@ class RoundStudio {
     const CameraCalibration& camera = cameras_[index];
     const RigidTransform X_WC = camera.X_CW.Inverse();
     Silhouette silhouette(camera.width_px, camera.height_px);
-    for (int y = 0; y < camera.height_px; ++y) {
-      for (int x = 0; x < camera.width_px; ++x) {
-        const auto normalized = NormalizedFromPixel(camera.lens, Vector2(x, y));
-        const Vector3 far_W = X_WC * (8000 * Vector3(normalized->x(), normalized->y(), 1));
-        const Vector3 direction_W = (far_W - X_WC.p).normalized();
-        const bool hit = std::any_of(flesh.begin(), flesh.end(), [&](const auto& capsule) {
+    for (const PosedCapsule& capsule : flesh) {
+      const PixelBox box = BoxAround(camera, capsule);
+      for (int y = box.top; y <= box.bottom; ++y) {
+        for (int x = box.left; x <= box.right; ++x) {
+          if (silhouette.Test(x, y)) continue;
+          const Vector3 far_W = X_WC * (8000 * NormalizedOf(camera, x, y).homogeneous());
+          const Vector3 direction_W = (far_W - X_WC.p).normalized();
           const double aside_mm = direction_W.cross(capsule.middle_W - X_WC.p).norm();
-          return aside_mm <= capsule.reach_mm && capsule.DistanceTo(X_WC.p, far_W).outside_mm <= 0;
-        });
-        if (hit) silhouette.Set(x, y);
+          if (aside_mm <= capsule.reach_mm && capsule.DistanceTo(X_WC.p, far_W).outside_mm <= 0)
+            silhouette.Set(x, y);
+        }
       }
     }
     return silhouette;
@@ -102,6 +103,36 @@ class RoundStudio {
   }
 
  private:
+  /// All cameras have the same lens.
+  static const Vector2& NormalizedOf(const CameraCalibration& camera, int x, int y) {
+    static const std::vector<Vector2> directions = [&camera] {
+      std::vector<Vector2> of_pixels;
+      for (int v = 0; v < camera.height_px; ++v) {
+        for (int u = 0; u < camera.width_px; ++u)
+          of_pixels.push_back(*NormalizedFromPixel(camera.lens, Vector2(u, v)));
+      }
+      return of_pixels;
+    }();
+    return directions[static_cast<std::size_t>(y) * camera.width_px + x];
+  }
+
+  /// Contains every pixel whose ray meets the capsule's bounding sphere.
+  static PixelBox BoxAround(const CameraCalibration& camera, const PosedCapsule& capsule) {
+    const PixelBox all{0, 0, camera.width_px - 1, camera.height_px - 1};
+    const Vector3 p_C = camera.X_CW * capsule.middle_W;
+    const double off_axis = std::atan2(p_C.head<2>().norm(), p_C.z());
+    const double half_angle = std::asin(std::min(1.0, capsule.reach_mm / p_C.norm()));
+    if (off_axis + half_angle > 1.4) return all;
+    const auto middle = PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+    // The cone's section with the picture's plane reaches farthest away from its middle.
+    const double reach_px = 2 + std::get<OpenCvLens>(camera.lens).K(0, 0) *
+                                    (std::tan(off_axis + half_angle) - std::tan(off_axis));
+    return {std::max(all.left, static_cast<int>(middle->x() - reach_px)),
+            std::max(all.top, static_cast<int>(middle->y() - reach_px)),
+            std::min(all.right, static_cast<int>(middle->x() + reach_px)),
+            std::min(all.bottom, static_cast<int>(middle->y() + reach_px))};
+  }
+
   static RigidTransform LookingAt(const Vector3& eye_W, const Vector3& target_W) {
     const Vector3 forward = (target_W - eye_W).normalized();
     const Vector3 right = forward.cross(Vector3::UnitZ()).normalized();
