@@ -88,8 +88,7 @@ class SurfaceCapture::Impl {
 
   void StartOver(const std::optional<BodySizes>& given) {
     given_ = given;
-    result_.state = CaptureState::kSearching;
-    ForgetPerson();
+    GiveUp();
   }
 
   const CaptureResult& result() const { return result_; }
@@ -105,8 +104,17 @@ class SurfaceCapture::Impl {
  private:
   void NobodyThere(double dt_s) {
     empty_s_ += dt_s;
-    if (result_.state == CaptureState::kTracking) result_.state = CaptureState::kLost;
+    if (result_.state == CaptureState::kTracking) Lose();
     if (result_.state == CaptureState::kLost && empty_s_ < kForgetAfterS) return;
+    GiveUp();
+  }
+
+  void Lose() {
+    result_.state = CaptureState::kLost;
+    lost_s_ = 0;
+  }
+
+  void GiveUp() {
     result_.state = CaptureState::kSearching;
     ForgetPerson();
   }
@@ -123,8 +131,12 @@ class SurfaceCapture::Impl {
   void SomebodyThere(double dt_s) {
     switch (result_.state) {
       case CaptureState::kSearching:
-      case CaptureState::kLost:
         Acquire(dt_s);
+        break;
+      case CaptureState::kLost:
+        lost_s_ += dt_s;
+        Acquire(dt_s);
+        if (result_.state == CaptureState::kLost && lost_s_ > kForgetAfterS) GiveUp();
         break;
       case CaptureState::kAcquiring:
         ++frames_acquiring_;
@@ -249,7 +261,7 @@ class SurfaceCapture::Impl {
   void NoticeLoss() {
     bad_frames_ = tracker_->quality().CostWithoutStray() > kLostCostMm ? bad_frames_ + 1 : 0;
     if (bad_frames_ < kFramesToLose && tracker_->filter().is_sound()) return;
-    result_.state = CaptureState::kLost;
+    Lose();
     if (!SizesAreKnown()) ForgetPerson();
   }
 
@@ -290,6 +302,7 @@ class SurfaceCapture::Impl {
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double empty_s_ = 0;
+  double lost_s_ = 0;       ///< Time since the person was lost.
   bool looks_anew_ = true;  ///< No search was made yet.
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;

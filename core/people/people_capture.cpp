@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "core/people/capture_beside.h"
 #include "core/people/flesh_division.h"
+#include "core/people/member.h"
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
 #include "core/people/witnesses.h"
@@ -36,6 +36,8 @@ constexpr double kWholeWithinS = 0.3;
 constexpr double kPatienceS = 1.0;
 // This close to the border of the covered area, somebody may just have entered.
 constexpr double kBorderMm = 600;
+// After this time without any set, whoever is seen may be somebody else.
+constexpr double kLongestGapS = 5.0;
 // Strange flesh that moved less than this since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
 
@@ -58,8 +60,8 @@ class PeopleCapture::Impl {
   void Call(int id, std::string_view name);
 
  private:
-  struct Member;
-
+  void Equip(Member& member) const;
+  void NoteGap(std::int64_t capture_ns);
   void BringBack();
   void Thin(std::span<const Outline> outlines, int step);
   void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
@@ -85,6 +87,7 @@ class PeopleCapture::Impl {
   int witnesses_wanted_ = 0;
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
+  std::optional<std::int64_t> last_ns_;            // Of the last set.
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
@@ -95,48 +98,28 @@ class PeopleCapture::Impl {
   std::vector<PersonView> people_;
 };
 
-struct PeopleCapture::Impl::Member {
-  bool has_pose() const { return !beside && capture->result().state != CaptureState::kSearching; }
-  void SetName(std::string_view to, double how_certain) {
-    name = to;
-    certainty = how_certain;
-  }
-
-  std::shared_ptr<MotionCapture> capture;
-  std::optional<CaptureBeside> beside;  // While set, the capture works there and must not be used.
-  int id = 0;                           // 0: not yet confirmed as a person.
-  std::string name;                     // Empty: unknown.
-  double certainty = 1;                 // Of the name.
-  BodySizes compared;                   // Sizes that were last compared with known people.
-  bool is_expected = false;             // The next person has that name.
-  std::optional<Vector3> last_W;        // Centre of the flesh of a person who is not located yet.
-  std::optional<std::int64_t> waits_since_ns;  // For the search.
-  // Entered from outside the covered area, or when nobody else was tracked yet.
-  bool has_come = false;
-  std::int64_t seen_ns = 0;
-  std::int64_t vouched_ns = 0;  // Last time with enough witnesses.
-  // What this frame shows; null without flesh.
-  const FleshShare* flesh = nullptr;
-  const OutlineShare* outlines = nullptr;
-  Eigen::AlignedBox3d box_W;  // Contains the person.
-};
-
 PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
     : make_(std::move(make)), options_(options), nobody_(make_()) {
   MOCAP_CHECK(options.most >= 1 && options.fineness >= 1);
   AddMember();
 }
 
-PeopleCapture::Impl::Member& PeopleCapture::Impl::AddMember() {
+Member& PeopleCapture::Impl::AddMember() {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
-  member.capture = make_();
-  if (expected_ &&
-      std::ranges::none_of(members_, [](const auto& one) { return one->is_expected; })) {
-    member.capture->Expect(*expected_);
-    member.is_expected = true;
-    member.name = expected_name_;
-  }
+  Equip(member);
   return member;
+}
+
+// Gives a member a capture that has seen nobody yet.
+void PeopleCapture::Impl::Equip(Member& member) const {
+  member.beside.reset();
+  member.capture = make_();
+  member.is_expected = false;
+  const auto is_expected = [](const auto& one) { return one->is_expected; };
+  if (!expected_ || std::ranges::any_of(members_, is_expected)) return;
+  member.capture->Expect(*expected_);
+  member.is_expected = true;
+  member.name = expected_name_;
 }
 
 const MotionCapture& PeopleCapture::Impl::first() const {
@@ -163,6 +146,7 @@ void PeopleCapture::Impl::Call(int id, std::string_view name) {
 void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
                                  std::int64_t capture_ns, UpdateObserver* observer) {
   witnesses_wanted_ = WitnessesWanted(eyes.size());
+  NoteGap(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
   if (IsAlone(room.flesh)) {
@@ -180,11 +164,25 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   ListPeople();
 }
 
-// Takes over people who were located in the other thread, up to the last set.
+// During a gap, people may have entered; during a long one, all may have changed places.
+void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
+  const double gap_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
+  last_ns_ = capture_ns;
+  if (gap_s > kPatienceS) followed_since_ns_.reset();
+  if (gap_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
+}
+
+// Takes over people who were located in the other thread, up to the last set. While nobody is
+// followed, nobody waits for a search, and that thread may have no time for it: people who are
+// still searched for there are searched for here from now on.
 void PeopleCapture::Impl::BringBack() {
   for (const auto& member : members_) {
     if (!member->beside || !member->beside->HasCaughtUp()) continue;
     if (member->capture->result().state == CaptureState::kTracking) member->beside.reset();
+  }
+  if (std::ranges::any_of(members_, [](const auto& member) { return member->has_pose(); })) return;
+  for (const auto& member : members_) {
+    if (member->beside) Equip(*member);
   }
 }
 
@@ -275,7 +273,7 @@ bool PeopleCapture::Impl::IsBeginning(std::int64_t capture_ns) const {
 }
 
 // Null if no further person can be tracked.
-PeopleCapture::Impl::Member* PeopleCapture::Impl::MemberFor(const Vector3& middle_W) {
+Member* PeopleCapture::Impl::MemberFor(const Vector3& middle_W) {
   Member* nearest = nullptr;
   double least_mm = kSameMm;
   for (const auto& member : members_) {

@@ -96,6 +96,17 @@ TEST_P(Capture, KeepsTheBodyOfAPersonWhoWasGoneForAMoment) {
   EXPECT_EQ(capture_.body().sizes().Stature(), before);
 }
 
+TEST_P(Capture, MeasuresWhoeverIsThereInsteadOfAPersonWhoWasLost) {
+  const BodyModel tall(table_, AverageSizes(1850));
+  const BodyModel child(table_, AverageSizes(1300));
+  for (int frame = 0; frame < 12; ++frame) See(tall, frame);
+  const double tall_mm = capture_.body().sizes().Stature();
+  EXPECT_EQ(SeeNobody().state, CaptureState::kLost);
+  for (int frame = 12; frame < 60; ++frame) See(child, frame);
+  EXPECT_EQ(See(child, 60).state, CaptureState::kTracking);
+  EXPECT_LT(capture_.body().sizes().Stature(), tall_mm - 300);
+}
+
 TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
   const BodyModel person(table_, AverageSizes(1600));
   SurfaceCapture another(table_);

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/support/room.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kOneSecondNs = 1'000'000'000;
+
+// In these tests nothing is ever done at the desk: a busy computer may leave no time for it.
+class RoomOfABusyComputer : public RoomWithSide {
+ protected:
+  void See(const RoundStudio::CarvedBody& seen, int sets) {
+    for (int i = 0; i < sets; ++i) Room::See(seen);
+  }
+};
+
+TEST_F(RoomOfABusyComputer, FindsWhoMovedDuringAGap) {
+  See(Carve({stays_}), 4);
+  now_ns_ += 3 * kOneSecondNs;
+  See(Carve({comes_}), 12);
+  EXPECT_LT(ErrorOf(comes_), 45);
+}
+
+TEST_F(RoomOfABusyComputer, FindsAllWhoMovedDuringAGap) {
+  const Someone third = At(0, -700, 1800);
+  See(Carve({stays_}), 4);
+  now_ns_ += 3 * kOneSecondNs;
+  See(Carve({comes_, third}), 12);
+  EXPECT_LT(ErrorOf(comes_), 45);
+  EXPECT_LT(ErrorOf(third), 45);
+}
+
+TEST_F(RoomOfABusyComputer, FindsWhoeverIsLeftWhenTheOneWhoWasFollowedGoes) {
+  See(Carve({stays_}), 4);
+  See(Carve({stays_, comes_}), 4);
+  EXPECT_FALSE(desk_.empty());
+  See(Carve({comes_}), 36);
+  EXPECT_LT(ErrorOf(comes_), 45);
+}
+
+TEST_F(RoomOfABusyComputer, StillExpectsTheGivenSizesAfterAGap) {
+  people_.Expect(comes_.body.sizes(), "anna");
+  See(Carve({At(-600, 0, 1700)}), 4);
+  now_ns_ += 3 * kOneSecondNs;
+  See(Carve({comes_}), 12);
+  ASSERT_EQ(people_.people().size(), 1u);
+  EXPECT_EQ(people_.people()[0].name, "anna");
+  EXPECT_EQ(people_.first().body().sizes(), comes_.body.sizes());
+}
+
+// The person turns up elsewhere after each gap, and some cameras are missing.
+TEST_F(RoomOfABusyComputer, FollowsSomebodyAgainAfterAnyLosses) {
+  std::mt19937 random(7);
+  const auto walker_at = [this](std::size_t place) {
+    const double angle = static_cast<double>(place);
+    return At(900 * std::cos(angle), 900 * std::sin(angle), 1750);
+  };
+  std::vector<RoundStudio::CarvedBody> walk;
+  for (std::size_t place = 0; place < 6; ++place) walk.push_back(Carve({walker_at(place)}));
+  for (int trial = 0; trial < 4; ++trial) {
+    for (int i = 0; i < 6; ++i) {
+      now_ns_ += static_cast<std::int64_t>(random() % 50) * kFrameNs;
+      RoundStudio::CarvedBody seen = walk[random() % walk.size()];
+      for (Outline& outline : seen.outlines)
+        if (random() % 3 == 0) outline.clear();
+      See(seen, 1);
+    }
+    const std::size_t place = random() % walk.size();
+    See(walk[place], 36);
+    EXPECT_LT(ErrorOf(walker_at(place)), 45) << trial;
+  }
+}
+
+TEST_F(Room, WhoIsThereAfterAShortGapIsTheSamePerson) {
+  const auto seen = Carve({At(0, 0, 1750)}), moved = Carve({At(300, 0, 1750)});
+  for (int i = 0; i < 4; ++i) See(seen);
+  now_ns_ += 3 * kOneSecondNs;
+  for (int i = 0; i < 4; ++i) See(moved);
+  EXPECT_EQ(Ids(), std::vector{1});
+}
+
+TEST_F(Room, WhoIsThereAfterALongGapIsMeasuredAnew) {
+  const auto tall = Carve({At(0, 0, 1850)});
+  for (int i = 0; i < 100; ++i) See(tall);
+  people_.Call(1, "anna");
+  now_ns_ += 600 * kOneSecondNs;
+  const Someone child = At(100, 0, 1300);
+  const auto small = Carve({child});
+  for (int i = 0; i < 12; ++i) See(small);
+  EXPECT_LT(ErrorOf(child), 45);
+  EXPECT_EQ(Ids(), std::vector{2});
+  EXPECT_EQ(people_.people()[0].name, "");
+}
+
+}  // namespace
+}  // namespace mocap
