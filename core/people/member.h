@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "core/motion_capture.h"
-#include "core/people/capture_beside.h"
 #include "core/people/flesh_division.h"
 #include "core/people/outline_division.h"
+#include "core/people/side_search.h"
 
 namespace mocap {
 
@@ -24,7 +24,7 @@ struct Member {
 
   std::shared_ptr<MotionCapture> capture;
   /// While set, the capture works there and must not be used.
-  std::optional<CaptureBeside> beside;
+  std::unique_ptr<SideSearch> beside;
   int id = 0;                ///< 0: not yet confirmed as a person.
   std::string name;          ///< Empty: unknown.
   double certainty = 1;      ///< Of the name.

@@ -299,7 +299,7 @@ void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver*
     const Sighting sighting(member->flesh->flesh, member->outlines->own, member->box_W,
                             member->flesh->room, member->outlines->near);
     if (options_.side && is_anybody_followed && !member->has_pose() && !member->beside)
-      member->beside.emplace(member->capture, *options_.side);
+      member->beside = options_.side->Begin(member->capture);
     if (member->beside) {
       member->beside->See(sighting, capture_ns);
       member->vouched_ns = capture_ns;

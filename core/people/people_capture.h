@@ -11,7 +11,7 @@
 
 #include "core/motion_capture.h"
 #include "core/people/recognition.h"
-#include "core/people/side_work.h"
+#include "core/people/side_search.h"
 #include "core/reconstruction/carving/carving_view.h"
 
 namespace mocap {
@@ -24,7 +24,7 @@ struct PeopleOptions {
   int fineness = 1;  ///< Factor between the outlines' rays and those that one person needs.
   /// Searches for newcomers while others are tracked; borrowed. Null: Update does so, and the
   /// result depends on the input alone.
-  SideWork* side = nullptr;
+  SideSearches* side = nullptr;
 };
 
 /// A person who is tracked, or was until a moment ago.

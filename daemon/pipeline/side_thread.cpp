@@ -6,13 +6,14 @@
 
 #include <utility>
 
+#include "daemon/pipeline/capture_beside.h"
 #include "daemon/pipeline/realtime.h"
 
 namespace mocap {
 namespace {
 
-// A tenth of a processor if all are busy.
-constexpr int kNiceness = 10;
+// If all processors are busy, a third of what a thread of the frame path gets.
+constexpr int kNiceness = 5;
 constexpr std::size_t kMostWaiting = 32;
 
 }  // namespace
@@ -34,7 +35,12 @@ SideThread::~SideThread() {
   thread_.join();
 }
 
-bool SideThread::Begin(std::function<void()> work) {
+std::unique_ptr<SideSearch> SideThread::Begin(std::shared_ptr<MotionCapture> capture) {
+  return std::make_unique<CaptureBeside>(
+      std::move(capture), [this](std::function<void()> work) { return Do(std::move(work)); });
+}
+
+bool SideThread::Do(std::function<void()> work) {
   if (waiting_.load() == kMostWaiting) return false;
   ++waiting_;
   queue_.back() = std::move(work);

@@ -3,10 +3,11 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 
-#include "core/people/side_work.h"
+#include "core/people/side_search.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "daemon/pipeline/thread_group.h"
 
@@ -14,7 +15,7 @@ namespace mocap {
 
 /// Runs work in its own thread, of lower priority than the frame path. It still gets a share of a
 /// processor that is always busy. Work that is queued at the end is not run.
-class SideThread : public SideWork {
+class SideThread : public SideSearches {
  public:
   using Guard = std::function<void(const std::function<void()>& work)>;
 
@@ -23,8 +24,10 @@ class SideThread : public SideWork {
   SideThread(const std::string& name, const ThreadOptions& frame_path, Guard guard);
   ~SideThread() override;
 
-  /// Call from one thread at a time.
-  bool Begin(std::function<void()> work) override;
+  std::unique_ptr<SideSearch> Begin(std::shared_ptr<MotionCapture> capture) override;
+  /// Runs work soon, in order, without waiting. Call from one thread at a time.
+  /// @return  false if too much is waiting already: it is not run.
+  bool Do(std::function<void()> work);
 
  private:
   void Run();

@@ -15,6 +15,7 @@
 #include "core/people/people_capture.h"
 #include "core/people/witnesses.h"
 #include "core/surface_capture.h"
+#include "daemon/pipeline/capture_beside.h"
 #include "tests/support/seen_body.h"
 
 namespace mocap {
@@ -28,7 +29,7 @@ struct Someone {
 /// Sees people at 30 Hz with six cameras, and follows up to four.
 class Room : public ::testing::Test {
  protected:
-  explicit Room(int most = 4, SideWork* side = nullptr, double radius_mm = 3200)
+  explicit Room(int most = 4, SideSearches* side = nullptr, double radius_mm = 3200)
       : studio_(radius_mm), people_([this] { return Make(); }, {.most = most, .side = side}) {}
 
   std::unique_ptr<MotionCapture> Make() const { return std::make_unique<SurfaceCapture>(table_); }
@@ -89,12 +90,14 @@ class Room : public ::testing::Test {
   std::int64_t now_ns_ = 1'000'000'000'000;
 };
 
-/// Work that is done when a test says so.
-class Desk : public SideWork {
+/// Searches that go on when a test says so.
+class Desk : public SideSearches {
  public:
-  bool Begin(std::function<void()> work) override {
-    waiting_.push_back(std::move(work));
-    return true;
+  std::unique_ptr<SideSearch> Begin(std::shared_ptr<MotionCapture> capture) override {
+    return std::make_unique<CaptureBeside>(std::move(capture), [this](std::function<void()> work) {
+      waiting_.push_back(std::move(work));
+      return true;
+    });
   }
   void DoAll() {
     for (const auto& work : std::exchange(waiting_, {})) work();

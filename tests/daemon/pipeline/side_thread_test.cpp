@@ -18,8 +18,8 @@ TEST(SideThread, WorksInTheOrderOfWhatWasBegun) {
   SideThread side("aside", {}, kPlain);
   std::vector<int> order;
   std::promise<void> done;
-  for (int i = 0; i < 20; ++i) side.Begin([&order, i] { order.push_back(i); });
-  side.Begin([&done] { done.set_value(); });
+  for (int i = 0; i < 20; ++i) side.Do([&order, i] { order.push_back(i); });
+  side.Do([&done] { done.set_value(); });
   done.get_future().wait();
   ASSERT_EQ(order.size(), 20u);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(order[i], i);
@@ -28,7 +28,7 @@ TEST(SideThread, WorksInTheOrderOfWhatWasBegun) {
 TEST(SideThread, IsAnotherThread) {
   SideThread side("aside", {}, kPlain);
   std::promise<std::thread::id> id;
-  side.Begin([&id] { id.set_value(std::this_thread::get_id()); });
+  side.Do([&id] { id.set_value(std::this_thread::get_id()); });
   EXPECT_NE(id.get_future().get(), std::this_thread::get_id());
 }
 
@@ -37,7 +37,7 @@ TEST(SideThread, RefusesWhatIsTooMuchAndDoesNotWait) {
   const std::shared_future<void> goes_on = may_go_on.get_future().share();
   SideThread side("aside", {}, kPlain);
   int begun = 0;
-  while (begun < 1000 && side.Begin([goes_on] { goes_on.wait(); })) ++begun;
+  while (begun < 1000 && side.Do([goes_on] { goes_on.wait(); })) ++begun;
   EXPECT_GT(begun, 8);
   EXPECT_LT(begun, 1000);
   may_go_on.set_value();
@@ -52,7 +52,7 @@ TEST(SideThread, HandsWhatIsThrownToItsGuard) {
       told.set_value(error.what());
     }
   });
-  side.Begin([] { throw std::runtime_error("no flesh"); });
+  side.Do([] { throw std::runtime_error("no flesh"); });
   EXPECT_EQ(told.get_future().get(), "no flesh");
 }
 

@@ -1,5 +1,6 @@
-#include "core/people/capture_beside.h"
+#include "daemon/pipeline/capture_beside.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -14,6 +15,8 @@ namespace {
 constexpr std::int64_t kLeastApartNs = 25'000'000;
 // More observations than arrive during a search.
 constexpr std::int64_t kMostWaiting = 32;
+// Each time that so many more wait, the distance doubles. At 5 Hz a walker is still tracked.
+constexpr std::int64_t kWaitingToDouble = 8;
 
 }  // namespace
 
@@ -43,15 +46,16 @@ void CaptureBeside::Queue::Work() {
       const Seen& next = At(taken);
       capture->Update({next.flesh, next.outlines, next.box_W, next.room, next.borders},
                       next.capture_ns);
-      ++taken;
+      const bool has_found = capture->result().state != CaptureState::kSearching;
+      taken = has_found ? taken + 1 : std::max(taken + 1, pushed - 1);
     }
     is_begun = false;
     // An observation that was pushed just now did not begin work of its own.
   } while (has_more() && !is_begun.exchange(true));
 }
 
-CaptureBeside::CaptureBeside(std::shared_ptr<MotionCapture> capture, SideWork& side)
-    : queue_(std::make_shared<Queue>()), side_(side) {
+CaptureBeside::CaptureBeside(std::shared_ptr<MotionCapture> capture, BeginWork begin)
+    : queue_(std::make_shared<Queue>()), begin_(std::move(begin)) {
   queue_->capture = std::move(capture);
 }
 
@@ -59,8 +63,10 @@ CaptureBeside::~CaptureBeside() { queue_->is_abandoned = true; }
 
 void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
   Queue& queue = *queue_;
-  if (queue.last_ns && std::abs(capture_ns - *queue.last_ns) < kLeastApartNs) return;
-  if (queue.pushed - queue.taken == kMostWaiting) return;
+  const std::int64_t waiting = queue.pushed - queue.taken;
+  if (waiting == kMostWaiting) return;
+  const std::int64_t least_apart_ns = kLeastApartNs << (waiting / kWaitingToDouble);
+  if (queue.last_ns && std::abs(capture_ns - *queue.last_ns) < least_apart_ns) return;
   queue.last_ns = capture_ns;
   Queue::Seen& seen = queue.At(queue.pushed);
   seen.flesh = sighting.flesh;
@@ -71,7 +77,7 @@ void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
   seen.capture_ns = capture_ns;
   ++queue.pushed;
   if (queue.is_begun.exchange(true)) return;
-  if (!side_.Begin([work = queue_] { work->Work(); })) queue.is_begun = false;
+  if (!begin_([work = queue_] { work->Work(); })) queue.is_begun = false;
 }
 
 bool CaptureBeside::HasCaughtUp() const { return queue_->taken == queue_->pushed; }
