@@ -18,8 +18,8 @@
 namespace mocap {
 namespace {
 
-// Flesh this close to a predicted body may be its own. A lost person also gets flesh that is
-// farther away, if it is nobody else's.
+// Flesh this close to a predicted body may be its own. A lost person, and everybody after a gap,
+// also gets flesh that is farther away, if it is nobody else's.
 constexpr double kReachMm = 250;
 constexpr double kLostReachMm = 700;
 constexpr double kLostHandicapMm = 250;
@@ -36,7 +36,7 @@ constexpr double kWholeWithinS = 0.3;
 constexpr double kPatienceS = 1.0;
 // This close to the border of the covered area, somebody may just have entered.
 constexpr double kBorderMm = 600;
-// After this time without any set, whoever is seen may be somebody else.
+// After this time without sets, everybody is forgotten.
 constexpr double kLongestGapS = 5.0;
 // Strange flesh that moved less than this since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
@@ -88,6 +88,7 @@ class PeopleCapture::Impl {
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
   std::optional<std::int64_t> last_ns_;            // Of the last set.
+  bool follows_gap_ = false;                       // The set comes long after the one before.
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
@@ -164,10 +165,15 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   ListPeople();
 }
 
-// During a gap, people may have entered; during a long one, all may have changed places.
+// Time without sets tells nothing against anybody. But people may have entered, and after a long
+// time whoever is seen may be somebody else.
 void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
-  const double gap_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
+  const std::int64_t gap_ns = last_ns_ ? capture_ns - *last_ns_ : 0;
+  const double gap_s = static_cast<double>(gap_ns) * 1e-9;
   last_ns_ = capture_ns;
+  follows_gap_ = gap_s > kDoubtedS;
+  if (!follows_gap_) return;
+  for (const auto& member : members_) member->seen_ns += gap_ns, member->vouched_ns += gap_ns;
   if (gap_s > kPatienceS) followed_since_ns_.reset();
   if (gap_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
 }
@@ -213,7 +219,7 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
   posed_.resize(posed_member_.size());
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     const MotionCapture& capture = *posed_member_[i]->capture;
-    const bool is_lost = capture.result().state == CaptureState::kLost;
+    const bool is_lost = follows_gap_ || capture.result().state == CaptureState::kLost;
     PosePerson(capture.body(), capture.PredictedPose(capture_ns), is_lost ? kLostReachMm : kReachMm,
                is_lost ? kLostHandicapMm : 0, posed_[i]);
   }

@@ -27,7 +27,7 @@ TEST_F(RoomOfABusyComputer, FindsWhoMovedDuringAGap) {
 }
 
 TEST_F(RoomOfABusyComputer, FindsAllWhoMovedDuringAGap) {
-  const Someone third = At(0, -700, 1800);
+  const Someone third = At(500, -900, 1800);
   See(Carve({stays_}), 4);
   now_ns_ += 3 * kOneSecondNs;
   See(Carve({comes_, third}), 12);
@@ -82,6 +82,17 @@ TEST_F(Room, WhoIsThereAfterAShortGapIsTheSamePerson) {
   now_ns_ += 3 * kOneSecondNs;
   for (int i = 0; i < 4; ++i) See(moved);
   EXPECT_EQ(Ids(), std::vector{1});
+}
+
+// Two sets a second, as on a computer that is busy with other programs.
+TEST_F(RoomOfABusyComputer, KeepsWhoWalksOnWhileSetsAreDropped) {
+  See(Carve({At(-900, 0, 1750)}), 4);
+  for (int i = 1; i < 4; ++i) {
+    now_ns_ += kOneSecondNs / 2;
+    See(Carve({At(-900 + 600 * i, 0, 1750, i)}), 4);
+    EXPECT_EQ(Ids(), std::vector{1});
+  }
+  EXPECT_TRUE(desk_.empty());
 }
 
 TEST_F(Room, WhoIsThereAfterALongGapIsMeasuredAnew) {
