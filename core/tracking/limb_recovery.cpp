@@ -24,22 +24,24 @@ constexpr std::size_t kPairsTried = 3;
 constexpr std::size_t kExchangesTried = 4;
 // A moved limb is compared after the whole body was fitted to the evidence with it, as was done
 // with the present one. Before that, a correct position costs up to this much more, a wrong one
-// less. Several positions are tried. The gain must be clear.
+// less. Several positions are tried.
 constexpr double kElsewhereMm = 100;
 constexpr double kWorthDrawingMm = 4;
 constexpr std::size_t kDrawn = 4;
-constexpr double kLimbBetterMm = 0.6;
 // Likewise for both arms or both legs, which move the trunk more. If frames follow soon, the best
 // pair will do: the next frame is another chance.
 constexpr double kPairWorthDrawingMm = 7;
 constexpr double kPairsDrawnPerS = 30;
-// A pose that costs this much less is taken at once; where frames are rare, one with a smaller gain
-// too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the next frames decide.
+// In a body's first frame, a pose that costs this much less is taken: the gain must be clear. For
+// exchanged limbs it is larger, because noise exchanges folded arms.
+constexpr double kLimbBetterMm = 0.6;
+constexpr double kPairBetterMm = 0.5;
+constexpr double kExchangeBetterMm = 1.5;
+// In later frames, a pose that costs this much less is taken at once; where frames are rare, one
+// with a smaller gain too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the
+// next frames decide.
 constexpr double kSureMm = 3;
 constexpr double kRivalMm = 2;
-// The gain of exchanged limbs must be clear, because noise would otherwise exchange folded arms
-// again and again.
-constexpr double kClearlyBetterMm = 1.5;
 // After a failed search at the least share that triggers one; shorter if more is unexplained.
 constexpr double kLongestRestS = 0.8;
 // At high frame rates, a search is spread over several frames, so that no frame is late. Each limb
@@ -182,11 +184,11 @@ bool LimbRecovery::RecoverOne(const BodyModel& body, const Evidence& evidence, S
   candidates_.resize(std::min(candidates_.size(), kDrawn));
   for (Candidate& candidate : candidates_) DrawNear(body, fit, candidate);
   const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::cost_mm);
-  return Offer(best, kLimbBetterMm, present);
+  return Offer(best, GainToTake(kLimbBetterMm), present);
 }
 
-bool LimbRecovery::Offer(const Candidate& offered, double least_mm, Candidate& present) {
-  if (offered.cost_mm <= present.cost_mm - (is_first_ ? least_mm : sure_mm_)) {
+bool LimbRecovery::Offer(const Candidate& offered, double gain_mm, Candidate& present) {
+  if (offered.cost_mm <= present.cost_mm - gain_mm) {
     present = offered;
     return true;
   }
@@ -218,7 +220,7 @@ bool LimbRecovery::HandsMeetAnew(const BodyModel& body, const PoseState& pose) {
 template <typename Stances>
 bool LimbRecovery::OfferPair(const BodyModel& body, const Evidence& evidence,
                              const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
-                             const Stances& stances, double least_mm, Candidate& present) {
+                             const Stances& stances, double gain_mm, Candidate& present) {
   const auto [left, right] = limb_ends;
   const PoseState& pose = present.pose;
   search_.Begin(body, evidence, matcher_, left, right, pose, fit.allowed());
@@ -245,7 +247,7 @@ bool LimbRecovery::OfferPair(const BodyModel& body, const Evidence& evidence,
   });
   if (pairs_.empty()) return false;
   for (Candidate& pair : pairs_) DrawNear(body, fit, pair);
-  return Offer(*std::ranges::min_element(pairs_, {}, &Candidate::cost_mm), least_mm, present);
+  return Offer(*std::ranges::min_element(pairs_, {}, &Candidate::cost_mm), gain_mm, present);
 }
 
 void LimbRecovery::DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate) {
@@ -297,7 +299,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
   const auto best = [&](LimbSearch& search, LimbSearch&) {
     FindBest(search, StancesOf(limb_ends.first), present.pose, kPairRefined);
   };
-  return OfferPair(body, evidence, limb_ends, fit, best, kBetterMm, present);
+  return OfferPair(body, evidence, limb_ends, fit, best, GainToTake(kPairBetterMm), present);
 }
 
 bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
@@ -306,7 +308,8 @@ bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,
   const auto exchanged = [&](LimbSearch& search, LimbSearch& other) {
     FindTowards(search, StancesOf(limb_ends.first), present.pose, other.TipAt(present.pose));
   };
-  return OfferPair(body, evidence, limb_ends, fit, exchanged, kClearlyBetterMm, present);
+  return OfferPair(body, evidence, limb_ends, fit, exchanged, GainToTake(kExchangeBetterMm),
+                   present);
 }
 
 std::optional<PoseState> LimbRecovery::Recover(const BodyModel& body, const Evidence& evidence,

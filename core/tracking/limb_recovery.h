@@ -64,7 +64,7 @@ class LimbRecovery {
   template <typename Stances>
   bool OfferPair(const BodyModel& body, const Evidence& evidence,
                  const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
-                 const Stances& stances, double least_mm, Candidate& present);
+                 const Stances& stances, double gain_mm, Candidate& present);
   bool RecoverPair(const BodyModel& body, const Evidence& evidence,
                    const std::pair<Segment, Segment>& limb_ends, SurfaceFit& fit,
                    Candidate& present);
@@ -83,9 +83,10 @@ class LimbRecovery {
 
   // Fits the whole body to the evidence, starting at a candidate's pose.
   static void DrawNear(const BodyModel& body, SurfaceFit& fit, Candidate& candidate);
-  // Replaces `present` by a pose that costs less by `margin_mm`. One that does not may be the
-  // rival.
-  bool Offer(const Candidate& offered, double margin_mm, Candidate& present);
+  // How much less a pose must cost to be taken at once [mm]. @param first_mm  in the first frame.
+  double GainToTake(double first_mm) const { return is_first_ ? first_mm : sure_mm_; }
+  // Replaces `present` by a pose that costs less by `gain_mm`. One that does not may be the rival.
+  bool Offer(const Candidate& offered, double gain_mm, Candidate& present);
 
   // These fill candidates_: the limb in each stance, the cheapest first;
   template <typename Cost>
@@ -110,7 +111,7 @@ class LimbRecovery {
   std::size_t next_ = 0;         ///< Limb, or pair after the limbs, to search next.
   bool is_in_vain_ = true;       ///< The search so far.
   double allowance_ = 0;         ///< Number of limbs that may be searched in this frame.
-  double sure_mm_ = 0;           ///< Gain that is taken at once.
+  double sure_mm_ = 0;           ///< Gain that is taken at once after the first frame.
   std::size_t pairs_drawn_ = 1;  ///< Of each two limbs, in this frame.
   double rest_s_ = 0;            ///< Until a failed search is repeated.
   double begun_share_ = 0;       ///< Unexplained share of the outline when the search began,
