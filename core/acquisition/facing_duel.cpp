@@ -11,13 +11,16 @@ constexpr double kMostLeadMm = 3;
 constexpr double kClearLeadMm_s = 0.3;
 constexpr int kLeastFrames = 3;
 constexpr double kLongestS = 2;
+// The first frame after a gap counts for no longer than this.
+constexpr double kMostOfFrameS = 0.2;
 
 }  // namespace
 
 void FacingDuel::Add(double lead_mm, double dt_s) {
   ++frames_;
-  lead_mm_s_ += std::clamp(lead_mm, -kMostLeadMm, kMostLeadMm) * dt_s;
-  age_s_ += dt_s;
+  const double counted_s = std::min(dt_s, kMostOfFrameS);
+  lead_mm_s_ += std::clamp(lead_mm, -kMostLeadMm, kMostLeadMm) * counted_s;
+  age_s_ += counted_s;
 }
 
 bool FacingDuel::is_over() const {

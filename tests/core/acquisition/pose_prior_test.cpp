@@ -111,6 +111,16 @@ TEST_F(Feet, MayTurnWhoIsTrackedBackToFrontButNoneTooSoon) {
   EXPECT_FALSE(watch.is_backwards());
 }
 
+TEST_F(Feet, DoNotTurnAnybodyByOneLookAfterAGap) {
+  const PoseState right = Standing(30, 20), backwards = Standing(210, 20);
+  VoxelCloud cloud;
+  cloud.Build(Voxelize(body_, right, 25));
+  FacingWatch watch;
+  for (int i = 0; i < 20; ++i) watch.Look(cloud, right, 0.05);
+  watch.Look(cloud, backwards, 3);
+  EXPECT_FALSE(watch.is_backwards());
+}
+
 // Nobody's feet are seen here: there is no flesh.
 TEST_F(Feet, AreNotNeededToSeeWhichWaySomebodyWalks) {
   FacingWatch watch;
