@@ -25,8 +25,6 @@ static_assert(kPatiencePeriods + 1 < LoadControl::kTolerancePeriods);
 /// Delay of tracking at which recordings have to wait, and at which they may continue.
 constexpr std::int64_t kFarBehindNs = 250'000'000;
 constexpr std::int64_t kKeepsUpNs = 50'000'000;
-/// Of all circulating grids, above what a person needs: some dozens of a whole room.
-constexpr std::size_t kMostGridBytes = 256 << 20;
 
 std::size_t CountCameras(const Studio& studio) {
   RequireCameraCount(studio);
@@ -40,6 +38,13 @@ ThreadOptions ThreadsFor(const PipelineOptions& options) {
   return {.priority = options.priority,
           .processors = options.processors,
           .in_long_turns = options.overflow == Overflow::kWait};
+}
+
+/// A set whose grid comes from the shelf.
+CarvedSet SetWithoutGrid(std::size_t cameras, double voxel_mm) {
+  CarvedSet set = RoomySet(cameras, voxel_mm);
+  set.grid.Release();
+  return set;
 }
 
 std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options, SideThread::Guard guard) {
@@ -68,8 +73,8 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     : options_(options),
       threads_(ThreadsFor(options)),
       sets_(SetsFor(options.overflow), Overflow::kWait, track_bell_,
-            RoomySet(CountCameras(studio), options.voxel_mm)),
-      grids_(RoomySet(0, options.voxel_mm).grid.capacity_bytes(), kMostGridBytes),
+            SetWithoutGrid(CountCameras(studio), options.voxel_mm)),
+      grids_(RoomySet(0, options.voxel_mm).grid),
       side_(MakeSide(options, [this](const auto& work) { threads_.Guard(work); })),
       track_(PeopleCapture([kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
                            {.most = options.people,
@@ -137,12 +142,9 @@ void Pipeline::RunCarving() {
     carve_->SetTracked(track_.sets());
     HoldTaps();
     const bool all_ended = FeedFromQueues();
-    const std::size_t grid_bytes = sets_.back().grid.capacity_bytes();
+    grids_.Take(sets_.back().grid);
     const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
-    if (verdict == Synchronizer::Verdict::kSet) {
-      grids_.NoteGrowth(grid_bytes, sets_.back().grid);
-      sets_.Push();
-    }
+    if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
     if (verdict != Synchronizer::Verdict::kWait) continue;
     if (all_ended) return;
     carve_bell_.WaitPast(seen);
@@ -166,7 +168,7 @@ void Pipeline::RunTracking() {
     const bool is_closed = sets_.closed();
     if (sets_.TryPop()) {
       track_.Process(sets_.front());
-      grids_.Bound(sets_.front().grid);
+      grids_.Give(sets_.front().grid);
       carve_bell_.Ring();
     } else if (is_closed) {
       return;

@@ -14,7 +14,7 @@
 #include "daemon/pipeline/carve_stage.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/frame_path.h"
-#include "daemon/pipeline/grid_memory.h"
+#include "daemon/pipeline/grid_shelf.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/side_thread.h"
@@ -84,7 +84,7 @@ class Pipeline : public FramePath {
   MomentHistory history_;                ///< Of a take.
   std::unique_ptr<CarveStage> carve_;
   SpscQueue<CarvedSet> sets_;
-  GridMemory grids_;                  ///< Of sets_.
+  GridShelf grids_;                   ///< Of sets_.
   std::unique_ptr<SideThread> side_;  ///< Live, with several people.
   TrackStage track_;
   std::unique_ptr<CameraLines> lines_;

@@ -35,6 +35,11 @@ std::vector<std::string> DiagnosticLog::Add(const std::vector<std::string>& comp
     told.push_back(complaint);
   }
   for (const std::string& complaint : told) spdlog::warn("{}", complaint);
+  std::erase_if(known_, [&](const auto& entry) {
+    const auto& [text, known] = entry;
+    const bool was_told_lately = known.told_ns != kNever && now_ns - known.told_ns < kToldAgainNs;
+    return now_ns - known.last_ns > kGoneNs && !was_told_lately;
+  });
   has_told_ |= !told.empty();
   const bool all_gone = std::ranges::all_of(
       known_, [&](const auto& entry) { return now_ns - entry.second.last_ns > kGoneNs; });

@@ -13,6 +13,7 @@
 #include "daemon/pipeline/carve_stage.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/heap_bytes.h"
 
 namespace mocap {
 namespace {
@@ -112,6 +113,19 @@ TEST_F(FramePathTest, SegmentingTracingMatchingAndCarvingAllocateNothingOnceThey
   Pass();
   EXPECT_FALSE(set_.outlines[1].empty());
   EXPECT_EQ(Allocations() - before, 0) << "a camera that is back takes no memory anew";
+}
+
+TEST_F(FramePathTest, HundredsOfLostCamerasLeaveNothingBehind) {
+  const auto lose_all_in_turn = [this] {
+    for (int camera = 0; camera < kCameras; ++camera) {
+      Pass(camera);
+      Pass();
+    }
+  };
+  for (int i = 0; i < kFrames; ++i) lose_all_in_turn();
+  const std::int64_t before = HeapBytes();
+  for (int i = 0; i < 100; ++i) lose_all_in_turn();
+  EXPECT_EQ(HeapBytes() - before, 0);
 }
 
 TEST_F(FramePathTest, ARoomySetHoldsAPersonWithoutAllocating) {

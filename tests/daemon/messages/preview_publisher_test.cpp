@@ -7,6 +7,7 @@
 #include "config/load_config.h"
 #include "core/body/body_sizes.h"
 #include "drivers/clock.h"
+#include "tests/support/heap_bytes.h"
 #include "tests/support/idle_threads.h"
 
 namespace mocap {
@@ -73,6 +74,21 @@ TEST_F(PreviewPublisherTest, HasNoIdleThreadWhileNobodyHasLooked) {
   EXPECT_EQ(testing::CountIdleThreads(), 0);
   publisher.Look(kLong);
   EXPECT_EQ(testing::CountIdleThreads(), 1);
+}
+
+TEST_F(PreviewPublisherTest, ViewersWhoComeAndGoLeaveNoMemoryBehind) {
+  const auto look = [this](int times) {
+    for (int i = 0; i < times; ++i) {
+      PreviewPublisher publisher(sender_, {}, {camera_}, CaptureTimes::kRecorded);
+      publisher.Look(kLong);
+      previews_ = 0;
+      OfferUntil([&] { publisher.taps().front().Offer(FillFrame); }, previews_);
+    }
+  };
+  look(10);
+  const std::int64_t before = HeapBytes();
+  look(40);
+  EXPECT_LT(HeapBytes() - before, 20'000);
 }
 
 TEST_F(PreviewPublisherTest, WhoLooksGetsPicturesWithTheirSilhouettes) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -203,6 +204,28 @@ TEST(Pipeline, PassesOnWhatDriversRemark) {
                     LoadBodyTable("full"), sink);
   pipeline.RunSerially();
   EXPECT_EQ(pipeline.Status().cameras[1].remarks, std::vector<std::string>{"is fake"});
+}
+
+// Otherwise each of more than a hundred keeps the memory of the largest hull that it ever held.
+TEST(Pipeline, LiveSetsShareAFewGridsWhileNoneWaits) {
+  struct : PoseSink {
+    void OnSet(const TrackedSet& set) override { grids.insert(set.grid.words().data()); }
+    std::set<const std::uint64_t*> grids;
+  } sink;
+  std::atomic<const Pipeline*> running{nullptr};
+  const FakeScript one_by_one = [&](int call) {
+    const auto done = [&] {
+      const PipelineStatus status = running.load()->Status();
+      return status.sets_tracked + status.cameras[0].dropped;
+    };
+    while (!running || done() < call) std::this_thread::yield();
+    return call < 200 ? FakeGrab{GrabStatus::kFrame, TimelineNs()} : FakeGrab{};
+  };
+  Pipeline pipeline(FakeStudio({one_by_one}), Live(), LoadBodyTable("full"), sink);
+  running = &pipeline;
+  RunToEnd(pipeline);
+  EXPECT_GT(pipeline.Status().sets_tracked, 20);
+  EXPECT_LE(sink.grids.size(), GridShelf::kPlaces + 2);
 }
 
 TEST(Pipeline, LiveLeavesSetsOutWhenTheSinkIsSlow) {

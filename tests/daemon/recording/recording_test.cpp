@@ -17,6 +17,7 @@
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "tests/daemon/fake_studio.h"
+#include "tests/support/heap_bytes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -107,6 +108,21 @@ TEST_F(RecordingTest, OfSeveralPeopleEachKeepsHisSizes) {
   EXPECT_THAT(testing::ReadText(take / "person-2/subject.toml"), HasSubstr("name = \"anna\""));
   EXPECT_DOUBLE_EQ(LoadSubject(take / "person-2/subject.toml").thigh, AverageSizes(1700).thigh);
   EXPECT_DOUBLE_EQ(LoadSubject(take / "person-5/subject.toml").thigh, AverageSizes(1500).thigh);
+}
+
+TEST_F(RecordingTest, ManyTakesLeaveNoMemoryBehind) {
+  const auto record = [this](int takes) {
+    for (int i = 0; i < takes; ++i) {
+      const std::filesystem::path take = recorder_->Start("one", config_, {});
+      for (std::uint64_t frame = 0; frame < 3; ++frame) Offer(0, frame), Offer(1, frame);
+      recorder_->Stop();
+      std::filesystem::remove_all(take);
+    }
+  };
+  record(2);
+  const std::int64_t before = HeapBytes();
+  record(8);
+  EXPECT_LT(HeapBytes() - before, 20'000);
 }
 
 TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/heap_bytes.h"
+
 namespace mocap {
 namespace {
 
@@ -53,6 +55,18 @@ TEST_F(DiagnosticLogTest, WhatComesAndGoesDoesNotFillTheLog) {
     }
   }
   EXPECT_EQ(told, 1u);
+}
+
+TEST_F(DiagnosticLogTest, ForgetsWhatHasNotComeBackForLong) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+  std::vector<std::string> complaints;
+  for (char c = 'a'; c <= 'z'; ++c) complaints.emplace_back(200, c);
+  At(1, complaints);
+  const std::int64_t before = HeapBytes();
+  At(2, {});
+  EXPECT_EQ(HeapBytes(), before);
+  At(20, {});
+  EXPECT_LT(HeapBytes() - before, -26 * 200);
 }
 
 }  // namespace
