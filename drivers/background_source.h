@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/silhouette/background_model.h"
 
 namespace mocap {
 

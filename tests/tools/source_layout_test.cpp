@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -121,6 +122,50 @@ TEST(SourceLayout, RoomsIncludeOnlyWhatLiesBelowThem) {
         EXPECT_TRUE(from == room || doors.contains(from))
             << include.file << " includes " << include.header;
       }
+    }
+  }
+}
+
+/// For each folder that includes from another folder of the same parent: which ones.
+std::map<fs::path, std::set<fs::path>> IncludesBetweenSiblings() {
+  std::map<fs::path, std::set<fs::path>> included;
+  for (const auto& [folder, doors] : kDoors) {
+    for (const Include& include : IncludesUnder(folder)) {
+      if (!include.in_quotes) continue;
+      const fs::path from = fs::relative(include.file, MOCAP_SOURCE_DIR).parent_path();
+      const fs::path to = fs::path(include.header).parent_path();
+      const auto [a, b] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
+      if (a == from.begin() || a == from.end() || b == to.end()) continue;
+      fs::path parent;
+      for (auto name = from.begin(); name != a; ++name) parent /= *name;
+      included[parent / *a].insert(parent / *b);
+    }
+  }
+  return included;
+}
+
+/// Everything that is included by `folder`, by what that includes, and so on.
+std::set<fs::path> ReachedFrom(const fs::path& folder,
+                               const std::map<fs::path, std::set<fs::path>>& included) {
+  std::set<fs::path> reached;
+  std::vector<fs::path> next = {folder};
+  while (!next.empty()) {
+    const auto includes = included.find(next.back());
+    next.pop_back();
+    if (includes == included.end()) continue;
+    for (const fs::path& other : includes->second)
+      if (reached.insert(other).second) next.push_back(other);
+  }
+  return reached;
+}
+
+TEST(SourceLayout, FoldersOfOneFolderDoNotIncludeEachOtherInACircle) {
+  const auto included = IncludesBetweenSiblings();
+  EXPECT_TRUE(included.contains("core/reconstruction/silhouette")) << "circles deep down count too";
+  for (const auto& [folder, others] : included) {
+    for (const fs::path& other : others) {
+      EXPECT_FALSE(ReachedFrom(other, included).contains(folder))
+          << folder << " includes " << other << ", and the other way round";
     }
   }
 }

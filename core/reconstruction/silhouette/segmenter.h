@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/image.h"
-#include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/background/conditions.h"
 #include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/shading.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {

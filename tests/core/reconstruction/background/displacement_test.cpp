@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/background/expected_picture.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
 namespace mocap {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/region_of_interest.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 

@@ -9,8 +9,8 @@
 #include "core/errors.h"
 #include "core/kernels/expected_pixels.h"
 #include "core/kernels/mixing.h"
-#include "core/reconstruction/background/background_model.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 
 namespace mocap {

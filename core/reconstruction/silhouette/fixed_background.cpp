@@ -6,7 +6,7 @@
 
 #include "core/errors.h"
 #include "core/kernels/expected_pixels.h"
-#include "core/reconstruction/background/background_model.h"
+#include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
 
 namespace mocap {
