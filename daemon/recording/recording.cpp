@@ -14,6 +14,7 @@
 #include "config/subject_file.h"
 #include "core/errors.h"
 #include "daemon/base/disk_space.h"
+#include "daemon/base/free_memory.h"
 #include "drivers/clock.h"
 #include "drivers/go_behind.h"
 #include "drivers/take/take_layout.h"
@@ -289,6 +290,7 @@ void Recording::RunKeeper() {
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
   taps_.messages.Free();
+  GiveBackFreeMemory();
 }
 
 // No more frames are dropped, and the caller waits for the rest.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "config/open_studio.h"
+#include "daemon/base/free_memory.h"
 #include "daemon/base/service_folders.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/channel_watch.h"
@@ -207,6 +208,8 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   signals.Allow(kEndPatience, false);
   if (nodes) nodes->Listen();
   if (studio_listener) studio_listener->Listen();
+  // Learning the background has taken much.
+  GiveBackFreeMemory();
   path->Start();
   RunUntilStopped(*path, watch, signals, seconds);
   const auto is_recording = [&recorder] {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <malloc.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <fstream>
 
 #include "tests/support/allocation_counter.h"
 
@@ -14,6 +16,13 @@ inline std::int64_t HeapBytes() {
   if (!kCountsAllocations) return 0;
   const auto heap = mallinfo2();
   return static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
+}
+
+/// Memory of the process that the system holds.
+inline std::int64_t ResidentBytes() {
+  std::int64_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
 }
 
 }  // namespace mocap

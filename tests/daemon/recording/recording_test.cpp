@@ -125,6 +125,18 @@ TEST_F(RecordingTest, ManyTakesLeaveNoMemoryBehind) {
   EXPECT_LT(HeapBytes() - before, 20'000);
 }
 
+TEST_F(RecordingTest, WhatItsQueuesTookGoesBackToTheSystem) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer keeps what is freed";
+  config_.buffer_mb = 60;
+  const std::int64_t before = ResidentBytes();
+  recorder_->Start("one", config_, {});
+  // Lies above the queues in the heap.
+  const std::vector<char> pin(1000);
+  EXPECT_GT(ResidentBytes(), before + 40'000'000);
+  recorder_->Stop();
+  EXPECT_LT(ResidentBytes(), before + 20'000'000);
+}
+
 TEST_F(RecordingTest, TheTakeHoldsEveryFrameAndOpens) {
   const std::filesystem::path take =
       recorder_->Start("one", config_, std::array{RecordedPerson{3, "anna", AverageSizes(1700)}});
