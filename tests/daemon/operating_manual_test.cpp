@@ -80,6 +80,10 @@ std::vector<std::string> EveryComplaint() {
   report.now.sets_dropped_lately = 12;
   report.keep_free_mb = 500;
   report.takes = "/takes";
+  report.calibration.where = "calibration.toml";
+  report.calibration_fault = "all cameras hang below the floor";
+  report.now.status.people.is_somebody = true;
+  report.nobody_ns = 9'000'000'000;
   report.bytes_free = 3'000'000;
   report.cut_off = {{"/takes/walk-01.partial", 12'300'000'000, 45'296'000'000'000}};
   report.light_change = LightChange{.time_ns = 1, .cameras = {"cam1"}, .factor = 1.4};

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/walking_silhouettes.h"
+#include "tests/support/walking_moments.h"
 
 namespace mocap {
 namespace {
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-std::vector<CameraCalibration> Studio() { return testing::WalkOfTenSeconds().cameras; }
+std::vector<CameraCalibration> Studio() { return testing::WalkCameras(); }
 
 TEST(CameraPlaces, AStudioIsPlausible) { EXPECT_THAT(CheckPlaces(Studio(), true), IsEmpty()); }
 

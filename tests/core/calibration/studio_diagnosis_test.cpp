@@ -17,7 +17,7 @@ using testing::ExchangePictures;
 using ::testing::HasSubstr;
 using testing::WalkingMoments;
 
-const std::vector<CameraCalibration>& Cameras() { return testing::WalkOfTenSeconds().cameras; }
+const std::vector<CameraCalibration>& Cameras() { return testing::WalkCameras(); }
 
 StudioDiagnosis DiagnosisOf(const std::vector<SeenMoment>& moments) {
   return Diagnose(Cameras(), moments);
@@ -50,7 +50,7 @@ TEST(StudioDiagnosis, FindsNothingWrongWithARightCalibration) {
   EXPECT_EQ(diagnosis.fault, StudioFault::kNone);
   for (const PairAgreement& pair : diagnosis.pairs) EXPECT_GT(pair.views.overlap, 0.95);
   EXPECT_NEAR(diagnosis.person.lowest_mm, 0, 130);
-  EXPECT_NEAR(diagnosis.person.highest_mm, RecordedSimulation().stature_mm, 80);
+  EXPECT_NEAR(diagnosis.person.highest_mm, testing::kWalkerStature_mm, 80);
 }
 
 TEST(StudioDiagnosis, NamesAnyTwoCamerasThatAreExchanged) {

@@ -16,7 +16,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Shows the moments a second apart.
 SeenPeople AfterAll(const std::vector<SeenMoment>& moments) {
-  PeopleWatch watch(testing::WalkOfTenSeconds().cameras);
+  PeopleWatch watch(testing::WalkCameras());
   SeenPeople people;
   for (std::size_t i = 0; i < moments.size(); ++i)
     people = watch.Add(static_cast<std::int64_t>(i) * kSecond_ns, moments[i]);
@@ -24,7 +24,7 @@ SeenPeople AfterAll(const std::vector<SeenMoment>& moments) {
 }
 
 TEST(PeopleWatch, SomebodyWhoWalksIsSomebodyAfterFiveSeconds) {
-  PeopleWatch watch(testing::WalkOfTenSeconds().cameras);
+  PeopleWatch watch(testing::WalkCameras());
   const std::vector<SeenMoment> moments = WalkingMoments();
   for (int s = 0; s < 10; ++s) {
     const SeenPeople people = watch.Add(s * kSecond_ns, moments[static_cast<std::size_t>(s)]);
@@ -45,7 +45,7 @@ TEST(PeopleWatch, FurnitureAndAnEmptyRoomAreNobody) {
   EXPECT_FALSE(AfterAll(std::vector<SeenMoment>(10, WalkingMoments()[0])).is_somebody);
   std::vector<SeenMoment> empty = WalkingMoments();
   for (SeenMoment& moment : empty)
-    for (auto& shape : moment) shape = ShapeOf(Silhouette(640, 480), shape->X_CW);
+    for (auto& shape : moment) shape = ShapeOf(Silhouette(320, 240), shape->X_CW);
   EXPECT_FALSE(AfterAll(empty).is_somebody);
 }
 
@@ -58,12 +58,12 @@ TEST(PeopleWatch, SomethingSmallThatMovesIsNobody) {
 
 TEST(PeopleWatch, WhoWasAwayCountsAnew) {
   std::vector<SeenMoment> moments = WalkingMoments();
-  for (auto& shape : moments[6]) shape = ShapeOf(Silhouette(640, 480), shape->X_CW);
+  for (auto& shape : moments[6]) shape = ShapeOf(Silhouette(320, 240), shape->X_CW);
   EXPECT_FALSE(AfterAll(moments).is_somebody);
 }
 
 TEST(PeopleWatch, TimesThatGoBackBeginAnew) {
-  PeopleWatch watch(testing::WalkOfTenSeconds().cameras);
+  PeopleWatch watch(testing::WalkCameras());
   const std::vector<SeenMoment> moments = WalkingMoments();
   for (int s = 0; s < 8; ++s) watch.Add(s * kSecond_ns, moments[static_cast<std::size_t>(s)]);
   EXPECT_FALSE(watch.Add(0, moments[8]).is_somebody);
