@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/calibration/view_agreement.h"
 #include "core/quantile.h"
@@ -12,7 +13,7 @@ namespace mocap {
 namespace {
 
 /// Steeper rays tell little about heights.
-const double kSteepest = std::tan(55 * M_PI / 180);
+const double kSteepest = std::tan(55 * std::numbers::pi / 180);
 
 /// Several people beside each other, and somebody who lies, are wider than this, in heights.
 constexpr double kWidest = 1.2;

@@ -383,10 +383,13 @@ TEST_F(MocapdTest, CheckConfigLeavesNothing) {
   EXPECT_THAT(there, ::testing::UnorderedElementsAre("take", "mocapd.toml", "errors"));
 }
 
-TEST_F(MocapdTest, CheckConfigAcceptsWhatCanBeUsed) {
+TEST_F(MocapdTest, CheckConfigAcceptsWhatCanBeUsedAndSaysWhatIsDoubtful) {
   WriteEmptyTake(folder_.path() / "take");
   const std::string config = WriteConfig("driver = \"take\"\ntake = \"take\"\n");
-  EXPECT_EQ(Daemon({"--config", config, "--check-config"}, log_).Wait(), 0);
+  Daemon check({"--config", config, "--check-config"}, log_);
+  EXPECT_EQ(check.Wait(), 0);
+  EXPECT_THAT(check.Errors(), HasSubstr("mocapd: warning: "));
+  EXPECT_THAT(check.Errors(), HasSubstr("calibration.toml: all cameras hang below the floor"));
   EXPECT_EQ(Daemon({"--check-config"}, log_).Wait(), 0) << "the simulated studio";
 }
 

@@ -72,10 +72,10 @@ TakeSamples Zoomed(TakeSamples samples, std::size_t camera, double growth) {
 }
 
 TEST(CameraHealthTest, NamesTheCameraWhoseZoomWasTouched) {
-  for (const CameraShift& shift : RefineFromSilhouettes(Walk()).before)
+  for (const CameraShift& shift : MeasureShifts(Walk(), Walk().cameras))
     EXPECT_LT(std::abs(shift.growth), kZoomedShare) << shift.camera;
-  const RefinedStudio refined = RefineFromSilhouettes(Zoomed(Walk(), 2, 0.04));
-  EXPECT_GT(refined.before[2].growth, kZoomedShare);
+  const TakeSamples zoomed = Zoomed(Walk(), 2, 0.04);
+  EXPECT_GT(MeasureShifts(zoomed, zoomed.cameras)[2].growth, kZoomedShare);
 }
 
 TEST(CameraHealthTest, PeopleWhomThePictureCutsOffAreComparedAsFarAsTheyAreSeen) {
