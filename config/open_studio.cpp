@@ -44,7 +44,8 @@ Studio OpenTakeAsSource(const Config& config) {
   // Nodes that replay the same take are in step.
   if (config.role == Role::kNode) options.begin_ns = [] { return std::int64_t{0}; };
   Studio studio = OpenTake(source.take, options);
-  CheckRoom(studio, config.voxel_mm, TakeLayout{source.take}.Calibration().string());
+  RequireRoom(CalibrationsOf(studio), config.voxel_mm,
+              TakeLayout{source.take}.Calibration().string());
   return studio;
 }
 
@@ -71,7 +72,7 @@ Studio OpenOwnCameras(const Config& config) {
   if (source.driver == "take") return OpenTakeAsSource(config);
   if (IsLive(source)) {
     Studio studio = OpenLiveStudio(config);
-    CheckRoom(studio, config.voxel_mm, config.calibration.string());
+    RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
     return studio;
   }
   Studio studio = OpenSimulatedStudio(LiveSimulation(source));
@@ -92,7 +93,7 @@ void AddNodes(const Config& config, Studio& studio) {
       studio.cameras.push_back({*camera, nullptr, {}});
     }
   }
-  CheckRoom(studio, config.voxel_mm, config.calibration.string());
+  RequireRoom(CalibrationsOf(studio), config.voxel_mm, config.calibration.string());
 }
 
 }  // namespace
@@ -100,6 +101,8 @@ void AddNodes(const Config& config, Studio& studio) {
 Studio OpenStudio(const Config& config) {
   Studio studio = OpenOwnCameras(config);
   if (config.role == Role::kStudio) AddNodes(config, studio);
+  if (config.role == Role::kStudio || IsLive(config.source))
+    RemarkOnPlaces(LoadCalibration(config.calibration), config.calibration, studio);
   return studio;
 }
 

@@ -6,6 +6,7 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "config/open_studio.h"
+#include "config/room_limits.h"
 #include "config/take_header.h"
 #include "core/errors.h"
 #include "drivers/quoted.h"
@@ -115,6 +116,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   const std::vector<std::string> names = Choose(header, options.cameras, layout);
 
   Studio studio{header.name, header.fps_nominal, {}};
+  RemarkOnPlaces(calibrations, layout.Calibration(), studio);
   std::vector<TakeTable> tables;
   for (const std::string& name : names) {
     const CameraCalibration& camera = Find(calibrations, name, layout.Calibration());

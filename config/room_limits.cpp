@@ -3,10 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <span>
-#include <vector>
 
-#include "config/open_studio.h"
 #include "core/calibration/camera_places.h"
 #include "core/errors.h"
 #include "core/reconstruction/carving/volume_of_interest.h"
@@ -30,6 +27,8 @@ std::string RoomText(const Vector3& size_mm) {
   const Vector3 size_m = size_mm / 1000;
   return Text("%.4g x %.4g x %.4g m", size_m.x(), size_m.y(), size_m.z());
 }
+
+}  // namespace
 
 void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
                  const std::string& where) {
@@ -65,13 +64,10 @@ void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
       ", or a calibration in millimetres");
 }
 
-}  // namespace
-
-void CheckRoom(Studio& studio, double voxel_mm, const std::string& where) {
-  const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
-  RequireRoom(cameras, voxel_mm, where);
+void RemarkOnPlaces(std::span<const CameraCalibration> cameras, const std::filesystem::path& file,
+                    Studio& studio) {
   for (const Finding& finding : CheckPlaces(cameras, true)) {
-    studio.remarks.push_back(where + ": " + finding.text);
+    studio.remarks.push_back(file.string() + ": " + finding.text);
   }
 }
 

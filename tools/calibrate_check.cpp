@@ -67,7 +67,7 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
       CalibrationsFor(samples, cameras, a.calibration);
   const std::vector<SeenMoment> moments = MomentsOf(samples, calibrations);
   const auto add = [&](Severity severity, const std::string& text) {
-    findings.insert(findings.begin(), {severity, take.string() + ": " + text});
+    findings.push_back({severity, take.string() + ": " + text});
   };
   if (std::ranges::none_of(moments, ShowsPerson)) {
     add(Severity::kWarning, "nobody is seen; expected a take in which a person stands or walks");
@@ -76,7 +76,7 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
   const StudioDiagnosis diagnosis = Diagnose(calibrations, moments);
   if (const auto fault = FindingOf(diagnosis, calibrations)) add(fault->severity, fault->text);
   if (const std::string text = AgreementText(diagnosis, calibrations); !text.empty())
-    findings.push_back({Severity::kNote, take.string() + ": " + text});
+    add(Severity::kNote, text);
   if (diagnosis.person.moments == 0) return;
   findings.push_back(
       {Severity::kNote,
@@ -137,6 +137,7 @@ void AddCheck(CLI::App* parent) {
     std::vector<Finding> findings = CheckAll(*a, fit);
     if (!a->footage.empty()) CheckPerson(*a, fit.bundle.cameras, findings);
     if (!against->empty()) Compare(fit.bundle.cameras, *against, findings);
+    std::ranges::stable_sort(findings, std::greater(), &Finding::severity);
     std::fputs(RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()).c_str(), stdout);
     for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
     std::fprintf(stdout, "%s\n", Verdict(findings).c_str());

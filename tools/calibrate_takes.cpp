@@ -21,6 +21,7 @@
 #include "tools/calibration/head_fit.h"
 #include "tools/calibration/same_calibration.h"
 #include "tools/camera_health.h"
+#include "tools/remarks.h"
 #include "tools/studio_examination.h"
 
 namespace mocap {

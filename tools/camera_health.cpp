@@ -50,13 +50,6 @@ VoxelGrid CarveWithout(const SampledMoment& moment, const std::vector<SensorPlan
   return grid;
 }
 
-// Pose by calibration `now` at a moment when the take's own calibration gave `sampled`. A rotation
-// in the camera's own frame does not depend on its head's angles.
-RigidTransform PoseNow(const CameraCalibration& original, const CameraCalibration& now,
-                       const RigidTransform& sampled) {
-  return now.X_CW * original.X_CW.Inverse() * sampled;
-}
-
 /// Fits rotation and growth of a camera's picture to the observed shifts: least squares over
 /// moments.
 class PictureChange {

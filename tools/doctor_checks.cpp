@@ -239,7 +239,8 @@ std::vector<Diagnosis> CheckCalibration(const Config& config) {
                          "look at it with mocap calibrate check " + where});
   }
   if (diagnoses.empty())
-    diagnoses.push_back({Verdict::kGood, where + ": its cameras can stand where it says", ""});
+    diagnoses.push_back(
+        {Verdict::kGood, where + ": the extrinsics of its cameras are plausible", ""});
   return diagnoses;
 }
 

@@ -9,6 +9,7 @@
 
 #include "drivers/printable_text.h"
 #include "drivers/take/text_file.h"
+#include "tools/remarks.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/evaluation_text.h"
 #include "tools/report/hull_overlap.h"

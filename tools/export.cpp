@@ -19,6 +19,7 @@
 #include "drivers/take/text_file.h"
 #include "tools/interchange/export_format.h"
 #include "tools/interchange/people_times.h"
+#include "tools/remarks.h"
 #include "tools/results/export_axes.h"
 #include "tools/results/result.h"
 
@@ -64,18 +65,14 @@ void RequireRoomForExport(const ExportFormat& format, const std::filesystem::pat
   RequireOwn(out, std::span(&format.beginning, 1), fmt::format("a {} export", format.name));
 }
 
-void Tell(const std::string& whose, const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) {
-    fmt::print(stderr, "mocap export: {}{}\n", whose, Printable(remark));
-  }
-}
-
 /// @param whose  "person-2: ", if there are several.
 void WriteScene(const ExportFormat& format, const ExportScene& scene, const std::string& source,
                 const std::string& whose, const std::filesystem::path& file) {
   std::ostringstream out;
   try {
-    Tell(Printable(whose), format.write(scene, out));
+    ExportRemarks remarks = format.write(scene, out);
+    for (std::string& remark : remarks) remark.insert(0, whose);
+    TellRemarks("export", remarks);
   } catch (const SetupError& error) {
     throw SetupError(source + ": " + whose + error.what());
   }
@@ -85,7 +82,7 @@ void WriteScene(const ExportFormat& format, const ExportScene& scene, const std:
 void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   RequireRoomForExport(format, arguments.out);
   const Result result = ReadResult(arguments.result, arguments.prefix);
-  Tell("", result.remarks);
+  TellRemarks("export", result.remarks);
   if (result.poses.empty()) {
     throw SetupError(arguments.result.string() + ": contains no frame; expected at least one");
   }
@@ -103,7 +100,7 @@ std::filesystem::path FileOf(const std::filesystem::path& out, const std::string
 /// Reads the results of people who were ever tracked.
 PeopleResults ReadTrackedPeople(const ExportArguments& arguments) {
   PeopleResults people = ReadPeople(arguments.result, arguments.prefix);
-  for (const auto& [name, result] : people) Tell("", result.remarks);
+  for (const auto& [name, result] : people) TellRemarks("export", result.remarks);
   std::erase_if(people, [](const auto& person) {
     return std::ranges::none_of(person.second.poses, IsTracked);
   });

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "core/calibration/camera_places.h"
+#include "core/calibration/finding.h"
 #include "core/calibration/studio_diagnosis.h"
 #include "tools/take_samples.h"
 
@@ -20,10 +19,7 @@ inline std::vector<SeenMoment> MomentsOf(const TakeSamples& samples) {
   return MomentsOf(samples, samples.cameras);
 }
 
-/// Finds what keeps the take from being tracked with its own calibration; empty if nothing does.
+/// Finds what is wrong with the cameras of a take that is tracked; empty if nothing is.
 std::optional<Finding> ExamineStudio(const TakeSamples& samples);
-
-/// Prints remarks about a command's input, one line each, to standard error.
-void TellRemarks(const std::string& command, const std::vector<std::string>& remarks);
 
 }  // namespace mocap

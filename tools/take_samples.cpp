@@ -86,7 +86,7 @@ TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm) {
   Studio studio = OpenTake(take, {});
   RequireCameraCount(studio);
-  CheckRoom(studio, voxel_mm, TakeLayout{take}.Calibration().string());
+  RequireRoom(CalibrationsOf(studio), voxel_mm, TakeLayout{take}.Calibration().string());
   const std::int64_t tolerance_ns = std::llround(0.5e9 / studio.fps_nominal);
   TakeSamples samples;
   samples.remarks = studio.remarks;

@@ -46,4 +46,11 @@ struct SampleRequest {
 TakeSamples SampleTake(const std::filesystem::path& take,
                        const std::vector<SampleRequest>& requests, double voxel_mm);
 
+/// Returns the pose by calibration `now` at a moment when calibration `original` gave `sampled`. A
+/// rotation in the camera's own frame does not depend on its head's angles.
+inline RigidTransform PoseNow(const CameraCalibration& original, const CameraCalibration& now,
+                              const RigidTransform& sampled) {
+  return now.X_CW * original.X_CW.Inverse() * sampled;
+}
+
 }  // namespace mocap

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,10 +27,10 @@
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/remarks.h"
 #include "tools/results/result.h"
 #include "tools/results/result_sink.h"
 #include "tools/results/take_identity.h"
-#include "tools/studio_examination.h"
 
 namespace mocap {
 namespace {
@@ -79,25 +80,36 @@ void RequireTwoCameras(const TrackOptions& options, const Studio& studio) {
                              "; expected at least two cameras, and four for good poses");
 }
 
-/// Says why people could not be tracked as well as they might be.
-/// @throws std::runtime_error  if nobody was tracked because of it: a result is replaced only by a
-/// result.
-void TellFault(const TrackOptions& options, const std::optional<Finding>& fault,
-               std::size_t tracked) {
-  // Things that are no person may be all that is seen.
-  if (!fault || fault->severity != Severity::kWrong) return;
-  const std::string text = options.take.string() + ": " + fault->text;
-  if (tracked == 0) throw std::runtime_error("nobody was tracked: " + text);
-  TellRemarks("track", {text});
+/// Says what is wrong with the cameras, or why nobody was tracked.
+/// @throws std::runtime_error  if nobody was tracked because of the calibration: a result is
+/// replaced only by a result.
+void TellFault(const TrackOptions& options, const std::vector<CameraCalibration>& cameras,
+               std::span<const SeenMoment> moments, std::size_t tracked) {
+  const StudioDiagnosis diagnosis = Diagnose(cameras, moments);
+  const std::string take = options.take.string() + ": ";
+  const std::optional<Finding> fault = FindingOf(diagnosis, cameras);
+  if (tracked > 0) {
+    if (IsOfCameras(diagnosis.fault)) TellRemarks("track", {take + fault->text});
+  } else if (fault && fault->severity == Severity::kWrong) {
+    throw std::runtime_error("nobody was tracked: " + take + fault->text);
+  } else if (fault) {
+    TellRemarks("track", {take + fault->text});
+  } else {
+    const auto show = std::ranges::count_if(moments, ShowsPerson);
+    TellRemarks("track", {take + (2 * show > std::ssize(moments)
+                                      ? "people are seen and nobody could be tracked: at least "
+                                        "three cameras have to see the whole person"
+                                      : "nobody is seen by most of the cameras at once")});
+  }
 }
 
 void Track(const TrackOptions& options) {
   const NamedTracker& tracker = TrackerOf(options.tracker);
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
   RequireTwoCameras(options, studio);
-  CheckRoom(studio, options.voxel_mm, TakeLayout{options.take}.Calibration().string());
-  TellRemarks("track", studio.remarks);
   const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
+  RequireRoom(cameras, options.voxel_mm, TakeLayout{options.take}.Calibration().string());
+  TellRemarks("track", studio.remarks);
   RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1, MarkOf(options.take));
@@ -120,8 +132,7 @@ void Track(const TrackOptions& options) {
   if (sink.frames() == 0) {
     throw SetupError(options.take.string() + ": no frames of two cameras match in time");
   }
-  TellFault(options, FindingOf(Diagnose(cameras, pipeline.Moments()), cameras),
-            sink.tracked_frames());
+  TellFault(options, cameras, pipeline.Moments(), sink.tracked_frames());
   if (options.people)
     WritePeople(options.out, sink.people());
   else

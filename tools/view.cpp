@@ -15,7 +15,7 @@
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "tools/chosen_config.h"
-#include "tools/studio_examination.h"
+#include "tools/remarks.h"
 #include "tools/view/access.h"
 #include "tools/view/control_desk.h"
 #include "tools/view/json_text.h"

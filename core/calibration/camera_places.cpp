@@ -27,9 +27,10 @@ void CheckRotation(const CameraCalibration& camera, std::vector<Finding>& findin
 void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings) {
   const Vector3 p_WC = EyeOf(camera);
   if (p_WC.isZero(0) && camera.X_CW.R == Matrix3::Identity()) {
-    findings.push_back({Severity::kWrong,
-                        camera.name + ": stands at the origin and looks straight up: it has a lens "
-                                      "and no pose yet, or the floor is not set"});
+    findings.push_back(
+        {Severity::kWrong, camera.name +
+                               ": stands at the origin and looks straight up: it has intrinsics "
+                               "and no pose yet, or the floor is not set"});
   }
   if (p_WC.z() < 0) {
     findings.push_back({Severity::kWrong,

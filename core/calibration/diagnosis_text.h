@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "core/calibration/camera_places.h"
+#include "core/calibration/finding.h"
 #include "core/calibration/studio_diagnosis.h"
 
 namespace mocap {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/calibration/view_agreement.h"
 #include "core/quantile.h"
@@ -18,10 +19,20 @@ const double kSteepest = std::tan(55 * std::numbers::pi / 180);
 /// Several people beside each other, and somebody who lies, are wider than this, in heights.
 constexpr double kWidest = 1.2;
 
+/// The middle rays of several people pass each other farther away than this, in heights.
+constexpr double kMostApart = 0.3;
+
 bool IsUpright(const SeenShape& shape) {
   Eigen::AlignedBox2d box;
   for (const Vector2& corner : shape.rim_px) box.extend(corner);
   return box.sizes().x() <= kWidest * box.sizes().y();
+}
+
+/// The ray in the middle of a cone, of unit length.
+Vector3 MiddleOf(const SeenCone& cone) {
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& ray : cone.rays_W) middle += ray.normalized();
+  return middle.normalized();
 }
 
 /// The point nearest to the middle rays of all cones.
@@ -29,14 +40,20 @@ Vector3 PlaceOf(const std::vector<SeenCone>& cones) {
   Matrix3 A = Matrix3::Zero();
   Vector3 b = Vector3::Zero();
   for (const SeenCone& cone : cones) {
-    Vector3 middle = Vector3::Zero();
-    for (const Vector3& ray : cone.rays_W) middle += ray.normalized();
-    const Vector3 axis = middle.normalized();
+    const Vector3 axis = MiddleOf(cone);
     const Matrix3 across = Matrix3::Identity() - axis * axis.transpose();
     A += across;
     b += across * cone.eye_W;
   }
   return A.inverse() * b;
+}
+
+/// How far the middle rays pass a place at most.
+double FarthestFrom(const Vector3& place_W, const std::vector<SeenCone>& cones) {
+  double farthest = 0;
+  for (const SeenCone& cone : cones)
+    farthest = std::max(farthest, MiddleOf(cone).cross(place_W - cone.eye_W).norm());
+  return farthest;
 }
 
 /// A foot or hand that is held towards a camera seems lower or higher than it is. Cameras from
@@ -65,14 +82,15 @@ void AddHeights(const SeenCone& cone, const Vector3& place_W, Heights& heights) 
 
 PersonExtent MeasureExtent(std::span<const CameraCalibration> cameras,
                            std::span<const SeenMoment> moments, std::span<const std::size_t> of) {
-  Heights medians;
+  Heights all;
   for (const SeenMoment& moment : moments) {
     std::vector<SeenCone> cones;
     bool is_upright = true;
     for (const std::size_t c : of) {
-      if (!moment[c] || moment[c]->rim_px.empty() || moment[c]->is_cut) continue;
+      if (!moment[c] || moment[c]->height_share < kLeastPersonShare || moment[c]->is_cut) continue;
       is_upright &= IsUpright(*moment[c]);
-      cones.push_back(ConeOf(*moment[c], cameras[c].lens, moment[c]->X_CW));
+      SeenCone cone = ConeOf(*moment[c], cameras[c].lens, moment[c]->X_CW);
+      if (!cone.rays_W.empty()) cones.push_back(std::move(cone));
     }
     if (cones.size() < 2 || !is_upright) continue;
     const Vector3 place_W = PlaceOf(cones);
@@ -80,12 +98,14 @@ PersonExtent MeasureExtent(std::span<const CameraCalibration> cameras,
     Heights heights;
     for (const SeenCone& cone : cones) AddHeights(cone, place_W, heights);
     if (heights.lowest.empty()) continue;
-    medians.lowest.push_back(QuantileOf(heights.lowest, 1 - kFarthest));
-    medians.highest.push_back(QuantileOf(heights.highest, kFarthest));
+    const double lowest = QuantileOf(heights.lowest, 1 - kFarthest);
+    const double highest = QuantileOf(heights.highest, kFarthest);
+    if (FarthestFrom(place_W, cones) > kMostApart * (highest - lowest)) continue;
+    all.lowest.push_back(lowest);
+    all.highest.push_back(highest);
   }
-  if (medians.lowest.empty()) return {};
-  return {static_cast<int>(medians.lowest.size()), MedianOf(medians.lowest),
-          MedianOf(medians.highest)};
+  if (all.lowest.empty()) return {};
+  return {static_cast<int>(all.lowest.size()), MedianOf(all.lowest), MedianOf(all.highest)};
 }
 
 }  // namespace mocap

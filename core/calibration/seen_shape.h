@@ -9,6 +9,9 @@
 
 namespace mocap {
 
+/// A person of 1.7 m where the picture shows 14 m: limbs of smaller ones have too few pixels.
+inline constexpr double kLeastPersonShare = 0.12;
+
 /// The convex hull of a silhouette. It touches every line that touches the silhouette from outside,
 /// which is all that the epipolar tangents of two views compare.
 struct SeenShape {

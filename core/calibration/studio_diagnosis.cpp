@@ -1,9 +1,12 @@
 #include "core/calibration/studio_diagnosis.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "core/calibration/person_extent.h"
 #include "core/calibration/view_agreement.h"
@@ -12,14 +15,12 @@
 namespace mocap {
 namespace {
 
-/// A person of 1.7 m where the picture shows 14 m: limbs of smaller ones have too few pixels.
-constexpr double kLeastHeightShare = 0.12;
-/// Of the picture's height; there, 0.28 m.
-constexpr double kLeastMotionShare = 0.02;
+/// Of the direction to the middle of what is seen. At 5 m, 0.05 m.
+constexpr double kLeastMotion_rad = 0.01;
 /// Calibrated pairs of recorded and rendered takes have 0.91 and more; docs/experiments/cameras.md.
 constexpr double kLeastAgreement = 0.85;
 /// Of all pairs that can be compared: something may stand before one camera.
-constexpr double kMostPairs = 0.9;
+constexpr double kLeastPairs = 0.9;
 constexpr int kFewestMoments = 3;
 
 /// From somebody who crouches or sits to a tall man with raised arms.
@@ -71,14 +72,19 @@ void JudgeExtent(StudioDiagnosis& diagnosis) {
   }
 }
 
+/// What one picture shows at all moments, as rays; empty where it shows nobody.
+using Cones = std::vector<std::optional<SeenCone>>;
+
 class Examination {
  public:
   Examination(std::span<const CameraCalibration> cameras, std::span<const SeenMoment> moments)
-      : cameras_(cameras), moments_(moments), as_is_(cameras.size()) {}
+      : cameras_(cameras), moments_(moments), as_is_(cameras.size()) {
+    for (std::size_t c = 0; c < cameras.size(); ++c) cones_.push_back(ConesOf(as_is_, c));
+  }
 
   StudioDiagnosis Conclude() {
     StudioDiagnosis diagnosis;
-    diagnosis.pairs = PairsOf(as_is_, {});
+    diagnosis.pairs = PairsOf(cones_, as_is_.calibration);
     std::vector<std::size_t> agreeing = as_is_.calibration;
     if (!Agree(diagnosis.pairs)) {
       if (CountCompared(diagnosis.pairs) == 0 || FindRearrangement(diagnosis)) return diagnosis;
@@ -94,46 +100,47 @@ class Examination {
   }
 
  private:
-  /// Exchanging or flipping the pictures of others changes nothing of a pair.
-  std::vector<PairAgreement> PairsOf(const Arrangement& arrangement,
-                                     std::span<const std::size_t> changed) const {
+  Cones ConesOf(const Arrangement& arrangement, std::size_t picture) const {
+    const std::size_t calibration = arrangement.calibration[picture];
+    const CameraCalibration& camera = cameras_[calibration];
+    Cones cones;
+    for (const SeenMoment& moment : moments_) {
+      cones.emplace_back();
+      if (!moment[picture] || !moment[calibration]) continue;
+      if (moment[picture]->height_share < kLeastPersonShare) continue;
+      cones.back() = ConeOf(Flipped(*moment[picture], arrangement.flip[picture], camera),
+                            camera.lens, moment[calibration]->X_CW);
+    }
+    return cones;
+  }
+
+  /// Compares the pairs that contain one of these cameras.
+  static std::vector<PairAgreement> PairsOf(const std::vector<Cones>& cones,
+                                            const std::vector<std::size_t>& of) {
     std::vector<PairAgreement> pairs;
-    for (std::size_t a = 0; a < cameras_.size(); ++a) {
-      for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
-        const bool is_new = changed.empty() || std::ranges::count(changed, a) > 0 ||
-                            std::ranges::count(changed, b) > 0;
-        if (is_new) pairs.push_back(Compare(arrangement, a, b));
+    for (std::size_t a = 0; a < cones.size(); ++a) {
+      for (std::size_t b = a + 1; b < cones.size(); ++b) {
+        if (std::ranges::count(of, a) + std::ranges::count(of, b) == 0) continue;
+        pairs.push_back(Compare(cones[a], cones[b]));
+        pairs.back().first = a;
+        pairs.back().second = b;
       }
     }
     return pairs;
   }
 
-  PairAgreement Compare(const Arrangement& arrangement, std::size_t a, std::size_t b) const {
-    PairAgreement pair;
-    pair.first = a;
-    pair.second = b;
+  static PairAgreement Compare(const Cones& a, const Cones& b) {
     std::vector<double> overlaps, contained;
-    for (const SeenMoment& moment : moments_) {
-      const auto cone_a = ConeIn(moment, arrangement, a), cone_b = ConeIn(moment, arrangement, b);
-      if (!cone_a || !cone_b) continue;
-      const auto agreement = AgreementOf(*cone_a, *cone_b);
+    for (std::size_t m = 0; m < a.size(); ++m) {
+      const auto agreement = a[m] && b[m] ? AgreementOf(*a[m], *b[m]) : std::nullopt;
       if (!agreement) continue;
       overlaps.push_back(agreement->overlap);
       contained.push_back(agreement->contained);
     }
+    PairAgreement pair;
     pair.moments = static_cast<int>(overlaps.size());
     if (pair.moments > 0) pair.views = {MedianOf(overlaps), MedianOf(contained)};
     return pair;
-  }
-
-  std::optional<SeenCone> ConeIn(const SeenMoment& moment, const Arrangement& arrangement,
-                                 std::size_t picture) const {
-    const std::size_t calibration = arrangement.calibration[picture];
-    if (!moment[picture] || !moment[calibration]) return {};
-    if (moment[picture]->height_share < kLeastHeightShare) return {};
-    const CameraCalibration& camera = cameras_[calibration];
-    return ConeOf(Flipped(*moment[picture], arrangement.flip[picture], camera), camera.lens,
-                  moment[calibration]->X_CW);
   }
 
   static bool IsCompared(const PairAgreement& pair) { return pair.moments >= kFewestMoments; }
@@ -148,7 +155,7 @@ class Examination {
       return IsCompared(pair) && pair.views.contained >= kLeastAgreement;
     };
     return static_cast<double>(std::ranges::count_if(pairs, is_contained)) >=
-           kMostPairs * static_cast<double>(CountCompared(pairs));
+           kLeastPairs * static_cast<double>(CountCompared(pairs));
   }
 
   static bool Agree(const std::vector<PairAgreement>& pairs) {
@@ -157,27 +164,25 @@ class Examination {
       compared += IsCompared(pair);
       agreeing += IsCompared(pair) && Agrees(pair);
     }
-    return compared > 0 && agreeing >= kMostPairs * compared;
+    return compared > 0 && agreeing >= kLeastPairs * compared;
+  }
+
+  static double MeanOf(const std::vector<PairAgreement>& pairs) {
+    double sum = 0;
+    for (const PairAgreement& pair : pairs) sum += IsCompared(pair) ? pair.views.overlap : 0;
+    return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, CountCompared(pairs)));
   }
 
   /// Tries the changes that one mistake makes; takes the one with which the views agree best.
   bool FindRearrangement(StudioDiagnosis& diagnosis) const {
     double best = 0;
     const auto attempt = [&](StudioFault fault, const Arrangement& arrangement,
-                             std::vector<std::size_t> changed) {
-      // The pairs of the others must agree as they are.
-      std::vector<PairAgreement> pairs = PairsOf(arrangement, changed);
-      if (CountCompared(pairs) == 0 || !Agree(pairs)) return;
-      const double agreement = MeanOf(pairs);
-      for (const PairAgreement& pair : diagnosis.pairs) {
-        const bool is_changed = std::ranges::count(changed, pair.first) > 0 ||
-                                std::ranges::count(changed, pair.second) > 0;
-        if (!is_changed) pairs.push_back(pair);
-      }
-      if (!Agree(pairs) || agreement <= best) return;
+                             const std::vector<std::size_t>& changed) {
+      const double agreement = AgreementWith(arrangement, changed, diagnosis.pairs);
+      if (agreement <= best) return;
       best = agreement;
       diagnosis.fault = fault;
-      diagnosis.cameras = std::move(changed);
+      diagnosis.cameras = changed;
     };
     for (std::size_t a = 0; a < cameras_.size(); ++a) {
       for (const auto& [flip, fault] : {std::pair(Flip::kRotated, StudioFault::kUpsideDown),
@@ -198,10 +203,22 @@ class Examination {
     return diagnosis.fault != StudioFault::kNone;
   }
 
-  static double MeanOf(const std::vector<PairAgreement>& pairs) {
-    double sum = 0;
-    for (const PairAgreement& pair : pairs) sum += IsCompared(pair) ? pair.views.overlap : 0;
-    return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, CountCompared(pairs)));
+  /// Mean agreement of the changed cameras with all others; 0 if anybody disagrees then.
+  /// @param as_is  all pairs without the change.
+  double AgreementWith(const Arrangement& arrangement, const std::vector<std::size_t>& changed,
+                       const std::vector<PairAgreement>& as_is) const {
+    std::vector<Cones> cones = cones_;
+    for (const std::size_t c : changed) cones[c] = ConesOf(arrangement, c);
+    std::vector<PairAgreement> pairs = PairsOf(cones, changed);
+    // One pair alone agrees by several changes.
+    if (CountCompared(pairs) < 2 || !Agree(pairs)) return 0;
+    const double agreement = MeanOf(pairs);
+    for (const PairAgreement& pair : as_is) {
+      const bool is_changed = std::ranges::count(changed, pair.first) > 0 ||
+                              std::ranges::count(changed, pair.second) > 0;
+      if (!is_changed) pairs.push_back(pair);
+    }
+    return Agree(pairs) ? agreement : 0;
   }
 
   /// Leaves out one camera after the other until the rest agrees.
@@ -238,7 +255,18 @@ class Examination {
   const std::span<const CameraCalibration> cameras_;
   const std::span<const SeenMoment> moments_;
   const Arrangement as_is_;
+  std::vector<Cones> cones_;  ///< Of each picture, as the cameras are calibrated.
 };
+
+/// Where the middle of what a camera shows lies; empty if it shows nobody.
+std::optional<Vector3> MiddleRay(const std::optional<SeenShape>& shape, const Lens& lens) {
+  if (!shape || shape->rim_px.empty()) return {};
+  Eigen::AlignedBox2d box;
+  for (const Vector2& corner : shape->rim_px) box.extend(corner);
+  const auto n = NormalizedFromPixel(lens, box.center());
+  if (!n) return {};
+  return Vector3(shape->X_CW.R.transpose() * n->homogeneous().normalized());
+}
 
 }  // namespace
 
@@ -246,29 +274,29 @@ bool ShowsPerson(const SeenMoment& moment) {
   std::size_t there = 0, show = 0;
   for (const auto& shape : moment) {
     there += shape.has_value();
-    show += shape && shape->height_share >= kLeastHeightShare;
+    show += shape && shape->height_share >= kLeastPersonShare;
   }
   return show >= 2 && 2 * show > there;
 }
 
-bool Moves(std::span<const SeenMoment> moments) {
-  if (moments.empty()) return false;
+bool Moves(std::span<const CameraCalibration> cameras, std::span<const SeenMoment> moments) {
   std::size_t there = 0, moving = 0;
-  for (std::size_t c = 0; c < moments.front().size(); ++c) {
-    Eigen::AlignedBox2d middles;
-    double height_px = 0;
-    for (const SeenMoment& moment : moments) {
-      if (!moment[c] || moment[c]->rim_px.empty()) continue;
-      Eigen::AlignedBox2d box;
-      for (const Vector2& corner : moment[c]->rim_px) box.extend(corner);
-      middles.extend(box.center());
-      height_px = std::max(height_px, box.sizes().y() / moment[c]->height_share);
-    }
-    if (middles.isEmpty()) continue;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    std::vector<Vector3> rays;
+    for (const SeenMoment& moment : moments)
+      if (const auto ray = MiddleRay(moment[c], cameras[c].lens)) rays.push_back(*ray);
+    if (rays.empty()) continue;
     ++there;
-    moving += middles.diagonal().norm() >= kLeastMotionShare * height_px;
+    moving += std::ranges::any_of(rays, [&](const Vector3& ray) {
+      return ray.cross(rays.front()).norm() >= kLeastMotion_rad;
+    });
   }
   return 2 * moving > there;
+}
+
+bool IsOfCameras(StudioFault fault) {
+  return fault == StudioFault::kExchanged || fault == StudioFault::kUpsideDown ||
+         fault == StudioFault::kMirrored || fault == StudioFault::kSomeDisagree;
 }
 
 StudioDiagnosis Diagnose(std::span<const CameraCalibration> cameras,

@@ -42,8 +42,13 @@ struct StudioDiagnosis {
 /// Whether most of the cameras show something of a person's size.
 bool ShowsPerson(const SeenMoment& moment);
 
-/// Whether what most of the cameras show moves between these moments, unlike furniture.
-bool Moves(std::span<const SeenMoment> moments);
+/// Whether what most of the cameras show moves between these moments, unlike furniture. Heads may
+/// turn meanwhile.
+bool Moves(std::span<const CameraCalibration> cameras, std::span<const SeenMoment> moments);
+
+/// Whether the cameras themselves are at fault, however many people there are and whatever their
+/// statures.
+bool IsOfCameras(StudioFault fault);
 
 /// Finds the fault that explains the silhouettes of some moments with the fewest assumptions.
 /// @param cameras  of the moments' entries, in their order.

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::chrono::seconds kReopenLog{10};
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-/// A studio says so once a second, and a camera needs some time until its first frame.
-constexpr std::int64_t kUnreceivedNs = 5'000'000'000;
 
 std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
@@ -66,6 +64,10 @@ void StudioListener::OnStatus(std::span<const std::uint8_t> bytes, std::int64_t 
   const std::optional<status_t> message = DecodeMessage<status_t>(bytes);
   if (!message) return;
   const std::lock_guard lock(mutex_);
+  // A studio that was started anew has not received anything yet.
+  if (!heard_ns_ || now_ns - *heard_ns_ > kLongestSilence_ns) {
+    for (Camera& camera : cameras_) camera.received_ns = now_ns;
+  }
   heard_ns_ = now_ns;
   for (Camera& camera : cameras_) {
     for (const camera_status_t& known : message->cameras) {
@@ -86,9 +88,9 @@ StudioLink StudioListener::Link(std::int64_t now_ns) const {
   const std::lock_guard lock(mutex_);
   StudioLink link;
   link.silent_ns = now_ns - heard_ns_.value_or(start_ns_);
-  if (link.silent_ns > kUnreceivedNs) return link;
+  if (link.silent_ns > kLongestSilence_ns) return link;
   for (const Camera& camera : cameras_) {
-    if (now_ns - camera.received_ns > kUnreceivedNs) link.unreceived.push_back(camera.name);
+    if (now_ns - camera.received_ns > kLongestSilence_ns) link.unreceived.push_back(camera.name);
   }
   return link;
 }

@@ -36,16 +36,17 @@ class StudioListener {
   StudioLink Link(std::int64_t now_ns) const;
 
  private:
+  struct Camera {
+    std::string name;
+    std::int64_t received_ns = 0;  ///< When the studio last said so.
+  };
+
   const LcmConfig lcm_;
   const std::shared_ptr<SubjectPosition> position_;
   const std::int64_t start_ns_;
   std::int64_t heard_people_ns_;
   mutable std::mutex mutex_;  ///< Of what follows.
   std::optional<std::int64_t> heard_ns_;
-  struct Camera {
-    std::string name;
-    std::int64_t received_ns = 0;  ///< When the studio last said so.
-  };
   std::vector<Camera> cameras_;
   std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.
 };

@@ -10,6 +10,8 @@ namespace {
 
 /// A person who walks about shows more than one who stands: older moments help to tell.
 constexpr std::size_t kMostMoments = 12;
+/// What is too small for a person and moves for longer is one, by a calibration of wrong scale.
+constexpr std::int64_t kLongest_ns = 30'000'000'000;
 
 }  // namespace
 
@@ -17,22 +19,25 @@ SeenPeople PeopleWatch::Add(std::int64_t capture_ns, SeenMoment moment) {
   // After somebody was away, or a recording began anew, it is another situation.
   const bool goes_on = !times_ns_.empty() && capture_ns > times_ns_.back() &&
                        capture_ns - times_ns_.back() < kWindow_ns;
-  if (!ShowsPerson(moment) || !goes_on) {
+  const bool shows_person = ShowsPerson(moment);
+  if (!shows_person || !goes_on) {
+    begin_ns_ = capture_ns;
     times_ns_.clear();
     moments_.clear();
   }
-  if (!ShowsPerson(moment)) return {};
+  if (!shows_person) return {};
   times_ns_.push_back(capture_ns);
   moments_.push_back(std::move(moment));
   if (moments_.size() > kMostMoments) {
     times_ns_.pop_front();
     moments_.erase(moments_.begin());
   }
-  if (capture_ns - times_ns_.front() < kWindow_ns || !Moves(moments_)) return {};
+  const std::int64_t since_ns = capture_ns - begin_ns_;
+  if (since_ns < kWindow_ns || !Moves(cameras_, moments_)) return {};
   const StudioDiagnosis diagnosis = Diagnose(cameras_, moments_);
-  // A dog, or a chair that is pushed about.
-  if (diagnosis.fault == StudioFault::kStature) return {};
-  return {true, FindingOf(diagnosis, cameras_)};
+  // Dogs, and chairs that are pushed about, are no fault.
+  if (diagnosis.fault == StudioFault::kStature && since_ns < kLongest_ns) return {};
+  return {true, since_ns, FindingOf(diagnosis, cameras_)};
 }
 
 }  // namespace mocap

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/calibration/camera_places.h"
+#include "core/calibration/finding.h"
 #include "core/calibration/seen_shape.h"
 
 namespace mocap {
@@ -16,6 +16,7 @@ namespace mocap {
 struct SeenPeople {
   /// Most cameras have shown something of a person's size that moves, for PeopleWatch::kWindow_ns.
   bool is_somebody = false;
+  std::int64_t seen_for_ns = 0;
   /// Why it cannot be tracked; empty if nothing speaks against it.
   std::optional<Finding> fault = {};
 };
@@ -32,6 +33,7 @@ class PeopleWatch {
 
  private:
   const std::vector<CameraCalibration> cameras_;
+  std::int64_t begin_ns_ = 0;  ///< Of the present episode.
   std::deque<std::int64_t> times_ns_;
   std::vector<SeenMoment> moments_;
 };

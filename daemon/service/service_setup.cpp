@@ -186,11 +186,9 @@ ServiceReport ReportAbout(const Config& config, const Studio& studio) {
   report.lcm_url = config.lcm.url;
   report.node = config.node.name;
   report.calibration = CalibrationOf(config);
-  for (const Finding& finding : CheckPlaces(CalibrationsOf(studio), true)) {
-    if (finding.severity != Severity::kWrong) break;
-    report.calibration_fault = finding.text;
-    break;
-  }
+  const std::vector<Finding> findings = CheckPlaces(CalibrationsOf(studio), true);
+  if (!findings.empty() && findings.front().severity == Severity::kWrong)
+    report.calibration_fault = findings.front().text;
   report.background = BackgroundOf(config);
   return report;
 }

@@ -117,8 +117,8 @@ void Watch::LookAtClock() {
 }
 
 void Watch::LookAtStudio(const PipelineStatus& status) {
-  const bool is_found =
-      status.state == CaptureState::kTracking || status.state == CaptureState::kAcquiring;
+  // A hull that is none may be acquired again and again.
+  const bool is_found = status.state == CaptureState::kTracking || !Tracked(report_.people).empty();
   if (is_found || status.sets_tracked == 0) found_ns_ = SteadyNs();
   report_.nobody_ns = is_found ? 0 : SteadyNs() - found_ns_;
   const std::optional<LightChange> change = light_.Add(status, SteadyNs());

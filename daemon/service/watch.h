@@ -61,7 +61,7 @@ class Watch {
   const WatchParts around_;
   ServiceReport report_;
   const std::int64_t start_ns_;
-  std::int64_t found_ns_;  ///< When somebody was last tracked, or could not have been.
+  std::int64_t found_ns_;  ///< When somebody was last tracked; before the first set, now.
   const bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
   ProgressWatch progress_;
   ChangeLog log_;

@@ -56,7 +56,7 @@ void ComplainOfDelivery(const ServiceReport& report, List& list) {
                     "LCM server; mocap doctor helps",
                     report.lcm_url, delivery.problem));
   } else if (!delivery.channel.receive_fault.empty()) {
-    list.push_back(fmt::format("nobody on this host receives poses on {}: {}", report.lcm_url,
+    list.push_back(fmt::format("nothing can be received here on {}: {}", report.lcm_url,
                                delivery.channel.receive_fault));
   } else if (delivery.channel.silent_ns > 0) {
     list.push_back(
@@ -296,13 +296,15 @@ void ComplainOfCalibration(const ServiceReport& report, List& list) {
   list.push_back(fmt::format("{}: {}", report.calibration.where, report.calibration_fault));
 }
 
-/// Somebody walks before the cameras and is not found. In an empty room nothing is wrong.
+/// Somebody walks before the cameras and is not found. In an empty room nothing is wrong, and
+/// without sets nothing is known.
 void ComplainOfNobody(const ServiceReport& report, List& list) {
   const SeenPeople& people = report.now.status.people;
-  if (!people.is_somebody || report.nobody_ns < PeopleWatch::kWindow_ns) return;
+  const std::int64_t missed_ns = std::min(report.nobody_ns, people.seen_for_ns);
+  const bool is_known = people.is_somebody && report.now.sets_per_second > 0;
+  if (!is_known || missed_ns < PeopleWatch::kWindow_ns) return;
   list.push_back(fmt::format(
-      "somebody moves in most pictures, but nobody has been found for {}: {}",
-      Duration(report.nobody_ns),
+      "somebody moves in most pictures, but nobody has been found for {}: {}", Duration(missed_ns),
       people.fault ? people.fault->text
                    : "check in mocap view that at least three cameras see the whole person, and "
                      "nothing else as a person; mocap subject new searches from the start"));
@@ -341,7 +343,8 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfDisk(report, list);
   if (report.node.empty()) ComplainOfSets(report, list);
   std::ranges::move(NodeDiagnostics(report.nodes, report.lcm_url), std::back_inserter(list));
-  if (report.link) {
+  // Whoever receives nothing hears no studio.
+  if (report.link && report.delivery.channel.receive_fault.empty()) {
     std::ranges::move(LinkDiagnostics(*report.link, report.now.status.cameras, report.lcm_url),
                       std::back_inserter(list));
   }

@@ -16,17 +16,15 @@ constexpr double kMostLost = 0.001;
 /// A clock with a larger possible error is not kept well enough.
 constexpr double kMostError_ms = 5;
 
-/// A studio reports its status every second.
-constexpr std::int64_t kStudioSilence_ns = 5'000'000'000;
-
 using List = std::vector<std::string>;
 
-/// Without a ttl, LCM takes 0.
+/// LCM's own default keeps messages on the computer.
 std::string RangeHint(const std::string& lcm_url) {
-  const bool leaves =
-      !lcm_url.starts_with("udpm://") ||
-      (lcm_url.find("ttl=") != std::string::npos && lcm_url.find("ttl=0") == std::string::npos);
-  return leaves ? "" : "; lcm.url has ttl=0, which keeps messages on this computer";
+  const bool is_multicast = lcm_url.starts_with("udpm://") || lcm_url.starts_with("mpudpm://");
+  const bool has_ttl = lcm_url.find("ttl=") != std::string::npos;
+  if (!is_multicast || (has_ttl && lcm_url.find("ttl=0") == std::string::npos)) return "";
+  return fmt::format("; lcm.url has {}, which keeps messages on this computer",
+                     has_ttl ? "ttl=0" : "no ttl");
 }
 
 std::string Silence(const NodeReport& node, const std::string& lcm_url) {
@@ -92,7 +90,7 @@ void Diagnose(const NodeReport& node, const std::string& lcm_url, List& list) {
 
 List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& cameras,
                      const std::string& lcm_url) {
-  if (link.silent_ns > kStudioSilence_ns) {
+  if (link.silent_ns > kLongestSilence_ns) {
     return {fmt::format(
         "no studio has been heard on {} for {}: silhouettes reach nobody; start mocapd there with "
         "role = \"studio\" and the same lcm.url and lcm.prefix{}",

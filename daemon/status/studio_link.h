@@ -7,6 +7,9 @@
 
 namespace mocap {
 
+/// A studio reports its status every second, and a camera needs some time until its first frame.
+inline constexpr std::int64_t kLongestSilence_ns = 5'000'000'000;
+
 /// What a node knows of its studio.
 struct StudioLink {
   std::int64_t silent_ns = 0;  ///< How long no studio has been heard.

@@ -32,9 +32,7 @@ std::vector<CameraCalibration> Corners(double half_mm, double height_mm) {
 
 std::string Error(const std::vector<CameraCalibration>& cameras, double voxel_mm) {
   try {
-    Studio studio;
-    for (const CameraCalibration& camera : cameras) studio.cameras.push_back({camera, nullptr, {}});
-    CheckRoom(studio, voxel_mm, "calibration.toml");
+    RequireRoom(cameras, voxel_mm, "calibration.toml");
   } catch (const SetupError& error) {
     return error.what();
   }

@@ -8,7 +8,6 @@
 
 #include "config/camera_files.h"
 #include "config/open_studio.h"
-#include "config/room_limits.h"
 #include "core/errors.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
@@ -31,10 +30,9 @@ std::size_t NearestRow(const TakeTable& table, std::int64_t time_ns) {
 
 TakePictures::TakePictures(const std::filesystem::path& take)
     : carver_(CarvingOptions{.voxel_mm = kVoxel_mm}) {
-  Studio studio = OpenTake(take, {});
+  const Studio studio = OpenTake(take, {});
   RequireCameraCount(studio);
   const TakeLayout layout{take};
-  CheckRoom(studio, kVoxel_mm, layout.Calibration().string());
   remarks_ = studio.remarks;
   name_ = studio.name;
   fps_nominal_ = studio.fps_nominal;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <span>
 
 #include "core/calibration/diagnosis_text.h"
 #include "tests/support/walking_moments.h"
@@ -137,6 +138,47 @@ TEST(StudioDiagnosis, CamerasThatSeeFewerOfSeveralPeopleAreNotBlamed) {
   EXPECT_EQ(TextOf(moments), "none");
 }
 
+TEST(StudioDiagnosis, OfTwoCamerasNoneIsBlamed) {
+  std::vector<SeenMoment> moments = WalkingMoments();
+  for (SeenMoment& moment : moments) {
+    moment.resize(2);
+    for (Vector2& corner : moment[0]->rim_px) corner.y() = 239 - corner.y();
+  }
+  const StudioDiagnosis diagnosis = Diagnose(std::span(Cameras()).first(2), moments);
+  EXPECT_EQ(diagnosis.fault, StudioFault::kNoneAgree);
+}
+
+TEST(StudioDiagnosis, SpecksHaveNoStature) {
+  std::vector<SeenMoment> moments = WalkingMoments();
+  for (std::size_t m = 3; m < moments.size(); ++m) {
+    for (auto& shape : moments[m]) {
+      const Vector2 corner = shape->rim_px.front();
+      shape->rim_px = {corner, corner + Vector2(0, 5), corner + Vector2(5, 0)};
+      shape->height_share = 0.02;
+    }
+  }
+  EXPECT_EQ(DiagnosisOf(moments).fault, StudioFault::kNone);
+  EXPECT_EQ(DiagnosisOf(moments).person.moments, 3);
+}
+
+TEST(StudioDiagnosis, ATurningHeadDoesNotMakeFurnitureWalk) {
+  std::vector<SeenMoment> still(5, WalkingMoments()[0]);
+  for (std::size_t m = 0; m < still.size(); ++m) {
+    const Matrix3 turn = ExpRotation({0, 0.03 * static_cast<double>(m), 0});
+    for (std::size_t c = 0; c < Cameras().size(); ++c) {
+      SeenShape& shape = *still[m][c];
+      const Matrix3 before = shape.X_CW.R;
+      shape.X_CW = {turn * shape.X_CW.R, turn * shape.X_CW.p};
+      for (Vector2& corner : shape.rim_px) {
+        const Vector3 ray_C = shape.X_CW.R * before.transpose() *
+                              NormalizedFromPixel(Cameras()[c].lens, corner)->homogeneous();
+        corner = *PixelFromNormalized(Cameras()[c].lens, ray_C.head<2>() / ray_C.z());
+      }
+    }
+  }
+  EXPECT_FALSE(Moves(Cameras(), still));
+}
+
 TEST(StudioDiagnosis, SaysNothingOfTooFewMomentsOrOneCamera) {
   std::vector<SeenMoment> moments = WalkingMoments();
   ExchangePictures(1, 4, moments);
@@ -152,8 +194,8 @@ TEST(StudioDiagnosis, SaysNothingOfTooFewMomentsOrOneCamera) {
 TEST(StudioDiagnosis, TellsPeopleFromSmallThingsAndFromThingsAtRest) {
   std::vector<SeenMoment> moments = WalkingMoments();
   EXPECT_TRUE(ShowsPerson(moments[0]));
-  EXPECT_TRUE(Moves(moments));
-  EXPECT_FALSE(Moves(std::vector<SeenMoment>(5, moments[0])));
+  EXPECT_TRUE(Moves(Cameras(), moments));
+  EXPECT_FALSE(Moves(Cameras(), std::vector<SeenMoment>(5, moments[0])));
   for (std::size_t c = 0; c < 3; ++c) moments[0][c]->height_share = 0.05;
   EXPECT_FALSE(ShowsPerson(moments[0])) << "half of the cameras are not most";
 }

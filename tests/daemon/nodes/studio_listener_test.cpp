@@ -100,6 +100,12 @@ TEST_F(StudioListenerTest, CamerasThatTheStudioDoesNotReceiveAreNamed) {
   EXPECT_TRUE(listener_.Link(now_ns).unreceived.empty());
 }
 
+TEST_F(StudioListenerTest, AStudioThatWasStartedAnewHasTimeToReceive) {
+  const std::int64_t now_ns = SteadyNs() + 60 * kSecond_ns;
+  listener_.OnStatus(StatusOf({{"cam1", camera_status_t::STARTING}}), now_ns);
+  EXPECT_TRUE(listener_.Link(now_ns).unreceived.empty());
+}
+
 TEST_F(StudioListenerTest, WhatIsNoStatusIsNotHeard) {
   listener_.OnStatus(std::vector<std::uint8_t>(40, 0xff), SteadyNs() + 5 * kSecond_ns);
   EXPECT_GT(listener_.Link(SteadyNs() + 5 * kSecond_ns).silent_ns, 4 * kSecond_ns);

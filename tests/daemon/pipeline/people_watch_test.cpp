@@ -56,6 +56,17 @@ TEST(PeopleWatch, SomethingSmallThatMovesIsNobody) {
   EXPECT_FALSE(AfterAll(moments).is_somebody) << "a person of 0.86 m";
 }
 
+TEST(PeopleWatch, SomethingSmallThatNeverRestsIsAPersonOfWrongScale) {
+  std::vector<SeenMoment> moments;
+  for (int i = 0; i < 40; ++i) {
+    moments.push_back(WalkingMoments()[static_cast<std::size_t>(i) % 10]);
+    for (auto& shape : moments.back()) shape->X_CW.p /= 2;
+  }
+  const SeenPeople people = AfterAll(moments);
+  ASSERT_TRUE(people.fault);
+  EXPECT_THAT(people.fault->text, HasSubstr("the size of the board's squares"));
+}
+
 TEST(PeopleWatch, WhoWasAwayCountsAnew) {
   std::vector<SeenMoment> moments = WalkingMoments();
   for (auto& shape : moments[6]) shape = ShapeOf(Silhouette(320, 240), shape->X_CW);

@@ -182,7 +182,7 @@ TEST(ServiceReport, PosesThatReachNobodyAreNotGood) {
   report.delivery = {};
   report.delivery.channel = {.receive_fault = "UDP port 7 is in use", .silent_ns = 9'000'000'000};
   EXPECT_THAT(Diagnostics(report),
-              ElementsAre("nobody on this host receives poses on udpm://x: UDP port 7 is in use"));
+              ElementsAre("nothing can be received here on udpm://x: UDP port 7 is in use"));
   report.delivery = {};
   report.delivery.channel.other_sender = true;
   EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("another mocapd, or a log")));
@@ -267,7 +267,7 @@ TEST(ServiceReport, AFailedRecordingComesFirst) {
 
 TEST(ServiceReport, SomebodyWhoIsSeenAndNotFoundIsNotGood) {
   ServiceReport report = Good();
-  report.now.status.people.is_somebody = true;
+  report.now.status.people = {true, 60'000'000'000, {}};
   report.nobody_ns = 4'000'000'000;
   EXPECT_THAT(Diagnostics(report), IsEmpty()) << "a search may take some seconds";
   report.nobody_ns = 9'000'000'000;
@@ -277,6 +277,16 @@ TEST(ServiceReport, SomebodyWhoIsSeenAndNotFoundIsNotGood) {
               ElementsAre(HasSubstr("found for 9 s: cam1 and cam2 are exchanged")));
   report.nobody_ns = 0;
   EXPECT_THAT(Diagnostics(report), IsEmpty());
+}
+
+TEST(ServiceReport, WhoHasJustComeIsNotMissedSinceTheRoomWasEmptied) {
+  ServiceReport report = Good();
+  report.nobody_ns = 9 * 3600'000'000'000;
+  report.now.status.people = {true, 6'000'000'000, {}};
+  EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("nobody has been found for 6 s")));
+  report.now.sets_per_second = 0;
+  for (const std::string& line : Diagnostics(report))
+    EXPECT_THAT(line, Not(HasSubstr("somebody moves"))) << "without sets nothing is known";
 }
 
 TEST(ServiceReport, AnEmptyRoomIsGood) {
