@@ -65,6 +65,8 @@ TEST_F(StudioListenerTest, WhatIsNoMessageChangesNothing) {
 }
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr int kStarting = camera_status_t::STARTING, kStreaming = camera_status_t::STREAMING,
+              kLost = camera_status_t::LOST;
 
 std::vector<std::uint8_t> StatusOf(const std::vector<std::pair<std::string, int>>& cameras) {
   status_t message{};
@@ -91,18 +93,17 @@ TEST_F(StudioListenerTest, CamerasThatTheStudioDoesNotReceiveAreNamed) {
   std::int64_t now_ns = SteadyNs();
   for (int s = 0; s < 8; ++s) {
     now_ns += kSecond_ns;
-    listener_.OnStatus(
-        StatusOf({{"cam1", camera_status_t::STREAMING}, {"cam2", camera_status_t::LOST}}), now_ns);
+    listener_.OnStatus(StatusOf({{"cam1", kStreaming}, {"cam2", kLost}}), now_ns);
   }
   EXPECT_EQ(listener_.Link(now_ns).silent_ns, 0);
   EXPECT_EQ(listener_.Link(now_ns).unreceived, std::vector<std::string>{"cam2"});
-  listener_.OnStatus(StatusOf({{"cam2", camera_status_t::STREAMING}}), now_ns);
+  listener_.OnStatus(StatusOf({{"cam2", kStreaming}}), now_ns);
   EXPECT_TRUE(listener_.Link(now_ns).unreceived.empty());
 }
 
 TEST_F(StudioListenerTest, AStudioThatWasStartedAnewHasTimeToReceive) {
   const std::int64_t now_ns = SteadyNs() + 60 * kSecond_ns;
-  listener_.OnStatus(StatusOf({{"cam1", camera_status_t::STARTING}}), now_ns);
+  listener_.OnStatus(StatusOf({{"cam1", kStarting}}), now_ns);
   EXPECT_TRUE(listener_.Link(now_ns).unreceived.empty());
 }
 
