@@ -10,6 +10,7 @@
 #include "core/acquisition/facing_watch.h"
 #include "core/acquisition/model_acquirer.h"
 #include "core/acquisition/size_refiner.h"
+#include "core/counted_time.h"
 #include "core/tracking/evidence.h"
 #include "core/tracking/steady_pose.h"
 #include "core/tracking/tracker.h"
@@ -103,7 +104,7 @@ class SurfaceCapture::Impl {
 
  private:
   void NobodyThere(double dt_s) {
-    empty_s_ += dt_s;
+    empty_s_ += CountedS(dt_s);
     if (result_.state == CaptureState::kTracking) Lose();
     if (result_.state == CaptureState::kLost && empty_s_ < kForgetAfterS) return;
     GiveUp();
@@ -134,7 +135,7 @@ class SurfaceCapture::Impl {
         Acquire(dt_s);
         break;
       case CaptureState::kLost:
-        lost_s_ += dt_s;
+        lost_s_ += CountedS(dt_s);
         Acquire(dt_s);
         if (result_.state == CaptureState::kLost && lost_s_ > kForgetAfterS) GiveUp();
         break;

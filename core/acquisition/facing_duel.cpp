@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted_time.h"
+
 namespace mocap {
 namespace {
 
@@ -11,14 +13,12 @@ constexpr double kMostLeadMm = 3;
 constexpr double kClearLeadMm_s = 0.3;
 constexpr int kLeastFrames = 3;
 constexpr double kLongestS = 2;
-// The first frame after a gap counts for no longer than this.
-constexpr double kMostOfFrameS = 0.2;
 
 }  // namespace
 
 void FacingDuel::Add(double lead_mm, double dt_s) {
   ++frames_;
-  const double counted_s = std::min(dt_s, kMostOfFrameS);
+  const double counted_s = CountedS(dt_s);
   lead_mm_s_ += std::clamp(lead_mm, -kMostLeadMm, kMostLeadMm) * counted_s;
   age_s_ += counted_s;
 }

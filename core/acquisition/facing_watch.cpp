@@ -1,14 +1,12 @@
 #include "core/acquisition/facing_watch.h"
 
-#include <algorithm>
+#include "core/counted_time.h"
 
 namespace mocap {
 namespace {
 
 constexpr double kLookEveryS = 0.1;
 constexpr double kBackwardsAfterS = 0.3;
-// The first look after a gap counts for no longer than this.
-constexpr double kMostOfLookS = 0.2;
 // Who walks this fast for this long looks ahead. Steps of a dance are shorter.
 constexpr double kWalkingMmPerS = 600;
 constexpr double kWalkingS = 0.45;
@@ -28,7 +26,7 @@ void FacingWatch::Look(const VoxelCloud& cloud, const PoseState& pose, double dt
   if (since_look_s_ < kLookEveryS) return;
   FollowWay(pose.X_WT.p);
   prior_ = PosePrior(feet_.ToesBeforeShins(cloud), walks_W_);
-  const double counted_s = std::min(since_look_s_, kMostOfLookS);
+  const double counted_s = CountedS(since_look_s_);
   backwards_s_ = prior_.FacesBackwards(pose) ? backwards_s_ + counted_s : 0;
   since_look_s_ = 0;
 }

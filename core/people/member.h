@@ -22,6 +22,13 @@ struct Member {
     certainty = how_certain;
   }
 
+  /// Moves what is remembered past time that does not count.
+  void LeaveOut(std::int64_t uncounted_ns) {
+    seen_ns += uncounted_ns;
+    vouched_ns += uncounted_ns;
+    if (waits_since_ns) *waits_since_ns += uncounted_ns;
+  }
+
   std::shared_ptr<MotionCapture> capture;
   /// While set, the capture works there and must not be used.
   std::unique_ptr<SideSearch> beside;

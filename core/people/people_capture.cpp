@@ -1,16 +1,19 @@
 #include "core/people/people_capture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "core/counted_time.h"
 #include "core/errors.h"
 #include "core/people/flesh_division.h"
 #include "core/people/member.h"
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
+#include "core/people/set_rhythm.h"
 #include "core/people/witnesses.h"
 #include "core/reconstruction/carving/voxel_block.h"
 #include "core/tracking/flesh_rules.h"
@@ -36,7 +39,7 @@ constexpr double kWholeWithinS = 0.3;
 constexpr double kPatienceS = 1.0;
 // This close to the border of the covered area, somebody may just have entered.
 constexpr double kBorderMm = 600;
-// After this time without sets, everybody is forgotten.
+// After a gap of this time, everybody is forgotten.
 constexpr double kLongestGapS = 5.0;
 // Strange flesh that moved less than this since the last frame is the same newcomer.
 constexpr double kSameMm = 600;
@@ -88,6 +91,7 @@ class PeopleCapture::Impl {
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
   std::optional<std::int64_t> last_ns_;            // Of the last set.
+  SetRhythm rhythm_;                               // Of all sets.
   bool follows_gap_ = false;                       // The set comes long after the one before.
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
@@ -165,17 +169,17 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   ListPeople();
 }
 
-// Time without sets tells nothing against anybody. But people may have entered, and after a long
-// time whoever is seen may be somebody else.
+// Time without sets tells nothing for or against anybody. But in a gap people may have entered, and
+// after a long one whoever is seen may be somebody else.
 void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
-  const std::int64_t gap_ns = last_ns_ ? capture_ns - *last_ns_ : 0;
-  const double gap_s = static_cast<double>(gap_ns) * 1e-9;
+  const double passed_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
+  follows_gap_ = last_ns_ && rhythm_.IsGap(passed_s);
   last_ns_ = capture_ns;
-  follows_gap_ = gap_s > kDoubtedS;
+  const double uncounted_s = passed_s - std::max(0.0, CountedS(passed_s));
+  for (const auto& member : members_) member->LeaveOut(std::llround(uncounted_s * 1e9));
   if (!follows_gap_) return;
-  for (const auto& member : members_) member->seen_ns += gap_ns, member->vouched_ns += gap_ns;
-  if (gap_s > kPatienceS) followed_since_ns_.reset();
-  if (gap_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
+  if (passed_s > kPatienceS) followed_since_ns_.reset();
+  if (passed_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
 }
 
 // Takes over people who were located in the other thread, up to the last set. While nobody is

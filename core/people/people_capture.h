@@ -41,8 +41,8 @@ struct PersonView {
 /// A single person's capture gets the evidence unchanged. Of several people, each gets what his
 /// predicted body explains best. Flesh that nobody explains is a newcomer if it is large enough for
 /// a person and several cameras show it where nobody else is. A person without two cameras that
-/// show him alone is dropped: hulls of several people contain ghosts. After five seconds without
-/// sets, everybody is forgotten.
+/// show him alone is dropped: hulls of several people contain ghosts. After a gap of five
+/// seconds, everybody is forgotten.
 class PeopleCapture {
  public:
   using MakeCapture = std::function<std::unique_ptr<MotionCapture>()>;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/counted_time.h"
+
 namespace mocap {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kSameMm = 30;
 
 }  // namespace
 
-double ClearLeadMm(double dt_s) { return kClearLeadMm_s / dt_s; }
+double ClearLeadMm(double dt_s) { return kClearLeadMm_s / CountedS(dt_s); }
 
 RivalPose::RivalPose(const PoseFilter& present, const PoseState& pose, double cost_mm)
     : filter_(present), cost_mm_(cost_mm) {
@@ -34,8 +36,8 @@ RivalPose::Rank RivalPose::Follow(const BodyModel& body, SurfaceFit& fit, const 
       Iterations{});
   cost_mm_ = fit.QualityAt(body, filter_.pose()).Cost();
   const double lead_mm = present_cost_mm - cost_mm_;
-  lead_mm_s_ += std::clamp(lead_mm, -kMostLeadMm, kMostLeadMm) * dt_s;
-  age_s_ += dt_s;
+  lead_mm_s_ += std::clamp(lead_mm, -kMostLeadMm, kMostLeadMm) * CountedS(dt_s);
+  age_s_ += CountedS(dt_s);
   const BodyPoints apart_W =
       body.PointsAt(body.PostureAt(filter_.pose())) - body.PointsAt(body.PostureAt(present));
   const bool is_same = apart_W.colwise().norm().mean() < kSameMm;

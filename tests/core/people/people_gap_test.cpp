@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "core/people/set_rhythm.h"
 #include "tests/support/room.h"
 
 namespace mocap {
@@ -22,7 +23,7 @@ class RoomOfABusyComputer : public RoomWithSide {
 TEST_F(RoomOfABusyComputer, FindsWhoMovedDuringAGap) {
   See(Carve({stays_}), 4);
   now_ns_ += 3 * kOneSecondNs;
-  See(Carve({comes_}), 12);
+  See(Carve({comes_}), 36);
   EXPECT_LT(ErrorOf(comes_), 45);
 }
 
@@ -30,7 +31,7 @@ TEST_F(RoomOfABusyComputer, FindsAllWhoMovedDuringAGap) {
   const Someone third = At(500, -900, 1800);
   See(Carve({stays_}), 4);
   now_ns_ += 3 * kOneSecondNs;
-  See(Carve({comes_, third}), 12);
+  See(Carve({comes_, third}), 36);
   EXPECT_LT(ErrorOf(comes_), 45);
   EXPECT_LT(ErrorOf(third), 45);
 }
@@ -47,7 +48,7 @@ TEST_F(RoomOfABusyComputer, StillExpectsTheGivenSizesAfterAGap) {
   people_.Expect(comes_.body.sizes(), "anna");
   See(Carve({At(-600, 0, 1700)}), 4);
   now_ns_ += 3 * kOneSecondNs;
-  See(Carve({comes_}), 12);
+  See(Carve({comes_}), 36);
   ASSERT_EQ(people_.people().size(), 1u);
   EXPECT_EQ(people_.people()[0].name, "anna");
   EXPECT_EQ(people_.first().body().sizes(), comes_.body.sizes());
@@ -93,6 +94,87 @@ TEST_F(RoomOfABusyComputer, KeepsWhoWalksOnWhileSetsAreDropped) {
     EXPECT_EQ(Ids(), std::vector{1});
   }
   EXPECT_TRUE(desk_.empty());
+}
+
+TEST_F(Room, OneEmptySetAfterAGapForgetsNobody) {
+  const auto seen = Carve({At(0, 0, 1750)});
+  for (int i = 0; i < 4; ++i) See(seen);
+  now_ns_ += 3 * kOneSecondNs;
+  See(Carve({}));
+  EXPECT_EQ(people_.first().result().state, CaptureState::kLost);
+  for (int i = 0; i < 4; ++i) See(seen);
+  EXPECT_EQ(Ids(), std::vector{1});
+}
+
+TEST_F(Room, WhoIsLostIsSearchedForAgainAfterAGap) {
+  const auto seen = Carve({At(0, 0, 1750)});
+  for (int i = 0; i < 4; ++i) See(seen);
+  See(Carve({}));
+  ASSERT_EQ(people_.first().result().state, CaptureState::kLost);
+  now_ns_ += 3 * kOneSecondNs;
+  RoundStudio::CarvedBody half = seen;
+  for (Outline& outline : half.outlines) outline.clear();
+  See(half);
+  EXPECT_NE(people_.first().result().state, CaptureState::kSearching);
+}
+
+// Wide enough for people to appear inside it.
+class RoomToAppearIn : public DeskFirst, public Room {
+ protected:
+  explicit RoomToAppearIn(int most = 4) : Room(most, &desk_, 4500) {}
+
+  const Someone stays_ = At(-900, 0, 1600);
+  const Someone appears_ = At(50, 0, 1300);
+};
+
+TEST_F(RoomToAppearIn, WhoIsSeenBeforeAndAfterAGapHasNotWaitedMeanwhile) {
+  const auto one = Carve({stays_}), two = Carve({stays_, appears_});
+  for (int i = 0; i < 40; ++i) See(one);
+  See(two);
+  now_ns_ += 2 * kOneSecondNs;
+  See(two);
+  EXPECT_TRUE(desk_.empty());
+}
+
+class SlowRoomForTwo : public RoomToAppearIn {
+ protected:
+  SlowRoomForTwo() : RoomToAppearIn(2) {}
+
+  // At 3 Hz.
+  void See(const RoundStudio::CarvedBody& seen, int sets) {
+    for (int i = 0; i < sets; ++i) {
+      now_ns_ += kOneSecondNs / 3 - kFrameNs;
+      Room::See(seen);
+    }
+  }
+};
+
+TEST_F(SlowRoomForTwo, WhoVanishesBeforeHeIsFoundTakesNobodysPlace) {
+  See(Carve({stays_}), 8);
+  See(Carve({stays_, appears_}), 1);
+  EXPECT_TRUE(desk_.empty());
+  See(Carve({stays_}), 3);
+  See(Carve({stays_, At(1000, 0, 1700)}), 9);
+  EXPECT_FALSE(desk_.empty());
+  EXPECT_EQ(Ids(), std::vector{1});
+}
+
+TEST(SetRhythm, KnowsAGapByTheUsualInterval) {
+  for (const double usual_s : {0.033, 0.1, 0.33, 1.0, 10.0}) {
+    SetRhythm rhythm;
+    for (int i = 0; i < 3; ++i) rhythm.IsGap(usual_s);
+    EXPECT_FALSE(rhythm.IsGap(usual_s)) << usual_s;
+    EXPECT_TRUE(rhythm.IsGap(7 * usual_s)) << usual_s;
+    EXPECT_FALSE(rhythm.IsGap(usual_s)) << usual_s;
+  }
+}
+
+// Ten sets a second, of which every other may be missing.
+TEST(SetRhythm, TakesNoDroppedSetForAGap) {
+  SetRhythm rhythm;
+  rhythm.IsGap(0.1);
+  for (int i = 0; i < 40; ++i)
+    EXPECT_FALSE(rhythm.IsGap((i % 2 == 0 ? 0.1 : 0.2) + (i % 3 == 0 ? 0.02 : 0))) << i;
 }
 
 TEST_F(Room, WhoIsThereAfterALongGapIsMeasuredAnew) {
