@@ -42,7 +42,7 @@ void ReadSize(const std::string& text, const std::string& size, int fewest, int 
   double columns = 0, rows = 0;
   if (sides.size() != 2 || !ReadNumber(sides[0], columns) || !ReadNumber(sides[1], rows))
     Refuse(text, Quoted(size) + " is not a size");
-  const auto fits = [&](double n) { return n == static_cast<int>(n) && n >= fewest && n <= most; };
+  const auto fits = [&](double n) { return n >= fewest && n <= most && n == static_cast<int>(n); };
   if (!fits(columns) || !fits(rows))
     Refuse(text, fmt::format("{} is not {} to {} each way", Quoted(size), fewest, most));
   board.columns = static_cast<int>(columns);

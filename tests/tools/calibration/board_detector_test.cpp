@@ -85,6 +85,10 @@ TEST(BoardTest, SaysWhatIsWrongWithADescription) {
   EXPECT_THAT(ReasonOf("dots:8x5:100"), HasSubstr("not a kind of board"));
   EXPECT_THAT(ReasonOf("chess:8:100"), HasSubstr("not a size"));
   EXPECT_THAT(ReasonOf("chess:2x5:100"), HasSubstr("3 to 50"));
+  for (const char* columns : {"1e300", "-1e300", "nan", "inf", "8.5"}) {
+    EXPECT_THAT(ReasonOf("charuco:" + std::string(columns) + "x4:54"), HasSubstr("3 to 50"))
+        << columns;
+  }
   EXPECT_THAT(ReasonOf("chess:8x5:0.1"), HasSubstr("1 to 2000 mm"));
   EXPECT_THAT(ReasonOf("chess:8x5:100:DICT_4X4_50"), HasSubstr("a chessboard has no"));
   EXPECT_THAT(ReasonOf("charuco:8x5:100:DICT_9X9_50"),
