@@ -1,7 +1,6 @@
 #include "tools/calibration/footage.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -19,28 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Extension(const fs::path& file) {
-  std::string text = file.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool IsVideo(const fs::path& file) {
-  const std::string e = Extension(file);
+  const std::string e = LowerExtension(file);
   return e == ".mkv" || e == ".mp4" || e == ".avi" || e == ".mov" || e == ".m4v" || e == ".webm";
-}
-
-std::vector<fs::path> Sorted(const fs::path& folder, bool (*wanted)(const fs::path&)) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (wanted(entry->path()) && !IsHidden(entry->path())) files.push_back(entry->path());
-  }
-  if (error) throw SetupError(folder.string() + ": cannot be listed: " + error.message());
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 // Lists frames, with the file's times if they exist and increase.
@@ -165,13 +145,36 @@ FootageCamera OpenPictureCamera(const std::string& name, const std::vector<fs::p
   return camera;
 }
 
+// A folder without a video may be a camera's whose pictures are not read, unless cameras have
+// videos.
+void OpenFoldersOfCameras(Footage& footage) {
+  std::vector<fs::path> others;
+  bool has_videos = false;
+  for (const fs::path& inside : Listed(footage.folder, IsFolder)) {
+    const std::string name = inside.filename().string();
+    const std::vector<fs::path> videos = Listed(inside, IsVideo);
+    const std::vector<fs::path> pictures = Listed(inside, IsPicture);
+    if (videos.size() == 1) {
+      footage.cameras.push_back(OpenVideoCamera(name, videos[0], footage.notes));
+      has_videos = true;
+    } else if (videos.empty() && pictures.empty()) {
+      others.push_back(inside);
+    } else if (videos.empty()) {
+      RefuseUnreadPictures(inside);
+      footage.cameras.push_back(OpenPictureCamera(name, pictures, footage.notes));
+    }
+  }
+  if (has_videos) return;
+  for (const fs::path& other : others) RefuseUnreadPictures(other);
+}
+
 }  // namespace
 
 Footage OpenFootage(const std::filesystem::path& folder) {
   RequireFolder(folder, "a take or a folder of recordings");
   Footage footage;
   footage.folder = folder;
-  const std::vector<fs::path> recorded = Sorted(folder, IsVideo);
+  const std::vector<fs::path> recorded = Listed(folder, IsVideo);
   for (const fs::path& file : recorded) {
     if (!IsSilent(file))
       footage.cameras.push_back(OpenVideoCamera(file.stem().string(), file, footage.notes));
@@ -185,22 +188,10 @@ Footage OpenFootage(const std::filesystem::path& folder) {
     ReadSharedTimes(folder / table, footage);
     break;
   }
-  if (footage.cameras.empty()) {
-    for (const fs::path& inside :
-         Sorted(folder, [](const fs::path& p) { return fs::is_directory(p); })) {
-      const std::string name = inside.filename().string();
-      const std::vector<fs::path> videos = Sorted(inside, IsVideo);
-      const std::vector<fs::path> pictures = Sorted(inside, IsPicture);
-      RefuseUnreadPictures(inside);
-      if (videos.size() == 1)
-        footage.cameras.push_back(OpenVideoCamera(name, videos[0], footage.notes));
-      if (videos.empty() && !pictures.empty())
-        footage.cameras.push_back(OpenPictureCamera(name, pictures, footage.notes));
-    }
-  }
+  if (footage.cameras.empty()) OpenFoldersOfCameras(footage);
   if (footage.cameras.empty()) {
     RefuseUnreadPictures(folder);
-    const std::vector<fs::path> pictures = Sorted(folder, IsPicture);
+    const std::vector<fs::path> pictures = Listed(folder, IsPicture);
     if (!pictures.empty())
       footage.cameras.push_back(
           OpenPictureCamera(folder.filename().string(), pictures, footage.notes));

@@ -21,7 +21,7 @@ constexpr std::string_view kReadExtensions[] = {".png",  ".jpg", ".jpeg", ".tif"
                                                 ".tiff", ".bmp", ".webp"};
 
 struct UnreadKind {
-  std::string_view extension, name;
+  std::string_view key, name;
 };
 
 // Kinds that cameras and telephones save.
@@ -35,30 +35,15 @@ constexpr UnreadKind kBrands[] = {{"heic", "HEIC"}, {"heix", "HEIC"}, {"hevc", "
                                   {"heim", "HEIC"}, {"mif1", "HEIC"}, {"msf1", "HEIC"},
                                   {"avif", "AVIF"}, {"avis", "AVIF"}};
 
-std::string LowerExtension(const fs::path& file) {
-  std::string text = file.extension().string();
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 template <std::size_t N>
 std::string_view NameOf(const UnreadKind (&kinds)[N], std::string_view key) {
-  const auto* kind = std::ranges::find(kinds, key, &UnreadKind::extension);
+  const auto* kind = std::ranges::find(kinds, key, &UnreadKind::key);
   return kind == std::end(kinds) ? std::string_view() : kind->name;
 }
 
-// Visible files; none if the folder cannot be listed.
-std::vector<fs::path> FilesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
+bool IsFile(const fs::path& path) {
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    std::error_code unknown;
-    if (!IsHidden(entry->path()) && entry->is_regular_file(unknown)) files.push_back(entry->path());
-  }
-  std::ranges::sort(files);
-  return files;
+  return fs::is_regular_file(path, error);
 }
 
 std::string_view KindByContent(const fs::path& file) {
@@ -77,12 +62,36 @@ std::string ConvertText(std::string_view kind) {
 
 }  // namespace
 
+std::string LowerExtension(const fs::path& file) {
+  std::string text = file.extension().string();
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::vector<fs::path> Listed(const fs::path& folder, bool (*wanted)(const fs::path&)) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!IsHidden(entry->path()) && wanted(entry->path())) paths.push_back(entry->path());
+  }
+  if (error) throw SetupError(folder.string() + ": cannot be listed: " + error.message());
+  std::ranges::sort(paths);
+  return paths;
+}
+
 bool IsPicture(const fs::path& file) {
   return std::ranges::count(kReadExtensions, LowerExtension(file)) > 0;
 }
 
 void RefuseUnreadPictures(const fs::path& folder) {
-  const std::vector<fs::path> files = FilesIn(folder);
+  const std::vector<fs::path> files = Listed(folder, IsFile);
   const auto is_unread = [&](const fs::path& file) {
     // Many cameras save each picture twice.
     const auto is_twin = [&](const fs::path& other) {
@@ -108,16 +117,11 @@ void RefuseUnreadPicture(const fs::path& file) {
 }
 
 std::string WhatIsThere(const fs::path& folder) {
-  std::vector<fs::path> folders = {folder};
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    std::error_code unknown;
-    if (!IsHidden(entry->path()) && entry->is_directory(unknown)) folders.push_back(entry->path());
-  }
+  std::vector<fs::path> folders = Listed(folder, IsFolder);
+  folders.push_back(folder);
   std::map<std::string, int> counts;
   for (const fs::path& place : folders) {
-    for (const fs::path& file : FilesIn(place)) ++counts[LowerExtension(file)];
+    for (const fs::path& file : Listed(place, IsFile)) ++counts[LowerExtension(file)];
   }
   std::string text;
   for (const auto& [extension, count] : counts) {

@@ -1,10 +1,22 @@
-// Which files in a folder of footage are pictures that can be read, and what the others are.
+// Files in a folder of footage: which are pictures that can be read, and what the others are.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace mocap {
+
+/// Returns a file's extension in lower case, with its dot.
+std::string LowerExtension(const std::filesystem::path& file);
+
+/// Returns whether a path is a folder that can be found.
+bool IsFolder(const std::filesystem::path& path);
+
+/// Lists what is wanted of a folder's visible entries, in the order of their names.
+/// @throws SetupError  if the folder cannot be listed.
+std::vector<std::filesystem::path> Listed(const std::filesystem::path& folder,
+                                          bool (*wanted)(const std::filesystem::path&));
 
 /// Returns whether a file's name is that of a picture that can be read.
 bool IsPicture(const std::filesystem::path& file);

@@ -143,6 +143,15 @@ TEST_F(FootageTest, PicturesOfKindsThatAreNotReadAreRefusedByTheirKind) {
   }
 }
 
+TEST_F(FootageTest, PicturesThatNobodyWouldReadMayLieBesideVideos) {
+  for (const char* name : {"cam1", "notes", "setup photos"})
+    fs::create_directories(folder_.path() / name);
+  WriteVideo("cam1/take.mkv", 2);
+  for (const char* name : {"cam1/IMG_1.HEIC", "notes/IMG_2.HEIC", "setup photos/IMG_3.HEIC"})
+    WriteText(folder_.path() / name, "x");
+  EXPECT_THAT(OpenFootage(folder_.path()).cameras, SizeIs(1));
+}
+
 TEST_F(FootageTest, APictureOfAKindThatIsNotReadMayLieBesideOneThatIs) {
   WritePicture("cam1/DSC_1.bmp");
   WriteText(folder_.path() / "cam1/DSC_1.NEF", "x");
