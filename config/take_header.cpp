@@ -14,9 +14,11 @@ namespace {
 /// Whether `mocap track` wrote the folder, for one person or several.
 bool IsResult(const std::filesystem::path& folder) {
   if (IsThere(folder / "poses.csv")) return true;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const bool is_person = entry.path().filename().native().starts_with("person-");
-    if (is_person && IsThere(entry.path() / "poses.csv")) return true;
+  std::error_code error;  // A folder that cannot be listed may be a take.
+  for (std::filesystem::directory_iterator entry(folder, error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const bool is_person = entry->path().filename().native().starts_with("person-");
+    if (is_person && IsThere(entry->path() / "poses.csv")) return true;
   }
   return false;
 }
