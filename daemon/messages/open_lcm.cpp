@@ -133,7 +133,9 @@ std::unique_ptr<lcm::LCM> OpenLcm(const std::string& url) {
 
 std::string ReceiveFault(const LcmUrl& address) {
   if (address.provider != LcmProvider::kMulticast) return "";
+  const std::string port = "UDP port " + std::to_string(address.port);
   const FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (!fd.valid()) return port + " cannot be used: " + std::strerror(errno);
   const int is_shared = 1;
   setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &is_shared, sizeof is_shared);
   sockaddr_in here{};
@@ -143,12 +145,12 @@ std::string ReceiveFault(const LcmUrl& address) {
   static_assert(sizeof place == sizeof here);
   std::memcpy(&place, &here, sizeof here);
   if (bind(fd.get(), &place, sizeof place) == 0) return "";
-  const std::string port = "UDP port " + std::to_string(address.port);
   const int error = errno;
   if (error == EADDRINUSE) {
     return port + " is in use by another program: ss -ulpn names it; end it, or use another port";
   }
-  return port + " cannot be used: " + std::strerror(error) + "; expected a port above 1023";
+  return port + " cannot be used: " + std::strerror(error) +
+         (error == EACCES ? "; expected a port above 1023" : "");
 }
 
 std::unique_ptr<lcm::LCM> OpenLcmToListen(const std::string& url) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <memory>
@@ -109,6 +110,16 @@ TEST_F(MulticastChannel, APortOfAnotherProgramIsToldAndLcmPrintsNothing) {
     EXPECT_THAT(watch.Status().receive_fault, HasSubstr(said));
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(MulticastChannel, WithoutAFreeDescriptorThePortIsNotBlamed) {
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+  const rlimit none{0, usual.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const std::string fault = ReceiveFault(ParseLcmUrl(config_.url));
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_THAT(fault, ::testing::EndsWith("cannot be used: Too many open files"));
 }
 
 TEST_F(MulticastChannel, APortThatListenersShareIsFree) {
