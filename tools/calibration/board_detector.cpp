@@ -6,6 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/quantile.h"
 #include "tools/calibration/board_rectifier.h"
 #include "tools/calibration/marker_board.h"
 #include "tools/calibration/shown_board.h"
@@ -215,9 +216,7 @@ class BoardDetector::Impl {
           excess.push_back(
               EdgeExcess(gray, middle(row, column), middle(row + down, column + across)));
       }
-      std::nth_element(excess.begin(), excess.begin() + static_cast<int>(excess.size() / 2),
-                       excess.end());
-      if (excess[excess.size() / 2] > 1) return true;
+      if (MedianOf(excess) > 1) return true;
     }
     return false;
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace mocap {
 namespace {
 
@@ -71,9 +73,8 @@ std::optional<GridMatch> MatchGrid(const MarkerGrid& grid, const std::vector<Mar
   if (static_cast<int>(steps.size()) < kFewestPairs) return std::nullopt;
   std::vector<double> shares;
   for (const Step& step : steps) shares.push_back(step.expected.norm() / step.seen.norm());
-  std::ranges::nth_element(shares, shares.begin() + static_cast<int>(shares.size() / 2));
   GridMatch match;
-  match.marker_share = shares[shares.size() / 2];
+  match.marker_share = MedianOf(shares);
   int across_rows = 0;
   std::vector<int> votes(markers.size(), 0);
   for (const Step& step : steps) {

@@ -2,28 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
 #include "config/parse_toml.h"
 #include "core/errors.h"
 #include "drivers/take/input_file.h"
+#include "tools/checksum.h"
 
 namespace mocap {
-namespace {
-
-/// FNV-1a: detects edits by hand, not forgery.
-std::uint64_t ChecksumOf(std::string_view text) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return sum;
-}
-
-}  // namespace
 
 std::string SignedConfig(const std::string& text) {
   return fmt::format(
              "# Written by mocap gige-studio, as {:016x}: rename it before you change it.\n",
-             ChecksumOf(text)) +
+             Fnv1a(text)) +
          text;
 }
 

@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "config/take_header.h"
 #include "core/errors.h"
+#include "core/quantile.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
+#include "tools/checksum.h"
 
 namespace mocap {
 namespace {
@@ -22,12 +22,6 @@ constexpr std::size_t kLargestCalibration = 16 << 20;
 /// Frame rates that differ by more are those of different takes.
 constexpr double kSameRate = 1.2;
 
-std::string Fnv1a(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  return fmt::format("{:016x}", sum);
-}
-
 /// Median time from one frame set to the next; 0: not known.
 double SetIntervalNs(const std::vector<PoseRow>& rows) {
   std::vector<double> apart_ns;
@@ -35,23 +29,24 @@ double SetIntervalNs(const std::vector<PoseRow>& rows) {
     const auto sets = static_cast<double>(rows[i].frame - rows[i - 1].frame);
     apart_ns.push_back(static_cast<double>(rows[i].timestamp_ns - rows[i - 1].timestamp_ns) / sets);
   }
-  if (apart_ns.empty()) return 0;
-  const auto middle = apart_ns.begin() + static_cast<std::ptrdiff_t>(apart_ns.size() / 2);
-  std::ranges::nth_element(apart_ns, middle);
-  return *middle;
+  return apart_ns.empty() ? 0 : MedianOf(apart_ns);
+}
+
+TakeMark MarkWith(const TakeHeader& header, const std::filesystem::path& take) {
+  const std::string calibration =
+      ReadWholeFile(TakeLayout{take}.Calibration(), "a calibration", kLargestCalibration);
+  return {header.name, fmt::format("{:016x}", Fnv1a(calibration))};
 }
 
 }  // namespace
 
-TakeMark MarkOf(const std::filesystem::path& take) {
-  const std::filesystem::path calibration = TakeLayout{take}.Calibration();
-  return {ReadTakeHeader(take).name,
-          Fnv1a(ReadWholeFile(calibration, "a calibration", kLargestCalibration))};
-}
+TakeMark MarkOf(const std::filesystem::path& take) { return MarkWith(ReadTakeHeader(take), take); }
 
-TakeIdentity::TakeIdentity(const std::filesystem::path& take) : take_(take), mark_(MarkOf(take)) {
+TakeIdentity::TakeIdentity(const std::filesystem::path& take) : take_(take) {
   const TakeLayout layout{take};
-  for (const std::string& camera : ReadTakeHeader(take).cameras) {
+  const TakeHeader header = ReadTakeHeader(take);
+  mark_ = MarkWith(header, take);
+  for (const std::string& camera : header.cameras) {
     const std::filesystem::path file = layout.Table(camera);
     if (!IsThere(file) || HoldsNoRows(file)) continue;
     const TakeTable table = ReadTakeTable(file);
@@ -101,13 +96,15 @@ void TakeIdentity::CompareTimes(const std::filesystem::path& folder_or_log, Resu
   if (is_log) return;
   if (outside > 0) result.remarks.push_back(spans + ": is it of another take?");
   const double interval_ns = SetIntervalNs(rows);
-  const bool is_of_other_rate = interval_ns > kSameRate * static_cast<double>(times_->longest_ns) ||
-                                kSameRate * interval_ns < static_cast<double>(times_->shortest_ns);
-  if (interval_ns == 0 || times_->longest_ns == 0 || !is_of_other_rate) return;
+  const auto longest_ns = static_cast<double>(times_->longest_ns);
+  const auto shortest_ns = static_cast<double>(times_->shortest_ns);
+  const bool is_slower = interval_ns > kSameRate * longest_ns;
+  const bool is_of_other_rate = is_slower || kSameRate * interval_ns < shortest_ns;
+  if (interval_ns == 0 || longest_ns == 0 || !is_of_other_rate) return;
   result.remarks.push_back(fmt::format(
       "{}: its frames are {:.1f} ms apart, those of {} {:.1f} ms: is it of another take?",
       folder_or_log.string(), interval_ns / 1e6, take_.string(),
-      static_cast<double>(times_->shortest_ns) / 1e6));
+      (is_slower ? longest_ns : shortest_ns) / 1e6));
 }
 
 }  // namespace mocap

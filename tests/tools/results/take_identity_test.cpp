@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -126,6 +128,24 @@ TEST_F(TakeIdentityTest, WithoutAMarkFrameNumbersAreCompared) {
   EXPECT_THAT(Remarks(sparse), IsEmpty()) << "one of several people may be there now and then";
 }
 
+TEST_F(TakeIdentityTest, ResultsOfFewerFramesAreComparedWithTheSlowestCamera) {
+  const std::filesystem::path table = take_ / "north.csv";
+  std::istringstream rows(testing::ReadText(table));
+  std::string row, every_other;
+  std::getline(rows, row);
+  every_other = row + '\n';
+  for (int i = 0; std::getline(rows, row); ++i)
+    if (i % 2 == 0) every_other += row + '\n';
+  testing::WriteText(table, every_other);
+  Result slower = Read({});
+  for (PoseRow& pose : slower.poses) pose.frame /= 4;
+  const auto is_same_set = [](const PoseRow& a, const PoseRow& b) { return a.frame == b.frame; };
+  const auto [first, last] = std::ranges::unique(slower.poses, is_same_set);
+  slower.poses.erase(first, last);
+  EXPECT_THAT(Remarks(slower),
+              ElementsAre(AllOf(HasSubstr("400.0 ms apart"), HasSubstr(" 200.0 ms: is it of"))));
+}
+
 TEST_F(TakeIdentityTest, ALogOfOtherTimesIsTold) {
   const std::filesystem::path log = folder_.path() / "log";
   testing::WriteText(log, "");
@@ -162,8 +182,8 @@ TEST_F(TakeIdentityTest, ATakeOfSeveralPeopleIsNoResultOfThem) {
   std::filesystem::create_directory(take_ / "person-1");
   std::filesystem::rename(take_ / "truth.csv", take_ / "person-1" / "truth.csv");
   EXPECT_FALSE(IsOfPeople(take_));
-  for (const auto& read : std::vector<std::function<void()>>{[&] { ReadPeople(take_); },
-                                                             [&] { ReadResult(take_); }}) {
+  for (const auto& read :
+       std::vector<std::function<void()>>{[&] { ReadPeople(take_); }, [&] { ReadResult(take_); }}) {
     EXPECT_THAT(SetupErrorOf(read), HasSubstr("is a take, not a result"));
   }
 }
