@@ -18,9 +18,9 @@ std::filesystem::path NearestFolder(const std::filesystem::path& folder) {
 void RequireStillThere(const std::filesystem::path& folder) {
   std::error_code error;
   if (std::filesystem::is_directory(folder, error)) return;
-  throw std::runtime_error(folder.string() + " is gone, and what was in it; " +
-                           NearestFolder(folder).string() +
-                           " still exists: find out who took the rest away, then record again");
+  throw std::runtime_error(folder.string() +
+                           " was removed or unmounted; the nearest folder that still exists is " +
+                           NearestFolder(folder).string());
 }
 
 std::int64_t BytesFree(const std::filesystem::path& folder) {

@@ -22,7 +22,10 @@ DiskFindings RunErrand(const DiskErrand& errand) {
   findings.bytes_free = BytesFree(errand.takes);
   findings.takes_place = NearestFolder(errand.takes);
   if (access(findings.takes_place.c_str(), W_OK | X_OK) != 0) {
-    findings.takes_problem = findings.takes_place.string() + ": " + std::strerror(errno);
+    const char* const why = std::strerror(errno);
+    std::error_code error;
+    const bool is_there = findings.takes_place == std::filesystem::absolute(errand.takes, error);
+    findings.takes_problem = (is_there ? "" : findings.takes_place.string() + ": ") + why;
   }
   if (!errand.background.empty()) findings.background_made_s = WrittenAt(errand.background);
   for (const CutOffTake& take : errand.cut_off) {

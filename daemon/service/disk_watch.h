@@ -27,7 +27,8 @@ struct DiskErrand {
 struct DiskFindings {
   std::int64_t bytes_free = 0;        ///< For takes.
   std::filesystem::path takes_place;  ///< The folder for takes, or its nearest existing parent.
-  std::string takes_problem;          ///< Why takes cannot be written; empty: they can.
+  /// Why takes cannot be written, with `takes_place` if that is a parent; empty: they can.
+  std::string takes_problem;
   std::int64_t background_made_s = 0;
   std::vector<CutOffTake> cut_off;  ///< Those that still exist.
   bool could_write_metrics = true;

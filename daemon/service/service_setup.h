@@ -38,7 +38,8 @@ PreparedService PrepareService(const Config& config);
 /// @throws SetupError
 std::vector<std::string> CheckConfig(const Config& config);
 
-/// Checks whether files can be written where the configuration wants them. @throws SetupError
+/// Checks whether files can be written where the configuration wants them, and whether the programs
+/// that control nodes exist. @throws SetupError
 void RequirePlaces(const Config& config);
 
 PipelineOptions PipelineOptionsFor(const Config& config, std::vector<std::deque<FrameTap>*> taps);

@@ -34,6 +34,19 @@ TEST(DiskWatch, FindsRoomAndWritesFigures) {
   EXPECT_EQ(testing::ReadText(folder.path() / "m.prom"), "x 1\n");
 }
 
+TEST(DiskWatch, TheFolderThatCannotBeWrittenIsNamedUnlessItIsThatForTakes) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "file";  // Not even root may enter it.
+  testing::WriteText(file, "");
+  const auto problem_of = [](const std::filesystem::path& takes) {
+    return RunErrand(
+               {.takes = takes, .background = {}, .cut_off = {}, .metrics = {}, .metrics_text = {}})
+        .takes_problem;
+  };
+  EXPECT_EQ(problem_of(file), "Permission denied");
+  EXPECT_EQ(problem_of(file / "takes"), file.string() + ": Permission denied");
+}
+
 TEST(DiskWatch, FiguresThatCannotBeWrittenAreToldUntilTheyAre) {
   const testing::TemporaryFolder folder;
   std::latch first(1), second(1);
