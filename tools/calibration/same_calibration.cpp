@@ -16,7 +16,7 @@ std::string DifferenceFrom(std::span<const CameraCalibration> other,
       return CalibrationText("calibration", std::span(&camera, 1));
     };
     if (text_of(*found) != text_of(wanted))
-      return "has camera " + Quoted(wanted.name) + " elsewhere or with another lens";
+      return "has camera " + Quoted(wanted.name) + " with other extrinsics or intrinsics";
   }
   return "";
 }

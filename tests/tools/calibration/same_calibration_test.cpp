@@ -43,7 +43,8 @@ TEST_F(SameCalibrationTest, OrderAndFurtherCamerasDoNotMatter) {
 TEST_F(SameCalibrationTest, ACameraThatMovedIsNamed) {
   std::vector<CameraCalibration> moved = cameras_;
   moved[1].X_CW.p.x() += 1;
-  EXPECT_THAT(DifferenceFrom(cameras_, moved), HasSubstr("has camera \"north\" elsewhere"));
+  EXPECT_THAT(DifferenceFrom(cameras_, moved),
+              HasSubstr("has camera \"north\" with other extrinsics"));
 }
 
 TEST_F(SameCalibrationTest, TheHealthOfATakeIsNotNotedInAnotherCalibration) {
@@ -54,7 +55,7 @@ TEST_F(SameCalibrationTest, TheHealthOfATakeIsNotNotedInAnotherCalibration) {
                 testing::RunCommand(AddCalibrateCommand, "calibrate health " + take_.string() +
                                                              " --note " + other_.string());
               }),
-              AllOf(HasSubstr(other_.string()), HasSubstr("camera \"north\" elsewhere"),
+              AllOf(HasSubstr(other_.string()), HasSubstr("camera \"north\" with other extrinsics"),
                     HasSubstr((take_ / "calibration.toml").string())));
   EXPECT_EQ(testing::ReadText(other_), before);
 }
