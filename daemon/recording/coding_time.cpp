@@ -39,8 +39,7 @@ std::string TextOf(LossCause cause) {
              "or a faster recording.codec (\"raw\" is the fastest, then \"huffyuv\")";
     case LossCause::kDisk:
       return "the disk is too slow: use a faster disk, or a recording.codec that writes less "
-             "(\"ffv1\" "
-             "writes the least, then \"huffyuv\")";
+             "(\"ffv1\" writes the least, then \"huffyuv\")";
     case LossCause::kPoses:
       return "tracking was behind and has priority: use larger voxels or a lower frame rate";
   }
