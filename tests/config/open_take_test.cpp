@@ -170,12 +170,14 @@ TEST_F(OpenedTake, TimesThatAreNoNanosecondsAreRefused) {
 
 TEST_F(OpenedTake, ADoubtfulRateAndACutOffRowAreRemarks) {
   WriteSmallTake(layout_.folder, take_);
-  EXPECT_EQ(OpenTake(layout_.folder, {}).remarks.size(), 0u);
+  // Its cameras hang below the floor.
+  const std::vector<std::string> before = OpenTake(layout_.folder, {}).remarks;
+  EXPECT_THAT(before, ElementsAre(HasSubstr("z points down")));
   WriteText(layout_.Table("cam2"), TableWithIntervals(8'000'000));
   WriteText(layout_.Table("cam3"), TableWithIntervals(40'000'000) + "5,1");
   const Studio studio = OpenTake(layout_.folder, {});
-  EXPECT_THAT(studio.remarks,
-              ElementsAre(HasSubstr("frames are 8 ms apart"), HasSubstr("last line is cut off")));
+  EXPECT_THAT(studio.remarks, ElementsAre(before[0], HasSubstr("frames are 8 ms apart"),
+                                          HasSubstr("last line is cut off")));
 }
 
 struct Damage {

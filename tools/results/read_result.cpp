@@ -161,8 +161,8 @@ void RequireOfOne(const std::filesystem::path& folder) {
 
 bool IsOfPeople(const std::filesystem::path& folder) {
   std::error_code error;
-  return std::filesystem::is_directory(folder, error) && !IsOfOne(folder) &&
-         !IsOnlyTake(folder) && !PersonFolders(folder).empty();
+  return std::filesystem::is_directory(folder, error) && !IsOfOne(folder) && !IsOnlyTake(folder) &&
+         !PersonFolders(folder).empty();
 }
 
 PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
