@@ -79,7 +79,6 @@ class SurfaceCapture::Impl {
     if (evidence_.cloud.volume_litres() < kLeastLitres) {
       NobodyThere(dt_s);
     } else {
-      empty_s_ = 0;
       SomebodyThere(dt_s);
     }
     Report(dt_s);
@@ -104,15 +103,23 @@ class SurfaceCapture::Impl {
 
  private:
   void NobodyThere(double dt_s) {
-    empty_s_ += CountedS(dt_s);
     if (result_.state == CaptureState::kTracking) Lose();
-    if (result_.state == CaptureState::kLost && empty_s_ < kForgetAfterS) return;
-    GiveUp();
+    if (result_.state == CaptureState::kLost) {
+      Await(dt_s);
+    } else {
+      GiveUp();
+    }
   }
 
   void Lose() {
     result_.state = CaptureState::kLost;
     lost_s_ = 0;
+  }
+
+  // A lost person is forgotten after a while.
+  void Await(double dt_s) {
+    lost_s_ += CountedS(dt_s);
+    if (lost_s_ >= kForgetAfterS) GiveUp();
   }
 
   void GiveUp() {
@@ -135,9 +142,8 @@ class SurfaceCapture::Impl {
         Acquire(dt_s);
         break;
       case CaptureState::kLost:
-        lost_s_ += CountedS(dt_s);
         Acquire(dt_s);
-        if (result_.state == CaptureState::kLost && lost_s_ > kForgetAfterS) GiveUp();
+        if (result_.state == CaptureState::kLost) Await(dt_s);
         break;
       case CaptureState::kAcquiring:
         ++frames_acquiring_;
@@ -302,7 +308,6 @@ class SurfaceCapture::Impl {
   FacingDuel duel_;                         ///< Of the tracker with that.
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
-  double empty_s_ = 0;
   double lost_s_ = 0;       ///< Time since the person was lost.
   bool looks_anew_ = true;  ///< No search was made yet.
   int frames_acquiring_ = 0;

@@ -22,13 +22,6 @@ struct Member {
     certainty = how_certain;
   }
 
-  /// Moves what is remembered past time that does not count.
-  void LeaveOut(std::int64_t uncounted_ns) {
-    seen_ns += uncounted_ns;
-    vouched_ns += uncounted_ns;
-    if (waits_since_ns) *waits_since_ns += uncounted_ns;
-  }
-
   std::shared_ptr<MotionCapture> capture;
   /// While set, the capture works there and must not be used.
   std::unique_ptr<SideSearch> beside;
@@ -39,6 +32,7 @@ struct Member {
   bool is_expected = false;  ///< The next person has that name.
   /// Centre of the flesh of a person who is not located yet.
   std::optional<Vector3> last_W;
+  // The following times are of PeopleCapture's clock.
   std::optional<std::int64_t> waits_since_ns;  ///< For the search.
   /// Entered from outside the covered area, or when nobody else was tracked yet.
   bool has_come = false;

@@ -28,9 +28,8 @@ constexpr double kLostReachMm = 700;
 constexpr double kLostHandicapMm = 250;
 // A carved-away limb may be this far from its prediction or from the flesh.
 constexpr double kAsideMm = 100;
-// A person without this many witnesses for this long is none.
+// A person without this many witnesses, for longer than one set can count, is none.
 constexpr int kFewestWitnesses = 2;
-constexpr double kDoubtedS = 0.2;
 // A newcomer who is not seen for this long has left.
 constexpr double kUnseenS = 0.3;
 // After this time, a person who is not shown completely is searched for anyway.
@@ -71,11 +70,11 @@ class PeopleCapture::Impl {
   bool IsAlone(const VoxelGrid& grid);
   void PoseMembers(std::int64_t capture_ns);
   void Divide(const VoxelGrid& grid);
-  void MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns);
-  bool IsBeginning(std::int64_t capture_ns) const;
+  void MeetStrangers(std::span<const CameraEye> eyes);
+  bool IsBeginning() const;
   Member* MemberFor(const Vector3& middle_W);
   void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
-  void JudgeMembers(std::int64_t capture_ns);
+  void JudgeMembers();
   void Recognise();
   bool IsHere(std::string_view name) const;
   void ListPeople();
@@ -91,6 +90,7 @@ class PeopleCapture::Impl {
   std::vector<std::unique_ptr<Member>> members_;  // Never empty.
   int last_id_ = 0;
   std::optional<std::int64_t> last_ns_;            // Of the last set.
+  std::int64_t clock_ns_ = 0;                      // Counts time with sets only.
   SetRhythm rhythm_;                               // Of all sets.
   bool follows_gap_ = false;                       // The set comes long after the one before.
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
@@ -160,11 +160,11 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   } else {
     Thin(room.outlines, 1);
     Divide(room.flesh);
-    MeetStrangers(eyes, capture_ns);
+    MeetStrangers(eyes);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     UpdateMembers(capture_ns, observer);
   }
-  JudgeMembers(capture_ns);
+  JudgeMembers();
   Recognise();
   ListPeople();
 }
@@ -175,8 +175,7 @@ void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
   const double passed_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
   follows_gap_ = last_ns_ && rhythm_.IsGap(passed_s);
   last_ns_ = capture_ns;
-  const double uncounted_s = passed_s - std::max(0.0, CountedS(passed_s));
-  for (const auto& member : members_) member->LeaveOut(std::llround(uncounted_s * 1e9));
+  clock_ns_ += std::llround(1e9 * std::max(0.0, CountedS(passed_s)));
   if (!follows_gap_) return;
   if (passed_s > kPatienceS) followed_since_ns_.reset();
   if (passed_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
@@ -206,7 +205,7 @@ void PeopleCapture::Impl::UpdateAlone(const Sighting& room, std::int64_t capture
   Member& member = *members_.front();
   member.capture->Update({is_all ? room.flesh : flesh_of_one_, thinned_, room.box_W}, capture_ns,
                          observer);
-  member.seen_ns = member.vouched_ns = capture_ns;
+  member.seen_ns = member.vouched_ns = clock_ns_;
 }
 
 void PeopleCapture::Impl::Thin(std::span<const Outline> outlines, int step) {
@@ -219,7 +218,7 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
   for (const auto& member : members_)
     if (member->has_pose()) posed_member_.push_back(member.get());
   if (posed_member_.empty()) followed_since_ns_.reset();
-  if (!posed_member_.empty() && !followed_since_ns_) followed_since_ns_ = capture_ns;
+  if (!posed_member_.empty() && !followed_since_ns_) followed_since_ns_ = clock_ns_;
   posed_.resize(posed_member_.size());
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     const MotionCapture& capture = *posed_member_[i]->capture;
@@ -255,7 +254,7 @@ void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
 }
 
 // Assigns strange flesh to the newcomer it was before, or to a new one.
-void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::int64_t capture_ns) {
+void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes) {
   for (std::size_t i = 0; i < flesh_.strangers().size(); ++i) {
     const FleshShare& flesh = flesh_.strangers()[i];
     const OutlineShare& share = outlines_.shares()[posed_.size() + i];
@@ -263,14 +262,14 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
     Member* const member = MemberFor(flesh.box_W.center());
     if (!member) continue;
     member->last_W = flesh.box_W.center();
-    member->seen_ns = capture_ns;
+    member->seen_ns = clock_ns_;
     if (!member->waits_since_ns) {
-      member->waits_since_ns = capture_ns;
-      member->has_come = IsBeginning(capture_ns) || !IsCovered(flesh.box_W, kBorderMm, eyes);
+      member->waits_since_ns = clock_ns_;
+      member->has_come = IsBeginning() || !IsCovered(flesh.box_W, kBorderMm, eyes);
     }
     const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W.min().z());
     const double wanted_s = !member->has_come ? kPatienceS : is_whole ? 0 : kWholeWithinS;
-    if (SecondsBetween(*member->waits_since_ns, capture_ns) < wanted_s) continue;
+    if (SecondsBetween(*member->waits_since_ns, clock_ns_) < wanted_s) continue;
     member->flesh = &flesh;
     member->outlines = &share;
     member->box_W = AroundStranger(flesh.box_W);
@@ -278,8 +277,8 @@ void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes, std::in
 }
 
 // Whether people may be present who were not seen entering.
-bool PeopleCapture::Impl::IsBeginning(std::int64_t capture_ns) const {
-  return !followed_since_ns_ || SecondsBetween(*followed_since_ns_, capture_ns) < kPatienceS;
+bool PeopleCapture::Impl::IsBeginning() const {
+  return !followed_since_ns_ || SecondsBetween(*followed_since_ns_, clock_ns_) < kPatienceS;
 }
 
 // Null if no further person can be tracked.
@@ -305,28 +304,28 @@ void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver*
       if (!member->beside) member->capture->Update({nothing, {}}, capture_ns, observer);
       continue;
     }
-    member->seen_ns = capture_ns;
+    member->seen_ns = clock_ns_;
     const Sighting sighting(member->flesh->flesh, member->outlines->own, member->box_W,
                             member->flesh->room, member->outlines->near);
     if (options_.side && is_anybody_followed && !member->has_pose() && !member->beside)
       member->beside = options_.side->Begin(member->capture);
     if (member->beside) {
       member->beside->See(sighting, capture_ns);
-      member->vouched_ns = capture_ns;
+      member->vouched_ns = clock_ns_;
       continue;
     }
     member->capture->Update(sighting, capture_ns, observer);
     // A lost person has a second to return, and may be hidden.
     const bool is_lost = member->capture->result().state == CaptureState::kLost;
     if (is_lost || member->outlines->witnesses >= std::min(kFewestWitnesses, witnesses_wanted_))
-      member->vouched_ns = capture_ns;
+      member->vouched_ns = clock_ns_;
   }
 }
 
-void PeopleCapture::Impl::JudgeMembers(std::int64_t capture_ns) {
+void PeopleCapture::Impl::JudgeMembers() {
   const auto has_gone = [&](const std::unique_ptr<Member>& member) {
-    const auto since_s = [&](std::int64_t then_ns) { return SecondsBetween(then_ns, capture_ns); };
-    if (member->has_pose() && since_s(member->vouched_ns) > kDoubtedS) return true;
+    const auto since_s = [&](std::int64_t then_ns) { return SecondsBetween(then_ns, clock_ns_); };
+    if (member->has_pose() && since_s(member->vouched_ns) > kMostCountedS) return true;
     return !member->has_pose() && (member->id > 0 || since_s(member->seen_ns) > kUnseenS);
   };
   if (members_.size() > 1) std::erase_if(members_, has_gone);

@@ -35,7 +35,6 @@ constexpr double kPairsDrawnPerS = 30;
 // In a body's first frame, a pose that costs this much less is taken: the gain must be clear. For
 // exchanged limbs it is larger, because noise exchanges folded arms.
 constexpr double kLimbBetterMm = 0.6;
-constexpr double kPairBetterMm = 0.5;
 constexpr double kExchangeBetterMm = 1.5;
 // In later frames, a pose that costs this much less is taken at once; where frames are rare, one
 // with a smaller gain too, see ClearLeadMm. Otherwise, and if it costs at most kRivalMm more, the
@@ -299,7 +298,7 @@ bool LimbRecovery::RecoverPair(const BodyModel& body, const Evidence& evidence,
   const auto best = [&](LimbSearch& search, LimbSearch&) {
     FindBest(search, StancesOf(limb_ends.first), present.pose, kPairRefined);
   };
-  return OfferPair(body, evidence, limb_ends, fit, best, GainToTake(kPairBetterMm), present);
+  return OfferPair(body, evidence, limb_ends, fit, best, GainToTake(kBetterMm), present);
 }
 
 bool LimbRecovery::Exchange(const BodyModel& body, const Evidence& evidence,

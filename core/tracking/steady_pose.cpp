@@ -3,13 +3,15 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "core/counted_time.h"
+
 namespace mocap {
 namespace {
 
 // How far the points of a still person move: their spread after kStill_s.
 constexpr double kStillMm = 5;
 constexpr double kStill_s = 1.0 / 30;
-constexpr double kShortest_s = 0.003, kLongest_s = 0.13;
+constexpr double kShortest_s = 0.003;
 // Points that moved farther than this break free: a share of their noise, and at least.
 constexpr double kNoiseShare = 0.3;
 constexpr double kLeastMm = 1;
@@ -32,8 +34,7 @@ PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
   const PoseCovariance prior =
       Eigen::LLT<PoseCovariance>(filter.covariance()).solve(PoseCovariance::Identity(n, n));
   const BodyPoints before_W = body.PointsAt(body.PostureAt(*held_));
-  const double still_mm2 =
-      kStillMm * kStillMm * std::clamp(dt_s, kShortest_s, kLongest_s) / kStill_s;
+  const double still_mm2 = kStillMm * kStillMm * std::max(CountedS(dt_s), kShortest_s) / kStill_s;
   PoseState pose = filter.pose();
   UpdateEquations equations;
   PointJacobian J(3, n);
