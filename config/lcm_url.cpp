@@ -18,6 +18,7 @@ constexpr std::string_view kDefaultGroup = "239.255.76.67";
 constexpr std::string_view kDefaultServer = "127.0.0.1";
 constexpr std::uint16_t kDefaultMulticastPort = 7667;
 constexpr std::uint16_t kDefaultServerPort = 7700;
+constexpr int kMostHops = 255;
 constexpr const char* kWanted = "; expected one like udpm://239.255.76.67:7667?ttl=0";
 
 [[noreturn]] void Fail(const std::string& url, const std::string& what) {
@@ -49,7 +50,6 @@ std::vector<Option> SplitOptions(std::string_view text) {
 }
 
 void CheckMulticastOption(const std::string& url, const Option& option, bool has_ports) {
-  constexpr int kMostHops = 255;
   constexpr int kLargestBuffer = 1 << 30;
   constexpr int kMostPorts = 65535;
   const auto require = [&](int min, int max) {
@@ -94,7 +94,10 @@ LcmUrl Multicast(const std::string& url, std::string_view place, const std::vect
     Fail(url, "names " + address.host +
                   ", which is not a multicast address; expected 224.0.0.0 to 239.255.255.255");
   }
-  for (const Option& option : options) CheckMulticastOption(url, option, has_ports);
+  for (const Option& option : options) {
+    CheckMulticastOption(url, option, has_ports);
+    if (option.key == "ttl") address.hops = *Number(option.value, 0, kMostHops);
+  }
   return address;
 }
 

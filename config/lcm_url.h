@@ -17,6 +17,7 @@ struct LcmUrl {
   LcmProvider provider = LcmProvider::kMulticast;
   std::string host;         ///< For kMulticast and kTcp; LCM's default if the URL has none.
   std::uint16_t port = 0;   ///< Likewise.
+  int hops = 0;             ///< For kMulticast: its ttl. 0: messages stay on this computer.
   std::string file;         ///< For kFile.
   bool is_written = false;  ///< For kFile: written instead of read.
   double speed = 1;         ///< For reading a log: 0 is full speed.

@@ -49,7 +49,7 @@ void StudioListener::Listen() {
 
 void StudioListener::OnPeople(std::span<const std::uint8_t> bytes) {
   const std::optional<people_t> message = DecodeMessage<people_t>(bytes);
-  if (!message) return;
+  if (!message || !position_) return;
   heard_people_ns_ = SteadyNs();
   Eigen::AlignedBox3d box_W;
   for (const person_t& person : message->people) {

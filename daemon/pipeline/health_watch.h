@@ -37,7 +37,7 @@ using SetTap = Tap<SeenSet>;
 class HealthWatch {
  public:
   /// Maximum rate of sets.
-  static constexpr double kHz = 1;
+  static constexpr double kHz = 0.5;
   /// Fewer moments are not conclusive.
   static constexpr int kFewestMoments = 4;
 

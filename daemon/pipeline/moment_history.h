@@ -1,12 +1,12 @@
 // Some moments of a recording, spread over its length.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/calibration/seen_shape.h"
-#include "core/reconstruction/carving/carving_view.h"
 
 namespace mocap {
 

@@ -17,27 +17,21 @@ constexpr std::int64_t kLongest_ns = 30'000'000'000;
 
 SeenPeople PeopleWatch::Add(std::int64_t capture_ns, SeenMoment moment) {
   // After somebody was away, or a recording began anew, it is another situation.
-  const bool goes_on = !times_ns_.empty() && capture_ns > times_ns_.back() &&
-                       capture_ns - times_ns_.back() < kWindow_ns;
+  const bool goes_on =
+      !moments_.empty() && capture_ns > last_ns_ && capture_ns - last_ns_ < kWindow_ns;
   const bool shows_person = ShowsPerson(moment);
-  if (!shows_person || !goes_on) {
-    begin_ns_ = capture_ns;
-    times_ns_.clear();
-    moments_.clear();
-  }
+  if (!shows_person || !goes_on) moments_.clear();
   if (!shows_person) return {};
-  times_ns_.push_back(capture_ns);
+  if (moments_.empty()) begin_ns_ = capture_ns;
+  last_ns_ = capture_ns;
+  if (moments_.size() == kMostMoments) moments_.erase(moments_.begin());
   moments_.push_back(std::move(moment));
-  if (moments_.size() > kMostMoments) {
-    times_ns_.pop_front();
-    moments_.erase(moments_.begin());
-  }
   const std::int64_t since_ns = capture_ns - begin_ns_;
   if (since_ns < kWindow_ns || !Moves(cameras_, moments_)) return {};
   const StudioDiagnosis diagnosis = Diagnose(cameras_, moments_);
   // Dogs, and chairs that are pushed about, are no fault.
   if (diagnosis.fault == StudioFault::kStature && since_ns < kLongest_ns) return {};
-  return {true, since_ns, FindingOf(diagnosis, cameras_)};
+  return {since_ns, FindingOf(diagnosis, cameras_)};
 }
 
 }  // namespace mocap

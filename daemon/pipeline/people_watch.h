@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,11 +13,13 @@ namespace mocap {
 
 /// What the silhouettes of the last seconds show, whatever is tracked.
 struct SeenPeople {
-  /// Most cameras have shown something of a person's size that moves, for PeopleWatch::kWindow_ns.
-  bool is_somebody = false;
+  /// How long most cameras have shown something of a person's size that moves: at least
+  /// PeopleWatch::kWindow_ns, or 0 for nobody.
   std::int64_t seen_for_ns = 0;
   /// Why it cannot be tracked; empty if nothing speaks against it.
   std::optional<Finding> fault = {};
+
+  bool is_somebody() const { return seen_for_ns > 0; }
 };
 
 /// Looks at moments of some seconds. Not thread-safe.
@@ -33,9 +34,8 @@ class PeopleWatch {
 
  private:
   const std::vector<CameraCalibration> cameras_;
-  std::int64_t begin_ns_ = 0;  ///< Of the present episode.
-  std::deque<std::int64_t> times_ns_;
-  std::vector<SeenMoment> moments_;
+  std::vector<SeenMoment> moments_;  ///< The latest of the present episode; empty: nobody is seen.
+  std::int64_t begin_ns_ = 0, last_ns_ = 0;  ///< Of that episode.
 };
 
 }  // namespace mocap

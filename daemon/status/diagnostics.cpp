@@ -301,8 +301,7 @@ void ComplainOfCalibration(const ServiceReport& report, List& list) {
 void ComplainOfNobody(const ServiceReport& report, List& list) {
   const SeenPeople& people = report.now.status.people;
   const std::int64_t missed_ns = std::min(report.nobody_ns, people.seen_for_ns);
-  const bool is_known = people.is_somebody && report.now.sets_per_second > 0;
-  if (!is_known || missed_ns < PeopleWatch::kWindow_ns) return;
+  if (report.now.sets_per_second == 0 || missed_ns < PeopleWatch::kWindow_ns) return;
   list.push_back(fmt::format(
       "somebody moves in most pictures, but nobody has been found for {}: {}", Duration(missed_ns),
       people.fault ? people.fault->text

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/lcm_url.h"
 #include "daemon/status/diagnostics.h"
 
 namespace mocap {
@@ -18,13 +19,11 @@ constexpr double kMostError_ms = 5;
 
 using List = std::vector<std::string>;
 
-/// LCM's own default keeps messages on the computer.
 std::string RangeHint(const std::string& lcm_url) {
-  const bool is_multicast = lcm_url.starts_with("udpm://") || lcm_url.starts_with("mpudpm://");
-  const bool has_ttl = lcm_url.find("ttl=") != std::string::npos;
-  if (!is_multicast || (has_ttl && lcm_url.find("ttl=0") == std::string::npos)) return "";
-  return fmt::format("; lcm.url has {}, which keeps messages on this computer",
-                     has_ttl ? "ttl=0" : "no ttl");
+  const LcmUrl address = ParseLcmUrl(lcm_url);
+  const bool stays_here = address.provider == LcmProvider::kMulticast && address.hops == 0;
+  return stays_here ? "; lcm.url has ttl=0, LCM's default, which keeps messages on this computer"
+                    : "";
 }
 
 std::string Silence(const NodeReport& node, const std::string& lcm_url) {

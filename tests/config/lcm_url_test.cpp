@@ -29,6 +29,12 @@ TEST(LcmUrl, TakesApartWhatLcmKnows) {
   EXPECT_EQ(ParseLcmUrl("file:///tmp/x.lcm?speed=0.5").speed, 0.5);
 }
 
+TEST(LcmUrl, MessagesStayOnThisComputerUnlessATtlLetsThemLeave) {
+  EXPECT_EQ(ParseLcmUrl("udpm://").hops, 0);
+  EXPECT_EQ(ParseLcmUrl("udpm://239.255.76.67:7667?ttl=0").hops, 0);
+  EXPECT_EQ(ParseLcmUrl("mpudpm://239.255.76.67:7667?recv_buf_size=9&ttl=16").hops, 16);
+}
+
 TEST(LcmUrl, RefusesWhatLcmPassesOver) {
   const std::pair<const char*, const char*> wrong[] = {
       {"udpm:239.255.76.67:7667", "is not an LCM address"},

@@ -82,7 +82,7 @@ std::vector<std::string> EveryComplaint() {
   report.takes = "/takes";
   report.calibration.where = "calibration.toml";
   report.calibration_fault = "all cameras hang below the floor";
-  report.now.status.people = {true, 9'000'000'000, {}};
+  report.now.status.people = {9'000'000'000, {}};
   report.nobody_ns = 9'000'000'000;
   report.bytes_free = 3'000'000;
   report.cut_off = {{"/takes/walk-01.partial", 12'300'000'000, 45'296'000'000'000}};

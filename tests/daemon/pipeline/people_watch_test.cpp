@@ -28,7 +28,7 @@ TEST(PeopleWatch, SomebodyWhoWalksIsSomebodyAfterFiveSeconds) {
   const std::vector<SeenMoment> moments = WalkingMoments();
   for (int s = 0; s < 10; ++s) {
     const SeenPeople people = watch.Add(s * kSecond_ns, moments[static_cast<std::size_t>(s)]);
-    EXPECT_EQ(people.is_somebody, s >= 5) << s;
+    EXPECT_EQ(people.is_somebody(), s >= 5) << s;
     EXPECT_FALSE(people.fault);
   }
 }
@@ -42,18 +42,18 @@ TEST(PeopleWatch, ACalibrationThatMixesCamerasUpIsTold) {
 }
 
 TEST(PeopleWatch, FurnitureAndAnEmptyRoomAreNobody) {
-  EXPECT_FALSE(AfterAll(std::vector<SeenMoment>(10, WalkingMoments()[0])).is_somebody);
+  EXPECT_FALSE(AfterAll(std::vector<SeenMoment>(10, WalkingMoments()[0])).is_somebody());
   std::vector<SeenMoment> empty = WalkingMoments();
   for (SeenMoment& moment : empty)
     for (auto& shape : moment) shape = ShapeOf(Silhouette(320, 240), shape->X_CW);
-  EXPECT_FALSE(AfterAll(empty).is_somebody);
+  EXPECT_FALSE(AfterAll(empty).is_somebody());
 }
 
 TEST(PeopleWatch, SomethingSmallThatMovesIsNobody) {
   std::vector<SeenMoment> moments = WalkingMoments();
   for (SeenMoment& moment : moments)
     for (auto& shape : moment) shape->X_CW.p /= 2;
-  EXPECT_FALSE(AfterAll(moments).is_somebody) << "a person of 0.86 m";
+  EXPECT_FALSE(AfterAll(moments).is_somebody()) << "a person of 0.86 m";
 }
 
 TEST(PeopleWatch, SomethingSmallThatNeverRestsIsAPersonOfWrongScale) {
@@ -70,14 +70,14 @@ TEST(PeopleWatch, SomethingSmallThatNeverRestsIsAPersonOfWrongScale) {
 TEST(PeopleWatch, WhoWasAwayCountsAnew) {
   std::vector<SeenMoment> moments = WalkingMoments();
   for (auto& shape : moments[6]) shape = ShapeOf(Silhouette(320, 240), shape->X_CW);
-  EXPECT_FALSE(AfterAll(moments).is_somebody);
+  EXPECT_FALSE(AfterAll(moments).is_somebody());
 }
 
 TEST(PeopleWatch, TimesThatGoBackBeginAnew) {
   PeopleWatch watch(testing::WalkCameras());
   const std::vector<SeenMoment> moments = WalkingMoments();
   for (int s = 0; s < 8; ++s) watch.Add(s * kSecond_ns, moments[static_cast<std::size_t>(s)]);
-  EXPECT_FALSE(watch.Add(0, moments[8]).is_somebody);
+  EXPECT_FALSE(watch.Add(0, moments[8]).is_somebody());
 }
 
 }  // namespace

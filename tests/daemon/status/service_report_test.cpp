@@ -267,7 +267,7 @@ TEST(ServiceReport, AFailedRecordingComesFirst) {
 
 TEST(ServiceReport, SomebodyWhoIsSeenAndNotFoundIsNotGood) {
   ServiceReport report = Good();
-  report.now.status.people = {true, 60'000'000'000, {}};
+  report.now.status.people = {60'000'000'000, {}};
   report.nobody_ns = 4'000'000'000;
   EXPECT_THAT(Diagnostics(report), IsEmpty()) << "a search may take some seconds";
   report.nobody_ns = 9'000'000'000;
@@ -282,7 +282,7 @@ TEST(ServiceReport, SomebodyWhoIsSeenAndNotFoundIsNotGood) {
 TEST(ServiceReport, WhoHasJustComeIsNotMissedSinceTheRoomWasEmptied) {
   ServiceReport report = Good();
   report.nobody_ns = 9 * 3600'000'000'000;
-  report.now.status.people = {true, 6'000'000'000, {}};
+  report.now.status.people = {6'000'000'000, {}};
   EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("nobody has been found for 6 s")));
   report.now.sets_per_second = 0;
   for (const std::string& line : Diagnostics(report))
