@@ -5,6 +5,7 @@
 #include <string>
 
 namespace mocap {
+
 void ResultSink::OnSet(const TrackedSet& set) {
   const auto is_tracked = [](const PersonView& person) {
     return person.capture->result().state == CaptureState::kTracking;
@@ -25,7 +26,7 @@ void ResultSink::Keep(const TrackedSet& set, const CaptureResult& captured, cons
                       Result& result) const {
   result.poses.push_back(PoseRowOf(set.frame, set.capture_ns, captured, body));
   result.body = RecordOf(body);
-  result.take = take_;
+  if (!result.take) result.take = take_;
 }
 
 void ResultSink::ShowProgress(const TrackedSet& set) const {
