@@ -132,7 +132,7 @@ TEST_F(ViewServerTest, APageIsToldTheLatest) {
 TEST_F(ViewServerTest, APageOfAnotherOriginIsToldNothing) {
   const FileDescriptor page = Connect();
   Say(page, std::string(kUpgrade) + "Origin: http://evil.example\r\n\r\n");
-  const std::string heard = Hear(page, "alone\n");
+  const std::string heard = Hear(page, "this request");
   EXPECT_THAT(heard, StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(heard, Not(HasSubstr("studio")));
 }
