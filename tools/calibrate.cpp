@@ -15,6 +15,7 @@
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
+#include "tools/calibrate_board.h"
 #include "tools/calibrate_check.h"
 #include "tools/calibrate_convert.h"
 #include "tools/calibrate_live.h"
@@ -34,18 +35,30 @@ void WriteFile(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
+/// Writes a calibration. One that should not be used replaces none.
+/// @throws std::runtime_error  if it should not be used, after `report`.
+void Conclude(const CalibrateArguments& arguments, const StudioFit& fit,
+              const CalibrationRecord& record, const std::vector<Finding>& findings,
+              const std::function<void()>& report) {
+  const bool is_kept = CountOf(Severity::kWrong, findings) > 0 && IsThere(arguments.out);
+  if (!is_kept) WriteCalibration(arguments.out, fit.bundle.cameras, record);
+  report();
+  RequireUsable(arguments.out, findings, is_kept ? "; the earlier calibration is kept" : "");
+}
+
 void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
   const std::vector<Finding> findings = CheckAll(arguments, fit);
   CalibrationRecord record;
   record.made_s = TimeOfDayS();
   record.reprojection_px = fit.rms_px;
-  WriteCalibration(arguments.out, fit.bundle.cameras, record);
-  if (!arguments.report.empty())
-    WriteFile(arguments.report,
-              CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(),
-                                    record.made_s, fit, findings));
-  const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
-  std::fputs(text.c_str(), stdout);
+  Conclude(arguments, fit, record, findings, [&] {
+    if (!arguments.report.empty())
+      WriteFile(arguments.report,
+                CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(),
+                                      record.made_s, fit, findings));
+    const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
+    std::fputs(text.c_str(), stdout);
+  });
 }
 
 void AddFootage(CLI::App* command, const Arguments& a) {
@@ -169,9 +182,11 @@ void AddFloor(CLI::App* parent) {
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);
     SetWorld(*a, fit);
-    WriteCalibration(a->out, fit.bundle.cameras, LoadCalibrationRecord(a->calibration));
-    const std::string verdict = Verdict(CheckAll(*a, fit)) + '\n';
-    std::fputs(verdict.c_str(), stdout);
+    const std::vector<Finding> findings = CheckAll(*a, fit);
+    Conclude(*a, fit, LoadCalibrationRecord(a->calibration), findings, [&] {
+      const std::string text = FindingsText(findings);
+      std::fputs(text.c_str(), stdout);
+    });
   });
 }
 
@@ -271,6 +286,7 @@ void AddTsai(CLI::App* parent) {
 void AddCalibrateCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("calibrate", "Calibrate a studio, or do one step of it");
   command->require_subcommand(1);
+  AddPrintedBoard(command);
   AddStudio(command);
   AddIntrinsics(command);
   AddExtrinsics(command);

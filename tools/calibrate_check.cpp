@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 
 #include "config/load_config.h"
 #include "core/calibration/diagnosis_text.h"
 #include "core/errors.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "tools/calibrate_steps.h"
@@ -84,21 +87,32 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
                    diagnosis.person.lowest_mm, diagnosis.person.highest_mm)});
 }
 
-std::string Days(std::int64_t from_s, std::int64_t to_s) {
-  return std::to_string((to_s - from_s) / (24 * 3600)) + " days ago";
+std::string DaysAgo(std::int64_t then_s, std::int64_t now_s) {
+  const std::int64_t days = (now_s - then_s) / (24 * 3600);
+  return days == 0 ? "today" : Counted(days, "day") + " ago";
 }
 
-// Describes the age, and the result of the last health check.
-std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
-  if (record.made_s == 0) return "does not say when it was made\n";
-  std::string text = "made " + Days(record.made_s, now_s);
-  if (record.refined_s != 0) text += ", refined " + Days(record.refined_s, now_s);
-  text += record.checked_s == 0 ? "; its health has not been checked yet"
-                                : "; health checked " + Days(record.checked_s, now_s);
-  for (const CameraOffset& offset : record.offsets) {
-    if (offset.has_moved)
-      text += ", " + offset.camera + " " + std::to_string(std::lround(offset.px)) + " px off";
+// The result of the last health check.
+std::string HealthText(const std::vector<CameraOffset>& offsets) {
+  if (offsets.empty()) return "";
+  std::string moved;
+  for (const CameraOffset& offset : offsets) {
+    if (offset.has_moved) moved += fmt::format(", {} is {:.1f} px off", offset.camera, offset.px);
   }
+  if (!moved.empty()) return moved;
+  const CameraOffset& worst = *std::ranges::max_element(offsets, {}, &CameraOffset::px);
+  return fmt::format(", no camera has moved ({} is {:.1f} px off, the others less)", worst.camera,
+                     worst.px);
+}
+
+// The age, and the result of the last health check.
+std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
+  std::string text =
+      record.made_s == 0 ? "made at an unknown date" : "made " + DaysAgo(record.made_s, now_s);
+  if (record.refined_s != 0) text += ", refined " + DaysAgo(record.refined_s, now_s);
+  text += record.checked_s == 0
+              ? "; health not checked yet"
+              : "; health checked " + DaysAgo(record.checked_s, now_s) + HealthText(record.offsets);
   return text + '\n';
 }
 
@@ -106,15 +120,21 @@ std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
 void Compare(const std::vector<CameraCalibration>& cameras, const std::filesystem::path& other,
              std::vector<Finding>& findings) {
   const PlacementDifference difference = ComparePlacement(cameras, LoadCalibration(other));
+  if (difference.points < 3)
+    throw SetupError(other.string() + ": no two cameras see the same place; expected a studio");
   const Vector3& worst_W = difference.worst_at_W;
   std::string text = fmt::format(
       "points in the room lie {:.1f} mm from where {} has them, and {:.1f} mm at worst (at {:.0f}, "
-      "{:.0f}, {:.0f})",
+      "{:.0f}, {:.0f}); {:.1f} mm remain if the world frame is moved by {:.1f} mm and turned by "
+      "{:.2f} degrees",
       difference.mean_mm, other.string(), difference.worst_mm, worst_W.x(), worst_W.y(),
-      worst_W.z());
+      worst_W.z(), difference.left_mm, difference.moved.p.norm(),
+      Eigen::AngleAxisd(difference.moved.R).angle() * 180 / std::numbers::pi);
   const bool is_other = difference.mean_mm > kOtherStudio_mm;
-  if (is_other) text += "; is it of the same studio, with the same floor?";
-  findings.push_back({is_other ? Severity::kWarning : Severity::kNote, std::move(text)});
+  if (is_other)
+    text += fmt::format("; expected at most {:.0f} mm: is it the same studio, with the same floor?",
+                        kOtherStudio_mm);
+  findings.push_back({is_other ? Severity::kWrong : Severity::kNote, std::move(text)});
 }
 
 }  // namespace
@@ -138,9 +158,10 @@ void AddCheck(CLI::App* parent) {
     if (!a->footage.empty()) CheckPerson(*a, fit.bundle.cameras, findings);
     if (!against->empty()) Compare(fit.bundle.cameras, *against, findings);
     std::ranges::stable_sort(findings, std::greater(), &Finding::severity);
-    std::fputs(RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()).c_str(), stdout);
-    for (const Finding& finding : findings) std::fprintf(stdout, "%s\n", finding.text.c_str());
-    std::fprintf(stdout, "%s\n", Verdict(findings).c_str());
+    const std::string text =
+        RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()) + FindingsText(findings);
+    std::fputs(text.c_str(), stdout);
+    RequireUsable(a->calibration, findings);
   });
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "daemon/base/json_object.h"
+#include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"
@@ -25,32 +27,40 @@ LensModel ModelOf(const std::string& name) {
   return name == "fisheye" ? LensModel::kFisheye : LensModel::kOpenCv;
 }
 
+/// Progress on standard error: a line that is overwritten, or one line for each step where it is
+/// not a terminal.
 class Progress {
  public:
-  Progress() : shown_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
+    if (overwrites_) std::fputs("\r\x1b[K", stderr);
   }
-  void Show(const std::string& line) const {
-    if (shown_) std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
+  void Show(const std::string& step, const std::string& detail = "") {
+    if (overwrites_)
+      std::fprintf(stderr, "\r%s%s\x1b[K", step.c_str(), detail.c_str());
+    else if (step != step_)
+      std::fprintf(stderr, "%s\n", step.c_str());
+    step_ = step;
   }
 
  private:
-  bool shown_;
+  const bool overwrites_ = isatty(STDERR_FILENO) != 0;
+  std::string step_;
 };
 
 BoardDetections Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
                         bool all_must_see) {
   for (const std::string& note : footage.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
-  const Progress progress;
+  Progress progress;
   DetectionOptions options;
   options.still = still;
   options.all_must_see = all_must_see;
   options.most_frames = arguments.most_frames;
+  const std::string step = "searching " + footage.folder.string() + " for the board";
+  progress.Show(step);
   options.progress = [&](const std::string& camera, int done, int total, int found,
                          const std::string& hint) {
-    progress.Show(fmt::format("{}: frame {} of {}, {} views{}{}", camera, done, total, found,
-                              hint.empty() ? "" : "; ", hint));
+    progress.Show(step + ": " + camera, fmt::format(", frame {} of {}, {} views{}{}", done, total,
+                                                    found, hint.empty() ? "" : "; ", hint));
   };
   const Board board = ParseBoard(arguments.board);
   if (board.kind == BoardKind::kWand && still)
@@ -99,20 +109,20 @@ std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
 
 std::vector<LensFit> FitLenses(const BoardDetections& detections,
                                const CalibrateArguments& arguments) {
-  const Progress progress;
+  Progress progress;
   LensFitOptions options;
   options.model = ModelOf(arguments.lens);
   options.pitch_mm = {arguments.pitch_mm[0], arguments.pitch_mm[1]};
   std::vector<LensFit> fits;
   for (std::size_t c = 0; c < detections.cameras.size(); ++c) {
-    progress.Show("lens of " + detections.cameras[c].name);
+    progress.Show("fitting the lens of " + detections.cameras[c].name);
     fits.push_back(FitLens(detections, static_cast<int>(c), options));
   }
   return fits;
 }
 
-std::vector<CameraCalibration> Cameras(const BoardDetections& detections,
-                                       const std::vector<LensFit>& lenses) {
+std::vector<CameraCalibration> CamerasWith(const BoardDetections& detections,
+                                           const std::vector<LensFit>& lenses) {
   std::vector<CameraCalibration> cameras;
   for (std::size_t c = 0; c < lenses.size(); ++c) {
     const DetectionCamera& camera = detections.cameras[c];
@@ -123,18 +133,13 @@ std::vector<CameraCalibration> Cameras(const BoardDetections& detections,
 
 StudioFit FitPoses(const BoardDetections& detections, const std::vector<CameraCalibration>& lenses,
                    const CalibrateArguments& arguments) {
-  const Progress progress;
-  progress.Show("bundle adjustment");
+  Progress progress;
+  progress.Show("adjusting all cameras together");
   if (arguments.still)
     return FitToStillBoard(detections, lenses, detections.still_pictures, arguments.thickness_mm);
   ExtrinsicsOptions options;
   options.refine_lenses = !arguments.keep_lenses && detections.board.kind != BoardKind::kWand;
   return FitExtrinsics(detections, lenses, options);
-}
-
-std::string SeverityText(Severity severity) {
-  if (severity == Severity::kWrong) return "WRONG";
-  return severity == Severity::kWarning ? "look" : "note";
 }
 
 }  // namespace
@@ -143,9 +148,10 @@ StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
   RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
   StudioFit fit;
+  fit.has_poses = false;
   fit.detections = Collect(footage, arguments, false, true);
   const std::vector<LensFit> lenses = FitLenses(fit.detections, arguments);
-  fit.bundle.cameras = Cameras(fit.detections, lenses);
+  fit.bundle.cameras = CamerasWith(fit.detections, lenses);
   fit.bundle.X_WB.assign(static_cast<std::size_t>(fit.detections.moments), std::nullopt);
   MeasureFit(fit);
   for (std::size_t c = 0; c < lenses.size(); ++c) {
@@ -169,7 +175,7 @@ StudioFit CalibrateStudio(const CalibrateArguments& arguments) {
   const Footage footage = OpenFootage(arguments.footage);
   const BoardDetections detections = Collect(footage, arguments, false, true);
   const std::vector<LensFit> lenses = FitLenses(detections, arguments);
-  StudioFit fit = FitPoses(detections, Cameras(detections, lenses), arguments);
+  StudioFit fit = FitPoses(detections, CamerasWith(detections, lenses), arguments);
   for (std::size_t c = 0; c < lenses.size(); ++c) {
     fit.cameras[c].lens_rms_px = lenses[c].rms_px;
     fit.cameras[c].focal_sigma_share = lenses[c].focal_sigma_share;
@@ -224,6 +230,21 @@ std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioF
   return findings;
 }
 
+std::string FindingsText(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings)
+    text += std::string(NameOf(finding.severity)) + ": " + finding.text + '\n';
+  return text + Verdict(findings) + '\n';
+}
+
+void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings,
+                   const std::string& consequence) {
+  const std::ptrdiff_t errors = CountOf(Severity::kWrong, findings);
+  if (errors > 0)
+    throw std::runtime_error(file.string() + ": has " + Counted(errors, "error") + ", see above" +
+                             consequence);
+}
+
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) {
   const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
   std::string text =
@@ -242,9 +263,7 @@ std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) 
                         1000 * fit.bundle.lateness_s[c], fit.cameras[0].name);
   }
   text += fmt::format("overall {:.3f} px\n", fit.rms_px);
-  for (const Finding& finding : findings)
-    text += SeverityText(finding.severity) + ": " + finding.text + '\n';
-  return text + Verdict(findings) + '\n';
+  return text + FindingsText(findings);
 }
 
 std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) {
@@ -264,7 +283,8 @@ std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) 
   json.Add("cameras", cameras);
   JsonObject list;
   for (std::size_t i = 0; i < findings.size(); ++i)
-    list.Add(std::to_string(i + 1), SeverityText(findings[i].severity) + ": " + findings[i].text);
+    list.Add(std::to_string(i + 1),
+             std::string(NameOf(findings[i].severity)) + ": " + findings[i].text);
   json.Add("findings", list);
   json.Add("verdict", Verdict(findings));
   return json.Text() + '\n';

@@ -49,6 +49,15 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit);
 /// Findings of CheckFit and of a distance measured by tape.
 std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioFit& fit);
 
+/// The findings, one a line, and the verdict.
+std::string FindingsText(const std::vector<Finding>& findings);
+
+/// Makes the command fail if a calibration should not be used.
+/// @param consequence  appended to the message, such as "; the earlier calibration is kept".
+/// @throws std::runtime_error
+void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings,
+                   const std::string& consequence = "");
+
 /// Formats the figures: a table for people, or one JSON object.
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings);
 std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings);

@@ -80,9 +80,17 @@ void RequireTwoCameras(const TrackOptions& options, const Studio& studio) {
                              "; expected at least two cameras, and four for good poses");
 }
 
+std::string WhyNobody(const std::optional<Finding>& fault, std::span<const SeenMoment> moments) {
+  if (fault) return fault->text;
+  const auto show = std::ranges::count_if(moments, ShowsPerson);
+  return 2 * show > std::ssize(moments) ? "people are seen and nobody could be tracked: at least "
+                                          "three cameras have to see the whole person"
+                                        : "nobody is seen by most of the cameras at once";
+}
+
 /// Says what is wrong with the cameras, or why nobody was tracked.
-/// @throws std::runtime_error  if nobody was tracked because of the calibration: a result is
-/// replaced only by a result.
+/// @throws std::runtime_error  if nobody was tracked, because of the calibration or where an
+/// earlier result has poses: a result is replaced only by a result.
 void TellFault(const TrackOptions& options, const std::vector<CameraCalibration>& cameras,
                std::span<const SeenMoment> moments, std::size_t tracked) {
   const StudioDiagnosis diagnosis = Diagnose(cameras, moments);
@@ -90,17 +98,15 @@ void TellFault(const TrackOptions& options, const std::vector<CameraCalibration>
   const std::optional<Finding> fault = FindingOf(diagnosis, cameras);
   if (tracked > 0) {
     if (IsOfCameras(diagnosis.fault)) TellRemarks("track", {take + fault->text});
-  } else if (fault && fault->severity == Severity::kWrong) {
-    throw std::runtime_error("nobody was tracked: " + take + fault->text);
-  } else if (fault) {
-    TellRemarks("track", {take + fault->text});
-  } else {
-    const auto show = std::ranges::count_if(moments, ShowsPerson);
-    TellRemarks("track", {take + (2 * show > std::ssize(moments)
-                                      ? "people are seen and nobody could be tracked: at least "
-                                        "three cameras have to see the whole person"
-                                      : "nobody is seen by most of the cameras at once")});
+    return;
   }
+  const std::string why = take + WhyNobody(fault, moments);
+  if (HasPoses(options.out))
+    throw std::runtime_error("nobody was tracked: " + why + "; the earlier result in " +
+                             options.out.string() + " is kept");
+  if (fault && fault->severity == Severity::kWrong)
+    throw std::runtime_error("nobody was tracked: " + why);
+  TellRemarks("track", {why});
 }
 
 void Track(const TrackOptions& options) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "config/load_config.h"
+#include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/text_file.h"
 #include "tests/support/run_command.h"
@@ -89,6 +90,63 @@ TEST_F(WalkTracked, AWrongCalibrationIsToldAndReplacesNoResult) {
   EXPECT_THAT(Track(), AllOf(HasSubstr("all cameras hang below the floor"),
                              HasSubstr("nobody was tracked: "), HasSubstr("z points down")));
   EXPECT_EQ(ReadText(Result() / "poses.csv"), before);
+}
+
+TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
+  Track();
+  const std::string before = ReadText(Result() / "poses.csv");
+  const fs::path empty = folder_->path() / "empty";
+  Said(AddSimulateCommand,
+       "simulate --seconds 1 --fps 4 --cameras 4 --width 240 --height 180 --motion visit --out " +
+           empty.string());
+  const std::string track = "track --voxel-size 40 " + empty.string() + " --out ";
+  EXPECT_THAT(Said(AddTrackCommand, track + Result().string()),
+              AllOf(HasSubstr("nobody was tracked: "), HasSubstr("is kept")));
+  EXPECT_EQ(ReadText(Result() / "poses.csv"), before);
+  EXPECT_THAT(Said(AddTrackCommand, track + (folder_->path() / "new").string()),
+              HasSubstr("4 frame sets, 0 tracked"));
+}
+
+TEST_F(WalkTracked, CheckFailsIfTheCalibrationShouldNotBeUsed) {
+  const fs::path other = folder_->path() / "moved.toml", here = Take() / "calibration.toml";
+  const auto check = [&](double away_mm) {
+    std::vector<CameraCalibration> moved = right_;
+    for (CameraCalibration& camera : moved)
+      camera.X_CW = camera.X_CW * RigidTransform{Matrix3::Identity(), {away_mm, 0, 0}};
+    Calibrate(moved, other);
+    return Said(AddCalibrateCommand,
+                "calibrate check " + other.string() + " --against " + here.string());
+  };
+  EXPECT_THAT(check(30), AllOf(HasSubstr("note: points in the room lie 30.0 mm from"),
+                               HasSubstr("0.0 mm remain if the world frame is moved by 30.0 mm"),
+                               HasSubstr("is good"), Not(HasSubstr("error"))));
+  EXPECT_THAT(check(1500), AllOf(HasSubstr("error: points in the room lie 1500.0 mm from"),
+                                 HasSubstr("Do not use this calibration."),
+                                 HasSubstr("moved.toml: has 1 error, see above")));
+}
+
+TEST_F(WalkTracked, CheckSaysTheTapesDistanceOnce) {
+  const std::string said = Said(AddCalibrateCommand, "calibrate check --distance cam1:cam2:100 " +
+                                                         (Take() / "calibration.toml").string());
+  EXPECT_THAT(said, HasSubstr("100 mm by the tape"));
+  EXPECT_EQ(said.find("by the tape"), said.rfind("by the tape"));
+  EXPECT_THAT(said, HasSubstr("has 1 error"));
+}
+
+TEST_F(WalkTracked, CheckShowsWhatHealthNoted) {
+  const std::string file = (Take() / "calibration.toml").string();
+  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),
+              HasSubstr("health not checked yet"));
+  CalibrationRecord record;
+  record.made_s = record.checked_s = TimeOfDayS();
+  record.offsets = {{"cam1", 0.25, false}, {"cam2", 0.75, false}};
+  WriteCalibration(file, right_, record);
+  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),
+              HasSubstr("made today; health checked today, no camera has moved (cam2 is 0.8 px"));
+  record.offsets[1] = {"cam2", 12.25, true};
+  WriteCalibration(file, right_, record);
+  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),
+              HasSubstr("health checked today, cam2 is 12.2 px off"));
 }
 
 TEST_F(WalkTracked, CamerasThatGoByEachOthersNameAreTold) {

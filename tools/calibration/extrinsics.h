@@ -29,6 +29,7 @@ struct StudioFit {
   std::vector<CameraFit> cameras;
   double rms_px = 0;
   int dropped_corners = 0;
+  bool has_poses = true;  ///< False for intrinsics alone: every pose is the identity.
   bool has_floor = false;
 };
 

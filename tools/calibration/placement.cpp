@@ -1,5 +1,6 @@
 #include "tools/calibration/placement.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -46,9 +47,14 @@ std::optional<Vector2> PixelOf(const CameraCalibration& camera, const Vector3& p
   return pixel;
 }
 
-void AddDifferences(const std::vector<CameraCalibration>& cameras,
-                    const std::vector<CameraCalibration>& reference, const Vector3& middle_W,
-                    PlacementDifference& difference) {
+/// One point by the reference, and by the calibration that is compared.
+struct PlacedPoint {
+  Vector3 reference_W, compared_W;
+};
+
+void AddPoints(const std::vector<CameraCalibration>& cameras,
+               const std::vector<CameraCalibration>& reference, const Vector3& middle_W,
+               std::vector<PlacedPoint>& points) {
   for (int i = 0; i < kAcross * kAcross * kLayers; ++i) {
     const int column = i % kAcross - kAcross / 2, row = i / kAcross % kAcross - kAcross / 2;
     const Vector3 p_W(middle_W.x() + kSpacing_mm * column, middle_W.y() + kSpacing_mm * row,
@@ -57,13 +63,36 @@ void AddDifferences(const std::vector<CameraCalibration>& cameras,
     for (std::size_t c = 0; c < reference.size(); ++c) {
       if (const auto pixel = PixelOf(reference[c], p_W)) seen.emplace_back(&cameras[c], *pixel);
     }
-    if (seen.size() < 2) continue;
-    const double apart_mm = (Triangulate(seen) - p_W).norm();
-    difference.mean_mm += (apart_mm - difference.mean_mm) / ++difference.points;
+    if (seen.size() >= 2) points.push_back({p_W, Triangulate(seen)});
+  }
+}
+
+// Umeyama, PAMI 1991, without scale.
+RigidTransform MotionOf(const std::vector<PlacedPoint>& points) {
+  Eigen::Matrix3Xd from(3, points.size()), to(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    from.col(static_cast<Eigen::Index>(i)) = points[i].reference_W;
+    to.col(static_cast<Eigen::Index>(i)) = points[i].compared_W;
+  }
+  const Eigen::Matrix4d X = Eigen::umeyama(from, to, false);
+  return {X.topLeftCorner<3, 3>(), X.topRightCorner<3, 1>()};
+}
+
+PlacementDifference DifferenceOf(const std::vector<PlacedPoint>& points) {
+  PlacementDifference difference;
+  difference.points = static_cast<int>(points.size());
+  if (points.size() < 3) return difference;
+  difference.moved = MotionOf(points);
+  const double share = 1.0 / static_cast<double>(points.size());
+  for (const PlacedPoint& point : points) {
+    const double apart_mm = (point.compared_W - point.reference_W).norm();
+    difference.mean_mm += share * apart_mm;
+    difference.left_mm += share * (point.compared_W - difference.moved * point.reference_W).norm();
     if (apart_mm <= difference.worst_mm) continue;
     difference.worst_mm = apart_mm;
-    difference.worst_at_W = p_W;
+    difference.worst_at_W = point.reference_W;
   }
+  return difference;
 }
 
 }  // namespace
@@ -72,15 +101,15 @@ PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& camer
                                      const std::vector<CameraCalibration>& reference) {
   const std::vector<CameraCalibration> matching = Matching(cameras, reference);
   const Vector3 middle_W = MiddleOfRoom(reference);
-  PlacementDifference difference;
-  AddDifferences(matching, reference, middle_W, difference);
-  if (std::ranges::none_of(reference,
-                           [](const CameraCalibration& c) { return c.head.has_value(); }))
-    return difference;
-  for (const PanTiltAngles& angles : {PanTiltAngles{kPan_rad, 0}, PanTiltAngles{-kPan_rad, 0},
-                                      PanTiltAngles{0, kTilt_rad}, PanTiltAngles{0, -kTilt_rad}})
-    AddDifferences(Turned(matching, angles), Turned(reference, angles), middle_W, difference);
-  return difference;
+  std::vector<PlacedPoint> points;
+  AddPoints(matching, reference, middle_W, points);
+  if (std::ranges::any_of(reference,
+                          [](const CameraCalibration& c) { return c.head.has_value(); })) {
+    for (const PanTiltAngles& angles : {PanTiltAngles{kPan_rad, 0}, PanTiltAngles{-kPan_rad, 0},
+                                        PanTiltAngles{0, kTilt_rad}, PanTiltAngles{0, -kTilt_rad}})
+      AddPoints(Turned(matching, angles), Turned(reference, angles), middle_W, points);
+  }
+  return DifferenceOf(points);
 }
 
 }  // namespace mocap

@@ -124,9 +124,11 @@ std::vector<Finding> CheckCameras(const std::vector<CameraCalibration>& cameras,
 }
 
 std::vector<Finding> CheckFit(const StudioFit& fit) {
-  std::vector<Finding> findings = CheckCameras(fit.bundle.cameras, fit.has_floor);
+  std::vector<Finding> findings;
+  if (fit.has_poses) findings = CheckPlaces(fit.bundle.cameras, fit.has_floor);
+  for (const CameraCalibration& camera : fit.bundle.cameras) CheckLens(camera, findings);
   if (fit.has_floor && fit.bundle.X_WB.size() > 1) CheckBoardsAboveFloor(fit, findings);
-  if (!fit.has_floor && fit.bundle.cameras.size() > 1)
+  if (fit.has_poses && !fit.has_floor && fit.bundle.cameras.size() > 1)
     findings.push_back(
         {Severity::kWarning,
          "the floor is not set: the world is the first camera's; lay the board on the "
@@ -139,14 +141,19 @@ std::vector<Finding> CheckFit(const StudioFit& fit) {
   return findings;
 }
 
+std::ptrdiff_t CountOf(Severity severity, const std::vector<Finding>& findings) {
+  return std::ranges::count(findings, severity, &Finding::severity);
+}
+
+const char* NameOf(Severity severity) {
+  if (severity == Severity::kWrong) return "error";
+  return severity == Severity::kWarning ? "warning" : "note";
+}
+
 std::string Verdict(const std::vector<Finding>& findings) {
-  const auto count = [&](Severity severity) {
-    return std::count_if(findings.begin(), findings.end(),
-                         [severity](const Finding& f) { return f.severity == severity; });
-  };
-  if (count(Severity::kWrong) > 0) return "Do not use this calibration: " + findings.front().text;
-  if (count(Severity::kWarning) > 0)
-    return "This calibration can be used, but check this: " + findings.front().text;
+  if (CountOf(Severity::kWrong, findings) > 0) return "Do not use this calibration.";
+  if (CountOf(Severity::kWarning, findings) > 0)
+    return "This calibration can be used, but check the warnings.";
   return "This calibration is good.";
 }
 

@@ -22,6 +22,11 @@ std::vector<Finding> CheckCameras(const std::vector<CameraCalibration>& cameras,
 /// Checks a fit: errors, coverage, boards below the floor, and everything of CheckCameras.
 std::vector<Finding> CheckFit(const StudioFit& fit);
 
+std::ptrdiff_t CountOf(Severity severity, const std::vector<Finding>& findings);
+
+/// "error", "warning" or "note".
+const char* NameOf(Severity severity);
+
 /// Summarizes findings in a sentence.
 std::string Verdict(const std::vector<Finding>& findings);
 

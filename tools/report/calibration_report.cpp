@@ -17,11 +17,11 @@ constexpr std::size_t kWorstViews = 8;
 
 constexpr const char* kStyle = R"(
 .verdict { font-size: 17px; border-left: 4px solid var(--c2); padding: 2px 0 2px 14px; margin: 14px 0 24px; }
-.verdict.look { border-color: var(--c3); } .verdict.wrong { border-color: #d64545; }
+.verdict.warning { border-color: var(--c3); } .verdict.error { border-color: #d64545; }
 .findings { padding: 0; list-style: none; } .findings li { margin: 5px 0 5px 66px; max-width: 86ch; text-indent: -66px; }
 .findings b { display: inline-block; width: 66px; font-weight: 600; text-indent: 0; }
 .axes { fill: none; stroke: var(--fg); stroke-width: 2; }
-.wrong b { color: #d64545; } .look b { color: var(--c3); } .note b { color: var(--muted); }
+.error b { color: #d64545; } .warning b { color: var(--c3); } .note b { color: var(--muted); }
 .cells { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 12px; }
 .cells figure { margin: 0; } svg.cells-of { display: block; width: 100%; height: auto; }
 svg.cells-of text { font: 11px system-ui, sans-serif; fill: var(--muted); }
@@ -70,9 +70,7 @@ std::string FindingList(const std::vector<Finding>& findings) {
   if (findings.empty()) return "<p>No findings.</p>\n";
   std::string html = "<ul class=\"findings\">";
   for (const Finding& finding : findings) {
-    const char* name = finding.severity == Severity::kWrong     ? "wrong"
-                       : finding.severity == Severity::kWarning ? "look"
-                                                                : "note";
+    const char* name = NameOf(finding.severity);
     html += fmt::format("<li class=\"{0}\"><b>{0}</b>{1}</li>", name, EscapeHtml(finding.text));
   }
   return html + "</ul>\n";
@@ -146,9 +144,9 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
                                   const StudioFit& fit, const std::vector<Finding>& findings) {
   const std::vector<CornerError> errors = BundleErrors(fit.detections, fit.bundle);
   const SeenVolume volume = MeasureSeenVolume(fit.bundle.cameras);
-  const char* mood = findings.empty() || findings[0].severity == Severity::kNote ? "good"
-                     : findings[0].severity == Severity::kWrong                  ? "wrong"
-                                                                                 : "look";
+  const char* mood = CountOf(Severity::kWrong, findings) > 0     ? "error"
+                     : CountOf(Severity::kWarning, findings) > 0 ? "warning"
+                                                                 : "good";
   std::string html = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}{2}</style><main><h1>{0}</h1>"

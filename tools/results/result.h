@@ -57,8 +57,11 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
 /// Makes the record of a body.
 BodyRecord RecordOf(const BodyModel& body);
 
+/// Whether a folder has the result of somebody who was tracked.
+bool HasPoses(const std::filesystem::path& folder);
+
 /// Checks in advance that WriteResult and WritePeople can write to a folder: creates it, and
-/// reports files of the same names that are not results.
+/// reports files of the same names that are not results, and takes.
 /// @throws SetupError  naming folder or file.
 void RequireRoomForResult(const std::filesystem::path& folder);
 

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "config/body_size_fields.h"
+#include "core/errors.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
 #include "tools/results/fixed_text.h"
@@ -70,6 +74,8 @@ std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take
          "\ncalibration_fnv1a = " + TomlText(take->calibration) + '\n';
 }
 
+const std::string kTracked =
+    "," + std::string(kCaptureStateNames[static_cast<std::size_t>(CaptureState::kTracking)]) + ",";
 const std::string kPersonPrefix = "person-";
 
 void RemoveResult(const std::filesystem::path& folder) {
@@ -133,7 +139,23 @@ std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& fo
   return people;
 }
 
+bool HasPoses(const std::filesystem::path& folder) {
+  if (!IsThere(folder)) return false;
+  std::vector<std::filesystem::path> results = PersonFolders(folder);
+  results.push_back(folder);
+  return std::ranges::any_of(results, [](const std::filesystem::path& result) {
+    std::ifstream rows(result / "poses.csv");
+    std::string row;
+    while (std::getline(rows, row)) {
+      if (row.find(kTracked) != std::string::npos) return true;
+    }
+    return false;
+  });
+}
+
 void RequireRoomForResult(const std::filesystem::path& folder) {
+  if (IsThere(TakeLayout{folder}.Description()) || IsThere(TakeLayout{folder}.Calibration()))
+    throw SetupError(folder.string() + ": is a take; expected another folder for the result");
   RequireRoomForOne(folder);
   for (const std::filesystem::path& person : PersonFolders(folder)) RequireRoomForOne(person);
 }

@@ -199,6 +199,27 @@ TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
               HasSubstr("person-1/poses.csv: exists"));
 }
 
+TEST(Result, ATakeIsNotWrittenInto) {
+  TemporaryFolder folder;
+  testing::WriteText(folder.path() / "take.toml", "format = 1\n");
+  EXPECT_THAT(SetupErrorOf([&] { RequireRoomForResult(folder.path()); }),
+              HasSubstr("is a take; expected another folder for the result"));
+}
+
+TEST(Result, HasPosesIfAnybodyWasTracked) {
+  TemporaryFolder folder;
+  EXPECT_FALSE(HasPoses(folder.path() / "none"));
+  struct Result nobody = SomeResult();
+  for (PoseRow& row : nobody.poses) {
+    row.state = CaptureState::kSearching;
+    row.has_pose = false;
+  }
+  WriteResult(folder.path(), nobody);
+  EXPECT_FALSE(HasPoses(folder.path()));
+  WritePeople(folder.path(), {{1, nobody}, {2, SomeResult()}});
+  EXPECT_TRUE(HasPoses(folder.path()));
+}
+
 TEST(Result, ABodysNameMayHoldAnything) {
   TemporaryFolder folder;
   Result result = SomeResult();
