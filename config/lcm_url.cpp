@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -49,6 +51,12 @@ std::vector<Option> SplitOptions(std::string_view text) {
   return options;
 }
 
+[[noreturn]] void FailOption(const std::string& url, const Option& option,
+                             const std::vector<std::string>& known) {
+  Fail(url, "has the unknown option " + Quoted(option.key) + "; " +
+                WithNearestName(option.key, known, "expected " + known[0] + " or " + known[1]));
+}
+
 void CheckMulticastOption(const std::string& url, const Option& option, bool has_ports) {
   constexpr int kLargestBuffer = 1 << 30;
   constexpr int kMostPorts = 65535;
@@ -60,8 +68,7 @@ void CheckMulticastOption(const std::string& url, const Option& option, bool has
   if (option.key == "ttl") return require(0, kMostHops);
   if (option.key == "recv_buf_size") return require(1, kLargestBuffer);
   if (has_ports && option.key == "nports") return require(1, kMostPorts);
-  Fail(url,
-       "has the unknown option " + std::string(option.key) + "; expected ttl or recv_buf_size");
+  FailOption(url, option, {"ttl", "recv_buf_size"});
 }
 
 /// Parses "HOST:PORT". Missing parts keep LCM's defaults.
@@ -122,7 +129,7 @@ LcmUrl File(const std::string& url, std::string_view place, const std::vector<Op
     } else if (option.key == "speed") {
       address.speed = Speed(url, option.value);
     } else {
-      Fail(url, "has the unknown option " + std::string(option.key) + "; expected mode or speed");
+      FailOption(url, option, {"mode", "speed"});
     }
   }
   return address;

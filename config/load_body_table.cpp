@@ -5,6 +5,7 @@
 #include "config/load_config.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 
@@ -24,7 +25,11 @@ int FindJoint(TomlSection& section, const std::string& key, const std::vector<Jo
   const auto joint = std::find_if(joints.begin(), joints.end(),
                                   [&name](const JointAxis& j) { return j.name == name; });
   if (joint == joints.end()) {
-    section.Fail(key, "is " + Quoted(name) + "; expected a joint further up or \"\" for the torso");
+    std::vector<std::string> names;
+    for (const JointAxis& other : joints) names.push_back(other.name);
+    section.Fail(
+        key, "is " + Quoted(name) + "; " +
+                 WithNearestName(name, names, "expected a joint further up or \"\" for the torso"));
   }
   return static_cast<int>(joint - joints.begin());
 }
@@ -56,6 +61,8 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
     joint.rest_rad = rest_deg[0] * kRadPerDeg;
     joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
     joint.rise_rad = section.Number("rise_deg", 0) * kRadPerDeg;
+  } else {
+    section.Reserve({"rise_deg"}, "needs rest_deg");
   }
   if (joint.name.empty()) section.Fail("name", "is empty; expected a name");
   for (const JointAxis& other : joints) {
@@ -103,12 +110,11 @@ BodyTable ReadBodyTable(TomlSection root) {
     table.joints.push_back(ReadJoint(section, table.joints));
   }
   if (table.joints.empty()) root.Fail("joints", "is empty; expected [[joints]]");
-  std::optional<TomlSection> segments = root.Section("segments");
-  if (!segments) root.Fail("segments", "is missing; expected the axis that moves each segment");
+  TomlSection segments = root.NeededSection("segments", "the axis that moves each segment");
   for (int i = 0; i < kSegmentCount; ++i) {
-    table.carrier[i] = FindJoint(*segments, kSegmentNames[i], table.joints);
+    table.carrier[i] = FindJoint(segments, kSegmentNames[i], table.joints);
   }
-  segments->RejectUnknownKeys();
+  segments.RejectUnknownKeys();
   for (const JointAxis& joint : table.joints) {
     if (joint.rise_rad != 0 && !CarriesArm(table, joint)) {
       root.Fail("joints", "let " + Quoted(joint.name) + " rise, which carries no arm");
@@ -121,16 +127,19 @@ BodyTable ReadBodyTable(TomlSection root) {
 }  // namespace
 
 BodyTable LoadBodyTable(const std::string& name_or_path) {
+  std::vector<std::string> names;
   std::string known;
   for (const BuiltinBodyTable& table : BuiltinBodyTables()) {
     if (table.name == name_or_path) {
       return ReadBodyTable(TomlSection::ReadText(table.toml, "body " + name_or_path));
     }
+    names.emplace_back(table.name);
     known += '"' + std::string(table.name) + "\" or ";
   }
   if (!IsThere(name_or_path)) {
-    throw SetupError("body " + Quoted(name_or_path) + " is not known; expected " + known +
-                     "the path of a body table");
+    throw SetupError(
+        "body " + Quoted(name_or_path) + " is unknown; " +
+        WithNearestName(name_or_path, names, "expected " + known + "the path of a body table"));
   }
   return ReadBodyTable(TomlSection::ReadFile(name_or_path));
 }

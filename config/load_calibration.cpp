@@ -75,6 +75,8 @@ Lens ReadTsaiLens(TomlSection& camera) {
 }
 
 Lens ReadLens(TomlSection& camera) {
+  camera.Reserve({"focal_mm", "kappa1", "sx", "center_px", "pitch_mm"}, "needs model = \"tsai\"");
+  camera.Reserve({"matrix", "distortion"}, "needs model = \"opencv\" or \"fisheye\"");
   switch (camera.Choice("model", {"tsai", "opencv", "fisheye"})) {
     case 0:
       return ReadTsaiLens(camera);

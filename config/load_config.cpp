@@ -26,9 +26,6 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
   const std::vector<std::string> drivers = {"take", "simulated", "v4l2", "aravis", "none"};
   source.driver = drivers[section.Choice("driver", drivers, 1)];
   source.take = Resolved(file, section.Text("take", ""));
-  if (source.driver == "take" && source.take.empty()) {
-    section.Fail("take", "is missing; expected the folder of a take");
-  }
   source.rate = section.Choice("rate", {"realtime", "fast"}, 0) == 0 ? ReplayRate::kRealtime
                                                                      : ReplayRate::kFast;
   source.loop = section.Flag("loop", source.loop);
@@ -49,6 +46,9 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
       section.NumberWithin("losses_per_minute", 0, 12, source.losses_per_minute);
   source.follow = section.Flag("follow", source.follow);
   section.RejectUnknownKeys();
+  if (source.driver == "take" && source.take.empty()) {
+    section.Fail("take", "is missing; expected the folder of a take");
+  }
   return source;
 }
 
@@ -159,6 +159,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   if (config.source.driver == "none" && config.role != Role::kStudio)
     root.Fail("source", "has driver \"none\", which only role \"studio\" can have");
   root.RejectUnknownKeys();
+  CheckRole(root, config);
   CheckLiveStudio(config, root);
   return config;
 }

@@ -9,7 +9,9 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "drivers/aravis/aravis_driver.h"
+#include "drivers/nearest_name.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
 #include "drivers/usb/uvc_pan_tilt.h"
 #include "drivers/v4l2/v4l2_driver.h"
@@ -73,12 +75,10 @@ CameraCalibration FindCalibration(const std::vector<CameraCalibration>& calibrat
                                   const CameraConfig& camera, const std::filesystem::path& file) {
   const auto found = std::ranges::find(calibrations, camera.name, &CameraCalibration::name);
   if (found == calibrations.end()) {
-    std::string known;
-    for (const CameraCalibration& other : calibrations) {
-      known += (known.empty() ? "" : ", ") + other.name;
-    }
+    const std::vector<std::string> names = CameraNames(calibrations);
     throw SetupError(file.string() + ": cameras." + camera.name +
-                     " is missing, but [[cameras]] names it; the file has " + known);
+                     " is missing, but [[cameras]] names it; " +
+                     WithNearestName(camera.name, names, "the file has " + ListedNames(names)));
   }
   const std::array<int, 2> size{found->width_px, found->height_px};
   if (camera.size_px.value_or(size) != size) {

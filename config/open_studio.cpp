@@ -7,6 +7,8 @@
 #include "config/open_live.h"
 #include "config/room_limits.h"
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
+#include "drivers/quoted.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -58,8 +60,12 @@ void Keep(const std::vector<std::string>& names, Studio& studio) {
       return c.driver && c.calibration.name == name;
     });
     if (camera == studio.cameras.end()) {
-      throw SetupError("node.cameras has \"" + name + "\", and " + studio.name +
-                       " has no such camera");
+      std::vector<std::string> there;
+      for (const StudioCamera& one : studio.cameras) {
+        if (one.driver) there.push_back(one.calibration.name);
+      }
+      throw SetupError("node.cameras has " + Quoted(name) + ", and " + studio.name +
+                       " has no such camera; " + ExpectedNames(name, there));
     }
     kept.push_back(std::move(*camera));
   }

@@ -9,6 +9,7 @@
 #include "config/room_limits.h"
 #include "config/take_header.h"
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/take_driver.h"
 #include "drivers/take/take_layout.h"
@@ -62,12 +63,10 @@ bool IsSilent(const TakeLayout& layout, const std::string& name) {
 // when it is opened.
 std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std::string>& wanted,
                                 const TakeLayout& layout) {
-  std::string all;
-  for (const std::string& name : header.cameras) all += (all.empty() ? "" : ", ") + name;
   for (const std::string& name : wanted) {
     if (!Contains(header.cameras, name)) {
-      throw SetupError(layout.folder.string() + ": has no camera " + Quoted(name) + "; it has " +
-                       all);
+      throw SetupError(layout.folder.string() + ": has no camera " + Quoted(name) + "; " +
+                       ExpectedNames(name, header.cameras));
     }
   }
   std::vector<std::string> chosen;
@@ -75,8 +74,8 @@ std::vector<std::string> Choose(const TakeHeader& header, const std::vector<std:
     if (wanted.empty() ? !IsSilent(layout, name) : Contains(wanted, name)) chosen.push_back(name);
   }
   if (chosen.empty()) {
-    throw SetupError(layout.folder.string() + ": contains no frame of any camera (" + all +
-                     "); expected a take with frames");
+    throw SetupError(layout.folder.string() + ": contains no frame of any camera (" +
+                     ListedNames(header.cameras) + "); expected a take with frames");
   }
   return chosen;
 }

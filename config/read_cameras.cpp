@@ -76,8 +76,17 @@ std::optional<std::array<double, 2>> ReadRange(TomlSection& section, const std::
   return std::array<double, 2>{range[0], range[1]};
 }
 
+/// Keys that only some heads have, for messages about keys that are wrong.
+void ReserveHeadKeys(TomlSection& section) {
+  section.Reserve({"head_device"}, "needs head = \"uvc\"");
+  section.Reserve({"pan_rad", "tilt_rad"}, "needs head = \"fixed\"");
+  section.Reserve({"head_delay_ms", "follow", "pan_range_rad", "tilt_range_rad"},
+                  "needs head = \"v4l2\" or \"uvc\"");
+}
+
 HeadConfig ReadHead(TomlSection& section) {
   HeadConfig head;
+  ReserveHeadKeys(section);
   if (!section.Has("head")) return head;
   constexpr std::array kKinds = {HeadKind::kFixed, HeadKind::kV4l2, HeadKind::kUvc};
   head.kind = kKinds[section.Choice("head", {"fixed", "v4l2", "uvc"})];
@@ -126,6 +135,9 @@ CameraConfig ReadCamera(TomlSection& section, const std::string& driver,
   camera.head = ReadHead(section);
   if (driver != "aravis") camera.v4l2 = ReadV4l2Settings(section, driver);
   if (driver != "v4l2") camera.aravis = ReadAravisSettings(section);
+  section.Reserve({"white_balance_k", "focus", "power_line_hz"}, "needs source.driver = \"v4l2\"");
+  section.Reserve({"trigger", "strobe", "ptp", "packet_bytes", "packet_delay_us", "packet_socket"},
+                  "needs source.driver = \"aravis\"");
   section.RejectUnknownKeys();
   return camera;
 }

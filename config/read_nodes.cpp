@@ -60,17 +60,19 @@ void ReadRole(TomlSection& root, Config& config) {
                         config.source.driver + "\"");
     }
     config.node = ReadNode(std::move(*section));
-  } else if (config.role == Role::kNode) {
-    root.Fail("node", "is missing; role \"node\" needs [node] with a name");
   }
   std::set<std::string> names, cameras;
   for (const CameraConfig& camera : config.cameras) cameras.insert(camera.name);
   for (TomlSection& section : root.Sections("nodes"))
     config.nodes.push_back(ReadStudioNode(std::move(section), names, cameras));
-  const bool is_studio = config.role == Role::kStudio;
-  if (!config.nodes.empty() && !is_studio)
+  if (!config.nodes.empty() && config.role != Role::kStudio)
     root.Fail("nodes", "exists, but needs role = \"studio\"");
-  if (!is_studio) return;
+}
+
+void CheckRole(const TomlSection& root, const Config& config) {
+  if (config.role == Role::kNode && config.node.name.empty())
+    root.Fail("node", "is missing; role \"node\" needs [node] with a name");
+  if (config.role != Role::kStudio) return;
   if (config.nodes.empty()) root.Fail("nodes", "is missing; role \"studio\" needs it");
   if (config.calibration.empty())
     root.Fail("calibration", "is missing; role \"studio\" needs that of all cameras");

@@ -13,4 +13,7 @@ namespace mocap {
 /// for two nodes or cameras with the same name.
 void ReadRole(TomlSection& root, Config& config);
 
+/// @throws SetupError  for what the role needs and the configuration lacks.
+void CheckRole(const TomlSection& root, const Config& config);
+
 }  // namespace mocap

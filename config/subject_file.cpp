@@ -18,14 +18,13 @@ constexpr double kLargest_mm = 1500;
 
 BodySizes LoadSubject(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
-  auto section = root.Section("sizes");
-  if (!section) root.Fail("sizes", "is missing; expected a table of the person's sizes");
+  TomlSection section = root.NeededSection("sizes", "a table of the person's sizes");
   BodySizes sizes;
   for (const BodySizeField& field : kBodySizeFields) {
     sizes.*field.value =
-        section->NumberWithin(std::string(field.name) + "_mm", kSmallest_mm, kLargest_mm);
+        section.NumberWithin(std::string(field.name) + "_mm", kSmallest_mm, kLargest_mm);
   }
-  section->RejectUnknownKeys();
+  section.RejectUnknownKeys();
   return sizes;
 }
 

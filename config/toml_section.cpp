@@ -6,6 +6,7 @@
 
 #include "config/parse_toml.h"
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 
@@ -123,7 +124,7 @@ std::size_t TomlSection::Choice(const std::string& key, const std::vector<std::s
     for (const std::string& choice : choices) {
       wanted += (wanted.empty() ? "\"" : " or \"") + choice + '"';
     }
-    Fail(key, "is " + Quoted(found) + "; expected " + wanted);
+    Fail(key, "is " + Quoted(found) + "; " + WithNearestName(found, choices, "expected " + wanted));
   }
   return static_cast<std::size_t>(place - choices.begin());
 }
@@ -175,8 +176,8 @@ std::vector<double> TomlSection::AllNumbers(const std::string& key) {
   return numbers;
 }
 
-bool TomlSection::IsTable(const std::string& key) const {
-  const toml::node* node = table_->get(key);
+bool TomlSection::IsTable(const std::string& key) {
+  const toml::node* node = Find(key);
   return node != nullptr && node->is_table();
 }
 
@@ -227,6 +228,11 @@ std::optional<TomlSection> TomlSection::Section(const std::string& key) {
   return TomlSection(root_, node->as_table(), file_, PathOf(key) + ".");
 }
 
+TomlSection TomlSection::NeededSection(const std::string& key, const std::string& wanted) {
+  Need(key, wanted);
+  return *Section(key);
+}
+
 std::vector<TomlSection> TomlSection::Sections(const std::string& key) {
   const toml::node* node = Find(key);
   std::vector<TomlSection> sections;
@@ -243,14 +249,36 @@ std::vector<TomlSection> TomlSection::Sections(const std::string& key) {
   return sections;
 }
 
+void TomlSection::Reserve(const std::vector<std::string>& keys, const std::string& needs) {
+  for (const std::string& key : keys) reserved_.emplace(key, needs);
+}
+
 void TomlSection::RejectUnknownKeys() const {
   for (const std::string& key : Keys()) {
-    if (!asked_for_.contains(key)) {
-      std::string known;
-      for (const std::string& name : asked_for_) known += (known.empty() ? "" : ", ") + name;
-      Fail(key, "is unknown; known here: " + known);
-    }
+    if (asked_for_.contains(key)) continue;
+    if (const auto needs = reserved_.find(key); needs != reserved_.end()) Fail(key, needs->second);
+    const std::vector<std::string> known(asked_for_.begin(), asked_for_.end());
+    Fail(key, "is unknown; " +
+                  WithNearestName(key, KeysThatMayBe(), "known here: " + ListedNames(known)));
   }
+}
+
+std::vector<std::string> TomlSection::KeysThatMayBe() const {
+  std::vector<std::string> keys(asked_for_.begin(), asked_for_.end());
+  for (const auto& [key, needs] : reserved_) keys.push_back(key);
+  return keys;
+}
+
+// A key that nobody has requested yet, where it resembles the one that is missing. One with
+// replaced letters may be another key: thigh_l and thigh_r.
+std::string TomlSection::MisspeltAs(const std::string& key) const {
+  for (const std::string& found : Keys()) {
+    const bool may_be_other =
+        found.size() == key.size() && !std::ranges::is_permutation(found, key);
+    if (may_be_other || asked_for_.contains(found) || NearestName(found, {key}).empty()) continue;
+    return "; there is " + Shortened(found, kLongestKey) + ": did you mean " + key + "?";
+  }
+  return {};
 }
 
 std::string TomlSection::Where(const std::string& key) const {
@@ -264,14 +292,14 @@ void TomlSection::Fail(const std::string& key, const std::string& what) const {
   throw SetupError(Where(key) + " " + what + (root_->empty() ? " (the file is empty)" : ""));
 }
 
-const toml::node* TomlSection::Find(const std::string& key) {
-  asked_for_.insert(key);
+const toml::node* TomlSection::Find(std::string_view key) {
+  asked_for_.emplace(key);
   return table_->get(key);
 }
 
 const toml::node& TomlSection::Need(const std::string& key, const std::string& wanted) {
   const toml::node* node = Find(key);
-  if (!node) Fail(key, "is missing; expected " + wanted);
+  if (!node) Fail(key, "is missing; expected " + wanted + MisspeltAs(key));
   return *node;
 }
 

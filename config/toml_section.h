@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -30,7 +31,8 @@ class TomlSection {
   /// Reads TOML from text. @param name  used for the text in messages.
   static TomlSection ReadText(std::string_view text, const std::string& name);
 
-  bool Has(std::string_view key) const { return table_->contains(key); }
+  /// Whether the table has a key. The key counts as requested.
+  bool Has(std::string_view key) { return Find(key) != nullptr; }
   /// Names of all keys, in the order of the file.
   std::vector<std::string> Keys() const;
 
@@ -55,13 +57,19 @@ class TomlSection {
   std::vector<int> Integers(const std::string& key, int min, int max);
   Vector3 Vector(const std::string& key);
   Matrix3 Matrix(const std::string& key);
-  bool IsTable(const std::string& key) const;
+  bool IsTable(const std::string& key);
   /// A table in this one; empty if missing.
   std::optional<TomlSection> Section(const std::string& key);
+  /// A table that must exist. @param wanted  what it is, for messages.
+  TomlSection NeededSection(const std::string& key, const std::string& wanted);
   /// An array of tables; empty if missing.
   std::vector<TomlSection> Sections(const std::string& key);
 
-  /// @throws SetupError  for the first key that was never requested.
+  /// Names keys that this table may have only with other settings.
+  /// @param needs  these settings, for messages: `needs head = "fixed"`.
+  void Reserve(const std::vector<std::string>& keys, const std::string& needs);
+  /// @throws SetupError  for the first key that was never requested, with the key that it
+  /// resembles.
   void RejectUnknownKeys() const;
   /// Returns "file:line: key", for messages.
   std::string Where(const std::string& key) const;
@@ -72,19 +80,22 @@ class TomlSection {
   TomlSection(std::shared_ptr<const toml::table> root, const toml::table* table, std::string file,
               std::string path);
 
-  const toml::node* Find(const std::string& key);
+  const toml::node* Find(std::string_view key);
   const toml::node& Need(const std::string& key, const std::string& wanted);
   const toml::array& NeedArray(const std::string& key, std::size_t count,
                                const std::string& wanted);
   double NumberFrom(const toml::node& node, const std::string& key,
                     const std::string& wanted) const;
   std::string PathOf(const std::string& key) const;
+  std::vector<std::string> KeysThatMayBe() const;
+  std::string MisspeltAs(const std::string& key) const;
 
   std::shared_ptr<const toml::table> root_;  ///< Keeps table_ alive.
   const toml::table* table_;
   std::string file_;
   std::string path_;  ///< "cameras.cam1."; empty at the top.
   std::set<std::string, std::less<>> asked_for_;
+  std::map<std::string, std::string> reserved_;  ///< Keys, and what each needs.
 };
 
 }  // namespace mocap

@@ -11,9 +11,12 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
+#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -33,6 +36,50 @@ std::string CommandOf(const CLI::App& app) {
   std::string command = app.get_name();
   for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
   return command;
+}
+
+std::vector<std::string> CommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(one->get_name());
+  return names;
+}
+
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Names a word that a command does not know, and the command or option that it resembles.
+std::string UnknownWord(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) {
+    const std::string option = word.substr(0, word.find('='));
+    const std::string guess = WithNearestName(option, OptionNames(app), "");
+    return "there is no option " + option + (guess.empty() ? "" : "; " + guess);
+  }
+  const std::vector<std::string> commands = CommandNames(app);
+  if (commands.empty() || !app.get_subcommands().empty()) return Quoted(word) + " was not expected";
+  return "there is no command " + Quoted(word) + "; " + ExpectedNames(word, commands);
+}
+
+/// What is wrong with a command line. Words that no command knows come first, since they explain
+/// the rest.
+std::string WhatIsWrong(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App* app = &program;
+  for (;;) {
+    const std::vector<std::string> words = app->remaining();
+    const auto word = std::ranges::find_if(words, [](const auto& one) { return one != "--"; });
+    if (word != words.end()) return UnknownWord(*app, *word);
+    const std::vector<CLI::App*> chosen = app->get_subcommands();
+    if (chosen.empty()) break;
+    app = chosen.front();
+  }
+  if (app->get_require_subcommand_min() > 0)
+    return "a command is missing; " + ExpectedNames("", CommandNames(*app));
+  return error.what();
 }
 
 /// Opens /dev/null for each standard file that was closed. Otherwise a file opened later would get
@@ -65,8 +112,9 @@ int RunProgram(CLI::App& app, int argc, char** argv) {
     const int status = app.exit(help_or_version);
     return status == 0 ? FinishOutput(app) : status;
   } catch (const CLI::ParseError& error) {
-    return Fail(app, std::string(error.what()) + "; see " + CommandOf(app) + " --help",
-                kWrongInput);
+    const std::string wrong = WhatIsWrong(app, error);
+    const std::string end = wrong.ends_with('?') ? " See " : "; see ";
+    return Fail(app, wrong + end + CommandOf(app) + " --help", kWrongInput);
   } catch (const SetupError& error) {
     return Fail(app, error.what(), kWrongInput);
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/load_config.h"
+#include "daemon/base/choice_option.h"
 #include "daemon/base/number_option.h"
 #include "drivers/simulation/company.h"
 #include "drivers/take/text_file.h"
@@ -261,7 +262,7 @@ void AddBenchmarkCommand(CLI::App& app) {
                    "parts to run; people (two to four at once) and variety (of builds, hair, "
                    "clothes and loads) run only on request")
       ->delimiter(',')
-      ->check(CLI::IsMember(parts))
+      ->check(OneOf(parts))
       ->capture_default_str();
   command->add_option("--out", options->out, "output folder for accuracy.md and accuracy.svg");
   command->callback([options] { RunBenchmark(*options); });

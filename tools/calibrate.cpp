@@ -12,6 +12,7 @@
 #include "config/load_config.h"
 #include "core/calibration/tsai.h"
 #include "core/errors.h"
+#include "daemon/base/choice_option.h"
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
@@ -109,7 +110,7 @@ void AddReport(CLI::App* command, const Arguments& a) {
 void AddLens(CLI::App* command, const Arguments& a) {
   command->add_option("--lens", a->lens, "lens model: tsai, opencv or fisheye")
       ->capture_default_str()
-      ->check(CLI::IsMember({"tsai", "opencv", "fisheye"}));
+      ->check(OneOf({"tsai", "opencv", "fisheye"}));
   command->add_option("--pitch", a->pitch_mm, "pixel size dx dy, for the lens model tsai [mm]")
       ->expected(2);
 }

@@ -13,6 +13,7 @@
 #include "core/calibration/diagnosis_text.h"
 #include "core/errors.h"
 #include "drivers/clock.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
@@ -40,7 +41,9 @@ std::vector<CameraCalibration> CalibrationsFor(const TakeSamples& samples,
     const auto camera = std::ranges::find(cameras, sampled.name, &CameraCalibration::name);
     if (camera == cameras.end())
       throw SetupError(file.string() + ": has no camera " + Quoted(sampled.name) +
-                       ", which the take has; expected a calibration of the take's cameras");
+                       ", which the take has; " +
+                       WithNearestName(sampled.name, CameraNames(cameras),
+                                       "expected a calibration of the take's cameras"));
     calibrations.push_back(*camera);
   }
   return calibrations;

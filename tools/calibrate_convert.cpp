@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/errors.h"
+#include "daemon/base/choice_option.h"
 #include "daemon/base/number_option.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
@@ -65,10 +66,10 @@ void AddConvert(CLI::App* parent) {
       ->required();
   command->add_option("--from", a->from, "input format")
       ->capture_default_str()
-      ->check(CLI::IsMember(ImportFormats()));
+      ->check(OneOf(ImportFormats()));
   command->add_option("--to", a->to, "output format")
       ->capture_default_str()
-      ->check(CLI::IsMember(ExportFormats()));
+      ->check(OneOf(ExportFormats()));
   command->add_option("--out", a->out, "output file or folder")->required();
   command
       ->add_option("--unit", a->options.unit_mm,

@@ -11,8 +11,10 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "daemon/base/json_object.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/still_board.h"
@@ -78,13 +80,6 @@ void RefuseWand(const CalibrateArguments& arguments) {
                      "intrinsics, then the wand for mocap calibrate extrinsics --intrinsics");
 }
 
-std::string NamesOf(const std::vector<CameraCalibration>& cameras) {
-  std::string names;
-  for (const CameraCalibration& camera : cameras)
-    names += (names.empty() ? "" : ", ") + camera.name;
-  return names;
-}
-
 // Intrinsics from a file, in the order of the footage.
 std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
                                          const std::filesystem::path& file) {
@@ -94,8 +89,9 @@ std::vector<CameraCalibration> LensesFor(const BoardDetections& detections,
     const auto lens = std::find_if(
         all.begin(), all.end(), [&](const CameraCalibration& c) { return c.name == camera.name; });
     if (lens == all.end())
-      throw SetupError(fmt::format("{}: has no camera {}, but there is footage of it; it has {}",
-                                   file.string(), Quoted(camera.name), NamesOf(all)));
+      throw SetupError(fmt::format("{}: has no camera {}, but there is footage of it; {}",
+                                   file.string(), Quoted(camera.name),
+                                   ExpectedNames(camera.name, CameraNames(all))));
     if (lens->width_px != camera.width_px || lens->height_px != camera.height_px)
       throw SetupError(fmt::format(
           "{}: {} is calibrated for {} x {}; its footage is {} x {}: record it in that resolution, "
@@ -200,7 +196,7 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit) {
       if (camera == fit.bundle.cameras.end())
         throw SetupError(arguments.floor.string() + ": has a camera " + Quoted(name) +
                          " that is not calibrated; the calibration has " +
-                         NamesOf(fit.bundle.cameras));
+                         ListedNames(CameraNames(fit.bundle.cameras)));
       s.camera = static_cast<int>(camera - fit.bundle.cameras.begin());
     }
     const RigidTransform X_WB = FindStillBoard(still, fit.bundle.cameras);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "daemon/base/choice_option.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/text_file.h"
 #include "tools/interchange/export_format.h"
@@ -151,7 +152,7 @@ void AddExportCommand(CLI::App& app) {
       ->required();
   command->add_option("--format", arguments->format, FormatsText())
       ->required()
-      ->check(CLI::IsMember(FormatNames()));
+      ->check(OneOf(FormatNames()));
   command
       ->add_option("--out", arguments->out,
                    "output file with the format's suffix; with several people one file each, such "

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "daemon/base/choice_option.h"
 #include "daemon/base/number_option.h"
 #include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
@@ -25,6 +26,12 @@ namespace {
 const std::map<std::string, BoardPlace> kBoardPlaces = {{"carried", BoardPlace::kCarried},
                                                         {"floor", BoardPlace::kOnFloor},
                                                         {"desk", BoardPlace::kOnDesk}};
+
+std::vector<std::string> BoardPlaceNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, place] : kBoardPlaces) names.push_back(name);
+  return names;
+}
 
 struct SimulateOptions {
   std::filesystem::path out;
@@ -234,7 +241,7 @@ void AddSimulateCommand(CLI::App& app) {
       ->add_option(
           "--board", options->board,
           "show a chessboard (8x5 inner corners, 100 mm squares) at this place instead of people")
-      ->check(CLI::IsMember(kBoardPlaces));
+      ->check(OneOf(BoardPlaceNames()));
   command
       ->add_option("--desk", options->desk,
                    "position number of the desk, for --board desk; pan-tilt heads scan around it")

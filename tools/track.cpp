@@ -20,6 +20,7 @@
 #include "core/calibration/diagnosis_text.h"
 #include "core/calibration/studio_diagnosis.h"
 #include "core/errors.h"
+#include "daemon/base/choice_option.h"
 #include "daemon/base/json_object.h"
 #include "daemon/base/number_option.h"
 #include "daemon/pipeline/pipeline.h"
@@ -167,7 +168,7 @@ void AddTrackCommand(CLI::App& app) {
       ->check(NumberFrom(10, 100))
       ->capture_default_str();
   command->add_option("--tracker", options->tracker, "tracking algorithm; mikic2003 is the paper's")
-      ->check(CLI::IsMember(TrackerNames()))
+      ->check(OneOf(TrackerNames()))
       ->capture_default_str();
   command->add_option(
       "--body", options->body,

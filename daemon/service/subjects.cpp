@@ -5,6 +5,7 @@
 
 #include "config/subject_file.h"
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 
@@ -23,7 +24,9 @@ void Subjects::Save(const std::string& name, const BodySizes& sizes) const {
 
 BodySizes Subjects::Load(const std::string& name) const {
   if (!IsThere(FileOf(name))) {
-    throw SetupError("there is no subject " + name + "; mocap subject list shows the saved ones");
+    const std::vector<std::string> names = Names();
+    throw SetupError("there is no subject " + name + "; " +
+                     (names.empty() ? "none is saved" : ExpectedNames(name, names)));
   }
   return LoadSubject(FileOf(name));
 }

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
+#include "drivers/quoted.h"
 #include "drivers/simulation/curve.h"
 #include "drivers/simulation/motions_in_place.h"
 #include "drivers/simulation/motions_together.h"
@@ -258,10 +260,8 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
     return InPlaces(bodies, seed, [](const Anthropometry& body, const Spot& spot, std::uint64_t) {
       return MakeStep(body, spot);
     });
-  std::string wanted;
-  for (const std::string_view known : kCompanyMotionNames)
-    wanted += (wanted.empty() ? "" : ", ") + std::string(known);
-  throw SetupError("motion \"" + std::string(name) + "\" is unknown; expected one of: " + wanted);
+  const std::vector<std::string> names(kCompanyMotionNames.begin(), kCompanyMotionNames.end());
+  throw SetupError("motion " + Quoted(name) + " is unknown; " + ExpectedNames(name, names));
 }
 
 }  // namespace mocap::simulation

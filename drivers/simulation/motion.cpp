@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
+#include "drivers/quoted.h"
 #include "drivers/simulation/curve.h"
 #include "drivers/simulation/gait.h"
 #include "drivers/simulation/motions_in_place.h"
@@ -139,10 +141,8 @@ std::unique_ptr<const Motion> MakeMotion(std::string_view name, const Anthropome
   if (name == "step") return MakeStep(body, RandomSpot(seed));
   if (name == "stand") return MakeStand(body, RandomSpot(seed), seed);
   if (name == "gesture") return MakeGesture(body, RandomSpot(seed), seed);
-  std::string wanted;
-  for (const std::string_view known : kMotionNames)
-    wanted += (wanted.empty() ? "" : ", ") + std::string(known);
-  throw SetupError("motion \"" + std::string(name) + "\" is unknown; expected one of: " + wanted);
+  const std::vector<std::string> names(kMotionNames.begin(), kMotionNames.end());
+  throw SetupError("motion " + Quoted(name) + " is unknown; " + ExpectedNames(name, names));
 }
 
 }  // namespace mocap::simulation

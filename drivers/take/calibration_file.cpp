@@ -143,6 +143,12 @@ void RequireSound(const std::filesystem::path& file, std::span<const CameraCalib
 
 }  // namespace
 
+std::vector<std::string> CameraNames(std::span<const CameraCalibration> cameras) {
+  std::vector<std::string> names;
+  for (const CameraCalibration& camera : cameras) names.push_back(camera.name);
+  return names;
+}
+
 std::string CalibrationText(const std::filesystem::path& file,
                             std::span<const CameraCalibration> cameras,
                             const CalibrationRecord& record) {

@@ -30,6 +30,9 @@ struct CalibrationRecord {
   std::vector<CameraOffset> offsets;  ///< Result of that check.
 };
 
+/// Names of the cameras, in their order.
+std::vector<std::string> CameraNames(std::span<const CameraCalibration> cameras);
+
 /// Formats calibration.toml, with every digit of each number, so that reading restores it.
 /// @param file  its name in messages.
 /// @throws SetupError  naming the camera and the fault: a number that is not finite, an invalid or

@@ -192,6 +192,7 @@ TEST_F(Calibration, DamageIsNamedWithFileLineAndKey) {
       {"focal_mm = ", "focal_mm = nan #", "cam1.focal_mm"},
       {"focal_mm = ", "focal_in = ", "cam1.focal_mm is missing"},
       {"kappa1 = ", "kappa2 = 0\nkappa1 = ", "cam1.kappa2 is unknown"},
+      {"kappa1 = ", "kapa1 = ", "cam1.kappa1 is missing; expected a number; there is kapa1"},
       {"pitch_mm = [0.01", "pitch_mm = [0", "cam1.pitch_mm"},
       {"rotation = [[", "rotation = [[9", "cam1.rotation is not a rotation"},
       {"rotation = [[", "rotation = [[[1], ", "cam1.rotation"},

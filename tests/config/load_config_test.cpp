@@ -179,6 +179,32 @@ TEST_F(ConfigFile, MistakesAreNamedWithFileLineAndKey) {
   }
 }
 
+TEST_F(ConfigFile, AMisspeltNameIsToldWithTheOneThatItResembles) {
+  const WrongConfig cases[] = {
+      {"[source]\nfsp = 3\n", 2, "source.fsp is unknown; did you mean fps? Known here: cameras,"},
+      {"[soruce]\nfps = 3\n", 1, "soruce is unknown; did you mean source? Known here: background,"},
+      {"[voxels]\nsize = 25\n", 2, "did you mean size_mm? Known here: size_mm"},
+      {"[lcm]\nprefxi = \"a\"\n", 2, "did you mean prefix? Known here: prefix, url, voxels_hz"},
+      {"[recording]\nbufer_mb = 64\n", 2, "did you mean buffer_mb?"},
+      {"[realtime]\nlock_memroy = true\n", 2, "did you mean lock_memory?"},
+      {"[control]\nsoket = \"s\"\n", 2, "did you mean socket?"},
+      {"[source]\ndriver = \"take\"\ntkae = \"t\"\n", 3, "did you mean take?"},
+      {"role = \"studio\"\ncalibraton = \"c\"\n[[nodes]]\nname = \"n\"\ncameras = [\"a\"]\n", 2,
+       "did you mean calibration?"},
+      {"[source]\ndriver = \"simulatd\"\n", 2,
+       "is \"simulatd\"; did you mean simulated? Expected \"take\" or"},
+      {"[recording]\ncodec = \"fvv1\"\n", 2, "did you mean ffv1?"},
+      {"[body]\ntracker = \"surfcae\"\n", 2, "did you mean surface?"},
+      {"[lcm]\nurl = \"udpm://239.255.76.67:7667?tll=1\"\n", 2, "did you mean ttl?"},
+      {"[[cameras]]\nnmae = \"a\"\ndevice = \"b\"\n", 1, "there is nmae: did you mean name?"},
+  };
+  for (const WrongConfig& wrong : cases) {
+    EXPECT_THAT(Error(wrong.text),
+                AllOf(HasSubstr(":" + std::to_string(wrong.line) + ": "), HasSubstr(wrong.says)))
+        << wrong.text;
+  }
+}
+
 TEST_F(ConfigFile, PacketsHaveASizeThatNetworksCarry) {
   EXPECT_THAT(Error("[[cameras]]\nname = \"a\"\npacket_bytes = 100\ndevice = \"x\"\n"
                     "[source]\ndriver = \"aravis\"\n"),
@@ -238,7 +264,11 @@ TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
       {"size_px = [640.5, 480]", 3, "cameras[0].size_px"},
       {"fps = 0", 3, "cameras[0].fps is 0"},
       {"exposure = 5", 3, "cameras[0].exposure is unknown"},
-      {"packet_bytes = 1500", 3, "cameras[0].packet_bytes is unknown"},
+      {"packet_bytes = 1500", 3, "cameras[0].packet_bytes needs source.driver = \"aravis\""},
+      {"tiger = \"ptp\"", 3, "cameras[0].tiger is unknown; did you mean trigger?"},
+      {"gian = 2", 3, "cameras[0].gian is unknown; did you mean gain? Known here: device,"},
+      {"pan_rad = 1", 3, "cameras[0].pan_rad needs head = \"fixed\""},
+      {"head_devcie = \"x\"", 3, "did you mean head_device?"},
   };
   for (const WrongConfig& wrong : cases) {
     const std::string text = "[[cameras]]\nname = \"a\"\n" + std::string(wrong.text) +

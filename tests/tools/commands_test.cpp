@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "daemon/base/number_option.h"
 #include "daemon/run_program.h"
@@ -57,6 +58,44 @@ TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
   }
   EXPECT_EQ(Refusal("watch --seconds 0"),
             "--seconds: 0 is out of range; expected a number from 0.001 to 100000000");
+}
+
+/// What the whole program says of a command line, on standard error.
+std::string SaidOf(const std::vector<const char*>& words) {
+  CLI::App app("", "mocap");
+  app.require_subcommand(1);
+  AddCommands(app);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(RunProgram(app, static_cast<int>(words.size()), const_cast<char**>(words.data())), 2);
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(Commands, AMisspeltWordIsToldWithTheOneThatItResembles) {
+  EXPECT_THAT(SaidOf({"mocap", "evalute", "take", "result"}),
+              StartsWith("mocap: there is no command \"evalute\"; did you mean evaluate? Expected "
+                         "one of simulate, take"));
+  EXPECT_THAT(
+      SaidOf({"mocap", "take", "jion"}),
+      StartsWith("mocap: there is no command \"jion\"; did you mean join? Expected join; see"));
+  EXPECT_EQ(
+      SaidOf({"mocap", "track", "--voxle", "3"}),
+      "mocap: there is no option --voxle; did you mean --voxel-size? See mocap track --help\n");
+  EXPECT_THAT(SaidOf({"mocap", "record", "start", "--coment=x"}), HasSubstr("--coment"));
+  EXPECT_THAT(SaidOf({"mocap", "export", "r", "--format", "bhv", "--out", "x"}),
+              HasSubstr("--format: \"bhv\" is unknown; did you mean bvh? Expected one of bvh"));
+  EXPECT_THAT(SaidOf({"mocap", "track", "t", "--out", "r", "--tracker", "mikic"}),
+              HasSubstr("did you mean mikic2003?"));
+  EXPECT_THAT(SaidOf({"mocap", "simulate", "--out", "x", "--board", "dsek"}),
+              HasSubstr("did you mean desk?"));
+}
+
+TEST(Commands, AMissingCommandIsToldWithThoseThatThereAre) {
+  EXPECT_THAT(SaidOf({"mocap"}),
+              StartsWith("mocap: a command is missing; expected one of simulate, take"));
+  EXPECT_THAT(SaidOf({"mocap", "subject"}),
+              AllOf(HasSubstr("a command is missing"), EndsWith("see mocap subject --help\n")));
+  EXPECT_EQ(SaidOf({"mocap", "track", "take", "other", "--out", "r"}),
+            "mocap: \"other\" was not expected; see mocap track --help\n");
 }
 
 /// Runs a program that fails and gives what it says on standard error.

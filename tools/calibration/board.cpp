@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "tools/calibration/marker_dictionaries.h"
 
@@ -62,8 +63,8 @@ bool IsName(const std::string& part) {
 std::string ReadDictionary(const std::string& part, int markers) {
   const std::string name = DictionaryName(part);
   if (name.empty())
-    throw SetupError("--board: there is no dictionary " + Quoted(part) + "; expected one of " +
-                     DictionaryNames());
+    throw SetupError("--board: there is no dictionary " + Quoted(part) + "; " +
+                     ExpectedNames(part, DictionaryNames()));
   const int has = DictionaryOf(name)->bytesList.rows;
   if (markers > has)
     throw SetupError(

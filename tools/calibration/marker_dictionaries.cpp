@@ -57,10 +57,9 @@ std::string DictionaryName(const std::string& text) {
   return "";
 }
 
-std::string DictionaryNames() {
-  std::string names;
-  for (const NamedDictionary& one : kDictionaries)
-    names += (names.empty() ? "" : ", ") + std::string(one.name);
+std::vector<std::string> DictionaryNames() {
+  std::vector<std::string> names;
+  for (const NamedDictionary& one : kDictionaries) names.emplace_back(one.name);
   return names;
 }
 

@@ -15,7 +15,7 @@ inline constexpr const char* kAprilGridDictionary = "DICT_APRILTAG_36h11";
 std::string DictionaryName(const std::string& text);
 
 /// All names, for messages.
-std::string DictionaryNames();
+std::vector<std::string> DictionaryNames();
 
 /// Returns a dictionary by OpenCV's name.
 cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& name);

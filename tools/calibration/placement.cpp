@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/studio_check.h"
 
@@ -23,8 +25,10 @@ std::vector<CameraCalibration> Matching(const std::vector<CameraCalibration>& ca
   for (const CameraCalibration& wanted : reference) {
     const auto found = std::ranges::find(cameras, wanted.name, &CameraCalibration::name);
     if (found == cameras.end())
-      throw SetupError("calibration: has no camera " + Quoted(wanted.name) +
-                       ", which the other calibration has; expected the same cameras in both");
+      throw SetupError(
+          "calibration: has no camera " + Quoted(wanted.name) +
+          ", which the other calibration has; " +
+          WithNearestName(wanted.name, CameraNames(cameras), "expected the same cameras in both"));
     matching.push_back(*found);
   }
   return matching;

@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
 #include "tools/calibration/foreign_camera.h"
 #include "tools/calibration/lens_parameters.h"
 
@@ -27,7 +29,10 @@ const CameraCalibration& CameraNamed(const std::string& name,
                                      const std::vector<CameraCalibration>& cameras) {
   const auto camera = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const CameraCalibration& c) { return c.name == name; });
-  if (camera == cameras.end()) throw SetupError("--distance: there is no camera " + Quoted(name));
+  if (camera == cameras.end()) {
+    throw SetupError("--distance: there is no camera " + Quoted(name) + "; " +
+                     ExpectedNames(name, CameraNames(cameras)));
+  }
   return *camera;
 }
 

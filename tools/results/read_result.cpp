@@ -121,10 +121,9 @@ BodyRecord ReadBody(TomlSection& root) {
   BodyRecord body;
   body.model = root.Text("model");
   body.stature_mm = root.Number("stature_mm");
-  std::optional<TomlSection> sizes = root.Section("sizes");
-  if (!sizes) root.Fail("sizes", "is missing; expected a table of the person's sizes");
+  TomlSection sizes = root.NeededSection("sizes", "a table of the person's sizes");
   for (const BodySizeField& field : kBodySizeFields) {
-    body.sizes.*field.value = sizes->Number(std::string(field.name) + "_mm");
+    body.sizes.*field.value = sizes.Number(std::string(field.name) + "_mm");
   }
   return body;
 }
