@@ -74,6 +74,7 @@ std::optional<ControlRequest> ParseControlRequest(std::string_view line) {
     return BackgroundLearnRequest{.anyway = true};
   }
   if (words[0] == "record" && words[1] == "start") return Named<RecordStartRequest>(words[2]);
+  if (words[0] == "record" && words[1] == "cancel") return Named<RecordCancelRequest>(words[2]);
   if (words[0] == "subject" && words[1] == "save") return Named<SubjectSaveRequest>(words[2]);
   if (words[0] == "subject" && words[1] == "load") return Named<SubjectLoadRequest>(words[2]);
   return {};

@@ -16,6 +16,10 @@ struct RecordStartRequest {
   std::string name;
 };
 struct RecordStopRequest {};
+/// From a studio whose other computers could not start the same take.
+struct RecordCancelRequest {
+  std::string name;
+};
 struct SubjectNewRequest {};
 struct SubjectSaveRequest {
   std::string name;
@@ -34,8 +38,8 @@ struct LookRequest {};
 
 using ControlRequest =
     std::variant<StatusRequest, ReloadRequest, RecordStartRequest, RecordStopRequest,
-                 SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest, SubjectListRequest,
-                 BackgroundLearnRequest, BackgroundStatusRequest, LookRequest>;
+                 RecordCancelRequest, SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest,
+                 SubjectListRequest, BackgroundLearnRequest, BackgroundStatusRequest, LookRequest>;
 
 /// The outcome, with the exit status for a program that asked.
 enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
@@ -49,9 +53,9 @@ struct ControlReply {
 inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
-/// Parses "status [json]", "reload", "record start NAME", "record stop", "subject new", "subject
-/// save NAME [NUMBER]", "subject load NAME", "subject list", "background learn [anyway]",
-/// "background status" and "look"; empty for anything else.
+/// Parses "status [json]", "reload", "record start NAME", "record stop", "record cancel NAME",
+/// "subject new", "subject save NAME [NUMBER]", "subject load NAME", "subject list", "background
+/// learn [anyway]", "background status" and "look"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
 /// Whether a name can be a file name: letters, digits, dots, underscores and hyphens. It must not

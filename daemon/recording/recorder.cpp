@@ -39,6 +39,25 @@ RecordingStatus Recorder::Stop() {
     if (!status.problem.empty()) return status;
     throw std::runtime_error("nothing is being recorded");
   }
+  return StopRunning();
+}
+
+void Recorder::Cancel(const std::string& name) {
+  const std::scoped_lock change(change_mutex_);
+  const RecordingStatus status = Status();
+  const bool is_this = status.folder.stem() == name || status.folder.filename() == name;
+  if (status.state != RecordingStatus::State::kRunning || !is_this)
+    throw std::runtime_error("no take " + name + " is being recorded");
+  const std::filesystem::path folder = StopRunning().folder;
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be removed: " + error.message());
+  const std::scoped_lock lock(mutex_);
+  recording_.reset();
+}
+
+/// @pre change_mutex_ is held.
+RecordingStatus Recorder::StopRunning() {
   std::shared_ptr<Recording> recording;
   {
     const std::scoped_lock lock(mutex_);

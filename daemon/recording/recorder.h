@@ -25,9 +25,14 @@ class Recorder {
   /// Ends it. @return its result, also if it has ended by itself.
   /// @throws std::runtime_error  if there is none.
   RecordingStatus Stop();
+  /// Ends the take that is being recorded under this name, and removes what it holds.
+  /// @throws std::runtime_error  if none is, or if it cannot be removed.
+  void Cancel(const std::string& name);
   RecordingStatus Status() const;
 
  private:
+  RecordingStatus StopRunning();
+
   const RecordedStudio studio_;
   RecordingTaps taps_;
   std::mutex change_mutex_;  ///< Held while a recording begins or ends, which takes time.

@@ -66,11 +66,6 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
 /// Checks before anything is created.
 const std::filesystem::path& WithRoom(const std::filesystem::path& folder,
                                       const RecordingConfig& config) {
-  std::error_code error;
-  std::filesystem::create_directories(folder.parent_path(), error);
-  if (error) {
-    throw SetupError(folder.parent_path().string() + ": cannot be created: " + error.message());
-  }
   const auto free_mb = static_cast<double>(BytesFree(folder.parent_path())) / 1e6;
   if (free_mb < config.keep_free_mb) {
     throw SetupError(fmt::format("{}: has {:.0f} MB left, and recording.keep_free_mb is {:.0f}",

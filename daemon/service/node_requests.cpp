@@ -42,6 +42,18 @@ NodeRequests::Asked NodeRequests::Ask(const std::string& request,
   return asked;
 }
 
+NodeRequests::Asked NodeRequests::AskWhoDid(const Answers& before, const std::string& request,
+                                            std::chrono::milliseconds patience) const {
+  Asked asked;
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    const std::optional<ControlReply>& reply = before.answers[i].reply;
+    if (reply && reply->outcome != ControlOutcome::kDone) continue;
+    asked.nodes_.push_back(controls_[i].node());
+    asked.futures_.push_back(controls_[i].AskBeside(request, patience));
+  }
+  return asked;
+}
+
 NodeRequests::Answers NodeRequests::Asked::Wait() {
   Answers answers{std::move(nodes_), {}};
   for (std::future<RemoteAnswer>& future : futures_) answers.answers.push_back(future.get());

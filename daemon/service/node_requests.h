@@ -39,6 +39,9 @@ class NodeRequests {
 
   /// Asks all nodes. @param patience  for each.
   Asked Ask(const std::string& request, std::chrono::milliseconds patience) const;
+  /// Asks the nodes that did what was asked before, and those that have not answered.
+  Asked AskWhoDid(const Answers& before, const std::string& request,
+                  std::chrono::milliseconds patience) const;
   /// Tells the nodes that somebody watches, without waiting for their answers.
   void Look();
 

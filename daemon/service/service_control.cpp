@@ -93,10 +93,11 @@ std::string ServiceControl::Do(const RecordStartRequest& request) {
       nodes_.Ask("record start " + request.name, kRecordPatience).Wait();
   if (const std::string problem = answers.Problem(); !problem.empty()) {
     // A take that lacks some of its cameras is useless.
-    NodeRequests::Asked stopping = nodes_.Ask("record stop", kRecordPatience);
-    parts_.recorder.Stop();
-    stopping.Wait();
-    throw std::runtime_error(problem + "; the recording was stopped");
+    NodeRequests::Asked canceling =
+        nodes_.AskWhoDid(answers, "record cancel " + request.name, kRecordPatience);
+    parts_.recorder.Cancel(request.name);
+    canceling.Wait();
+    throw std::runtime_error(problem + "; nothing is recorded");
   }
   return text + answers.Text();
 }
@@ -106,6 +107,12 @@ std::string ServiceControl::StartRecording(const std::string& name) {
                                             Recorded(Tracked(parts_.view.people())));
   spdlog::info("recording {}", folder.c_str());
   return fmt::format("recording {}\n", folder.string());
+}
+
+std::string ServiceControl::Do(const RecordCancelRequest& request) {
+  parts_.recorder.Cancel(request.name);
+  spdlog::info("the recording {} was canceled by the studio", request.name);
+  return "canceled " + request.name + '\n';
 }
 
 std::string ServiceControl::Do(const RecordStopRequest&) {

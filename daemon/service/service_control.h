@@ -49,6 +49,7 @@ class ServiceControl {
   std::string Do(const ReloadRequest&);
   std::string Do(const RecordStartRequest& request);
   std::string Do(const RecordStopRequest&);
+  std::string Do(const RecordCancelRequest& request);
   std::string Do(const SubjectNewRequest&);
   std::string Do(const SubjectSaveRequest& request);
   std::string Do(const SubjectLoadRequest& request);

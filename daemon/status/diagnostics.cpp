@@ -138,7 +138,6 @@ bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
 
 /// All connected cameras are silent: something that they share is to blame.
 void ComplainOfSilence(const ServiceReport& report, List& list) {
-  if (report.now.window_ns < kSilence) return;
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     const bool is_there = report.now.status.cameras[i].state == CameraState::kStreaming;
     if (!is_there || WaitsForTrigger(report, i)) continue;
@@ -151,6 +150,7 @@ void ComplainOfSilence(const ServiceReport& report, List& list) {
 
 /// Carving needs two cameras, whether there are sets or not.
 void ComplainOfOneAlone(const ServiceReport& report, List& list) {
+  if (report.now.window_ns < kSilence) return;
   const auto& rates = report.now.frames_per_second;
   const auto gives = [](double rate) { return rate > 0; };
   if (std::ranges::count_if(rates, gives) != 1) return;
@@ -162,6 +162,8 @@ void ComplainOfOneAlone(const ServiceReport& report, List& list) {
 }
 
 void ComplainOfSets(const ServiceReport& report, List& list) {
+  // Nothing can be said of the first seconds.
+  if (report.now.window_ns < kSilence) return;
   // Sets that were dropped had been formed; ComplainOfTime reports them.
   if (report.now.sets_per_second > 0 || report.now.sets_dropped_lately > 0) return;
   const PipelineStatus& status = report.now.status;

@@ -27,6 +27,7 @@ TEST(ControlRequest, UnderstandsWhatMocapSends) {
   EXPECT_EQ(std::get<RecordStartRequest>(*ParseControlRequest("record start a.b_c-1")).name,
             "a.b_c-1");
   EXPECT_TRUE(std::holds_alternative<RecordStopRequest>(*ParseControlRequest("record stop")));
+  EXPECT_EQ(std::get<RecordCancelRequest>(*ParseControlRequest("record cancel walk")).name, "walk");
   EXPECT_EQ(std::get<SubjectSaveRequest>(*ParseControlRequest("subject save eve")).name, "eve");
   EXPECT_FALSE(std::get<SubjectSaveRequest>(*ParseControlRequest("subject save eve")).person);
   EXPECT_EQ(std::get<SubjectSaveRequest>(*ParseControlRequest("subject save eve 12")).person, 12);
@@ -40,9 +41,9 @@ TEST(ControlRequest, UnderstandsWhatMocapSends) {
 
 TEST(ControlRequest, RefusesEverythingElse) {
   for (const char* line :
-       {"", " ", "status  json", "record", "record start", "record start a b", "subject save",
-        "subject save eve 0", "subject save eve -1", "subject save eve 1x", "subject save ../eve 1",
-        "subject load eve 1", "STATUS", "status\nreload"}) {
+       {"", " ", "status  json", "record", "record start", "record start a b", "record cancel",
+        "subject save", "subject save eve 0", "subject save eve -1", "subject save eve 1x",
+        "subject save ../eve 1", "subject load eve 1", "STATUS", "status\nreload"}) {
     EXPECT_FALSE(ParseControlRequest(line)) << line;
   }
   EXPECT_FALSE(ParseControlRequest(std::string(kLongestRequest + 1, 'a')));

@@ -132,10 +132,11 @@ class MocapdTest : public ::testing::Test {
   TemporaryFolder folder_;
   const std::filesystem::path log_ = folder_.path() / "errors";
 
-  std::string WriteConfig(const std::string& source, const std::string& more = "") {
+  std::string WriteConfig(const std::string& source, const std::string& more = "",
+                          const std::string& top = "") {
     const std::filesystem::path file = folder_.path() / "mocapd.toml";
-    testing::WriteText(
-        file, "[source]\n" + source + "[lcm]\nurl = \"" + url_ + "\"\nprefix = \"T_\"\n" + more);
+    testing::WriteText(file, top + "[source]\n" + source + "[lcm]\nurl = \"" + url_ +
+                                 "\"\nprefix = \"T_\"\n" + more);
     return file;
   }
   /// Null, with the reason, where LCM has no way out.
@@ -234,6 +235,27 @@ TEST_F(MocapdTest, WhatItSaysIsWrittenSurvivesAKill) {
     EXPECT_GE(there, said);
     std::filesystem::remove_all(take);
   }
+}
+
+TEST_F(MocapdTest, ATakeThatNodesDoNotRecordLeavesNothingBehind) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string config =
+      WriteConfig("driver = \"none\"\n",
+                  "[control]\nsocket = \"control\"\n[recording]\nfolder = \"takes\"\n"
+                  "[[nodes]]\nname = \"left\"\ncameras = [\"cam1\", \"cam2\"]\n"
+                  "control = [\"/bin/false\"]\n",
+                  "role = \"studio\"\ncalibration = \"take/calibration.toml\"\n");
+  const std::filesystem::path socket = folder_.path() / "control";
+  Daemon daemon({"--config", config}, log_);
+  while (FramesWritten(socket) < 0 && !daemon.HasEnded()) std::this_thread::yield();
+  const ControlReply reply = AskDaemon(socket, "record start walk");
+  EXPECT_EQ(reply.outcome, ControlOutcome::kFailed);
+  EXPECT_THAT(reply.text, AllOf(HasSubstr("node left"), HasSubstr("nothing is recorded")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "takes"));
+  daemon.Signal(SIGTERM);
+  EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
 }
 
 TEST_F(MocapdTest, WrongInputIsOneLineAndStatusTwo) {

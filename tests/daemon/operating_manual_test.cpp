@@ -77,6 +77,7 @@ std::vector<std::string> EveryComplaint() {
   ServiceReport report;
   report.fps_nominal = 25;
   report.now.sets_per_second = 25;
+  report.now.window_ns = 4'000'000'000;
   report.now.sets_dropped_lately = 12;
   report.keep_free_mb = 500;
   report.takes = "/takes";

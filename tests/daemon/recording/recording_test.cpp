@@ -110,6 +110,30 @@ TEST_F(RecordingTest, OfSeveralPeopleEachKeepsHisSizes) {
   EXPECT_DOUBLE_EQ(LoadSubject(take / "person-5/subject.toml").thigh, AverageSizes(1500).thigh);
 }
 
+TEST_F(RecordingTest, ACanceledTakeLeavesNothingBehind) {
+  recorder_->Start("one", config_, {});
+  Offer(0, 0);
+  EXPECT_THROW(recorder_->Cancel("other"), std::runtime_error) << "that one is not being recorded";
+  recorder_->Cancel("one");
+  EXPECT_TRUE(std::filesystem::is_empty(config_.folder));
+  EXPECT_EQ(recorder_->Status().state, RecordingStatus::State::kNone);
+  EXPECT_EQ(OpenFiles(), 0);
+}
+
+TEST_F(RecordingTest, ATakeThatIsCompleteIsNotCanceled) {
+  const std::filesystem::path take = recorder_->Start("one", config_, {});
+  Offer(0, 0);
+  recorder_->Stop();
+  EXPECT_THROW(recorder_->Cancel("one"), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::exists(take / "take.toml"));
+}
+
+TEST_F(RecordingTest, WithoutRoomNoFolderIsMade) {
+  config_.keep_free_mb = 1e12;
+  EXPECT_THROW(recorder_->Start("one", config_, {}), SetupError);
+  EXPECT_FALSE(std::filesystem::exists(config_.folder));
+}
+
 TEST_F(RecordingTest, ManyTakesLeaveNoMemoryBehind) {
   const auto record = [this](int takes) {
     for (int i = 0; i < takes; ++i) {

@@ -14,7 +14,8 @@ constexpr std::chrono::seconds kPatience{20};
 
 /// A node that answers so, and names what it was asked.
 StudioNode NodeThatSays(const std::string& name, const std::string& outcome) {
-  return {name, {}, {"/bin/sh", "-c", "read -r words; printf '" + outcome + "\\n%s\\n' \"$words\""}};
+  return {
+      name, {}, {"/bin/sh", "-c", "read -r words; printf '" + outcome + "\\n%s\\n' \"$words\""}};
 }
 
 NodeRequests::Answers Ask(const std::vector<StudioNode>& nodes) {
@@ -38,6 +39,13 @@ TEST(NodeRequests, OneThatCannotBeReachedIsNamed) {
   EXPECT_THAT(Ask({{"left", {}, {"/bin/false"}}}).Problem(), HasSubstr("node left: "));
   EXPECT_THAT(Ask({NodeThatSays("left", "done"), {"right", {}, {}}}).Problem(),
               AllOf(HasSubstr("node right: "), HasSubstr("no control command")));
+}
+
+TEST(NodeRequests, OnlyThoseThatDidItAreAskedToUndoIt) {
+  const NodeRequests nodes({NodeThatSays("left", "done"), NodeThatSays("right", "failed")});
+  const NodeRequests::Answers before = nodes.Ask("record start walk", kPatience).Wait();
+  EXPECT_EQ(nodes.AskWhoDid(before, "record cancel walk", kPatience).Wait().Text(),
+            "node left: record cancel walk\n");
 }
 
 TEST(NodeRequests, WithoutNodesAllHaveDoneIt) {
