@@ -18,8 +18,6 @@ namespace mocap {
 namespace {
 
 constexpr const char* kSystemTakes = "/var/lib/mocapd/takes";
-/// Six cameras of 640 x 480 pixels at 30 Hz, lossless.
-constexpr double kUsualRecording = 90e6;
 
 struct DoctorOptions {
   std::filesystem::path config;
@@ -51,14 +49,13 @@ std::filesystem::path TakesFor(const DoctorOptions& options, const RecordingConf
 void Doctor(const DoctorOptions& options) {
   const Config config = LoadChosenConfig(options.config);
   const Starter starter = IsOfSystem(options) ? Starter::kSystemd : Starter::kCaller;
-  std::vector<Diagnosis> diagnoses = {
-      CheckMulticastRoute(),
-      CheckMulticastEcho(config.lcm.url),
-      CheckSocketBuffers(),
-      CheckLimits(config.service.realtime, starter),
-      CheckClock(),
-      CheckProcessor(),
-      CheckDisk(TakesFor(options, config.service.recording), kUsualRecording)};
+  std::vector<Diagnosis> diagnoses = {CheckMessages(config.lcm.url),
+                                      CheckSocketBuffers(),
+                                      CheckLimits(config.service.realtime, starter),
+                                      CheckClock(),
+                                      CheckProcessor(),
+                                      CheckDisk(TakesFor(options, config.service.recording),
+                                                config.service.recording.keep_free_mb)};
   std::ranges::move(CheckCalibration(config), std::back_inserter(diagnoses));
   std::ranges::move(CheckDevices(config), std::back_inserter(diagnoses));
   diagnoses.push_back(
@@ -69,7 +66,7 @@ void Doctor(const DoctorOptions& options) {
     if (!diagnosis.fix.empty()) std::printf("        -> %s\n", Printable(diagnosis.fix).c_str());
   }
   const auto bad = std::ranges::count(diagnoses, Verdict::kBad, &Diagnosis::verdict);
-  if (bad > 0) throw std::runtime_error(std::to_string(bad) + " of these have to be fixed");
+  if (bad > 0) throw std::runtime_error(Counted(bad, "problem") + " must be fixed");
 }
 
 }  // namespace

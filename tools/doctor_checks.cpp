@@ -33,7 +33,9 @@ namespace {
 
 constexpr std::int64_t kLeastSocketBuffer = 2 * 1024 * 1024;
 constexpr std::int64_t kLeastUsbMegabytes = 1000;
-constexpr double kLeastRecording_s = 3600;
+/// Six cameras of 640 x 480 pixels at 30 Hz, lossless, in a second.
+constexpr double kUsualRecording_mb = 90;
+constexpr double kLeastRecording_s = 300;
 constexpr std::size_t kTrialBytes = 64 << 20;
 constexpr const char* kEchoChannel = "MOCAP_DOCTOR";
 constexpr int kEchoTimeoutMs = 1000;
@@ -103,13 +105,7 @@ Diagnosis CheckDevice(const std::string& name, const std::filesystem::path& devi
 
 }  // namespace
 
-Diagnosis CheckMulticastRoute() {
-  if (HasMulticastRoute()) return {Verdict::kGood, "there is a multicast route for poses", ""};
-  return {Verdict::kBad, "there is no multicast route, so poses go nowhere",
-          "as root: ip link set lo up && ip route add 224.0.0.0/4 dev lo"};
-}
-
-Diagnosis CheckMulticastEcho(const std::string& url) {
+Diagnosis CheckMessages(const std::string& url) {
   try {
     const LcmProvider provider = ParseLcmUrl(url).provider;
     if (provider == LcmProvider::kMemory) {
@@ -119,6 +115,10 @@ Diagnosis CheckMulticastEcho(const std::string& url) {
     if (provider == LcmProvider::kFile) {
       CheckLcm(url);
       return {Verdict::kGood, "the log " + url + " can be written", ""};
+    }
+    if (provider == LcmProvider::kMulticast && !HasMulticastRoute()) {
+      return {Verdict::kBad, "there is no multicast route, so no message can be sent on " + url,
+              "as root: ip link set lo up && ip route add 224.0.0.0/4 dev lo"};
     }
     const std::unique_ptr<lcm::LCM> receiver = OpenLcmToListen(url);
     const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
@@ -132,7 +132,7 @@ Diagnosis CheckMulticastEcho(const std::string& url) {
     while (!heard && SteadyNs() < end_ns) receiver->handleTimeout(kEchoTimeoutMs / 10);
     if (heard) return {Verdict::kGood, "messages on " + url + " arrive", ""};
   } catch (const SetupError& error) {
-    return {Verdict::kBad, error.what(), "see the line above"};
+    return {Verdict::kBad, error.what(), ""};
   }
   return {Verdict::kBad, "messages on " + url + " do not arrive",
           "check the firewall: UDP to that address has to pass"};
@@ -183,7 +183,7 @@ Diagnosis CheckClock() {
             ""};
   }
   return {Verdict::kAdvice,
-          "the clock is not synchronized; capture times mean nothing on other machines",
+          "the clock is not synchronized; capture times cannot be compared across computers",
           "as root: apt install chrony, or timedatectl set-ntp true"};
 }
 
@@ -199,27 +199,41 @@ Diagnosis CheckProcessor() {
           "as root: cpupower frequency-set -g performance"};
 }
 
-Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second) {
+Diagnosis CheckDisk(const std::filesystem::path& folder, double keep_free_mb) {
   const std::filesystem::path place = NearestFolder(folder);
   struct statvfs space {};
   if (statvfs(place.c_str(), &space) != 0) {
     return {Verdict::kBad, place.string() + ": " + std::strerror(errno), "choose another folder"};
   }
-  const double free_bytes =
-      static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
-  const double recording_s = free_bytes / bytes_per_second;
-  std::string what =
-      fmt::format("{}: {:.1f} GB free, {} of six cameras' recording", folder.string(),
-                  free_bytes / 1e9, Duration(static_cast<std::int64_t>(recording_s * 1e9)));
-  const std::optional<double> speed = DiskSpeed(place);
-  if (speed) what += fmt::format(", {:.0f} MB/s", *speed);
-  if (speed && *speed * 1e6 < 1.5 * bytes_per_second) {
-    return {Verdict::kBad, what,
-            fmt::format("use a disk that takes {:.0f} MB/s, or a codec that writes less",
-                        1.5 * bytes_per_second / 1e6)};
+  const double free_mb =
+      static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e6;
+  return JudgeSpace(folder.string(), free_mb, keep_free_mb, DiskSpeed(place));
+}
+
+Diagnosis JudgeSpace(const std::string& disk, double free_mb, double keep_free_mb,
+                     std::optional<double> speed_mb) {
+  const std::string free = fmt::format("{}: {:.1f} GB free", disk, free_mb / 1000);
+  if (free_mb < keep_free_mb) {
+    return {Verdict::kBad,
+            fmt::format("{}, and recording.keep_free_mb is {:.0f}: nothing can be recorded", free,
+                        keep_free_mb),
+            "free some space, or set recording.folder to a folder on another disk"};
   }
-  if (recording_s < kLeastRecording_s)
-    return {Verdict::kAdvice, what, "free some space, or choose another folder"};
+  const double room_s = (free_mb - keep_free_mb) / kUsualRecording_mb;
+  std::string what = fmt::format("{}, room for about {} of takes of six cameras (640 x 480, 30 Hz)",
+                                 free, Duration(static_cast<std::int64_t>(room_s * 1e9)));
+  if (speed_mb) what += fmt::format("; it writes {:.0f} MB/s", *speed_mb);
+  constexpr double kNeeded_mb = 1.5 * kUsualRecording_mb;
+  if (speed_mb && *speed_mb < kNeeded_mb) {
+    return {
+        Verdict::kBad, what,
+        fmt::format("use a disk that writes at least {:.0f} MB/s, or recording.codec = \"ffv1\"",
+                    kNeeded_mb)};
+  }
+  if (room_s < kLeastRecording_s) {
+    return {Verdict::kAdvice, what,
+            "free some space, or set recording.folder to a folder on another disk"};
+  }
   return {Verdict::kGood, what, ""};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +26,20 @@ struct Diagnosis {
 /// Whose limits apply to the daemon.
 enum class Starter { kSystemd, kCaller };
 
-Diagnosis CheckMulticastRoute();
-/// Sends a message to the configured address and expects to receive it.
-Diagnosis CheckMulticastEcho(const std::string& url);
+/// Sends a message to the configured address and expects to receive it. Names a missing multicast
+/// route if the address needs one.
+Diagnosis CheckMessages(const std::string& url);
 Diagnosis CheckSocketBuffers();
 Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter);
 Diagnosis CheckClock();
 Diagnosis CheckProcessor();
 /// Checks free space and, where permitted, how fast the disk writes 64 MB.
-/// @param bytes_per_second  needed by a recording.
-Diagnosis CheckDisk(const std::filesystem::path& folder, double bytes_per_second);
+/// @param keep_free_mb  that recordings leave free.
+Diagnosis CheckDisk(const std::filesystem::path& folder, double keep_free_mb);
+/// Judges the room for takes on a disk, for the recording of usual cameras.
+/// @param disk  the folder, and what else is known of it, for the message.
+Diagnosis JudgeSpace(const std::string& disk, double free_mb, double keep_free_mb,
+                     std::optional<double> speed_mb);
 /// One diagnosis for each device of a live studio, and for the load of its bus.
 std::vector<Diagnosis> CheckDevices(const Config& config);
 /// One diagnosis for each implausible place of a camera in the calibration, or that all are good;

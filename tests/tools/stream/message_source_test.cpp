@@ -57,7 +57,7 @@ TEST(MessageSource, APortOfAnotherProgramIsNamedByWhateverListens) {
                 is_told)
         << command;
   }
-  EXPECT_THAT(CheckMulticastEcho(taken.Url()).what, is_told);
+  EXPECT_THAT(CheckMessages(taken.Url()).what, is_told);
 }
 
 }  // namespace

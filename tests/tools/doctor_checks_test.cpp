@@ -1,0 +1,43 @@
+#include "tools/doctor_checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mocap {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(DoctorChecks, FiftyGigabytesAreRoomEnough) {
+  const Diagnosis good = JudgeSpace("/takes", 56'000, 500, 800);
+  EXPECT_EQ(good.verdict, Verdict::kGood);
+  EXPECT_EQ(
+      good.what,
+      "/takes: 56.0 GB free, room for about 10 min of takes of six cameras (640 x 480, 30 Hz); "
+      "it writes 800 MB/s");
+  EXPECT_EQ(good.fix, "");
+}
+
+TEST(DoctorChecks, ADiskOnWhichNothingCanBeRecordedIsBad) {
+  EXPECT_EQ(JudgeSpace("/takes", 20'000, 500, 800).verdict, Verdict::kAdvice);
+  const Diagnosis full = JudgeSpace("/takes", 400, 500, 800);
+  EXPECT_EQ(full.verdict, Verdict::kBad);
+  EXPECT_THAT(full.what, HasSubstr("0.4 GB free, and recording.keep_free_mb is 500"));
+  EXPECT_THAT(full.fix, HasSubstr("recording.folder"));
+}
+
+TEST(DoctorChecks, ASlowDiskIsBad) {
+  const Diagnosis slow = JudgeSpace("/takes", 56'000, 500, 20);
+  EXPECT_EQ(slow.verdict, Verdict::kBad);
+  EXPECT_THAT(slow.fix, HasSubstr("135 MB/s"));
+}
+
+TEST(DoctorChecks, AnAddressIsToldOnce) {
+  EXPECT_EQ(CheckMessages("memq://").verdict, Verdict::kBad);
+  const Diagnosis wrong = CheckMessages("nonsense");
+  EXPECT_EQ(wrong.verdict, Verdict::kBad);
+  EXPECT_EQ(wrong.fix, "") << "the line itself says what is expected";
+}
+
+}  // namespace
+}  // namespace mocap
