@@ -18,7 +18,7 @@
 #include "core/errors.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/channel_name.h"
-#include "daemon/messages/open_lcm.h"
+#include "daemon/messages/silence.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 #include "tools/stop_on_signals.h"
@@ -68,11 +68,12 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
   StopOnSignals();
   MessageSource source(options.url);
   PoseFeed feed(source.lcm(), options.feed, take);
-  Notice silence;
+  const Silence silence(source.lcm(), options.url, options.feed.prefix);
+  Notice notice;
   while (!StopAsked() && !is_over && source.Handle(kWait)) {
     if (source.is_log()) continue;
     const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
-    silence.Tell(is_silent ? SilenceText(options.url) : "");
+    notice.Tell(is_silent ? silence.Text() : "");
   }
   const bool has_ended = !StopAsked() && !is_over;
   if (has_ended && !feed.has_heard()) throw SetupError(NothingHeard(options));

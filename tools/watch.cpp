@@ -27,7 +27,7 @@
 #include "daemon/base/number_option.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
-#include "daemon/messages/open_lcm.h"
+#include "daemon/messages/silence.h"
 #include "daemon/status/followed_person.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
@@ -199,6 +199,24 @@ std::string PoseLine(const Hearing& hearing) {
   return line;
 }
 
+/// For a daemon that sends no poses: a node, or a studio without frame sets.
+std::string StatusLine(const Hearing& hearing) {
+  std::string line = "no poses";
+  if (hearing.status()) {
+    const auto& cameras = hearing.status()->cameras;
+    const auto streaming =
+        std::ranges::count(cameras, camera_status_t::STREAMING, &camera_status_t::state);
+    line += fmt::format("  {} of {} cameras streaming", streaming, cameras.size());
+  }
+  if (hearing.service() && !hearing.service()->complaint.empty())
+    line += "  ! " + Foreign(hearing.service()->complaint.front());
+  return line;
+}
+
+std::string Line(const Hearing& hearing) {
+  return hearing.pose() ? PoseLine(hearing) : StatusLine(hearing);
+}
+
 /// Formats a camera's trust, offset and light.
 std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
   const bool is_told = service && camera < service->camera_trust.size();
@@ -249,7 +267,7 @@ std::string Page(const Hearing& hearing, const std::string& url) {
   std::string page = "mocapd";
   if (hearing.status()) page += ' ' + Foreign(hearing.status()->version);
   page += " on " + Printable(url) + "    Ctrl-C ends\n\n";
-  if (hearing.pose()) page += PoseLine(hearing) + '\n';
+  page += Line(hearing) + '\n';
   if (hearing.pose() && hearing.pose()->state != pose_t::SEARCHING) {
     const pose_t& pose = *hearing.pose();
     page += fmt::format("torso at {:.2f} {:.2f} {:.2f} m", Sane(pose.torso_mm[0]) / 1000,
@@ -273,12 +291,12 @@ void Show(const std::string& page) {
   std::fflush(stdout);
 }
 
-void TellHearing(const Hearing& hearing, std::int64_t now_ns, const std::string& url,
-                 bool on_terminal) {
-  const std::string silence = SilenceText(url) + '\n';
-  if (on_terminal) return Show(hearing.IsSilent(now_ns) ? silence : Page(hearing, url));
-  const bool is_silent = hearing.IsSilent(now_ns) || !hearing.pose();
-  std::fputs(is_silent ? silence.c_str() : (PoseLine(hearing) + '\n').c_str(), stdout);
+void TellHearing(const Hearing& hearing, const Silence& silence, std::int64_t now_ns,
+                 const std::string& url, bool on_terminal) {
+  const bool is_silent = hearing.IsSilent(now_ns);
+  if (on_terminal) return Show(is_silent ? silence.Text() + '\n' : Page(hearing, url));
+  const std::string line = is_silent ? silence.Text() : Line(hearing);
+  std::fputs((line + '\n').c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -292,6 +310,7 @@ void Watch(const WatchOptions& options) {
   StopOnSignals();
   MessageSource source(options.url);
   Hearing hearing(source.lcm(), options.prefix);
+  const Silence silence(source.lcm(), options.url, options.prefix);
   const bool on_terminal = isatty(STDOUT_FILENO) == 1;
   if (on_terminal) std::fputs("\x1b[2J", stdout);
   const std::int64_t begin_ns = SteadyNs();
@@ -302,10 +321,11 @@ void Watch(const WatchOptions& options) {
     if (now_ns < next_ns) continue;
     next_ns = now_ns + (on_terminal ? kPageNs : kLineNs);
     hearing.Age(now_ns);
-    TellHearing(hearing, now_ns, options.url, on_terminal);
+    TellHearing(hearing, silence, now_ns, options.url, on_terminal);
   }
   // Print what the log had since the last line.
-  if (source.is_log() && !StopAsked()) TellHearing(hearing, SteadyNs(), options.url, on_terminal);
+  if (source.is_log() && !StopAsked())
+    TellHearing(hearing, silence, SteadyNs(), options.url, on_terminal);
 }
 
 }  // namespace

@@ -164,11 +164,6 @@ std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url) {
   return Parse(url).provider == LcmProvider::kMulticast ? OpenLcm(url) : nullptr;
 }
 
-std::string SilenceText(const std::string& url) {
-  return "no messages arrive on " + Printable(url) +
-         ": is mocapd running? mocap doctor checks the network";
-}
-
 void CheckLcm(const std::string& url) {
   const LcmUrl address = Parse(url);
   if (address.provider == LcmProvider::kMulticast) OpenLcm(url);

@@ -31,9 +31,6 @@ std::unique_ptr<lcm::LCM> OpenLcmBeside(const std::string& url);
 /// Checks whether OpenLcm would succeed; leaves no file and no message. @throws SetupError
 void CheckLcm(const std::string& url);
 
-/// The message for a person if nothing is heard at an address.
-std::string SilenceText(const std::string& url);
-
 /// Whether the kernel has a route for LCM's multicast.
 bool HasMulticastRoute();
 

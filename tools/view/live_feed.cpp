@@ -10,7 +10,6 @@
 #include "core/errors.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
-#include "daemon/messages/open_lcm.h"
 #include "daemon/messages/reduced_picture.h"
 #include "daemon/pipeline/carve_stage.h"
 #include "drivers/clock.h"
@@ -75,7 +74,7 @@ RigidTransform PoseOf(const preview_t& preview) {
 }  // namespace
 
 LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Put put)
-    : url_(std::move(url)), put_(std::move(put)), heard_ns_(SteadyNs()) {
+    : nobody_heard_(lcm, std::move(url), prefix), put_(std::move(put)), heard_ns_(SteadyNs()) {
   const std::string named = ChannelPattern(prefix);
   lcm.subscribe(named + kPoseChannel, &LiveFeed::OnPose, this);
   lcm.subscribe(named + kBodyChannel, &LiveFeed::OnBody, this);
@@ -96,7 +95,7 @@ void LiveFeed::NoteControl(const std::string& why) {
 
 void LiveFeed::Tick() {
   const bool is_silent = SteadyNs() - heard_ns_ > kSilenceNs;
-  silence_ = is_silent ? SilenceText(url_) : "";
+  silence_ = is_silent ? nobody_heard_.Text() : "";
   PutNotice();
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
+#include "daemon/messages/silence.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/live_board.h"
 #include "tools/view/live_people.h"
@@ -70,7 +71,7 @@ class LiveFeed {
                                         std::size_t camera) const;
   const DrawnBody* BodyOf(const DrawnPose& pose) const;
 
-  const std::string url_;
+  const Silence nobody_heard_;
   const Put put_;
   std::int64_t heard_ns_;  ///< By the steady clock.
   std::string silence_, control_, notice_, told_people_;

@@ -1,0 +1,58 @@
+#include "daemon/messages/silence.h"
+
+#include <utility>
+#include <vector>
+
+#include "daemon/messages/channel_name.h"
+#include "drivers/clock.h"
+#include "drivers/nearest_name.h"
+#include "drivers/printable_text.h"
+#include "drivers/quoted.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kRecent_ns = 5'000'000'000;
+// Anyone may send.
+constexpr std::size_t kMostPrefixes = 8;
+
+}  // namespace
+
+Silence::Silence(lcm::LCM& lcm, std::string url, std::string prefix)
+    : lcm_(lcm), url_(std::move(url)), prefix_(std::move(prefix)) {
+  // Every daemon sends this once a second, whatever its role.
+  subscription_ = lcm_.subscribe(std::string(".*") + kStatusChannel, &Silence::OnMessage, this);
+}
+
+Silence::~Silence() { lcm_.unsubscribe(subscription_); }
+
+void Silence::OnMessage(const lcm::ReceiveBuffer*, const std::string& channel) {
+  const std::string prefix =
+      channel.substr(0, channel.size() - std::string_view(kStatusChannel).size());
+  if (!heard_ns_.contains(prefix) && heard_ns_.size() >= kMostPrefixes) return;
+  heard_ns_[prefix] = SteadyNs();
+}
+
+std::string Silence::Text() const {
+  const std::int64_t now_ns = SteadyNs();
+  std::vector<std::string> others;
+  bool is_here = false;
+  for (const auto& [prefix, time_ns] : heard_ns_) {
+    if (now_ns - time_ns > kRecent_ns) continue;
+    is_here |= prefix == prefix_;
+    if (prefix != prefix_) others.push_back(Quoted(prefix));
+  }
+  const std::string url = Printable(url_);
+  if (is_here)
+    return "mocapd sends its status on " + url +
+           ", but no poses: mocap status says why; a node never sends poses, its studio does";
+  if (others.empty())
+    return "no messages arrive on " + url + ": is mocapd running? mocap doctor checks the network";
+  return "no messages " +
+         (prefix_.empty() ? "without a prefix" : "with prefix " + Quoted(prefix_)) + " arrive on " +
+         url + ", but mocapd sends there with " +
+         (others.size() == 1 ? "prefix " : "the prefixes ") + ListedNames(others) +
+         ": choose it with --prefix";
+}
+
+}  // namespace mocap
