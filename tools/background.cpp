@@ -17,6 +17,7 @@
 #include "core/reconstruction/background/change_meter.h"
 #include "daemon/base/number_option.h"
 #include "drivers/printable_text.h"
+#include "drivers/take/unfinished_folder.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"
 
@@ -51,8 +52,8 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
     std::ostringstream text;
     text.precision(2);
     text << cameras[i].name << ": " << 100 * records[i].changed
-         << " % of its picture changed meanwhile; is somebody in the room, or is its exposure "
-            "automatic? The previous background is kept";
+         << " % of its picture changed meanwhile; check that nobody is in the room and that its "
+            "exposure is fixed. The previous background is kept";
     throw std::runtime_error(text.str());
   }
 }
@@ -61,12 +62,14 @@ void Learn(const LearnOptions& options) {
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   const std::filesystem::path partial = BeginBackground(config.background);
+  UnfinishedFolder unfinished(partial);
   if (isatty(STDERR_FILENO)) {
-    std::fprintf(stderr, "recording the empty studio for %g s\n", options.seconds);
+    std::fprintf(stderr, "recording the background for %g s\n", options.seconds);
   }
   const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, options.seconds);
   RequireStillRoom(cameras, records);
   ReplaceBackground(config.background, partial);
+  unfinished.Finish();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::printf("%s: %s\n", cameras[i].name.c_str(), Counted(records[i].frames, "frame").c_str());
   }
@@ -93,7 +96,7 @@ void AddBackgroundCommand(CLI::App& app) {
       ->needs(config);
   learn
       ->add_flag("--anyway", options->anyway,
-                 "learn even if a person is tracked, such as a chair mistaken for a person")
+                 "learn even if a person is tracked, such as a chair that is taken for one")
       ->excludes(config);
   CLI::App* status = background->add_subcommand(
       "status", "Show the age of the background and the light in which it is valid");

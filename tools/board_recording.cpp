@@ -18,6 +18,7 @@
 #include "drivers/clock.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/unfinished_folder.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -200,6 +201,7 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
     throw SetupError(options.folder.string() +
                      ": exists already; expected another folder to record into");
   std::filesystem::create_directories(options.folder);
+  UnfinishedFolder unfinished(options.folder);
   Looker looker(options.board, cameras);
   Recordings recordings;
   for (LiveCamera& camera : cameras)
@@ -222,6 +224,9 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
     }
   }
   for (const auto& thread : threads) thread.wait();
+  // What some cameras have recorded is kept, even if another one has failed.
+  const auto has_pictures = [](const auto& recording) { return recording->NewestBeat() >= 0; };
+  if (std::ranges::any_of(recordings, has_pictures)) unfinished.Finish();
   if (looker.Look(recordings)) listener(looker.Hints());
   for (auto& thread : threads) thread.get();
 }

@@ -19,6 +19,7 @@
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_writer.h"
+#include "drivers/take/unfinished_folder.h"
 
 namespace mocap {
 namespace {
@@ -164,16 +165,19 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
 void SimulatePeople(const SimulateOptions& options) {
   const SimulatedStudio studio(options.studio);
   TakeWriter writer(options.out, Describe(options, studio.cameras()));
+  UnfinishedFolder unfinished(writer.partial_folder());
   const std::vector<std::string> names(kSimulatedJointNames.begin(), kSimulatedJointNames.end());
   writer.SetTruthPoints(names, options.studio.people);
   WriteBackgrounds(studio, writer);
   WriteFrames(options, studio, writer);
   writer.Finish();
+  unfinished.Finish();
 }
 
 void SimulateBoard(const SimulateOptions& options) {
   SimulatedBoard board(options.studio, kBoardPlaces.at(options.board), options.desk);
   TakeWriter writer(options.out, Describe(options, board.cameras()));
+  UnfinishedFolder unfinished(writer.partial_folder());
   const SimulationProgress progress(options.frames());
   for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
@@ -182,6 +186,7 @@ void SimulateBoard(const SimulateOptions& options) {
                         board.AnglesAt(c, board.CaptureTime(c, i)));
   }
   writer.Finish();
+  unfinished.Finish();
 }
 
 void Simulate(const SimulateOptions& options) {
@@ -214,7 +219,7 @@ void AddSimulateCommand(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--begin", options->studio.begin_s,
-                   "how much of the motion has passed when the take begins [s]")
+                   "time within the motion at which the take begins [s]")
       ->check(NumberFrom(0, 86400))
       ->capture_default_str();
   command->add_option("--fps", options->studio.fps, "frames per second")

@@ -14,6 +14,7 @@
 #include "core/reconstruction/background/change_meter.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
+#include "drivers/take/unfinished_folder.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -123,14 +124,15 @@ void BackgroundLearner::RequireEmptyRoom(const std::deque<Look>& looks) const {
     }
     if (looks[i].changed <= kMostChange) continue;
     throw std::runtime_error(
-        fmt::format("{}: {:.2g} % of its picture changed meanwhile; is somebody in the room, or is "
-                    "its exposure automatic? The previous background is kept",
+        fmt::format("{}: {:.2g} % of its picture changed meanwhile; check that nobody is in the "
+                    "room and that its exposure is fixed. The previous background is kept",
                     name, 100 * looks[i].changed));
   }
 }
 
 void BackgroundLearner::Keep(const std::deque<Look>& looks) const {
   const std::filesystem::path partial = BeginBackground(place_.folder);
+  UnfinishedFolder unfinished(partial);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const CameraCalibration& camera = place_.cameras[i];
     VideoWriter video(partial / (camera.name + ".mkv"), camera.width_px, camera.height_px, kFps,
@@ -139,6 +141,7 @@ void BackgroundLearner::Keep(const std::deque<Look>& looks) const {
     video.Finish();
   }
   ReplaceBackground(place_.folder, partial);
+  unfinished.Finish();
 }
 
 void BackgroundLearner::Use(const std::deque<Look>& looks) {

@@ -119,6 +119,14 @@ TEST_F(BoardRecordingTest, NamesTheCameraThatDeliversNothing) {
   }
 }
 
+TEST_F(BoardRecordingTest, WithoutAPictureLeavesNoFolderInTheWayOfTheNextAttempt) {
+  AddCamera("cam1", seen_, 0);
+  EXPECT_THROW(
+      RecordBoard(cameras_, options_, [](const std::vector<CameraHint>&) { return false; }),
+      std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(options_.folder));
+}
+
 TEST_F(BoardRecordingTest, KeepsWhatWasRecordedBefore) {
   std::filesystem::create_directory(options_.folder);
   EXPECT_THROW(RecordBoard(cameras_, options_, {}), SetupError);

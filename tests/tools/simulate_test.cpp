@@ -9,6 +9,7 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -55,6 +56,13 @@ TEST_F(Simulate, WritesATakeThatOpensWithTruthAndMasks) {
             "frame,timestamp_ns,pelvis_x_mm,pelvis_y_mm,pelvis");
   EXPECT_NE(truth.find(",toe_r_x_mm,toe_r_y_mm,toe_r_z_mm\n0,1000000000000,"), std::string::npos);
   EXPECT_NE(Content(take / "truth.toml").find("lower_arm_mm"), std::string::npos);
+}
+
+TEST_F(Simulate, OnAFullDiskLeavesNothingBehind) {
+  const testing::FileSizeLimit full(20'000);
+  EXPECT_THROW(Run("take", "--motion stand --seconds 0.1 --cameras 4"), std::runtime_error);
+  EXPECT_THROW(Run("board", "--board desk --seconds 0.1 --cameras 4"), std::runtime_error);
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(Simulate, OfSeveralPeopleEachHasTruthOfTheFramesInWhichHeIsThere) {

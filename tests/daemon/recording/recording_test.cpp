@@ -3,10 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <array>
-#include <csignal>
 #include <thread>
 
 #include "config/open_studio.h"
@@ -17,6 +15,7 @@
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "tests/daemon/fake_studio.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/heap_bytes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,27 +23,8 @@ namespace mocap {
 namespace {
 
 using testing::FakeRoom;
+using testing::FileSizeLimit;
 using ::testing::HasSubstr;
-
-/// Lets no file of this process grow beyond, as a full disk does.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 constexpr double kFrame_mb = 3e-6 * testing::kFakeWidth * testing::kFakeHeight;
 

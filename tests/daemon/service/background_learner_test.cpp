@@ -128,7 +128,7 @@ TEST_F(BackgroundLearnerTest, SomebodyWhoMovesIsNoticedAndNothingChanges) {
   somebody_moves_ = true;
   BackgroundLearner learner(*pipeline_, taps_, *known_, place_);
   EXPECT_THAT([&] { learner.Learn(false); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("is somebody in the room")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("that nobody is in the room")));
   EXPECT_FALSE(std::filesystem::exists(place_.folder));
   EXPECT_LT(known_->Of(0)()[0].image(3, 3).g, 130);
 }
