@@ -143,7 +143,7 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
 Studio OpenLiveStudio(const Config& config) {
   if (!IsThere(config.calibration)) {
     throw SetupError(config.calibration.string() +
-                     ": is missing; `mocap calibrate studio` makes one");
+                     ": not found; `mocap calibrate studio` makes one");
   }
   RequireFolder(config.background,
                 "what `mocap background learn --config FILE` makes while the studio is empty");

@@ -21,7 +21,7 @@ std::string_view Describe(TimeSource source) {
     case TimeSource::kArrival:
       return "arrival";
     case TimeSource::kDeviceClock:
-      return "device clock, fitted";
+      return "camera clock, fitted to the host's";
     case TimeSource::kPtp:
       return "PTP";
     case TimeSource::kPtpTai:

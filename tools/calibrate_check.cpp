@@ -92,7 +92,7 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
 
 std::string DaysAgo(std::int64_t then_s, std::int64_t now_s) {
   const std::int64_t days = (now_s - then_s) / (24 * 3600);
-  return days == 0 ? "today" : Counted(days, "day") + " ago";
+  return days < 1 ? "today" : days == 1 ? "yesterday" : std::to_string(days) + " days ago";
 }
 
 // The result of the last health check.
@@ -110,8 +110,7 @@ std::string HealthText(const std::vector<CameraOffset>& offsets) {
 
 // The age, and the result of the last health check.
 std::string RecordText(const CalibrationRecord& record, std::int64_t now_s) {
-  std::string text =
-      record.made_s == 0 ? "made at an unknown date" : "made " + DaysAgo(record.made_s, now_s);
+  std::string text = record.made_s == 0 ? "date unknown" : "made " + DaysAgo(record.made_s, now_s);
   if (record.refined_s != 0) text += ", refined " + DaysAgo(record.refined_s, now_s);
   text += record.checked_s == 0
               ? "; health not checked yet"

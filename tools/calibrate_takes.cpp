@@ -112,7 +112,7 @@ std::string ShiftText(const std::vector<CameraShift>& shifts) {
                                  "towards", "(right, down)", "spread", "larger", "overlap");
   for (const CameraShift& s : shifts) {
     text += s.moments == 0
-                ? fmt::format("{:<12}sees too little of the person to tell\n", s.camera)
+                ? fmt::format("{:<12}sees too little of the person for a check\n", s.camera)
                 : fmt::format("{:<12}{:>7.1f}  {:<8}{:>16}{:>9.1f}{:>7.1f} %{:>7.0f} %\n", s.camera,
                               s.shift_px.norm(), Directions(s.shift_px),
                               fmt::format("({:+.1f}, {:+.1f})", s.shift_px.x(), s.shift_px.y()),

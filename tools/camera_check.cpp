@@ -203,10 +203,10 @@ std::vector<std::string> TroublesOf(const CameraRun& run, const std::vector<BusL
                                    WhyMissed(FindLoad(loads, run))));
   }
   if (run.TakenFps() < kFullRate * AskedFps(run)) {
-    troubles.push_back(fmt::format(
-        "takes {:.1f} frames a second instead of {:g}, as cameras do in the dark: set exposure_us "
-        "below {:.0f}; if it is, ask for fewer frames a second or fewer pixels",
-        run.TakenFps(), AskedFps(run), 1e6 / AskedFps(run)));
+    troubles.push_back(
+        fmt::format("takes {:.1f} frames a second instead of {:g}, as cameras do in the dark: set "
+                    "exposure_us below {:.0f}; if it is already, lower fps or size_px",
+                    run.TakenFps(), AskedFps(run), 1e6 / AskedFps(run)));
   }
   return troubles;
 }
@@ -243,9 +243,10 @@ std::vector<std::string> TroublesOf(const SetSummary& sets, const std::vector<Ca
   double fps = 0;
   for (const CameraRun& run : runs) fps = std::max(fps, AskedFps(run));
   if (sets.median_spread_ms > kInStep * 1000 / fps) {
-    troubles.push_back(fmt::format(
-        "the cameras are not in step, {:.1f} ms apart: fast limbs blur; trigger them by hardware",
-        sets.median_spread_ms));
+    troubles.push_back(
+        fmt::format("the cameras are not synchronized, {:.1f} ms apart: fast movements blur; "
+                    "trigger them by hardware",
+                    sets.median_spread_ms));
   }
   if (sets.complete < (1 - kMostIncomplete) * sets.sets && !IsExplained(runs)) {
     troubles.push_back(fmt::format("{} of {} sets lack a camera: give all the same fps",

@@ -113,7 +113,7 @@ void Check(const CamerasOptions& options) {
     troubles += PrintTroubles(TroublesOf(sets, runs));
   }
   if (troubles > 0) {
-    throw std::runtime_error(fmt::format("{}, marked with !", Counted(troubles, "problem")));
+    throw std::runtime_error(fmt::format("{}, marked with ! above", Counted(troubles, "problem")));
   }
 }
 

@@ -93,7 +93,7 @@ std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
 
 Diagnosis CheckDevice(const std::string& name, const std::filesystem::path& device) {
   if (!std::filesystem::exists(device)) {
-    return {Verdict::kBad, fmt::format("{}: {} is missing", name, device.string()),
+    return {Verdict::kBad, fmt::format("{}: {} not found", name, device.string()),
             "plug the camera in; ls /dev/v4l/by-id lists what is connected"};
   }
   if (access(device.c_str(), R_OK | W_OK) != 0) {
@@ -160,7 +160,7 @@ Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter) {
   const std::uint64_t locked = unit_limit("LimitMEMLOCK").value_or(OwnLimit(RLIMIT_MEMLOCK));
   const bool may_lock = !config.lock_memory || locked == RLIM_INFINITY;
   if (may_go_first && may_lock) {
-    return {Verdict::kGood, "limits allow real-time priority and what [realtime] asks for", ""};
+    return {Verdict::kGood, "limits allow real-time priority and the settings of [realtime]", ""};
   }
   const std::string fix =
       by_systemd
@@ -171,7 +171,7 @@ Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter) {
             "limits do not allow real-time priority; recordings and other programs delay poses",
             fix};
   }
-  return {Verdict::kBad, "limits do not allow what [realtime] asks for", fix};
+  return {Verdict::kBad, "limits do not allow the settings of [realtime]", fix};
 }
 
 Diagnosis CheckClock() {
@@ -250,7 +250,7 @@ std::vector<Diagnosis> CheckCalibration(const Config& config) {
   for (const Finding& finding : CheckPlaces(cameras, true)) {
     diagnoses.push_back({finding.severity == Severity::kWrong ? Verdict::kBad : Verdict::kAdvice,
                          where + ": " + finding.text,
-                         "look at it with mocap calibrate check " + where});
+                         "for details: mocap calibrate check " + where});
   }
   if (diagnoses.empty())
     diagnoses.push_back(

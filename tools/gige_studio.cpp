@@ -279,7 +279,7 @@ void AddGigeStudioCommand(CLI::App& app) {
   command->add_option("--config", options->config,
                       "output mocapd configuration file in TOML, for these cameras");
   command->add_flag("--ptp", options->has_ptp, "support PTP clocks (TAI) and action commands");
-  command->add_option("--lost-packets", options->faults.lost_packets, "share of packets to lose")
+  command->add_option("--lost-packets", options->faults.lost_packets, "share of packets to drop")
       ->check(NumberFrom(0, 1));
   command->add_option("--jitter", options->faults.jitter_ms, "maximum random delay of a frame [ms]")
       ->check(NumberFrom(0, 10000));

@@ -84,8 +84,8 @@ void RequireTwoCameras(const TrackOptions& options, const Studio& studio) {
 std::string WhyNobody(const std::optional<Finding>& fault, std::span<const SeenMoment> moments) {
   if (fault) return fault->text;
   const auto show = std::ranges::count_if(moments, ShowsPerson);
-  return 2 * show > std::ssize(moments) ? "people are seen and nobody could be tracked: at least "
-                                          "three cameras have to see the whole person"
+  return 2 * show > std::ssize(moments) ? "people are visible, but nobody could be tracked: at "
+                                          "least three cameras must see the whole person"
                                         : "nobody is seen by most of the cameras at once";
 }
 

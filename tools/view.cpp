@@ -49,7 +49,7 @@ std::string TypeOf(const std::string& name) {
 
 std::string Script(const std::filesystem::path& file) {
   if (!IsThere(file)) {
-    throw SetupError(file.string() + ": is missing; install Debian's package libjs-three");
+    throw SetupError(file.string() + ": not found; install Debian's package libjs-three");
   }
   return ReadWholeFile(file, "three.js", kLargestScript);
 }

@@ -170,8 +170,7 @@ std::string PeopleText(const people_t& people) {
 
 /// Appends one line per person.
 void AppendPeople(const people_t& people, std::string& page) {
-  page +=
-      fmt::format("\n{:<24}{:<12}{:>22}{:>9}\n", "person", "state", "torso at x y z m", "fit mm");
+  page += fmt::format("\n{:<24}{:<12}{:>22}{:>9}\n", "person", "state", "torso x y z m", "fit mm");
   for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, people.people.size()); ++i) {
     const person_t& person = people.people[i];
     const bool is_tracked = person.state == pose_t::TRACKING;
@@ -194,7 +193,8 @@ std::string PoseLine(const Hearing& hearing) {
   if (hearing.people() && hearing.people()->num_people > 1)
     line += "  " + PeopleText(*hearing.people());
   line += "  " + Counted(pose.voxels, "voxel");
-  if (hearing.HearsSeveral()) return line + "  of several daemons in turns: give each a prefix";
+  if (hearing.HearsSeveral())
+    return line + "  poses of several daemons are mixed: give each its own lcm.prefix";
   if (hearing.missed() > 0) line += fmt::format("  {} missed here", hearing.missed());
   return line;
 }
@@ -231,7 +231,7 @@ std::string HealthCells(const std::optional<service_t>& service, std::size_t cam
 void AppendCameras(const Hearing& hearing, std::string& page) {
   const status_t& status = *hearing.status();
   page += fmt::format("\n{:<16}{:<10}{:>9}{:>10}{:>8}{:>8}{:>8}{:>8}{:>8}  {}\n", "camera", "state",
-                      "a second", "dropped", "late", "torn", "trust", "off px", "light",
+                      "fps", "dropped", "late", "damaged", "trust", "off px", "light",
                       "in the last set");
   for (std::size_t i = 0; i < status.cameras.size(); ++i) {
     const camera_status_t& camera = status.cameras[i];

@@ -19,9 +19,9 @@ Vector3 EyeOf(const CameraCalibration& camera) { return camera.X_CW.Inverse().p;
 void CheckRotation(const CameraCalibration& camera, std::vector<Finding>& findings) {
   const Matrix3& R = camera.X_CW.R;
   if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) return;
-  findings.push_back({Severity::kWrong, camera.name +
-                                            ": its rotation is a reflection or not a rotation; the "
-                                            "calibration was mirrored on its way here"});
+  findings.push_back(
+      {Severity::kWrong, camera.name + ": its rotation is a reflection or not a rotation; a "
+                                       "conversion has mirrored the calibration"});
 }
 
 void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings) {
@@ -62,11 +62,10 @@ void CheckDistances(std::span<const CameraCalibration> cameras, std::vector<Find
       const double apart_mm = (EyeOf(cameras[a]) - EyeOf(cameras[b])).norm();
       widest_mm = std::max(widest_mm, apart_mm);
       if (apart_mm >= kNearest_mm) continue;
-      findings.push_back({Severity::kWrong,
-                          cameras[a].name + " and " + cameras[b].name + ": stand " +
-                              Rounded(apart_mm) +
-                              " mm apart; is one the recording of the other, or are lengths given "
-                              "in metres?"});
+      findings.push_back({Severity::kWrong, cameras[a].name + " and " + cameras[b].name +
+                                                ": stand " + Rounded(apart_mm) +
+                                                " mm apart; check that the two recordings differ, "
+                                                "and that lengths are in millimetres"});
     }
   }
   if (widest_mm >= kNearest_mm && widest_mm < kSmallestStudio_mm) {

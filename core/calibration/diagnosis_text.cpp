@@ -70,8 +70,8 @@ std::string Text(const StudioDiagnosis& diagnosis, std::span<const CameraCalibra
       return FloorText(diagnosis.person);
     case StudioFault::kStature:
       return "a person is " + Millimetres(height_mm) +
-             " tall by this calibration: is the size of the board's squares right, and does a "
-             "person stand there?";
+             " tall by this calibration: check the size of the board's squares (--board), and that "
+             "a standing person is in view";
   }
   return {};
 }

@@ -198,13 +198,13 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
     }
     if (!message && errno == EAGAIN) FailSilent(place, patience);
     const std::optional<ControlReply> reply = message ? DecodeReply(*message) : std::nullopt;
-    if (!reply) throw std::runtime_error(place.string() + ": mocapd gave no answer");
+    if (!reply) throw std::runtime_error(place.string() + ": mocapd did not answer");
     return *reply;
   }
   throw std::runtime_error("mocapd is not running here; " +
                            (socket.empty() ? StartHint()
                                            : "nothing answers at " + socket.string() +
-                                                 "; start one with that control.socket"));
+                                                 ": start mocapd with this control.socket"));
 }
 
 ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request) {

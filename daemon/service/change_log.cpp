@@ -24,7 +24,7 @@ void ChangeLog::Add(const PipelineStatus& status) {
   const bool drops = status.sets_dropped > before.sets_dropped;
   calls_since_drop_ = drops ? 0 : calls_since_drop_ + 1;
   if (drops && !was_behind) spdlog::warn("tracking is behind: the oldest frame sets are dropped");
-  if (was_behind && calls_since_drop_ == kCallsToRecover) spdlog::info("tracking keeps up again");
+  if (was_behind && calls_since_drop_ == kCallsToRecover) spdlog::info("tracking has caught up");
   last_ = status;
 }
 

@@ -59,7 +59,7 @@ void WriteCameras(const ServiceReport& report, MetricsWriter& writer) {
 
 void WriteHealth(const ServiceReport& report, MetricsWriter& writer) {
   const auto& cameras = report.now.status.cameras;
-  writer.Family("camera_light_ratio", "gauge", "Brightness relative to the empty studio.");
+  writer.Family("camera_light_ratio", "gauge", "Brightness relative to the learned background.");
   for (const CameraStatus& camera : cameras) {
     writer.Sample(fmt::format("camera=\"{}\"", camera.name), camera.light);
   }

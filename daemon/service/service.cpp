@@ -91,7 +91,7 @@ class ControlDesk {
   ControlReply Answer(const ControlRequest& request) const {
     ServiceControl* control = control_.load();
     if (control) return control->Answer(request);
-    throw std::runtime_error("mocapd is starting: it is learning the empty studio");
+    throw std::runtime_error("mocapd is starting: it is learning the background");
   }
 
   std::atomic<ServiceControl*> control_{nullptr};
@@ -149,7 +149,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   ControlDesk desk(prepared.socket);
   ServiceManager manager;
   manager.Say("learning the empty studio");
-  spdlog::info("learning the empty studio: {}, {}", studio.name,
+  spdlog::info("learning the background: {}, {}", studio.name,
                Counted(studio.cameras.size(), "camera"));
   for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
   const ServiceReport about = ReportAbout(config, studio);

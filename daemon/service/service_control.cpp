@@ -189,7 +189,7 @@ std::string ServiceControl::LearnBackground(bool anyway) {
         "stop");
   }
   const std::string text = parts_.background.Learn(anyway);
-  spdlog::info("the empty studio was learned again");
+  spdlog::info("the background was learned again");
   return text;
 }
 

@@ -40,11 +40,11 @@ using List = std::vector<std::string>;
 void ComplainOfReport(const ServiceReport& report, List& list) {
   if (report.age_ns > kOld) {
     list.push_back(fmt::format(
-        "mocapd's main thread has not responded for {}: this status is equally old; restart mocapd",
+        "mocapd's main thread has not responded for {}: this status is just as old; restart mocapd",
         Duration(report.age_ns)));
   }
   if (report.now.status.cameras.empty()) {
-    list.push_back("nothing is known yet: mocapd has just started");
+    list.push_back("no status yet: mocapd has just started; ask again");
   }
 }
 
@@ -72,7 +72,7 @@ void ComplainOfDelivery(const ServiceReport& report, List& list) {
   }
   if (delivery.channel.reaches_nobody) {
     list.push_back(
-        fmt::format("poses do not leave this process: lcm.url is {}; expected one like "
+        fmt::format("poses are not sent to other programs: lcm.url is {}; expected one like "
                     "udpm://239.255.76.67:7667?ttl=0",
                     report.lcm_url));
   }
@@ -169,7 +169,7 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
   const PipelineStatus& status = report.now.status;
   if (status.sets_complete + status.sets_partial > status.sets_tracked) {
     list.push_back(
-        "a frame set has been in processing for seconds: the processor is too slow for this voxel "
+        "processing a frame set takes several seconds: the processor is too slow for this voxel "
         "size, or is busy with other programs");
     return;
   }
@@ -260,20 +260,20 @@ void ComplainOfPicture(const CameraStatus& camera, List& list) {
   if (camera.state != CameraState::kStreaming) return;
   if (camera.is_blind) {
     list.push_back(camera.name +
-                   " no longer matches its learned background and is not used: was it turned, does "
-                   "a light shine into it, is something in front of it, was its exposure changed? "
-                   "If not, run mocap background learn");
+                   " no longer matches its background and is not used: check whether it was "
+                   "turned, is blocked, has a light shining into it, or has another exposure; if "
+                   "not, run mocap background learn");
     return;
   }
   if (camera.light < kDarkest || camera.light > kBrightest) {
     list.push_back(
-        fmt::format("{} sees {:.0f} % of the light in which the empty studio was learned: restore "
+        fmt::format("the picture of {} has {:.0f} % of the brightness of its background: restore "
                     "the light, or run mocap background learn",
                     camera.name, 100 * camera.light));
   }
   if (camera.nudged_px > kNudged_px) {
     list.push_back(
-        fmt::format("{} has moved by {:.1f} px since the empty studio was learned: was it touched?",
+        fmt::format("{} has moved by {:.1f} px since its background was learned: check its mount",
                     camera.name, camera.nudged_px));
   }
 }
@@ -305,10 +305,11 @@ void ComplainOfNobody(const ServiceReport& report, List& list) {
   const std::int64_t missed_ns = std::min(report.nobody_ns, people.seen_for_ns);
   if (report.now.sets_per_second == 0 || missed_ns < PeopleWatch::kWindow_ns) return;
   list.push_back(fmt::format(
-      "somebody moves in most pictures, but nobody has been found for {}: {}", Duration(missed_ns),
-      people.fault ? people.fault->text
-                   : "check in mocap view that at least three cameras see the whole person, and "
-                     "nothing else as a person; mocap subject new searches from the start"));
+      "a person is moving in most pictures, but has not been found for {}: {}", Duration(missed_ns),
+      people.fault
+          ? people.fault->text
+          : "check in mocap view that at least three cameras see the whole person and that nothing "
+            "else is taken for a person; mocap subject new starts the search again"));
 }
 
 void ComplainOfLight(const ServiceReport& report, List& list) {

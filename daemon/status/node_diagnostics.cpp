@@ -91,8 +91,8 @@ List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& ca
                      const std::string& lcm_url) {
   if (link.silent_ns > kLongestSilence_ns) {
     return {fmt::format(
-        "no studio has been heard on {} for {}: silhouettes reach nobody; start mocapd there with "
-        "role = \"studio\" and the same lcm.url and lcm.prefix{}",
+        "no studio has been heard on {} for {}: nobody receives the silhouettes; start mocapd at "
+        "the studio with role = \"studio\" and the same lcm.url and lcm.prefix{}",
         lcm_url, Duration(link.silent_ns), RangeHint(lcm_url))};
   }
   List lost;
@@ -118,8 +118,8 @@ List NodeDiagnostics(const NodesReport& report, const std::string& lcm_url) {
   for (const NodeReport& node : report.nodes) Diagnose(node, lcm_url, list);
   if (!report.stranger.empty()) {
     list.push_back(
-        fmt::format("{} also sends to {} and is not known here: add it to [[nodes]], or give that "
-                    "studio another lcm.prefix",
+        fmt::format("{} also sends to {} and is not in [[nodes]]: add it, or give that studio "
+                    "another lcm.prefix",
                     report.stranger, lcm_url));
   }
   return list;

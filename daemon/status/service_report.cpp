@@ -51,7 +51,7 @@ constexpr std::array<std::string_view, 4> kRecordedNames = {"none", "running", "
 
 /// "walk, 12 s, 2160 frames, 0 dropped".
 std::string RecordingText(const RecordingStatus& recording) {
-  if (recording.state == Recorded::kNone) return "none since the start";
+  if (recording.state == Recorded::kNone) return "none since mocapd started";
   std::string text = fmt::format("{}, {}, {}, {} dropped", recording.folder.string(),
                                  Duration(recording.duration_ns),
                                  Counted(recording.frames, "frame"), recording.dropped);
@@ -103,7 +103,7 @@ std::string AgreementText(const PipelineStatus& status) {
     if (IsCompared(camera)) worst_px = std::max(worst_px, camera.health.shift_px.norm());
   }
   if (std::ranges::none_of(status.cameras, IsCompared)) {
-    return "not yet checked against a person who walks about";
+    return "not compared yet: that needs a person who walks about";
   }
   return fmt::format("cameras agree within {:.1f} px", worst_px);
 }
@@ -111,7 +111,7 @@ std::string AgreementText(const PipelineStatus& status) {
 std::string CameraTable(const ServiceReport& report) {
   std::string text =
       fmt::format("{:<16}{:<10}{:>9}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}\n", "camera", "state",
-                  "a second", "frames", "dropped", "late", "torn", "trust", "off px", "light");
+                  "fps", "frames", "dropped", "late", "damaged", "trust", "off px", "light");
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     const CameraStatus& camera = report.now.status.cameras[i];
     const bool known = IsCompared(camera);
@@ -139,7 +139,7 @@ double SecondsOf(const FollowedPerson& person, const ServiceReport& report) {
 std::string PeopleTable(const ServiceReport& report) {
   if (report.people.empty()) return {};
   std::string text = fmt::format("{:<24}{:<12}{:>16}{:>9}{:>12}  {}\n", "person", "state", "x y m",
-                                 "fit mm", "stature mm", "followed for");
+                                 "fit mm", "stature mm", "tracked for");
   for (const FollowedPerson& person : report.people) {
     const bool is_tracked = person.state == CaptureState::kTracking;
     text += fmt::format(

@@ -23,7 +23,7 @@ bool IsAbsence(int error) { return error == ENOENT || error == ENOTDIR; }
 /// Throws a message for errno.
 [[noreturn]] void FailByErrno(const std::filesystem::path& path, std::string_view wanted) {
   if (path.empty()) throw SetupError("a path is empty; expected " + std::string(wanted));
-  if (IsAbsence(errno)) Fail(path, "is missing", wanted);
+  if (IsAbsence(errno)) Fail(path, "not found", wanted);
   Fail(path, std::string("cannot be opened: ") + std::strerror(errno), wanted);
 }
 

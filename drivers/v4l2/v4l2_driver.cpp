@@ -21,7 +21,7 @@ std::string TimeSourceOf(const CaptureTime& time) {
     case V4l2Clock::kMonotonic:
       break;
     case V4l2Clock::kGuessed:
-      return "timestamps of an unnamed clock";
+      return "timestamps of an unknown clock";
     case V4l2Clock::kArrival:
       return "arrival";
   }

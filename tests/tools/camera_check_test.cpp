@@ -124,7 +124,7 @@ TEST(CameraCheck, DamagedFramesAreOneTroubleAndNoOther) {
 TEST(CameraCheck, CamerasOutOfStepOrAtDifferentRatesAreTold) {
   std::vector<CameraRun> runs = {GoodRun("a"), GoodRun("b", kPeriod_ns / 4)};
   EXPECT_THAT(TroublesOf(SummarizeSets(runs), runs),
-              ElementsAre(HasSubstr("not in step, 10.0 ms")));
+              ElementsAre(HasSubstr("not synchronized, 10.0 ms")));
   CameraRun half = GoodRun("c");
   for (std::size_t i = 0; i < half.times_ns.size(); ++i) {
     half.times_ns[i] = half.times_ns.front() + 2 * static_cast<std::int64_t>(i) * kPeriod_ns;

@@ -81,15 +81,13 @@ std::string AccuracyLine(const AccuracyRow& row) {
 std::string AccuracySummaryText(const AccuracySummary& summary) {
   return fmt::format(
       "{} takes: {:.1f} mm in the mean ({:.1f} mm the worst), 95 % below {:.1f} mm, {:.2f} "
-      "degrees, "
-      "part lengths {:.1f} mm off;\ntracked {:.2f} % (lost in {} takes), head found {:.2f} %, "
-      "sizes "
-      "settled after {:.0f} sets (at most {}); confident and wrong for more than {} sets in {} "
-      "takes\n",
+      "degrees, part lengths {:.1f} mm off;\ntracked {:.2f} % (lost in {} takes), head found "
+      "{:.2f} %, sizes settled after {:.0f} sets (at most {}); tracked with a mean error above "
+      "{:.0f} mm for more than {} sets in {} takes\n",
       summary.takes, summary.mpjpe_mm, summary.worst_mpjpe_mm, summary.p95_mm, summary.angle_deg,
       summary.length_error_mm, 100 * summary.tracked_share, summary.takes_with_loss,
       100 * summary.head_found_share, summary.median_acquisition_frames,
-      summary.most_acquisition_frames, kLongestGlitch, summary.takes_with_wrong_stretch);
+      summary.most_acquisition_frames, kWrongMm, kLongestGlitch, summary.takes_with_wrong_stretch);
 }
 
 std::string PeopleHeader() {

@@ -101,7 +101,7 @@ std::string VarietySummaryText(std::span<const VarietyRow> rows) {
   const Counts counts = CountOf(rows);
   return fmt::format(
       "{} varied people: {} never found, {} found after more than {} s, {} lost for more than {} "
-      "s, {} confident and wrong; {:.1f} mm in the mean ({:.1f} mm the worst)\n",
+      "s, {} tracked in a wrong pose; {:.1f} mm in the mean ({:.1f} mm the worst)\n",
       rows.size(), counts.never, counts.late, kFoundLate_s, counts.lost, kLostLong_s, counts.wrong,
       counts.mean_mm, counts.worst_mm);
 }

@@ -120,8 +120,9 @@ std::string Timelines(const PeopleEvaluation& evaluation) {
 std::string TrackedRows(const PeopleEvaluation& evaluation) {
   std::string html =
       "<h3>Tracked people</h3><table><tr><th>tracked</th><th class=\"n\">frames</th><th "
-      "class=\"n\">residual mm</th><th class=\"n\">stature mm</th><th class=\"is\">is</th><th "
-      "class=\"n\">error mm</th><th class=\"n\">phantom</th><th class=\"n\">duplicate</th></tr>";
+      "class=\"n\">residual mm</th><th class=\"n\">stature mm</th><th class=\"is\">true "
+      "person</th><th class=\"n\">error mm</th><th class=\"n\">phantom</th><th "
+      "class=\"n\">duplicate</th></tr>";
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {
     const TrackedPerson& person = evaluation.people[i];
     const Evaluation& one = person.evaluation;
@@ -145,8 +146,8 @@ std::string TrueRows(const PeopleEvaluation& evaluation) {
   if (evaluation.truth.empty()) return {};
   std::string html =
       "<h3>True people</h3><table><tr><th>true</th><th class=\"n\">frames</th><th "
-      "class=\"n\">found</th><th class=\"n\">covered</th><th class=\"n\">found then %</th><th "
-      "class=\"n\">switches</th><th class=\"n\">error mm</th></tr>";
+      "class=\"n\">found</th><th class=\"n\">covered</th><th class=\"n\">found while covered "
+      "%</th><th class=\"n\">switches</th><th class=\"n\">error mm</th></tr>";
   const auto add = [&](const std::string& name, const FollowedTruth& followed) {
     html += fmt::format(
         "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "

@@ -28,9 +28,9 @@ std::string TrackedTable(const PeopleEvaluation& evaluation) {
   const bool has_truth = !evaluation.truth.empty();
   std::string text = fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}", "tracked", "frames", "tracked",
                                  "residual mm", "stature mm");
-  text += has_truth
-              ? fmt::format("  {:<12}{:>9}{:>10}{:>11}\n", "is", "error mm", "phantom", "duplicate")
-              : "\n";
+  text += has_truth ? fmt::format("  {:<12}{:>9}{:>10}{:>11}\n", "true person", "error mm",
+                                  "phantom", "duplicate")
+                    : "\n";
   for (const TrackedPerson& person : evaluation.people) {
     const Evaluation& one = person.evaluation;
     text += fmt::format("{:<12}{:>8}{:>9}{:>13.1f}{:>12.0f}", Printable(person.name),
@@ -52,14 +52,14 @@ std::string TrueRow(const std::string& name, const FollowedTruth& followed) {
   const std::string error = followed.found > 0 ? fmt::format("{:.1f}", followed.mean_mm) : "-";
   const std::string share =
       followed.covered > 0 ? fmt::format("{:.1f} %", 100 * FoundShare(followed)) : "-";
-  return fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}  {:<12}{:>9}{:>10}\n", name, followed.frames,
+  return fmt::format("{:<12}{:>8}{:>9}{:>13}{:>21}  {:<3}{:>9}{:>10}\n", name, followed.frames,
                      followed.found, followed.covered, share, "", error, followed.switches);
 }
 
 std::string TrueTable(const PeopleEvaluation& evaluation) {
   std::string text =
-      fmt::format("\n{:<12}{:>8}{:>9}{:>13}{:>12}  {:<12}{:>9}{:>10}\n", "true", "frames", "found",
-                  "covered", "found then", "", "error mm", "switches");
+      fmt::format("\n{:<12}{:>8}{:>9}{:>13}{:>21}  {:<3}{:>9}{:>10}\n", "true", "frames", "found",
+                  "covered", "found while covered", "", "error mm", "switches");
   for (std::size_t i = 0; i < evaluation.truth.size(); ++i) {
     text += TrueRow(Printable(evaluation.truth[i].name), evaluation.followed[i]);
   }

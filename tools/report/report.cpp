@@ -161,7 +161,7 @@ std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
   if (evaluation.first_tracked_pose >= 0) {
     body += TrackingSections(evaluation, samples);
   } else {
-    body += "<p>The person was never tracked, so there is nothing to say about poses.</p>\n";
+    body += "<p>The person was never tracked, so there are no poses to evaluate.</p>\n";
   }
   return ReportPage(evaluation.take, under, body + OverlapSection(frames, overlaps));
 }

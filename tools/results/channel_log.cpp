@@ -58,7 +58,7 @@ std::vector<std::string> ChannelLog::Remarks() const {
   }
   for (const auto& [channel, count] : garbled_) {
     remarks.push_back(log_ + ": " + Counted(count, "message") + " on " + Printable(channel) +
-                      " not understood by this version, skipped");
+                      " of an unknown version, skipped");
   }
   return remarks;
 }

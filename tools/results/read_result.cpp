@@ -190,7 +190,7 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
 Result ReadResult(const std::filesystem::path& folder_or_log,
                   const std::optional<std::string>& prefix) {
   if (!IsThere(folder_or_log)) {
-    throw SetupError(folder_or_log.string() + ": is missing; expected " + kWanted + ", or a log");
+    throw SetupError(folder_or_log.string() + ": not found; expected " + kWanted + ", or a log");
   }
   std::error_code error;
   if (!std::filesystem::is_directory(folder_or_log, error)) {

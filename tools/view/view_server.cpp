@@ -318,7 +318,7 @@ class ViewServer::Impl {
     try {
       co_await Tell(page, *wake);
     } catch (const boost::system::system_error& error) {
-      if (error.code() == beast::error::timeout) refusals_.Add("a page that vanished");
+      if (error.code() == beast::error::timeout) refusals_.Add("a page that stopped responding");
     }
     waiting_.erase(wake.get());
     beast::get_lowest_layer(*page).socket().close(ignored);

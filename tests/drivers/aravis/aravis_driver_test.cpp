@@ -118,7 +118,7 @@ TEST_F(AravisDriverTest, CaptureTimesAreTheHostsWhateverTheCamerasClockSays) {
     ASSERT_TRUE(GrabFrame(driver, frame));
     EXPECT_TRUE(IsOfItsTime(frame));
   }
-  EXPECT_EQ(driver.Facts().time_source, "device clock, fitted");
+  EXPECT_EQ(driver.Facts().time_source, "camera clock, fitted to the host's");
 }
 
 TEST_F(AravisDriverTest, PtpInTaiIsRecognizedAndExact) {

@@ -45,18 +45,18 @@ TEST_F(InputFile, IsReadWhole) {
 }
 
 TEST_F(InputFile, EachReasonHasItsWord) {
-  EXPECT_THAT(ErrorOf(file_), EndsWith("a.toml: is missing; expected a TOML file"));
+  EXPECT_THAT(ErrorOf(file_), EndsWith("a.toml: not found; expected a TOML file"));
   EXPECT_THAT(ErrorOf(folder_.path()), EndsWith(": is a folder; expected a TOML file"));
   EXPECT_THAT(ErrorOf("/dev/null"), HasSubstr("is not a regular file"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("a path is empty"));
   ASSERT_EQ(mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(ErrorOf(folder_.path() / "pipe"), HasSubstr("is not a regular file"));
   testing::WriteText(file_, "");
-  EXPECT_THAT(ErrorOf(file_ / "below"), HasSubstr("is missing"));
+  EXPECT_THAT(ErrorOf(file_ / "below"), HasSubstr("not found"));
   EXPECT_THAT(Error([&] { RequireFolder(file_, "a take"); }),
               EndsWith(": is not a folder; expected a take"));
   EXPECT_THAT(Error([&] { RequireFolder(folder_.path() / "absent", "a take"); }),
-              EndsWith(": is missing; expected a take"));
+              EndsWith(": not found; expected a take"));
   std::filesystem::create_symlink(folder_.path() / "loop", folder_.path() / "loop");
   EXPECT_THAT(ErrorOf(folder_.path() / "loop"), HasSubstr("symbolic links"));
 }

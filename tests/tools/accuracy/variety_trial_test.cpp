@@ -26,7 +26,7 @@ TEST(Variety, WhoWasNeverFoundIsCountedAndNotAveraged) {
                             Never()};
   EXPECT_THAT(VarietySummaryText(rows),
               AllOf(HasSubstr("1 never found, 1 found after more than 0.5 s, 1 lost"),
-                    HasSubstr("1 confident and wrong; 40.0 mm in the mean (60.0 mm the worst)")));
+                    HasSubstr("1 tracked in a wrong pose; 40.0 mm in the mean (60.0 mm the worst)")));
   EXPECT_THAT(VarietyLine(rows[3]), AllOf(HasSubstr("never"), HasSubstr("afro")));
 }
 

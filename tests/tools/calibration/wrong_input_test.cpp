@@ -151,7 +151,7 @@ const WrongInput kWrongRecordings[] = {
        b.arguments.footage = b.folder.path() / "missing";
        return b.Intrinsics();
      },
-     {"missing: is missing", "expected a take or a folder of recordings"}},
+     {"missing: not found", "expected a take or a folder of recordings"}},
     {"NothingInTheFolder", [](Bench& b) { return b.Intrinsics(); }, {"footage", "cam1.mkv"}},
     {"APictureThatIsNone",
      [](Bench& b) {

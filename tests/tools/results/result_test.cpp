@@ -139,7 +139,7 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "body.toml", "stature_mm = ", "stature_mm = inf # ");
   EXPECT_THAT(SetupErrorOf(read), HasSubstr("body.toml:2: stature_mm has inf"));
-  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path() / "absent"); }), HasSubstr("is missing"));
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path() / "absent"); }), HasSubstr("not found"));
 }
 
 TEST(Result, IsReadHoweverASpreadsheetSavedIt) {

@@ -115,7 +115,7 @@ TEST_F(TakeTruthTest, IsReadHoweverASpreadsheetSavedIt) {
 TEST_F(TakeTruthTest, WantsTheSizesBesideThePoints) {
   Write("truth.csv", Header() + Row(0, 100));
   std::filesystem::remove(take_ / "truth.toml");
-  EXPECT_THAT(ErrorOfReading(), HasSubstr("truth.toml: is missing"));
+  EXPECT_THAT(ErrorOfReading(), HasSubstr("truth.toml: not found"));
   Write("truth.toml", "stature_mm = 1750\n");
   EXPECT_THAT(ErrorOfReading(), HasSubstr("ankle_to_sole_mm is missing"));
   Write("truth.toml", "stature_mm = 1750\nankle_to_sole_mm = 80\n[lengths]\ntorso = 5\n");

@@ -88,7 +88,7 @@ export class Actions {
     byId('action-forms').hidden = !isOn;
     byId('no-actions').hidden = isOn;
     const wrong = this.token && !this.isAllowed ?
-        'The token of this page is not valid (any more). ' + NO_TOKEN :
+        'The token of this page is no longer valid. ' + NO_TOKEN :
         NO_TOKEN;
     setText(byId('no-actions'), this.why !== '' ? this.why : wrong);
   }
@@ -183,7 +183,10 @@ export class Actions {
       });
       if (answer.ok) return await answer.json();
       if (answer.status === 401) this.check();
-      return {outcome: 'failed', text: `mocap view refuses: ${answer.status} ${answer.statusText}`};
+      return {
+        outcome: 'failed',
+        text: `mocap view refused the request: ${answer.status} ${answer.statusText}`
+      };
     } catch (error) {
       return {outcome: 'failed', text: `mocap view does not answer: ${error.message}`};
     }

@@ -14,7 +14,7 @@ export const CAMERA_LOOKS = {
   'not trusted': {color: 'warn', mark: '◆'},
   'lost': {color: 'bad', mark: '✕'},
   'ended': {color: 'muted', mark: '■'},
-  'not known': {color: 'muted', mark: '○'},
+  'unknown': {color: 'muted', mark: '○'},
   'in the take': {color: 'accent', mark: '●'},
 };
 
@@ -46,7 +46,7 @@ export class CameraModels extends THREE.Group {
   }
 
   lookOf(name) {
-    return CAMERA_LOOKS[this.looks.get(name)] ?? CAMERA_LOOKS['not known'];
+    return CAMERA_LOOKS[this.looks.get(name)] ?? CAMERA_LOOKS['unknown'];
   }
 
   /** Hides the camera through which the scene is viewed. */

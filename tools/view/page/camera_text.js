@@ -20,8 +20,8 @@ export function factsOf(camera) {
     if (camera.off_px !== null) parts.push(`off ${measured(fixed(camera.off_px, 1), 'px')}`);
   }
   if (camera.light !== null) parts.push(`light ${percent(camera.light)}`);
-  for (const name of ['dropped', 'late', 'torn']) {
-    if (camera[name] > 0) parts.push(`${name} ${camera[name]}`);
+  for (const [key, name] of [['dropped', 'dropped'], ['late', 'late'], ['torn', 'damaged']]) {
+    if (camera[key] > 0) parts.push(`${name} ${camera[key]}`);
   }
   return parts.join(' · ');
 }

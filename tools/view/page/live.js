@@ -146,7 +146,7 @@ export class Live {
       poseAgeS: since(this.poseMs),
       complaints: this.service?.complaints ?? [],
     }));
-    this.panel.setState(this.state() || (this.poseMs === null ? 'waiting' : 'not known'));
+    this.panel.setState(this.state() || (this.poseMs === null ? 'waiting' : 'unknown'));
     this.panel.setFit(this.people.newestBody());
     const people = this.people.rows(nowMs);
     this.panel.setPeople(people);
@@ -181,7 +181,7 @@ export class Live {
         veil = 'no picture';
       else if (ageMs > OLD_PICTURE_MS)
         veil = ageMs < 100000 ? `${fixed(ageMs / 1000)} s old` : `${ageText(ageMs / 1000)} old`;
-      card.tell({look: look ?? 'not known', facts: camera ? factsOf(camera) : '', veil});
+      card.tell({look: look ?? 'unknown', facts: camera ? factsOf(camera) : '', veil});
     }
   }
 
@@ -215,6 +215,6 @@ export class Live {
     const isOld = performance.now() - this.statusMs > 1000 * STATUS_HOLDS_S;
     return Object.fromEntries(
         (this.status?.cameras ??
-         []).map((camera) => [camera.name, isOld ? 'not known' : lookOfCamera(camera)]));
+         []).map((camera) => [camera.name, isOld ? 'unknown' : lookOfCamera(camera)]));
   }
 }

@@ -116,7 +116,7 @@ class CameraCard {
    * @param look key of CAMERA_LOOKS; @param facts lines of text; @param veil why it is grey, or ''.
    */
   tell({look, facts, veil}) {
-    const {mark, color: name} = CAMERA_LOOKS[look] ?? CAMERA_LOOKS['not known'];
+    const {mark, color: name} = CAMERA_LOOKS[look] ?? CAMERA_LOOKS['unknown'];
     setText(this.mark, mark);
     this.element.dataset.tone = name;
     setText(this.look, look === 'in the take' ? '' : look);

@@ -84,7 +84,7 @@ export class ResultPanel {
     const people = this.take.truth?.people ?? [];
     if (people.length < 2) return [];
     const text = people[result.true_person] ?? 'nobody';
-    return [make('dt', {text: 'Truly'}), make('dd', {text})];
+    return [make('dt', {text: 'True person'}), make('dd', {text})];
   }
 
   makeTruth(onShow) {

@@ -121,7 +121,7 @@ export class StatePanel {
   }
 
   setService(service, serverNowS) {
-    const age = (madeS) => madeS > 0 ? `${ageText(serverNowS - madeS)} old` : 'age not known';
+    const age = (madeS) => madeS > 0 ? `${ageText(serverNowS - madeS)} old` : 'age unknown';
     setText(byId('nominal'), `of ${fixed(service.fps_nominal, 0)}`);
     setText(byId('disk'), bytesText(service.bytes_free));
     byId('disk').dataset.tone = service.bytes_free < LEAST_DISK_BYTES ? 'warn' : '';

@@ -21,7 +21,7 @@ function counted(count, unit) {
 
 /** @return an age in the largest unit that fits: "3 days". */
 export function ageText(seconds) {
-  if (!(seconds >= 0)) return 'not known';
+  if (!(seconds >= 0)) return 'unknown';
   if (seconds < 90) return counted(Math.round(seconds), 'second');
   if (seconds < 90 * 60) return counted(Math.round(seconds / 60), 'minute');
   if (seconds < 36 * 3600) return counted(Math.round(seconds / 3600), 'hour');

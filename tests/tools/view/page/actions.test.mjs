@@ -68,7 +68,7 @@ test('the token leaves the address bar and goes with each request', async () => 
 });
 
 test('without a token, or with a false one, the page is read-only', async () => {
-  for (const [hash, said] of [['', /^This page is read-only/], ['#token=old', /not valid/]]) {
+  for (const [hash, said] of [['', /^This page is read-only/], ['#token=old', /no longer valid/]]) {
     const {page} = await open({hash, answer: () => ({status: 401, ok: false})});
     assert.equal(page['action-forms'].hidden, true);
     assert.match(page['no-actions'].textContent, said);

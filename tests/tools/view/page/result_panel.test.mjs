@@ -102,8 +102,8 @@ test('of several people the first is shown in detail, another one or all by choi
 test('of several people each tells who it truly is; a phantom is nobody', () => {
   const people = [result('p1', {person: 'p1', true_person: 1}), result('p2', {person: 'p2'})];
   const {panel} = open(people, {people: ['x', 'y']});
-  assert.deepEqual(factsOf(panel.rows[0])[1], ['Truly', 'y']);
-  assert.deepEqual(factsOf(panel.rows[1])[1], ['Truly', 'nobody']);
+  assert.deepEqual(factsOf(panel.rows[0])[1], ['True person', 'y']);
+  assert.deepEqual(factsOf(panel.rows[1])[1], ['True person', 'nobody']);
 });
 
 test('results and truth can be hidden, and set side by side', () => {

@@ -31,8 +31,8 @@ test('complaints are told word for word', () => {
 
 test('ages are in the unit that fits', () => {
   assert.deepEqual([1, 89, 90, 3600, 7200, 3 * 86400, -1, NaN].map(ageText), [
-    '1 second', '89 seconds', '2 minutes', '60 minutes', '2 hours', '3 days', 'not known',
-    'not known'
+    '1 second', '89 seconds', '2 minutes', '60 minutes', '2 hours', '3 days', 'unknown',
+    'unknown'
   ]);
 });
 
