@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "config/builtin_body_tables.h"
+#include "config/joint_names.h"
 #include "config/load_config.h"
 #include "config/toml_section.h"
 #include "core/errors.h"
@@ -65,6 +66,12 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
     section.Reserve({"rise_deg"}, "needs rest_deg");
   }
   if (joint.name.empty()) section.Fail("name", "is empty; expected a name");
+  if (!IsJointName(joint.name)) {
+    section.Fail("name",
+                 "is " + Quoted(joint.name) +
+                     "; expected lower-case letters, digits and _, and neither theta_... nor "
+                     "torso_angle, which are columns of results");
+  }
   for (const JointAxis& other : joints) {
     if (other.name == joint.name)
       section.Fail("name", "is " + Quoted(joint.name) + " a second time");

@@ -105,14 +105,11 @@ void TextLines::Fail(const std::string& what) const {
   throw SetupError(file_.string() + ":" + std::to_string(std::max(number_, 1)) + ": " + what);
 }
 
-std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers,
-                          const std::string& wanted) {
-  std::string_view line;
-  const bool is_there = lines.Next(line);
-  const auto header = std::find(headers.begin(), headers.end(), line);
-  if (is_there && header != headers.end()) {
-    return static_cast<std::size_t>(header - headers.begin());
-  }
+namespace {
+
+/// Says why a first line is no header.
+[[noreturn]] void FailAsHeader(const TextLines& lines, bool is_there, std::string_view line,
+                               const std::string& wanted) {
   const std::string then = "; expected the header " + wanted;
   if (!is_there) lines.Fail("is empty" + then);
   const bool has_commas = line.find(',') != std::string_view::npos;
@@ -128,15 +125,48 @@ std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers
   lines.Fail("begins with " + Quoted(line) + then);
 }
 
-TableRow::TableRow(std::string_view line, std::span<const std::string> columns,
-                   const TextLines& lines)
-    : columns_(columns), lines_(lines) {
+std::vector<std::string_view> FieldsOf(std::string_view line) {
+  std::vector<std::string_view> fields;
   for (;;) {
     const std::size_t comma = line.find(',');
-    fields_.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) break;
+    fields.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return fields;
     line.remove_prefix(comma + 1);
   }
+}
+
+}  // namespace
+
+std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers,
+                          const std::string& wanted) {
+  std::string_view line;
+  const bool is_there = lines.Next(line);
+  const auto header = std::find(headers.begin(), headers.end(), line);
+  if (!is_there || header == headers.end()) FailAsHeader(lines, is_there, line, wanted);
+  return static_cast<std::size_t>(header - headers.begin());
+}
+
+std::vector<std::string> RequireColumns(TextLines& lines, std::span<const std::string> first,
+                                        const std::string& wanted) {
+  std::string_view line;
+  const bool is_there = lines.Next(line);
+  const std::vector<std::string_view> fields = FieldsOf(line);
+  const bool begins =
+      fields.size() >= first.size() && std::equal(first.begin(), first.end(), fields.begin());
+  if (!is_there || !begins) FailAsHeader(lines, is_there, line, wanted);
+  std::vector<std::string> columns(fields.begin(), fields.end());
+  for (std::size_t i = first.size(); i < columns.size(); ++i) {
+    const auto here = columns.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(columns.begin(), here, columns[i]) != here) {
+      lines.Fail("has the column " + Quoted(columns[i]) + " a second time");
+    }
+  }
+  return columns;
+}
+
+TableRow::TableRow(std::string_view line, std::span<const std::string> columns,
+                   const TextLines& lines)
+    : columns_(columns), lines_(lines), fields_(FieldsOf(line)) {
   if (fields_.size() == columns.size()) return;
   lines.Fail("has " + Counted(fields_.size(), "field") + "; expected " +
              std::to_string(columns.size()) + ", as in the header");

@@ -55,6 +55,12 @@ class TextLines {
 std::size_t RequireHeader(TextLines& lines, std::span<const std::string> headers,
                           const std::string& wanted);
 
+/// Checks that a table's header begins with `first`; reports as RequireHeader does.
+/// @throws SetupError  likewise, and when a further column has the name of another one.
+/// @return  all columns.
+std::vector<std::string> RequireColumns(TextLines& lines, std::span<const std::string> first,
+                                        const std::string& wanted);
+
 /// The fields of a row.
 class TableRow {
  public:

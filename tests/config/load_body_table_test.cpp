@@ -4,6 +4,7 @@
 #include <numbers>
 #include <set>
 
+#include "config/joint_names.h"
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "tests/support/temporary_folder.h"
@@ -59,6 +60,15 @@ TEST(BodyTables, ThePapersJointsLieInTheMiddleOfTheTrunkAndPeoplesBehindIt) {
   EXPECT_EQ(paper.head_forward, 0);
   EXPECT_EQ(paper.shoulder_below_neck, people.shoulder_below_neck);
   EXPECT_GT(people.neck_behind, 0);
+}
+
+TEST(BodyTables, CallThePapersSixteenAnglesByTheSameNames) {
+  for (const char* name : {"mikic2003", "full"}) {
+    const BodyTable table = LoadBodyTable(name);
+    for (int angle = 1; angle <= kPaperAngleCount; ++angle) {
+      EXPECT_EQ(AxisOf(table, angle).name, kPaperJointNames[angle - 1]) << name;
+    }
+  }
 }
 
 TEST(BodyTables, FullAddsWaistThirdHipAxisAndTheJointsAtTheLimbsEnds) {
@@ -179,6 +189,8 @@ TEST_F(BodyFile, DamageIsNamedWithFileLineAndKey) {
       {"name = \"mikic2003\"", "", "name is missing"},
       {"name = \"neck_x\"", "name = \"\"", "joints[0].name is empty"},
       {"name = \"neck_y\"", "name = \"neck_x\"", "joints[1].name"},
+      {"name = \"neck_x\"", "name = \"neck,x\"", "joints[0].name is \"neck,x\"; expected"},
+      {"name = \"neck_x\"", "name = \"theta_1\"", "joints[0].name is \"theta_1\"; expected"},
       {"angle = 1\n", "angle = 17\n", "joints[0].angle is 17"},
       {"angle = 1\n", "angle = 1\nrest_deg = [0, 5]\nrise_deg = 36\n",
        "\"neck_x\" rise, which carries no arm"},

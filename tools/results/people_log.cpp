@@ -87,6 +87,7 @@ class PeopleOfLog {
         continue;
       }
       results.emplace_back(name, Result{*person.body, std::move(person.poses), {}});
+      KeepNamedJoints(results.back().second);
     }
     const auto tell = [&](std::int64_t count, const std::string& what) {
       if (count > 0) remarks.push_back(log.string() + ": " + Counted(count, "pose") + what);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "config/body_size_fields.h"
+#include "config/joint_names.h"
 #include "core/errors.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
@@ -29,7 +30,7 @@ struct Daemon {
 
 bool IsFinite(const PoseRow& row) {
   double sum = row.paper.torso_mm.sum() + row.paper.torso_axis.sum() + row.paper.torso_angle_rad +
-               row.points_W.sum() + row.residual_mm;
+               row.points_W.sum() + row.point_std_mm.sum() + row.joint_rad.sum() + row.residual_mm;
   for (const double theta_rad : row.paper.theta_rad) sum += theta_rad;
   return std::isfinite(sum);
 }
@@ -90,6 +91,17 @@ void TellOfTimes(const std::filesystem::path& log, const std::vector<PoseRow>& p
   }
 }
 
+/// Names of the joints; none if there is one that no body table may have.
+std::vector<JointRecord> JointsOf(const body_t& message) {
+  std::vector<JointRecord> joints;
+  for (const std::string& name : message.joint_name) {
+    const bool is_second = std::ranges::find(joints, name, &JointRecord::name) != joints.end();
+    if (is_second || joints.size() == kMaxJoints || !IsJointName(name)) return {};
+    joints.push_back({name});
+  }
+  return joints;
+}
+
 }  // namespace
 
 pose_t PoseOf(const people_t& set, const person_t& person) {
@@ -132,6 +144,9 @@ std::optional<PoseRow> PoseRowOf(const pose_t& message) {
   row.paper.torso_angle_rad = message.torso_angle_rad;
   std::copy_n(message.theta_rad, kPaperAngleCount, row.paper.theta_rad.begin());
   for (int i = 0; i < kPointCount; ++i) row.points_W.col(i) = Vector3(message.point_mm[i]);
+  for (int i = 0; i < kPointCount; ++i) row.point_std_mm[i] = message.point_std_mm[i];
+  const std::size_t joints = std::min<std::size_t>(kMaxJoints, message.joint_rad.size());
+  row.joint_rad = Eigen::Map<const Eigen::VectorXd>(message.joint_rad.data(), joints);
   row.residual_mm = message.residual_mm;
   row.voxels = message.voxels;
   for (std::size_t i = 0; i < std::min<std::size_t>(7, message.camera_used.size()); ++i) {
@@ -153,7 +168,15 @@ std::optional<BodyRecord> BodyRecordOf(const body_t& message) {
     sum += body.sizes.*field.value;
   }
   if (!std::isfinite(sum)) return {};
+  body.joints = JointsOf(message);
   return body;
+}
+
+void KeepNamedJoints(Result& result) {
+  const auto joints = static_cast<Eigen::Index>(result.body.joints.size());
+  for (PoseRow& row : result.poses) {
+    if (row.joint_rad.size() != joints) row.joint_rad.resize(0);
+  }
 }
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
@@ -171,6 +194,7 @@ Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::st
   Daemon& daemon = chosen->second;
   daemon.order.RequireOneDaemon(log, chosen->first + std::string(kPoseChannel));
   Result result{*daemon.body, std::move(daemon.poses), channels.Remarks()};
+  KeepNamedJoints(result);
   if (daemon.repeated > 0) {
     result.remarks.push_back(log.string() + ": " + Counted(daemon.repeated, "pose") +
                              " appeared twice, counted once");

@@ -21,6 +21,8 @@ std::optional<std::int64_t> CaptureNsOf(std::int64_t utime);
 std::optional<PoseRow> PoseRowOf(const pose_t& message);
 /// Converts a message to a body; empty if a number is invalid.
 std::optional<BodyRecord> BodyRecordOf(const body_t& message);
+/// Removes joint angles that were measured for another body: they have no names in this one.
+void KeepNamedJoints(Result& result);
 
 /// Reads MOCAP_POSE and MOCAP_BODY from a log of lcm-logger; the last body counts. Messages that
 /// are damaged or from other senders are skipped; the result's remarks report this.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,10 +25,20 @@ struct PoseRow {
   bool has_pose = false;  ///< If false, the pose, the points and the residual are meaningless.
   PaperState paper;
   BodyPoints points_W = BodyPoints::Zero();  ///< p_WQ of the 23 points, after the filter [mm].
+  /// Standard deviation of each, along its worst axis [mm]; NaN: not known.
+  PointStds point_std_mm = PointStds::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// In the order of BodyRecord::joints; NaN: not known. Empty if it was measured for another body.
+  JointAngles joint_rad = {};
   double residual_mm = 0;
   int voxels = 0;
   /// Bit k: camera k was used, of the first seven; 0: not known. Only from logs.
   std::uint8_t first_cameras = 0;
+};
+
+/// A joint of the body, as its body table and messages name it.
+struct JointRecord {
+  std::string name;
+  int paper_angle = 0;  ///< 1..16 as in Table 1; 0: another, or not known.
 };
 
 /// The acquired body: body.toml.
@@ -35,6 +46,7 @@ struct BodyRecord {
   std::string model;  ///< Name of its body table.
   double stature_mm = 0;
   BodySizes sizes;
+  std::vector<JointRecord> joints = {};  ///< In the order of the body table.
 };
 
 /// Table [take] of body.toml: what was tracked.

@@ -25,36 +25,36 @@ constexpr std::array<BodySizeField, 6> kLengths = {{{"torso", &BodySizes::torso}
                                                     {"upper_arm", &BodySizes::upper_arm},
                                                     {"lower_arm", &BodySizes::lower_arm}}};
 
-void AppendPose(std::string& line, const PoseRow& row) {
-  for (int axis = 0; axis < 3; ++axis) line += ',' + FixedText(row.paper.torso_mm[axis], 3);
-  for (int axis = 0; axis < 3; ++axis) {
-    line += ',' + FixedText(row.paper.torso_axis[axis], 6);
-  }
-  line += ',' + FixedText(row.paper.torso_angle_rad, 6);
-  for (const double theta : row.paper.theta_rad) line += ',' + FixedText(theta, 6);
-  for (const double coordinate : row.points_W.reshaped()) {
-    line += ',' + FixedText(coordinate, 3);
-  }
-  line += ',' + FixedText(row.residual_mm, 3);
-}
-
 std::string PosesCsv(const Result& result) {
-  const std::vector<std::string> columns = ResultColumns();
   std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
+  for (const std::string& column : ResultColumns()) text += (text.empty() ? "" : ",") + column;
+  for (const std::string& column : FurtherColumns(result.body)) text += ',' + column;
   text += '\n';
-  const std::size_t pose_columns = columns.size() - kColumnsBesidePose;
   for (const PoseRow& row : result.poses) {
     text += std::to_string(row.frame) + ',' + std::to_string(row.timestamp_ns) + ',';
     text += kCaptureStateNames[static_cast<std::size_t>(row.state)];
-    if (row.has_pose) {
-      AppendPose(text, row);
-    } else {
-      text.append(pose_columns, ',');
+    AppendPose(row, text);
+    text += ',' + std::to_string(row.voxels);
+    for (std::size_t i = 0; i < result.body.joints.size(); ++i) {
+      if (result.body.joints[i].paper_angle == 0) AppendJoint(row, i, text);
     }
-    text += ',' + std::to_string(row.voxels) + '\n';
+    AppendDeviations(row, text);
+    text += '\n';
   }
   return text;
+}
+
+/// Table [joints] of body.toml: every joint, and the column of poses.csv with its angle.
+std::string JointsToml(const BodyRecord& body) {
+  if (body.joints.empty()) return {};
+  std::string names, columns;
+  for (const JointRecord& joint : body.joints) {
+    const char* separator = names.empty() ? "" : ", ";
+    names += separator + TomlText(joint.name);
+    columns += separator + TomlText(joint.paper_angle > 0 ? PaperAngleColumn(joint.paper_angle)
+                                                          : JointColumn(joint.name));
+  }
+  return "\n[joints]\nnames = [" + names + "]\ncolumns = [" + columns + "]\n";
 }
 
 std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take) {
@@ -68,7 +68,7 @@ std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take
   };
   append_table("lengths", kLengths);
   append_table("sizes", kBodySizeFields);
-  text += '\n';
+  text += '\n' + JointsToml(body);
   if (!take) return text;
   return text + "\n[take]\nname = " + TomlText(take->name) +
          "\ncalibration_fnv1a = " + TomlText(take->calibration) + '\n';
@@ -111,6 +111,8 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
   if (row.has_pose) {
     row.paper = body.PaperStateOf(result.pose);
     row.points_W = result.points_W;
+    row.point_std_mm = result.point_std_mm;
+    row.joint_rad = result.pose.theta;
     row.residual_mm = result.residual_mm;
   }
   row.voxels = result.voxels;
@@ -118,7 +120,11 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
 }
 
 BodyRecord RecordOf(const BodyModel& body) {
-  return {body.table().name, body.sizes().Stature(), body.sizes()};
+  BodyRecord record{body.table().name, body.sizes().Stature(), body.sizes()};
+  for (const JointAxis& joint : body.table().joints) {
+    record.joints.push_back({joint.name, joint.paper_angle});
+  }
+  return record;
 }
 
 std::vector<std::filesystem::path> PersonFolders(const std::filesystem::path& folder) {

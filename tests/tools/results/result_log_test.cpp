@@ -44,7 +44,7 @@ TEST(ResultLog, IsReadAsAResult) {
   const BodyModel body(LoadBodyTable("mikic2003"), AverageSizes(1700));
   CaptureResult tracked;
   tracked.state = CaptureState::kTracking;
-  tracked.pose.theta = JointAngles::Zero(body.joint_count());
+  tracked.pose.theta = JointAngles::LinSpaced(body.joint_count(), 0, 1);
   tracked.pose.X_WT.p = Vector3(1, 2, 3);
   tracked.points_W.setConstant(7);
   tracked.point_std_mm.setConstant(1);
@@ -81,6 +81,9 @@ TEST(ResultLog, IsReadAsAResult) {
   EXPECT_EQ(result.poses[0].paper.torso_mm, Vector3(1, 2, 3));
   EXPECT_EQ(result.poses[0].points_W(1, 8), 7);
   EXPECT_EQ(result.poses[0].first_cameras, 0b101);
+  EXPECT_EQ(result.poses[0].point_std_mm, PointStds::Constant(1));
+  EXPECT_EQ(result.body.joints.at(5).name, body.table().joints[5].name);
+  EXPECT_EQ(result.poses[0].joint_rad, tracked.pose.theta);
   EXPECT_FALSE(result.poses[1].has_pose);
 }
 

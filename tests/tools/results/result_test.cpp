@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,7 @@ using testing::TemporaryFolder;
 
 Result SomeResult() {
   Result result;
-  result.body = {"full", 1712.5, AverageSizes(1700)};
+  result.body = {"full", 1712.5, AverageSizes(1700), {{"wrist_l_x"}, {"knee_r_y", 16}}};
   result.poses.resize(3);
   for (int i = 0; i < 3; ++i) {
     PoseRow& row = result.poses[i];
@@ -40,6 +42,8 @@ Result SomeResult() {
     row.points_W = BodyPoints::Constant(-0.0001);
     row.points_W(2, 22) = 83.5;
     row.residual_mm = 12.25;
+    row.joint_rad = Eigen::Vector2d(-0.5, row.paper.theta_rad[15]);
+    row.point_std_mm = PointStds::Constant(4.5);
   }
   return result;
 }
@@ -63,6 +67,13 @@ TEST(Result, ReadsBackWhatWasWritten) {
   EXPECT_EQ(row.points_W(2, 22), 83.5);
   EXPECT_EQ(row.residual_mm, 12.25);
   EXPECT_EQ(row.voxels, 200);
+  EXPECT_EQ(row.joint_rad, Eigen::Vector2d(-0.5, 2.25));
+  EXPECT_EQ(row.point_std_mm, PointStds::Constant(4.5));
+  ASSERT_EQ(read.body.joints.size(), 2u);
+  EXPECT_EQ(read.body.joints[0].name, "wrist_l_x");
+  EXPECT_EQ(read.body.joints[0].paper_angle, 0);
+  EXPECT_EQ(read.body.joints[1].name, "knee_r_y");
+  EXPECT_EQ(read.body.joints[1].paper_angle, 16);
 }
 
 TEST(Result, HasTheContractsColumns) {
@@ -73,11 +84,76 @@ TEST(Result, HasTheContractsColumns) {
               StartsWith("frame,timestamp_ns,state,torso_x_mm,torso_y_mm,torso_z_mm,"
                          "torso_axis_x,torso_axis_y,torso_axis_z,torso_angle_rad,theta_1_rad,"));
   EXPECT_THAT(csv, HasSubstr(",theta_16_rad,torso_x_mm,torso_y_mm,torso_z_mm,head_x_mm,"));
-  EXPECT_THAT(csv, HasSubstr(",foot_r_z_mm,residual_mm,voxels\n0,"));
+  EXPECT_THAT(csv, HasSubstr(",foot_r_z_mm,residual_mm,voxels,wrist_l_x_rad,deviation_torso_mm,"));
+  EXPECT_THAT(csv, HasSubstr(",deviation_foot_r_mm\n0,"));
   const std::string first_row = csv.substr(csv.find('\n') + 1, csv.find('\n'));
   EXPECT_THAT(first_row, StartsWith("0,1700000000000000000,searching,,,,"));
   const auto commas = [](const std::string& line) { return std::ranges::count(line, ','); };
-  EXPECT_EQ(commas(first_row.substr(0, first_row.find('\n'))), 3 + 7 + 16 + 69 + 2 - 1);
+  EXPECT_EQ(commas(first_row.substr(0, first_row.find('\n'))), 3 + 7 + 16 + 69 + 2 + 1 + 23 - 1);
+}
+
+/// Leaves only the first columns of each row.
+std::string FirstColumns(const std::string& csv, std::size_t count) {
+  std::string text;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < count; ++i) end = line.find(',', end + 1);
+    text += line.substr(0, end) + '\n';
+  }
+  return text;
+}
+
+TEST(Result, WithoutFurtherColumnsIsStillRead) {
+  TemporaryFolder folder;
+  WriteResult(folder.path(), SomeResult());
+  const std::filesystem::path file = folder.path() / "poses.csv";
+  testing::WriteText(file, FirstColumns(ReadText(file), 97));
+  Result result = ReadResult(folder.path());
+  ASSERT_EQ(result.poses.size(), 3u);
+  ASSERT_EQ(result.body.joints.size(), 1u) << "the other one has no column";
+  EXPECT_EQ(result.poses[2].joint_rad[0], 2.25);
+  EXPECT_TRUE(result.poses[2].point_std_mm.array().isNaN().all());
+  // As results were before they had names of joints.
+  const std::string body = ReadText(folder.path() / "body.toml");
+  testing::WriteText(folder.path() / "body.toml", body.substr(0, body.find("\n[joints]")));
+  result = ReadResult(folder.path());
+  ASSERT_EQ(result.body.joints.size(), 16u);
+  EXPECT_EQ(result.body.joints[8].name, "elbow_l_z");
+  EXPECT_EQ(result.poses[2].joint_rad[15], 2.25);
+}
+
+TEST(Result, FurtherColumnsAreFoundByTheirNames) {
+  TemporaryFolder folder;
+  WriteResult(folder.path(), SomeResult());
+  const std::filesystem::path file = folder.path() / "poses.csv";
+  std::istringstream lines(FirstColumns(ReadText(file), 97));
+  std::string text, line;
+  std::getline(lines, line);
+  text = line + ",probability,deviation_head_mm,wrist_l_x_rad\n";
+  while (std::getline(lines, line)) text += line + ",,6.5,\n";
+  testing::WriteText(file, text);
+  const PoseRow row = ReadResult(folder.path()).poses.at(2);
+  EXPECT_EQ(row.point_std_mm[1], 6.5);
+  EXPECT_TRUE(std::isnan(row.point_std_mm[0]));
+  EXPECT_TRUE(std::isnan(row.joint_rad[0])) << "its cell is empty";
+  EXPECT_EQ(row.joint_rad[1], 2.25);
+  ReplaceInFile(file, "probability", "torso_x_mm");
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
+              HasSubstr("poses.csv:1: has the column \"torso_x_mm\" a second time"));
+}
+
+TEST(Result, NamesOfJointsThatNoTableMayHaveAreRefused) {
+  TemporaryFolder folder;
+  for (const char* name : {"wrist,l", "theta_3", "knee_r_y"}) {
+    WriteResult(folder.path(), SomeResult());
+    ReplaceInFile(folder.path() / "body.toml", "wrist_l_x", name);
+    EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }), HasSubstr("joints.names has"));
+  }
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "body.toml", ", \"theta_16_rad\"", "");
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
+              HasSubstr("joints.columns has 1 text for 2 joints"));
 }
 
 TEST(Result, WritesNoNegativeZero) {
@@ -126,7 +202,7 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
               HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; expected a number"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", ",acquiring", "");
-  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 96 fields; expected 97"));
+  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 120 fields; expected 121"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "timestamp_ns", "time");
   EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:1: "));
