@@ -2,51 +2,60 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
-#include <string>
+#include <utility>
 
-#include "tools/results/fixed_text.h"
+#include "tools/interchange/joint_angles.h"
+#include "tools/results/export_axes.h"
+#include "tools/results/result_columns.h"
 
 namespace mocap {
 namespace {
 
-std::string ColumnNames() {
-  std::string line =
-      "time_s,utime_us,frame,state,torso_x_mm,torso_y_mm,torso_z_mm,torso_axis_x,torso_axis_y,"
-      "torso_axis_z,torso_angle_rad";
-  for (int i = 1; i <= kPaperAngleCount; ++i) line += fmt::format(",theta_{}_rad", i);
-  for (const std::string_view name : kPointNames) {
-    line += fmt::format(",{0}_x_mm,{0}_y_mm,{0}_z_mm", name);
-  }
-  return line + ",residual_mm,voxels\n";
-}
-
-void AppendPose(const PoseRow& row, std::string& line) {
-  for (const double mm : row.paper.torso_mm) line += ',' + FixedText(mm, 3);
-  for (const double component : row.paper.torso_axis) line += ',' + FixedText(component, 6);
-  line += ',' + FixedText(row.paper.torso_angle_rad, 6);
-  for (const double theta_rad : row.paper.theta_rad) line += ',' + FixedText(theta_rad, 6);
-  for (const double mm : row.points_W.reshaped()) line += ',' + FixedText(mm, 3);
-  line += ',' + FixedText(row.residual_mm, 3);
+void AppendDegrees(const BodyAngles& angles, std::string& line) {
+  for (const double rad : CoordinatesOf(angles)) AppendCell(kDegreesPerRad * rad, 3, line);
 }
 
 }  // namespace
 
+std::vector<std::string> CsvColumns(const BodyRecord& body) {
+  std::vector<std::string> columns = ResultColumns();
+  // In poses.csv the point torso has the same names.
+  for (const char* axis : {"x", "y", "z"}) {
+    *std::ranges::find(columns, fmt::format("torso_{}_mm", axis)) =
+        fmt::format("torso_origin_{}_mm", axis);
+  }
+  std::erase(columns, "timestamp_ns");
+  columns.insert(columns.begin(), {"time_s", "utime_us"});
+  for (const std::string_view name : kCoordinateNames)
+    columns.push_back(fmt::format("{}_deg", name));
+  for (const JointRecord& joint : body.joints) columns.push_back(JointColumn(joint.name));
+  for (const std::string_view point : kPointNames) columns.push_back(DeviationColumn(point));
+  return columns;
+}
+
 ExportRemarks WriteCsv(const ExportScene& scene, std::ostream& out) {
-  out << ColumnNames();
-  constexpr std::size_t kPoseCells = 3 + 4 + kPaperAngleCount + 3 * kPointCount + 1;
-  for (const PoseRow& row : scene.subjects.front().result.poses) {
+  const Result& result = scene.subjects.front().result;
+  out << fmt::format("{}\n", fmt::join(CsvColumns(result.body), ","));
+  const std::vector<BodyAngles> frames = AnglesOf(result);
+  auto angles = frames.begin();
+  for (const PoseRow& row : result.poses) {
     const auto since_first_ns =
         static_cast<double>(row.timestamp_ns - scene.moments.front().timestamp_ns);
     std::string line =
         fmt::format("{:.6f},{},{},{}", 1e-9 * since_first_ns, row.timestamp_ns / 1000, row.frame,
                     kCaptureStateNames[static_cast<std::size_t>(row.state)]);
-    if (row.has_pose) {
-      AppendPose(row, line);
+    AppendPose(row, line);
+    line += fmt::format(",{}", row.voxels);
+    if (IsTracked(row)) {
+      AppendDegrees(*angles++, line);
     } else {
-      line.append(kPoseCells, ',');
+      line.append(kCoordinateNames.size(), ',');
     }
-    out << line << ',' << row.voxels << '\n';
+    for (std::size_t i = 0; i < result.body.joints.size(); ++i) AppendJoint(row, i, line);
+    AppendDeviations(row, line);
+    out << line << '\n';
   }
   return {};
 }

@@ -25,7 +25,7 @@ constexpr std::array kFormats = {
                  "Coordinates\nversion=1", false, WriteMot},
     ExportFormat{"trc", "OpenSim markers, for scaling and inverse kinematics (mm, y up)",
                  "PathFileType", true, WriteTrc},
-    ExportFormat{"csv", "spreadsheets and scripts (mm, radians, z up as in the studio)",
+    ExportFormat{"csv", "spreadsheets and scripts (mm, angles in degrees, z up as in the studio)",
                  "time_s,utime_us,", false, WriteCsv},
 };
 

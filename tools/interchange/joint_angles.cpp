@@ -115,6 +115,23 @@ class AngleReader {
 
 }  // namespace
 
+std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angles) {
+  std::array<double, kCoordinateNames.size()> values{};
+  auto next = values.begin();
+  const auto add = [&](const Vector3& turns) { next = std::ranges::copy(turns, next).out; };
+  const auto add_limb = [&](const LimbAngles& limb) {
+    add({limb.flexion, limb.adduction, limb.rotation});
+    *next++ = limb.bend;
+  };
+  add(angles.pelvis);
+  add_limb(angles.leg_r);
+  add_limb(angles.leg_l);
+  add(angles.lumbar);
+  add_limb(angles.arm_r);
+  add_limb(angles.arm_l);
+  return values;
+}
+
 std::vector<BodyAngles> AnglesOf(const Result& result) {
   std::vector<BodyAngles> angles;
   AngleReader reader(result.body);

@@ -1,7 +1,9 @@
 // Biomechanical joint angles from the 23 points.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "core/geometry.h"
@@ -26,6 +28,17 @@ struct BodyAngles {
   Vector3 lumbar;     ///< Extension, bending and rotation of the torso relative to the pelvis.
   LimbAngles leg_l, leg_r, arm_l, arm_r;
 };
+
+/// The coordinates of Rajagopal's model that BodyAngles has, in the order of the model.
+inline constexpr std::array<std::string_view, 22> kCoordinateNames = {
+    "pelvis_tilt",    "pelvis_list",      "pelvis_rotation", "hip_flexion_r",   "hip_adduction_r",
+    "hip_rotation_r", "knee_angle_r",     "hip_flexion_l",   "hip_adduction_l", "hip_rotation_l",
+    "knee_angle_l",   "lumbar_extension", "lumbar_bending",  "lumbar_rotation", "arm_flex_r",
+    "arm_add_r",      "arm_rot_r",        "elbow_flex_r",    "arm_flex_l",      "arm_add_l",
+    "arm_rot_l",      "elbow_flex_l"};
+
+/// The value of each coordinate [rad].
+std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angles);
 
 /// Computes the angles of all tracked frames, without jumps by whole turns.
 ///

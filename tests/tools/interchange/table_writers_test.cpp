@@ -1,13 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/moving_body.h"
 #include "tools/interchange/csv_writer.h"
 #include "tools/interchange/people_times.h"
 #include "tools/interchange/trc_writer.h"
+#include "tools/results/result_columns.h"
 
 namespace mocap {
 namespace {
@@ -24,7 +28,12 @@ Result TwoFrames() {
   row.state = CaptureState::kTracking;
   row.has_pose = true;
   row.paper.theta_rad[15] = 0.25;
+  row.paper.torso_mm = {0, 0, 1100};
+  row.points_W.col(static_cast<int>(Point::kTorso)) = Vector3(0, 0, 1105);
   row.points_W.col(static_cast<int>(Point::kFingertipsR)) = Vector3(100, -300, 2150);
+  result.body.joints = {{"wrist_l_x"}, {"knee_r_y", 16}};
+  row.joint_rad = Eigen::Vector2d(-0.5, 0.25);
+  row.point_std_mm.setConstant(4.5);
   row.residual_mm = 12.5;
   row.voxels = 4321;
   result.poses[1].frame = 8;
@@ -193,9 +202,55 @@ TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {
   EXPECT_EQ(cell(1, "residual_mm"), "12.500");
   EXPECT_EQ(cell(1, "voxels"), "4321");
   EXPECT_EQ(cell(2, "state"), "lost");
+  EXPECT_EQ(cell(1, "torso_origin_z_mm"), "1100.000");
+  EXPECT_EQ(cell(1, "torso_z_mm"), "1105.000");
+  EXPECT_EQ(cell(1, "wrist_l_x_rad"), "-0.500000");
+  EXPECT_EQ(cell(1, "knee_r_y_rad"), "0.250000");
+  EXPECT_EQ(cell(1, "deviation_head_mm"), "4.500");
   EXPECT_EQ(cell(2, "torso_x_mm"), "");
+  EXPECT_EQ(cell(2, "knee_angle_r_deg"), "");
+  EXPECT_EQ(cell(2, "knee_r_y_rad"), "");
+  EXPECT_EQ(cell(2, "deviation_head_mm"), "");
   EXPECT_EQ(cell(2, "residual_mm"), "");
   EXPECT_EQ(cell(2, "voxels"), "0");
+}
+
+TEST(CsvWriter, HasNoNameTwice) {
+  for (const char* body : {"full", "mikic2003"}) {
+    const std::vector<std::string> columns = CsvColumns(RecordOf(testing::GrownBody(body)));
+    EXPECT_EQ(std::set(columns.begin(), columns.end()).size(), columns.size()) << body;
+  }
+  const std::vector<std::string> result_columns = ResultColumns();
+  EXPECT_EQ(std::ranges::count(result_columns, "torso_x_mm"), 2) << "as others rely on";
+}
+
+TEST(CsvWriter, KeepsThePlacesOfItsFirstColumns) {
+  const std::vector<std::string> columns = CsvColumns({});
+  ASSERT_GT(columns.size(), 98u);
+  EXPECT_EQ(columns[4], "torso_origin_x_mm");
+  EXPECT_EQ(columns[11], "theta_1_rad");
+  EXPECT_EQ(columns[27], "torso_x_mm");
+  EXPECT_EQ(columns[97], "voxels");
+  EXPECT_EQ(columns[98], "pelvis_tilt_deg");
+}
+
+TEST(CsvWriter, HasTheAnglesOfTheMotionFileInDegrees) {
+  const BodyModel body = testing::GrownBody();
+  PoseState pose = testing::Standing(body);
+  testing::Turn(body, "shoulder_l_x", -90, pose);
+  testing::Turn(body, "knee_l_y", 60, pose);
+  Result result = testing::ResultOf(body, pose);
+  result.poses.front().state = CaptureState::kAcquiring;
+  testing::Append(body, pose, result);
+  const auto rows = Cells(Written(WriteCsv, result), ',');
+  const auto cell = [&](int row, const std::string& name) {
+    return rows.at(row).at(std::ranges::find(rows[0], name) - rows[0].begin());
+  };
+  EXPECT_EQ(cell(1, "knee_angle_l_deg"), "") << "nobody was tracked yet";
+  EXPECT_NEAR(std::stod(cell(2, "knee_angle_l_deg")), 60, 0.01);
+  EXPECT_NEAR(std::stod(cell(2, "arm_add_l_deg")), 0, 0.01);
+  EXPECT_NEAR(std::stod(cell(2, "arm_add_r_deg")), -90, 0.01);
+  EXPECT_NEAR(std::stod(cell(2, "shoulder_l_x_rad")), -EIGEN_PI / 2, 1e-5);
 }
 
 }  // namespace
