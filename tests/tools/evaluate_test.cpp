@@ -66,6 +66,31 @@ TEST_F(EvaluateTest, PrintsATableForPeople) {
   EXPECT_THAT(text, HasSubstr("fingertips_r       12.0"));
 }
 
+TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {
+  Result result = ReadResult(result_);
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    PoseRow& row = result.poses[i];
+    // Where the body fits badly, it is farther off: 12 and 24 mm.
+    if (i % 2 == 0) {
+      row.residual_mm = 16;
+      row.points_W.row(2).array() += 12;
+    }
+    row.point_std_mm.setConstant(7);
+  }
+  WriteResult(result_, result);
+  const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
+  EXPECT_THAT(json, HasSubstr("\"fit_p95_mm\": 16, \"deviation_median_mm\": 7, "
+                              "\"error_of_better_half_mm\": 12, \"error_of_worse_half_mm\": 24, "
+                              "\"errors_within_two_deviations\": 0.5}"));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}),
+              HasSubstr("95 % below 16.0 mm; error 12.0 mm where it is better, 24.0 mm where it is "
+                        "worse\ndeviation   7.0 mm (median); errors within twice the deviation: "
+                        "50 %\n"));
+  std::filesystem::remove(take_ / "truth.csv");
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}),
+              HasSubstr("95 % below 16.0 mm\ndeviation   7.0 mm (median)\n"));
+}
+
 TEST_F(EvaluateTest, SaysWhatItCanWithoutTruth) {
   std::filesystem::remove(take_ / "truth.csv");
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});

@@ -57,12 +57,14 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   evaluation.truth = std::move(truth);
   CountStates(evaluation);
   evaluation.precision = MeasurePrecision(TrackedRuns(evaluation.result.poses), {});
+  evaluation.certainty = MeasureCertainty(evaluation.result.poses, {});
   if (!evaluation.truth) return evaluation;
   std::vector<ScoredFrame> output;
   for (const PoseRow& row : evaluation.result.poses) {
     output.push_back({row.timestamp_ns, IsTracked(row), ScoredPointsOf(row.points_W)});
   }
   evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
+  evaluation.certainty = MeasureCertainty(evaluation.result.poses, evaluation.accuracy);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
   return evaluation;
 }

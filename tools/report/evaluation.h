@@ -9,6 +9,7 @@
 
 #include "core/evaluation/accuracy.h"
 #include "core/evaluation/precision.h"
+#include "tools/report/certainty.h"
 #include "tools/results/result.h"
 #include "tools/results/take_truth.h"
 
@@ -30,6 +31,7 @@ struct Evaluation {
   double tracked_share = 0;
   double mean_residual_mm = 0;         ///< Over tracked frames.
   std::optional<Precision> precision;  ///< Empty if no run of tracked frames is long enough.
+  std::optional<Certainty> certainty;  ///< Empty if never tracked.
   // Only if the take has truth:
   std::optional<TakeTruth> truth;
   std::optional<Accuracy> accuracy;
@@ -41,13 +43,6 @@ std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& 
 
 /// Computes the quality of a result by itself and, if available, against the truth.
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
-
-/// For the sixteen angles of Table 1: the joint and the axis of the torso.
-inline constexpr std::array<std::string_view, kPaperAngleCount> kPaperAngleLabels = {
-    "neck, x",       "neck, y",       "shoulder L, x", "shoulder R, x",
-    "shoulder L, z", "shoulder R, z", "shoulder L, y", "shoulder R, y",
-    "elbow L, z",    "elbow R, z",    "hip L, x",      "hip R, x",
-    "hip L, y",      "hip R, y",      "knee L, y",     "knee R, y"};
 
 inline constexpr double kDegreesPerRadian = 57.29577951308232;
 

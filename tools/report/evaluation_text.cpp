@@ -65,6 +65,20 @@ JsonObject PrecisionJson(const Precision& precision) {
   return json;
 }
 
+JsonObject CertaintyJson(const Certainty& certainty) {
+  JsonObject json;
+  json.Add("fit_median_mm", certainty.median_fit_mm, 2);
+  json.Add("fit_p95_mm", certainty.p95_fit_mm, 2);
+  if (certainty.median_deviation_mm)
+    json.Add("deviation_median_mm", *certainty.median_deviation_mm, 2);
+  if (!certainty.check) return json;
+  json.Add("error_of_better_half_mm", certainty.check->better_half_mm, 1);
+  json.Add("error_of_worse_half_mm", certainty.check->worse_half_mm, 1);
+  if (const auto& share = certainty.check->within_two_deviations)
+    json.Add("errors_within_two_deviations", *share, 4);
+  return json;
+}
+
 void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
   const Accuracy& accuracy = *evaluation.accuracy;
   if (accuracy.frames.empty()) return;
@@ -102,11 +116,10 @@ std::string EvaluationText(const Evaluation& evaluation) {
                         i + 1 < kCaptureStateNames.size() ? "," : "\n");
   }
   if (evaluation.first_tracked_pose >= 0) {
-    text += fmt::format("tracked     {:.1f} % from frame {} on; residual {:.1f} mm\n",
-                        100 * evaluation.tracked_share,
-                        evaluation.result.poses[evaluation.first_tracked_pose].frame,
-                        evaluation.mean_residual_mm);
+    text += fmt::format("tracked     {:.1f} % from frame {} on\n", 100 * evaluation.tracked_share,
+                        evaluation.result.poses[evaluation.first_tracked_pose].frame);
   }
+  if (evaluation.certainty) text += CertaintyText(*evaluation.certainty);
   if (const auto& precision = evaluation.precision) {
     text += fmt::format(
         "precision   {:.2f}° mean over 16 angles, {:.2f}° without the upper arms' twist; {:.1f} mm "
@@ -135,6 +148,7 @@ void AddEvaluation(const Evaluation& evaluation, JsonObject& json) {
   json.Add("tracked_share", accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
   json.Add("residual_mm", evaluation.mean_residual_mm, 2);
   if (accuracy) AddAccuracy(evaluation, json);
+  if (evaluation.certainty) json.Add("certainty", CertaintyJson(*evaluation.certainty));
   if (evaluation.precision) json.Add("precision", PrecisionJson(*evaluation.precision));
 }
 

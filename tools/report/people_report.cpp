@@ -120,7 +120,7 @@ std::string Timelines(const PeopleEvaluation& evaluation) {
 std::string TrackedRows(const PeopleEvaluation& evaluation) {
   std::string html =
       "<h3>Tracked people</h3><table><tr><th>tracked</th><th class=\"n\">frames</th><th "
-      "class=\"n\">residual mm</th><th class=\"n\">stature mm</th><th class=\"is\">true "
+      "class=\"n\">fit mm</th><th class=\"n\">stature mm</th><th class=\"is\">true "
       "person</th><th class=\"n\">error mm</th><th class=\"n\">phantom</th><th "
       "class=\"n\">duplicate</th></tr>";
   for (std::size_t i = 0; i < evaluation.people.size(); ++i) {

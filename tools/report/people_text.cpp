@@ -27,7 +27,7 @@ std::string NameOfTruth(const PeopleEvaluation& evaluation, const TrackedPerson&
 std::string TrackedTable(const PeopleEvaluation& evaluation) {
   const bool has_truth = !evaluation.truth.empty();
   std::string text = fmt::format("{:<12}{:>8}{:>9}{:>13}{:>12}", "tracked", "frames", "tracked",
-                                 "residual mm", "stature mm");
+                                 "fit mm", "stature mm");
   text += has_truth ? fmt::format("  {:<12}{:>9}{:>10}{:>11}\n", "true person", "error mm",
                                   "phantom", "duplicate")
                     : "\n";

@@ -256,10 +256,10 @@ std::string ResidualFigure(const Evaluation& evaluation) {
       {"", Curve(evaluation, [](const PoseRow& row) { return row.residual_mm; }), kPlainColor}};
   const PlotSeries voxels[] = {
       {"", Curve(evaluation, [](const PoseRow& row) { return row.voxels; }), kPlainColor}};
-  return Figure(PlotSvg(OverFrames(evaluation, "residual [mm]", 900, 170), residual) +
+  return Figure(PlotSvg(OverFrames(evaluation, "fit [mm]", 900, 170), residual) +
                     PlotSvg(OverFrames(evaluation, "voxels", 900, 170), voxels),
-                "<b>Residual</b>: mean distance between the points measured on the voxels and the "
-                "model’s. Below: voxels of the person.");
+                "<b>Fit</b> (residual_mm): mean distance between the body and what the cameras "
+                "show. Below: voxels of the person.");
 }
 
 std::string OverlapFigure(std::span<const CameraOverlap> overlaps, std::span<const double> frames) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "config/joint_names.h"
 #include "tools/report/report.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_style.h"
@@ -63,7 +64,7 @@ std::string PrecisionSection(const Evaluation& evaluation) {
   const Precision& precision = *evaluation.precision;
   std::vector<BarRow> angles, points;
   for (int i = 0; i < kPaperAngleCount; ++i) {
-    angles.push_back({fmt::format("θ{} {}", i + 1, kPaperAngleLabels[i]),
+    angles.push_back({fmt::format("θ{} {}", i + 1, kPaperJointNames[i]),
                       precision.angle_rad[i] * kDegreesPerRadian});
   }
   for (int i = 0; i < kPointCount; ++i) {
@@ -78,6 +79,12 @@ std::string PrecisionSection(const Evaluation& evaluation) {
       precision.mean_angle_without_twist_rad * kDegreesPerRadian);
   return html + "<div class=\"two\"><div>" + BarTable("angle", "°", angles) + "</div><div>" +
          BarTable("point", "mm", points) + "</div></div>\n";
+}
+
+/// The lines of CertaintyText.
+std::string CertaintyTable(const Evaluation& evaluation) {
+  if (!evaluation.certainty) return {};
+  return "<pre>" + CertaintyText(*evaluation.certainty) + "</pre>\n";
 }
 
 }  // namespace
@@ -99,7 +106,7 @@ std::string TrackingSections(const Evaluation& evaluation, const TakeSamples& sa
             ScoredAnglesFigure(evaluation);
   }
   return html + PrecisionSection(evaluation) + "<h2>The tracker’s own view</h2>\n" +
-         ResidualFigure(evaluation);
+         CertaintyTable(evaluation) + ResidualFigure(evaluation);
 }
 
 std::string Tile(const std::string& what, const std::string& value, const std::string& unit,

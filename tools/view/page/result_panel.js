@@ -63,7 +63,7 @@ export class ResultPanel {
                   row.mean
                 ] :
                 [],
-            make('dt', {text: 'Residual'}), row.residual));
+            make('dt', {text: 'Fit'}), row.residual));
     setText(row.mean, `${fixed(meanOf(result.error_mm), 1)} mm`);
     return row;
   }

@@ -82,7 +82,7 @@ export class TimelineView {
   tellLegend() {
     setText(
         byId('track-legend'),
-        this.hasTruth ? 'Mean error over the joints [mm]. ' : 'Residual [mm]. ');
+        this.hasTruth ? 'Mean error over the joints [mm]. ' : 'Fit [mm]. ');
     for (const state of STATES) {
       byId('track-legend')
           .append(make(

@@ -53,18 +53,18 @@ test('a frame tells state, error and residual; none is a dash, not a zero', () =
   panel.show(1, 2);
   assert.deepEqual(factsOf(panel.rows[0]), [
     ['State', 'tracking'], ['Error now', '20.0 mm'], ['Mean error', '15.0 mm'],
-    ['Residual', '6.0 mm']
+    ['Fit', '6.0 mm']
   ]);
   panel.show(2, 2);
   assert.deepEqual(
       factsOf(panel.rows[0]),
-      [['State', 'lost'], ['Error now', '– mm'], ['Mean error', '15.0 mm'], ['Residual', '– mm']]);
+      [['State', 'lost'], ['Error now', '– mm'], ['Mean error', '15.0 mm'], ['Fit', '– mm']]);
 });
 
 test('without truth there is no error and no table of joints', () => {
   const {panel, page} = open([result('a', {error_mm: [], joints: [], joint_error_mm: []})], null);
   panel.show(0, 2);
-  assert.deepEqual(factsOf(panel.rows[0]), [['State', 'tracking'], ['Residual', '5.0 mm']]);
+  assert.deepEqual(factsOf(panel.rows[0]), [['State', 'tracking'], ['Fit', '5.0 mm']]);
   assert.equal(page.panel.all('table').length, 0);
   assert.ok(page.legend.hidden);
 });

@@ -84,7 +84,7 @@ test('screen readers hear of a frame once it rests, not of each that passes', ()
 });
 
 test('with truth the curve is the error, without it the residual', () => {
-  assert.match(open().page['track-legend'].textContent, /^Residual/);
+  assert.match(open().page['track-legend'].textContent, /^Fit/);
   const withTruth = open({error_mm: TIMES.map(() => 20)});
   assert.match(withTruth.page['track-legend'].textContent, /^Mean error/);
   assert.equal(withTruth.view.top, 20);
