@@ -80,6 +80,38 @@ void WriteScene(const ExportFormat& format, const ExportScene& scene, const std:
   ReplaceText(file, out.str());
 }
 
+/// Whether a name is that of person K's file beside `out`.
+bool IsOfPerson(const std::string& name, const std::filesystem::path& out) {
+  const std::string begin = out.stem().string() + "-person-";
+  const std::string end = out.extension().string();
+  if (name.size() <= begin.size() + end.size()) return false;
+  const std::string number = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return name.starts_with(begin) && name.ends_with(end) &&
+         std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Removes earlier exports to the same --out that were not written again, such as those of a person
+/// whom the result no longer has: beside the new ones they would be taken for part of them.
+void RemoveStale(const ExportFormat& format, const std::filesystem::path& out,
+                 const std::vector<std::filesystem::path>& written) {
+  std::vector<std::filesystem::path> stale;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           out.has_parent_path() ? out.parent_path() : std::filesystem::path("."))) {
+    const std::filesystem::path file = out.parent_path() / entry.path().filename();
+    const std::string name = file.filename().string();
+    const bool is_of_out = file == out || IsOfPerson(name, out);
+    const bool is_new = std::ranges::find(written, file) != written.end();
+    if (is_of_out && !is_new && IsOwnFile(file, std::span(&format.beginning, 1))) {
+      stale.push_back(file);
+    }
+  }
+  std::ranges::sort(stale);
+  for (const std::filesystem::path& file : stale) {
+    std::filesystem::remove(file);
+    TellRemarks("export", {file.string() + ": removed, an earlier export to the same --out"});
+  }
+}
+
 void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   RequireRoomForExport(format, arguments.out);
   const Result result = ReadResult(arguments.result, arguments.prefix);
@@ -90,6 +122,7 @@ void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   const ExportSubject subject{"", result};
   const ExportScene scene{std::span(&subject, 1), result.poses, arguments.out.filename().string()};
   WriteScene(format, scene, arguments.result.string(), "", arguments.out);
+  RemoveStale(format, arguments.out, {arguments.out});
 }
 
 /// "walk.bvh" of person-1 becomes walk-person-1.bvh; of anna in a log, walk-anna.bvh.
@@ -121,16 +154,19 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
     RequireRoomForExport(format, FileOf(arguments.out, subject.name));
   }
   const std::vector<PoseRow> moments = MomentsOf(people);
+  std::vector<std::filesystem::path> written;
   const auto write = [&](std::span<const ExportSubject> whom, bool is_of_all,
                          const std::string& whose, const std::filesystem::path& file) {
     const ExportScene scene{whom, moments, file.filename().string(), is_of_all};
     WriteScene(format, scene, arguments.result.string(), whose, file);
     fmt::print("{}\n", Printable(file.string()));
+    written.push_back(file);
   };
   if (format.holds_everybody) write(subjects, true, "", arguments.out);
   for (const ExportSubject& subject : subjects) {
     write(std::span(&subject, 1), false, subject.name + ": ", FileOf(arguments.out, subject.name));
   }
+  RemoveStale(format, arguments.out, written);
 }
 
 void Export(const ExportArguments& arguments) {
@@ -156,7 +192,8 @@ void AddExportCommand(CLI::App& app) {
   command
       ->add_option("--out", arguments->out,
                    "output file with the format's suffix; with several people one file each, such "
-                   "as walk-person-1.bvh, or walk-anna.bvh for a named person in a log")
+                   "as walk-person-1.bvh, or walk-anna.bvh for a named person in a log; "
+                   "earlier exports to the same FILE are replaced")
       ->required();
   command->add_option("--prefix", arguments->prefix,
                       "prefix of the LCM channel names, for a log of several daemons");

@@ -84,6 +84,16 @@ bool IsSpecial(const std::filesystem::path& file) {
   return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
+std::string BeginningOf(const std::filesystem::path& file) {
+  constexpr std::size_t kLongestBeginning = 256;
+  std::string begin(kLongestBeginning, '\0');
+  const int fd = OpenToRead(file, "a file to write over");
+  const ssize_t got = read(fd, begin.data(), begin.size());
+  close(fd);
+  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return begin;
+}
+
 }  // namespace
 
 void WriteText(const std::filesystem::path& file, const std::string& text) {
@@ -122,18 +132,17 @@ void RequireWritable(const std::filesystem::path& file) {
   if (!is_special) unlink(tried.c_str());
 }
 
+bool IsOwnFile(const std::filesystem::path& file, std::span<const std::string_view> beginnings) {
+  if (!IsThere(file) || IsSpecial(file)) return false;
+  const std::string begin = BeginningOf(file);
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](std::string_view own) { return begin.starts_with(own); });
+}
+
 void RequireOwn(const std::filesystem::path& file, std::span<const std::string_view> beginnings,
                 std::string_view kind) {
-  constexpr std::size_t kLongestBeginning = 256;
-  if (!IsThere(file) || IsSpecial(file)) return;
-  std::string begin(kLongestBeginning, '\0');
-  const int fd = OpenToRead(file, kind);
-  const ssize_t got = read(fd, begin.data(), begin.size());
-  close(fd);
-  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-  const bool is_own = std::any_of(beginnings.begin(), beginnings.end(),
-                                  [&](std::string_view own) { return begin.starts_with(own); });
-  if (is_own || begin.empty()) return;
+  if (!IsThere(file) || IsSpecial(file) || IsOwnFile(file, beginnings)) return;
+  if (BeginningOf(file).empty()) return;
   throw SetupError(file.string() + ": exists and is not " + std::string(kind) +
                    " of mocap; expected the name of a new file");
 }

@@ -22,6 +22,10 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text);
 /// @throws SetupError  naming the file and the reason.
 void RequireWritable(const std::filesystem::path& file);
 
+/// Whether a file exists and begins like the program's own files.
+/// @throws SetupError  when it cannot be read.
+bool IsOwnFile(const std::filesystem::path& file, std::span<const std::string_view> beginnings);
+
 /// Checks that overwriting a file loses nobody's data: it is absent, empty, or begins like the
 /// program's own files.
 /// @param beginnings  of the program's own files.

@@ -80,6 +80,47 @@ TEST_F(Export, SeveralPeopleHaveAFileEachAndOneOfAllWhereTheFormatHoldsThem) {
   }
 }
 
+TEST_F(Export, NothingOfAnEarlierExportLiesBesideTheNewOne) {
+  WriteResult(Path("one"), SwingingResult(5));
+  std::filesystem::create_directory(Path("many"));
+  WritePeople(Path("many"), {{1, SwingingResult(5)}, {3, SwingingResult(5)}});
+  std::filesystem::create_directory(Path("fewer"));
+  WritePeople(Path("fewer"), {{1, SwingingResult(5)}});
+  for (const ExportFormat& format : ExportFormats()) {
+    const std::string name(format.name);
+    const std::string out = name + "/walk." + name;
+    std::filesystem::create_directory(Path(name));
+    // Of others, whatever their names are.
+    const std::set<std::string> kept = {"walk-person-2." + name, "walk-anna." + name,
+                                        "run-person-1." + name, "walk-person-1.txt"};
+    testing::WriteText(Path(name + "/walk-person-2." + name), "of somebody else");
+    for (const char* file : {"/walk-anna.", "/run-person-1."}) {
+      testing::WriteText(Path(name + file + name), std::string(format.beginning));
+    }
+    testing::WriteText(Path(name + "/walk-person-1.txt"), std::string(format.beginning));
+    const auto expect_beside_kept = [&](std::set<std::string> wanted) {
+      wanted.insert(kept.begin(), kept.end());
+      EXPECT_EQ(Files(name), wanted);
+    };
+    ::testing::internal::CaptureStdout();
+    Run("one", name, out);
+    expect_beside_kept({"walk." + name});
+    ::testing::internal::CaptureStderr();
+    Run("many", name, out);
+    std::set<std::string> of_many = {"walk-person-1." + name, "walk-person-3." + name};
+    if (format.holds_everybody) of_many.insert("walk." + name);
+    expect_beside_kept(of_many);
+    Run("fewer", name, out);
+    of_many.erase("walk-person-3." + name);
+    expect_beside_kept(of_many);
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+                HasSubstr("walk-person-3." + name + ": removed, an earlier export"));
+    Run("one", name, out);
+    expect_beside_kept({"walk." + name});
+    ::testing::internal::GetCapturedStdout();
+  }
+}
+
 TEST_F(Export, TheHelpTellsWhatEachFormatIsFor) {
   CLI::App app;
   AddExportCommand(app);
