@@ -1,18 +1,27 @@
 #!/usr/bin/env python3
 """Prints where the tracked person's hands are.
 
-usage: follow_pose.py [URL]      of LCM; file://LOG plays a log
+usage: follow_pose.py [URL [SECONDS]]      of LCM; file://LOG plays a log; ends after so many seconds (10) without a pose
 """
 import sys
 
 import mocapd
 
 
-def main():
-    for pose in mocapd.listen(*sys.argv[1:]):
+def follow(url=None, seconds="10"):
+    for pose in mocapd.listen(url, timeout_s=float(seconds)):
         if pose.is_tracked:
             left, right = pose.point("fingertips_l"), pose.point("fingertips_r")
             print("left hand %6.0f %6.0f %6.0f mm   right hand %6.0f %6.0f %6.0f mm" % (*left, *right), flush=True)
+
+
+def main():
+    try:
+        follow(*sys.argv[1:])
+    except KeyboardInterrupt:
+        pass
+    except (OSError, ValueError) as error:  # A time-out is an OSError.
+        sys.exit(f"follow_pose: {error}")
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ import numpy as np
 
 import mocapd
 
-# theta_k of the paper's Table 1, and the sign with which it bends.
-BENT = {"left elbow": ("theta_9", -1), "right elbow": ("theta_10", 1), "left knee": ("theta_15", 1), "right knee": ("theta_16", 1)}
+# A joint, and the sign with which it bends.
+BENT = {"left elbow": ("elbow_l_z", -1), "right elbow": ("elbow_r_z", 1), "left knee": ("knee_l_y", 1), "right knee": ("knee_r_y", 1)}
 
 
 def plot(result):
@@ -25,8 +25,8 @@ def plot(result):
     path.locator_params(nbins=4)
     path.legend()
     angles = figure.add_subplot(1, 2, 2)
-    for name, (theta, sign) in BENT.items():
-        angles.plot(result.time_s, np.degrees(sign * result.angle(theta)), label=name)
+    for name, (joint, sign) in BENT.items():
+        angles.plot(result.time_s, np.degrees(sign * result.angle(joint)), label=name)
     angles.set(xlabel="time [s]", ylabel="bent by [°]", title="Elbows and knees")
     angles.grid(alpha=0.3)
     angles.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=4)
@@ -35,7 +35,10 @@ def plot(result):
 
 def main():
     path, *picture = sys.argv[1:]
-    result = mocapd.read_result(path) if os.path.isdir(path) else mocapd.read_log(path)
+    try:
+        result = mocapd.read_result(path) if os.path.isdir(path) else mocapd.read_log(path)
+    except (OSError, ValueError) as error:
+        sys.exit(f"plot_take: {error}")
     figure = plot(result)
     figure.savefig(picture[0], dpi=120) if picture else plt.show()
 

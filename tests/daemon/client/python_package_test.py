@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import warnings
 from unittest import mock
@@ -25,6 +26,7 @@ from mocapd.lcm_udp import (FRAGMENT_HEADER, FRAGMENT_MAGIC, MOST_BYTES, MOST_SE
                             parse_group)
 from mocapd.mocap import body_t, people_t, person_body_t, person_t, pose_t
 from mocapd.poses import decoded
+from mocapd.results import COLUMNS
 
 JOINTS = ("neck_x", "elbow_l_z", "knee_r_y")
 START_US = 1_700_000_000_000_000
@@ -150,10 +152,76 @@ class FolderTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "use read_log"):
             mocapd.read_result(self.holds("session.lcm") + "/session.lcm")
 
+    def test_what_is_not_there_or_damaged_is_named(self):
+        gone = os.path.join(self.folder, "gone")
+        for read in (mocapd.read_result, mocapd.read_log, mocapd.read_people):
+            with self.assertRaisesRegex(FileNotFoundError, "^[^\\n]*gone[^\\n]*: not found; expected "):
+                read(gone)
+        with self.assertRaisesRegex(FileNotFoundError, "body.toml: not found; expected"):
+            mocapd.read_result(self.holds("poses.csv"))
+        whole = 'model = "full"\nstature_mm = 1700\n'
+        for text, problem in ((whole + '[joints]\nnames = ["neck_x"]', "body.toml: joints.names and joints.columns differ"),
+                              ("model = ", "body.toml: .*; expected TOML"), ('model = "full"', "body.toml: stature_mm is missing")):
+            with open(os.path.join(self.folder, "body.toml"), "w", encoding="utf-8") as file:
+                file.write(text)
+            with self.assertRaisesRegex(ValueError, problem):
+                mocapd.read_result(self.folder)
+
     def test_nobody_is_an_empty_folder_and_no_other(self):
         self.assertEqual(mocapd.read_people(self.folder), {})
         with self.assertRaisesRegex(ValueError, "no person-1"):
             mocapd.read_people(self.holds("notes.txt"))
+
+
+class ReadResultTest(unittest.TestCase):
+    """Results of a table, whatever columns follow the first ones."""
+    BODY = 'model = "full"\nstature_mm = 1700.0\n[sizes]\nthigh_mm = 420.0\n'
+    JOINTS = '[joints]\nnames = ["knee_r_y", "wrist_l_x"]\ncolumns = ["theta_16_rad", "wrist_l_x_rad"]\n'
+
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+
+    def result(self, further=(), cells=(), body=BODY):
+        """Of one row, in which every cell of the first columns differs from all others."""
+        numbers = [str(place) for place in range(len(COLUMNS))]
+        numbers[2] = "tracking"
+        with open(os.path.join(self.folder, "poses.csv"), "w", encoding="utf-8") as table:
+            table.write(",".join([*COLUMNS, *further]) + "\n" + ",".join([*numbers, *cells]) + "\n")
+        with open(os.path.join(self.folder, "body.toml"), "w", encoding="utf-8") as file:
+            file.write(body)
+        return mocapd.read_result(self.folder)
+
+    def test_the_torsos_origin_is_not_the_point_torso(self):
+        result = self.result()
+        np.testing.assert_array_equal(result.torso_mm, [[3, 4, 5]])
+        np.testing.assert_array_equal(result.point("torso"), [[26, 27, 28]])
+        np.testing.assert_array_equal(result.point("foot_r"), [[92, 93, 94]])
+        np.testing.assert_array_equal(result.residual_mm, [95])
+
+    def test_a_result_of_before_has_the_papers_joints_by_name(self):
+        result = self.result()
+        self.assertEqual(result.joint_names, mocapd.PAPER_JOINT_NAMES)
+        np.testing.assert_array_equal(result.angle("elbow_l_z"), result.theta_rad[:, 8])
+        self.assertTrue(np.isnan(result.points_std_mm).all())
+
+    def test_further_columns_are_found_by_name(self):
+        result = self.result(("probability", "deviation_head_mm", "wrist_l_x_rad"), ("", "6.5", "-0.5"), self.BODY + self.JOINTS)
+        self.assertEqual(result.joint_names, ("knee_r_y", "wrist_l_x"))
+        np.testing.assert_array_equal(result.angle("wrist_l_x"), [-0.5])
+        np.testing.assert_array_equal(result.angle("knee_r_y"), result.theta_rad[:, 15])
+        self.assertEqual(result.points_std_mm[0, 1], 6.5)
+
+    def test_what_has_no_value_is_nan(self):
+        result = self.result(("deviation_head_mm", "wrist_l_x_rad"), ("", ""), self.BODY + self.JOINTS)
+        self.assertTrue(np.isnan(result.points_std_mm[0, 1]) and np.isnan(result.angle("wrist_l_x")[0]))
+
+    def test_another_table_is_told(self):
+        with self.assertRaisesRegex(ValueError, "poses.csv: line 2: has 97 cells, not 98"):
+            self.result(("probability",))
+        with open(os.path.join(self.folder, "poses.csv"), "w", encoding="utf-8") as table:
+            table.write("frame,timestamp_ns,x\n")
+        with self.assertRaisesRegex(ValueError, "poses.csv: line 1: is no header of poses.csv; expected frame, "):
+            mocapd.read_result(self.folder)
 
 
 class ReassemblyTest(unittest.TestCase):
@@ -264,13 +332,17 @@ class ListenTest(LogTest):
         pose, = mocapd.listen(self.url)
         result = mocapd.read_log(self.log.path)
         for some in (pose, result):
-            with self.assertRaisesRegex(ValueError, "no point 'wrist_l'; there are torso, head, .*, fingertips_l"):
+            with self.assertRaisesRegex(ValueError, "no point 'wrist_l'; there are .*torso, head, .*fingertips_l"):
                 some.point("wrist_l")
-            with self.assertRaisesRegex(ValueError, "no joint 'elbow_l'; there are neck_x, elbow_l_z"):
+            with self.assertRaisesRegex(ValueError, "no joint 'elbow_l'; there are elbow_l_z, neck_x, knee_r_y"):
                 some.angle("elbow_l")
         with self.assertRaisesRegex(ValueError, "no joint 'theta_17'; .* theta_16"):
             result.angle("theta_17")
+        with self.assertRaisesRegex(ValueError, "no joint 'knee_l_y'; there are knee_r_y, neck_x, elbow_l_z, theta_1, "):
+            pose.angle("knee_l_y")
         self.assertEqual(result.angle("theta_16")[0], result.theta_rad[0, 15])
+        self.assertEqual(pose.angle("theta_16"), result.theta_rad[0, 15])
+        np.testing.assert_array_equal(result.points_std_mm, np.full((1, 23), 5.0))
         self.assertEqual(result.angle("elbow_l_z")[0], 0.2)
 
     def test_whoever_is_not_tracked_is_nan(self):
@@ -417,6 +489,14 @@ class ReadLogTest(LogTest):
         self.assertEqual([len(result) for result in people.values()], [3, 3, 3, 3])
         np.testing.assert_array_equal(mocapd.read_log(self.log.path, person=2).point("torso")[:, 0], [2000, 3000, 4000])
 
+    def test_a_column_is_a_number_with_a_name_of_its_own(self):
+        columns = mocapd.read_log(self.whole().write()).to_columns()
+        self.assertEqual({column.shape for column in columns.values()}, {(6,)})
+        self.assertEqual(columns["torso_origin_x_mm"][1], 101)
+        self.assertEqual(columns["torso_x_mm"][1], 1000)
+        self.assertEqual(columns["elbow_l_z_rad"][1], 0.2)
+        self.assertEqual(columns["deviation_head_mm"][1], 5)
+
     def test_pandas_has_a_column_a_number(self):
         try:
             import pandas  # noqa: F401
@@ -456,8 +536,36 @@ class MulticastTest(LogTest):
 
     def test_silence_ends_when_it_was_asked_to(self):
         need_multicast(self)
-        with self.assertRaises(TimeoutError):
-            next(mocapd.listen("udpm://239.255.76.66:7667", timeout_s=0.01))
+        url = "udpm://239.255.76.66:7667"
+        for heard in (mocapd.messages(url, 0.01), mocapd.listen(url, timeout_s=0.01), mocapd.listen(url, person=2, timeout_s=0.01),
+                      mocapd.listen_people(url, timeout_s=0.01)):
+            with self.assertRaisesRegex(TimeoutError, f"^{url}: no .* came for 0.01 s, nor any other message; expected mocapd .*$"):
+                next(heard)
+
+
+
+class DeadlineTest(unittest.TestCase):
+    """Of a source that never falls silent, by a clock that goes on by a second with each of its messages."""
+
+    def hears(self, **arguments):
+        message = pose_message(1).encode()
+
+        def receive(_, deadline):
+            yield "right.MOCAP_BODY", body_message().encode()
+            while True:
+                deadline.left_s()
+                yield "right.MOCAP_POSE", message
+        clock = types.SimpleNamespace(monotonic=itertools.count().__next__)
+        self.enterContext(mock.patch("mocapd.live.receive", receive))
+        self.enterContext(mock.patch("mocapd.lcm_udp.time", clock))
+        return mocapd.listen("udpm://", **arguments)
+
+    def test_other_messages_do_not_hold_off_the_end(self):
+        with self.assertRaisesRegex(TimeoutError, "no left.MOCAP_POSE came for 5 s, but right.MOCAP_BODY, right.MOCAP_POSE; expected"):
+            next(self.hears(prefix="left.", timeout_s=5))
+
+    def test_poses_do(self):
+        self.assertEqual(len(list(itertools.islice(self.hears(prefix="right.", timeout_s=5), 20))), 20)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ import numpy as np
 import mocapd
 from client_log import BIN, TrackedTake, free_group, mocap, need_multicast
 
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/examples")
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
+EXAMPLES = os.path.join(SOURCE, "docs/examples")
 LAST_BONE = b"RightFoot\0"
 ROUNDED_MM, ROUNDED_RAD = 6e-4, 6e-7
 
@@ -127,6 +128,8 @@ class StreamTest(unittest.TestCase):
                 rows = list(csv.DictReader(lines))
             result = mocapd.read_log(self.log)
             self.assertEqual(len(result), len(rows))
+            self.assertEqual(set(result.to_columns()) - {"timestamp_ns"},
+                             {name for name in rows[0] if not name.endswith("_deg")} - {"utime_us", "voxels"})
             for i, row in enumerate(rows):
                 self.assertEqual((result.frame[i], result.state[i]), (int(row["frame"]), row["state"]))
                 self.assertEqual(result.timestamp_ns[i], int(row["utime_us"]) * 1000)
@@ -134,6 +137,10 @@ class StreamTest(unittest.TestCase):
                     continue
                 points = [[float(row[f"{name}_{axis}_mm"]) for axis in "xyz"] for name in mocapd.POINT_NAMES]
                 np.testing.assert_allclose(result.points_mm[i], points, rtol=0, atol=ROUNDED_MM)
+                deviations = [float(row[f"deviation_{name}_mm"]) for name in mocapd.POINT_NAMES]
+                np.testing.assert_allclose(result.points_std_mm[i], deviations, rtol=0, atol=ROUNDED_MM)
+                joints = [float(row[f"{name}_rad"]) for name in result.joint_names]
+                np.testing.assert_allclose(result.joints_rad[i], joints, rtol=0, atol=ROUNDED_RAD)
                 theta = [float(row[f"theta_{k + 1}_rad"]) for k in range(16)]
                 np.testing.assert_allclose(result.theta_rad[i], theta, rtol=0, atol=ROUNDED_RAD)
 
@@ -168,10 +175,36 @@ class StreamTest(unittest.TestCase):
                 hand = [float(row["fingertips_r_z_mm"]) if row["state"] == "tracking" else np.nan for row in rows]
                 np.testing.assert_array_equal(result.point("fingertips_r")[:, 2], hand)
                 self.assertGreater(result.sizes_mm["thigh"], 200)
+                # Angles have the names that live poses have.
+                live = next(pose for pose in mocapd.listen("file://" + self.log) if pose.is_tracked)
+                self.assertEqual(result.joint_names, live.body.joint_names)
+                for theta, joint in enumerate(mocapd.PAPER_JOINT_NAMES):
+                    np.testing.assert_array_equal(result.angle(joint), result.angle(f"theta_{theta + 1}"))
+                self.assertFalse(np.isnan(result.points_std_mm[result.is_tracked]).any())
                 with open(table, "a") as damaged:
                     damaged.write("1,2,tracking,x\n")
                 with self.assertRaisesRegex(ValueError, f"poses.csv: line {len(rows) + 2}: .*expected"):
                     mocapd.read_result(os.path.dirname(table))
+
+    def test_the_documents_python_runs_as_it_stands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mocap("track", self.take.take, "--out", os.path.join(folder, "result"))
+            os.symlink(self.log, os.path.join(folder, "session.lcm"))
+            with open(os.path.join(SOURCE, "docs/clients.md"), encoding="utf-8") as document:
+                block = document.read().partition("```python\n")[2].partition("```")[0]
+            # Nobody sends here: the log stands in for the service.
+            block = block.replace("mocapd.listen(", f"mocapd.listen('file://{self.log}', ")
+            block = block.replace("mocapd.listen_people(", f"mocapd.listen_people('file://{self.log}', ")
+            done = subprocess.run(["/usr/bin/python3", "-B", "-c", block], cwd=folder, capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(len(done.stdout.splitlines()), 3)
+
+    def test_an_example_that_hears_nothing_says_so_in_a_line(self):
+        need_multicast(self)
+        done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, "follow_pose.py"), "udpm://239.255.76.65:7667", "0.1"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^follow_pose: udpm://239.255.76.65:7667: no MOCAP_POSE came for 0.1 s, .*\n$")
 
 
 if __name__ == "__main__":

@@ -11,14 +11,15 @@ From what ``mocap track`` left, or from what ``lcm-logger`` or a recording kept 
 
     walk = mocapd.read_result("result")
     walk = mocapd.read_log("session.lcm")
+    walk.angle("elbow_l_z")                          # the names of live poses
     walk.to_pandas().plot(x="time_s", y="fingertips_l_z_mm")
 
 Millimetres, radians; the studio's frame is right-handed with z up and the floor at z = 0. ``_l`` is the person's left.
 Whatever was not tracked is NaN. LCM's own Python module is not needed.
 """
 from .live import DEFAULT_URL, listen, listen_people, messages
-from .poses import POINT_NAMES, Body, Pose
+from .poses import PAPER_JOINT_NAMES, POINT_NAMES, Body, Pose
 from .results import Result, read_log, read_people, read_result
 
-__all__ = ["DEFAULT_URL", "POINT_NAMES", "Body", "Pose", "Result", "listen", "listen_people", "messages", "read_log",
-           "read_people", "read_result"]
+__all__ = ["DEFAULT_URL", "PAPER_JOINT_NAMES", "POINT_NAMES", "Body", "Pose", "Result", "listen", "listen_people", "messages",
+           "read_log", "read_people", "read_result"]

@@ -5,8 +5,10 @@ import collections
 import dataclasses
 import errno
 import ipaddress
+import os
 import socket
 import struct
+import time
 from collections.abc import Iterator
 from urllib.parse import parse_qsl, urlsplit
 
@@ -19,6 +21,26 @@ MOST_SENDERS, MOST_BYTES = 1000, 1 << 24
 RECEIVE_BUFFER = 4 << 20
 
 Event = tuple[str, bytes]
+
+
+class Deadline:
+    """When to give up waiting."""
+
+    def __init__(self, timeout_s: float | None) -> None:
+        self.timeout_s = timeout_s
+        self.renew()
+
+    def renew(self) -> None:
+        self.at_s = None if self.timeout_s is None else time.monotonic() + self.timeout_s
+
+    def left_s(self) -> float | None:
+        """None: for ever. @raises TimeoutError  when it has passed."""
+        if self.at_s is None:
+            return None
+        left_s = self.at_s - time.monotonic()
+        if left_s <= 0:
+            raise TimeoutError
+        return left_s
 
 
 @dataclasses.dataclass
@@ -127,20 +149,25 @@ def open_socket(group: str, port: int) -> socket.socket:
             raise
         raise OSError(error.errno, f"UDP port {port} is in use by another program: ss -ulpn names it; end it, or use another "
                       "port") from error
-    udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
-                   struct.pack("=4sL", socket.inet_aton(group), socket.INADDR_ANY))
+    try:
+        udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
+                       struct.pack("=4sL", socket.inet_aton(group), socket.INADDR_ANY))
+    except OSError as error:
+        udp.close()
+        raise OSError(error.errno, f"the group {group} cannot be joined ({os.strerror(error.errno or 0)}); expected a multicast route: "
+                      "ip route add 224.0.0.0/4 dev lo") from error
     return udp
 
 
-def receive(url: str, timeout_s: float | None = None) -> Iterator[Event]:
+def receive(url: str, deadline: Deadline) -> Iterator[Event]:
     """Yields channel and bytes of every message on a group.
 
-    @raises TimeoutError  when no packet comes for so long.
+    @raises TimeoutError  when the deadline passes.
     """
     reassembly = Reassembly()
     with open_socket(*parse_group(url)) as udp:
-        udp.settimeout(timeout_s)
         while True:
+            udp.settimeout(deadline.left_s())
             packet, sender = udp.recvfrom(65536)
             event = reassembly.take(packet, sender)
             if event is not None:

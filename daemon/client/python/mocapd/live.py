@@ -1,58 +1,28 @@
 """Poses as they come."""
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 
 from .lcm_log import read_events
-from .lcm_udp import receive
+from .lcm_udp import Deadline, Event, receive
 from .poses import Pose, PoseDecoder
 
 #: Where mocapd sends unless it is told otherwise.
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
+MOST_NAMED = 12
 
 
-def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator[tuple[str, bytes]]:
+def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator[Event]:
     """Yields channel and bytes of every LCM message.
 
     @param url  "udpm://GROUP:PORT", or "file://PATH" of a log, whose messages come at once, one after the other.
     @param timeout_s  raises TimeoutError when nothing comes for so long.
     @raises ValueError  for an address that is none. @raises OSError  where no group can be joined, or no file read.
     """
-    address = url or DEFAULT_URL
-    if address.startswith("file://"):
-        return read_events(address.removeprefix("file://").partition("?")[0])
-    return receive(address, timeout_s)
-
-
-def _of_prefix(url: str | None, prefix: str, wanted: str, timeout_s: float | None) -> Iterator[tuple[str, bytes]]:
-    """Yields the messages of one daemon, without the prefix of their channels.
-
-    @raises TimeoutError  when none on the channel `wanted` comes for so long, whatever else does.
-    """
-    senders: set[str] = set()
-    wanted_s = time.monotonic()
-    try:
-        for channel, data in messages(url, timeout_s):
-            if channel.endswith("MOCAP_STATUS") and len(senders) < 8:
-                senders.add(channel.removesuffix("MOCAP_STATUS"))
-            if channel.startswith(prefix):
-                yield channel.removeprefix(prefix), data
-            if channel == prefix + wanted:
-                senders, wanted_s = set(), time.monotonic()
-            elif timeout_s is not None and time.monotonic() - wanted_s > timeout_s and not (url or "").startswith("file:"):
-                raise TimeoutError
-    except TimeoutError:
-        raise TimeoutError(_silence_text(url or DEFAULT_URL, prefix, wanted, timeout_s, senders)) from None
-
-
-def _silence_text(url: str, prefix: str, wanted: str, timeout_s: float | None, senders: set[str]) -> str:
-    text = f"no {prefix}{wanted} has arrived on {url} for {timeout_s} s"
-    if prefix in senders:
-        return text + ", only mocapd's status: mocap status says why; a node never sends poses, its studio does"
-    if senders:
-        return text + f", but mocapd sends there with the prefixes {sorted(senders)}: choose one with prefix="
-    return text + ": is mocapd running? mocap doctor checks the network"
+    source = _Source(url, timeout_s, "message")
+    for event in source.events():
+        yield event
+        source.deadline.renew()
 
 
 def listen(url: str | None = None, prefix: str = "", person: int | None = None,
@@ -61,23 +31,29 @@ def listen(url: str | None = None, prefix: str = "", person: int | None = None,
 
     A tracked pose comes once the person's body is known, within a second. A generator: break off when you have enough.
 
-    @param url, timeout_s  as of messages().
-    @raises TimeoutError  when no pose comes for so long, with what is heard instead.
+    @param url  as of messages().
     @param prefix  what stands before the channels' names (`lcm.prefix` in mocapd's configuration).
     @param person  number of the one who is meant, as `mocap status` tells it.
+    @param timeout_s  raises TimeoutError when no pose comes for so long, whatever else does; it says what was heard instead.
     """
     if person is not None:
-        for people in listen_people(url, prefix, timeout_s):
-            yield from (pose for pose in people if pose.person == person)
+        source = _Source(url, timeout_s, f"person {person} on {prefix}MOCAP_PEOPLE")
+        for people in _people(source, prefix):
+            for pose in people:
+                if pose.person == person:
+                    yield pose
+                    source.deadline.renew()
         return
+    source = _Source(url, timeout_s, prefix + "MOCAP_POSE")
     decoder = PoseDecoder()
-    for channel, data in _of_prefix(url, prefix, "MOCAP_POSE", timeout_s):
-        if channel == "MOCAP_BODY":
+    for channel, data in source.events():
+        if channel == prefix + "MOCAP_BODY":
             decoder.take_body(data)
-        elif channel == "MOCAP_POSE":
+        elif channel == prefix + "MOCAP_POSE":
             pose = decoder.pose(data)
             if pose is not None:
                 yield pose
+                source.deadline.renew()
 
 
 def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | None = None) -> Iterator[list[Pose]]:
@@ -85,11 +61,49 @@ def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | N
 
     Whose body is not known yet is left out, for a second at most. Arguments are those of listen().
     """
+    source = _Source(url, timeout_s, prefix + "MOCAP_PEOPLE")
+    for people in _people(source, prefix):
+        yield people
+        source.deadline.renew()
+
+
+def _people(source: _Source, prefix: str) -> Iterator[list[Pose]]:
     decoder = PoseDecoder()
-    for channel, data in _of_prefix(url, prefix, "MOCAP_PEOPLE", timeout_s):
-        if channel == "MOCAP_BODIES":
+    for channel, data in source.events():
+        if channel == prefix + "MOCAP_BODIES":
             decoder.take_person_body(data)
-        elif channel == "MOCAP_PEOPLE":
+        elif channel == prefix + "MOCAP_PEOPLE":
             people = decoder.people(data)
             if people is not None:
                 yield people
+
+
+class _Source:
+    """Messages, and what to say when the wanted ones do not come."""
+
+    def __init__(self, url: str | None, timeout_s: float | None, wanted: str) -> None:
+        self.address = url or DEFAULT_URL
+        self.wanted = wanted
+        self.deadline = Deadline(timeout_s)
+        self.heard: dict[str, None] = {}
+
+    def events(self) -> Iterator[Event]:
+        """@raises TimeoutError  in one line, at the deadline."""
+        if self.address.startswith("file://"):
+            yield from read_events(self.address.removeprefix("file://").partition("?")[0])
+            return
+        self.deadline.renew()
+        try:
+            for event in receive(self.address, self.deadline):
+                self.heard[event[0]] = None
+                yield event
+        except TimeoutError:
+            raise TimeoutError(f"{self.address}: no {self.wanted} came for {self.deadline.timeout_s:g} s, {self._found()}") from None
+
+    def _found(self) -> str:
+        if not self.heard:
+            return ("nor any other message; expected mocapd to run here, or to send to this network: mocap status and lcm.url in its "
+                    "configuration tell")
+        names = sorted(self.heard)
+        more = " and others" if len(names) > MOST_NAMED else ""
+        return f"but {', '.join(names[:MOST_NAMED])}{more}; expected another prefix or person, or mocapd of this version"

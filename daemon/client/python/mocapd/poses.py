@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import struct
 from typing import Any, TypeVar
 
@@ -18,6 +19,11 @@ POINT_NAMES: tuple[str, ...] = (
     "torso", "head", "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l", "calf_r",
     "neck", "shoulder_l", "shoulder_r", "hip_l", "hip_r", "elbow_l", "elbow_r", "fingertips_l", "fingertips_r", "knee_l",
     "knee_r", "foot_l", "foot_r")
+#: Names of the paper's sixteen angles, theta_1 to theta_16, in mocapd's own body tables.
+PAPER_JOINT_NAMES: tuple[str, ...] = (
+    "neck_x", "neck_y", "shoulder_l_x", "shoulder_r_x", "shoulder_l_z", "shoulder_r_z", "shoulder_l_y", "shoulder_r_y", "elbow_l_z",
+    "elbow_r_z", "hip_l_x", "hip_r_x", "hip_l_y", "hip_r_y", "knee_l_y", "knee_r_y")
+THETA_NAMES = tuple(f"theta_{i + 1}" for i in range(len(PAPER_JOINT_NAMES)))
 STATES = ("searching", "acquiring", "tracking", "lost")
 TRACKING = "tracking"
 
@@ -35,9 +41,11 @@ def decoded(kind: type[Message], data: bytes) -> Message | None:
 
 
 def place_of(name: str, names: tuple[str, ...], kind: str) -> int:
-    """Where a name is among those that there are. @raises ValueError  naming them."""
+    """Where a name is among those that there are. @raises ValueError  naming them, the nearest first."""
     if name not in names:
-        raise ValueError(f"there is no {kind} {name!r}; there are {', '.join(names)}")
+        near = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+        others = [other for other in names if other not in near]
+        raise ValueError(f"there is no {kind} {name!r}; there are {', '.join(near + others)}")
     return names.index(name)
 
 
@@ -100,6 +108,7 @@ class Pose:
     body: Body | None  #: None: not tracked
     torso_mm: np.ndarray  #: 3
     torso_rotation: np.ndarray  #: 3 x 3, from the torso's frame to the studio's
+    theta_rad: np.ndarray  #: 16, the angles of the paper's Table 1
     joints_rad: np.ndarray  #: n, in the order of body.joint_names
     points_mm: np.ndarray  #: 23 x 3, in the order of POINT_NAMES
     points_std_mm: np.ndarray  #: 23
@@ -119,10 +128,14 @@ class Pose:
         return self.points_mm[place_of(name, POINT_NAMES, "point")]
 
     def angle(self, joint: str) -> float:
-        """How far one of body.joint_names is turned [rad]; NaN where nobody is tracked. @raises ValueError  for another name."""
+        """How far a joint is turned [rad]: one of body.joint_names, or "theta_1" to "theta_16". NaN where nobody is tracked.
+
+        @raises ValueError  for another name, where somebody is tracked.
+        """
         if self.body is None:
             return float("nan")
-        return float(self.joints_rad[place_of(joint, self.body.joint_names, "joint")])
+        place = place_of(joint, self.body.joint_names + THETA_NAMES, "joint")
+        return float(np.concatenate([self.joints_rad, self.theta_rad])[place])
 
     @classmethod
     def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,
@@ -136,7 +149,8 @@ class Pose:
         if body is None or len(body.joint_names) != message.num_joints or not has_numbers(message):
             return None
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
-                   torso_mm=np.array(message.torso_mm), joints_rad=np.array(message.joint_rad),
+                   torso_mm=np.array(message.torso_mm), theta_rad=np.array(message.theta_rad),
+                   joints_rad=np.array(message.joint_rad),
                    torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
                    points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
                    residual_mm=message.residual_mm)
@@ -146,8 +160,8 @@ class Pose:
         def nothing(*shape: int) -> np.ndarray:
             return np.full(shape, np.nan)
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=None, torso_mm=nothing(3),
-                   torso_rotation=nothing(3, 3), joints_rad=nothing(0), points_mm=nothing(len(POINT_NAMES), 3),
-                   points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"))
+                   torso_rotation=nothing(3, 3), theta_rad=nothing(len(THETA_NAMES)), joints_rad=nothing(0),
+                   points_mm=nothing(len(POINT_NAMES), 3), points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"))
 
 
 class PoseDecoder:

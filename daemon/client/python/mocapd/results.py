@@ -6,22 +6,28 @@ import dataclasses
 import os
 import pathlib
 import tomllib
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from .lcm_log import read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import POINT_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, place_of, rotation_matrix, state_name
+from .poses import (PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, place_of,
+                    rotation_matrix, state_name)
 
 if TYPE_CHECKING:
     import pandas
 
 Path = str | os.PathLike[str]
 POSE, BODY, PEOPLE, BODIES = "MOCAP_POSE", "MOCAP_BODY", "MOCAP_PEOPLE", "MOCAP_BODIES"
-PAPER_ANGLES = 16
+
+#: The columns that every poses.csv has. The first torso_x_mm and so on are the origin of the torso's frame, the second the point torso.
+COLUMNS: tuple[str, ...] = (
+    "frame", "timestamp_ns", "state", "torso_x_mm", "torso_y_mm", "torso_z_mm", "torso_axis_x", "torso_axis_y", "torso_axis_z",
+    "torso_angle_rad", *(f"{name}_rad" for name in THETA_NAMES), *(f"{name}_{axis}_mm" for name in POINT_NAMES for axis in "xyz"),
+    "residual_mm", "voxels")
+TORSO_PLACE, ANGLE_PLACE, THETA_PLACE, POINT_PLACE, RESIDUAL_PLACE = 3, 9, 10, 26, 95
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -40,8 +46,9 @@ class Result:
     theta_rad: np.ndarray  #: n x 16, the angles of the paper's Table 1
     points_mm: np.ndarray  #: n x 23 x 3, in the order of POINT_NAMES
     residual_mm: np.ndarray  #: n
-    joint_names: tuple[str, ...] = ()  #: of a log; poses.csv has only the paper's angles
-    joints_rad: np.ndarray = dataclasses.field(default_factory=lambda: np.empty((0, 0)))  #: n x joint_names
+    points_std_mm: np.ndarray  #: n x 23, standard deviation of each point along its worst axis; NaN in results without
+    joint_names: tuple[str, ...]  #: as of live poses; in results without them, the paper's sixteen
+    joints_rad: np.ndarray  #: n x joint_names
 
     def __len__(self) -> int:
         return len(self.frame)
@@ -62,26 +69,30 @@ class Result:
     def angle(self, joint: str) -> np.ndarray:
         """How far a joint is turned; n [rad]. One of joint_names, or "theta_1" to "theta_16" of Table 1.
 
-        @raises ValueError  for another name; only results of logs have joint_names.
+        @raises ValueError  for another name.
         """
-        paper = tuple(f"theta_{i + 1}" for i in range(PAPER_ANGLES))
-        place = place_of(joint, self.joint_names + paper, "joint")
+        place = place_of(joint, self.joint_names + THETA_NAMES, "joint")
         joints = len(self.joint_names)
         return self.joints_rad[:, place] if place < joints else self.theta_rad[:, place - joints]
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A column a number, with the names of poses.csv; joints as NAME_rad. Needs pandas."""
-        import pandas
-        columns: dict[str, Any] = {"frame": self.frame, "timestamp_ns": self.timestamp_ns, "time_s": self.time_s,
-                                   "state": self.state}
+    def to_columns(self) -> dict[str, np.ndarray]:
+        """A column a number, each of n rows, with the names of `mocap export --format csv`."""
+        columns = {"frame": self.frame, "timestamp_ns": self.timestamp_ns, "time_s": self.time_s, "state": self.state}
+        columns |= {f"torso_origin_{name}_mm": self.torso_mm[:, i] for i, name in enumerate("xyz")}
         columns |= {f"torso_axis_{name}": self.torso_axis[:, i] for i, name in enumerate("xyz")}
         columns["torso_angle_rad"] = self.torso_angle_rad
-        columns |= {f"theta_{i + 1}_rad": self.theta_rad[:, i] for i in range(PAPER_ANGLES)}
-        columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
+        columns |= {f"{name}_rad": self.theta_rad[:, i] for i, name in enumerate(THETA_NAMES)}
         columns |= {f"{name}_{axis}_mm": self.points_mm[:, i, k] for i, name in enumerate(POINT_NAMES)
                     for k, axis in enumerate("xyz")}
         columns["residual_mm"] = self.residual_mm
-        return pandas.DataFrame(columns)
+        columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
+        columns |= {f"deviation_{name}_mm": self.points_std_mm[:, i] for i, name in enumerate(POINT_NAMES)}
+        return columns
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same as a table. Needs pandas."""
+        import pandas
+        return pandas.DataFrame(self.to_columns())
 
 
 def read_result(folder: Path) -> Result:
@@ -97,17 +108,44 @@ def read_result(folder: Path) -> Result:
         if _person_folders(folder):
             raise ValueError(f"{folder}: contains several people; use read_people(), or one of its folders person-K")
         _refuse_take(folder)
-    body = tomllib.loads((pathlib.Path(folder) / "body.toml").read_text(encoding="utf-8"))
+        raise FileNotFoundError(f"{poses}: not found; expected the folder that mocap track made")
+    body = _read_body(pathlib.Path(folder) / "body.toml")
     rows = _Rows()
-    with open(poses, newline="", encoding="utf-8") as table:
-        reader = csv.DictReader(table)
-        for row in reader:
+    with open(poses, newline="", encoding="utf-8-sig") as table:
+        reader = csv.reader(table)
+        header = next(reader, [])
+        if tuple(header[:len(COLUMNS)]) != COLUMNS:
+            raise ValueError(f"{poses}: line 1: is no header of poses.csv; expected {', '.join(COLUMNS[:4])} ... as mocap track writes it")
+        columns = {name: column for name, column in zip(body["joints"]["names"], body["joints"]["columns"])
+                   if column in header}
+        places = _Places(joints=[header.index(column) for column in columns.values()],
+                         deviations=[header.index(name) if name in header else None
+                                     for name in (f"deviation_{point}_mm" for point in POINT_NAMES)])
+        for row in filter(None, reader):
             try:
-                rows.add_cells(row)
-            except (KeyError, TypeError, ValueError, OverflowError) as error:
-                raise ValueError(f"{poses}: line {reader.line_num}: {error!r}; expected a row of poses.csv") from error
+                if len(row) != len(header):
+                    raise ValueError(f"has {len(row)} cells, not {len(header)}")
+                rows.add_cells(row, places)
+            except (ValueError, OverflowError) as error:
+                raise ValueError(f"{poses}: line {reader.line_num}: {error}; expected a row of poses.csv") from error
     sizes = {name.removesuffix("_mm"): size for name, size in body.get("sizes", {}).items()}
-    return rows.result(body["model"], body["stature_mm"], sizes)
+    return rows.result(body["model"], body["stature_mm"], sizes, tuple(columns))
+
+
+def _read_body(file: pathlib.Path) -> dict[str, Any]:
+    if not file.exists():
+        raise FileNotFoundError(f"{file}: not found; expected it beside poses.csv, as mocap track writes it")
+    try:
+        body = tomllib.loads(file.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}; expected TOML, as mocap track writes it") from error
+    for key in ("model", "stature_mm"):
+        if key not in body:
+            raise ValueError(f"{file}: {key} is missing; expected it, as mocap track writes it")
+    joints = body.setdefault("joints", {"names": PAPER_JOINT_NAMES, "columns": [f"{name}_rad" for name in THETA_NAMES]})
+    if len(joints.get("names", ())) != len(joints.get("columns", ())):
+        raise ValueError(f"{file}: joints.names and joints.columns differ in length; expected a column for each joint")
+    return body
 
 
 def read_log(path: Path, prefix: str | None = None, person: int | None = None) -> Result:
@@ -119,6 +157,7 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
     """
     if pathlib.Path(path).is_dir():
         raise ValueError(f"{path}: is a folder; use read_result() or read_people() for what mocap track made")
+    _require(path)
     if person is not None:
         people = _read_people_log(path, prefix)
         if person not in people:
@@ -153,11 +192,17 @@ def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Res
             if any(folder.iterdir()):
                 raise ValueError(f"{folder}: contains no person-1 or the like; expected what mocap track --people makes, or a log")
         return {person.name: read_result(person) for person in people}
+    _require(folder)
     results: dict[str, Result] = {}
     for number, (name, result) in _read_people_log(folder, prefix).items():
         # Two people may have had the same name, one after the other.
         results[name if name and name not in results else f"person-{number}"] = result
     return results
+
+
+def _require(log: Path) -> None:
+    if not pathlib.Path(log).exists():
+        raise FileNotFoundError(f"{log}: not found; expected a log of lcm-logger")
 
 
 def _person_folders(folder: Path) -> list[pathlib.Path]:
@@ -215,6 +260,12 @@ def _choose_prefix(path: Path, name: str, wanted: str | None) -> str:
     return wanted
 
 
+class _Places(NamedTuple):
+    """Where columns of poses.csv are that not every result has."""
+    joints: list[int]
+    deviations: list[int | None]
+
+
 class _Rows:
     """Rows of a result, as they are read."""
 
@@ -222,17 +273,20 @@ class _Rows:
         self.heads: list[tuple[int | np.int64, int | np.int64, str]] = []
         self.poses: list[tuple[np.ndarray, ...] | None] = []
 
-    def add_cells(self, row: dict[str, str]) -> None:
-        def numbers(names: Iterable[str]) -> np.ndarray:
-            return np.array([float(row[name]) for name in names])
-        self.heads.append((np.int64(int(row["frame"])), np.int64(int(row["timestamp_ns"])), row["state"]))
-        if row["state"] != TRACKING:
+    def add_cells(self, row: list[str], places: _Places) -> None:
+        def numbers(begin: int, end: int) -> np.ndarray:
+            return np.array([float(cell) for cell in row[begin:end]])
+
+        def number_or_none(place: int | None) -> float:
+            return float(row[place] or "nan") if place is not None else float("nan")
+        self.heads.append((np.int64(int(row[0])), np.int64(int(row[1])), row[2]))
+        if row[2] != TRACKING:
             self.poses.append(None)
             return
-        points = numbers(f"{name}_{axis}_mm" for name in POINT_NAMES for axis in "xyz").reshape(-1, 3)
-        self.poses.append((points[0], numbers(f"torso_axis_{axis}" for axis in "xyz"),
-                           np.array(float(row["torso_angle_rad"])), numbers(f"theta_{i + 1}_rad" for i in range(PAPER_ANGLES)),
-                           points, np.array(float(row["residual_mm"])), np.empty(0)))
+        self.poses.append((numbers(TORSO_PLACE, TORSO_PLACE + 3), numbers(TORSO_PLACE + 3, ANGLE_PLACE), np.array(float(row[ANGLE_PLACE])),
+                           numbers(THETA_PLACE, POINT_PLACE), numbers(POINT_PLACE, RESIDUAL_PLACE).reshape(-1, 3),
+                           np.array(float(row[RESIDUAL_PLACE])), np.array([number_or_none(place) for place in places.deviations]),
+                           np.array([number_or_none(place) for place in places.joints])))
 
     def add_message(self, message: Any, utime: int, frame: int) -> None:
         state = state_name(message.state)
@@ -244,11 +298,10 @@ class _Rows:
         self.poses.append(None if state != TRACKING else (
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
-            np.array(message.joint_rad)))
+            np.array(message.point_std_mm), np.array(message.joint_rad)))
 
-    def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float],
-               joint_names: tuple[str, ...] = ()) -> Result:
-        shapes = ((3,), (3,), (), (PAPER_ANGLES,), (len(POINT_NAMES), 3), (), (len(joint_names),))
+    def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
+        shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (len(joint_names),))
         columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
         for i, pose in enumerate(self.poses):
             if pose is None:
@@ -258,9 +311,9 @@ class _Rows:
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
-        torso_mm, axes, angles, theta, points, residual, joints = columns
+        torso_mm, axes, angles, theta, points, residual, deviations, joints = columns
         rotation = np.array([rotation_matrix(*turn) for turn in zip(axes, angles)]).reshape(-1, 3, 3)
         return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
                       timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
                       torso_axis=axes, torso_angle_rad=angles, torso_rotation=rotation, theta_rad=theta, points_mm=points,
-                      residual_mm=residual, joint_names=joint_names, joints_rad=joints)
+                      residual_mm=residual, points_std_mm=deviations, joint_names=joint_names, joints_rad=joints)
