@@ -8,6 +8,7 @@
 
 #include "tools/interchange/joint_angles.h"
 #include "tools/results/export_axes.h"
+#include "tools/results/fixed_text.h"
 #include "tools/results/result_columns.h"
 
 namespace mocap {
