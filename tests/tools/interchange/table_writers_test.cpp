@@ -9,6 +9,7 @@
 
 #include "tests/support/moving_body.h"
 #include "tools/interchange/csv_writer.h"
+#include "tools/interchange/mot_writer.h"
 #include "tools/interchange/people_times.h"
 #include "tools/interchange/trc_writer.h"
 #include "tools/results/result_columns.h"
@@ -222,6 +223,23 @@ TEST(CsvWriter, HasNoNameTwice) {
   }
   const std::vector<std::string> result_columns = ResultColumns();
   EXPECT_EQ(std::ranges::count(result_columns, "torso_x_mm"), 2) << "as others rely on";
+}
+
+TEST(TableWriters, GiveNoTwoColumnsOneName) {
+  const Result result = testing::SwingingResult(2);
+  const auto expect_unique = [](const std::vector<std::string>& header) {
+    std::set<std::string> names;
+    for (const std::string& name : header) {
+      EXPECT_TRUE(name.empty() || names.insert(name).second) << name;
+    }
+    EXPECT_GT(names.size(), 20u);
+  };
+  const std::string motion = Written(WriteMot, result);
+  expect_unique(Cells(motion.substr(motion.find("\ntime\t") + 1), '\t').at(0));
+  const ExportSubject subjects[] = {{"anna", result}, {"person-2", result}};
+  std::ostringstream markers;
+  WriteTrc({subjects, result.poses, "both.trc", true}, markers);
+  expect_unique(Cells(markers.str(), '\t').at(3));
 }
 
 TEST(CsvWriter, KeepsThePlacesOfItsFirstColumns) {
