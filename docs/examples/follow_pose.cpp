@@ -1,6 +1,7 @@
 // Prints where the tracked person's hands are. Build: see CMakeLists.txt beside this file, or
 //   g++ -std=c++17 follow_pose.cpp $(pkg-config --cflags --libs mocap-lcmtypes) -o follow_pose
 #include <cstdio>
+#include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
 #include <mocap/body_t.hpp>
 #include <mocap/pose_t.hpp>
@@ -33,10 +34,21 @@ class Follower {
   int left_ = -1, right_ = -1;  // Where the body says that these points are.
 };
 
-int main() {
+// usage: follow_pose [SECONDS]      ends after so many seconds (10) without a message
+int main(int argc, char** argv) {
+  const double seconds = argc > 1 ? std::atof(argv[1]) : 10;
   lcm::LCM lcm;
-  if (!lcm.good()) return 1;
-  Follower follower(lcm);
-  while (lcm.handle() == 0) {
+  if (!lcm.good()) {
+    std::fputs("follow_pose: LCM cannot join its group; expected a multicast route: mocap doctor\n",
+               stderr);
+    return 1;
   }
+  Follower follower(lcm);
+  while (lcm.handleTimeout(static_cast<int>(seconds * 1000)) > 0) {
+  }
+  std::fprintf(stderr,
+               "follow_pose: no message came for %g s; expected mocapd to run here, or to send to "
+               "this network: mocap status\n",
+               seconds);
+  return 1;
 }

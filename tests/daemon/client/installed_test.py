@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-from client_log import BIN
+from client_log import BIN, need_multicast
 
 SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../.."))
 BUILD = os.path.dirname(BIN)
@@ -94,6 +94,10 @@ class InstalledTest(unittest.TestCase):
         flags = self.alone("pkg-config", "--cflags", "--libs", "mocap-lcmtypes",
                            PKG_CONFIG_PATH=self.prefix + "/share/pkgconfig").split()
         self.alone("g++", "-std=c++17", example + "/follow_pose.cpp", *flags, "-o", self.folder + "/by_pkg_config")
+        need_multicast(self)
+        done = run(self.folder + "/by_pkg_config", "0.1", env={"LCM_DEFAULT_URL": "udpm://239.255.76.64:7667?ttl=0"})
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"^follow_pose: no message came for 0.1 s; expected .*\n$")
 
     def test_python_imports_it_from_the_prefix_of_an_environment(self):
         [package] = glob.glob(self.prefix + "/lib/python3.*/site-packages")
