@@ -537,35 +537,46 @@ class MulticastTest(LogTest):
     def test_silence_ends_when_it_was_asked_to(self):
         need_multicast(self)
         url = "udpm://239.255.76.66:7667"
+        silent = "came for 0.01 s; is mocapd running\\? mocap doctor checks the network$"
         for heard in (mocapd.messages(url, 0.01), mocapd.listen(url, timeout_s=0.01), mocapd.listen(url, person=2, timeout_s=0.01),
                       mocapd.listen_people(url, timeout_s=0.01)):
-            with self.assertRaisesRegex(TimeoutError, f"^{url}: no .* came for 0.01 s, nor any other message; expected mocapd .*$"):
+            with self.assertRaisesRegex(TimeoutError, f"^{url}: no .* {silent}"):
                 next(heard)
-
 
 
 class DeadlineTest(unittest.TestCase):
     """Of a source that never falls silent, by a clock that goes on by a second with each of its messages."""
 
-    def hears(self, **arguments):
-        message = pose_message(1).encode()
-
+    def hears(self, *events, listen=mocapd.listen, **arguments):
         def receive(_, deadline):
-            yield "right.MOCAP_BODY", body_message().encode()
-            while True:
+            for event in itertools.cycle(events):
                 deadline.left_s()
-                yield "right.MOCAP_POSE", message
+                yield event
         clock = types.SimpleNamespace(monotonic=itertools.count().__next__)
-        self.enterContext(mock.patch("mocapd.live.receive", receive))
-        self.enterContext(mock.patch("mocapd.lcm_udp.time", clock))
-        return mocapd.listen("udpm://", **arguments)
+        with mock.patch("mocapd.live.receive", receive), mock.patch("mocapd.lcm_udp.time", clock):
+            yield from listen("udpm://", timeout_s=5, **arguments)
+
+    BODY, POSE = ("MOCAP_BODY", body_message().encode()), ("MOCAP_POSE", pose_message(1).encode())
+    PEOPLE = ("MOCAP_BODIES", person_body_message(1).encode()), ("MOCAP_PEOPLE", people_message(1, [(1, "")]).encode())
+    STATUS = ("left_MOCAP_STATUS", b"")
 
     def test_other_messages_do_not_hold_off_the_end(self):
-        with self.assertRaisesRegex(TimeoutError, "no left.MOCAP_POSE came for 5 s, but right.MOCAP_BODY, right.MOCAP_POSE; expected"):
-            next(self.hears(prefix="left.", timeout_s=5))
+        for listen in (mocapd.listen, mocapd.listen_people):
+            for prefix, told in (("", r"but mocapd sends there with the prefixes \['left_'\]: choose one with prefix="),
+                                 ("left_", "only mocapd's status: .*; a node never sends poses, its studio does")):
+                with self.assertRaisesRegex(TimeoutError, f"^udpm://: no {prefix}MOCAP_[A-Z]+ came for 5 s, {told}$"):
+                    next(self.hears(self.STATUS, listen=listen, prefix=prefix))
+        with self.assertRaisesRegex(TimeoutError, "but OTHER; expected messages of mocapd$"):
+            next(self.hears(("OTHER", b"")))
+
+    def test_neither_do_other_people(self):
+        with self.assertRaisesRegex(TimeoutError, "no MOCAP_PEOPLE of person 2 came for 5 s, but of others; mocap status lists"):
+            next(self.hears(*self.PEOPLE, person=2))
 
     def test_poses_do(self):
-        self.assertEqual(len(list(itertools.islice(self.hears(prefix="right.", timeout_s=5), 20))), 20)
+        self.assertEqual(len(list(itertools.islice(self.hears(self.BODY, self.POSE), 20))), 20)
+        self.assertEqual(len(list(itertools.islice(self.hears(*self.PEOPLE, person=1), 20))), 20)
+        self.assertEqual(len(list(itertools.islice(self.hears(*self.PEOPLE, listen=mocapd.listen_people), 20))), 20)
 
 
 if __name__ == "__main__":

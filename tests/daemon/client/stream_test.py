@@ -204,7 +204,7 @@ class StreamTest(unittest.TestCase):
         done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, "follow_pose.py"), "udpm://239.255.76.65:7667", "0.1"],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"^follow_pose: udpm://239.255.76.65:7667: no MOCAP_POSE came for 0.1 s, .*\n$")
+        self.assertRegex(done.stderr, r"^follow_pose: udpm://239.255.76.65:7667: no MOCAP_POSE came for 0.1 s; .*\n$")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ from .poses import Pose, PoseDecoder
 
 #: Where mocapd sends unless it is told otherwise.
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
-MOST_NAMED = 12
+STATUS = "MOCAP_STATUS"
+MOST_HEARD, MOST_NAMED = 100, 8
 
 
 def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator[Event]:
@@ -19,7 +20,7 @@ def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator
     @param timeout_s  raises TimeoutError when nothing comes for so long.
     @raises ValueError  for an address that is none. @raises OSError  where no group can be joined, or no file read.
     """
-    source = _Source(url, timeout_s, "message")
+    source = _Source(url, timeout_s)
     for event in source.events():
         yield event
         source.deadline.renew()
@@ -37,14 +38,14 @@ def listen(url: str | None = None, prefix: str = "", person: int | None = None,
     @param timeout_s  raises TimeoutError when no pose comes for so long, whatever else does; it says what was heard instead.
     """
     if person is not None:
-        source = _Source(url, timeout_s, f"person {person} on {prefix}MOCAP_PEOPLE")
-        for people in _people(source, prefix):
+        source = _Source(url, timeout_s, prefix, "MOCAP_PEOPLE", person)
+        for people in _people(source):
             for pose in people:
                 if pose.person == person:
                     yield pose
                     source.deadline.renew()
         return
-    source = _Source(url, timeout_s, prefix + "MOCAP_POSE")
+    source = _Source(url, timeout_s, prefix, "MOCAP_POSE")
     decoder = PoseDecoder()
     for channel, data in source.events():
         if channel == prefix + "MOCAP_BODY":
@@ -61,18 +62,18 @@ def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | N
 
     Whose body is not known yet is left out, for a second at most. Arguments are those of listen().
     """
-    source = _Source(url, timeout_s, prefix + "MOCAP_PEOPLE")
-    for people in _people(source, prefix):
+    source = _Source(url, timeout_s, prefix, "MOCAP_PEOPLE")
+    for people in _people(source):
         yield people
         source.deadline.renew()
 
 
-def _people(source: _Source, prefix: str) -> Iterator[list[Pose]]:
+def _people(source: _Source) -> Iterator[list[Pose]]:
     decoder = PoseDecoder()
     for channel, data in source.events():
-        if channel == prefix + "MOCAP_BODIES":
+        if channel == source.prefix + "MOCAP_BODIES":
             decoder.take_person_body(data)
-        elif channel == prefix + "MOCAP_PEOPLE":
+        elif channel == source.prefix + "MOCAP_PEOPLE":
             people = decoder.people(data)
             if people is not None:
                 yield people
@@ -81,11 +82,12 @@ def _people(source: _Source, prefix: str) -> Iterator[list[Pose]]:
 class _Source:
     """Messages, and what to say when the wanted ones do not come."""
 
-    def __init__(self, url: str | None, timeout_s: float | None, wanted: str) -> None:
+    def __init__(self, url: str | None, timeout_s: float | None, prefix: str = "", wanted: str = "message",
+                 person: int | None = None) -> None:
         self.address = url or DEFAULT_URL
-        self.wanted = wanted
+        self.prefix, self.wanted, self.person = prefix, wanted, person
         self.deadline = Deadline(timeout_s)
-        self.heard: dict[str, None] = {}
+        self.heard: set[str] = set()
 
     def events(self) -> Iterator[Event]:
         """@raises TimeoutError  in one line, at the deadline."""
@@ -95,15 +97,22 @@ class _Source:
         self.deadline.renew()
         try:
             for event in receive(self.address, self.deadline):
-                self.heard[event[0]] = None
+                if len(self.heard) < MOST_HEARD:
+                    self.heard.add(event[0])
                 yield event
         except TimeoutError:
-            raise TimeoutError(f"{self.address}: no {self.wanted} came for {self.deadline.timeout_s:g} s, {self._found()}") from None
+            whose = "" if self.person is None else f" of person {self.person}"
+            raise TimeoutError(f"{self.address}: no {self.prefix}{self.wanted}{whose} came for {self.deadline.timeout_s:g} s"
+                               f"{self._found()}") from None
 
     def _found(self) -> str:
         if not self.heard:
-            return ("nor any other message; expected mocapd to run here, or to send to this network: mocap status and lcm.url in its "
-                    "configuration tell")
-        names = sorted(self.heard)
-        more = " and others" if len(names) > MOST_NAMED else ""
-        return f"but {', '.join(names[:MOST_NAMED])}{more}; expected another prefix or person, or mocapd of this version"
+            return "; is mocapd running? mocap doctor checks the network"
+        if self.prefix + self.wanted in self.heard:
+            return ", but of others; mocap status lists who is tracked" if self.person is not None else ", only damaged ones"
+        if self.prefix + STATUS in self.heard:
+            return ", only mocapd's status: mocap status says why; a node never sends poses, its studio does"
+        prefixes = sorted(channel.removesuffix(STATUS) for channel in self.heard if channel.endswith(STATUS))
+        if prefixes:
+            return f", but mocapd sends there with the prefixes {prefixes}: choose one with prefix="
+        return f", but {', '.join(sorted(self.heard)[:MOST_NAMED])}; expected messages of mocapd"
