@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,17 +19,19 @@
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/sweep_plan.h"
 #include "tools/accuracy/variety_trial.h"
 
 namespace mocap {
 namespace {
 
 // Defaults of a part.
-constexpr double kSeconds = 10, kPeopleSeconds = 20;
-constexpr int kSeeds = 3, kPeopleSeeds = 2, kVariedPeople = 200;
+constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2;
+constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200;
 const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
                                            "step", "lie", "stand", "gesture"};
 const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
+const std::vector<std::string> kSweepMotions = {"walk", "dance", "sit"};
 
 struct BenchmarkOptions {
   std::filesystem::path out;
@@ -49,7 +50,7 @@ struct BenchmarkOptions {
 };
 
 // Each takes as long as all others together or longer, so they run only on request.
-const std::string kPeoplePart = "people", kVarietyPart = "variety";
+const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
@@ -66,16 +67,24 @@ AccuracyRow MeasureAndPrint(const AccuracyTrial& trial) {
   return row;
 }
 
-std::vector<AccuracyRow> RunGrid(const BenchmarkOptions& options) {
+/// Every motion of every stature with every seed.
+struct TakeGrid {
+  std::vector<std::string> motions;
+  std::vector<double> statures_mm;
+  int seeds = 0;
+  double seconds = 0;  ///< Length of a take.
+};
+
+std::vector<AccuracyRow> RunGrid(const TakeGrid& grid, const AccuracyTrial& usual) {
   std::vector<AccuracyRow> rows;
-  for (const std::string& motion : options.MotionsOr(kMotions)) {
-    for (const double stature_mm : options.statures_mm) {
-      for (int seed = 1; seed <= options.SeedsOr(kSeeds); ++seed) {
-        AccuracyTrial trial;
+  for (const std::string& motion : grid.motions) {
+    for (const double stature_mm : grid.statures_mm) {
+      for (int seed = 1; seed <= grid.seeds; ++seed) {
+        AccuracyTrial trial = usual;
         trial.studio.motion = motion;
         trial.studio.stature_mm = stature_mm;
         trial.studio.seed = static_cast<std::uint64_t>(seed);
-        trial.studio.seconds = options.SecondsOr(kSeconds);
+        trial.studio.seconds = grid.seconds;
         rows.push_back(MeasureAndPrint(trial));
       }
     }
@@ -122,78 +131,34 @@ bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
   });
 }
 
-struct Step {
-  std::string label;
-  std::function<void(AccuracyTrial&)> change;
-};
-
-struct SweepPlan {
-  std::string part;
-  std::string what;
-  std::vector<Step> steps;
-};
-
-std::vector<SweepPlan> PlannedSweeps() {
-  const auto cameras = [](int count) {
-    return Step{std::to_string(count),
-                [count](AccuracyTrial& trial) { trial.studio.cameras = count; }};
-  };
-  const auto voxels = [](int edge_mm) {
-    return Step{std::to_string(edge_mm),
-                [edge_mm](AccuracyTrial& trial) { trial.voxel_mm = edge_mm; }};
-  };
-  const auto covered = [](int percent) {
-    return Step{std::to_string(percent),
-                [percent](AccuracyTrial& trial) { trial.covered_share = percent / 100.0; }};
-  };
-  const auto calibration = [](int error_px) {
-    return Step{std::to_string(error_px),
-                [error_px](AccuracyTrial& trial) { trial.calibration_error_px = error_px; }};
-  };
-  const auto happens = [](const char* what, Mishap mishap) {
-    return Step{what, [mishap](AccuracyTrial& trial) { trial.mishap = mishap; }};
-  };
-  std::vector<Step> trackers;
-  for (const NamedTracker& tracker : Trackers()) {
-    trackers.push_back({tracker.name, [tracker](AccuracyTrial& trial) {
-                          trial.tracker = tracker.kind;
-                          trial.body = tracker.body;
-                        }});
+AccuracySweep RunSweep(const SweepPlan& plan, const TakeGrid& grid) {
+  AccuracySweep sweep{plan.what, {}};
+  for (const SweepStep& step : plan.steps) {
+    PrintNow(fmt::format("\n{}: {}\n", plan.what, step.label));
+    AccuracyTrial trial;
+    step.change(trial);
+    sweep.steps.push_back({step.label, Summarize(RunGrid(grid, trial))});
   }
-  return {{"cameras", "cameras", {cameras(4), cameras(5), cameras(6), cameras(8)}},
-          {"voxels", "edge of a voxel [mm]", {voxels(10), voxels(25), voxels(50)}},
-          {"covered",
-           "pictures covered by squares [%]",
-           {covered(0), covered(2), covered(5), covered(10)}},
-          {"calibration",
-           "error of calibration [px]",
-           {calibration(0), calibration(1), calibration(2), calibration(5)}},
-          {"mishap",
-           "one camera of six, from the middle on",
-           {happens("well", Mishap::kNone), happens("lost", Mishap::kLost),
-            happens("blinded", Mishap::kBlinded), happens("turned by 20 px", Mishap::kTurned)}},
-          {"tracker", "tracker", trackers}};
+  return sweep;
 }
 
 std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
+  const TakeGrid grid{.motions = kSweepMotions,
+                      .statures_mm = {SimulatedStudioOptions().stature_mm},
+                      .seeds = 1,
+                      .seconds = options.SecondsOr(kSeconds)};
   std::vector<AccuracySweep> sweeps;
-  for (const auto& [part, what, steps] : PlannedSweeps()) {
-    if (!Wants(options, part)) continue;
-    AccuracySweep& sweep = sweeps.emplace_back(AccuracySweep{what, {}});
-    for (const Step& step : steps) {
-      PrintNow(fmt::format("\n{}: {}\n", what, step.label));
-      std::vector<AccuracyRow> rows;
-      for (const char* motion : {"walk", "dance", "sit"}) {
-        AccuracyTrial trial;
-        trial.studio.motion = motion;
-        trial.studio.seconds = options.SecondsOr(kSeconds);
-        step.change(trial);
-        rows.push_back(MeasureAndPrint(trial));
-      }
-      sweep.steps.push_back({step.label, Summarize(rows)});
-    }
+  for (const SweepPlan& plan : PlannedSweeps()) {
+    if (Wants(options, plan.part)) sweeps.push_back(RunSweep(plan, grid));
   }
   return sweeps;
+}
+
+AccuracySweep RunStudios(const BenchmarkOptions& options) {
+  return RunSweep(PlannedStudios(), {.motions = options.MotionsOr(kSweepMotions),
+                                     .statures_mm = options.statures_mm,
+                                     .seeds = options.SeedsOr(kStudioSeeds),
+                                     .seconds = options.SecondsOr(kStudioSeconds)});
 }
 
 void RunBenchmark(const BenchmarkOptions& options) {
@@ -207,14 +172,23 @@ void RunBenchmark(const BenchmarkOptions& options) {
   AccuracyBenchmark benchmark{.seconds = options.SecondsOr(kSeconds),
                               .grid = {},
                               .sweeps = {},
+                              .studios = {},
                               .people_seconds = options.SecondsOr(kPeopleSeconds),
                               .people = {}};
   if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
   if (Wants(options, "grid")) {
-    benchmark.grid = RunGrid(options);
+    benchmark.grid = RunGrid({.motions = options.MotionsOr(kMotions),
+                              .statures_mm = options.statures_mm,
+                              .seeds = options.SeedsOr(kSeeds),
+                              .seconds = options.SecondsOr(kSeconds)},
+                             {});
     PrintNow("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
   }
   benchmark.sweeps = RunSweeps(options);
+  if (Wants(options, kStudioPart)) {
+    benchmark.studios = RunStudios(options);
+    PrintNow(SweepTable(benchmark.studios));
+  }
   if (Wants(options, kPeoplePart)) {
     benchmark.people = RunPeople(options);
     PrintNow("\n" + PeopleSummaryText(benchmark.people));
@@ -235,9 +209,10 @@ void AddBenchmarkCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "benchmark", "Measure accuracy on a grid of simulated takes, and what affects it");
   command
-      ->add_option("--seconds", options->seconds,
-                   fmt::format("length of each take [s] (default: {}; several people: {})",
-                               kSeconds, kPeopleSeconds))
+      ->add_option(
+          "--seconds", options->seconds,
+          fmt::format("length of each take [s] (default: {}; several people: {}; studio: {})",
+                      kSeconds, kPeopleSeconds, kStudioSeconds))
       ->check(NumberFrom(1, 600));
   command
       ->add_option("--motions", options->motions,
@@ -252,15 +227,16 @@ void AddBenchmarkCommand(CLI::App& app) {
       ->add_option(
           "--seeds", options->seeds,
           fmt::format("number of random seeds per combination (default: {}; several people: {}; "
-                      "variety: {})",
-                      kSeeds, kPeopleSeeds, kVariedPeople))
+                      "studio: {}; variety: {})",
+                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople))
       ->check(NumberFrom(1, 1000));
   std::vector<std::string> parts = options->parts;
-  parts.insert(parts.end(), {kPeoplePart, kVarietyPart});
+  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart});
   command
       ->add_option("--parts", options->parts,
-                   "parts to run; people (two to four at once) and variety (of builds, hair, "
-                   "clothes and loads) run only on request")
+                   "parts to run; people (two to four at once), variety (of builds, hair, clothes "
+                   "and loads) and studio (number, place and pictures of the cameras) run only on "
+                   "request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();

@@ -34,13 +34,14 @@ std::vector<CameraCalibration> HangCameras(const RigOptions& options) {
   const double first = random.Uniform(0.1, 0.9);
   for (int i = 0; i < options.cameras; ++i) {
     const double angle =
-        2 * std::numbers::pi * (i + first + random.Uniform(-0.12, 0.12)) / options.cameras;
+        options.arc_rad * (i + first + random.Uniform(-0.12, 0.12)) / options.cameras;
     // From the middle to the wall, less the mount.
     const Vector2 out(std::cos(angle), std::sin(angle));
     const double inset = random.Uniform(150, 280);
     const double wall_mm = std::min((kRoomX_mm / 2 - inset) / std::max(std::abs(out.x()), 1e-9),
                                     (kRoomY_mm / 2 - inset) / std::max(std::abs(out.y()), 1e-9));
-    const Vector3 p_WC(wall_mm * out.x(), wall_mm * out.y(), random.Uniform(2300, 2800));
+    const Vector3 p_WC(wall_mm * out.x(), wall_mm * out.y(),
+                       random.Uniform(options.height_mm - 250, options.height_mm + 250));
     const Vector3 target = random.UniformIn({-120, 120}, {-120, 120}, {820, 980});
     CameraCalibration camera;
     camera.name = "cam" + std::to_string(i + 1);

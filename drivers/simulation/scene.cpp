@@ -108,8 +108,13 @@ Scene::Scene(const SimulatedStudioOptions& options)
       people_(MakePeople(options)),
       room_(options.seed, FurnitureOf(people_)),
       sensor_(options.seed),
-      cameras_(HangCameras(
-          {options.cameras, options.width_px, options.height_px, options.pan_tilt, options.seed})) {
+      cameras_(HangCameras({.cameras = options.cameras,
+                            .width_px = options.width_px,
+                            .height_px = options.height_px,
+                            .pan_tilt = options.pan_tilt,
+                            .seed = options.seed,
+                            .height_mm = options.camera_height_mm,
+                            .arc_rad = options.camera_arc_rad})) {
   for (int i = 0; i < options.people; ++i) {
     const std::uint64_t seed = SeedOf(options, i);
     Outfit outfit = MakeOutfit(seed, room_.wall_color());

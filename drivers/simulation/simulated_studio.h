@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ struct SimulatedStudioOptions {
   double fps = 30;
   int cameras = 6;
   int width_px = 640, height_px = 480;
+  double camera_height_mm = 2550;                ///< As in simulation::RigOptions,
+  double camera_arc_rad = 2 * std::numbers::pi;  ///< and this.
   bool pan_tilt = false;  ///< Heads follow the person by themselves; slower to render.
   /// With pan_tilt: heads turn on command, as tracking demands.
   bool follow = false;

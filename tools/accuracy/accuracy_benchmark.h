@@ -57,7 +57,8 @@ struct AccuracyBenchmark {
   double seconds = 0;  ///< Length of each take,
   std::vector<AccuracyRow> grid;
   std::vector<AccuracySweep> sweeps;
-  double people_seconds = 0;  ///< and of each with several people.
+  AccuracySweep studios = {};  ///< Without steps if not measured.
+  double people_seconds = 0;   ///< and of each with several people.
   std::vector<PeopleRow> people = {};
 };
 

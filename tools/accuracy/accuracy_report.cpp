@@ -15,19 +15,6 @@ std::string UntilFound(const PeopleRow& row) {
   return row.never_found > 0 ? "never" : fmt::format("{:.1f}", row.slowest_found_s);
 }
 
-std::string SweepTable(const AccuracySweep& sweep) {
-  std::string text = fmt::format(
-      "\n| {} | mean mm | worst take mm | 95 % below mm | degrees | lengths mm | tracked % |\n"
-      "|---|---|---|---|---|---|---|\n",
-      sweep.what);
-  for (const auto& [label, summary] : sweep.steps) {
-    text += fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.0f} | {:.1f} |\n", label,
-                        summary.mpjpe_mm, summary.worst_mpjpe_mm, summary.p95_mm, summary.angle_deg,
-                        summary.length_error_mm, 100 * summary.tracked_share);
-  }
-  return text;
-}
-
 std::string GridTable(const std::vector<AccuracyRow>& rows) {
   std::string text =
       "\n## Take by take\n\n| motion | stature mm | seed | mean mm | 95 % below mm | degrees | "
@@ -63,6 +50,19 @@ std::string PeopleTable(const AccuracyBenchmark& benchmark) {
 }
 
 }  // namespace
+
+std::string SweepTable(const AccuracySweep& sweep) {
+  std::string text = fmt::format(
+      "\n| {} | mean mm | worst take mm | 95 % below mm | degrees | lengths mm | tracked % |\n"
+      "|---|---|---|---|---|---|---|\n",
+      sweep.what);
+  for (const auto& [label, summary] : sweep.steps) {
+    text += fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.0f} | {:.1f} |\n", label,
+                        summary.mpjpe_mm, summary.worst_mpjpe_mm, summary.p95_mm, summary.angle_deg,
+                        summary.length_error_mm, 100 * summary.tracked_share);
+  }
+  return text;
+}
 
 std::string AccuracyHeader() {
   return fmt::format("{:<8}{:>9}{:>6}{:>9}{:>9}{:>9}{:>9}{:>10}{:>8}{:>10}{:>8}\n", "motion",
@@ -138,6 +138,10 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
         "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "
         "down.\n\n![Mean error along each sweep](accuracy.svg)\n";
     for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
+  }
+  if (!benchmark.studios.steps.empty()) {
+    text += "\n## Studios\nEach line differs from the first in what it says.\n" +
+            SweepTable(benchmark.studios);
   }
   if (!benchmark.people.empty()) text += PeopleTable(benchmark);
   if (!benchmark.grid.empty()) text += GridTable(benchmark.grid);

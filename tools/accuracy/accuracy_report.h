@@ -13,6 +13,9 @@ std::string AccuracyHeader();
 std::string AccuracyLine(const AccuracyRow& row);
 std::string AccuracySummaryText(const AccuracySummary& summary);
 
+/// A Markdown table with a line for each step.
+std::string SweepTable(const AccuracySweep& sweep);
+
 /// Header and lines for takes of several people.
 std::string PeopleHeader();
 std::string PeopleLine(const PeopleRow& row);

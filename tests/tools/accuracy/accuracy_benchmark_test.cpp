@@ -3,7 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "drivers/simulation/camera_rig.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/sweep_plan.h"
 
 namespace mocap {
 namespace {
@@ -38,6 +44,55 @@ TEST(AccuracyReport, ShowsAPlotOnlyOfSweepsThatWereMade) {
   benchmark.sweeps = {{"cameras", {{"4", Summarize(benchmark.grid)}}}};
   EXPECT_THAT(AccuracyMarkdown(benchmark), HasSubstr("accuracy.svg"));
   EXPECT_THAT(AccuracySweepsSvg(benchmark.sweeps), HasSubstr("cameras"));
+}
+
+TEST(AccuracyReport, StudiosHaveATableOfTheirOwn) {
+  AccuracyBenchmark benchmark{.seconds = 2, .grid = {}, .sweeps = {}};
+  EXPECT_THAT(AccuracyMarkdown(benchmark), Not(HasSubstr("Studios")));
+  benchmark.studios = {"studio", {{"2 cameras", Summarize({Row(40, 1, 2, 0), Row(80, 1, 2, 0)})}}};
+  EXPECT_THAT(AccuracyMarkdown(benchmark), HasSubstr("| 2 cameras | 60.0 | 80.0 |"));
+}
+
+/// What a step of a plan makes of the usual trial.
+AccuracyTrial Changed(const SweepStep& step) {
+  AccuracyTrial trial;
+  step.change(trial);
+  return trial;
+}
+
+TEST(StudioPlan, NoTwoStudiosAreAlikeAndTheFirstIsTheUsual) {
+  const auto things = [](const AccuracyTrial& trial) {
+    const SimulatedStudioOptions& studio = trial.studio;
+    return std::vector<double>{static_cast<double>(studio.cameras), studio.camera_height_mm,
+                               studio.camera_arc_rad, static_cast<double>(studio.width_px),
+                               studio.fps};
+  };
+  const std::vector<SweepStep> steps = PlannedStudios().steps;
+  EXPECT_EQ(things(Changed(steps[0])), things(AccuracyTrial()));
+  std::set<std::vector<double>> studios;
+  for (const SweepStep& step : steps) {
+    EXPECT_TRUE(studios.insert(things(Changed(step))).second) << step.label;
+  }
+}
+
+TEST(StudioPlan, CamerasHangAsHighAndAsFarApartAsAsked) {
+  simulation::RigOptions options{.cameras = 6};
+  const std::vector<CameraCalibration> usual = simulation::HangCameras(options);
+  options.height_mm -= 1000;
+  const std::vector<CameraCalibration> low = simulation::HangCameras(options);
+  options.arc_rad /= 4;
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    EXPECT_NEAR(usual[i].X_CW.Inverse().p.z() - low[i].X_CW.Inverse().p.z(), 1000, 1e-6);
+  }
+  double least_cosine = 1;
+  const std::vector<CameraCalibration> near = simulation::HangCameras(options);
+  for (const CameraCalibration& a : near) {
+    for (const CameraCalibration& b : near) {
+      const Vector2 p_a = a.X_CW.Inverse().p.head<2>(), p_b = b.X_CW.Inverse().p.head<2>();
+      least_cosine = std::min(least_cosine, p_a.normalized().dot(p_b.normalized()));
+    }
+  }
+  EXPECT_GT(least_cosine, 0) << "within a quarter of the circle";
 }
 
 TEST(AccuracyTrial, CamerasThatFailAndWrongCalibrationCostALittle) {
