@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "config/load_config.h"
 #include "core/errors.h"
 #include "daemon/base/number_option.h"
 #include "daemon/control/control_request.h"
@@ -54,8 +55,16 @@ class RequestCommands {
   }
 
   void AddSocket(CLI::App& command) const {
-    command.add_option("--socket", *socket_,
-                       "mocapd control socket (default: the system's, else the user's own)");
+    CLI::Option* socket = command.add_option(
+        "--socket", *socket_, "mocapd control socket (default: the system's, else the user's own)");
+    command
+        .add_option_function<std::string>(
+            "--config",
+            [socket = socket_](const std::string& file) {
+              *socket = LoadConfig(file).service.control.socket;
+            },
+            "configuration of the mocapd to ask; its [control] names the socket")
+        ->excludes(socket);
   }
 
  private:

@@ -1,0 +1,59 @@
+// Which mocapd the commands ask, of several on one host.
+#include "tools/control.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "core/errors.h"
+#include "daemon/control/control_socket.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace mocap {
+namespace {
+
+class ControlCommands : public ::testing::Test {
+ protected:
+  std::string Said(const std::string& command_line) {
+    ::testing::internal::CaptureStdout();
+    testing::RunCommand(AddControlCommands, command_line);
+    return ::testing::internal::GetCapturedStdout();
+  }
+
+  testing::TemporaryFolder folder_;
+  const std::filesystem::path left_ = folder_.path() / "left.toml";
+};
+
+TEST_F(ControlCommands, AskTheDaemonOfTheNamedConfiguration) {
+  testing::WriteText(left_, "[control]\nsocket = \"left.socket\"\n");
+  const ControlServer server(folder_.path() / "left.socket", [](const ControlRequest&) {
+    return ControlReply{ControlOutcome::kDone, "of left\n"};
+  });
+  for (const char* command : {"status", "record stop", "subject list", "reload"}) {
+    EXPECT_EQ(Said(command + (" --config " + left_.string())), "of left\n") << command;
+  }
+  EXPECT_EQ(Said("record start --config " + left_.string() + " walk"), "of left\n");
+}
+
+TEST_F(ControlCommands, TwoWaysToNameADaemonAreOneTooMany) {
+  testing::WriteText(left_, "");
+  EXPECT_THROW(
+      testing::RunCommand(AddControlCommands, "status --socket x --config " + left_.string()),
+      CLI::ExcludesError);
+}
+
+TEST_F(ControlCommands, AConfigurationThatIsNotThereIsNamed) {
+  try {
+    testing::RunCommand(AddControlCommands, "status --config " + left_.string());
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("left.toml"));
+  }
+}
+
+}  // namespace
+}  // namespace mocap
