@@ -1,5 +1,6 @@
 #include "tools/simulate.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -13,6 +14,7 @@
 
 #include "core/errors.h"
 #include "daemon/base/choice_option.h"
+#include "daemon/base/disk_space.h"
 #include "daemon/base/number_option.h"
 #include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
@@ -191,6 +193,9 @@ void SimulateBoard(const SimulateOptions& options) {
 
 void Simulate(const SimulateOptions& options) {
   options.board.empty() ? SimulatePeople(options) : SimulateBoard(options);
+  fmt::print("{} frame sets of {} cameras, {:.0f} MB: {}\n", options.frames(),
+             options.studio.cameras, static_cast<double>(BytesIn(options.out)) / 1e6,
+             options.out.string());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Free disk space for takes.
+// Disk space for takes.
 #pragma once
 
 #include <cstdint>
@@ -17,5 +17,8 @@ void RequireStillThere(const std::filesystem::path& folder);
 /// Bytes that the daemon's user may still write in a folder, or in the nearest existing parent of
 /// one not made yet. 0 if unknown.
 std::int64_t BytesFree(const std::filesystem::path& folder);
+
+/// Bytes of all files in a folder and its subfolders; those that cannot be read are left out.
+std::int64_t BytesIn(const std::filesystem::path& folder);
 
 }  // namespace mocap

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "daemon/base/disk_space.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
@@ -133,9 +134,10 @@ std::string ServiceControl::StopRecording() {
   std::string why = status.problem.empty() ? "" : "; it " + status.problem;
   if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
   const std::string text =
-      fmt::format("{}: {:.1f} s, {}, {} dropped while recording{}",
+      fmt::format("{}: {:.1f} s, {}, {:.0f} MB, {} dropped while recording{}",
                   Printable(status.folder.string()), static_cast<double>(status.duration_ns) / 1e9,
-                  Counted(status.frames, "frame"), status.dropped, why);
+                  Counted(status.frames, "frame"),
+                  static_cast<double>(BytesIn(status.folder)) / 1e6, status.dropped, why);
   spdlog::info("recorded {}", text);
   return text + '\n';
 }

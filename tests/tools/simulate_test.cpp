@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -63,6 +64,18 @@ TEST_F(Simulate, OnAFullDiskLeavesNothingBehind) {
   EXPECT_THROW(Run("take", "--motion stand --seconds 0.1 --cameras 4"), std::runtime_error);
   EXPECT_THROW(Run("board", "--board desk --seconds 0.1 --cameras 4"), std::runtime_error);
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(Simulate, SaysHowMuchOfTheDiskTheTakeNeeds) {
+  ::testing::internal::CaptureStdout();
+  const fs::path take = Run("take", "--motion stand --seconds 0.1 --cameras 2");
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(take)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(),
+            "3 frame sets of 2 cameras, " + std::to_string(std::lround(1e-6 * bytes)) +
+                " MB: " + take.string() + "\n");
 }
 
 TEST_F(Simulate, OfSeveralPeopleEachHasTruthOfTheFramesInWhichHeIsThere) {

@@ -16,5 +16,14 @@ TEST(DiskSpace, IsThatOfTheNearestFolderThatIsThere) {
   EXPECT_GT(BytesFree("takes-that-are-nowhere"), 0);
 }
 
+TEST(DiskSpace, OfAFolderIsThatOfAllItsFiles) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "takes" / "walk");
+  testing::WriteText(folder.path() / "a", std::string(1000, 'a'));
+  testing::WriteText(folder.path() / "takes" / "walk" / "b", std::string(23, 'b'));
+  EXPECT_EQ(BytesIn(folder.path()), 1023);
+  EXPECT_EQ(BytesIn(folder.path() / "nowhere"), 0);
+}
+
 }  // namespace
 }  // namespace mocap
