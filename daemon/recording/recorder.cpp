@@ -1,9 +1,13 @@
 #include "daemon/recording/recorder.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <utility>
 
+#include "daemon/base/disk_space.h"
 #include "daemon/base/service_folders.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 
@@ -70,6 +74,15 @@ RecordingStatus Recorder::StopRunning() {
 RecordingStatus Recorder::Status() const {
   const std::scoped_lock lock(mutex_);
   return recording_ ? recording_->Status() : RecordingStatus{};
+}
+
+std::string CompletedText(const RecordingStatus& status) {
+  std::string why = status.problem.empty() ? "" : "; it " + status.problem;
+  if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
+  return fmt::format("{}: {:.1f} s, {}, {:.0f} MB, {} dropped while recording{}",
+                     Printable(status.folder.string()),
+                     static_cast<double>(status.duration_ns) / 1e9, Counted(status.frames, "frame"),
+                     static_cast<double>(BytesIn(status.folder)) / 1e6, status.dropped, why);
 }
 
 std::filesystem::path TakesFolder(const RecordingConfig& config) {

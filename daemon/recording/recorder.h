@@ -40,6 +40,9 @@ class Recorder {
   std::shared_ptr<Recording> recording_;
 };
 
+/// Returns what a complete recording holds, how much of the disk it needs and what it lacks.
+std::string CompletedText(const RecordingStatus& status);
+
 /// Folder of takes: as configured, or `takes` in the folder for state.
 std::filesystem::path TakesFolder(const RecordingConfig& config);
 

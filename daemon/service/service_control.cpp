@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "daemon/base/disk_space.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
@@ -131,13 +130,7 @@ std::string ServiceControl::StopRecording() {
     throw std::runtime_error("the recording failed: " + status.problem +
                              "; what was recorded is in " + status.folder.string());
   }
-  std::string why = status.problem.empty() ? "" : "; it " + status.problem;
-  if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
-  const std::string text =
-      fmt::format("{}: {:.1f} s, {}, {:.0f} MB, {} dropped while recording{}",
-                  Printable(status.folder.string()), static_cast<double>(status.duration_ns) / 1e9,
-                  Counted(status.frames, "frame"),
-                  static_cast<double>(BytesIn(status.folder)) / 1e6, status.dropped, why);
+  const std::string text = CompletedText(status);
   spdlog::info("recorded {}", text);
   return text + '\n';
 }
