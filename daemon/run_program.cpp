@@ -31,13 +31,6 @@ int Fail(const CLI::App& app, std::string message, int status) {
   return status;
 }
 
-/// The program with its subcommands, as typed.
-std::string CommandOf(const CLI::App& app) {
-  std::string command = app.get_name();
-  for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
-  return command;
-}
-
 std::vector<std::string> CommandNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -61,25 +54,33 @@ std::string UnknownWord(const CLI::App& app, const std::string& word) {
     return "there is no option " + option + (guess.empty() ? "" : "; " + guess);
   }
   const std::vector<std::string> commands = CommandNames(app);
-  if (commands.empty() || !app.get_subcommands().empty()) return Quoted(word) + " was not expected";
+  if (commands.empty()) return Quoted(word) + " was not expected";
   return "there is no command " + Quoted(word) + "; " + ExpectedNames(word, commands);
 }
 
-/// What is wrong with a command line. Words that no command knows come first, since they explain
-/// the rest.
+/// What is wrong with a part of a command line; empty: nothing. Words that no command knows come
+/// first, since they explain the rest.
+std::string FaultOf(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> words = app.remaining();
+  const auto word = std::ranges::find_if(words, [](const auto& one) { return one != "--"; });
+  if (word != words.end()) return UnknownWord(app, *word);
+  if (!app.get_subcommands().empty()) return {};
+  if (app.get_require_subcommand_min() > 0)
+    return "a command is missing; " + ExpectedNames("", CommandNames(app));
+  return error.what();
+}
+
+/// What is wrong with a command line, and which help to read.
 std::string WhatIsWrong(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = &program;
-  for (;;) {
-    const std::vector<std::string> words = app->remaining();
-    const auto word = std::ranges::find_if(words, [](const auto& one) { return one != "--"; });
-    if (word != words.end()) return UnknownWord(*app, *word);
-    const std::vector<CLI::App*> chosen = app->get_subcommands();
-    if (chosen.empty()) break;
-    app = chosen.front();
+  std::string command = program.get_name();
+  std::string fault = FaultOf(*app, error);
+  while (fault.empty() && !app->get_subcommands().empty()) {
+    app = app->get_subcommands().front();
+    command += " " + app->get_name();
+    fault = FaultOf(*app, error);
   }
-  if (app->get_require_subcommand_min() > 0)
-    return "a command is missing; " + ExpectedNames("", CommandNames(*app));
-  return error.what();
+  return fault + (fault.ends_with('?') ? " See " : "; see ") + command + " --help";
 }
 
 /// Opens /dev/null for each standard file that was closed. Otherwise a file opened later would get
@@ -112,9 +113,7 @@ int RunProgram(CLI::App& app, int argc, char** argv) {
     const int status = app.exit(help_or_version);
     return status == 0 ? FinishOutput(app) : status;
   } catch (const CLI::ParseError& error) {
-    const std::string wrong = WhatIsWrong(app, error);
-    const std::string end = wrong.ends_with('?') ? " See " : "; see ";
-    return Fail(app, wrong + end + CommandOf(app) + " --help", kWrongInput);
+    return Fail(app, WhatIsWrong(app, error), kWrongInput);
   } catch (const SetupError& error) {
     return Fail(app, error.what(), kWrongInput);
   } catch (const std::bad_alloc&) {

@@ -47,6 +47,16 @@ Difference DifferenceOf(std::string_view typed, std::string_view name) {
   return least;
 }
 
+/// cam1 and cam2 are two things, not one of them misspelt.
+bool DifferOnlyInNumber(std::string_view a, std::string_view b) {
+  const auto are_alike = [](char x, char y) {
+    const bool are_digits = std::isdigit(static_cast<unsigned char>(x)) != 0 &&
+                            std::isdigit(static_cast<unsigned char>(y)) != 0;
+    return x == y || are_digits;
+  };
+  return a != b && std::ranges::equal(a, b, are_alike);
+}
+
 }  // namespace
 
 std::string NearestName(std::string_view typed, const std::vector<std::string>& names) {
@@ -55,7 +65,7 @@ std::string NearestName(std::string_view typed, const std::vector<std::string>& 
   const std::string* nearest = nullptr;
   Difference least{most, kLongestName};
   for (const std::string& name : names) {
-    if (name.empty() || name.size() > kLongestName) continue;
+    if (name.empty() || name.size() > kLongestName || DifferOnlyInNumber(typed, name)) continue;
     const Difference difference = DifferenceOf(typed, name);
     // A name of which every letter would have to be replaced resembles nothing.
     if (difference.first >= typed.size() || !(difference < least)) continue;

@@ -26,8 +26,7 @@ struct Diagnosis {
 /// Whose limits apply to the daemon.
 enum class Starter { kSystemd, kCaller };
 
-/// Sends a message to the configured address and expects to receive it. Names a missing multicast
-/// route if the address needs one.
+/// Sends a message to the configured address and expects to receive it.
 Diagnosis CheckMessages(const std::string& url);
 Diagnosis CheckSocketBuffers();
 Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter);

@@ -223,7 +223,7 @@ TEST_F(Calibration, LineIsTheOneOfTheKey) {
 }
 
 TEST_F(Calibration, WithoutCamerasOrFileIsRefused) {
-  EXPECT_THAT(ErrorOnLoading(), HasSubstr("missing"));
+  EXPECT_THAT(ErrorOnLoading(), HasSubstr("not found"));
   for (const char* text : {"", "[cameras]\n", "cameras = 3\n", "[camera.cam1]\n"}) {
     testing::WriteText(file_, text);
     EXPECT_THAT(ErrorOnLoading(), HasSubstr("camera")) << text;

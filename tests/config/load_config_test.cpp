@@ -265,7 +265,7 @@ TEST_F(ConfigFile, MistakesInACamerasSettingsAreNamed) {
       {"fps = 0", 3, "cameras[0].fps is 0"},
       {"exposure = 5", 3, "cameras[0].exposure is unknown"},
       {"packet_bytes = 1500", 3, "cameras[0].packet_bytes needs source.driver = \"aravis\""},
-      {"tiger = \"ptp\"", 3, "cameras[0].tiger is unknown; did you mean trigger?"},
+      {"triger = \"ptp\"", 3, "cameras[0].triger is unknown; did you mean trigger?"},
       {"gian = 2", 3, "cameras[0].gian is unknown; did you mean gain? Known here: device,"},
       {"pan_rad = 1", 3, "cameras[0].pan_rad needs head = \"fixed\""},
       {"head_devcie = \"x\"", 3, "did you mean head_device?"},

@@ -29,6 +29,12 @@ TEST(NearestName, IsNoneWhereNothingResemblesIt) {
   EXPECT_EQ(NearestName(std::string(100'000, 'x'), kNames), "");
 }
 
+TEST(NearestName, IsNotTheOneWithAnotherNumber) {
+  EXPECT_EQ(NearestName("cam2", {"cam1", "cam3"}), "");
+  EXPECT_EQ(NearestName("camera_2", {"camera_1"}), "");
+  EXPECT_EQ(NearestName("cma2", {"cam1", "cam2"}), "cam2");
+}
+
 TEST(NearestName, StandsBeforeTheListOfWhatThereIs) {
   EXPECT_EQ(ExpectedNames("cam11", {"cam1", "side"}),
             "did you mean cam1? Expected one of cam1, side");

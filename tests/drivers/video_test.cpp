@@ -247,7 +247,7 @@ TEST_F(Video, DamagedFrameIsCalledBrokenAndReadingGoesOn) {
 }
 
 TEST_F(Video, MissingFileIsNamed) {
-  EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(file_.string()), HasSubstr("missing")));
+  EXPECT_THAT(ErrorOnOpening(), AllOf(HasSubstr(file_.string()), HasSubstr("not found")));
 }
 
 TEST_F(Video, AnEmptyFileIsToldAsEmpty) {

@@ -72,8 +72,9 @@ std::string SaidOf(const std::vector<const char*>& words) {
 
 TEST(Commands, AMisspeltWordIsToldWithTheOneThatItResembles) {
   EXPECT_THAT(SaidOf({"mocap", "evalute", "take", "result"}),
-              StartsWith("mocap: there is no command \"evalute\"; did you mean evaluate? Expected "
-                         "one of simulate, take"));
+              AllOf(StartsWith("mocap: there is no command \"evalute\"; did you mean evaluate? "
+                               "Expected one of simulate, take"),
+                    EndsWith("see mocap --help\n")));
   EXPECT_THAT(
       SaidOf({"mocap", "take", "jion"}),
       StartsWith("mocap: there is no command \"jion\"; did you mean join? Expected join; see"));

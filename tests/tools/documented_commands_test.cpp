@@ -81,9 +81,10 @@ const Unrun* ReasonNotToRun(const std::string& line) {
   return found == kUnrun.end() ? nullptr : &*found;
 }
 
-/// Takes of a second show what takes of four do.
+/// Takes of a second show what longer ones do.
 std::string Shortened(const std::string& line) {
-  return line.starts_with("mocap simulate ") ? line + " --seconds 1" : line;
+  if (!line.starts_with("mocap simulate ")) return line;
+  return std::regex_replace(line, std::regex(R"( --seconds \S+)"), "") + " --seconds 1";
 }
 
 /// What a command says that it leaves, as "walk.bvh" or "result"; empty: nothing.

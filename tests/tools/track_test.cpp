@@ -85,16 +85,16 @@ TEST_F(WalkTracked, NothingIsSaidOfARightCalibration) {
 
 TEST_F(WalkTracked, AWrongCalibrationIsToldAndReplacesNoResult) {
   Track();
-  const std::string before = ReadText(Result() / "poses.csv");
+  const std::string before = testing::ReadText(Result() / "poses.csv");
   Calibrate(UpsideDown());
   EXPECT_THAT(Track(), AllOf(HasSubstr("all cameras hang below the floor"),
                              HasSubstr("nobody was tracked: "), HasSubstr("z points down")));
-  EXPECT_EQ(ReadText(Result() / "poses.csv"), before);
+  EXPECT_EQ(testing::ReadText(Result() / "poses.csv"), before);
 }
 
 TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
   Track();
-  const std::string before = ReadText(Result() / "poses.csv");
+  const std::string before = testing::ReadText(Result() / "poses.csv");
   const fs::path empty = folder_->path() / "empty";
   Said(AddSimulateCommand,
        "simulate --seconds 1 --fps 4 --cameras 4 --width 240 --height 180 --motion visit --out " +
@@ -102,7 +102,7 @@ TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
   const std::string track = "track --voxel-size 40 " + empty.string() + " --out ";
   EXPECT_THAT(Said(AddTrackCommand, track + Result().string()),
               AllOf(HasSubstr("nobody was tracked: "), HasSubstr("is kept")));
-  EXPECT_EQ(ReadText(Result() / "poses.csv"), before);
+  EXPECT_EQ(testing::ReadText(Result() / "poses.csv"), before);
   EXPECT_THAT(Said(AddTrackCommand, track + (folder_->path() / "new").string()),
               HasSubstr("4 frame sets, 0 tracked"));
 }

@@ -58,7 +58,7 @@ std::vector<std::string> ChannelLog::Remarks() const {
   }
   for (const auto& [channel, count] : garbled_) {
     remarks.push_back(log_ + ": " + Counted(count, "message") + " on " + Printable(channel) +
-                      " of an unknown version, skipped");
+                      " not understood by this version, skipped");
   }
   return remarks;
 }

@@ -386,33 +386,6 @@ class ListenTest(LogTest):
         self.assertEqual([pose.point("torso")[0] for pose in mocapd.listen(self.url, person=4)], [5000, 6000])
 
 
-class SilenceTest(unittest.TestCase):
-    """Messages are put in, and the time goes on by a second with each look at it."""
-
-    def silence(self, channels, prefix="left.", listen=mocapd.listen):
-        with mock.patch("mocapd.live.messages", lambda url, timeout_s: channels), \
-                mock.patch("mocapd.live.time.monotonic", itertools.count().__next__):
-            with self.assertRaises(TimeoutError) as told:
-                list(listen("udpm://239.255.76.66:7667", prefix=prefix, timeout_s=5))
-        return str(told.exception)
-
-    def test_messages_of_others_do_not_prolong_the_wait(self):
-        others = (("left_MOCAP_STATUS", b"") for _ in itertools.count())
-        for listen in (mocapd.listen, mocapd.listen_people):
-            self.assertIn("mocapd sends there with the prefixes ['left_']", self.silence(others, listen=listen))
-
-    def test_a_node_is_told_from_a_daemon_that_does_not_run(self):
-        node = (("left_MOCAP_STATUS", b"") for _ in itertools.count())
-        self.assertIn("a node never sends poses", self.silence(node, "left_"))
-
-    def test_nothing_at_all_leads_to_the_network(self):
-        def nothing():
-            raise TimeoutError
-            yield
-        self.assertEqual(self.silence(nothing()), "no left.MOCAP_POSE has arrived on udpm://239.255.76.66:7667 for 5 s: "
-                         "is mocapd running? mocap doctor checks the network")
-
-
 class ReadLogTest(LogTest):
     def whole(self):
         self.log.add("MOCAP_BODY", body_message())

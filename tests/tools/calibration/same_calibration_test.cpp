@@ -60,23 +60,6 @@ TEST_F(SameCalibrationTest, TheHealthOfATakeIsNotNotedInAnotherCalibration) {
   EXPECT_EQ(testing::ReadText(other_), before);
 }
 
-TEST_F(SameCalibrationTest, CalibrationsOfDifferentStudiosAreNotCalledGood) {
-  const auto compared = [&](double shift_mm) {
-    std::vector<CameraCalibration> shifted = cameras_;
-    for (CameraCalibration& camera : shifted)
-      camera.X_CW.p -= camera.X_CW.R * Vector3(shift_mm, 0, 0);
-    std::filesystem::remove(other_);
-    WriteCalibration(other_, shifted);
-    ::testing::internal::CaptureStdout();
-    testing::RunCommand(AddCalibrateCommand, "calibrate check " + other_.string() + " --against " +
-                                                 (take_ / "calibration.toml").string());
-    return ::testing::internal::GetCapturedStdout();
-  };
-  const auto is_doubted = HasSubstr("is it of the same studio, with the same floor?");
-  EXPECT_THAT(compared(20), ::testing::Not(is_doubted));
-  EXPECT_THAT(compared(1000), is_doubted);
-}
-
 TEST_F(SameCalibrationTest, AResultIsNoTake) {
   WriteCalibration(other_, cameras_);
   std::filesystem::rename(take_ / "take.toml", take_ / "poses.csv");

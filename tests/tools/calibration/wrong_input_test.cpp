@@ -233,7 +233,7 @@ const WrongInput kWrongRecordings[] = {
        b.WriteIntrinsics(640, "cam7");
        return b.Extrinsics();
      },
-     {"lenses.toml", "has no camera \"cam2\"", "it has cam1, cam7"}},
+     {"lenses.toml", "has no camera \"cam2\"", "expected one of cam1, cam7"}},
     {"TooFewSharedViews",
      [](Bench& b) {
        b.Write("cam1", b.seen);
