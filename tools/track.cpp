@@ -28,6 +28,7 @@
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/unfinished_folder.h"
 #include "tools/remarks.h"
 #include "tools/results/result.h"
 #include "tools/results/result_sink.h"
@@ -117,6 +118,8 @@ void Track(const TrackOptions& options) {
   const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
   RequireRoom(cameras, options.voxel_mm, TakeLayout{options.take}.Calibration().string());
   TellRemarks("track", studio.remarks);
+  std::optional<UnfinishedFolder> new_folder;
+  if (!IsThere(options.out)) new_folder.emplace(options.out);
   RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1, MarkOf(options.take));
@@ -144,6 +147,7 @@ void Track(const TrackOptions& options) {
     WritePeople(options.out, sink.people());
   else
     WriteResult(options.out, sink.result());
+  if (new_folder) new_folder->Finish();
   if (options.json) {
     std::puts(JsonOf(sink, pipeline.Status().stages, seconds).c_str());
   } else {

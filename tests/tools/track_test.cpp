@@ -90,6 +90,9 @@ TEST_F(WalkTracked, AWrongCalibrationIsToldAndReplacesNoResult) {
   EXPECT_THAT(Track(), AllOf(HasSubstr("all cameras hang below the floor"),
                              HasSubstr("nobody was tracked: "), HasSubstr("z points down")));
   EXPECT_EQ(testing::ReadText(Result() / "poses.csv"), before);
+  const fs::path none = folder_->path() / "none";
+  Said(AddTrackCommand, "track --voxel-size 40 --out " + none.string() + " " + Take().string());
+  EXPECT_FALSE(fs::exists(none));
 }
 
 TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
