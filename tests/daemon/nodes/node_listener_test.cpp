@@ -18,6 +18,7 @@
 #include "daemon/nodes/silhouette_sender.h"
 #include "daemon/pipeline/camera_worker.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "tests/support/heap_bytes.h"
 
 namespace mocap {
 namespace {
@@ -252,6 +253,28 @@ TEST_F(NodeListenerTest, ANodeTellsOfItself) {
   EXPECT_THAT(report.complaints, ElementsAre("cam1 is lost: check its cable and power"));
   EXPECT_THAT(report.missing, IsEmpty());
   EXPECT_THAT(report.miscalibrated, IsEmpty());
+}
+
+TEST_F(NodeListenerTest, NodesThatComeAndGoLeaveNoMemoryBehind) {
+  Send(0);
+  silhouette_t message = TakeMessage();
+  int stranger = 0;
+  const auto come_and_go = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      sender_.emplace(lcm_sender_, config_, cameras_);
+      HearOfNode({"complaint " + std::to_string(i)});
+      nodes_.clear();
+      message.node = "left";
+      Hear(message);
+      ASSERT_TRUE(Receive(0));
+      message.node = "stranger" + std::to_string(++stranger);
+      Hear(message);
+    }
+  };
+  come_and_go(20);
+  const std::int64_t before = HeapBytes();
+  come_and_go(300);
+  EXPECT_LT(HeapBytes() - before, 3'000);
 }
 
 TEST_F(NodeListenerTest, ACameraThatIsCalibratedOtherwiseIsNamed) {

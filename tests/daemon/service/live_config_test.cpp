@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/support/heap_bytes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -40,6 +41,26 @@ TEST_F(LiveConfigTest, WhatNeedsARestartIsNamedUntilItIsAsItWas) {
   EXPECT_THAT(live.Reload().need_restart, ElementsAre("voxels.size_mm"));
   testing::WriteText(file_, "[voxels]\nsize_mm = 25\n");
   EXPECT_THAT(live.Reload().need_restart, IsEmpty());
+}
+
+TEST_F(LiveConfigTest, HundredsOfReloadsLeaveNoMemoryBehind) {
+  testing::WriteText(file_, "");
+  LiveConfig live(file_);
+  const auto reload = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      const char* end = i % 3 == 0 ? "\nnonsense = 1\n" : "\n";
+      testing::WriteText(file_, "[voxels]\nsize_mm = " + std::to_string(20 + i % 5) +
+                                    "\n[lcm]\nvoxels_hz = " + std::to_string(i % 7) + end);
+      try {
+        live.Reload();
+      } catch (const SetupError&) {
+      }
+    }
+  };
+  reload(21);
+  const std::int64_t before = HeapBytes();
+  reload(315);
+  EXPECT_LT(HeapBytes() - before, 3'000);
 }
 
 TEST_F(LiveConfigTest, AWrongFileChangesNothing) {
