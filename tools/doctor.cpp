@@ -58,8 +58,8 @@ void Doctor(const DoctorOptions& options) {
                                                 config.service.recording.keep_free_mb)};
   std::ranges::move(CheckCalibration(config), std::back_inserter(diagnoses));
   std::ranges::move(CheckDevices(config), std::back_inserter(diagnoses));
-  diagnoses.push_back(
-      CheckControl(options.socket.empty() ? config.service.control.socket : options.socket));
+  diagnoses.push_back(CheckControl(
+      options.socket.empty() ? config.service.control.socket : options.socket, starter));
   std::ranges::move(CheckNodes(config), std::back_inserter(diagnoses));
   for (const Diagnosis& diagnosis : diagnoses) {
     std::printf("%s  %s\n", MarkOf(diagnosis.verdict), Printable(diagnosis.what).c_str());

@@ -273,14 +273,16 @@ std::vector<Diagnosis> CheckDevices(const Config& config) {
   return diagnoses;
 }
 
-Diagnosis CheckControl(const std::filesystem::path& socket) {
+Diagnosis CheckControl(const std::filesystem::path& socket, Starter starter) {
   try {
     AskDaemon(socket, "status");
     return {Verdict::kGood, "mocapd runs and answers", ""};
   } catch (const SetupError& error) {
     return {Verdict::kBad, "mocapd runs, but you may not control it", error.what()};
   } catch (const std::exception& error) {
-    return {Verdict::kAdvice, error.what(), "journalctl -u mocapd shows why it stopped"};
+    const bool is_service = starter == Starter::kSystemd;
+    return {Verdict::kAdvice, error.what(),
+            is_service ? "journalctl -u mocapd shows why it stopped" : ""};
   }
 }
 

@@ -44,7 +44,7 @@ std::vector<Diagnosis> CheckDevices(const Config& config);
 /// One diagnosis for each implausible place of a camera in the calibration, or that all are good;
 /// none without a calibration.
 std::vector<Diagnosis> CheckCalibration(const Config& config);
-Diagnosis CheckControl(const std::filesystem::path& socket);
+Diagnosis CheckControl(const std::filesystem::path& socket, Starter starter);
 /// Checks, for a studio with nodes, whether each of them answers.
 std::vector<Diagnosis> CheckNodes(const Config& config);
 

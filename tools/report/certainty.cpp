@@ -71,8 +71,9 @@ std::string CertaintyText(const Certainty& certainty) {
                                  certainty.median_fit_mm, certainty.p95_fit_mm);
   const auto& check = certainty.check;
   if (check) {
-    text += fmt::format("; error {:.1f} mm where it is better, {:.1f} mm where it is worse",
-                        check->better_half_mm, check->worse_half_mm);
+    text +=
+        fmt::format("; mean error {:.1f} mm in the half that fits better, {:.1f} mm in the other",
+                    check->better_half_mm, check->worse_half_mm);
   }
   text += '\n';
   if (!certainty.median_deviation_mm) return text;
