@@ -36,15 +36,17 @@ void WriteFile(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-/// Writes a calibration. One that should not be used replaces none.
+/// Writes a calibration. One that should not be used gets another name, and replaces none.
 /// @throws std::runtime_error  if it should not be used, after `report`.
 void Conclude(const CalibrateArguments& arguments, const StudioFit& fit,
               const CalibrationRecord& record, const std::vector<Finding>& findings,
               const std::function<void()>& report) {
-  const bool is_kept = CountOf(Severity::kWrong, findings) > 0 && IsThere(arguments.out);
-  if (!is_kept) WriteCalibration(arguments.out, fit.bundle.cameras, record);
+  std::filesystem::path out = arguments.out;
+  const bool is_usable = CountOf(Severity::kWrong, findings) == 0;
+  if (!is_usable) out += ".rejected";
+  WriteCalibration(out, fit.bundle.cameras, record);
   report();
-  RequireUsable(arguments.out, findings, is_kept ? "; the earlier calibration is kept" : "");
+  RequireUsable(out, findings);
 }
 
 void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {

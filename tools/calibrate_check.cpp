@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -90,8 +91,15 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
                    diagnosis.person.lowest_mm, diagnosis.person.highest_mm)});
 }
 
+// Days of the calendar, in local time.
+std::int64_t DayOf(std::time_t time_s) {
+  std::tm local{};
+  localtime_r(&time_s, &local);
+  return timegm(&local) / (24 * 3600);
+}
+
 std::string DaysAgo(std::int64_t then_s, std::int64_t now_s) {
-  const std::int64_t days = (now_s - then_s) / (24 * 3600);
+  const std::int64_t days = DayOf(now_s) - DayOf(then_s);
   return days < 1 ? "today" : days == 1 ? "yesterday" : std::to_string(days) + " days ago";
 }
 
@@ -104,8 +112,7 @@ std::string HealthText(const std::vector<CameraOffset>& offsets) {
   }
   if (!moved.empty()) return moved;
   const CameraOffset& worst = *std::ranges::max_element(offsets, {}, &CameraOffset::px);
-  return fmt::format(", no camera has moved ({} is {:.1f} px off, the others less)", worst.camera,
-                     worst.px);
+  return fmt::format(", no camera has moved (at most {:.1f} px, {})", worst.px, worst.camera);
 }
 
 // The age, and the result of the last health check.
@@ -123,7 +130,9 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
              std::vector<Finding>& findings) {
   const PlacementDifference difference = ComparePlacement(cameras, LoadCalibration(other));
   if (difference.points < 3)
-    throw SetupError(other.string() + ": no two cameras see the same place; expected a studio");
+    throw SetupError(
+        other.string() +
+        ": its cameras hardly see the same places; expected the calibration of a studio");
   const Vector3& worst_W = difference.worst_at_W;
   std::string text = fmt::format(
       "points in the room lie {:.1f} mm from where {} has them, and {:.1f} mm at worst (at {:.0f}, "
@@ -134,8 +143,10 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
       Eigen::AngleAxisd(difference.moved.R).angle() * 180 / std::numbers::pi);
   const bool is_other = difference.mean_mm > kOtherStudio_mm;
   if (is_other)
-    text += fmt::format("; expected at most {:.0f} mm: is it the same studio, with the same floor?",
-                        kOtherStudio_mm);
+    text += fmt::format(
+        "; expected at most {:.0f} mm: is it the same studio, with the floor's board in the same "
+        "place?",
+        kOtherStudio_mm);
   findings.push_back({is_other ? Severity::kWrong : Severity::kNote, std::move(text)});
 }
 

@@ -29,24 +29,18 @@ LensModel ModelOf(const std::string& name) {
   return name == "fisheye" ? LensModel::kFisheye : LensModel::kOpenCv;
 }
 
-/// Progress on standard error: a line that is overwritten, or one line for each step where it is
-/// not a terminal.
+/// Progress on a terminal: a line that is overwritten.
 class Progress {
  public:
-  ~Progress() {
-    if (overwrites_) std::fputs("\r\x1b[K", stderr);
-  }
-  void Show(const std::string& step, const std::string& detail = "") {
-    if (overwrites_)
-      std::fprintf(stderr, "\r%s%s\x1b[K", step.c_str(), detail.c_str());
-    else if (step != step_)
-      std::fprintf(stderr, "%s\n", step.c_str());
-    step_ = step;
-  }
+  ~Progress() { Write("\r\x1b[K"); }
+  void Show(const std::string& line) { Write('\r' + Printable(line) + "\x1b[K"); }
 
  private:
-  const bool overwrites_ = isatty(STDERR_FILENO) != 0;
-  std::string step_;
+  void Write(const std::string& text) const {
+    if (is_terminal_) std::fputs(text.c_str(), stderr);
+  }
+
+  const bool is_terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
 BoardDetections Collect(const Footage& footage, const CalibrateArguments& arguments, bool still,
@@ -61,8 +55,8 @@ BoardDetections Collect(const Footage& footage, const CalibrateArguments& argume
   progress.Show(step);
   options.progress = [&](const std::string& camera, int done, int total, int found,
                          const std::string& hint) {
-    progress.Show(step + ": " + camera, fmt::format(", frame {} of {}, {} views{}{}", done, total,
-                                                    found, hint.empty() ? "" : "; ", hint));
+    progress.Show(fmt::format("{}: {}, frame {} of {}, {} views{}{}", step, camera, done, total,
+                              found, hint.empty() ? "" : "; ", hint));
   };
   const Board board = ParseBoard(arguments.board);
   if (board.kind == BoardKind::kWand && still)
@@ -233,12 +227,10 @@ std::string FindingsText(const std::vector<Finding>& findings) {
   return text + Verdict(findings) + '\n';
 }
 
-void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings,
-                   const std::string& consequence) {
+void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings) {
   const std::ptrdiff_t errors = CountOf(Severity::kWrong, findings);
   if (errors > 0)
-    throw std::runtime_error(file.string() + ": has " + Counted(errors, "error") + ", see above" +
-                             consequence);
+    throw std::runtime_error(file.string() + ": has " + Counted(errors, "error") + ", see above");
 }
 
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) {

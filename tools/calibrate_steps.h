@@ -53,10 +53,8 @@ std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioF
 std::string FindingsText(const std::vector<Finding>& findings);
 
 /// Makes the command fail if a calibration should not be used.
-/// @param consequence  appended to the message, such as "; the earlier calibration is kept".
-/// @throws std::runtime_error
-void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings,
-                   const std::string& consequence = "");
+/// @throws std::runtime_error  naming the file.
+void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings);
 
 /// Formats the figures: a table for people, or one JSON object.
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings);

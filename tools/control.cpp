@@ -14,9 +14,21 @@
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
 #include "drivers/printable_text.h"
+#include "tools/chosen_config.h"
 
 namespace mocap {
 namespace {
+
+/// Where the daemon of a configuration listens; empty for the system's, which systemd decides.
+std::filesystem::path SocketOf(const std::filesystem::path& config) {
+  const std::filesystem::path configured = LoadConfig(config).service.control.socket;
+  std::error_code error;
+  if (configured.empty() && std::filesystem::equivalent(config, SystemConfig(), error)) return "";
+  const std::filesystem::path socket = ControlSocketOf(configured);
+  if (!socket.empty()) return socket;
+  throw SetupError(config.string() +
+                   ": has no control.socket, and XDG_RUNTIME_DIR is not set; expected one of them");
+}
 
 /// Subcommands that send one request each.
 class RequestCommands {
@@ -59,11 +71,8 @@ class RequestCommands {
         "--socket", *socket_, "mocapd control socket (default: the system's, else the user's own)");
     command
         .add_option_function<std::string>(
-            "--config",
-            [socket = socket_](const std::string& file) {
-              *socket = LoadConfig(file).service.control.socket;
-            },
-            "configuration of the mocapd to ask; its [control] names the socket")
+            "--config", [socket = socket_](const std::string& file) { *socket = SocketOf(file); },
+            "configuration of the mocapd to ask")
         ->excludes(socket);
   }
 

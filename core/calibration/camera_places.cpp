@@ -19,9 +19,9 @@ Vector3 EyeOf(const CameraCalibration& camera) { return camera.X_CW.Inverse().p;
 void CheckRotation(const CameraCalibration& camera, std::vector<Finding>& findings) {
   const Matrix3& R = camera.X_CW.R;
   if ((R * R.transpose() - Matrix3::Identity()).norm() < 1e-3 && R.determinant() > 0) return;
-  findings.push_back(
-      {Severity::kWrong, camera.name + ": its rotation is a reflection or not a rotation; a "
-                                       "conversion has mirrored the calibration"});
+  findings.push_back({Severity::kWrong, camera.name +
+                                            ": its rotation is a reflection or not a rotation; a "
+                                            "conversion has mirrored the calibration"});
 }
 
 void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings) {

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "core/errors.h"
 #include "daemon/control/control_socket.h"
 #include "tests/support/run_command.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -37,6 +39,20 @@ TEST_F(ControlCommands, AskTheDaemonOfTheNamedConfiguration) {
     EXPECT_EQ(Said(command + (" --config " + left_.string())), "of left\n") << command;
   }
   EXPECT_EQ(Said("record start --config " + left_.string() + " walk"), "of left\n");
+}
+
+TEST_F(ControlCommands, AConfigurationWithoutASocketIsOfTheUsersOwnDaemon) {
+  testing::WriteText(left_, "");
+  unsetenv("RUNTIME_DIRECTORY");
+  setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+  std::filesystem::create_directory(folder_.path() / "mocapd");
+  const ControlServer server(folder_.path() / "mocapd" / "control", [](const ControlRequest&) {
+    return ControlReply{ControlOutcome::kDone, "of the user\n"};
+  });
+  EXPECT_EQ(Said("status --config " + left_.string()), "of the user\n");
+  unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_THAT(testing::SetupErrorOf([&] { Said("status --config " + left_.string()); }),
+              ::testing::HasSubstr("has no control.socket"));
 }
 
 TEST_F(ControlCommands, TwoWaysToNameADaemonAreOneTooMany) {

@@ -41,7 +41,10 @@ constexpr std::array kUnrun = {
     Unrun{"mocap background", "asks a daemon, or needs cameras"},
     Unrun{"mocap doctor", "judges the machine that it runs on"},
     Unrun{"mocap cameras", "needs cameras"},
-    Unrun{"mocap calibrate", "needs minutes, and cameras or a tape measure"},
+    Unrun{"mocap calibrate studio", "needs minutes, or cameras"},
+    Unrun{"mocap calibrate check", "needs a calibration that a person made"},
+    Unrun{"mocap calibrate health", "needs a calibration that a person made"},
+    Unrun{"mocap calibrate refine", "needs a calibration that a person made"},
     Unrun{"mocap simulate --board", "is of use to `mocap calibrate` only"},
     Unrun{"mocap export session.lcm", "needs a log of a daemon"},
 };

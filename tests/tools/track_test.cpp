@@ -1,5 +1,6 @@
 #include "tools/track.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -128,6 +129,30 @@ TEST_F(WalkTracked, CheckFailsIfTheCalibrationShouldNotBeUsed) {
                                  HasSubstr("moved.toml: has 1 error, see above")));
 }
 
+TEST_F(WalkTracked, ACalibrationThatShouldNotBeUsedReplacesNone) {
+  const fs::path points = folder_->path() / "points.csv", out = folder_->path() / "floor.toml";
+  std::string rows;
+  for (const auto& [name, p_W] :
+       {std::pair("origin", Vector3(0, 0, 0)), std::pair("x", Vector3(500, 0, 0)),
+        std::pair("y", Vector3(0, 500, 0))}) {
+    for (const CameraCalibration& camera : right_) {
+      const Vector3 p_C = camera.X_CW * p_W;
+      const Vector2 pixel = *PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
+      rows += fmt::format("{},{},{},{}\n", name, camera.name, pixel.x(), pixel.y());
+    }
+  }
+  testing::WriteText(points, rows);
+  testing::WriteText(out, "# the calibration in use\n");
+  EXPECT_THAT(
+      Said(AddCalibrateCommand, "calibrate floor " + (Take() / "calibration.toml").string() +
+                                    " --distance cam1:cam2:100 --floor-points " + points.string() +
+                                    " --out " + out.string()),
+      AllOf(HasSubstr("Do not use this calibration."),
+            HasSubstr("floor.toml.rejected: has 1 error, see above")));
+  EXPECT_EQ(testing::ReadText(out), "# the calibration in use\n");
+  EXPECT_TRUE(fs::exists(out.string() + ".rejected"));
+}
+
 TEST_F(WalkTracked, CheckSaysTheTapesDistanceOnce) {
   const std::string said = Said(AddCalibrateCommand, "calibrate check --distance cam1:cam2:100 " +
                                                          (Take() / "calibration.toml").string());
@@ -144,8 +169,9 @@ TEST_F(WalkTracked, CheckShowsWhatHealthNoted) {
   record.made_s = record.checked_s = TimeOfDayS();
   record.offsets = {{"cam1", 0.25, false}, {"cam2", 0.75, false}};
   WriteCalibration(file, right_, record);
-  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),
-              HasSubstr("made today; health checked today, no camera has moved (cam2 is 0.8 px"));
+  EXPECT_THAT(
+      Said(AddCalibrateCommand, "calibrate check " + file),
+      HasSubstr("made today; health checked today, no camera has moved (at most 0.8 px, cam2)"));
   record.offsets[1] = {"cam2", 12.25, true};
   WriteCalibration(file, right_, record);
   EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
+#include "drivers/take/text_file.h"
 #include "tools/calibration/marker_dictionaries.h"
 
 namespace mocap {
@@ -148,6 +150,11 @@ void Draw(cairo_t* to, const BoardPrint& print, const Vector2& at_mm) {
   }
 }
 
+cairo_status_t AppendPdf(void* pdf, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(pdf)->append(data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
 // The page, turned as the board lies.
 Vector2 PageFor(const Vector2& needed_mm, const Vector2& page_mm) {
   if (page_mm.isZero()) return needed_mm;
@@ -206,8 +213,13 @@ void WriteBoardPdf(const std::filesystem::path& file, const Board& board, const 
     throw SetupError(fmt::format("--board {}: needs {:.0f} x {:.0f} mm; expected at most {:.0f} mm",
                                  board.Spec(), needed_mm.x(), needed_mm.y(), kLongestPage_mm));
   const Vector2 page = PageFor(needed_mm, page_mm);
+  constexpr std::array<std::string_view, 1> kPdf = {"%PDF-"};
+  RequireWritable(file);
+  RequireOwn(file, kPdf, "a PDF");
+  std::string pdf;
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_pdf_surface_create(file.c_str(), page.x() * kPointsPerMm, page.y() * kPointsPerMm),
+      cairo_pdf_surface_create_for_stream(&AppendPdf, &pdf, page.x() * kPointsPerMm,
+                                          page.y() * kPointsPerMm),
       &cairo_surface_destroy);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> to(cairo_create(surface.get()),
                                                               &cairo_destroy);
@@ -221,6 +233,7 @@ void WriteBoardPdf(const std::filesystem::path& file, const Board& board, const 
   if (const cairo_status_t status = cairo_surface_status(surface.get());
       status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(file.string() + ": " + cairo_status_to_string(status));
+  ReplaceText(file, pdf);
 }
 
 }  // namespace mocap

@@ -33,8 +33,7 @@ Vector2 ParsePage(const std::string& text);
 
 /// Writes a PDF of one page with the board in its true size, and a ruler to check the print.
 /// @param page_mm  sides of the page, in any order; zero for one as large as needed.
-/// @throws SetupError  if the page is too small.
-/// @throws std::runtime_error  if the file cannot be written.
+/// @throws SetupError  if the page is too small, or the file is no PDF or cannot be written.
 void WriteBoardPdf(const std::filesystem::path& file, const Board& board, const Vector2& page_mm);
 
 }  // namespace mocap

@@ -19,7 +19,8 @@ struct PlacementDifference {
 
 /// Projects points up to 1750 mm above the floor, in 3 x 3 m about the middle of the room, with the
 /// reference, and triangulates them with the cameras. A difference of the world frames adds to the
-/// distances; what is left without it is the difference in shape. Heads look ahead, up, down and to the sides.
+/// distances; what is left without it is the difference in shape. Heads look ahead, up, down and to
+/// the sides.
 /// @throws SetupError  when a camera of the reference is missing.
 PlacementDifference ComparePlacement(const std::vector<CameraCalibration>& cameras,
                                      const std::vector<CameraCalibration>& reference);

@@ -160,7 +160,7 @@ bool HasPoses(const std::filesystem::path& folder) {
 }
 
 void RequireRoomForResult(const std::filesystem::path& folder) {
-  if (IsThere(TakeLayout{folder}.Description()) || IsThere(TakeLayout{folder}.Calibration()))
+  if (IsThere(TakeLayout{folder}.Description()))
     throw SetupError(folder.string() + ": is a take; expected another folder for the result");
   RequireRoomForOne(folder);
   for (const std::filesystem::path& person : PersonFolders(folder)) RequireRoomForOne(person);

@@ -24,9 +24,10 @@ VarietyRow Never() { return {.accuracy = {.motion = "sit"}, .looks = "afro"}; }
 TEST(Variety, WhoWasNeverFoundIsCountedAndNotAveraged) {
   const std::vector rows = {Found(20, 0.1, 0, 0), Found(40, 0.6, 0, 0), Found(60, 0.1, 0.4, 6),
                             Never()};
-  EXPECT_THAT(VarietySummaryText(rows),
-              AllOf(HasSubstr("1 never found, 1 found after more than 0.5 s, 1 lost"),
-                    HasSubstr("1 tracked in a wrong pose; 40.0 mm in the mean (60.0 mm the worst)")));
+  EXPECT_THAT(
+      VarietySummaryText(rows),
+      AllOf(HasSubstr("1 never found, 1 found after more than 0.5 s, 1 lost"),
+            HasSubstr("1 tracked in a wrong pose; 40.0 mm in the mean (60.0 mm the worst)")));
   EXPECT_THAT(VarietyLine(rows[3]), AllOf(HasSubstr("never"), HasSubstr("afro")));
 }
 

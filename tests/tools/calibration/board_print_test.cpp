@@ -90,6 +90,19 @@ TEST(BoardPdf, APageThatIsTooSmallIsRefused) {
               HasSubstr("a wand is not printed"));
 }
 
+TEST(BoardPdf, ReplacesNothingButPdfs) {
+  testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "calibration.toml";
+  const Board board = ParseBoard("chess:8x5:20");
+  testing::WriteText(file, "[cameras]\n");
+  EXPECT_THAT(testing::SetupErrorOf([&] { WriteBoardPdf(file, board, Vector2::Zero()); }),
+              HasSubstr("calibration.toml: exists"));
+  EXPECT_EQ(testing::ReadText(file), "[cameras]\n");
+  testing::WriteText(file, "%PDF-1.5\n");
+  WriteBoardPdf(file, board, Vector2::Zero());
+  EXPECT_GT(std::filesystem::file_size(file), 500u);
+}
+
 TEST(BoardPdf, PagesAreOfIsoOrInMillimetres) {
   EXPECT_EQ(ParsePage("A3"), Vector2(297, 420));
   EXPECT_EQ(ParsePage("a5"), Vector2(148, 210));
