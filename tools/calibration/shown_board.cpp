@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kFewestChessCorners = 12;
 constexpr double kShareStep = 0.05;  // Corners of single markers are not better.
+constexpr float kWithinRim = 0.3;    // Squares; rims are wider.
 constexpr double kPlainSquares = 0.9, kLeastContrastOfSquares = 20;
 
 struct ShownMarkers {
@@ -89,20 +90,44 @@ std::pair<double, double> RangeOf(const cv::Mat& gray, const cv::Point2f* upper,
   return {low, high};
 }
 
-// Whether squares between found corners are dark and bright in turn, and without markers.
-bool IsPlain(const cv::Mat& gray, const std::vector<cv::Point2f>& corners, const cv::Size& size) {
+/// Corners of a chessboard in a picture, row by row.
+struct ChessCorners {
+  std::vector<cv::Point2f> points;
+  cv::Size size;
+
+  const cv::Point2f& At(int x, int y) const {
+    return points[static_cast<std::size_t>(y * size.width + x)];
+  }
+  // The place of a point of the board, in squares from the first corner; also around the corners.
+  cv::Point2f PlaceOf(const cv::Point2f& in_squares) const {
+    const int x = std::clamp(static_cast<int>(in_squares.x), 0, size.width - 2);
+    const int y = std::clamp(static_cast<int>(in_squares.y), 0, size.height - 2);
+    const cv::Point2f &a = At(x, y), &b = At(x + 1, y), &c = At(x, y + 1), &d = At(x + 1, y + 1);
+    const float right = in_squares.x - static_cast<float>(x);
+    const float down = in_squares.y - static_cast<float>(y);
+    return (a * (1 - right) + b * right) * (1 - down) + (c * (1 - right) + d * right) * down;
+  }
+};
+
+/// How the squares between corners alternate.
+struct Alternation {
+  double between = 0;  ///< Brightness between that of dark and of bright squares.
+  int dark = 0;        ///< Squares are dark where (x + y) % 2 is this.
+};
+
+// Empty unless squares are dark and bright in turn, and without markers.
+std::optional<Alternation> AlternationOf(const cv::Mat& gray, const ChessCorners& corners) {
   std::vector<std::pair<double, double>> ranges[2];
   double lowest = 255, highest = 0;
-  for (int y = 0; y + 1 < size.height; ++y) {
-    for (int x = 0; x + 1 < size.width; ++x) {
-      const cv::Point2f* upper = &corners[static_cast<std::size_t>(y * size.width + x)];
-      const auto range = RangeOf(gray, upper, upper + size.width);
+  for (int y = 0; y + 1 < corners.size.height; ++y) {
+    for (int x = 0; x + 1 < corners.size.width; ++x) {
+      const auto range = RangeOf(gray, &corners.At(x, y), &corners.At(x, y + 1));
       ranges[(x + y) % 2].push_back(range);
       lowest = std::min(lowest, range.first);
       highest = std::max(highest, range.second);
     }
   }
-  if (highest - lowest < kLeastContrastOfSquares) return false;
+  if (highest - lowest < kLeastContrastOfSquares) return std::nullopt;
   const double between = (lowest + highest) / 2;
   const auto count = [&](int dark) {
     const auto is_dark = [&](const auto& range) { return range.second < between; };
@@ -110,8 +135,50 @@ bool IsPlain(const cv::Mat& gray, const std::vector<cv::Point2f>& corners, const
     return std::ranges::count_if(ranges[dark], is_dark) +
            std::ranges::count_if(ranges[1 - dark], is_bright);
   };
-  return static_cast<double>(std::max(count(0), count(1))) >=
-         kPlainSquares * static_cast<double>(ranges[0].size() + ranges[1].size());
+  const int dark = count(0) > count(1) ? 0 : 1;
+  const auto all = static_cast<double>(ranges[0].size() + ranges[1].size());
+  if (static_cast<double>(count(dark)) < kPlainSquares * all) return std::nullopt;
+  return Alternation{between, dark};
+}
+
+// Whether squares go on beyond an outermost row or column of corners: corners on the edge of the
+// printed squares, towards the rim, are no inner ones. What is outside of the picture is not known.
+// @param at  middle of each square beyond, on the line of corners. @param out  away from the
+// corners.
+bool GoesOn(const cv::Mat& gray, const ChessCorners& corners, const Alternation& alternation,
+            const std::vector<cv::Point2f>& at, const cv::Point2f& out) {
+  int visible = 0, dark = 0;
+  for (const cv::Point2f& middle : at) {
+    const cv::Point2f square = middle + out / 2;
+    const int parity = cvFloor(square.x) + cvFloor(square.y) + 2;
+    if (parity % 2 != alternation.dark) continue;
+    const cv::Point pixel = corners.PlaceOf(middle + out * kWithinRim);
+    if (!cv::Rect(0, 0, gray.cols, gray.rows).contains(pixel)) continue;
+    ++visible;
+    dark += gray.at<std::uint8_t>(pixel) < alternation.between;
+  }
+  return visible == 0 || 2 * dark > visible;
+}
+
+// Number of inner corners across and down.
+cv::Size InnerCorners(const cv::Mat& gray, const ChessCorners& corners,
+                      const Alternation& alternation) {
+  const auto last_x = static_cast<float>(corners.size.width - 1);
+  const auto last_y = static_cast<float>(corners.size.height - 1);
+  std::vector<cv::Point2f> left, right, above, below;
+  for (float y = 0.5; y < last_y; ++y) {
+    left.emplace_back(0, y);
+    right.emplace_back(last_x, y);
+  }
+  for (float x = 0.5; x < last_x; ++x) {
+    above.emplace_back(x, 0);
+    below.emplace_back(x, last_y);
+  }
+  const auto ends = [&](const std::vector<cv::Point2f>& at, float right_of, float below_of) {
+    return GoesOn(gray, corners, alternation, at, {right_of, below_of}) ? 0 : 1;
+  };
+  return {corners.size.width - ends(left, -1, 0) - ends(right, 1, 0),
+          corners.size.height - ends(above, 0, -1) - ends(below, 0, 1)};
 }
 
 }  // namespace
@@ -122,19 +189,22 @@ std::optional<Board> FindShownMarkerBoard(const cv::Mat& gray, const Board& expe
 }
 
 std::optional<Board> FindShownChessboard(const cv::Mat& gray, const Board& expected) {
-  std::vector<cv::Point2f> corners;
+  ChessCorners corners;
   cv::Mat meta;
   const int flags = cv::CALIB_CB_NORMALIZE_IMAGE;
-  if (!cv::findChessboardCornersSB(gray, {3, 3}, corners, flags | cv::CALIB_CB_LARGER, meta) ||
-      static_cast<int>(corners.size()) < kFewestChessCorners)
+  if (!cv::findChessboardCornersSB(gray, {3, 3}, corners.points, flags | cv::CALIB_CB_LARGER,
+                                   meta) ||
+      static_cast<int>(corners.points.size()) < kFewestChessCorners)
     return std::nullopt;
+  corners.size = meta.size();
   // Growing from a few corners may end too early; a part of a board is not found by its size.
-  if (!cv::findChessboardCornersSB(gray, meta.size(), corners, flags) ||
-      !IsPlain(gray, corners, meta.size()))
-    return std::nullopt;
+  if (!cv::findChessboardCornersSB(gray, corners.size, corners.points, flags)) return std::nullopt;
+  const auto alternation = AlternationOf(gray, corners);
+  if (!alternation) return std::nullopt;
+  const cv::Size inner = InnerCorners(gray, corners, *alternation);
   Board board;
-  board.columns = std::max(meta.cols, meta.rows);
-  board.rows = std::min(meta.cols, meta.rows);
+  board.columns = std::max(inner.width, inner.height);
+  board.rows = std::min(inner.width, inner.height);
   if (expected.kind == BoardKind::kChessboard) {
     board.square_mm = expected.square_mm;
     if (expected.columns < expected.rows) std::swap(board.columns, board.rows);
