@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from .lcm_log import read_events
 from .lcm_udp import Deadline, Event, receive
-from .poses import Pose, PoseDecoder
+from .poses import BODILESS, DAMAGED, Pose, PoseDecoder
 
 #: Where mocapd sends unless it is told otherwise.
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
@@ -23,7 +23,7 @@ def messages(url: str | None = None, timeout_s: float | None = None) -> Iterator
     source = _Source(url, timeout_s)
     for event in source.events():
         yield event
-        source.deadline.renew()
+        source.renew()
 
 
 def listen(url: str | None = None, prefix: str = "", person: int | None = None,
@@ -43,7 +43,7 @@ def listen(url: str | None = None, prefix: str = "", person: int | None = None,
             for pose in people:
                 if pose.person == person:
                     yield pose
-                    source.deadline.renew()
+                    source.renew()
         return
     source = _Source(url, timeout_s, prefix, "MOCAP_POSE")
     decoder = PoseDecoder()
@@ -52,9 +52,10 @@ def listen(url: str | None = None, prefix: str = "", person: int | None = None,
             decoder.take_body(data)
         elif channel == prefix + "MOCAP_POSE":
             pose = decoder.pose(data)
+            source.left_out = decoder.left_out
             if pose is not None:
                 yield pose
-                source.deadline.renew()
+                source.renew()
 
 
 def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | None = None) -> Iterator[list[Pose]]:
@@ -65,7 +66,7 @@ def listen_people(url: str | None = None, prefix: str = "", timeout_s: float | N
     source = _Source(url, timeout_s, prefix, "MOCAP_PEOPLE")
     for people in _people(source):
         yield people
-        source.deadline.renew()
+        source.renew()
 
 
 def _people(source: _Source) -> Iterator[list[Pose]]:
@@ -75,6 +76,7 @@ def _people(source: _Source) -> Iterator[list[Pose]]:
             decoder.take_person_body(data)
         elif channel == source.prefix + "MOCAP_PEOPLE":
             people = decoder.people(data)
+            source.left_out = decoder.left_out
             if people is not None:
                 yield people
 
@@ -87,7 +89,12 @@ class _Source:
         self.address = url or DEFAULT_URL
         self.prefix, self.wanted, self.person = prefix, wanted, person
         self.deadline = Deadline(timeout_s)
-        self.heard: set[str] = set()
+        self.heard: set[str] = set()  #: channels, since the deadline was renewed
+        self.left_out: dict[int | None, str] = {}  #: of the last wanted message, as of PoseDecoder
+
+    def renew(self) -> None:
+        self.deadline.renew()
+        self.heard.clear()
 
     def events(self) -> Iterator[Event]:
         """@raises TimeoutError  in one line, at the deadline."""
@@ -97,7 +104,7 @@ class _Source:
         self.deadline.renew()
         try:
             for event in receive(self.address, self.deadline):
-                if len(self.heard) < MOST_HEARD:
+                if len(self.heard) < MOST_HEARD or event[0] in (self.prefix + self.wanted, self.prefix + STATUS):
                     self.heard.add(event[0])
                 yield event
         except TimeoutError:
@@ -109,10 +116,17 @@ class _Source:
         if not self.heard:
             return "; is mocapd running? mocap doctor checks the network"
         if self.prefix + self.wanted in self.heard:
-            return ", but of others; mocap status lists who is tracked" if self.person is not None else ", only damaged ones"
+            return self._left_out()
         if self.prefix + STATUS in self.heard:
             return ", only mocapd's status: mocap status says why; a node never sends poses, its studio does"
         prefixes = sorted(channel.removesuffix(STATUS) for channel in self.heard if channel.endswith(STATUS))
         if prefixes:
             return f", but mocapd sends there with the prefixes {prefixes}: choose one with prefix="
         return f", but {', '.join(sorted(self.heard)[:MOST_NAMED])}; expected messages of mocapd"
+
+    def _left_out(self) -> str:
+        why = self.left_out.get(self.person, self.left_out.get(None))
+        if why == BODILESS:
+            body = "MOCAP_BODY" if self.person is None else "MOCAP_BODIES"
+            return f", only some without a body: no {self.prefix}{body} came that fits them"
+        return ", only damaged ones" if why == DAMAGED else ", but of others; mocap status lists who is tracked"

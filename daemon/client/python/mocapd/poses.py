@@ -27,6 +27,9 @@ THETA_NAMES = tuple(f"theta_{i + 1}" for i in range(len(PAPER_JOINT_NAMES)))
 STATES = ("searching", "acquiring", "tracking", "lost")
 TRACKING = "tracking"
 
+#: Why a message makes no pose.
+DAMAGED, BODILESS = "damaged", "bodiless"
+
 LATEST_US = 4 * 10**15  # A larger value is not a time of day.
 
 Message = TypeVar("Message")
@@ -58,6 +61,13 @@ def has_numbers(message: Any) -> bool:
     parts = (message.torso_mm, message.torso_axis, message.torso_angle_rad, message.theta_rad, message.joint_rad, message.point_mm,
              message.point_std_mm, message.residual_mm)
     return all(np.isfinite(part).all() for part in parts)
+
+
+def why_not(message: Any, body: Body | None) -> str:
+    """Why a pose_t or person_t makes no pose with this body; None is a message that cannot be decoded."""
+    if message is None or not has_numbers(message):
+        return DAMAGED
+    return BODILESS if body is None or len(body.joint_names) != message.num_joints else DAMAGED
 
 
 def state_name(number: int) -> str:
@@ -170,6 +180,8 @@ class PoseDecoder:
     def __init__(self) -> None:
         self.body: Body | None = None
         self.bodies: dict[int, Body] = {}
+        #: Whose poses were left out of the last message, and why: DAMAGED or BODILESS. None: of pose(), or everybody.
+        self.left_out: dict[int | None, str] = {}
 
     def take_body(self, data: bytes) -> None:
         message = decoded(body_t, data)
@@ -183,14 +195,19 @@ class PoseDecoder:
 
     def pose(self, data: bytes) -> Pose | None:
         message = decoded(pose_t, data)
-        return None if message is None else Pose.of(message, message.utime, message.frame, self.body)
+        pose = None if message is None else Pose.of(message, message.utime, message.frame, self.body)
+        self.left_out = {None: why_not(message, self.body)} if pose is None else {}
+        return pose
 
     def people(self, data: bytes) -> list[Pose] | None:
         """Everybody of one set; None for what is none."""
         message = decoded(people_t, data)
         if message is None:
+            self.left_out = {None: DAMAGED}
             return None
         self.bodies = {person.id: self.bodies[person.id] for person in message.people if person.id in self.bodies}
         poses = [Pose.of(person, message.utime, message.frame, self.bodies.get(person.id), person.id, person.name)
                  for person in message.people]
+        self.left_out = {person.id: why_not(person, self.bodies.get(person.id))
+                         for person, pose in zip(message.people, poses) if pose is None}
         return [pose for pose in poses if pose is not None]
