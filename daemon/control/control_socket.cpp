@@ -28,8 +28,6 @@ constexpr const char* kSystemSocket = "/run/mocapd/control";
 constexpr int kWaitingClients = 8;
 /// A client that connects and sends nothing delays the others no longer than this.
 constexpr timeval kClientPatience{1, 0};
-/// The backgrounds of all cameras are stored before a recording is reported as begun.
-constexpr timeval kReplyPatience{60, 0};
 /// A status waits only for other requests.
 constexpr timeval kStatusPatience{15, 0};
 constexpr mode_t kOwnerAndGroup = 0660;
@@ -182,7 +180,8 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
   if (socket.empty()) places = {kSystemSocket, UsersOwnSocket()};
   for (const std::filesystem::path& place : places) {
     if (place.empty()) continue;
-    const timeval patience = request.starts_with("status") ? kStatusPatience : kReplyPatience;
+    const timeval patience =
+        request.starts_with("status") ? kStatusPatience : timeval{kReplyPatience.count(), 0};
     const FileDescriptor fd = NewSocket();
     setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);

@@ -1,6 +1,7 @@
 // The local socket that controls the running daemon: one packet asks, one answers.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -39,6 +40,10 @@ class ControlServer {
   FileDescriptor stop_;  ///< Becomes readable when the thread must end.
   std::thread thread_;
 };
+
+/// Who asks waits this long for an answer, such as that a recording has begun: the backgrounds of
+/// all cameras are stored before.
+constexpr std::chrono::seconds kReplyPatience{60};
 
 /// Asks the daemon. @param socket  empty: that of the system's daemon, or the user's own.
 /// @throws std::runtime_error  if no daemon answers; SetupError if access is denied.

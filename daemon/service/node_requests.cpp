@@ -1,6 +1,7 @@
 #include "daemon/service/node_requests.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace mocap {
@@ -91,6 +92,19 @@ void NodeRequests::Look() {
   if (!looks_.empty()) return;
   for (const RemoteControl& control : controls_)
     looks_.push_back(control.AskBeside("look", kLookPatience));
+}
+
+std::string CancelTake(NodeRequests::Asked at_nodes, const std::function<void()>& cancel_here) {
+  std::string problems;
+  try {
+    cancel_here();
+  } catch (const std::exception& error) {
+    problems = std::string("; studio: ") + error.what();
+  }
+  if (const std::string problem = at_nodes.Wait().Problem(); !problem.empty())
+    problems += "; " + problem;
+  return problems.empty() ? "nothing is recorded"
+                          : "a part of the take may be left, as not all could cancel it" + problems;
 }
 
 }  // namespace mocap

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <future>
 #include <string>
 #include <vector>
@@ -52,5 +53,10 @@ class NodeRequests {
   std::vector<std::string> unreachable_;  ///< Nodes without a command.
   std::vector<std::future<RemoteAnswer>> looks_;
 };
+
+/// Cancels a take here, while the nodes are asked to do so.
+/// @param cancel_here  may throw.
+/// @return  one line: that nothing is recorded, or who may have kept a part of the take, and why.
+std::string CancelTake(NodeRequests::Asked at_nodes, const std::function<void()>& cancel_here);
 
 }  // namespace mocap

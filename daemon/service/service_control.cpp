@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "daemon/control/control_socket.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 
@@ -15,9 +16,13 @@ namespace {
 
 /// A viewer that keeps watching asks again within this time.
 constexpr std::chrono::seconds kLook{10};
-/// Time limits for a node's answer: usually, and for beginning or completing a take or learning a
-/// background.
-constexpr std::chrono::seconds kPatience{10}, kRecordPatience{60};
+/// Time limits for a node's answer: usually, and for completing a take or learning a background.
+constexpr std::chrono::seconds kPatience{10}, kRecordPatience{50};
+/// The same for beginning a take, and for canceling it where another node has failed.
+constexpr std::chrono::seconds kStartPatience{30}, kCancelPatience{20};
+// Whoever asks still hears which node it is.
+static_assert(kRecordPatience < kReplyPatience &&
+              kStartPatience + kCancelPatience < kReplyPatience);
 
 std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
   std::vector<RecordedPerson> recorded;
@@ -90,14 +95,13 @@ std::string ServiceControl::Do(const ReloadRequest&) {
 std::string ServiceControl::Do(const RecordStartRequest& request) {
   const std::string text = StartRecording(request.name);
   const NodeRequests::Answers answers =
-      nodes_.Ask("record start " + request.name, kRecordPatience).Wait();
+      nodes_.Ask("record start " + request.name, kStartPatience).Wait();
   if (const std::string problem = answers.Problem(); !problem.empty()) {
     // A take that lacks some of its cameras is useless.
-    NodeRequests::Asked canceling =
-        nodes_.AskWhoDid(answers, "record cancel " + request.name, kRecordPatience);
-    parts_.recorder.Cancel(request.name);
-    canceling.Wait();
-    throw std::runtime_error(problem + "; nothing is recorded");
+    const std::string left =
+        CancelTake(nodes_.AskWhoDid(answers, "record cancel " + request.name, kCancelPatience),
+                   [&] { parts_.recorder.Cancel(request.name); });
+    throw std::runtime_error(problem + "; " + left);
   }
   return text + answers.Text();
 }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <stdexcept>
+
 namespace mocap {
 namespace {
 
@@ -46,6 +49,22 @@ TEST(NodeRequests, OnlyThoseThatDidItAreAskedToUndoIt) {
   const NodeRequests::Answers before = nodes.Ask("record start walk", kPatience).Wait();
   EXPECT_EQ(nodes.AskWhoDid(before, "record cancel walk", kPatience).Wait().Text(),
             "node left: record cancel walk\n");
+}
+
+TEST(NodeRequests, NothingIsRecordedOnlyWhereAllHaveCanceled) {
+  const auto cancel = [](const std::string& right, const std::function<void()>& here) {
+    return CancelTake(NodeRequests({NodeThatSays("left", "done"), NodeThatSays("right", right)})
+                          .Ask("record cancel walk", kPatience),
+                      here);
+  };
+  EXPECT_EQ(cancel("done", [] {}), "nothing is recorded");
+  EXPECT_EQ(cancel("wrong", [] {}),
+            "a part of the take may be left, as not all could cancel it; node right: record cancel "
+            "walk");
+  const auto ended = [] { throw std::runtime_error("no take walk is being recorded"); };
+  EXPECT_EQ(cancel("failed", ended),
+            "a part of the take may be left, as not all could cancel it; studio: no take walk is "
+            "being recorded; node right: record cancel walk");
 }
 
 TEST(NodeRequests, WithoutNodesAllHaveDoneIt) {
