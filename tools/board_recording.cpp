@@ -187,6 +187,16 @@ struct StopAtEnd {
   ~StopAtEnd() { stop = true; }
 };
 
+/// Keeps the folder of a recording that has pictures, whatever ends it: a board is carried once.
+struct KeepAtEnd {
+  const Recordings& recordings;
+  UnfinishedFolder& folder;
+  ~KeepAtEnd() {
+    if (std::ranges::any_of(recordings, [](const auto& r) { return r->NewestBeat() >= 0; }))
+      folder.Finish();
+  }
+};
+
 bool AnyEnded(const std::vector<std::future<void>>& threads) {
   return std::ranges::any_of(threads, [](const std::future<void>& thread) {
     return thread.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -206,13 +216,14 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
   Recordings recordings;
   for (LiveCamera& camera : cameras)
     recordings.push_back(std::make_unique<CameraRecording>(camera, options));
+  const KeepAtEnd keep_at_end{recordings, unfinished};
   std::atomic<bool> stop = false;
   std::vector<std::future<void>> threads;
-  for (const auto& recording : recordings)
-    threads.push_back(
-        std::async(std::launch::async, [&recording, &stop] { recording->Run(stop); }));
   {
     const StopAtEnd stop_at_end{stop};
+    for (const auto& recording : recordings)
+      threads.push_back(
+          std::async(std::launch::async, [&recording, &stop] { recording->Run(stop); }));
     const std::int64_t end_ns = SteadyNs() + std::llround(1e9 * options.most_seconds);
     // If one camera ends or fails, all end.
     while (!stop && SteadyNs() < end_ns && !AnyEnded(threads)) {
@@ -224,9 +235,6 @@ void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& 
     }
   }
   for (const auto& thread : threads) thread.wait();
-  // What some cameras have recorded is kept, even if another one has failed.
-  const auto has_pictures = [](const auto& recording) { return recording->NewestBeat() >= 0; };
-  if (std::ranges::any_of(recordings, has_pictures)) unfinished.Finish();
   if (looker.Look(recordings)) listener(looker.Hints());
   for (auto& thread : threads) thread.get();
 }

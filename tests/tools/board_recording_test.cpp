@@ -119,6 +119,16 @@ TEST_F(BoardRecordingTest, NamesTheCameraThatDeliversNothing) {
   }
 }
 
+TEST_F(BoardRecordingTest, KeepsWhatWasRecordedWhenTheListenerFails) {
+  AddCamera("cam1", seen_, 1'000'000'000);
+  EXPECT_THROW(RecordBoard(cameras_, options_,
+                           [](const std::vector<CameraHint>&) -> bool {
+                             throw std::runtime_error("the terminal is gone");
+                           }),
+               std::runtime_error);
+  EXPECT_GE(OpenFootage(options_.folder).cameras[0].frames.size(), 2u);
+}
+
 TEST_F(BoardRecordingTest, WithoutAPictureLeavesNoFolderInTheWayOfTheNextAttempt) {
   AddCamera("cam1", seen_, 0);
   EXPECT_THROW(
