@@ -32,8 +32,6 @@ namespace mocap {
 namespace {
 
 constexpr std::chrono::milliseconds kWait{50};
-/// After this time without a pose, nobody publishes.
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
 
 struct StreamOptions {
   std::string url = LcmConfig().url;
@@ -72,7 +70,7 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
   Notice notice;
   while (!StopAsked() && !is_over && source.Handle(kWait)) {
     if (source.is_log()) continue;
-    const bool is_silent = SteadyNs() - feed.heard_ns() > kSilenceNs;
+    const bool is_silent = SteadyNs() - feed.heard_ns() > kSilence_ns;
     notice.Tell(is_silent ? silence.Text() : "");
   }
   const bool has_ended = !StopAsked() && !is_over;

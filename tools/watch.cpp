@@ -40,8 +40,6 @@ namespace {
 constexpr std::chrono::milliseconds kWaitForNews{50};
 constexpr std::int64_t kPageNs = 250'000'000;
 constexpr std::int64_t kLineNs = 1'000'000'000;
-/// After this time without a pose, nobody publishes.
-constexpr std::int64_t kQuietNs = 2'000'000'000;
 /// Time window for rate and latency.
 constexpr std::int64_t kWindowNs = 2'000'000'000;
 constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
@@ -68,7 +66,7 @@ class Hearing {
       arrivals_.pop_front();
     }
   }
-  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kQuietNs; }
+  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kSilence_ns; }
   double Rate() const {
     if (arrivals_.size() < 2) return 0;
     const auto span_ns = static_cast<double>(arrivals_.back().time_ns - arrivals_.front().time_ns);

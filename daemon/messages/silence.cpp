@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "daemon/messages/channel_name.h"
-#include "drivers/clock.h"
 #include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
@@ -12,14 +11,14 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kRecent_ns = 5'000'000'000;
 // Anyone may send.
-constexpr std::size_t kMostPrefixes = 8;
+constexpr std::size_t kMostOthers = 8;
 
 }  // namespace
 
-Silence::Silence(lcm::LCM& lcm, std::string url, std::string prefix)
-    : lcm_(lcm), url_(std::move(url)), prefix_(std::move(prefix)) {
+Silence::Silence(lcm::LCM& lcm, std::string url, std::string prefix,
+                 std::function<std::int64_t()> now_ns)
+    : lcm_(lcm), url_(std::move(url)), prefix_(std::move(prefix)), now_ns_(std::move(now_ns)) {
   // Every daemon sends this once a second, whatever its role.
   subscription_ = lcm_.subscribe(std::string(".*") + kStatusChannel, &Silence::OnMessage, this);
 }
@@ -29,16 +28,19 @@ Silence::~Silence() { lcm_.unsubscribe(subscription_); }
 void Silence::OnMessage(const lcm::ReceiveBuffer*, const std::string& channel) {
   const std::string prefix =
       channel.substr(0, channel.size() - std::string_view(kStatusChannel).size());
-  if (!heard_ns_.contains(prefix) && heard_ns_.size() >= kMostPrefixes) return;
-  heard_ns_[prefix] = SteadyNs();
+  const std::int64_t now_ns = now_ns_();
+  std::erase_if(heard_ns_, [&](const auto& heard) { return now_ns - heard.second > kSilence_ns; });
+  const std::size_t others = heard_ns_.size() - heard_ns_.count(prefix_);
+  if (prefix != prefix_ && !heard_ns_.contains(prefix) && others >= kMostOthers) return;
+  heard_ns_[prefix] = now_ns;
 }
 
 std::string Silence::Text() const {
-  const std::int64_t now_ns = SteadyNs();
+  const std::int64_t now_ns = now_ns_();
   std::vector<std::string> others;
   bool is_here = false;
   for (const auto& [prefix, time_ns] : heard_ns_) {
-    if (now_ns - time_ns > kRecent_ns) continue;
+    if (now_ns - time_ns > kSilence_ns) continue;
     is_here |= prefix == prefix_;
     if (prefix != prefix_) others.push_back(Quoted(prefix));
   }

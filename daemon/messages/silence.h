@@ -2,18 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <string>
 
+#include "drivers/clock.h"
+
 namespace mocap {
+
+/// Who has not been heard for longer is silent.
+constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 /// Notes which daemons send on an LCM address, by the prefixes of their channels.
 class Silence {
  public:
   /// @param lcm     must outlive this.
   /// @param prefix  of the channels that are waited for.
-  Silence(lcm::LCM& lcm, std::string url, std::string prefix);
+  /// @param now_ns  clock.
+  Silence(lcm::LCM& lcm, std::string url, std::string prefix,
+          std::function<std::int64_t()> now_ns = SteadyNs);
   ~Silence();
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
@@ -27,6 +35,7 @@ class Silence {
 
   lcm::LCM& lcm_;
   const std::string url_, prefix_;
+  const std::function<std::int64_t()> now_ns_;
   lcm::Subscription* subscription_;
   std::map<std::string, std::int64_t> heard_ns_;  ///< Prefixes, and when each was heard last.
 };

@@ -25,7 +25,6 @@
 namespace mocap {
 namespace {
 
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
 /// A page that opens later would show an older pose as the present one.
 constexpr std::int64_t kPoseHoldsNs = 250'000'000;
 /// Of messages that come once or a few times per second.
@@ -94,7 +93,7 @@ void LiveFeed::NoteControl(const std::string& why) {
 }
 
 void LiveFeed::Tick() {
-  const bool is_silent = SteadyNs() - heard_ns_ > kSilenceNs;
+  const bool is_silent = SteadyNs() - heard_ns_ > kSilence_ns;
   silence_ = is_silent ? nobody_heard_.Text() : "";
   PutNotice();
 }
@@ -111,7 +110,7 @@ void LiveFeed::PutNotice() {
 void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
   if (!pose) return;
-  const bool people_follow = people_ns_ && SteadyNs() - *people_ns_ < kSilenceNs;
+  const bool people_follow = people_ns_ && SteadyNs() - *people_ns_ < kSilence_ns;
   if (!people_follow) PutPose(*pose);
   first_ = std::move(pose);
 }

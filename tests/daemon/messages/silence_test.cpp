@@ -55,5 +55,22 @@ TEST_F(SilenceTest, StrangersDoNotFillTheMemory) {
   EXPECT_THAT(silence.Text(), Not(HasSubstr("x8_")));
 }
 
+TEST_F(SilenceTest, StrangersDoNotHideTheOneThatIsWaitedFor) {
+  const Silence silence(lcm_, "u", "left_");
+  for (int i = 0; i < 100; ++i) Send("x" + std::to_string(i) + "_MOCAP_STATUS");
+  Send("left_MOCAP_STATUS");
+  EXPECT_THAT(silence.Text(), HasSubstr("mocapd sends its status on u"));
+}
+
+TEST_F(SilenceTest, WhoIsSilentMakesRoomForOthers) {
+  std::int64_t now_ns = 0;
+  const Silence silence(lcm_, "u", "left_", [&] { return now_ns; });
+  for (int i = 0; i < 100; ++i) Send("x" + std::to_string(i) + "_MOCAP_STATUS");
+  now_ns = kSilence_ns + 1;
+  EXPECT_THAT(silence.Text(), HasSubstr("no messages arrive on u"));
+  Send("right_MOCAP_STATUS");
+  EXPECT_THAT(silence.Text(), HasSubstr("with prefix \"right_\""));
+}
+
 }  // namespace
 }  // namespace mocap
