@@ -70,7 +70,7 @@ void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool
   Notice notice;
   while (!StopAsked() && !is_over && source.Handle(kWait)) {
     if (source.is_log()) continue;
-    const bool is_silent = SteadyNs() - feed.heard_ns() > kSilence_ns;
+    const bool is_silent = SteadyNs() - feed.heard_ns() > Silence::kLimit_ns;
     notice.Tell(is_silent ? silence.Text() : "");
   }
   const bool has_ended = !StopAsked() && !is_over;

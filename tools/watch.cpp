@@ -66,7 +66,7 @@ class Hearing {
       arrivals_.pop_front();
     }
   }
-  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > kSilence_ns; }
+  bool IsSilent(std::int64_t now_ns) const { return now_ns - heard_ns_ > Silence::kLimit_ns; }
   double Rate() const {
     if (arrivals_.size() < 2) return 0;
     const auto span_ns = static_cast<double>(arrivals_.back().time_ns - arrivals_.front().time_ns);

@@ -29,7 +29,7 @@ void Silence::OnMessage(const lcm::ReceiveBuffer*, const std::string& channel) {
   const std::string prefix =
       channel.substr(0, channel.size() - std::string_view(kStatusChannel).size());
   const std::int64_t now_ns = now_ns_();
-  std::erase_if(heard_ns_, [&](const auto& heard) { return now_ns - heard.second > kSilence_ns; });
+  std::erase_if(heard_ns_, [&](const auto& heard) { return now_ns - heard.second > kLimit_ns; });
   const std::size_t others = heard_ns_.size() - heard_ns_.count(prefix_);
   if (prefix != prefix_ && !heard_ns_.contains(prefix) && others >= kMostOthers) return;
   heard_ns_[prefix] = now_ns;
@@ -40,7 +40,7 @@ std::string Silence::Text() const {
   std::vector<std::string> others;
   bool is_here = false;
   for (const auto& [prefix, time_ns] : heard_ns_) {
-    if (now_ns - time_ns > kSilence_ns) continue;
+    if (now_ns - time_ns > kLimit_ns) continue;
     is_here |= prefix == prefix_;
     if (prefix != prefix_) others.push_back(Quoted(prefix));
   }

@@ -11,12 +11,12 @@
 
 namespace mocap {
 
-/// Who has not been heard for longer is silent.
-constexpr std::int64_t kSilence_ns = 2'000'000'000;
-
 /// Notes which daemons send on an LCM address, by the prefixes of their channels.
 class Silence {
  public:
+  /// Who has not been heard for longer is silent.
+  static constexpr std::int64_t kLimit_ns = 2'000'000'000;
+
   /// @param lcm     must outlive this.
   /// @param prefix  of the channels that are waited for.
   /// @param now_ns  clock.

@@ -93,7 +93,7 @@ void LiveFeed::NoteControl(const std::string& why) {
 }
 
 void LiveFeed::Tick() {
-  const bool is_silent = SteadyNs() - heard_ns_ > kSilence_ns;
+  const bool is_silent = SteadyNs() - heard_ns_ > Silence::kLimit_ns;
   silence_ = is_silent ? nobody_heard_.Text() : "";
   PutNotice();
 }
@@ -110,7 +110,7 @@ void LiveFeed::PutNotice() {
 void LiveFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
   if (!pose) return;
-  const bool people_follow = people_ns_ && SteadyNs() - *people_ns_ < kSilence_ns;
+  const bool people_follow = people_ns_ && SteadyNs() - *people_ns_ < Silence::kLimit_ns;
   if (!people_follow) PutPose(*pose);
   first_ = std::move(pose);
 }

@@ -66,7 +66,7 @@ TEST_F(SilenceTest, WhoIsSilentMakesRoomForOthers) {
   std::int64_t now_ns = 0;
   const Silence silence(lcm_, "u", "left_", [&] { return now_ns; });
   for (int i = 0; i < 100; ++i) Send("x" + std::to_string(i) + "_MOCAP_STATUS");
-  now_ns = kSilence_ns + 1;
+  now_ns = Silence::kLimit_ns + 1;
   EXPECT_THAT(silence.Text(), HasSubstr("no messages arrive on u"));
   Send("right_MOCAP_STATUS");
   EXPECT_THAT(silence.Text(), HasSubstr("with prefix \"right_\""));
