@@ -91,6 +91,9 @@ std::string ListedNames(const std::vector<std::string>& names) {
 }
 
 std::string ExpectedNames(std::string_view typed, const std::vector<std::string>& names) {
+  if (names.empty()) return "there is none";
+  if (names.size() == 1 && NearestName(typed, names) == names.front())
+    return WithNearestName(typed, names, "");
   return WithNearestName(
       typed, names, (names.size() == 1 ? "expected " : "expected one of ") + ListedNames(names));
 }

@@ -174,6 +174,7 @@ void RunBenchmark(const BenchmarkOptions& options) {
                               .sweeps = {},
                               .studios = {},
                               .people_seconds = options.SecondsOr(kPeopleSeconds),
+                              .studio_seconds = options.SecondsOr(kStudioSeconds),
                               .people = {}};
   if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
   if (Wants(options, "grid")) {

@@ -218,7 +218,7 @@ Diagnosis JudgeSpace(const std::string& disk, double free_mb, double keep_free_m
   const double room_s = (free_mb - keep_free_mb) / kUsualRecording_mb;
   std::string what = fmt::format("{}, room for about {} of takes of six cameras (640 x 480, 30 Hz)",
                                  free, Duration(static_cast<std::int64_t>(room_s * 1e9)));
-  if (speed_mb) what += fmt::format("; it writes {:.0f} MB/s", *speed_mb);
+  if (speed_mb) what += fmt::format("; the disk writes {:.0f} MB/s", *speed_mb);
   constexpr double kNeeded_mb = 1.5 * kUsualRecording_mb;
   if (speed_mb && *speed_mb < kNeeded_mb) {
     return {

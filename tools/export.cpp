@@ -90,26 +90,26 @@ bool IsOfPerson(const std::string& name, const std::filesystem::path& out) {
          std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Removes earlier exports to the same --out that were not written again, such as those of a person
-/// whom the result no longer has: beside the new ones they would be taken for part of them.
-void RemoveStale(const ExportFormat& format, const std::filesystem::path& out,
-                 const std::vector<std::filesystem::path>& written) {
+/// Earlier exports to the same --out that were not written again: beside the new ones they would be
+/// taken for part of them. What cannot be read is not one.
+std::vector<std::filesystem::path> StaleExports(const ExportFormat& format,
+                                                const std::filesystem::path& out,
+                                                std::span<const std::filesystem::path> written) {
   std::vector<std::filesystem::path> stale;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           out.has_parent_path() ? out.parent_path() : std::filesystem::path("."))) {
+  std::error_code error;
+  const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::filesystem::path file = out.parent_path() / entry.path().filename();
-    const std::string name = file.filename().string();
-    const bool is_of_out = file == out || IsOfPerson(name, out);
-    const bool is_new = std::ranges::find(written, file) != written.end();
-    if (is_of_out && !is_new && IsOwnFile(file, std::span(&format.beginning, 1))) {
-      stale.push_back(file);
+    const bool is_of_out = file == out || IsOfPerson(file.filename().string(), out);
+    if (!is_of_out || std::ranges::find(written, file) != written.end()) continue;
+    try {
+      if (IsOwnFile(file, std::span(&format.beginning, 1))) stale.push_back(file);
+    } catch (const SetupError&) {
+      continue;
     }
   }
   std::ranges::sort(stale);
-  for (const std::filesystem::path& file : stale) {
-    std::filesystem::remove(file);
-    TellRemarks("export", {file.string() + ": removed, an earlier export to the same --out"});
-  }
+  return stale;
 }
 
 void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
@@ -122,7 +122,9 @@ void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
   const ExportSubject subject{"", result};
   const ExportScene scene{std::span(&subject, 1), result.poses, arguments.out.filename().string()};
   WriteScene(format, scene, arguments.result.string(), "", arguments.out);
-  RemoveStale(format, arguments.out, {arguments.out});
+  // Their names are not this command's to remove.
+  for (const auto& file : StaleExports(format, arguments.out, std::span(&arguments.out, 1)))
+    TellRemarks("export", {file.string() + ": was not written now; it is of an earlier export"});
 }
 
 /// "walk.bvh" of person-1 becomes walk-person-1.bvh; of anna in a log, walk-anna.bvh.
@@ -166,7 +168,11 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
   for (const ExportSubject& subject : subjects) {
     write(std::span(&subject, 1), false, subject.name + ": ", FileOf(arguments.out, subject.name));
   }
-  RemoveStale(format, arguments.out, written);
+  for (const auto& file : StaleExports(format, arguments.out, written)) {
+    std::error_code error;
+    if (std::filesystem::remove(file, error))
+      TellRemarks("export", {file.string() + ": removed, an earlier export to the same --out"});
+  }
 }
 
 void Export(const ExportArguments& arguments) {

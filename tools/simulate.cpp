@@ -16,6 +16,7 @@
 #include "daemon/base/choice_option.h"
 #include "daemon/base/disk_space.h"
 #include "daemon/base/number_option.h"
+#include "drivers/printable_text.h"
 #include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"
@@ -193,9 +194,9 @@ void SimulateBoard(const SimulateOptions& options) {
 
 void Simulate(const SimulateOptions& options) {
   options.board.empty() ? SimulatePeople(options) : SimulateBoard(options);
-  fmt::print("{} frame sets of {} cameras, {:.0f} MB: {}\n", options.frames(),
-             options.studio.cameras, static_cast<double>(BytesIn(options.out)) / 1e6,
-             options.out.string());
+  fmt::print("{} of {}, {:.0f} MB: {}\n", Counted(options.frames(), "frame set"),
+             Counted(options.studio.cameras, "camera"),
+             static_cast<double>(BytesIn(options.out)) / 1e6, Printable(options.out.string()));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "daemon/messages/silence.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,7 @@ std::string Silence::Text() const {
   for (const auto& [prefix, time_ns] : heard_ns_) {
     if (now_ns - time_ns > kLimit_ns) continue;
     is_here |= prefix == prefix_;
-    if (prefix != prefix_) others.push_back(Quoted(prefix));
+    if (prefix != prefix_) others.push_back(prefix);
   }
   const std::string url = Printable(url_);
   if (is_here)
@@ -50,10 +51,13 @@ std::string Silence::Text() const {
            ", but no poses: mocap status says why; a node never sends poses, its studio does";
   if (others.empty())
     return "no messages arrive on " + url + ": is mocapd running? mocap doctor checks the network";
-  return "no messages " +
-         (prefix_.empty() ? "without a prefix" : "with prefix " + Quoted(prefix_)) + " arrive on " +
-         url + ", but mocapd sends there with " +
-         (others.size() == 1 ? "prefix " : "the prefixes ") + ListedNames(others) +
+  const std::string none =
+      "no messages " + (prefix_.empty() ? "without a prefix" : "with prefix " + Quoted(prefix_)) +
+      " arrive on " + url + ", but mocapd sends there ";
+  if (others == std::vector<std::string>{""}) return none + "without a prefix: leave --prefix out";
+  std::ranges::transform(others, others.begin(),
+                         [](const std::string& prefix) { return Quoted(prefix); });
+  return none + (others.size() == 1 ? "with prefix " : "with the prefixes ") + ListedNames(others) +
          ": choose it with --prefix";
 }
 

@@ -24,9 +24,7 @@ void Subjects::Save(const std::string& name, const BodySizes& sizes) const {
 
 BodySizes Subjects::Load(const std::string& name) const {
   if (!IsThere(FileOf(name))) {
-    const std::vector<std::string> names = Names();
-    throw SetupError("there is no subject " + name + "; " +
-                     (names.empty() ? "none is saved" : ExpectedNames(name, names)));
+    throw SetupError("there is no subject " + name + "; " + ExpectedNames(name, Names()));
   }
   return LoadSubject(FileOf(name));
 }

@@ -49,7 +49,7 @@ void Watch::Tick() {
   if (status_pacer_.IsDue(SteadyNs())) Report(status);
   if (status.sets_tracked > 0 && !around_.manager.is_ready()) {
     if (parts_.publisher.sender().Status().failed == 0)
-      spdlog::info("{} flow", parts_.pipeline ? "poses" : "silhouettes");
+      spdlog::info("publishing {}", parts_.pipeline ? "poses" : "silhouettes");
     around_.manager.Ready();
   }
   if (around_.silhouettes) around_.silhouettes->Tell(status.cameras, told_);

@@ -51,12 +51,14 @@ TEST_F(ControlCommands, AConfigurationWithoutASocketIsOfTheUsersOwnDaemon) {
   });
   EXPECT_EQ(Said("status --config " + left_.string()), "of the user\n");
   unsetenv("XDG_RUNTIME_DIR");
-  EXPECT_THAT(testing::SetupErrorOf([&] { Said("status --config " + left_.string()); }),
+  EXPECT_THAT(testing::SetupErrorOf([&] {
+                testing::RunCommand(AddControlCommands, "status --config " + left_.string());
+              }),
               ::testing::HasSubstr("has no control.socket"));
 }
 
 TEST_F(ControlCommands, TwoWaysToNameADaemonAreOneTooMany) {
-  testing::WriteText(left_, "");
+  testing::WriteText(left_, "[control]\nsocket = \"left.socket\"\n");
   EXPECT_THROW(
       testing::RunCommand(AddControlCommands, "status --socket x --config " + left_.string()),
       CLI::ExcludesError);

@@ -14,7 +14,7 @@ TEST(DoctorChecks, FiftyGigabytesAreRoomEnough) {
   EXPECT_EQ(
       good.what,
       "/takes: 56.0 GB free, room for about 10 min of takes of six cameras (640 x 480, 30 Hz); "
-      "it writes 800 MB/s");
+      "the disk writes 800 MB/s");
   EXPECT_EQ(good.fix, "");
 }
 

@@ -79,7 +79,7 @@ TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {
   }
   WriteResult(result_, result);
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
-  EXPECT_THAT(json, HasSubstr("\"fit_p95_mm\": 16, \"deviation_median_mm\": 7, "
+  EXPECT_THAT(json, HasSubstr("\"residual_p95_mm\": 16, \"deviation_median_mm\": 7, "
                               "\"error_of_better_half_mm\": 12, \"error_of_worse_half_mm\": 24, "
                               "\"errors_within_two_deviations\": 0.5}"));
   EXPECT_THAT(

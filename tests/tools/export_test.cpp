@@ -80,7 +80,7 @@ TEST_F(Export, SeveralPeopleHaveAFileEachAndOneOfAllWhereTheFormatHoldsThem) {
   }
 }
 
-TEST_F(Export, NothingOfAnEarlierExportLiesBesideTheNewOne) {
+TEST_F(Export, AnEarlierExportBesideTheNewOneIsRemovedOrTold) {
   WriteResult(Path("one"), SwingingResult(5));
   std::filesystem::create_directory(Path("many"));
   WritePeople(Path("many"), {{1, SwingingResult(5)}, {3, SwingingResult(5)}});
@@ -115,8 +115,11 @@ TEST_F(Export, NothingOfAnEarlierExportLiesBesideTheNewOne) {
     expect_beside_kept(of_many);
     EXPECT_THAT(::testing::internal::GetCapturedStderr(),
                 HasSubstr("walk-person-3." + name + ": removed, an earlier export"));
+    ::testing::internal::CaptureStderr();
     Run("one", name, out);
-    expect_beside_kept({"walk." + name});
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+                HasSubstr("walk-person-1." + name + ": was not written now"));
+    expect_beside_kept({"walk." + name, "walk-person-1." + name});
     ::testing::internal::GetCapturedStdout();
   }
 }

@@ -58,7 +58,8 @@ struct AccuracyBenchmark {
   std::vector<AccuracyRow> grid;
   std::vector<AccuracySweep> sweeps;
   AccuracySweep studios = {};  ///< Without steps if not measured.
-  double people_seconds = 0;   ///< and of each with several people.
+  double people_seconds = 0;   ///< and of each with several people,
+  double studio_seconds = 0;   ///< and of each in a studio of another kind.
   std::vector<PeopleRow> people = {};
 };
 

@@ -140,8 +140,11 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
     for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
   }
   if (!benchmark.studios.steps.empty()) {
-    text += "\n## Studios\nEach line differs from the first in what it says.\n" +
-            SweepTable(benchmark.studios);
+    text +=
+        fmt::format(
+            "\n## Studios\nEach line differs from the first in what it says. Takes of {:.0f} s.\n",
+            benchmark.studio_seconds) +
+        SweepTable(benchmark.studios);
   }
   if (!benchmark.people.empty()) text += PeopleTable(benchmark);
   if (!benchmark.grid.empty()) text += GridTable(benchmark.grid);

@@ -57,8 +57,10 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   evaluation.truth = std::move(truth);
   CountStates(evaluation);
   evaluation.precision = MeasurePrecision(TrackedRuns(evaluation.result.poses), {});
-  evaluation.certainty = MeasureCertainty(evaluation.result.poses, {});
-  if (!evaluation.truth) return evaluation;
+  if (!evaluation.truth) {
+    evaluation.certainty = MeasureCertainty(evaluation.result.poses, {});
+    return evaluation;
+  }
   std::vector<ScoredFrame> output;
   for (const PoseRow& row : evaluation.result.poses) {
     output.push_back({row.timestamp_ns, IsTracked(row), ScoredPointsOf(row.points_W)});

@@ -67,8 +67,8 @@ JsonObject PrecisionJson(const Precision& precision) {
 
 JsonObject CertaintyJson(const Certainty& certainty) {
   JsonObject json;
-  json.Add("fit_median_mm", certainty.median_fit_mm, 2);
-  json.Add("fit_p95_mm", certainty.p95_fit_mm, 2);
+  json.Add("residual_median_mm", certainty.median_fit_mm, 2);
+  json.Add("residual_p95_mm", certainty.p95_fit_mm, 2);
   if (certainty.median_deviation_mm)
     json.Add("deviation_median_mm", *certainty.median_deviation_mm, 2);
   if (!certainty.check) return json;

@@ -29,6 +29,12 @@ TEST_F(SilenceTest, NobodySends) {
       "network");
 }
 
+TEST_F(SilenceTest, OthersSendWithoutAPrefix) {
+  const Silence left(lcm_, "u", "left_");
+  Send("MOCAP_STATUS");
+  EXPECT_THAT(left.Text(), HasSubstr("sends there without a prefix: leave --prefix out"));
+}
+
 TEST_F(SilenceTest, OthersSendWithAnotherPrefix) {
   const Silence left(lcm_, "u", "left."), plain(lcm_, "u", "");
   Send("left_MOCAP_STATUS");

@@ -115,16 +115,14 @@ TEST(ShownBoardTest, TheEdgeOfTheSquaresIsNoRowOfCorners) {
   for (const int wall : {20, 90, 160}) {
     cv::Mat gray(400, 560, CV_8U, cv::Scalar(wall));
     const cv::Rect squares(90, 70, 9 * kSide_px, 6 * kSide_px);
-    cv::rectangle(gray,
-                  cv::Rect(squares.x - kRim_px, squares.y - kRim_px, squares.width + 2 * kRim_px,
-                           squares.height + 2 * kRim_px),
-                  225, cv::FILLED);
-    for (int i = 0; i < 54; i += 1) {
+    gray(cv::Rect(squares.x - kRim_px, squares.y - kRim_px, squares.width + 2 * kRim_px,
+                  squares.height + 2 * kRim_px))
+        .setTo(225);
+    for (int i = 0; i < 54; ++i) {
       const int x = i % 9, y = i / 9;
       if ((x + y) % 2 == 0)
-        cv::rectangle(
-            gray, cv::Rect(squares.x + x * kSide_px, squares.y + y * kSide_px, kSide_px, kSide_px),
-            30, cv::FILLED);
+        gray(cv::Rect(squares.x + x * kSide_px, squares.y + y * kSide_px, kSide_px, kSide_px))
+            .setTo(30);
     }
     const auto shown = FindShownChessboard(gray, ParseBoard("chess:8x5:60"));
     ASSERT_TRUE(shown) << wall;
