@@ -26,6 +26,7 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
   std::shared_ptr<Recording> last;
   {
     const std::scoped_lock lock(mutex_);
+    if (recording_) ended_ = recording_->Status();
     last = std::move(recording_);
   }
   // It releases the taps before the next one takes them, outside mutex_: Status does not wait.
@@ -73,7 +74,7 @@ RecordingStatus Recorder::StopRunning() {
 
 RecordingStatus Recorder::Status() const {
   const std::scoped_lock lock(mutex_);
-  return recording_ ? recording_->Status() : RecordingStatus{};
+  return recording_ ? recording_->Status() : ended_;
 }
 
 std::string CompletedText(const RecordingStatus& status) {

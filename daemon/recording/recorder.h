@@ -38,6 +38,7 @@ class Recorder {
   std::mutex change_mutex_;  ///< Held while a recording begins or ends, which takes time.
   mutable std::mutex mutex_;
   std::shared_ptr<Recording> recording_;
+  RecordingStatus ended_;  ///< Of the recording before, while no other could begin.
 };
 
 /// Returns what a complete recording holds, how much of the disk it needs and what it lacks.

@@ -25,5 +25,18 @@ TEST(Recorder, SaysWhatACompleteTakeNeedsOfTheDiskAndLacks) {
                                        "ended because the disk has 480 MB left");
 }
 
+TEST(Recorder, WhatCannotBeginDoesNotHideWhatWasRecorded) {
+  const testing::TemporaryFolder folder;
+  RecordingConfig config;
+  config.folder = folder.path();
+  Recorder recorder(RecordedStudio{});
+  recorder.Start("walk", config, {});
+  recorder.Stop();
+  ASSERT_EQ(recorder.Status().state, RecordingStatus::State::kComplete);
+  EXPECT_THROW(recorder.Start("walk", config, {}), std::exception);
+  EXPECT_EQ(recorder.Status().state, RecordingStatus::State::kComplete);
+  EXPECT_EQ(recorder.Status().folder, folder.path() / "walk");
+}
+
 }  // namespace
 }  // namespace mocap
