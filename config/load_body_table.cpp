@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <numbers>
 
 #include "config/builtin_body_tables.h"
 #include "config/joint_names.h"
 #include "config/load_config.h"
 #include "config/toml_section.h"
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
@@ -13,7 +13,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::array<const char*, kSegmentCount> kSegmentNames = {
     "torso",      "pelvis",      "head",        "upper_arm_l", "upper_arm_r", "thigh_l",
     "thigh_r",    "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r",      "shoulder_l",
@@ -54,14 +53,14 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   if (!(limits_deg[0] < limits_deg[1] && limits_deg[0] >= -360 && limits_deg[1] <= 360)) {
     section.Fail("limits_deg", "is not a range; expected [least, most] within 360 degrees");
   }
-  joint.min_rad = limits_deg[0] * kRadPerDeg;
-  joint.max_rad = limits_deg[1] * kRadPerDeg;
+  joint.min_rad = limits_deg[0] / kDegreesPerRad;
+  joint.max_rad = limits_deg[1] / kDegreesPerRad;
   if (section.Has("rest_deg")) {
     const std::vector<double> rest_deg = section.Numbers("rest_deg", 2);
     if (!(rest_deg[1] > 0)) section.Fail("rest_deg", "has no spread; expected [mean, spread]");
-    joint.rest_rad = rest_deg[0] * kRadPerDeg;
-    joint.rest_std_rad = rest_deg[1] * kRadPerDeg;
-    joint.rise_rad = section.Number("rise_deg", 0) * kRadPerDeg;
+    joint.rest_rad = rest_deg[0] / kDegreesPerRad;
+    joint.rest_std_rad = rest_deg[1] / kDegreesPerRad;
+    joint.rise_rad = section.Number("rise_deg", 0) / kDegreesPerRad;
   } else {
     section.Reserve({"rise_deg"}, "needs rest_deg");
   }

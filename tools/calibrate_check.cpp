@@ -8,10 +8,10 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include "config/load_config.h"
 #include "core/calibration/diagnosis_text.h"
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/clock.h"
 #include "drivers/nearest_name.h"
@@ -140,7 +140,7 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
       "{:.2f} degrees",
       difference.mean_mm, other.string(), difference.worst_mm, worst_W.x(), worst_W.y(),
       worst_W.z(), difference.left_mm, difference.moved.p.norm(),
-      Eigen::AngleAxisd(difference.moved.R).angle() * 180 / std::numbers::pi);
+      Eigen::AngleAxisd(difference.moved.R).angle() * kDegreesPerRad);
   const bool is_other = difference.mean_mm > kOtherStudio_mm;
   if (is_other)
     text += fmt::format(

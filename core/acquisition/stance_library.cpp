@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/body/stance.h"
+#include "core/degrees.h"
 
 namespace mocap {
 namespace {
@@ -73,7 +74,7 @@ StanceLibrary::StanceLibrary(const BodyModel& body) {
   for (const LeaningStance& leaning : kStances) {
     PoseState pose;
     pose.theta = AnglesOf(leaning.stance, body.table());
-    const double lean_rad = leaning.lean_deg * EIGEN_PI / 180;
+    const double lean_rad = leaning.lean_deg / kDegreesPerRad;
     entries_.push_back(
         {pose.theta, ExpRotation(Vector3(0, lean_rad, 0)), MiddleOfFlesh(body, pose)});
   }

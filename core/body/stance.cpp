@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/body/joint_rest.h"
+#include "core/degrees.h"
 
 namespace mocap {
 namespace {
@@ -49,7 +50,7 @@ JointAngles AnglesOf(const Stance& stance, const BodyTable& table) {
   JointAngles theta(static_cast<Eigen::Index>(table.joints.size()));
   for (Eigen::Index i = 0; i < theta.size(); ++i) {
     const JointAxis& joint = table.joints[i];
-    theta[i] = joint.paper_angle > 0 ? DegreesOf(stance, joint.paper_angle) * EIGEN_PI / 180
+    theta[i] = joint.paper_angle > 0 ? DegreesOf(stance, joint.paper_angle) / kDegreesPerRad
                                      : joint.rest_rad;
   }
   for (int i = 0; i < theta.size(); ++i) {

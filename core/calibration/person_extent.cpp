@@ -4,17 +4,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/calibration/view_agreement.h"
+#include "core/degrees.h"
 #include "core/quantile.h"
 
 namespace mocap {
 namespace {
 
 /// Steeper rays tell little about heights.
-const double kSteepest = std::tan(55 * std::numbers::pi / 180);
+const double kSteepest = std::tan(55 / kDegreesPerRad);
 
 /// Several people beside each other, and somebody who lies, are wider than this, in heights.
 constexpr double kWidest = 1.2;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/degrees.h"
 #include "tests/support/moving_body.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/interchange/bvh_writer.h"

@@ -209,5 +209,25 @@ TEST(SourceLayout, NoTwoHeadersDefineATypeOfTheSameName) {
   EXPECT_TRUE(defined.contains("mocap::Frame"));
 }
 
+/// Files with a line that matches the pattern, relative to the sources.
+std::set<fs::path> FilesWith(const std::regex& pattern) {
+  std::set<fs::path> files;
+  for (const auto& [folder, doors] : kDoors) {
+    for (const fs::path& file : SourcesUnder(folder, {".h", ".cpp"})) {
+      std::ifstream in(file);
+      for (std::string line; std::getline(in, line);) {
+        if (std::regex_search(line, pattern)) files.insert(fs::relative(file, MOCAP_SOURCE_DIR));
+      }
+    }
+  }
+  return files;
+}
+
+TEST(SourceLayout, OneHeaderConvertsDegrees) {
+  EXPECT_EQ(
+      FilesWith(std::regex(R"(\b180(\.0)? / (std::numbers::pi|EIGEN_PI)|(pi|PI) / 180\b|57\.29)")),
+      (std::set<fs::path>{"core/degrees.h"}));
+}
+
 }  // namespace
 }  // namespace mocap

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/degrees.h"
+
 namespace mocap {
 
 AccuracyRow Measure(const AccuracyTrial& trial) {
@@ -13,7 +15,7 @@ AccuracyRow Measure(const AccuracyTrial& trial) {
                   .seed = trial.studio.seed};
   row.mpjpe_mm = accuracy.distance_mm.mean;
   row.p95_mm = accuracy.distance_mm.p95;
-  row.angle_deg = accuracy.mean_angle_rad * kDegreesPerRadian;
+  row.angle_deg = accuracy.mean_angle_rad * kDegreesPerRad;
   row.tracked_share = accuracy.tracked_share;
   row.head_found_share = accuracy.head_found_share;
   row.acquisition_frames = outcome.acquisition_frames;

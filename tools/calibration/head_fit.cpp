@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "core/calibration/levenberg_marquardt.h"
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "tools/calibration/board_pose.h"
 
@@ -15,7 +15,7 @@ namespace mocap {
 namespace {
 
 constexpr int kFewestHeadViews = 8;
-constexpr double kLeastSpan_rad = 10 * std::numbers::pi / 180;
+constexpr double kLeastSpan_rad = 10 / kDegreesPerRad;
 constexpr double kWorstHeadRms_px = 2;
 constexpr double kStanding_rad = 0.002;
 // Axis (2) and point (2) of pan and of tilt, both scales; then six per place.
@@ -97,7 +97,7 @@ void RefuseTooLittleTurning(const std::string& name, const std::vector<BoardDete
       throw SetupError(
           fmt::format("{}: the board is seen over {:.1f} degrees of {} only; turn the head "
                       "by 10 degrees and more while it is in the picture",
-                      name, span_rad * 180 / std::numbers::pi, axis));
+                      name, span_rad * kDegreesPerRad, axis));
   }
 }
 
@@ -161,7 +161,7 @@ PanTiltAngles StandingAngles(const std::string& camera, std::span<const PanTiltA
       throw SetupError(
           fmt::format("{}: its head turned by {:.1f} degrees while its extrinsics were calibrated; "
                       "keep heads still while the board is carried about",
-                      camera, turned_rad * 180 / std::numbers::pi));
+                      camera, turned_rad * kDegreesPerRad));
   }
   return readings[0];
 }

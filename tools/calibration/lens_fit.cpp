@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <opencv2/calib3d.hpp>
 
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "tools/calibration/board_pose.h"
 #include "tools/calibration/bundle.h"
@@ -168,7 +168,7 @@ void RefuseOneTilt(const std::string& name, const std::string& frames, const Bun
     throw SetupError(
         fmt::format("{}: its {} views of the board ({}) are tilted alike (within {:.0f} degrees); "
                     "tilt the board by 30 degrees and more, in all directions",
-                    name, bundle.X_WB.size(), frames, widest_rad * 180 / std::numbers::pi));
+                    name, bundle.X_WB.size(), frames, widest_rad * kDegreesPerRad));
 }
 
 [[noreturn]] void RefuseMisfit(const std::string& name, double rms_px, int views,

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
@@ -52,8 +52,7 @@ void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) 
         fmt::format("its lens folds inside the picture: {:.0f} % of it, at the rim, is not used; "
                     "calibrate it with views that fill the picture",
                     100 * folded));
-  const double field_deg =
-      2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * 180 / std::numbers::pi;
+  const double field_deg = 2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * kDegreesPerRad;
   if (field_deg < 10 || field_deg > 160)
     warn(
         fmt::format("has a field of view of {:.0f} degrees, as few lenses do; is the board's "

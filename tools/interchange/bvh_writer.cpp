@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "core/degrees.h"
 #include "tools/interchange/euler_zxy.h"
 #include "tools/interchange/people_times.h"
 #include "tools/interchange/skeleton_motion.h"

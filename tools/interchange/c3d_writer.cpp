@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/printable_text.h"
 #include "tools/interchange/c3d_layout.h"
@@ -66,7 +66,7 @@ class SubjectData {
     for (int i = 0; i < kPointCount; ++i) AddPoint(row.points_W.col(i), QualityOf(row), data);
     while (angles_[angle_].time_ns < time_ns) ++angle_;
     for (const Vector3& rad : AnglesIn(angles_[angle_])) {
-      AddPoint(rad * 180 / std::numbers::pi, 0, data);
+      AddPoint(rad * kDegreesPerRad, 0, data);
     }
     return true;
   }

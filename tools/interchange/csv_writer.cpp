@@ -6,6 +6,7 @@
 #include <ostream>
 #include <utility>
 
+#include "core/degrees.h"
 #include "tools/interchange/joint_angles.h"
 #include "tools/results/export_axes.h"
 #include "tools/results/fixed_text.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/degrees.h"
 #include "tools/interchange/euler_zxy.h"
 #include "tools/interchange/rest_body.h"
 #include "tools/results/export_axes.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// A straighter limb does not show its rotation about itself; one bent by more than kBent shows it
 /// fully.
-constexpr double kStraight_rad = 10 * EIGEN_PI / 180, kBent_rad = 20 * EIGEN_PI / 180;
+constexpr double kStraight_rad = 10 / kDegreesPerRad, kBent_rad = 20 / kDegreesPerRad;
 constexpr double kQuarter_rad = EIGEN_PI / 2;
 
 /// Position of the hip joints in the pelvis of Rajagopal's model, and their distance [m].

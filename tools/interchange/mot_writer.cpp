@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "tools/interchange/joint_angles.h"
 #include "tools/results/fixed_text.h"

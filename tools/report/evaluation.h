@@ -44,6 +44,4 @@ std::vector<LengthPair> CompareLengths(const BodySizes& sizes, const TakeTruth& 
 /// Computes the quality of a result by itself and, if available, against the truth.
 Evaluation Evaluate(Result result, std::optional<TakeTruth> truth);
 
-inline constexpr double kDegreesPerRadian = 57.29577951308232;
-
 }  // namespace mocap

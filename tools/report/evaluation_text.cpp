@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/degrees.h"
 #include "daemon/base/json_object.h"
 #include "drivers/printable_text.h"
 
@@ -21,14 +22,14 @@ std::string AccuracyText(const Accuracy& accuracy) {
       "            {:.2f}° mean over 8 angles; tracked {:.1f} % from frame {} of {}; head found in "
       "{:.1f} %\n\n",
       d.mean, d.median, d.p95, d.worst, accuracy.spread_mm,
-      accuracy.mean_angle_rad * kDegreesPerRadian, 100 * accuracy.tracked_share,
+      accuracy.mean_angle_rad * kDegreesPerRad, 100 * accuracy.tracked_share,
       accuracy.first_tracked_frame, accuracy.truth_frames, 100 * accuracy.head_found_share);
   text += fmt::format("  {:<14}{:>9}      {:<14}{:>9}\n", "point", "mm", "angle", "degrees");
   for (int i = 0; i < kScoredPointCount; ++i) {
     text += fmt::format("  {:<14}{:>9.1f}", PointName(i), accuracy.point_mm[i]);
     if (i < kScoredAngleCount) {
       text += fmt::format("      {:<14}{:>9.1f}", kScoredAngleNames[i],
-                          accuracy.angle_rad[i] * kDegreesPerRadian);
+                          accuracy.angle_rad[i] * kDegreesPerRad);
     }
     text += '\n';
   }
@@ -52,13 +53,13 @@ std::string LengthsText(const Evaluation& evaluation) {
 JsonObject PrecisionJson(const Precision& precision) {
   JsonObject angles, points, json;
   for (int i = 0; i < kPaperAngleCount; ++i) {
-    angles.Add(fmt::format("theta_{}", i + 1), precision.angle_rad[i] * kDegreesPerRadian, 3);
+    angles.Add(fmt::format("theta_{}", i + 1), precision.angle_rad[i] * kDegreesPerRad, 3);
   }
   for (int i = 0; i < kPointCount; ++i) points.Add(kPointNames[i], precision.point_mm[i], 2);
   json.Add("frames", precision.frames);
-  json.Add("angle_mean_deg", precision.mean_angle_rad * kDegreesPerRadian, 3);
-  json.Add("angle_mean_without_twist_deg",
-           precision.mean_angle_without_twist_rad * kDegreesPerRadian, 3);
+  json.Add("angle_mean_deg", precision.mean_angle_rad * kDegreesPerRad, 3);
+  json.Add("angle_mean_without_twist_deg", precision.mean_angle_without_twist_rad * kDegreesPerRad,
+           3);
   json.Add("point_mean_mm", precision.mean_point_mm, 2);
   json.Add("angles_deg", angles);
   json.Add("points_mm", points);
@@ -84,7 +85,7 @@ void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
   if (accuracy.frames.empty()) return;
   JsonObject angles, points, lengths;
   for (int i = 0; i < kScoredAngleCount; ++i) {
-    angles.Add(kScoredAngleNames[i], accuracy.angle_rad[i] * kDegreesPerRadian, 2);
+    angles.Add(kScoredAngleNames[i], accuracy.angle_rad[i] * kDegreesPerRad, 2);
   }
   for (int i = 0; i < kScoredPointCount; ++i) points.Add(PointName(i), accuracy.point_mm[i], 1);
   for (const LengthPair& pair : evaluation.lengths) {
@@ -98,7 +99,7 @@ void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
   json.Add("worst_mm", d.worst, 1);
   json.Add("spread_mm", accuracy.spread_mm, 1);
   json.Add("head_found_share", accuracy.head_found_share, 4);
-  json.Add("angle_mae_deg", accuracy.mean_angle_rad * kDegreesPerRadian, 2);
+  json.Add("angle_mae_deg", accuracy.mean_angle_rad * kDegreesPerRad, 2);
   json.Add("angles_deg", angles);
   json.Add("points_mm", points);
   json.Add("length_error_mm", lengths);
@@ -124,8 +125,8 @@ std::string EvaluationText(const Evaluation& evaluation) {
     text += fmt::format(
         "precision   {:.2f}° mean over 16 angles, {:.2f}° without the upper arms' twist; {:.1f} mm "
         "mean over 23 points\n",
-        precision->mean_angle_rad * kDegreesPerRadian,
-        precision->mean_angle_without_twist_rad * kDegreesPerRadian, precision->mean_point_mm);
+        precision->mean_angle_rad * kDegreesPerRad,
+        precision->mean_angle_without_twist_rad * kDegreesPerRad, precision->mean_point_mm);
   } else {
     text += "precision   no run of 15 tracked frames\n";
   }

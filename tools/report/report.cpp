@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/degrees.h"
 #include "drivers/printable_text.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_sections.h"
@@ -32,9 +33,8 @@ std::string AccuracyTiles(const Evaluation& evaluation) {
                           d.worst)) +
          Tile("Spread", fmt::format("{:.1f}", accuracy.spread_mm), " mm",
               "without each point’s own offset") +
-         Tile("Error of 8 angles",
-              fmt::format("{:.2f}", accuracy.mean_angle_rad * kDegreesPerRadian), "°",
-              "mean absolute") +
+         Tile("Error of 8 angles", fmt::format("{:.2f}", accuracy.mean_angle_rad * kDegreesPerRad),
+              "°", "mean absolute") +
          Tile("Head found", fmt::format("{:.1f}", 100 * accuracy.head_found_share), " %",
               fmt::format("within {:.0f} mm", kHeadFoundMm));
 }
@@ -52,7 +52,7 @@ std::string Tiles(const Evaluation& evaluation, const std::vector<CameraOverlap>
                                   evaluation.result.poses[evaluation.first_tracked_pose].frame));
   if (const auto& precision = evaluation.precision) {
     tiles += Tile("Precision of angles",
-                  fmt::format("{:.2f}", precision->mean_angle_rad * kDegreesPerRadian), "°",
+                  fmt::format("{:.2f}", precision->mean_angle_rad * kDegreesPerRad), "°",
                   "against the smoothed curve") +
              Tile("Precision of points", fmt::format("{:.1f}", precision->mean_point_mm), " mm",
                   "against the smoothed path");

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "core/degrees.h"
 #include "tools/report/svg_plot.h"
 #include "tools/results/export_axes.h"
 
@@ -97,7 +99,7 @@ double TrueLegAngle(const ScoredPoints& p, int row, int side) {
   const Vector3 thigh = ThighInTorso(p, side);
   if (row == 0) return std::atan2(thigh.y(), -thigh.z());
   if (row == 1) return -std::asin(std::clamp(thigh.x(), -1.0, 1.0));
-  return 3.14159265358979 - ScoredAnglesOf(p)[2 + side];
+  return std::numbers::pi - ScoredAnglesOf(p)[2 + side];
 }
 
 std::string OfParts(const Evaluation& evaluation, std::vector<PlotSeries>& series) {
@@ -217,7 +219,7 @@ std::string ScoredAnglesFigure(const Evaluation& evaluation) {
   for (int angle = 0; angle < kScoredAngleCount; ++angle) {
     const int color = angle % 2 == 0 ? kLeftColor : kRightColor;
     const auto degrees = [angle](const ScoredPoints& p) {
-      return ScoredAnglesOf(p)[angle] * kDegreesPerRadian;
+      return ScoredAnglesOf(p)[angle] * kDegreesPerRad;
     };
     const std::vector<PlotSeries> series = {
         {"tracked",

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "config/joint_names.h"
+#include "core/degrees.h"
 #include "tools/report/report.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_style.h"
@@ -41,8 +42,7 @@ std::string AccuracyTables(const Evaluation& evaluation) {
         {std::string(kPointNames[static_cast<int>(kScoredPoints[i])]), accuracy.point_mm[i]});
   }
   for (int i = 0; i < kScoredAngleCount; ++i) {
-    angles.push_back(
-        {std::string(kScoredAngleNames[i]), accuracy.angle_rad[i] * kDegreesPerRadian});
+    angles.push_back({std::string(kScoredAngleNames[i]), accuracy.angle_rad[i] * kDegreesPerRad});
   }
   std::string lengths =
       "<table><tr><th>length</th><th class=\"n\">acquired mm</th><th class=\"n\">true mm</th><th "
@@ -65,7 +65,7 @@ std::string PrecisionSection(const Evaluation& evaluation) {
   std::vector<BarRow> angles, points;
   for (int i = 0; i < kPaperAngleCount; ++i) {
     angles.push_back({fmt::format("θ{} {}", i + 1, kPaperJointNames[i]),
-                      precision.angle_rad[i] * kDegreesPerRadian});
+                      precision.angle_rad[i] * kDegreesPerRad});
   }
   for (int i = 0; i < kPointCount; ++i) {
     points.push_back({std::string(kPointNames[i]), precision.point_mm[i]});
@@ -75,8 +75,8 @@ std::string PrecisionSection(const Evaluation& evaluation) {
       "(Savitzky–Golay, order 3, 15 frames), over {} frames: what the paper gives in place of a "
       "comparison with the truth. Mean of the angles {:.2f}°; {:.2f}° without θ7 and θ8, which are "
       "undefined while an arm is straight.</p>\n",
-      precision.frames, precision.mean_angle_rad * kDegreesPerRadian,
-      precision.mean_angle_without_twist_rad * kDegreesPerRadian);
+      precision.frames, precision.mean_angle_rad * kDegreesPerRad,
+      precision.mean_angle_without_twist_rad * kDegreesPerRad);
   return html + "<div class=\"two\"><div>" + BarTable("angle", "°", angles) + "</div><div>" +
          BarTable("point", "mm", points) + "</div></div>\n";
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
+
+#include "core/degrees.h"
 
 namespace mocap {
 namespace {
@@ -133,7 +134,7 @@ class RadialFunction {
   std::vector<double> rise_;                           // Has the sign of f', in r².
 };
 
-constexpr double kFarthestAngle_rad = 85 * std::numbers::pi / 180;
+constexpr double kFarthestAngle_rad = 85 / kDegreesPerRad;
 const double kFarthestNormalized = std::tan(kFarthestAngle_rad);
 
 Vector2 ToPixel(const Matrix3& K, const Vector2& p) { return (K * p.homogeneous()).head<2>(); }

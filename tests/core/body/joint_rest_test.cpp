@@ -2,14 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "config/load_config.h"
+#include "core/degrees.h"
 
 namespace mocap {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 class Rest : public ::testing::Test {
  protected:
@@ -20,7 +17,7 @@ class Rest : public ::testing::Test {
     throw std::logic_error("no such joint");
   }
   double DegreesOf(const std::string& name) const {
-    return RestOf(table_, RowOf(name), theta_).rest_rad / kRadPerDeg;
+    return RestOf(table_, RowOf(name), theta_).rest_rad * kDegreesPerRad;
   }
 
   BodyTable table_ = LoadBodyTable("full");
@@ -28,22 +25,22 @@ class Rest : public ::testing::Test {
 };
 
 TEST_F(Rest, CollarBonesRiseWithTheirArms) {
-  theta_[RowOf("shoulder_l_x")] = -90 * kRadPerDeg;
+  theta_[RowOf("shoulder_l_x")] = -90 / kDegreesPerRad;
   EXPECT_NEAR(DegreesOf("clavicle_l_x"), 0, 1e-9);
   EXPECT_NEAR(DegreesOf("clavicle_r_x"), -36, 1e-9) << "the right arm is level";
-  theta_[RowOf("shoulder_l_x")] = 60 * kRadPerDeg;
-  theta_[RowOf("clavicle_l_x")] = 30 * kRadPerDeg;
+  theta_[RowOf("shoulder_l_x")] = 60 / kDegreesPerRad;
+  theta_[RowOf("clavicle_l_x")] = 30 / kDegreesPerRad;
   EXPECT_NEAR(DegreesOf("clavicle_l_x"), 72, 1e-9) << "overhead";
 }
 
 TEST_F(Rest, AnArmThatPointsForwardIsLevel) {
-  theta_[RowOf("shoulder_l_z")] = -90 * kRadPerDeg;
+  theta_[RowOf("shoulder_l_z")] = -90 / kDegreesPerRad;
   EXPECT_NEAR(DegreesOf("clavicle_l_x"), 36, 1e-9);
 }
 
 TEST_F(Rest, OtherJointsRestWhereTheTableSays) {
   const JointRest rest = RestOf(table_, RowOf("hip_l_z"), theta_);
-  EXPECT_NEAR(rest.rest_rad, 5 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(rest.rest_rad, 5 / kDegreesPerRad, 1e-9);
   EXPECT_EQ(rest.J_by_angle, JointAngles::Zero(theta_.size()));
 }
 
@@ -52,17 +49,17 @@ TEST_F(Rest, ChiSquareIsInStandardDeviationsOfTheTable) {
     if (table_.joints[row].rise_rad == 0) theta_[row] = table_.joints[row].rest_rad;
   }
   const double before = ChiSquareFromRest(table_, theta_);
-  theta_[RowOf("ankle_l_y")] += 40 * kRadPerDeg;
-  theta_[RowOf("waist_x")] -= 10 * kRadPerDeg;
+  theta_[RowOf("ankle_l_y")] += 40 / kDegreesPerRad;
+  theta_[RowOf("waist_x")] -= 10 / kDegreesPerRad;
   EXPECT_NEAR(ChiSquareFromRest(table_, theta_) - before, 4 + 1, 1e-9);
   theta_[RowOf("knee_l_y")] += 1;
   EXPECT_NEAR(ChiSquareFromRest(table_, theta_) - before, 4 + 1, 1e-9) << "has no rest";
 }
 
 TEST_F(Rest, ChiSquareOfARaisedArmIsLeastWithARaisedCollarBone) {
-  theta_[RowOf("shoulder_l_z")] = -90 * kRadPerDeg;
+  theta_[RowOf("shoulder_l_z")] = -90 / kDegreesPerRad;
   const double lowered = ChiSquareFromRest(table_, theta_);
-  theta_[RowOf("clavicle_l_x")] = 36 * kRadPerDeg;
+  theta_[RowOf("clavicle_l_x")] = 36 / kDegreesPerRad;
   EXPECT_LT(ChiSquareFromRest(table_, theta_), lowered - 10);
 }
 
