@@ -16,6 +16,7 @@
 #include "daemon/base/choice_option.h"
 #include "daemon/base/disk_space.h"
 #include "daemon/base/number_option.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
@@ -206,11 +207,12 @@ void AddSimulateCommand(CLI::App& app) {
   options->studio.seconds = 4;
   CLI::App* command =
       app.add_subcommand("simulate", "Render a take of a simulated studio, with ground truth");
-  std::string motions;
-  for (const std::string_view name : simulation::kCompanyMotionNames)
-    motions += (motions.empty() ? "" : ", ") + std::string(name);
+  const std::vector<std::string> motions(simulation::kCompanyMotionNames.begin(),
+                                         simulation::kCompanyMotionNames.end());
   command->add_option("--out", options->out, "output take folder")->required();
-  command->add_option("--motion", options->studio.motion, "motion of the people: " + motions)
+  command
+      ->add_option("--motion", options->studio.motion,
+                   "motion of the people: " + ListedNames(motions))
       ->capture_default_str();
   command
       ->add_option("--people", options->studio.people,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace mocap {
 
@@ -15,5 +16,9 @@ inline constexpr const char* kBodiesChannel = "MOCAP_BODIES";
 /// LCM treats the channel of a subscription as a regular expression, where a dot matches anything.
 /// Returns a pattern that matches exactly this text.
 std::string ChannelPattern(const std::string& text);
+
+/// Says which prefixes there are: `without a prefix`, `with prefix "left_"`, `with the prefixes
+/// "left_", "right_"`, or without one and with others. At least one is wanted.
+std::string PrefixPhrase(const std::vector<std::string>& prefixes);
 
 }  // namespace mocap

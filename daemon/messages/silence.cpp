@@ -1,13 +1,10 @@
 #include "daemon/messages/silence.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "daemon/messages/channel_name.h"
-#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
-#include "drivers/quoted.h"
 
 namespace mocap {
 namespace {
@@ -51,14 +48,10 @@ std::string Silence::Text() const {
            ", but no poses: mocap status says why; a node never sends poses, its studio does";
   if (others.empty())
     return "no messages arrive on " + url + ": is mocapd running? mocap doctor checks the network";
-  const std::string none =
-      "no messages " + (prefix_.empty() ? "without a prefix" : "with prefix " + Quoted(prefix_)) +
-      " arrive on " + url + ", but mocapd sends there ";
-  if (others == std::vector<std::string>{""}) return none + "without a prefix: leave --prefix out";
-  std::ranges::transform(others, others.begin(),
-                         [](const std::string& prefix) { return Quoted(prefix); });
-  return none + (others.size() == 1 ? "with prefix " : "with the prefixes ") + ListedNames(others) +
-         ": choose it with --prefix";
+  const std::string text = "no messages " + PrefixPhrase({prefix_}) + " arrive on " + url +
+                           ", but mocapd sends there " + PrefixPhrase(others);
+  return text + (others == std::vector<std::string>{""} ? ": leave --prefix out"
+                                                        : ": choose it with --prefix");
 }
 
 }  // namespace mocap

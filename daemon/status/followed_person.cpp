@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 
 namespace mocap {
 
@@ -31,11 +32,9 @@ std::string LabelOf(int id, const std::string& name) {
 }
 
 std::string LabelsOf(std::span<const FollowedPerson> people) {
-  std::string labels;
-  for (const FollowedPerson& person : people) {
-    labels += (labels.empty() ? "" : ", ") + LabelOf(person.id, person.name);
-  }
-  return labels;
+  std::vector<std::string> labels;
+  for (const FollowedPerson& person : people) labels.push_back(LabelOf(person.id, person.name));
+  return ListedNames(labels);
 }
 
 }  // namespace mocap

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "drivers/aravis/gige_probe.h"
 #include "drivers/aravis/gobject.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/usb/usb_bus.h"
 
@@ -64,11 +65,11 @@ std::optional<AravisTarget> OpenByUserName(const std::string& device) {
 }
 
 std::string NamesOf(const std::vector<FoundCamera>& cameras) {
-  std::string names;
+  std::vector<std::string> names;
   for (const FoundCamera& camera : cameras) {
-    names += (names.empty() ? "" : ", ") + Quoted(camera.id) + " at " + camera.address;
+    names.push_back(Quoted(camera.id) + " at " + camera.address);
   }
-  return names.empty() ? "no camera was found" : "found: " + names;
+  return names.empty() ? "no camera was found" : "found: " + ListedNames(names);
 }
 
 }  // namespace

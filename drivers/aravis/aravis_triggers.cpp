@@ -2,12 +2,14 @@
 
 #include <initializer_list>
 #include <memory>
-#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "drivers/aravis/gige_action.h"
 #include "drivers/aravis/gobject.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 
 namespace mocap {
@@ -100,11 +102,8 @@ void SetAction(ArvCamera* camera, const std::string& device, const std::string& 
 
 std::string JoinNames(const char** names, guint count) {
   const std::unique_ptr<const char*, GFree> owner(names);
-  std::string text;
-  for (const char* name : std::span(names, names ? count : 0)) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return text;
+  return ListedNames(names ? std::vector<std::string>(names, names + count)
+                           : std::vector<std::string>());
 }
 
 void SetTrigger(ArvCamera* camera, const std::string& device, const std::string& trigger) {

@@ -229,5 +229,11 @@ TEST(SourceLayout, OneHeaderConvertsDegrees) {
       (std::set<fs::path>{"core/degrees.h"}));
 }
 
+// JSON and TOML write lists of their own.
+TEST(SourceLayout, OneFunctionListsNames) {
+  EXPECT_EQ(FilesWith(std::regex(R"(empty\(\) \? "" : ", "\) \+ (?!TomlText|InQuotes|object))")),
+            (std::set<fs::path>{"drivers/nearest_name.cpp"}));
+}
+
 }  // namespace
 }  // namespace mocap

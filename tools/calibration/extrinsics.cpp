@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "tools/calibration/board_pose.h"
 #include "tools/calibration/bundle_errors.h"
 #include "tools/calibration/wand.h"
@@ -91,15 +92,15 @@ void PlaceCameras(const std::function<CameraLink(int, int)>& link_of,
       best_to = placed[pair.first] ? pair.second : pair.first;
     }
     if (best_to < 0) {
-      std::string lonely;
+      std::vector<std::string> lonely;
       for (int c = 0; c < n; ++c) {
-        if (!placed[c]) lonely += (lonely.empty() ? "" : ", ") + cameras[c].name;
+        if (!placed[c]) lonely.push_back(cameras[c].name);
       }
       throw SetupError(fmt::format(
-          "{}: shares fewer than {} views of the board with the other cameras; carry the board "
-          "where "
-          "both this camera and another see it, or check that the recordings ran at the same time",
-          lonely, kFewestShared));
+          "{}: fewer than {} views of the board are shared with the other cameras; carry the board "
+          "where both this camera and another see it, or check that the recordings ran at the same "
+          "time",
+          ListedNames(lonely), kFewestShared));
     }
     const auto& link = links[{std::min(best_from, best_to), std::max(best_from, best_to)}];
     const RigidTransform X_from_to = best_from < best_to ? link.X_AB : link.X_AB.Inverse();

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/text_table.h"
 #include "tools/calibration/footage.h"
@@ -124,20 +125,21 @@ const FootageFrame* FindKey(const FootageCamera& camera, const std::string& key)
 void TellMissing(Footage& footage, const std::set<std::string, decltype(&IsKeyLess)>& keys) {
   constexpr int kMostNamed = 5;
   for (const FootageCamera& camera : footage.cameras) {
-    std::string named;
+    std::vector<std::string> named;
     int missing = 0;
     for (const std::string& key : keys) {
       if (FindKey(camera, key) != nullptr || ++missing > kMostNamed) continue;
       for (const FootageCamera& other : footage.cameras) {
         if (const FootageFrame* frame = FindKey(other, key)) {
-          named += (named.empty() ? "" : ", ") + Printable(frame->name) + " of " + other.name;
+          named.push_back(Printable(frame->name) + " of " + other.name);
           break;
         }
       }
     }
     if (missing == 0) continue;
     footage.notes.push_back(camera.name + ": lacks " + Counted(missing, "picture") +
-                            " that others have (" + named + (missing > kMostNamed ? ", ..." : "") +
+                            " that others have (" + ListedNames(named) +
+                            (missing > kMostNamed ? ", ..." : "") +
                             "); the rest is paired by the numbers in their names");
   }
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
@@ -246,14 +247,11 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
   Imported imported;
   imported.are_lenses_alone = options.lenses_alone;
   std::set<std::string> names;
-  std::string no_lens, no_pose;
-  const auto add = [](const std::string& name, std::string& list) {
-    list += (list.empty() ? "" : ", ") + name;
-  };
+  std::vector<std::string> no_lens, no_pose;
   for (const ForeignCamera& foreign : found) {
     CheckName(foreign, names);
     if (!foreign.has_lens) {
-      add(foreign.name, no_lens);
+      no_lens.push_back(foreign.name);
       continue;
     }
     CameraCalibration camera;
@@ -275,7 +273,7 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
       camera.X_CW.R = CheckRotation(*foreign.rotation);
       camera.X_CW.p = CheckTranslation(*foreign.translation_mm);
     } else if (!options.lenses_alone) {
-      add(foreign.name, no_pose);
+      no_pose.push_back(foreign.name);
       continue;
     }
     imported.cameras.push_back(std::move(camera));
@@ -283,12 +281,13 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
   if (imported.cameras.empty() && no_pose.empty())
     throw SetupError(source + ": contains no camera with a lens; expected a calibration");
   if (imported.cameras.empty())
-    throw SetupError(source + ": has no pose of any camera, only intrinsics (" + no_pose +
+    throw SetupError(source + ": has no pose of any camera, only intrinsics (" +
+                     ListedNames(no_pose) +
                      "); add --lenses to keep those for mocap calibrate extrinsics --intrinsics");
   if (!no_lens.empty())
-    imported.notes.push_back(source + ": has no lens of " + no_lens + "; left out");
+    imported.notes.push_back(source + ": has no lens of " + ListedNames(no_lens) + "; left out");
   if (!no_pose.empty())
-    imported.notes.push_back(source + ": has no pose of " + no_pose + "; left out");
+    imported.notes.push_back(source + ": has no pose of " + ListedNames(no_pose) + "; left out");
   Doubt(source, imported.cameras, imported.notes);
   if (!options.lenses_alone) DoubtUnit(source, imported.cameras, imported.notes);
   return imported;

@@ -4,19 +4,14 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "drivers/quoted.h"
+#include "daemon/messages/channel_name.h"
+#include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
 
 /// If a frame number repeats within this time, several daemons send, as a restart takes longer.
 constexpr std::int64_t kRestart_ns = 1'000'000'000;
-
-std::string Listed(const auto& prefixes) {
-  std::string text;
-  for (const std::string& prefix : prefixes) text += (text.empty() ? "" : ", ") + Quoted(prefix);
-  return text;
-}
 
 }  // namespace
 
@@ -68,13 +63,13 @@ std::optional<std::string> ChannelLog::ChooseAmong(const std::vector<std::string
   if (wanted_prefix_) return wanted_prefix_;
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return found.front();
-  throw SetupError(log_ + ": contains " + of_what + " of several daemons, with the prefixes " +
-                   Listed(found) + "; choose one of them with --prefix");
+  throw SetupError(log_ + ": contains " + of_what + " of several daemons, " + PrefixPhrase(found) +
+                   "; choose one of them with --prefix");
 }
 
 std::string ChannelLog::PrefixesText() const {
   if (prefixes_.empty()) return "";
-  return " (there are channels with the prefixes " + Listed(prefixes_) + ")";
+  return " (it has channels " + PrefixPhrase({prefixes_.begin(), prefixes_.end()}) + ")";
 }
 
 bool FrameOrder::Add(std::int64_t frame, std::int64_t timestamp_ns) {

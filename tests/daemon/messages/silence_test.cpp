@@ -46,6 +46,14 @@ TEST_F(SilenceTest, OthersSendWithAnotherPrefix) {
   EXPECT_THAT(left.Text(), HasSubstr("with the prefixes \"left_\", \"right_\""));
 }
 
+TEST_F(SilenceTest, OthersSendWithAndWithoutAPrefix) {
+  const Silence left(lcm_, "u", "left_");
+  Send("MOCAP_STATUS");
+  Send("right_MOCAP_STATUS");
+  EXPECT_THAT(left.Text(), HasSubstr("sends there without a prefix and with prefix \"right_\": "
+                                     "choose it with --prefix"));
+}
+
 TEST_F(SilenceTest, TheDaemonItselfSendsNoPoses) {
   const Silence silence(lcm_, "u", "left_");
   Send("left_MOCAP_STATUS");

@@ -241,7 +241,7 @@ const WrongInput kWrongRecordings[] = {
        b.WriteIntrinsics(640, "cam2");
        return b.Extrinsics();
      },
-     {"cam2: shares fewer", "carry the board"}},
+     {"cam2: fewer than", "carry the board"}},
     {"AFloorOfCamerasThatAreNotCalibrated",
      [](Bench& b) {
        b.Write("cam9", b.seen);

@@ -322,6 +322,13 @@ TEST_F(PeopleLog, OfTwoDaemonsIsNeverMixed) {
               HasSubstr("no people on up.MOCAP_PEOPLE"));
 }
 
+TEST_F(PoseLog, WithoutAPrefixIsNotSaidToHaveAnEmptyOne) {
+  Body("");
+  Pose("", 0, kStart_ns);
+  EXPECT_THAT(Error("left."), HasSubstr("no left.MOCAP_POSE message of this version (it has "
+                                        "channels without a prefix); expected"));
+}
+
 TEST_F(PoseLog, OfTwoDaemonsOnOneChannelIsRefused) {
   Body("");
   for (int i = 0; i < 20; ++i) {
