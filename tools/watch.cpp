@@ -255,7 +255,7 @@ void AppendService(const service_t& service, std::string& page) {
   if (service.complaint.empty()) page += "all is good\n";
   for (const std::string& complaint : service.complaint) page += "! " + Foreign(complaint) + '\n';
   if (service.recording_state != service_t::RUNNING) return;
-  page += fmt::format("recording {}, {:.0f} s, {}, {} dropped, {:.1f} GB free\n",
+  page += fmt::format("recording {}, {:.0f} s, {} of all cameras, {} dropped, {:.1f} GB free\n",
                       Foreign(service.recording_folder), Sane(service.recording_seconds),
                       Counted(service.recording_frames, "frame"), service.recording_dropped,
                       static_cast<double>(service.bytes_free) / 1e9);

@@ -80,10 +80,18 @@ RecordingStatus Recorder::Status() const {
 std::string CompletedText(const RecordingStatus& status) {
   std::string why = status.problem.empty() ? "" : "; it " + status.problem;
   if (status.dropped > 0) why += ": " + TextOf(status.cause.value_or(LossCause::kUnknown));
-  return fmt::format("{}: {:.1f} s, {}, {:.0f} MB, {} dropped while recording{}",
-                     Printable(status.folder.string()),
-                     static_cast<double>(status.duration_ns) / 1e9, Counted(status.frames, "frame"),
-                     static_cast<double>(BytesIn(status.folder)) / 1e6, status.dropped, why);
+  return fmt::format("{}: {:.1f} s, {:.0f} MB, {}{}", Printable(status.folder.string()),
+                     static_cast<double>(status.duration_ns) / 1e9,
+                     static_cast<double>(BytesIn(status.folder)) / 1e6, ContentText(status), why);
+}
+
+std::string ContentText(const RecordingStatus& status) {
+  if (status.cameras == 0) return "no frames, as mocapd has no cameras on this computer";
+  const std::string cameras = Counted(status.cameras, "camera");
+  const std::string sets = status.frames == 0
+                               ? "no frames of " + cameras
+                               : Counted(status.sets, "frame set") + " of " + cameras;
+  return sets + ", " + Counted(status.dropped, "frame") + " dropped";
 }
 
 std::filesystem::path TakesFolder(const RecordingConfig& config) {

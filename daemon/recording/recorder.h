@@ -43,6 +43,8 @@ class Recorder {
 
 /// Returns what a complete recording holds, how much of the disk it needs and what it lacks.
 std::string CompletedText(const RecordingStatus& status);
+/// "97 frame sets of 6 cameras, 0 frames dropped"; says when there is no frame, or no camera.
+std::string ContentText(const RecordingStatus& status);
 
 /// Folder of takes: as configured, or `takes` in the folder for state.
 std::filesystem::path TakesFolder(const RecordingConfig& config);

@@ -377,8 +377,11 @@ RecordingStatus Recording::Status() const {
   RecordingStatus status;
   const std::int64_t end_ns = end_ns_.load();
   status.duration_ns = (end_ns > 0 ? end_ns : SteadyNs()) - begin_ns_;
+  status.cameras = lines_.size();
   for (const auto& line : lines_) {
-    status.frames += line->frames.load(std::memory_order_relaxed);
+    const std::int64_t frames = line->frames.load(std::memory_order_relaxed);
+    status.frames += frames;
+    status.sets = std::max(status.sets, frames);
     status.dropped += line->dropped.load(std::memory_order_relaxed);
   }
   const std::scoped_lock lock(mutex_);

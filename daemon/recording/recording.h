@@ -55,7 +55,9 @@ struct RecordingStatus {
   State state = State::kNone;
   std::filesystem::path folder;
   std::int64_t duration_ns = 0;
+  std::size_t cameras = 0;
   std::int64_t frames = 0;         ///< Written, all cameras.
+  std::int64_t sets = 0;           ///< Frames of the camera that has the most.
   std::int64_t waiting = 0;        ///< In memory, all cameras: lost if the process is killed.
   std::int64_t dropped = 0;        ///< Captured, but without room in memory; all cameras.
   std::optional<LossCause> cause;  ///< Of the latest drops.

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "daemon/base/json_object.h"
+#include "daemon/recording/recorder.h"
 #include "daemon/status/diagnostics.h"
 #include "drivers/printable_text.h"
 
@@ -49,13 +50,12 @@ using Recorded = RecordingStatus::State;
 constexpr std::array<std::string_view, 4> kRecordedNames = {"none", "running", "complete",
                                                             "failed"};
 
-/// "walk, 12 s, 2160 frames, 0 dropped".
+/// "walk, 12 s, 360 frame sets of 6 cameras, 0 frames dropped".
 std::string RecordingText(const RecordingStatus& recording) {
   if (recording.state == Recorded::kNone) return "none since mocapd started";
-  std::string text = fmt::format("{}, {}, {}, {} dropped", recording.folder.string(),
-                                 Duration(recording.duration_ns),
-                                 Counted(recording.frames, "frame"), recording.dropped);
-  if (recording.waiting > 0) text += fmt::format(", {} in memory", recording.waiting);
+  std::string text = fmt::format("{}, {}, {}", recording.folder.string(),
+                                 Duration(recording.duration_ns), ContentText(recording));
+  if (recording.waiting > 0) text += ", " + Counted(recording.waiting, "frame") + " in memory";
   if (recording.state == Recorded::kComplete) text = "complete: " + text;
   if (recording.state == Recorded::kFailed) text = "FAILED: " + text;
   if (!recording.problem.empty()) text += "; " + recording.problem;

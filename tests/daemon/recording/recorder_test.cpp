@@ -16,13 +16,24 @@ TEST(Recorder, SaysWhatACompleteTakeNeedsOfTheDiskAndLacks) {
   RecordingStatus status;
   status.folder = folder.path() / "walk";
   status.duration_ns = 2'500'000'000;
-  status.frames = 75;
-  EXPECT_EQ(CompletedText(status),
-            status.folder.string() + ": 2.5 s, 75 frames, 3 MB, 0 dropped while recording");
+  status.cameras = 2;
+  status.frames = 149;
+  status.sets = 75;
+  EXPECT_EQ(CompletedText(status), status.folder.string() +
+                                       ": 2.5 s, 3 MB, 75 frame sets of 2 "
+                                       "cameras, 0 frames dropped");
   status.problem = "ended because the disk has 480 MB left";
   EXPECT_EQ(CompletedText(status), status.folder.string() +
-                                       ": 2.5 s, 75 frames, 3 MB, 0 dropped while recording; it "
-                                       "ended because the disk has 480 MB left");
+                                       ": 2.5 s, 3 MB, 75 frame sets of 2 cameras, 0 frames "
+                                       "dropped; it ended because the disk has 480 MB left");
+}
+
+TEST(Recorder, SaysWhyATakeHasNoFrames) {
+  RecordingStatus status;
+  EXPECT_EQ(ContentText(status), "no frames, as mocapd has no cameras on this computer");
+  status.cameras = 6;
+  status.dropped = 1;
+  EXPECT_EQ(ContentText(status), "no frames of 6 cameras, 1 frame dropped");
 }
 
 TEST(Recorder, WhatCannotBeginDoesNotHideWhatWasRecorded) {
@@ -31,7 +42,7 @@ TEST(Recorder, WhatCannotBeginDoesNotHideWhatWasRecorded) {
   config.folder = folder.path();
   Recorder recorder(RecordedStudio{});
   recorder.Start("walk", config, {});
-  recorder.Stop();
+  EXPECT_EQ(recorder.Stop().cameras, 0u);
   ASSERT_EQ(recorder.Status().state, RecordingStatus::State::kComplete);
   EXPECT_THROW(recorder.Start("walk", config, {}), std::exception);
   EXPECT_EQ(recorder.Status().state, RecordingStatus::State::kComplete);
