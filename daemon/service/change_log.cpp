@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "daemon/status/camera_diagnostics.h"
+
 namespace mocap {
 namespace {
 
@@ -36,17 +38,21 @@ void ChangeLog::TellRemarks(const CameraStatus& camera) {
 }
 
 void ChangeLog::CompareCameras(const PipelineStatus& before, const PipelineStatus& now) {
+  std::vector<std::string> lost, ended, back, first;
   for (std::size_t i = 0; i < now.cameras.size(); ++i) {
     const CameraState then = before.cameras[i].state;
     const CameraStatus& camera = now.cameras[i];
     if (camera.state == then) continue;
-    if (camera.state == CameraState::kLost) spdlog::warn("{} is lost", camera.name);
-    if (camera.state == CameraState::kEnded) spdlog::info("{} has ended", camera.name);
-    if (camera.state == CameraState::kStreaming) {
-      spdlog::info("{} {}", camera.name,
-                   then == CameraState::kLost ? "is back" : "delivers frames");
-    }
+    if (camera.state == CameraState::kLost) lost.push_back(camera.name);
+    if (camera.state == CameraState::kEnded) ended.push_back(camera.name);
+    if (camera.state == CameraState::kStreaming)
+      (then == CameraState::kLost ? back : first).push_back(camera.name);
   }
+  const auto all = now.cameras.size();
+  if (!lost.empty()) spdlog::warn(CamerasDo(lost, all, "is lost", "are lost"));
+  if (!back.empty()) spdlog::info(CamerasDo(back, all, "is back", "are back"));
+  if (!first.empty()) spdlog::info(CamerasDo(first, all, "delivers frames", "deliver frames"));
+  if (!ended.empty()) spdlog::info(CamerasDo(ended, all, "has ended", "have ended"));
 }
 
 }  // namespace mocap

@@ -8,22 +8,17 @@
 #include <cmath>
 #include <ctime>
 
+#include "daemon/status/camera_diagnostics.h"
 #include "daemon/status/node_diagnostics.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {
 namespace {
 
-/// A camera that delivers less than this share of its frames is reported.
-constexpr double kGoodRate = 0.9;
 /// Exposures further apart than this share of a period blur moving people.
 constexpr double kWideSpread = 0.25;
 /// The stance of a person cannot explain a larger silhouette shift.
 constexpr double kMoved_px = 2;
-/// The tripod was touched.
-constexpr double kNudged_px = 0.75;
-/// Beyond this, colours no longer match the background.
-constexpr double kDarkest = 0.6, kBrightest = 1.5;
 
 /// An older report is out of date.
 constexpr std::int64_t kOld = 5'000'000'000;
@@ -123,19 +118,6 @@ void ComplainOfRecording(const ServiceReport& report, List& list) {
   }
 }
 
-/// Expected frame rate of a camera.
-double FpsOf(const ServiceReport& report, std::size_t camera) {
-  const bool has_its_own = camera < report.camera_fps.size() && report.camera_fps[camera] > 0;
-  return has_its_own ? report.camera_fps[camera] : report.fps_nominal;
-}
-
-/// Such a camera is reported with the one that triggers it.
-bool WaitsForTrigger(const ServiceReport& report, std::size_t i) {
-  const CameraStatus& camera = report.now.status.cameras[i];
-  return !camera.waits_for.empty() && camera.state != CameraState::kLost &&
-         report.now.frames_per_second[i] == 0;
-}
-
 /// All connected cameras are silent: something that they share is to blame.
 void ComplainOfSilence(const ServiceReport& report, List& list) {
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
@@ -183,27 +165,6 @@ void ComplainOfSets(const ServiceReport& report, List& list) {
                   delivering, rates.size()));
 }
 
-void ComplainOfFlow(const ServiceReport& report, std::size_t i, List& list) {
-  const CameraStatus& camera = report.now.status.cameras[i];
-  if (WaitsForTrigger(report, i) || IsOfLostNode(report.nodes, camera.node)) return;
-  if (camera.state == CameraState::kLost) {
-    list.push_back(camera.name + " is lost: check its cable and power");
-  } else if (camera.state == CameraState::kStarting) {
-    list.push_back(camera.name + " has not delivered a frame yet");
-  }
-  const double rate = report.now.frames_per_second[i];
-  const double wanted = FpsOf(report, i);
-  const bool is_flowing = report.now.sets_per_second > 0;
-  const bool returns = i < report.now.returns.size() && report.now.returns[i];
-  const bool is_slow = is_flowing && !returns && rate < kGoodRate * wanted;
-  if (camera.state == CameraState::kStreaming && is_slow) {
-    list.push_back(
-        fmt::format("{} delivers {:.1f} of {:.1f} frames a second: check its exposure time, its "
-                    "bus or network, and the processor's load",
-                    camera.name, rate, wanted));
-  }
-}
-
 /// Every camera delivers, but sets are incomplete.
 void ComplainOfMatching(const ServiceReport& report, List& list) {
   const StatusReport& now = report.now;
@@ -213,7 +174,7 @@ void ComplainOfMatching(const ServiceReport& report, List& list) {
   bool some_is_blind = false;
   for (std::size_t i = 0; i < now.status.cameras.size(); ++i) {
     const double rate = now.frames_per_second[i];
-    all_deliver &= rate > kGoodRate * FpsOf(report, i);
+    all_deliver &= rate > 0 && HasGoodRate(report, i);
     some_is_blind |= now.status.cameras[i].is_blind;
     if (rate > 0 && now.late_per_second[i] > kMostLate * rate) {
       late.push_back(now.status.cameras[i].name);
@@ -253,28 +214,6 @@ void ComplainOfTriggers(const ServiceReport& report, List& list) {
           "no trigger from {} reaches {}: check the wire, the strobe of {} and their trigger",
           master.name, fmt::join(silent, ", "), master.name));
     }
-  }
-}
-
-void ComplainOfPicture(const CameraStatus& camera, List& list) {
-  if (camera.state != CameraState::kStreaming) return;
-  if (camera.is_blind) {
-    list.push_back(camera.name +
-                   " no longer matches its background and is not used: check whether it was "
-                   "turned, is blocked, has a light shining into it, or has another exposure; if "
-                   "not, run mocap background learn");
-    return;
-  }
-  if (camera.light < kDarkest || camera.light > kBrightest) {
-    list.push_back(
-        fmt::format("the picture of {} has {:.0f} % of the brightness of its background: restore "
-                    "the light, or run mocap background learn",
-                    camera.name, 100 * camera.light));
-  }
-  if (camera.nudged_px > kNudged_px) {
-    list.push_back(
-        fmt::format("{} has moved by {:.1f} px since its background was learned: check its mount",
-                    camera.name, camera.nudged_px));
   }
 }
 
@@ -350,10 +289,7 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
     std::ranges::move(LinkDiagnostics(*report.link, report.now.status.cameras, report.lcm_url),
                       std::back_inserter(list));
   }
-  for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
-    ComplainOfFlow(report, i, list);
-    ComplainOfPicture(report.now.status.cameras[i], list);
-  }
+  std::ranges::move(CameraDiagnostics(report), std::back_inserter(list));
   if (report.node.empty()) ComplainOfOneAlone(report, list);
   ComplainOfTriggers(report, list);
   ComplainOfMatching(report, list);

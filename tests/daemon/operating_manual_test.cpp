@@ -52,7 +52,7 @@ std::vector<ServiceReport> SilentReports() {
   }
   good.now.frames_per_second = {25, 25};
   good.now.late_per_second = {0, 0};
-  std::vector<ServiceReport> reports(7, good);
+  std::vector<ServiceReport> reports(8, good);
   reports[0].now.frames_per_second = {0, 0};
   reports[1].now.frames_per_second = {25, 0};
   reports[2].now.sets_per_second = 25;
@@ -68,6 +68,8 @@ std::vector<ServiceReport> SilentReports() {
   reports[5].delivery.channel = {
       .reaches_nobody = true, .other_sender = true, .silent_ns = 12'000'000'000};
   reports[6].delivery.channel.receive_fault = "UDP port 7667 is in use by another program";
+  reports[7].now.sets_per_second = 25;
+  reports[7].now.frames_per_second = {12, 12.4};
   reports.emplace_back();
   return reports;
 }
