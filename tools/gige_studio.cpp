@@ -175,7 +175,7 @@ class Cast {
     }
     if (!told_ && stage_->begin_ns.load() > 0) {
       told_ = true;
-      std::printf("all cameras stream; the take begins at %.6f s since the epoch\n",
+      std::printf("all cameras stream; the take begins at %.6f s since the epoch; Ctrl-C ends it\n",
                   static_cast<double>(stage_->begin_ns.load()) * 1e-9);
       std::fflush(stdout);
     }

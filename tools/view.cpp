@@ -74,7 +74,7 @@ void AddAbout(const std::string& mode, const std::string& title,
 void Announce(const ViewServer& server, const std::string& token) {
   std::string address = "http://127.0.0.1:" + std::to_string(server.port()) + "/";
   if (!token.empty()) address += "#token=" + token;
-  std::printf("the view is at %s\n", address.c_str());
+  std::printf("the view is at %s\nCtrl-C ends it\n", address.c_str());
   std::fflush(stdout);
 }
 
