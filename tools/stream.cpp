@@ -51,30 +51,49 @@ class Notice {
   std::string told_;
 };
 
-std::string NothingHeard(const StreamOptions& options) {
+/// Says that the wanted person is not there, and who is; empty if nobody is, or anybody is wanted.
+std::string PersonMissing(const PoseFeedOptions& options, const PoseFeed& feed) {
+  const std::string seen = feed.LastSeen();
+  if (!options.person || seen.empty()) return "";
+  return "person " + std::to_string(*options.person) + " is not tracked; " + seen;
+}
+
+std::string NothingHeard(const StreamOptions& options, const PoseFeed& heard) {
   const PoseFeedOptions& feed = options.feed;
+  if (const std::string missing = PersonMissing(feed, heard); !missing.empty())
+    return options.url + ": " + missing;
   const std::string channel =
       feed.prefix + (feed.everybody || feed.person ? kPeopleChannel : kPoseChannel);
-  const std::string of_whom = feed.person ? " of person " + std::to_string(*feed.person) : "";
-  return options.url + ": has no pose" + of_whom + " on " + channel +
-         "; expected a log of mocapd with this --prefix" + (feed.person ? " and person" : "");
+  return options.url + ": has no pose on " + channel +
+         "; expected a log of mocapd with this --prefix";
 }
 
 /// Streams poses until a signal comes, a log ends, or no reader is left.
+/// @param greeting  what to say once the source is open.
 /// @throws SetupError  when a log has ended without any.
-void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over) {
+void Stream(const StreamOptions& options, const PoseFeed::Take& take, const bool& is_over,
+            const std::string& greeting = "") {
   StopOnSignals();
   MessageSource source(options.url);
   PoseFeed feed(source.lcm(), options.feed, take);
   const Silence silence(source.lcm(), options.url, options.feed.prefix);
   Notice notice;
+  notice.Tell(greeting);
+  std::string missing;
   while (!StopAsked() && !is_over && source.Handle(kWait)) {
     if (source.is_log()) continue;
-    const bool is_silent = SteadyNs() - feed.heard_ns() > Silence::kLimit_ns;
-    notice.Tell(is_silent ? silence.Text() : "");
+    const std::int64_t now_ns = SteadyNs();
+    const bool is_silent = now_ns - feed.heard_ns() > Silence::kLimit_ns;
+    const bool is_missing = now_ns - feed.present_ns() > Silence::kLimit_ns;
+    // Who else comes and goes is not told anew.
+    if (!is_missing)
+      missing.clear();
+    else if (missing.empty())
+      missing = PersonMissing(options.feed, feed);
+    notice.Tell(is_silent ? silence.Text() : missing);
   }
   const bool has_ended = !StopAsked() && !is_over;
-  if (has_ended && !feed.has_heard()) throw SetupError(NothingHeard(options));
+  if (has_ended && !feed.has_heard()) throw SetupError(NothingHeard(options, feed));
 }
 
 /// Writes to standard output at once, even if the reader is slow.
@@ -137,7 +156,8 @@ void StreamOsc(const StreamOptions& options) {
   OscStream stream(options.to);
   const bool is_over = false;
   Stream(
-      options, [&stream](const StreamedPose& pose) { stream.Take(pose); }, is_over);
+      options, [&stream](const StreamedPose& pose) { stream.Take(pose); }, is_over,
+      "sends to " + options.to + "; Ctrl-C ends it");
 }
 
 void AddFeedOptions(CLI::App& command, StreamOptions& options) {

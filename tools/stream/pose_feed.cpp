@@ -6,7 +6,10 @@
 #include "core/people/people_capture.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
+#include "daemon/status/followed_person.h"
 #include "drivers/clock.h"
+#include "drivers/nearest_name.h"
+#include "drivers/printable_text.h"
 #include "tools/results/message_body.h"
 #include "tools/results/pose_log.h"
 
@@ -27,6 +30,15 @@ bool IsIn(const people_t& set, int id) {
   return std::ranges::find(set.people, id, &person_t::id) != set.people.end();
 }
 
+/// Anyone may send.
+std::vector<std::string> LabelsIn(const people_t& set) {
+  constexpr std::size_t kMostCharacters = 40;
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, set.people.size()); ++i)
+    labels.push_back(LabelOf(set.people[i].id, Shortened(set.people[i].name, kMostCharacters)));
+  return labels;
+}
+
 /// Message for a person who is absent.
 pose_t NoPoseIn(const people_t& set) {
   pose_t pose{};
@@ -39,7 +51,11 @@ pose_t NoPoseIn(const people_t& set) {
 }  // namespace
 
 PoseFeed::PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take)
-    : options_(options), take_(std::move(take)), rate_(options.most_hz), heard_ns_(SteadyNs()) {
+    : options_(options),
+      take_(std::move(take)),
+      rate_(options.most_hz),
+      heard_ns_(SteadyNs()),
+      present_ns_(heard_ns_) {
   const std::string prefix = ChannelPattern(options.prefix);
   if (options.everybody || options.person) {
     lcm.subscribe(prefix + kPeopleChannel, &PoseFeed::OnPeople, this);
@@ -54,6 +70,7 @@ void PoseFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<pose_t> pose = Decoded<pose_t>(*buffer);
   if (!pose) return;
   has_heard_ = true;
+  present_ns_ = SteadyNs();
   if (IsDue(pose->utime)) HandOn(*pose, 0, "");
 }
 
@@ -61,15 +78,22 @@ void PoseFeed::OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<people_t> set = Decoded<people_t>(*buffer);
   if (!set) return;
   std::erase_if(bodies_, [&](const auto& body) { return !IsIn(*set, body.first); });
-  has_heard_ = has_heard_ || !options_.person || IsIn(*set, *options_.person);
+  const bool is_present = !options_.person || IsIn(*set, *options_.person);
+  has_heard_ = has_heard_ || is_present;
+  if (is_present) present_ns_ = SteadyNs();
+  if (!set->people.empty()) last_seen_ = LabelsIn(*set);
   if (!IsDue(set->utime)) return;
   for (const person_t& person : set->people) {
     if (options_.person.value_or(person.id) != person.id) continue;
     HandOn(PoseOf(*set, person), person.id, person.name);
   }
-  if (options_.person && !IsIn(*set, *options_.person)) {
+  if (!is_present) {
     HandOn(NoPoseIn(*set), *options_.person, "");
   }
+}
+
+std::string PoseFeed::LastSeen() const {
+  return last_seen_.empty() ? "" : "last seen: " + ListedNames(last_seen_);
 }
 
 void PoseFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {

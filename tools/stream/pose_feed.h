@@ -11,6 +11,7 @@
 #include <mocap/pose_t.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/stream/rate_limit.h"
 
@@ -45,8 +46,14 @@ class PoseFeed {
 
   /// When the last set came, or the feed was made, by the steady clock.
   std::int64_t heard_ns() const { return heard_ns_; }
+  /// When the wanted person was last in a set, or the feed was made; if none is wanted, when a set
+  /// last came.
+  std::int64_t present_ns() const { return present_ns_; }
   /// Whether any pose of the wanted people came.
   bool has_heard() const { return has_heard_; }
+  /// Says whom the last set that was not empty had: "last seen: person 1, person 3 (anna)". Empty
+  /// if all were.
+  std::string LastSeen() const;
 
  private:
   void OnPose(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -59,8 +66,9 @@ class PoseFeed {
   const PoseFeedOptions options_;
   const Take take_;
   RateLimit rate_;
-  std::int64_t heard_ns_;
+  std::int64_t heard_ns_, present_ns_;
   bool has_heard_ = false;
+  std::vector<std::string> last_seen_;
   std::map<int, body_t> bodies_;  ///< By person; 0: from MOCAP_BODY.
 };
 

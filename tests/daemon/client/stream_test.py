@@ -93,6 +93,32 @@ class StreamTest(unittest.TestCase):
         self.assertGreater(len(lines), 5)
         self.assert_same(lines, [pose for pose in mocapd.listen("file://" + self.log, person=2) if pose.is_tracked])
 
+    def test_a_person_who_is_not_there_is_told_with_those_who_are(self):
+        refused = subprocess.run([os.path.join(BIN, "mocap"), "stream", "json", "--url", f"file://{self.log}?speed=0", "--person", "99"],
+                                 capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertRegex(refused.stderr, r": person 99 is not tracked; last seen: person 1, person 2$")
+        need_multicast(self)
+        url = free_group()
+        stream = subprocess.Popen([os.path.join(BIN, "mocap"), "stream", "json", "--url", url, "--person", "99"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        daemon = self.take.daemon(url, rate="realtime", loop="true")
+        try:
+            while "person 99 is not tracked; last seen: person " not in (line := stream.stderr.readline()):
+                self.assertRegex(line, "no messages|no poses")
+        finally:
+            for process in (stream, daemon):
+                process.kill()
+                process.communicate()
+
+    def test_what_runs_on_says_how_it_is_ended(self):
+        for words in (("view", self.take.take, "--port", "0"), ("stream", "osc", "--url", free_group())):
+            with subprocess.Popen([os.path.join(BIN, "mocap"), *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as program:
+                while "Ctrl-C ends it" not in (line := program.stdout.readline()):
+                    self.assertTrue(line, words)
+                program.send_signal(signal.SIGINT)
+                self.assertEqual(program.wait(60), 0)
+
     def test_who_has_read_enough_ends_it_quietly(self):
         with subprocess.Popen([os.path.join(BIN, "mocap"), "stream", "json", "--url", f"file://{self.log}?speed=0"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as stream:

@@ -177,6 +177,20 @@ TEST_F(PoseFeedTest, OnePersonIsChosenByNumberAndMissedWhenGone) {
   EXPECT_FALSE(lines_[1].contains("points_mm"));
 }
 
+TEST_F(PoseFeedTest, WhoIsThereIsKnownWhileThePersonIsNot) {
+  Listen({.person = 99});
+  EXPECT_EQ(feed_->LastSeen(), "");
+  const std::int64_t begin_ns = feed_->present_ns();
+  Publish("MOCAP_PEOPLE",
+          People({PersonMessage(2, "anna", Pose(5)), PersonMessage(7, "", Pose(6))}, 1));
+  Publish("MOCAP_PEOPLE", People({}, 2));
+  EXPECT_EQ(feed_->LastSeen(), "last seen: person 2 (anna), person 7");
+  EXPECT_EQ(feed_->present_ns(), begin_ns);
+  EXPECT_GT(feed_->heard_ns(), begin_ns);
+  Publish("MOCAP_PEOPLE", People({PersonMessage(99, "", Pose(7))}, 3));
+  EXPECT_GT(feed_->present_ns(), begin_ns);
+}
+
 TEST_F(PoseFeedTest, OnlyThePrefixThatIsMeantIsHeard) {
   Listen({.prefix = "left."});
   Publish("left.MOCAP_BODY", BodyMessage(body_));
