@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "drivers/quoted.h"
 #include "drivers/take/text_table.h"
 #include "tools/results/result_columns.h"
 
@@ -48,7 +49,9 @@ struct PoseColumns {
   std::array<std::optional<std::size_t>, kPointCount> deviations;
 };
 
-PoseColumns FindColumns(std::vector<std::string> names, BodyRecord& body) {
+/// Removes joints beyond the paper's sixteen from the body of an older result.
+/// @throws SetupError  when only some of their columns are missing.
+PoseColumns FindColumns(std::vector<std::string> names, BodyRecord& body, const TextLines& lines) {
   const std::size_t usual = ResultColumns().size();
   const auto place_of = [&](const std::string& name) -> std::optional<std::size_t> {
     const auto place =
@@ -57,11 +60,17 @@ PoseColumns FindColumns(std::vector<std::string> names, BodyRecord& body) {
     return static_cast<std::size_t>(place - names.begin());
   };
   PoseColumns columns;
-  std::erase_if(body.joints, [&](const JointRecord& joint) {
-    return joint.paper_angle == 0 && !place_of(JointColumn(joint.name));
-  });
+  const bool is_older = names.size() == usual;
+  if (is_older)
+    std::erase_if(body.joints, [](const auto& joint) { return joint.paper_angle == 0; });
   for (const JointRecord& joint : body.joints) {
-    if (joint.paper_angle == 0) columns.joints.push_back(*place_of(JointColumn(joint.name)));
+    if (joint.paper_angle > 0) continue;
+    const std::string column = JointColumn(joint.name);
+    const std::optional<std::size_t> place = place_of(column);
+    if (!place)
+      lines.Fail("has no column " + Quoted(column) +
+                 "; expected it, as [joints] columns of body.toml names it");
+    columns.joints.push_back(*place);
   }
   for (int i = 0; i < kPointCount; ++i) {
     columns.deviations[i] = place_of(DeviationColumn(kPointNames[i]));
@@ -146,7 +155,7 @@ std::vector<PoseRow> ReadPoses(const std::filesystem::path& file, BodyRecord& bo
       RequireColumns(lines, usual,
                      "frame,timestamp_ns,state,torso_x_mm,... of " + std::to_string(usual.size()) +
                          " columns or more, as mocap track writes it,"),
-      body);
+      body, lines);
   std::vector<PoseRow> rows;
   std::string_view line;
   while (lines.NextRow(line)) {

@@ -54,6 +54,12 @@ std::vector<JointRecord> ReadJoints(TomlSection& root) {
     }
     joints.push_back({names[i], PaperAngleOf(columns[i])});
   }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (joints[i].paper_angle > 0 || columns[i] == JointColumn(names[i])) continue;
+    section->Fail("columns", "has " + Quoted(columns[i]) + " for the joint " + names[i] +
+                                 "; expected " + JointColumn(names[i]) +
+                                 ", or one of theta_1_rad to theta_16_rad");
+  }
   return joints;
 }
 

@@ -115,6 +115,15 @@ class ReadResultTest(unittest.TestCase):
         result = self.result(("deviation_head_mm", "wrist_l_x_rad"), ("", ""), self.BODY + self.JOINTS)
         self.assertTrue(np.isnan(result.points_std_mm[0, 1]) and np.isnan(result.angle("wrist_l_x")[0]))
 
+    def test_a_column_that_the_body_names_and_the_table_lacks_is_told(self):
+        with self.assertRaisesRegex(ValueError, "poses.csv: line 1: has no column 'wrist_l_x_rad'; expected it, as .joints. columns of body.toml"):
+            self.result(("deviation_head_mm",), ("6.5",), self.BODY + self.JOINTS)
+        with self.assertRaisesRegex(ValueError, "body.toml: joints.columns has 'wrist_rad' for the joint wrist_l_x; expected wrist_l_x_rad, or"):
+            self.result(("wrist_rad",), ("6.5",), self.BODY + self.JOINTS.replace("wrist_l_x_rad", "wrist_rad"))
+
+    def test_an_older_result_has_only_the_papers_joints(self):
+        self.assertEqual(self.result(body=self.BODY + self.JOINTS).joint_names, ("knee_r_y",))
+
     def test_another_table_is_told(self):
         with self.assertRaisesRegex(ValueError, "poses.csv: line 2: has 97 cells, not 98"):
             self.result(("probability",))

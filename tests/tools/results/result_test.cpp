@@ -143,6 +143,20 @@ TEST(Result, FurtherColumnsAreFoundByTheirNames) {
               HasSubstr("poses.csv:1: has the column \"torso_x_mm\" a second time"));
 }
 
+TEST(Result, AColumnThatTheBodyNamesAndTheTableLacksIsTold) {
+  TemporaryFolder folder;
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "poses.csv", "wrist_l_x_rad", "wrist_l_y_rad");
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
+              HasSubstr("poses.csv:1: has no column \"wrist_l_x_rad\"; expected it, as [joints] "
+                        "columns of body.toml names it"));
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "body.toml", "wrist_l_x_rad", "wrist_rad");
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
+              HasSubstr("joints.columns has \"wrist_rad\" for the joint wrist_l_x; expected "
+                        "wrist_l_x_rad, or one of theta_1_rad to theta_16_rad"));
+}
+
 TEST(Result, NamesOfJointsThatNoTableMayHaveAreRefused) {
   TemporaryFolder folder;
   for (const char* name : {"wrist,l", "theta_3", "knee_r_y"}) {

@@ -116,8 +116,7 @@ def read_result(folder: Path) -> Result:
         header = next(reader, [])
         if tuple(header[:len(COLUMNS)]) != COLUMNS:
             raise ValueError(f"{poses}: line 1: is no header of poses.csv; expected {', '.join(COLUMNS[:4])} ... as mocap track writes it")
-        columns = {name: column for name, column in zip(body["joints"]["names"], body["joints"]["columns"])
-                   if column in header}
+        columns = _joint_columns(poses, header, body)
         places = _Places(joints=[header.index(column) for column in columns.values()],
                          deviations=[header.index(name) if name in header else None
                                      for name in (f"deviation_{point}_mm" for point in POINT_NAMES)])
@@ -145,7 +144,22 @@ def _read_body(file: pathlib.Path) -> dict[str, Any]:
     joints = body.setdefault("joints", {"names": PAPER_JOINT_NAMES, "columns": [f"{name}_rad" for name in THETA_NAMES]})
     if len(joints.get("names", ())) != len(joints.get("columns", ())):
         raise ValueError(f"{file}: joints.names and joints.columns differ in length; expected a column for each joint")
+    for name, column in zip(joints["names"], joints["columns"]):
+        if column not in (f"{name}_rad", *(f"{theta}_rad" for theta in THETA_NAMES)):
+            raise ValueError(f"{file}: joints.columns has {column!r} for the joint {name}; expected {name}_rad, or one of theta_1_rad "
+                             "to theta_16_rad")
     return body
+
+
+def _joint_columns(poses: pathlib.Path, header: list[str], body: dict[str, Any]) -> dict[str, str]:
+    """The columns of the joints by their names. Older results have the paper's sixteen angles only."""
+    columns = dict(zip(body["joints"]["names"], body["joints"]["columns"]))
+    if len(header) == len(COLUMNS):
+        return {name: column for name, column in columns.items() if column in COLUMNS}
+    for column in columns.values():
+        if column not in header:
+            raise ValueError(f"{poses}: line 1: has no column {column!r}; expected it, as [joints] columns of body.toml names it")
+    return columns
 
 
 def read_log(path: Path, prefix: str | None = None, person: int | None = None) -> Result:
