@@ -25,6 +25,7 @@
 #include "daemon/base/number_option.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/clock.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
@@ -111,6 +112,29 @@ void TellFault(const TrackOptions& options, const std::vector<CameraCalibration>
   TellRemarks("track", {why});
 }
 
+/// Names the parts of a result: poses.csv, or person-1 and so on.
+std::vector<std::string> PartsOf(const std::filesystem::path& result) {
+  std::vector<std::string> parts;
+  if (IsThere(result / "poses.csv")) parts.emplace_back("poses.csv");
+  for (const std::filesystem::path& person : PersonFolders(result)) {
+    if (IsThere(person / "poses.csv")) parts.push_back(person.filename().string());
+  }
+  return parts;
+}
+
+/// Writes the result, and says what it removes of an earlier one without writing it anew.
+void Write(const TrackOptions& options, const ResultSink& sink) {
+  std::vector<std::string> removed = PartsOf(options.out);
+  if (options.people)
+    WritePeople(options.out, sink.people());
+  else
+    WriteResult(options.out, sink.result());
+  for (const std::string& part : PartsOf(options.out)) std::erase(removed, part);
+  if (!removed.empty())
+    TellRemarks("track", {options.out.string() + ": replaces an earlier result; removed its " +
+                          ListedNames(removed)});
+}
+
 void Track(const TrackOptions& options) {
   const NamedTracker& tracker = TrackerOf(options.tracker);
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
@@ -143,10 +167,7 @@ void Track(const TrackOptions& options) {
     throw SetupError(options.take.string() + ": no frames of two cameras match in time");
   }
   TellFault(options, cameras, pipeline.Moments(), sink.tracked_frames());
-  if (options.people)
-    WritePeople(options.out, sink.people());
-  else
-    WriteResult(options.out, sink.result());
+  Write(options, sink);
   if (new_folder) new_folder->Finish();
   if (options.json) {
     std::puts(JsonOf(sink, pipeline.Status().stages, seconds).c_str());

@@ -96,6 +96,18 @@ TEST_F(WalkTracked, AWrongCalibrationIsToldAndReplacesNoResult) {
   EXPECT_FALSE(fs::exists(none));
 }
 
+TEST_F(WalkTracked, WhatIsRemovedOfAnEarlierResultIsTold) {
+  Track();
+  const std::string people =
+      "track --voxel-size 40 --people 2 --out " + Result().string() + " " + Take().string();
+  EXPECT_THAT(Said(AddTrackCommand, people),
+              HasSubstr("replaces an earlier result; removed its poses.csv\n"));
+  fs::copy(Result() / "person-1", Result() / "person-7");
+  EXPECT_THAT(Said(AddTrackCommand, people), HasSubstr("removed its person-7\n"));
+  EXPECT_THAT(Track(), HasSubstr("removed its person-1\n"));
+  EXPECT_THAT(Track(), Not(HasSubstr("removed")));
+}
+
 TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
   Track();
   const std::string before = testing::ReadText(Result() / "poses.csv");
