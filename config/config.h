@@ -99,6 +99,7 @@ struct CameraConfig {
 };
 
 struct Config {
+  std::filesystem::path file;  ///< From which it was read; empty: none.
   Role role = Role::kAlone;
   NodeConfig node;                ///< For role kNode.
   std::vector<StudioNode> nodes;  ///< For role kStudio.
@@ -115,5 +116,10 @@ struct Config {
   std::vector<CameraConfig> cameras;
   ServiceConfig service;
 };
+
+/// Names a key of a configuration in an error: "mocapd.toml: source.take".
+inline std::string WhereOf(const Config& config, const std::string& key) {
+  return config.file.empty() ? key : config.file.string() + ": " + key;
+}
 
 }  // namespace mocap

@@ -30,7 +30,9 @@ SourceConfig ReadSource(TomlSection section, const std::filesystem::path& file) 
                                                                      : ReplayRate::kFast;
   source.loop = section.Flag("loop", source.loop);
   source.in_memory = section.Flag("in_memory", source.in_memory);
-  source.motion = section.Text("motion", source.motion);
+  const std::vector<std::string> motions(simulation::kCompanyMotionNames.begin(),
+                                         simulation::kCompanyMotionNames.end());
+  source.motion = motions[section.Choice("motion", motions, 0)];
   source.people = static_cast<int>(
       section.IntegerWithin("people", 1, simulation::kMostSimulatedPeople, source.people));
   source.stature_mm = section.NumberWithin("stature_mm", 1000, 2100, source.stature_mm);
@@ -144,6 +146,7 @@ std::vector<std::string> TrackerNames() {
 Config LoadConfig(const std::filesystem::path& file) {
   TomlSection root = TomlSection::ReadFile(file);
   Config config;
+  config.file = file;
   config.calibration = Resolved(file, root.Text("calibration", ""));
   config.background = Resolved(file, root.Text("background", "background"));
   ReadBody(root, file, config);

@@ -142,8 +142,13 @@ std::vector<LiveCamera> OpenLiveCameras(const Config& config,
 
 Studio OpenLiveStudio(const Config& config) {
   if (!IsThere(config.calibration)) {
-    throw SetupError(config.calibration.string() +
-                     ": not found; `mocap calibrate studio` makes one");
+    throw SetupError(WhereOf(config, "calibration") + " is " + config.calibration.string() +
+                     ", which is not there; `mocap calibrate studio` makes one");
+  }
+  if (!IsThere(config.background)) {
+    throw SetupError(WhereOf(config, "background") + " is " + config.background.string() +
+                     ", which is not there; `mocap background learn --config FILE` makes it while "
+                     "the studio is empty");
   }
   RequireFolder(config.background,
                 "what `mocap background learn --config FILE` makes while the studio is empty");

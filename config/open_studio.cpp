@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 
 namespace mocap {
@@ -39,6 +40,9 @@ namespace {
 
 Studio OpenTakeAsSource(const Config& config) {
   const SourceConfig& source = config.source;
+  if (!IsThere(source.take))
+    throw SetupError(WhereOf(config, "source.take") + " is " + source.take.string() +
+                     ", which is not there; expected the folder of a take");
   TakeOptions options{.rate = source.rate,
                       .loop = source.loop,
                       .in_memory = source.in_memory,

@@ -194,6 +194,7 @@ TEST_F(ConfigFile, AMisspeltNameIsToldWithTheOneThatItResembles) {
       {"[source]\ndriver = \"simulatd\"\n", 2,
        "is \"simulatd\"; did you mean simulated? Expected \"take\" or"},
       {"[recording]\ncodec = \"fvv1\"\n", 2, "did you mean ffv1?"},
+      {"[source]\nmotion = \"wlak\"\n", 2, "source.motion is \"wlak\"; did you mean walk?"},
       {"[body]\ntracker = \"surfcae\"\n", 2, "did you mean surface?"},
       {"[lcm]\nurl = \"udpm://239.255.76.67:7667?tll=1\"\n", 2, "did you mean ttl?"},
       {"[[cameras]]\nnmae = \"a\"\ndevice = \"b\"\n", 1, "there is nmae: did you mean name?"},

@@ -104,7 +104,12 @@ TEST_F(LiveStudio, SaysHowToLearnAMissingBackground) {
   std::filesystem::remove(folder_.path() / "background/cam2.mkv");
   EXPECT_THAT(Error(Load()), HasSubstr("cam2.mkv"));
   std::filesystem::remove_all(folder_.path() / "background");
-  EXPECT_THAT(Error(Load()), HasSubstr("mocap background learn --config FILE"));
+  const std::string file = (folder_.path() / "mocapd.toml").string();
+  EXPECT_THAT(Error(Load()), AllOf(HasSubstr(file + ": background is "),
+                                   HasSubstr("mocap background learn --config FILE")));
+  std::filesystem::remove(folder_.path() / "calibration.toml");
+  EXPECT_THAT(Error(Load()), AllOf(HasSubstr(file + ": calibration is "),
+                                   HasSubstr("which is not there; `mocap calibrate studio`")));
 }
 
 TEST_F(LiveStudio, HeadsAreCalibratedAndCalibratedHeadsAreThere) {
