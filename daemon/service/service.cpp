@@ -91,7 +91,9 @@ class ControlDesk {
   ControlReply Answer(const ControlRequest& request) const {
     ServiceControl* control = control_.load();
     if (control) return control->Answer(request);
-    throw std::runtime_error("mocapd is starting: it is learning the background");
+    throw std::runtime_error(
+        "mocapd is starting: it opens its cameras and learns the background; ask "
+        "again");
   }
 
   std::atomic<ServiceControl*> control_{nullptr};
@@ -144,9 +146,10 @@ void RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
 void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
          std::optional<double> seconds) {
   const Config config = live.config();
+  // Whoever asks while cameras are opened hears that mocapd is starting.
+  ControlDesk desk(ControlPlaceOf(config));
   PreparedService prepared = PrepareService(config);
   Studio& studio = prepared.studio;
-  ControlDesk desk(prepared.socket);
   ServiceManager manager;
   manager.Say("learning the empty studio");
   spdlog::info("learning the background: {}, {}", studio.name,

@@ -75,8 +75,6 @@ void RequireTakesPlace(const std::filesystem::path& folder) {
 PreparedService Prepare(const Config& config) {
   RequirePlaces(config);
   PreparedService prepared;
-  prepared.socket = ControlSocketOf(config.service.control.socket);
-  if (!prepared.socket.empty()) RequireSocketPlace(prepared.socket);
   prepared.body = LoadBodyTable(config.body);
   RequireBodyOf(config.tracker, prepared.body);
   prepared.studio = OpenStudio(config);
@@ -92,6 +90,12 @@ void RequirePlaces(const Config& config) {
   RequireNodePrograms(config.nodes);
 }
 
+std::filesystem::path ControlPlaceOf(const Config& config) {
+  const std::filesystem::path socket = ControlSocketOf(config.service.control.socket);
+  if (!socket.empty()) RequireSocketPlace(socket);
+  return socket;
+}
+
 PreparedService PrepareService(const Config& config) {
   PrepareRealtime(config.service.realtime);
   std::unique_ptr<lcm::LCM> lcm = OpenLcm(config.lcm.url);
@@ -102,6 +106,7 @@ PreparedService PrepareService(const Config& config) {
 }
 
 std::vector<std::string> CheckConfig(const Config& config) {
+  ControlPlaceOf(config);
   PrepareRealtime(config.service.realtime);
   CheckLcm(config.lcm.url);
   const PreparedService prepared = Prepare(config);

@@ -25,8 +25,10 @@ struct PreparedService {
   std::unique_ptr<lcm::LCM> lcm;
   std::unique_ptr<lcm::LCM> preview_lcm;  ///< Null: previews use `lcm`.
   Studio studio;
-  std::filesystem::path socket;  ///< Empty: no control socket.
 };
+
+/// Checks where the control socket will be. @return empty: there is none. @throws SetupError
+std::filesystem::path ControlPlaceOf(const Config& config);
 
 /// Opens and checks everything that a configuration names, except whether cameras answer. Every
 /// start uses this. @throws SetupError

@@ -266,6 +266,26 @@ TEST_F(MocapdTest, SaysThatItIsStartingWhileItLearns) {
   EXPECT_THAT(reply.text, HasSubstr("mocapd is starting"));
 }
 
+TEST_F(MocapdTest, CanBeAskedBeforeItOpensItsCameras) {
+  // Two daemons cannot both be asked there, so the second is refused where the socket is made.
+  const ControlServer other(folder_.path() / "control",
+                            [](const ControlRequest&) { return ControlReply{}; });
+  const std::string config =
+      WriteConfig("driver = \"take\"\ntake = \"nowhere\"\n", "[control]\nsocket = \"control\"\n");
+  Daemon daemon({"--config", config}, log_);
+  EXPECT_EQ(daemon.Wait(), 2);
+  EXPECT_THAT(daemon.Errors(), HasSubstr("another mocapd uses this socket"));
+}
+
+TEST_F(MocapdTest, ATakeThatIsNotThereIsToldWithFileAndKey) {
+  const std::string config = WriteConfig("driver = \"take\"\ntake = \"wlak\"\n");
+  Daemon check({"--config", config, "--check-config"}, log_);
+  EXPECT_EQ(check.Wait(), 2);
+  EXPECT_EQ(check.Errors(), "mocapd: " + config + ": source.take is " +
+                                (folder_.path() / "wlak").string() +
+                                ", which is not there; expected the folder of a take\n");
+}
+
 TEST_F(MocapdTest, AReaderOfItsLogThatGoesAwayDoesNotEndIt) {
   std::string reason;
   if (!Open(reason)) GTEST_SKIP() << reason;
