@@ -59,9 +59,9 @@ std::string AgreementText(const StudioDiagnosis& diagnosis,
     if (pair.moments > 0 && is_worse) worst = &pair;
   }
   if (!worst) return "";
-  return fmt::format("any two cameras' views of people agree by at least {:.0f} % ({}, {})",
-                     100 * worst->views.overlap, cameras[worst->first].name,
-                     cameras[worst->second].name);
+  return fmt::format("{} and {} agree least on where people are: by {:.0f} %",
+                     cameras[worst->first].name, cameras[worst->second].name,
+                     100 * worst->views.overlap);
 }
 
 // Checks that the cameras agree on a person who stands on the floor.

@@ -238,7 +238,7 @@ std::vector<std::unique_ptr<const Motion>> MakeCompany(std::string_view name, Bo
                                                        std::uint64_t seed) {
   if (bodies.size() == 1) {
     if (name == "meet" || name == "doorway")
-      throw SetupError("motion \"" + std::string(name) + "\": people is 1; expected 2 or more");
+      throw SetupError("motion " + Quoted(name) + " needs 2 people or more; people is 1");
     Motions motions;
     motions.push_back(MakeMotion(name, bodies[0], seed));
     return motions;

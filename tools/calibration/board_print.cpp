@@ -163,7 +163,7 @@ Vector2 PageFor(const Vector2& needed_mm, const Vector2& page_mm) {
                      is_wide ? page_mm.minCoeff() : page_mm.maxCoeff());
   if ((page - needed_mm).minCoeff() < 0)
     throw SetupError(
-        fmt::format("--page: has {:.0f} x {:.0f} mm, and the board with its rim and ruler needs "
+        fmt::format("--page is {:.0f} x {:.0f} mm, but the board with its rim and ruler needs "
                     "{:.0f} x {:.0f} mm; expected a larger page, a smaller board, or no --page",
                     page.x(), page.y(), needed_mm.x(), needed_mm.y()));
   return page;

@@ -6,6 +6,7 @@
 
 #include "core/degrees.h"
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 #include "tools/interchange/joint_angles.h"
 #include "tools/results/fixed_text.h"
 
@@ -52,7 +53,8 @@ ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out) {
   for (const BodyAngles& angles : frames) out << MotRow(angles, first_ns);
   const std::size_t untracked = result.poses.size() - frames.size();
   if (untracked == 0) return {};
-  return {fmt::format("frames not tracked, which have no row: {}", untracked)};
+  return {Counted(untracked, "frame") +
+          (untracked == 1 ? " is not tracked and has no row" : " are not tracked and have no row")};
 }
 
 }  // namespace mocap

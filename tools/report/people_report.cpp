@@ -159,7 +159,7 @@ std::string TrueRows(const PeopleEvaluation& evaluation) {
     add(evaluation.truth[i].name, evaluation.followed[i]);
   }
   add("all", evaluation.sum);
-  return html + "</table>\n";
+  return html + fmt::format("</table>\n<p>{}</p>\n", kTrueColumnsText);
 }
 
 /// Every person's row at a time.

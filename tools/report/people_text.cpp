@@ -64,10 +64,11 @@ std::string TrueTable(const PeopleEvaluation& evaluation) {
     text += TrueRow(Printable(evaluation.truth[i].name), evaluation.followed[i]);
   }
   text += TrueRow("all", evaluation.sum);
-  return text + fmt::format(
-                    "\nframes of tracks without a person (phantom): {}\nframes of second tracks of "
-                    "the same person (duplicate): {}\n",
-                    evaluation.phantom_frames, evaluation.duplicate_frames);
+  return text +
+         fmt::format(
+             "\n{}\nframes of tracks without a person (phantom): {}\nframes of second tracks of "
+             "the same person (duplicate): {}\n",
+             kTrueColumnsText, evaluation.phantom_frames, evaluation.duplicate_frames);
 }
 
 JsonObject FollowedJson(const FollowedTruth& followed) {

@@ -84,7 +84,7 @@ TEST(BoardPdf, HasTheWantedPageTurnedAsTheBoard) {
 
 TEST(BoardPdf, APageThatIsTooSmallIsRefused) {
   EXPECT_THAT(testing::SetupErrorOf([] { PdfOf("chess:8x5:100", ParsePage("a3")); }),
-              HasSubstr("--page: has 420 x 297 mm, and the board with its rim and ruler needs 1000 "
+              HasSubstr("--page is 420 x 297 mm, but the board with its rim and ruler needs 1000 "
                         "x 718 mm"));
   EXPECT_THAT(testing::SetupErrorOf([] { PdfOf("wand:500", Vector2::Zero()); }),
               HasSubstr("a wand is not printed"));

@@ -49,6 +49,20 @@ ReadMot WriteAndReadMot(const Result& result) {
   return mot;
 }
 
+TEST(MotWriter, SaysHowManyFramesHaveNoRow) {
+  Result result = SwingingResult(6);
+  const ExportSubject subject{"", result};
+  const auto remarks = [&] {
+    std::stringstream text;
+    return WriteMot({std::span(&subject, 1), result.poses, "walk.mot"}, text);
+  };
+  EXPECT_THAT(remarks(), ::testing::IsEmpty());
+  result.poses[3].state = CaptureState::kLost;
+  EXPECT_THAT(remarks(), ::testing::ElementsAre("1 frame is not tracked and has no row"));
+  result.poses[4].state = CaptureState::kLost;
+  EXPECT_THAT(remarks(), ::testing::ElementsAre("2 frames are not tracked and have no row"));
+}
+
 /// The angles of somebody who stands with hanging arms and turns one joint.
 Row AnglesOfTurn(const std::string& joint, double degrees) {
   const BodyModel body = GrownBody();

@@ -134,6 +134,8 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   EXPECT_THAT(text, ::testing::ContainsRegex("person-7 +8 +8 +0\\.0 +0  - +- +8 +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("anna +10 +0 +10 +0\\.0 % +- +0\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("all +20 +10 +20 +50\\.0 % +10\\.0 +0\n"));
+  EXPECT_THAT(text, HasSubstr("covered: frames in which at least four cameras show the whole"));
+  EXPECT_THAT(PeopleReportHtml(evaluation, {}, {}), HasSubstr("<p>covered: frames in which"));
   EXPECT_THAT(text, HasSubstr("frames of tracks without a person (phantom): 8\n"));
   const std::string json = PeopleJson(evaluation);
   EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8, \"duplicate_frames\": 0}"));
