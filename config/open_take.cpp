@@ -48,7 +48,7 @@ void CheckTimes(const TakeTable& table, double fps_nominal, const std::filesyste
   if (times > kRefusedTimes || times < 1 / kRefusedTimes) {
     const std::string unit = UnitOf(times);
     throw SetupError(
-        text.str() + (unit.empty() ? "; expected" : ": are these " + unit + "? Expected") +
+        text.str() + (unit.empty() ? "; expected" : ", as if in " + unit + "; expected") +
         " timestamp_ns in nanoseconds" + (unit.empty() ? ", or another fps_nominal" : ""));
   }
   if (times > kDoubtfulTimes || times < 1 / kDoubtfulTimes) remarks.push_back(text.str());

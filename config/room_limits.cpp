@@ -41,14 +41,14 @@ void RequireRoom(std::span<const CameraCalibration> cameras, double voxel_mm,
   const double apart_mm = centers.diagonal().norm();
   if (cameras.size() > 1 && !(apart_mm >= kNearest_mm)) {
     throw SetupError(where + ": its cameras lie within " + Text("%.3g", apart_mm) +
-                     " mm of each other: are its lengths in metres? Expected millimetres, and a "
+                     " mm of each other; expected lengths in millimetres, not metres, and a "
                      "pose for each lens");
   }
   const Vector3 size_mm = room.diagonal();
   if (!(size_mm.maxCoeff() <= kLargestRoom_mm)) {
     throw SetupError(where + ": its cameras look at a room of " + RoomText(size_mm) +
                      "; expected at most " + Text("%g", kLargestRoom_mm / 1000) +
-                     " m: are its lengths in millimetres?");
+                     " m, from lengths in millimetres");
   }
   if (!(size_mm.minCoeff() > 0)) {
     throw SetupError(where +

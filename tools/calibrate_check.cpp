@@ -144,8 +144,7 @@ void Compare(const std::vector<CameraCalibration>& cameras, const std::filesyste
   const bool is_other = difference.mean_mm > kOtherStudio_mm;
   if (is_other)
     text += fmt::format(
-        "; expected at most {:.0f} mm: is it the same studio, with the floor's board in the same "
-        "place?",
+        "; expected at most {:.0f} mm, in the same studio with the floor's board in the same place",
         kOtherStudio_mm);
   findings.push_back({is_other ? Severity::kWrong : Severity::kNote, std::move(text)});
 }

@@ -153,7 +153,7 @@ std::string VerdictText(const RefinedStudio& refined) {
   for (const CameraShift& s : refined.before) {
     if (IsZoomed(s))
       text += fmt::format(
-          "{}: its picture has become {:.1f} % {}; was its focus or zoom touched? Calibrate its "
+          "{}: its picture has become {:.1f} % {}: its focus or zoom was touched; calibrate its "
           "intrinsics again\n",
           s.camera, 100 * std::abs(s.growth), s.growth > 0 ? "larger" : "smaller");
   }

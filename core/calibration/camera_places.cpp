@@ -38,8 +38,9 @@ void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings
                             " mm below the floor; the floor may be upside down, or this camera's "
                             "pose mirrored"});
   } else if (p_WC.z() > kHighest_mm) {
-    findings.push_back({Severity::kWarning, camera.name + ": hangs " + Rounded(p_WC.z() / 1000) +
-                                                " m high; are the board's squares given in mm?"});
+    findings.push_back(
+        {Severity::kWarning, camera.name + ": hangs " + Rounded(p_WC.z() / 1000) +
+                                 " m high; check that the board's squares are given in mm"});
   }
 }
 
@@ -71,8 +72,8 @@ void CheckDistances(std::span<const CameraCalibration> cameras, std::vector<Find
   if (widest_mm >= kNearest_mm && widest_mm < kSmallestStudio_mm) {
     findings.push_back(
         {Severity::kWarning, "all cameras stand within " + Rounded(widest_mm) +
-                                 " mm: are lengths given in inches or centimetres? Expected "
-                                 "millimetres"});
+                                 " mm; expected lengths in millimetres, not in inches or "
+                                 "centimetres"});
   }
 }
 

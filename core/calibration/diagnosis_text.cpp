@@ -57,7 +57,7 @@ std::string Text(const StudioDiagnosis& diagnosis, std::span<const CameraCalibra
     case StudioFault::kSomeDisagree:
       return names + (diagnosis.cameras.size() == 1 ? " sees" : " see") +
              " people elsewhere than the other cameras do: moved, or zoomed, since the "
-             "calibration? Calibrate again";
+             "calibration; calibrate again";
     case StudioFault::kNoneAgree:
       return "the cameras' views of people do not fit together: the calibration is of other "
              "cameras or of another setup, names are mixed up, or the frames are of different "

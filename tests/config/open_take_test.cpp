@@ -158,8 +158,8 @@ std::string TableWithIntervals(std::int64_t interval) {
 TEST_F(OpenedTake, TimesThatAreNoNanosecondsAreRefused) {
   WriteSmallTake(layout_.folder, take_);
   const std::pair<std::int64_t, const char*> cases[] = {
-      {40'000, "microseconds?"},
-      {40, "milliseconds?"},
+      {40'000, "as if in microseconds; expected"},
+      {40, "as if in milliseconds; expected"},
       {40'000'000'000, "expected timestamp_ns in nanoseconds"}};
   for (const auto& [interval, says] : cases) {
     WriteText(layout_.Table("cam2"), TableWithIntervals(interval));

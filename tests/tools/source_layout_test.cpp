@@ -229,6 +229,12 @@ TEST(SourceLayout, OneHeaderConvertsDegrees) {
       (std::set<fs::path>{"core/degrees.h"}));
 }
 
+// A question leaves people without a remedy; only a misspelt name is guessed at ("did you mean").
+TEST(SourceLayout, MessagesStateAndDoNotAsk) {
+  EXPECT_EQ(FilesWith(std::regex(R"([a-z)]\?(\\n)?"|[a-z)]\? [A-Z][a-z]+ [^.]*")")),
+            std::set<fs::path>{});
+}
+
 // JSON and TOML write lists of their own.
 TEST(SourceLayout, OneFunctionListsNames) {
   EXPECT_EQ(FilesWith(std::regex(R"(empty\(\) \? "" : ", "\) \+ (?!TomlText|InQuotes|object))")),

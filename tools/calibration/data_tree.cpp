@@ -70,7 +70,7 @@ std::vector<double> DataFile::Numbers(const DataNode& node, const std::string& k
             static_cast<double>(numbers.size()))
       throw SetupError(At(node) + ": " + Printable(key) + " has " + rows->text + " x " +
                        cols->text + " by its rows and cols, but " + std::to_string(numbers.size()) +
-                       " numbers; is the file cut off?");
+                       " numbers; the file may be cut off");
     return numbers;
   }
   if (node.kind == DataNode::Kind::kText) return {Number(node, key)};

@@ -83,9 +83,9 @@ RigidTransform FindStillBoard(const BoardDetections& still,
   const double rms_px = RmsPx(errors, one, worst);
   if (rms_px > kWorstFloorRms_px)
     throw SetupError(
-        fmt::format("{}: sees the floor's board {:.1f} px from where the other cameras put it; was "
-                    "it moved while it "
-                    "was recorded, or the camera since the board was carried? Record it again",
+        fmt::format("{}: sees the floor's board {:.1f} px from where the other cameras put it; the "
+                    "board was moved while it was recorded, or the camera since the board was "
+                    "carried: record it again",
                     cameras[static_cast<std::size_t>(worst)].name, rms_px));
   return *bundle.X_WB[0];
 }

@@ -171,7 +171,7 @@ Vector3 CheckTranslation(const ForeignNumbers& translation) {
   const Vector3 t(translation.values[0], translation.values[1], translation.values[2]);
   if (!(t.norm() <= kFarthest_mm))
     Fail(translation,
-         fmt::format("is {:.0f} m long; is the unit of length right (--unit)?", t.norm() / 1000));
+         fmt::format("is {:.0f} m long; check the unit of length (--unit)", t.norm() / 1000));
   return t;
 }
 
@@ -206,7 +206,7 @@ void Doubt(const std::string& source, const Cameras& cameras, std::vector<std::s
     if (const double folded = FoldedShare(camera); folded > 0)
       notes.push_back(fmt::format(
           "{}: {}: its lens folds inside the picture: {:.0f} % of it, at the rim, shows no "
-          "direction; was it calibrated with views that fill the picture?",
+          "direction; calibrate it with views that fill the picture",
           source, camera.name, std::max(1.0, 100 * folded)));
   }
 }
@@ -218,10 +218,10 @@ void DoubtUnit(const std::string& source, const Cameras& cameras, std::vector<st
       widest_mm = std::max(widest_mm, (a.X_CW.Inverse().p - b.X_CW.Inverse().p).norm());
   }
   if (cameras.size() > 1 && widest_mm < kSmallestStudio_mm)
-    notes.push_back(
-        fmt::format("{}: all cameras stand within {:.1f} mm; are its lengths in metres instead of "
-                    "millimetres (--unit)?",
-                    source, widest_mm));
+    notes.push_back(fmt::format(
+        "{}: all cameras stand within {:.1f} mm; its lengths may be in metres instead of "
+        "millimetres (--unit)",
+        source, widest_mm));
 }
 
 }  // namespace

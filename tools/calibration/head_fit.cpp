@@ -188,8 +188,8 @@ PanTiltFit FitHead(const CameraCalibration& camera, const PanTiltAngles& posed_a
   model.fit.views = static_cast<int>(views.size());
   if (!(model.fit.rms_px < kWorstHeadRms_px))
     throw SetupError(fmt::format(
-        "{}: no head explains its {} views ({:.1f} px remain); was the board moved while the head "
-        "turned, or are the angles those of other frames, or in degrees?",
+        "{}: no head explains its {} views ({:.1f} px remain): the board was moved while the head "
+        "turned, or the angles are those of other frames, or in degrees",
         camera.name, model.fit.views, model.fit.rms_px));
   return model.fit;
 }

@@ -55,8 +55,8 @@ void CheckLens(const CameraCalibration& camera, std::vector<Finding>& findings) 
   const double field_deg = 2 * std::atan(size.x() / 2 / FocalPx(camera.lens)) * kDegreesPerRad;
   if (field_deg < 10 || field_deg > 160)
     warn(
-        fmt::format("has a field of view of {:.0f} degrees, as few lenses do; is the board's "
-                    "square right, and the picture's size that of the recording?",
+        fmt::format("has a field of view of {:.0f} degrees, as few lenses do; check the size of "
+                    "the board's squares, and that the picture's size is that of the recording",
                     field_deg));
 }
 

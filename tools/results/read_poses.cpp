@@ -141,7 +141,7 @@ void CheckTimes(const std::vector<PoseRow>& rows, const std::filesystem::path& f
   const std::int64_t usual_ns = apart_ns[apart_ns.size() / 2];
   if (usual_ns >= kNearest_ns) return;
   throw SetupError(file.string() + ": its frames are " + std::to_string(usual_ns) +
-                   " ns apart: are these microseconds or milliseconds? Expected timestamp_ns in " +
+                   " ns apart, as if in microseconds or milliseconds; expected timestamp_ns in " +
                    "nanoseconds");
 }
 

@@ -91,10 +91,10 @@ void TakeIdentity::CompareTimes(const std::filesystem::path& folder_or_log, Resu
   const bool is_log = !std::filesystem::is_directory(folder_or_log);
   if (outside == std::ssize(rows)) {
     if (!is_log) throw SetupError(spans + "; expected a result of that take");
-    result.remarks.push_back(spans + ": was it made of another take?");
+    result.remarks.push_back(spans + "; check that it was made of this take");
   }
   if (is_log) return;
-  if (outside > 0) result.remarks.push_back(spans + ": is it of another take?");
+  if (outside > 0) result.remarks.push_back(spans + "; check that it is of this take");
   const double interval_ns = SetIntervalNs(rows);
   const auto longest_ns = static_cast<double>(times_->longest_ns);
   const auto shortest_ns = static_cast<double>(times_->shortest_ns);
@@ -102,7 +102,7 @@ void TakeIdentity::CompareTimes(const std::filesystem::path& folder_or_log, Resu
   const bool is_of_other_rate = is_slower || kSameRate * interval_ns < shortest_ns;
   if (interval_ns == 0 || longest_ns == 0 || !is_of_other_rate) return;
   result.remarks.push_back(fmt::format(
-      "{}: its frames are {:.1f} ms apart, those of {} {:.1f} ms: is it of another take?",
+      "{}: its frames are {:.1f} ms apart, those of {} {:.1f} ms; check that it is of this take",
       folder_or_log.string(), interval_ns / 1e6, take_.string(),
       (is_slower ? longest_ns : shortest_ns) / 1e6));
 }

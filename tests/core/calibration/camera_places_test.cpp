@@ -23,7 +23,8 @@ TEST(CameraPlaces, LengthsInInchesAreDoubted) {
   const std::vector<Finding> findings = CheckPlaces(cameras, true);
   ASSERT_THAT(findings, SizeIs(1));
   EXPECT_EQ(findings[0].severity, Severity::kWarning);
-  EXPECT_THAT(findings[0].text, AllOf(HasSubstr("inches"), HasSubstr("Expected millimetres")));
+  EXPECT_THAT(findings[0].text,
+              AllOf(HasSubstr("inches"), HasSubstr("expected lengths in millimetres")));
 }
 
 TEST(CameraPlaces, AFloorThatIsUpsideDownIsToldOnce) {

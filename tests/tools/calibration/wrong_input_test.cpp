@@ -300,7 +300,7 @@ const WrongInput kWrongDetections[] = {
        for (Vector2& pixel : still.detections[1].corners.pixels) pixel.x() += 25;
        return testing::SetupErrorOf([&] { FindStillBoard(still, Rig()); });
      },
-     {"cam2: sees the floor's board", "was it moved", "Record it again"}},
+     {"cam2: sees the floor's board", "was moved while", "record it again"}},
     {"AHeadThatTurned",
      [](Bench&) {
        const std::vector<PanTiltAngles> readings = {{0.3, 0.1}, {0.32, 0.1}};

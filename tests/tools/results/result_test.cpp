@@ -257,7 +257,7 @@ TEST(Result, TimesThatAreNoNanosecondsOrGoBackAreRefused) {
     return SetupErrorOf([&] { ReadResult(folder.path()); });
   };
   for (int i = 0; i < 3; ++i) result.poses[i].timestamp_ns = 1'763'990'000'000'000 + i * 33'333;
-  EXPECT_THAT(error(), HasSubstr("Expected timestamp_ns in nanoseconds"));
+  EXPECT_THAT(error(), HasSubstr("expected timestamp_ns in nanoseconds"));
   result.poses[1].timestamp_ns = 5;
   EXPECT_THAT(error(), HasSubstr("poses.csv:3: timestamp_ns 5 follows 1763990000000000"));
 }

@@ -113,7 +113,7 @@ TEST_F(TakeIdentityTest, WithoutAMarkTimesAreCompared) {
   EXPECT_THAT(Remarks(Read({})), IsEmpty());
   Result later = Read({});
   for (PoseRow& row : later.poses) row.timestamp_ns += testing::kFrames / 2 * kPeriodNs;
-  EXPECT_THAT(Remarks(later), ElementsAre(HasSubstr("is it of another take?")));
+  EXPECT_THAT(Remarks(later), ElementsAre(HasSubstr("; check that it is of this take")));
   for (PoseRow& row : later.poses) row.timestamp_ns += testing::kFrames * kPeriodNs;
   EXPECT_THAT(SetupErrorOf([&] { Remarks(later); }),
               AllOf(HasSubstr("the frames of"), HasSubstr("expected a result of that take")));
@@ -142,8 +142,8 @@ TEST_F(TakeIdentityTest, ResultsOfFewerFramesAreComparedWithTheSlowestCamera) {
   const auto is_same_set = [](const PoseRow& a, const PoseRow& b) { return a.frame == b.frame; };
   const auto [first, last] = std::ranges::unique(slower.poses, is_same_set);
   slower.poses.erase(first, last);
-  EXPECT_THAT(Remarks(slower),
-              ElementsAre(AllOf(HasSubstr("400.0 ms apart"), HasSubstr(" 200.0 ms: is it of"))));
+  EXPECT_THAT(Remarks(slower), ElementsAre(AllOf(HasSubstr("400.0 ms apart"),
+                                                 HasSubstr(" 200.0 ms; check that it is of"))));
 }
 
 TEST_F(TakeIdentityTest, ALogOfOtherTimesIsTold) {
@@ -152,7 +152,8 @@ TEST_F(TakeIdentityTest, ALogOfOtherTimesIsTold) {
   Result played_again = Read({});
   for (PoseRow& row : played_again.poses) row.timestamp_ns += 1000 * kPeriodNs;
   TakeIdentity(take_).Require(log, played_again);
-  EXPECT_THAT(played_again.remarks, ElementsAre(HasSubstr("was it made of another take?")));
+  EXPECT_THAT(played_again.remarks,
+              ElementsAre(HasSubstr("; check that it was made of this take")));
 }
 
 TEST_F(TakeIdentityTest, TakeAndResultExchangedAreNamed) {
