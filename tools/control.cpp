@@ -19,6 +19,14 @@
 namespace mocap {
 namespace {
 
+/// Prints what was done before a failure.
+/// @return  what failed.
+std::string PrintDone(const std::string& text) {
+  const std::size_t begin = text.rfind('\n') + 1;
+  std::fputs(PrintableLines(text.substr(0, begin)).c_str(), stdout);
+  return text.substr(begin);
+}
+
 /// Where the daemon of a configuration listens; empty for the system's, which systemd decides.
 std::filesystem::path SocketOf(const std::filesystem::path& config) {
   const std::filesystem::path configured = LoadConfig(config).service.control.socket;
@@ -89,9 +97,9 @@ void AskAndPrint(const std::filesystem::path& socket, const std::string& request
       std::fputs(PrintableLines(reply.text).c_str(), stdout);
       return;
     case ControlOutcome::kFailed:
-      throw std::runtime_error(reply.text);
+      throw std::runtime_error(PrintDone(reply.text));
     case ControlOutcome::kWrong:
-      throw SetupError(reply.text);
+      throw SetupError(PrintDone(reply.text));
   }
 }
 

@@ -46,7 +46,9 @@ enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
 
 struct ControlReply {
   ControlOutcome outcome = ControlOutcome::kDone;
-  std::string text;  ///< For people, or JSON if requested.
+  /// For people, or JSON if requested. Of a failure, the last line says what failed, and lines
+  /// before it what was done nevertheless.
+  std::string text;
 };
 
 /// Longer requests and replies are refused.

@@ -39,12 +39,14 @@ std::filesystem::path Recorder::Start(const std::string& name, const RecordingCo
 
 RecordingStatus Recorder::Stop() {
   const std::scoped_lock change(change_mutex_);
+  if (!HasTake()) throw std::runtime_error("nothing is being recorded");
   const RecordingStatus status = Status();
-  if (status.state != RecordingStatus::State::kRunning) {
-    if (!status.problem.empty()) return status;
-    throw std::runtime_error("nothing is being recorded");
-  }
-  return StopRunning();
+  return status.state == RecordingStatus::State::kRunning ? StopRunning() : status;
+}
+
+bool Recorder::HasTake() const {
+  const RecordingStatus status = Status();
+  return status.state == RecordingStatus::State::kRunning || !status.problem.empty();
 }
 
 void Recorder::Cancel(const std::string& name) {

@@ -25,6 +25,8 @@ class Recorder {
   /// Ends it. @return its result, also if it has ended by itself.
   /// @throws std::runtime_error  if there is none.
   RecordingStatus Stop();
+  /// Whether a take is being recorded, or the last one has ended by itself.
+  bool HasTake() const;
   /// Ends the take that is being recorded under this name, and removes what it holds.
   /// @throws std::runtime_error  if none is, or if it cannot be removed.
   void Cancel(const std::string& name);

@@ -1,8 +1,14 @@
 #include "daemon/service/node_requests.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <exception>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
+
+#include "core/errors.h"
 
 namespace mocap {
 namespace {
@@ -10,6 +16,13 @@ namespace {
 constexpr std::chrono::seconds kLookPatience{5};
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// Keeps what nodes answered in the studio's log.
+void LogAnswers(const std::string& done, const std::string& problem) {
+  std::istringstream lines(done);
+  for (std::string line; std::getline(lines, line);) spdlog::info("{}", line);
+  if (!problem.empty()) spdlog::warn("{}", problem);
+}
 
 }  // namespace
 
@@ -62,19 +75,20 @@ NodeRequests::Answers NodeRequests::Asked::Wait() {
 }
 
 std::string NodeRequests::Answers::Problem() const {
+  std::string problems;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const RemoteAnswer& answer = answers[i];
-    if (!answer.reply) return answer.problem;
-    if (answer.reply->outcome != ControlOutcome::kDone)
-      return nodes[i] + ": " + FirstLine(answer.reply->text);
+    if (answer.reply && answer.reply->outcome == ControlOutcome::kDone) continue;
+    problems += problems.empty() ? "" : "; ";
+    problems += answer.reply ? nodes[i] + ": " + FirstLine(answer.reply->text) : answer.problem;
   }
-  return {};
+  return problems;
 }
 
 std::string NodeRequests::Answers::Text() const {
   std::string text;
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    if (!answers[i].reply) continue;
+    if (!answers[i].reply || answers[i].reply->outcome != ControlOutcome::kDone) continue;
     const std::string& said = answers[i].reply->text;
     for (std::size_t begin = 0; begin < said.size();) {
       const std::size_t end = std::min(said.find('\n', begin), said.size());
@@ -92,6 +106,27 @@ void NodeRequests::Look() {
   if (!looks_.empty()) return;
   for (const RemoteControl& control : controls_)
     looks_.push_back(control.AskBeside("look", kLookPatience));
+}
+
+std::string DoEverywhere(NodeRequests::Asked at_nodes,
+                         const std::function<std::string()>& do_here) {
+  std::string done, problems;
+  bool is_wrong = false;
+  try {
+    done = do_here();
+  } catch (const std::exception& error) {
+    problems = error.what();
+    is_wrong = dynamic_cast<const SetupError*>(&error) != nullptr;
+  }
+  const NodeRequests::Answers answers = at_nodes.Wait();
+  const std::string of_nodes = answers.Problem();
+  LogAnswers(answers.Text(), of_nodes);
+  if (!problems.empty() && !answers.nodes.empty()) problems = "studio: " + problems;
+  problems += (problems.empty() || of_nodes.empty() ? "" : "; ") + of_nodes;
+  done += answers.Text();
+  if (problems.empty()) return done;
+  if (is_wrong) throw SetupError(done + problems);
+  throw std::runtime_error(done + problems);
 }
 
 std::string CancelTake(NodeRequests::Asked at_nodes, const std::function<void()>& cancel_here) {

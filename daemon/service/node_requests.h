@@ -22,9 +22,9 @@ class NodeRequests {
     std::vector<std::string> nodes;  ///< Their names.
     std::vector<RemoteAnswer> answers;
 
-    /// Why the first node that failed did so: one line with its name; empty: none failed.
+    /// Why nodes failed: one line that names each; empty: none failed.
     std::string Problem() const;
-    /// What the nodes that answered said, one line each, with the node's name.
+    /// What the nodes that did it said, one line each, with the node's name.
     std::string Text() const;
   };
   /// A request in progress.
@@ -53,6 +53,13 @@ class NodeRequests {
   std::vector<std::string> unreachable_;  ///< Nodes without a command.
   std::vector<std::future<RemoteAnswer>> looks_;
 };
+
+/// Does here what the nodes are asked to do, and logs their answers.
+/// @param do_here  returns its lines; may throw.
+/// @return  the lines of all, the studio's first.
+/// @throws SetupError, std::runtime_error  if anybody failed: the lines of the others, then one
+/// that names who failed, and why.
+std::string DoEverywhere(NodeRequests::Asked at_nodes, const std::function<std::string()>& do_here);
 
 /// Cancels a take here, while the nodes are asked to do so.
 /// @param cancel_here  may throw.

@@ -84,12 +84,7 @@ std::string ServiceControl::Do(const StatusRequest& request) {
 }
 
 std::string ServiceControl::Do(const ReloadRequest&) {
-  NodeRequests::Asked asked = nodes_.Ask("reload", kPatience);
-  const std::string text = Reload() + '\n';
-  const NodeRequests::Answers answers = asked.Wait();
-  if (const std::string problem = answers.Problem(); !problem.empty())
-    throw std::runtime_error(text + problem);
-  return text + answers.Text();
+  return DoEverywhere(nodes_.Ask("reload", kPatience), [this] { return Reload() + '\n'; });
 }
 
 std::string ServiceControl::Do(const RecordStartRequest& request) {
@@ -120,12 +115,10 @@ std::string ServiceControl::Do(const RecordCancelRequest& request) {
 }
 
 std::string ServiceControl::Do(const RecordStopRequest&) {
-  NodeRequests::Asked asked = nodes_.Ask("record stop", kRecordPatience);
-  const std::string text = StopRecording();
-  const NodeRequests::Answers answers = asked.Wait();
-  if (const std::string problem = answers.Problem(); !problem.empty())
-    throw std::runtime_error(text + problem);
-  return text + answers.Text();
+  return DoEverywhere(nodes_.Ask("record stop", kRecordPatience), [this] {
+    // A studio that was started anew ends what its nodes still record.
+    return nodes_.empty() || parts_.recorder.HasTake() ? StopRecording() : "";
+  });
 }
 
 std::string ServiceControl::StopRecording() {
@@ -171,14 +164,10 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
 }
 
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
-  NodeRequests::Asked asked =
-      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kRecordPatience);
   const bool has_cameras = nodes_.empty() || config().source.driver != "none";
-  const std::string text = has_cameras ? LearnBackground(request.anyway) : "";
-  const NodeRequests::Answers answers = asked.Wait();
-  if (const std::string problem = answers.Problem(); !problem.empty())
-    throw std::runtime_error(text + problem);
-  return text + answers.Text();
+  return DoEverywhere(
+      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kRecordPatience),
+      [&] { return has_cameras ? LearnBackground(request.anyway) : ""; });
 }
 
 std::string ServiceControl::LearnBackground(bool anyway) {

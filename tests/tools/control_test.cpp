@@ -20,9 +20,15 @@ namespace {
 
 class ControlCommands : public ::testing::Test {
  protected:
-  std::string Said(const std::string& command_line) {
+  /// @param failure  set to the error; null: there must be none.
+  std::string Said(const std::string& command_line, std::string* failure = nullptr) {
     ::testing::internal::CaptureStdout();
-    testing::RunCommand(AddControlCommands, command_line);
+    try {
+      testing::RunCommand(AddControlCommands, command_line);
+    } catch (const std::runtime_error& error) {
+      if (!failure) throw;
+      *failure = error.what();
+    }
     return ::testing::internal::GetCapturedStdout();
   }
 
@@ -39,6 +45,17 @@ TEST_F(ControlCommands, AskTheDaemonOfTheNamedConfiguration) {
     EXPECT_EQ(Said(command + (" --config " + left_.string())), "of left\n") << command;
   }
   EXPECT_EQ(Said("record start --config " + left_.string() + " walk"), "of left\n");
+}
+
+TEST_F(ControlCommands, WhatWasDoneIsPrintedAndOnlyWhatFailedIsTheError) {
+  const std::string socket = folder_.path() / "control";
+  const ControlServer server(socket, [](const ControlRequest&) {
+    return ControlReply{ControlOutcome::kFailed,
+                        "takes/walk: 4 s\nnode left: 4 s\nnode right: gone"};
+  });
+  std::string failure;
+  EXPECT_EQ(Said("record stop --socket " + socket, &failure), "takes/walk: 4 s\nnode left: 4 s\n");
+  EXPECT_EQ(failure, "node right: gone");
 }
 
 TEST_F(ControlCommands, AConfigurationWithoutASocketIsOfTheUsersOwnDaemon) {

@@ -5,6 +5,10 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
 
 namespace mocap {
 namespace {
@@ -42,6 +46,42 @@ TEST(NodeRequests, OneThatCannotBeReachedIsNamed) {
   EXPECT_THAT(Ask({{"left", {}, {"/bin/false"}}}).Problem(), HasSubstr("node left: "));
   EXPECT_THAT(Ask({NodeThatSays("left", "done"), {"right", {}, {}}}).Problem(),
               AllOf(HasSubstr("node right: "), HasSubstr("no control command")));
+}
+
+/// What is said of a failure.
+std::string FailureOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(NodeRequests, EachComputerThatDidItHasALineAndThoseThatFailedAreNamedInTheLast) {
+  const auto stop = [](const std::vector<StudioNode>& nodes,
+                       const std::function<std::string()>& here) {
+    return DoEverywhere(NodeRequests(nodes).Ask("record stop", kPatience), here);
+  };
+  const auto done = [] { return std::string("takes/walk: 4 s\n"); };
+  const auto fail = []() -> std::string { throw std::runtime_error("disk full"); };
+  EXPECT_EQ(stop({NodeThatSays("left", "done")}, done),
+            "takes/walk: 4 s\nnode left: record stop\n");
+  const std::vector<StudioNode> three = {
+      NodeThatSays("left", "done"), NodeThatSays("right", "failed"), NodeThatSays("top", "wrong")};
+  EXPECT_EQ(
+      FailureOf([&] { stop(three, done); }),
+      "takes/walk: 4 s\nnode left: record stop\nnode right: record stop; node top: record stop");
+  EXPECT_EQ(
+      FailureOf([&] { stop(three, fail); }),
+      "node left: record stop\nstudio: disk full; node right: record stop; node top: record stop");
+  EXPECT_EQ(FailureOf([&] { stop({}, fail); }), "disk full");
+}
+
+TEST(NodeRequests, AWrongFileAtTheStudioIsStillWrongInput) {
+  EXPECT_THROW(DoEverywhere(NodeRequests({NodeThatSays("left", "done")}).Ask("reload", kPatience),
+                            []() -> std::string { throw SetupError("wrong file"); }),
+               SetupError);
 }
 
 TEST(NodeRequests, OnlyThoseThatDidItAreAskedToUndoIt) {
