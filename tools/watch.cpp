@@ -57,7 +57,7 @@ class Hearing {
     lcm.subscribe(prefix + kBodyChannel, &Hearing::OnBody, this);
     lcm.subscribe(prefix + kPeopleChannel, &Hearing::OnPeople, this);
     lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
-    lcm.subscribe(prefix + "MOCAP_SERVICE", &Hearing::OnService, this);
+    lcm.subscribe(prefix + kServiceChannel, &Hearing::OnService, this);
   }
 
   /// Removes what is older than the window.

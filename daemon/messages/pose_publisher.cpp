@@ -17,7 +17,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       bodies_channel_(config.prefix + kBodiesChannel),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + kStatusChannel),
-      service_channel_(config.prefix + "MOCAP_SERVICE"),
+      service_channel_(config.prefix + kServiceChannel),
       studio_channel_(config.prefix + "MOCAP_STUDIO"),
       cameras_(cameras),
       times_(times),

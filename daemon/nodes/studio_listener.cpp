@@ -26,6 +26,10 @@ void PassStatus(const lcm::ReceiveBuffer* buffer, const std::string&, StudioList
   listener->OnStatus(BytesOf(*buffer), SteadyNs());
 }
 
+void PassService(const lcm::ReceiveBuffer* buffer, const std::string&, StudioListener* listener) {
+  listener->OnService(BytesOf(*buffer), SteadyNs());
+}
+
 }  // namespace
 
 StudioListener::StudioListener(const LcmConfig& lcm, const std::vector<std::string>& cameras,
@@ -33,13 +37,15 @@ StudioListener::StudioListener(const LcmConfig& lcm, const std::vector<std::stri
     : lcm_(lcm),
       position_(std::move(position)),
       start_ns_(SteadyNs()),
-      heard_people_ns_(start_ns_ - kSilenceNs) {
+      heard_people_ns_(start_ns_ - kSilenceNs),
+      recorded_ns_(start_ns_) {
   for (const std::string& name : cameras) cameras_.push_back({name, start_ns_});
 }
 
 void StudioListener::Listen() {
   const auto subscribe = [this](lcm::LCM& lcm) {
     lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kStatusChannel), &PassStatus, this);
+    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kServiceChannel), &PassService, this);
     if (!position_) return;
     lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kPeopleChannel), &PassPeople, this);
   };
@@ -77,6 +83,13 @@ void StudioListener::OnStatus(std::span<const std::uint8_t> bytes, std::int64_t 
   }
 }
 
+void StudioListener::OnService(std::span<const std::uint8_t> bytes, std::int64_t now_ns) {
+  const std::optional<service_t> message = DecodeMessage<service_t>(bytes);
+  if (!message || message->recording_state != service_t::RUNNING) return;
+  const std::lock_guard lock(mutex_);
+  recorded_ns_ = now_ns;
+}
+
 bool StudioListener::Hears() {
   const std::int64_t now_ns = SteadyNs();
   if (position_ && now_ns - heard_people_ns_ >= kSilenceNs) position_->Tell({});
@@ -88,6 +101,7 @@ StudioLink StudioListener::Link(std::int64_t now_ns) const {
   const std::lock_guard lock(mutex_);
   StudioLink link;
   link.silent_ns = now_ns - heard_ns_.value_or(start_ns_);
+  link.unrecorded_ns = now_ns - recorded_ns_;
   if (link.silent_ns > kLongestSilence_ns) return link;
   for (const Camera& camera : cameras_) {
     if (now_ns - camera.received_ns > kLongestSilence_ns) link.unreceived.push_back(camera.name);

@@ -17,7 +17,8 @@
 namespace mocap {
 
 /// Listens to the studio of a node. Passes the positions of people in MOCAP_PEOPLE to the node's
-/// pan-tilt heads, and notes which of its cameras MOCAP_STATUS lists as received.
+/// pan-tilt heads. Notes which of its cameras MOCAP_STATUS lists as received, and whether the
+/// studio records, by MOCAP_SERVICE.
 class StudioListener {
  public:
   /// @param lcm  the studio's.
@@ -27,9 +28,10 @@ class StudioListener {
                  std::shared_ptr<SubjectPosition> position);
 
   void Listen();
-  /// Both handle a message from the network, which may contain anything; public for tests.
+  /// These handle a message from the network, which may contain anything; public for tests.
   void OnPeople(std::span<const std::uint8_t> bytes);
   void OnStatus(std::span<const std::uint8_t> bytes, std::int64_t now_ns);
+  void OnService(std::span<const std::uint8_t> bytes, std::int64_t now_ns);
   /// Whether the studio was heard recently; if not, forgets the positions.
   bool Hears();
   /// Any thread.
@@ -47,6 +49,7 @@ class StudioListener {
   std::int64_t heard_people_ns_;
   mutable std::mutex mutex_;  ///< Of what follows.
   std::optional<std::int64_t> heard_ns_;
+  std::int64_t recorded_ns_;  ///< When the studio last said that it records.
   std::vector<Camera> cameras_;
   std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.
 };

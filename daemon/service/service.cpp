@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -112,9 +113,11 @@ class OpenDesk {
   ControlDesk& desk_;
 };
 
-/// Time limit for completing a take.
-std::chrono::seconds TakePatience(const RecordingConfig& config) {
-  return kTakePatience + std::chrono::seconds(std::lround(config.buffer_mb / kSlowDisk_mb));
+/// Time limit for completing a take, here and at nodes.
+std::chrono::seconds TakePatience(const Config& config) {
+  const double buffer_mb = config.service.recording.buffer_mb;
+  const auto here = kTakePatience + std::chrono::seconds(std::lround(buffer_mb / kSlowDisk_mb));
+  return config.nodes.empty() ? here : std::max(here, ServiceControl::kNodePatience);
 }
 
 /// A node's own statuses use a separate prefix, so that they do not pass for the studio's.
@@ -131,16 +134,18 @@ std::vector<std::string> NamesOf(const std::vector<CameraCalibration>& cameras) 
 }
 
 /// Runs until there is nothing left to do.
-void RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
-                     std::optional<double> seconds) {
+/// @return  why it ends.
+std::string RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
+                            std::optional<double> seconds) {
   const std::int64_t end_ns = seconds ? SteadyNs() + std::llround(*seconds * 1e9)
                                       : std::numeric_limits<std::int64_t>::max();
   while (!path.finished() && SteadyNs() < end_ns) {
     signals.Wait(kTick);
-    if (signals.stop().load()) return;
+    if (signals.stop().load()) return "on a signal";
     if (signals.TakeReload()) watch.Reload();
     watch.Tick();
   }
+  return path.finished() ? "at the end of the source" : "after the time of --seconds";
 }
 
 void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
@@ -214,21 +219,18 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   // Learning the background has taken much.
   GiveBackFreeMemory();
   path->Start();
-  RunUntilStopped(*path, watch, signals, seconds);
-  const auto is_recording = [&recorder] {
-    return recorder.Status().state == RecordingStatus::State::kRunning;
-  };
-  const std::chrono::seconds patience = TakePatience(control.config().service.recording);
+  spdlog::info("stopping {}", RunUntilStopped(*path, watch, signals, seconds));
+  const std::chrono::seconds patience = TakePatience(control.config());
   const auto allow = [&](bool has_take) {
     signals.Allow(has_take ? patience : kEndPatience, has_take);
   };
-  allow(is_recording());
+  allow(control.IsRecording());
   manager.Stopping(patience + kGrace);
   learner.RequestStop();
   // A recording may be starting or ending.
   desk.Close();
-  allow(is_recording());
-  if (is_recording()) recorder.Stop();
+  allow(control.IsRecording());
+  if (control.IsRecording()) control.EndRecording();
   allow(false);
   path->RequestStop();
   path->Join();

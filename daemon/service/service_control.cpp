@@ -16,12 +16,12 @@ namespace {
 
 /// A viewer that keeps watching asks again within this time.
 constexpr std::chrono::seconds kLook{10};
-/// Time limits for a node's answer: usually, and for completing a take or learning a background.
-constexpr std::chrono::seconds kPatience{10}, kRecordPatience{50};
+/// Usual time limit for a node's answer.
+constexpr std::chrono::seconds kPatience{10};
 /// The same for beginning a take, and for canceling it where another node has failed.
 constexpr std::chrono::seconds kStartPatience{30}, kCancelPatience{20};
 // Whoever asks still hears which node it is.
-static_assert(kRecordPatience < kReplyPatience &&
+static_assert(ServiceControl::kNodePatience < kReplyPatience &&
               kStartPatience + kCancelPatience < kReplyPatience);
 
 std::vector<RecordedPerson> Recorded(const std::vector<FollowedPerson>& people) {
@@ -96,8 +96,10 @@ std::string ServiceControl::Do(const RecordStartRequest& request) {
     const std::string left =
         CancelTake(nodes_.AskWhoDid(answers, "record cancel " + request.name, kCancelPatience),
                    [&] { parts_.recorder.Cancel(request.name); });
+    spdlog::warn("the recording {} was canceled: {}; {}", request.name, problem, left);
     throw std::runtime_error(problem + "; " + left);
   }
+  nodes_record_.store(!nodes_.empty());
   return text + answers.Text();
 }
 
@@ -115,7 +117,8 @@ std::string ServiceControl::Do(const RecordCancelRequest& request) {
 }
 
 std::string ServiceControl::Do(const RecordStopRequest&) {
-  return DoEverywhere(nodes_.Ask("record stop", kRecordPatience), [this] {
+  nodes_record_.store(false);
+  return DoEverywhere(nodes_.Ask("record stop", kNodePatience), [this] {
     // A studio that was started anew ends what its nodes still record.
     return nodes_.empty() || parts_.recorder.HasTake() ? StopRecording() : "";
   });
@@ -124,12 +127,26 @@ std::string ServiceControl::Do(const RecordStopRequest&) {
 std::string ServiceControl::StopRecording() {
   const RecordingStatus status = parts_.recorder.Stop();
   if (status.state != RecordingStatus::State::kComplete) {
-    throw std::runtime_error("the recording failed: " + status.problem +
-                             "; what was recorded is in " + status.folder.string());
+    const std::string text = "the recording failed: " + status.problem +
+                             "; what was recorded is in " + status.folder.string();
+    spdlog::error("{}", text);
+    throw std::runtime_error(text);
   }
   const std::string text = CompletedText(status);
   spdlog::info("recorded {}", text);
   return text + '\n';
+}
+
+bool ServiceControl::IsRecording() const {
+  return nodes_record_.load() || parts_.recorder.Status().state == RecordingStatus::State::kRunning;
+}
+
+void ServiceControl::EndRecording() {
+  try {
+    Do(RecordStopRequest{});
+  } catch (const std::exception&) {
+    // Each failure is in the log.
+  }
 }
 
 std::string ServiceControl::Do(const SubjectNewRequest&) {
@@ -166,7 +183,7 @@ std::string ServiceControl::Do(const SubjectLoadRequest& request) {
 std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
   const bool has_cameras = nodes_.empty() || config().source.driver != "none";
   return DoEverywhere(
-      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kRecordPatience),
+      nodes_.Ask(request.anyway ? "background learn anyway" : "background learn", kNodePatience),
       [&] { return has_cameras ? LearnBackground(request.anyway) : ""; });
 }
 

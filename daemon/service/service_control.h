@@ -1,6 +1,8 @@
 // Handles requests to the running daemon.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include "daemon/control/control_request.h"
@@ -32,6 +34,9 @@ struct ServiceParts {
 /// Answers requests. Thread-safe.
 class ServiceControl {
  public:
+  /// Time limit for a node that completes a take or learns a background.
+  static constexpr std::chrono::seconds kNodePatience{50};
+
   /// People whose sizes are stored are recognized from now on.
   ServiceControl(const ServiceParts& parts, Subjects subjects);
 
@@ -43,6 +48,10 @@ class ServiceControl {
   std::string Reload();
   /// The configuration in force. Waits for no file.
   Config config();
+  /// Whether a take is being recorded, here or at nodes.
+  bool IsRecording() const;
+  /// Completes that take everywhere, and logs what each computer has recorded.
+  void EndRecording();
 
  private:
   std::string Do(const StatusRequest& request);
@@ -66,6 +75,7 @@ class ServiceControl {
   const ServiceParts parts_;
   const Subjects subjects_;
   NodeRequests nodes_;
+  std::atomic<bool> nodes_record_{false};  ///< They have begun a take and were not asked to stop.
   std::mutex report_mutex_;
   ServiceReport report_;
   std::int64_t report_ns_ = 0;  ///< When it was set, by the steady clock.

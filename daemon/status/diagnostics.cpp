@@ -286,8 +286,9 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   std::ranges::move(NodeDiagnostics(report.nodes, report.lcm_url), std::back_inserter(list));
   // Whoever receives nothing hears no studio.
   if (report.link && report.delivery.channel.receive_fault.empty()) {
-    std::ranges::move(LinkDiagnostics(*report.link, report.now.status.cameras, report.lcm_url),
-                      std::back_inserter(list));
+    std::ranges::move(
+        LinkDiagnostics(*report.link, report.now.status.cameras, report.recording, report.lcm_url),
+        std::back_inserter(list));
   }
   std::ranges::move(CameraDiagnostics(report), std::back_inserter(list));
   if (report.node.empty()) ComplainOfOneAlone(report, list);

@@ -16,6 +16,8 @@ namespace {
 constexpr double kMostLost = 0.001;
 /// A clock with a larger possible error is not kept well enough.
 constexpr double kMostError_ms = 5;
+/// A node may complete its part of a take later than the studio by this much.
+constexpr std::int64_t kRecordingEnd_ns = 10'000'000'000;
 
 using List = std::vector<std::string>;
 
@@ -85,10 +87,9 @@ void Diagnose(const NodeReport& node, const std::string& lcm_url, List& list) {
   }
 }
 
-}  // namespace
-
-List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& cameras,
-                     const std::string& lcm_url) {
+/// Of what the studio hears of the node.
+List ReceptionDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& cameras,
+                          const std::string& lcm_url) {
   if (link.silent_ns > kLongestSilence_ns) {
     return {fmt::format(
         "no studio has been heard on {} for {}: nobody receives the silhouettes; start mocapd at "
@@ -105,6 +106,21 @@ List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& ca
       "the studio does not receive {}: check that its [[nodes]] list them, its status, and the "
       "network{}",
       fmt::join(lost, ", "), RangeHint(lcm_url))};
+}
+
+}  // namespace
+
+List LinkDiagnostics(const StudioLink& link, const std::vector<CameraStatus>& cameras,
+                     const RecordingStatus& recording, const std::string& lcm_url) {
+  List list = ReceptionDiagnostics(link, cameras, lcm_url);
+  const std::int64_t alone_ns = std::min(link.unrecorded_ns, recording.duration_ns);
+  if (recording.state == RecordingStatus::State::kRunning && alone_ns > kRecordingEnd_ns) {
+    list.push_back(
+        fmt::format("the take {} is being recorded without the studio: end it with mocap record "
+                    "stop",
+                    recording.folder.stem().string()));
+  }
+  return list;
 }
 
 bool IsOfLostNode(const NodesReport& report, const std::string& node) {

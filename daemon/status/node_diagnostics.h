@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "daemon/pipeline/camera_status.h"
+#include "daemon/recording/recording.h"
 #include "daemon/status/node_report.h"
 #include "daemon/status/studio_link.h"
 
@@ -13,9 +14,10 @@ namespace mocap {
 /// As Diagnostics(). @param lcm_url  the address at which nodes are heard.
 std::vector<std::string> NodeDiagnostics(const NodesReport& report, const std::string& lcm_url);
 
-/// The same of a node's connection to its studio.
+/// The same of a node's connection to its studio. @param recording  at the node.
 std::vector<std::string> LinkDiagnostics(const StudioLink& link,
                                          const std::vector<CameraStatus>& cameras,
+                                         const RecordingStatus& recording,
                                          const std::string& lcm_url);
 
 /// Whether this node cannot be heard, or its times cannot be used. Its cameras are then reported

@@ -15,6 +15,7 @@ struct StudioLink {
   std::int64_t silent_ns = 0;  ///< How long no studio has been heard.
   /// Cameras that the studio has not called received for some seconds, although it is heard.
   std::vector<std::string> unreceived = {};
+  std::int64_t unrecorded_ns = 0;  ///< How long no studio has said that it records a take.
 };
 
 }  // namespace mocap

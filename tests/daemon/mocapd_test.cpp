@@ -209,6 +209,32 @@ TEST_F(MocapdTest, ATakeThatNodesDoNotRecordIsCanceledAndWhoCannotCancelItIsName
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "takes"));
   daemon.Signal(SIGTERM);
   EXPECT_EQ(daemon.Wait(), 0) << daemon.Errors();
+  EXPECT_THAT(daemon.Errors(), HasSubstr("the recording a was canceled: node left: full"));
+}
+
+TEST_F(MocapdTest, ATakeIsCompletedEverywhereWhenTheStudioStopsAndItsLogSaysSo) {
+  std::string reason;
+  if (!Open(reason)) GTEST_SKIP() << reason;
+  WriteEmptyTake(folder_.path() / "take");
+  const std::string asked = folder_.path() / "asked";
+  const std::string config =
+      WriteConfig("driver = \"none\"\n",
+                  "[control]\nsocket = \"control\"\n[recording]\nfolder = \"takes\"\n"
+                  "[[nodes]]\nname = \"left\"\ncameras = [\"cam1\", \"cam2\"]\n"
+                  "control = [\"/bin/sh\", \"-c\", \"read -r words; echo \\\"$words\\\" >> " +
+                      asked + "; printf 'done\\\\n%s\\\\n' \\\"$words\\\"\"]\n",
+                  "role = \"studio\"\ncalibration = \"take/calibration.toml\"\n");
+  const std::filesystem::path socket = folder_.path() / "control";
+  Daemon daemon({"--config", config}, log_);
+  while (FramesWritten(socket) < 0 && !daemon.HasEnded()) std::this_thread::yield();
+  ASSERT_EQ(AskDaemon(socket, "record start walk").outcome, ControlOutcome::kDone);
+  daemon.Signal(SIGINT);
+  EXPECT_EQ(daemon.Wait(), 0);
+  EXPECT_EQ(testing::ReadText(asked), "record start walk\nrecord stop\n");
+  EXPECT_THAT(daemon.Errors(),
+              AllOf(HasSubstr("stopping on a signal"), HasSubstr("takes/walk: "),
+                    HasSubstr("dropped while recording"), HasSubstr("node left: record stop")));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "takes" / "walk" / "take.toml"));
 }
 
 TEST_F(MocapdTest, WrongInputIsOneLineAndStatusTwo) {

@@ -81,7 +81,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + kBodiesChannel, &LiveFeed::OnPersonBody, this);
   lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
-  lcm.subscribe(named + "MOCAP_SERVICE", &LiveFeed::OnService, this);
+  lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
   lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
   lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
   PutNotice();

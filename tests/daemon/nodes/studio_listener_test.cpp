@@ -82,6 +82,14 @@ std::vector<std::uint8_t> StatusOf(const std::vector<std::pair<std::string, int>
   return bytes;
 }
 
+std::vector<std::uint8_t> ServiceThat(std::int8_t recording_state) {
+  service_t message{};
+  message.recording_state = recording_state;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
 TEST_F(StudioListenerTest, AStudioThatIsNotHeardIsSilentSinceTheStart) {
   const std::int64_t now_ns = SteadyNs();
   const StudioLink link = listener_.Link(now_ns + 9 * kSecond_ns);
@@ -105,6 +113,16 @@ TEST_F(StudioListenerTest, AStudioThatWasStartedAnewHasTimeToReceive) {
   const std::int64_t now_ns = SteadyNs() + 60 * kSecond_ns;
   listener_.OnStatus(StatusOf({{"cam1", kStarting}}), now_ns);
   EXPECT_TRUE(listener_.Link(now_ns).unreceived.empty());
+}
+
+TEST_F(StudioListenerTest, KnowsSinceWhenTheStudioRecordsNothing) {
+  const std::int64_t now_ns = SteadyNs() + 60 * kSecond_ns;
+  listener_.OnService(ServiceThat(service_t::RUNNING), now_ns);
+  EXPECT_EQ(listener_.Link(now_ns).unrecorded_ns, 0);
+  listener_.OnService(ServiceThat(service_t::COMPLETE), now_ns + 4 * kSecond_ns);
+  EXPECT_EQ(listener_.Link(now_ns + 7 * kSecond_ns).unrecorded_ns, 7 * kSecond_ns);
+  listener_.OnService(std::vector<std::uint8_t>(40, 0xff), now_ns + 8 * kSecond_ns);
+  EXPECT_EQ(listener_.Link(now_ns + 8 * kSecond_ns).unrecorded_ns, 8 * kSecond_ns);
 }
 
 TEST_F(StudioListenerTest, WhatIsNoStatusIsNotHeard) {

@@ -90,6 +90,28 @@ TEST(NodeDiagnostics, PassOnWhatANodeSays) {
   EXPECT_FALSE(IsOfLostNode({{node}, ""}, "left"));
 }
 
+TEST(NodeDiagnostics, NameATakeThatTheStudioDoesNotRecord) {
+  RecordingStatus recording;
+  recording.state = RecordingStatus::State::kRunning;
+  recording.folder = "/takes/walk.partial";
+  recording.duration_ns = 60'000 * kMs;
+  StudioLink link;
+  link.unrecorded_ns = 20'000 * kMs;
+  const std::string told =
+      "the take walk is being recorded without the studio: end it with mocap record stop";
+  EXPECT_THAT(LinkDiagnostics(link, {}, recording, kUrl), ElementsAre(told));
+  link.silent_ns = 20'000 * kMs;
+  EXPECT_THAT(LinkDiagnostics(link, {}, recording, kUrl),
+              ElementsAre(HasSubstr("no studio has been heard"), told));
+  link = {.unrecorded_ns = 1'000 * kMs};
+  EXPECT_THAT(LinkDiagnostics(link, {}, recording, kUrl), IsEmpty()) << "the studio records it";
+  link.unrecorded_ns = 20'000 * kMs;
+  recording.duration_ns = 1'000 * kMs;
+  EXPECT_THAT(LinkDiagnostics(link, {}, recording, kUrl), IsEmpty()) << "it has just begun";
+  recording = {};
+  EXPECT_THAT(LinkDiagnostics(link, {}, recording, kUrl), IsEmpty());
+}
+
 TEST(NodeDiagnostics, NameAStranger) {
   EXPECT_THAT(NodeDiagnostics({{}, "cam1 of node right"}, kUrl),
               ElementsAre(HasSubstr("cam1 of node right also sends to")));
