@@ -65,7 +65,7 @@ std::string StartHint() {
   is_service &= std::ranges::any_of(
       std::array{"/etc/systemd/system", "/usr/local/lib/systemd/system", "/lib/systemd/system"},
       has_unit);
-  return is_service ? "start it: systemctl start mocapd" : "start it: mocapd --config FILE";
+  return is_service ? "start mocapd: systemctl start mocapd" : "start mocapd: mocapd --config FILE";
 }
 
 [[noreturn]] void RefusePlace(const std::filesystem::path& path, const std::string& why) {
@@ -107,6 +107,26 @@ std::optional<std::string> Receive(int fd, std::size_t longest) {
 std::filesystem::path UsersOwnSocket() {
   const char* folder = std::getenv("XDG_RUNTIME_DIR");
   return folder ? std::filesystem::path(folder) / "mocapd" / "control" : std::filesystem::path();
+}
+
+/// Of a daemon that is not named by its socket. The user's own comes last.
+std::vector<std::filesystem::path> UsualSockets() {
+  std::vector<std::filesystem::path> sockets = {kSystemSocket};
+  if (const std::filesystem::path own = UsersOwnSocket(); !own.empty()) sockets.push_back(own);
+  return sockets;
+}
+
+[[noreturn]] void FailUnanswered(const std::filesystem::path& socket) {
+  if (!socket.empty()) {
+    throw std::runtime_error("nothing answers at " + socket.string() +
+                             ": start mocapd with this control.socket");
+  }
+  const std::filesystem::path own = UsersOwnSocket();
+  const std::string nowhere = "nothing answers at " + std::string(kSystemSocket);
+  if (!own.empty()) throw std::runtime_error(nowhere + " or " + own.string() + ": " + StartHint());
+  throw std::runtime_error(nowhere + ": " + StartHint() +
+                           "; XDG_RUNTIME_DIR is not set, so a mocapd of your own needs [control] "
+                           "socket in its FILE, and commands --config FILE");
 }
 
 }  // namespace
@@ -176,10 +196,8 @@ void ControlServer::Answer(int client) const {
 }
 
 ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& request) {
-  std::vector<std::filesystem::path> places = {socket};
-  if (socket.empty()) places = {kSystemSocket, UsersOwnSocket()};
+  const auto places = socket.empty() ? UsualSockets() : std::vector{socket};
   for (const std::filesystem::path& place : places) {
-    if (place.empty()) continue;
     const timeval patience =
         request.starts_with("status") ? kStatusPatience : timeval{kReplyPatience.count(), 0};
     const FileDescriptor fd = NewSocket();
@@ -200,10 +218,7 @@ ControlReply AskDaemon(const std::filesystem::path& socket, const std::string& r
     if (!reply) throw std::runtime_error(place.string() + ": mocapd did not answer");
     return *reply;
   }
-  throw std::runtime_error("mocapd is not running here; " +
-                           (socket.empty() ? StartHint()
-                                           : "nothing answers at " + socket.string() +
-                                                 ": start mocapd with this control.socket"));
+  FailUnanswered(socket);
 }
 
 ControlReply ReplyOfDaemon(const std::filesystem::path& socket, const std::string& request) {

@@ -5,18 +5,23 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "config/config.h"
 #include "core/errors.h"
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
+#include "daemon/service/service_setup.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::TemporaryFolder;
 
 TEST(ControlRequest, UnderstandsWhatMocapSends) {
@@ -147,6 +152,33 @@ TEST_F(ControlSocketTest, WithoutADaemonTheMessageSaysWhatToDo) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("nothing answers at " + socket_.string()));
   }
+}
+
+TEST_F(ControlSocketTest, WithoutANamedSocketTheMessageNamesWhereItAsked) {
+  const auto told = [] {
+    try {
+      AskDaemon("", "status");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  setenv("XDG_RUNTIME_DIR", "/nowhere", 1);
+  EXPECT_THAT(told(), ::testing::StartsWith(
+                          "nothing answers at /run/mocapd/control or /nowhere/mocapd/control: "));
+  unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_THAT(told(), HasSubstr("XDG_RUNTIME_DIR is not set, so a mocapd of your own needs"));
+}
+
+TEST(ControlSocket, ADaemonThatHasNoneSaysSo) {
+  unsetenv("RUNTIME_DIRECTORY");
+  unsetenv("XDG_RUNTIME_DIR");
+  Config config;
+  config.lcm.url = "memq://";
+  EXPECT_THAT(CheckConfig(config), ElementsAre(HasSubstr("there is no control socket")));
+  setenv("XDG_RUNTIME_DIR", "/tmp", 1);
+  EXPECT_THAT(CheckConfig(config), IsEmpty());
+  unsetenv("XDG_RUNTIME_DIR");
 }
 
 }  // namespace
