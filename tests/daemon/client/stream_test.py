@@ -139,7 +139,10 @@ class StreamTest(unittest.TestCase):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
             udp.bind(("127.0.0.1", 0))
             udp.settimeout(60)
-            mocap("stream", "osc", "--to", "127.0.0.1:%d" % udp.getsockname()[1], "--url", f"file://{self.log}?speed=0")
+            to = "127.0.0.1:%d" % udp.getsockname()[1]
+            done = subprocess.run([os.path.join(BIN, "mocap"), "stream", "osc", "--to", to, "--url", f"file://{self.log}?speed=0"],
+                                  check=True, capture_output=True, text=True)
+            self.assertEqual((done.stdout, done.stderr), ("", f"mocap stream: sending to {to}\n"))
             heard = b""
             while LAST_BONE not in heard:
                 heard += udp.recv(65536)
