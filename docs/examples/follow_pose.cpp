@@ -1,5 +1,6 @@
 // Prints where the tracked person's hands are. Build: see CMakeLists.txt beside this file, or
 //   g++ -std=c++17 follow_pose.cpp $(pkg-config --cflags --libs mocap-lcmtypes) -o follow_pose
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
@@ -7,11 +8,33 @@
 #include <mocap/pose_t.hpp>
 #include <string>
 
+const char* const kUsage =
+    "usage: follow_pose [URL [SECONDS [PREFIX]]]\n"
+    "URL is LCM's; \"\" is its default, and file://LOG plays a log. Ends after so many seconds "
+    "(10)\n"
+    "without a pose. PREFIX stands before the channels' names: lcm.prefix of mocapd's "
+    "configuration.\n";
+
+const std::string kStatus = "MOCAP_STATUS";
+
 class Follower {
  public:
-  explicit Follower(lcm::LCM& lcm) {
-    lcm.subscribe("MOCAP_BODY", &Follower::OnBody, this);
-    lcm.subscribe("MOCAP_POSE", &Follower::OnPose, this);
+  Follower(lcm::LCM& lcm, std::string prefix) : prefix_(std::move(prefix)) {
+    lcm.subscribe(prefix_ + "MOCAP_BODY", &Follower::OnBody, this);
+    lcm.subscribe(prefix_ + "MOCAP_POSE", &Follower::OnPose, this);
+    lcm.subscribe(".*" + kStatus, &Follower::OnStatus, this);
+  }
+
+  double SilentSeconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - heard_).count();
+  }
+
+  std::string WhatCameInstead() const {
+    if (other_.empty()) return "; is mocapd running? mocap doctor checks the network";
+    const std::string other = other_.substr(0, other_.size() - kStatus.size());
+    if (other == prefix_) return ", only mocapd's status: mocap status says why";
+    return ", but mocapd sends there " +
+           (other.empty() ? "without a prefix" : "with prefix \"" + other + '"');
   }
 
  private:
@@ -23,6 +46,7 @@ class Follower {
   }
 
   void OnPose(const lcm::ReceiveBuffer*, const std::string&, const mocap::pose_t* pose) {
+    heard_ = std::chrono::steady_clock::now();
     if (pose->state != mocap::pose_t::TRACKING || left_ < 0 || right_ < 0) return;
     const double* left = pose->point_mm[left_];
     const double* right = pose->point_mm[right_];
@@ -31,24 +55,34 @@ class Follower {
                 static_cast<double>(pose->publish_utime - pose->utime) / 1000);
   }
 
+  void OnStatus(const lcm::ReceiveBuffer*, const std::string& channel) { other_ = channel; }
+
+  const std::string prefix_;
   int left_ = -1, right_ = -1;  // Where the body says that these points are.
+  std::string other_;           // Channel of the last status, whoever sent it.
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };
 
-// usage: follow_pose [SECONDS]      ends after so many seconds (10) without a message
 int main(int argc, char** argv) {
-  const double seconds = argc > 1 ? std::atof(argv[1]) : 10;
-  lcm::LCM lcm;
+  const std::string url = argc > 1 ? argv[1] : "";
+  char* end = nullptr;
+  const double seconds = argc > 2 ? std::strtod(argv[2], &end) : 10;
+  if (url == "--help") return std::fputs(kUsage, stdout) < 0;
+  if (argc > 4 || (end && (*end != 0 || end == argv[2])) || url.rfind("--", 0) == 0) {
+    std::fputs(kUsage, stderr);
+    return 2;
+  }
+  lcm::LCM lcm(url);
   if (!lcm.good()) {
-    std::fputs("follow_pose: LCM cannot join its group; expected a multicast route: mocap doctor\n",
+    std::fputs("follow_pose: LCM cannot use this URL, or cannot join its group: mocap doctor\n",
                stderr);
     return 1;
   }
-  Follower follower(lcm);
-  while (lcm.handleTimeout(static_cast<int>(seconds * 1000)) > 0) {
+  Follower follower(lcm, argc > 3 ? argv[3] : "");
+  while (follower.SilentSeconds() < seconds && lcm.handleTimeout(50) >= 0) {
   }
-  std::fprintf(stderr,
-               "follow_pose: no message came for %g s; expected mocapd to run here, or to send to "
-               "this network: mocap status\n",
-               seconds);
+  if (url.rfind("file://", 0) == 0) return 0;
+  std::fprintf(stderr, "follow_pose: no pose came for %g s%s\n", seconds,
+               follower.WhatCameInstead().c_str());
   return 1;
 }

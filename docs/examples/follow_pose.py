@@ -1,21 +1,26 @@
 #!/usr/bin/env python3
 """Prints where the tracked person's hands are.
 
-usage: follow_pose.py [URL [SECONDS]]      of LCM; file://LOG plays a log; ends after so many seconds (10) without a pose
+usage: follow_pose.py [URL [SECONDS [PREFIX]]]
+
+URL is LCM's; "" is its default, and file://LOG plays a log. Ends after so many seconds (10) without a pose. PREFIX stands before the channels' names:
+lcm.prefix of mocapd's configuration.
 """
 import sys
 
 import mocapd
 
 
-def follow(url=None, seconds="10"):
-    for pose in mocapd.listen(url, timeout_s=float(seconds)):
+def follow(url=None, seconds="10", prefix=""):
+    for pose in mocapd.listen(url, prefix, timeout_s=float(seconds)):
         if pose.is_tracked:
             left, right = pose.point("fingertips_l"), pose.point("fingertips_r")
             print("left hand %6.0f %6.0f %6.0f mm   right hand %6.0f %6.0f %6.0f mm" % (*left, *right), flush=True)
 
 
 def main():
+    if len(sys.argv) > 4 or "--help" in sys.argv:
+        sys.exit(__doc__)
     try:
         follow(*sys.argv[1:])
     except KeyboardInterrupt:

@@ -3,12 +3,15 @@
 import glob
 import os
 import re
+import socket
 import stat
+import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
-from client_log import BIN, need_multicast
+from client_log import BIN, free_group, need_multicast
 
 SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../.."))
 BUILD = os.path.dirname(BIN)
@@ -94,10 +97,33 @@ class InstalledTest(unittest.TestCase):
         flags = self.alone("pkg-config", "--cflags", "--libs", "mocap-lcmtypes",
                            PKG_CONFIG_PATH=self.prefix + "/share/pkgconfig").split()
         self.alone("g++", "-std=c++17", example + "/follow_pose.cpp", *flags, "-o", self.folder + "/by_pkg_config")
+        follow = self.folder + "/by_pkg_config"
+        self.assertRegex(run(follow, "--help").stdout, "^usage: follow_pose ")
+        for wrong in (["", "soon"], ["", ""], ["--frobnicate"], ["", "1", "left.", "more"]):
+            done = run(follow, *wrong)
+            self.assertEqual((done.returncode, done.stdout, done.stderr[:6]), (2, "", "usage:"), wrong)
         need_multicast(self)
-        done = run(self.folder + "/by_pkg_config", "0.1", env={"LCM_DEFAULT_URL": "udpm://239.255.76.64:7667?ttl=0"})
+        done = run(follow, "udpm://239.255.76.64:7667?ttl=0", "0.1")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertRegex(done.stderr, r"^follow_pose: no message came for 0.1 s; expected .*\n$")
+        self.assertRegex(done.stderr, r"^follow_pose: no pose came for 0.1 s; is mocapd running.*\n$")
+        self.assertRegex(self.said_beside("left.", follow, "1"), 'but mocapd sends there with prefix "left."\n$')
+        self.assertRegex(self.said_beside("", follow, "1", "left."), "but mocapd sends there without a prefix\n$")
+        self.assertRegex(self.said_beside("left.", follow, "1", "left."), "only mocapd's status: mocap status says why\n$")
+        python = ("/usr/bin/python3", "-B", example + "/follow_pose.py")
+        self.assertRegex(self.said_beside("left.", *python, "1", "right."), 'no right.MOCAP_POSE came .* with prefix "left.": choose')
+
+    def said_beside(self, prefix, *words):
+        """Runs an example, whose first words are followed by the URL, beside a daemon that sends its status only."""
+        group, port = free_group().removeprefix("udpm://").partition("?")[0].split(":")
+        place = next(i for i, word in enumerate(words) if word == "1")
+        words = [*words[:place], f"udpm://{group}:{port}?ttl=0", *words[place:]]
+        message = struct.pack(">II", 0x4C433032, 0) + f"{prefix}MOCAP_STATUS".encode() + b"\0x"
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process, \
+                socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            while process.poll() is None:
+                sender.sendto(message, (group, int(port)))
+                time.sleep(0.01)
+            return process.stderr.read()
 
     def test_python_imports_it_from_the_prefix_of_an_environment(self):
         [package] = glob.glob(self.prefix + "/lib/python3.*/site-packages")
