@@ -105,6 +105,22 @@ bool IsThere(const fs::path& output) {
   });
 }
 
+TEST(DocumentedCommands, ThatRecordMessagesRecordThoseOfEveryPrefix) {
+  static const std::regex kLogger(R"(lcm-logger --channel='([^']*)')");
+  std::vector<fs::path> files = Pages();
+  files.push_back(fs::path(MOCAP_SOURCE_DIR) / "tools" / "demo");
+  int found = 0;
+  for (const fs::path& file : files) {
+    const std::string text = testing::ReadText(file);
+    for (std::sregex_iterator logger(text.begin(), text.end(), kLogger), end; logger != end;
+         ++logger, ++found) {
+      for (const char* channel : {"MOCAP_POSE", "left.MOCAP_POSE", "hall.left_MOCAP_STATUS"})
+        EXPECT_TRUE(std::regex_match(channel, std::regex((*logger)[1].str()))) << file << channel;
+    }
+  }
+  EXPECT_EQ(found, 2);
+}
+
 TEST(DocumentedCommands, ThatNeedNothingElseDoWhatTheySay) {
   const testing::TemporaryFolder temporary;
   int run = 0;

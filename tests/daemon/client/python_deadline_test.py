@@ -31,10 +31,15 @@ class DeadlineTest(unittest.TestCase):
 
     def test_other_messages_do_not_hold_off_the_end(self):
         for listen in (mocapd.listen, mocapd.listen_people):
-            for prefix, told in (("", r"but mocapd sends there with the prefixes \['left_'\]: choose one with prefix="),
+            for prefix, told in (("", 'but mocapd sends there with prefix "left_": choose it with prefix='),
                                  ("left_", "only mocapd's status: .*; a node never sends poses, its studio does")):
                 with self.assertRaisesRegex(TimeoutError, f"^udpm://: no {prefix}MOCAP_[A-Z]+ came for 5 s, {told}$"):
                     next(self.hears(self.STATUS, listen=listen, prefix=prefix))
+        plain = ("MOCAP_STATUS", b"")
+        with self.assertRaisesRegex(TimeoutError, "but mocapd sends there without a prefix: leave prefix= out$"):
+            next(self.hears(plain, prefix="right."))
+        with self.assertRaisesRegex(TimeoutError, 'there with the prefixes "", "left_": choose it with prefix=$'):
+            next(self.hears(plain, self.STATUS, prefix="right."))
         with self.assertRaisesRegex(TimeoutError, "but OTHER; expected messages of mocapd$"):
             next(self.hears(("OTHER", b"")))
 

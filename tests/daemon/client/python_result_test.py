@@ -170,8 +170,10 @@ class ReadLogTest(LogTest):
         for prefix in ("left.", "right."):
             self.log.add(prefix + "MOCAP_BODY", body_message()).add(prefix + "MOCAP_POSE", pose_message(len(prefix)))
         self.log.write()
-        with self.assertRaisesRegex(ValueError, "left.*right"):
+        with self.assertRaisesRegex(ValueError, 'daemons, with the prefixes "left.", "right.": choose one with prefix=$'):
             mocapd.read_log(self.log.path)
+        with self.assertRaisesRegex(ValueError, 'contains no top.MOCAP_POSE, but some with the prefixes "left.", "right."$'):
+            mocapd.read_log(self.log.path, prefix="top.")
         self.assertEqual(list(mocapd.read_log(self.log.path, prefix="right.").frame), [6])
 
     def test_what_is_no_log_is_told(self):

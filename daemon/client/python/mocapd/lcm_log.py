@@ -52,3 +52,10 @@ def next_mark(log: BinaryIO, place: int, size: int) -> int:
             return place + found
         place += CHUNK
     return size
+
+
+def listed_prefixes(prefixes: set[str]) -> str:
+    """Tells which prefixes channels of mocapd have: "without a prefix", 'with prefix "left."'."""
+    if prefixes == {""}:
+        return "without a prefix"
+    return f"with {'prefix' if len(prefixes) == 1 else 'the prefixes'} " + ", ".join(f'"{prefix}"' for prefix in sorted(prefixes))

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .lcm_log import read_events
+from .lcm_log import listed_prefixes, read_events
 from .lcm_udp import Deadline, Event, receive
 from .poses import BODILESS, DAMAGED, Pose, PoseDecoder
 
@@ -119,9 +119,10 @@ class _Source:
             return self._left_out()
         if self.prefix + STATUS in self.heard:
             return ", only mocapd's status: mocap status says why; a node never sends poses, its studio does"
-        prefixes = sorted(channel.removesuffix(STATUS) for channel in self.heard if channel.endswith(STATUS))
+        prefixes = {channel.removesuffix(STATUS) for channel in self.heard if channel.endswith(STATUS)}
         if prefixes:
-            return f", but mocapd sends there with the prefixes {prefixes}: choose one with prefix="
+            remedy = "leave prefix= out" if prefixes == {""} else "choose it with prefix="
+            return f", but mocapd sends there {listed_prefixes(prefixes)}: {remedy}"
         return f", but {', '.join(sorted(self.heard)[:MOST_NAMED])}; expected messages of mocapd"
 
     def _left_out(self) -> str:

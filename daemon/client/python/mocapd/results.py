@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .lcm_log import read_events
+from .lcm_log import listed_prefixes, read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
 from .poses import (PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, place_of,
@@ -268,9 +268,10 @@ def _choose_prefix(path: Path, name: str, wanted: str | None) -> str:
     if wanted is None and len(found) == 1:
         return found.pop()
     if wanted is None and found:
-        raise ValueError(f"{path}: contains messages of several daemons; choose a prefix of {sorted(found)}")
+        raise ValueError(f"{path}: contains messages of several daemons, {listed_prefixes(found)}: choose one with prefix=")
     if wanted is None or wanted not in found:
-        raise ValueError(f"{path}: contains no {wanted or ''}{name}; expected a log of mocapd's messages")
+        there = f", but some {listed_prefixes(found)}" if found else "; expected a log of mocapd's messages"
+        raise ValueError(f"{path}: contains no {wanted or ''}{name}{there}")
     return wanted
 
 
