@@ -27,6 +27,10 @@ bool IsResult(const std::filesystem::path& folder) {
 
 TakeHeader ReadTakeHeader(const std::filesystem::path& take) {
   const TakeLayout layout{take};
+  const std::filesystem::path folder = take.has_parent_path() ? take.parent_path() : ".";
+  if (std::filesystem::is_regular_file(take) && IsThere(TakeLayout{folder}.Description()))
+    throw SetupError(take.string() + ": is a file of a take; expected its folder, " +
+                     folder.string());
   RequireFolder(take, "a take");
   if (!IsThere(layout.Description()) && IsResult(take)) {
     throw SetupError(take.string() +

@@ -21,5 +21,17 @@ TEST(TakeHeader, OfAFolderThatMayBeEnteredButNotListedItsFileIsWanted) {
               ::testing::HasSubstr((folder.path() / "take.toml").string()));
 }
 
+TEST(TakeHeader, ForAFileOfATakeItsFolderIsExpected) {
+  const testing::TemporaryFolder folder;
+  testing::WriteText(folder.path() / "take.toml", "");
+  testing::WriteText(folder.path() / "cam1.mkv", "");
+  for (const char* name : {"take.toml", "cam1.mkv"}) {
+    const std::filesystem::path file = folder.path() / name;
+    EXPECT_EQ(
+        testing::SetupErrorOf([&] { ReadTakeHeader(file); }),
+        file.string() + ": is a file of a take; expected its folder, " + folder.path().string());
+  }
+}
+
 }  // namespace
 }  // namespace mocap

@@ -101,6 +101,15 @@ void RequireOfOne(const std::filesystem::path& folder) {
                      ": is a result of several people; expected that of one, such as " +
                      PersonFolders(folder).front().string());
   }
+  throw SetupError(folder.string() + ": contains no poses.csv; expected " + kResultWanted);
+}
+
+/// @throws SetupError  for a file of a result, whose folder is meant.
+void RequireNoPart(const std::filesystem::path& file) {
+  const std::string name = file.filename();
+  if (name != "poses.csv" && name != "body.toml") return;
+  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+  throw SetupError(file.string() + ": is a file of a result; expected its folder, " + folder);
 }
 
 }  // namespace
@@ -116,6 +125,7 @@ PeopleResults ReadPeople(const std::filesystem::path& folder_or_log,
   if (!IsOfPeople(folder_or_log)) {
     std::error_code error;
     if (!std::filesystem::is_directory(folder_or_log, error)) {
+      RequireNoPart(folder_or_log);
       return ReadPeopleLog(folder_or_log, prefix);
     }
     if (IsOfOne(folder_or_log)) {
@@ -142,6 +152,7 @@ Result ReadResult(const std::filesystem::path& folder_or_log,
   }
   std::error_code error;
   if (!std::filesystem::is_directory(folder_or_log, error)) {
+    RequireNoPart(folder_or_log);
     return ReadPoseLog(folder_or_log, prefix);
   }
   if (prefix) {

@@ -176,6 +176,14 @@ class ReadLogTest(LogTest):
             mocapd.read_log(self.log.path, prefix="top.")
         self.assertEqual(list(mocapd.read_log(self.log.path, prefix="right.").frame), [6])
 
+    def test_of_a_file_of_a_result_the_folder_is_wanted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = os.path.join(folder, "poses.csv")
+            open(table, "w").close()
+            for read in (mocapd.read_log, mocapd.read_people):
+                with self.assertRaisesRegex(ValueError, f"is a file of a result, not a log; use read_result.* its folder, {folder}$"):
+                    read(table)
+
     def test_what_is_no_log_is_told(self):
         self.log.add("OTHER", b"x").write()
         with self.assertRaisesRegex(ValueError, "contains no MOCAP_POSE"):

@@ -274,6 +274,24 @@ TEST(Result, PeopleAreReadInTheOrderOfTheirNumbers) {
   EXPECT_FALSE(IsOfPeople(folder.path() / "person-2")) << "that is one of them";
 }
 
+TEST(Result, ForAFileOfAResultItsFolderIsExpected) {
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"poses.csv", "body.toml"}) {
+    const std::filesystem::path file = folder.path() / name;
+    testing::WriteText(file, "x");
+    const std::string told =
+        file.string() + ": is a file of a result; expected its folder, " + folder.path().string();
+    EXPECT_EQ(testing::SetupErrorOf([&] { ReadResult(file); }), told);
+    EXPECT_EQ(testing::SetupErrorOf([&] { ReadPeople(file); }), told);
+  }
+}
+
+TEST(Result, AFolderWithoutPosesIsNamed) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EQ(testing::SetupErrorOf([&] { ReadResult(folder.path()); }),
+            folder.path().string() + ": contains no poses.csv; expected what mocap track writes");
+}
+
 TEST(Result, WhatSomebodyElseWroteIsNotWrittenOver) {
   TemporaryFolder folder;
   RequireRoomForResult(folder.path() / "new");

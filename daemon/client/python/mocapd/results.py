@@ -217,6 +217,8 @@ def read_people(folder_or_log: Path, prefix: str | None = None) -> dict[str, Res
 def _require(log: Path) -> None:
     if not pathlib.Path(log).exists():
         raise FileNotFoundError(f"{log}: not found; expected a log of lcm-logger")
+    if pathlib.Path(log).name in ("poses.csv", "body.toml"):
+        raise ValueError(f"{log}: is a file of a result, not a log; use read_result() with its folder, {pathlib.Path(log).parent}")
 
 
 def _person_folders(folder: Path) -> list[pathlib.Path]:
