@@ -20,6 +20,7 @@
 #include "drivers/take/unfinished_folder.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -59,6 +60,7 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
 }
 
 void Learn(const LearnOptions& options) {
+  StopOnSignals();
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   const std::filesystem::path partial = BeginBackground(config.background);

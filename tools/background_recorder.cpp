@@ -11,6 +11,7 @@
 #include "core/reconstruction/background/change_meter.h"
 #include "drivers/clock.h"
 #include "drivers/take/video_writer.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -30,6 +31,7 @@ constexpr std::size_t kMostDirections = 300;
 void GrabNext(LiveCamera& camera, Frame& frame) {
   const std::int64_t deadline_ns = SteadyNs() + kPatience_ns;
   while (SteadyNs() < deadline_ns) {
+    EndIfStopAsked();
     if (camera.driver->Grab(frame, kGrabTimeout) == GrabStatus::kFrame) return;
   }
   throw std::runtime_error(camera.name + " (" + camera.request.device +

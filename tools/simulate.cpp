@@ -24,6 +24,7 @@
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_writer.h"
 #include "drivers/take/unfinished_folder.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -95,6 +96,7 @@ void WriteBackgrounds(const SimulatedStudio& studio, TakeWriter& writer) {
     progress.Show("background", c + 1);
     const std::vector<BackgroundFrame> frames = studio.Background(c);
     const auto count = static_cast<std::int64_t>(frames.size());
+    EndIfStopAsked();
     for (std::int64_t i = 0; i < count; ++i)
       // Captured before the person came.
       writer.WriteBackground(c, frames[i].image.view(), studio.NominalTime(i - 2 * count),
@@ -157,6 +159,7 @@ void WriteFrames(const SimulateOptions& options, const SimulatedStudio& studio,
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       Frame frame;
       cameras[c]->Grab(frame, std::chrono::milliseconds(0));
+      EndIfStopAsked();
       const int camera = static_cast<int>(c);
       writer.WriteFrame(camera, frame.image, frame.capture_ns, frame.angles);
       writer.WriteMask(camera, cameras[c]->TrueMask());
@@ -185,6 +188,7 @@ void SimulateBoard(const SimulateOptions& options) {
   const SimulationProgress progress(options.frames());
   for (int i = 0; i < options.frames(); ++i) {
     progress.Show("frame", i + 1);
+    EndIfStopAsked();
     for (int c = 0; c < options.studio.cameras; ++c)
       writer.WriteFrame(c, board.Paint(c, i), board.CaptureTime(c, i),
                         board.AnglesAt(c, board.CaptureTime(c, i)));
@@ -194,6 +198,7 @@ void SimulateBoard(const SimulateOptions& options) {
 }
 
 void Simulate(const SimulateOptions& options) {
+  StopOnSignals();
   options.board.empty() ? SimulatePeople(options) : SimulateBoard(options);
   fmt::print("{} of {}, {:.0f} MB: {}\n", Counted(options.frames(), "frame set"),
              Counted(options.studio.cameras, "camera"),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/printable_text.h"
+#include "tools/stop_on_signals.h"
 #include "tools/take_join.h"
 
 namespace mocap {
@@ -19,6 +20,7 @@ struct JoinOptions {
 };
 
 void Join(const JoinOptions& options) {
+  StopOnSignals();
   const JoinedTake joined = JoinTakes(options.takes, options.out);
   fmt::print("{}, {:.1f} s with all of them, {:.1f} s in all: {}\n",
              Counted(joined.cameras, "camera"), static_cast<double>(joined.common_ns) / 1e9,

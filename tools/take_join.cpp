@@ -22,8 +22,10 @@
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
+#include "drivers/take/take_writer.h"
 #include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -237,7 +239,10 @@ void Write(const std::vector<Part>& parts, const Sources& sources, const fs::pat
   fs::create_directories(partial);
   WriteText(layout.Description(), DescriptionOf(parts, out.filename().string()));
   WriteCalibration(layout.Calibration(), CamerasOf(parts));
-  for (const auto& [file, from] : sources) LinkOrCopy(from, partial / file);
+  for (const auto& [file, from] : sources) {
+    EndIfStopAsked();
+    LinkOrCopy(from, partial / file);
+  }
   fs::rename(partial, out);
 }
 
@@ -245,10 +250,7 @@ void Write(const std::vector<Part>& parts, const Sources& sources, const fs::pat
 
 JoinedTake JoinTakes(std::span<const fs::path> takes, const fs::path& out) {
   const fs::path folder = PlainFolder(out), partial = folder.string() + ".partial";
-  for (const fs::path& path : {folder, partial}) {
-    if (IsThere(path))
-      throw SetupError(path.string() + ": exists; expected the name of a new folder");
-  }
+  RequireNewTake(folder, partial);
   std::vector<Part> parts;
   for (const fs::path& take : takes) parts.push_back(OpenPart(take));
   RequireOneRate(parts);

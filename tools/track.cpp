@@ -34,6 +34,7 @@
 #include "tools/results/result.h"
 #include "tools/results/result_sink.h"
 #include "tools/results/take_identity.h"
+#include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
@@ -136,6 +137,7 @@ void Write(const TrackOptions& options, const ResultSink& sink) {
 }
 
 void Track(const TrackOptions& options) {
+  StopOnSignals();
   const NamedTracker& tracker = TrackerOf(options.tracker);
   Studio studio = OpenTake(options.take, {.cameras = options.cameras});
   RequireTwoCameras(options, studio);

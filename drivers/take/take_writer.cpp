@@ -263,11 +263,7 @@ class TakeWriter::Impl {
   void MakeFolder() const {
     if (folder_.empty())
       throw SetupError("the name of the take's folder is empty; expected a name");
-    for (const std::filesystem::path& path : {folder_, layout_.folder}) {
-      if (IsThere(path)) {
-        throw SetupError(path.string() + ": exists; expected the name of a new folder");
-      }
-    }
+    RequireNewTake(folder_, layout_.folder);
     std::error_code error;
     std::filesystem::create_directories(layout_.folder, error);
     if (error)
@@ -290,6 +286,16 @@ class TakeWriter::Impl {
   std::vector<Truth> truths_;
   std::size_t truth_points_ = 0;
 };
+
+void RequireNewTake(const std::filesystem::path& folder, const std::filesystem::path& partial) {
+  if (IsThere(folder))
+    throw SetupError(folder.string() + ": exists; expected the name of a new folder");
+  if (IsThere(partial)) {
+    throw SetupError(folder.string() + ": " + partial.filename().string() +
+                     " beside it is being written, or is of a command that was killed; expected "
+                     "another name, or remove it");
+  }
+}
 
 TakeWriter::TakeWriter(const std::filesystem::path& folder, const TakeDescription& description)
     : impl_(std::make_unique<Impl>(folder, description)) {}

@@ -44,6 +44,10 @@ struct PersonStay {
   std::vector<FrameSpan> in_room, whole, covered;
 };
 
+/// Checks that nothing is where a take will be written. @param partial  until it is complete.
+/// @throws SetupError
+void RequireNewTake(const std::filesystem::path& folder, const std::filesystem::path& partial);
+
 /// Writes a take into FOLDER.partial, which is renamed to FOLDER when complete.
 ///
 /// After an interruption, FOLDER.partial opens as a take. The same calls give the same bytes.

@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -22,6 +25,7 @@
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/simulate.h"
+#include "tools/stop_on_signals.h"
 #include "tools/take.h"
 #include "tools/track.h"
 
@@ -225,6 +229,23 @@ TEST_F(JoinedTakes, OneTakeIsNotEnough) {
   CLI::App app("mocap");
   AddTakeCommand(app);
   EXPECT_THROW(app.parse("take join a --out b"), CLI::ParseError);
+}
+
+TEST_F(JoinedTakes, AnInterruptedJoinLeavesNothing) {
+  Split();
+  const auto join_interrupted = [this] {
+    StopOnSignals();
+    raise(SIGINT);
+    try {
+      Join();
+    } catch (const std::exception&) {
+      EndBySignal();
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(join_interrupted(), ::testing::KilledBySignal(SIGINT), "");
+  EXPECT_FALSE(fs::exists(joined_));
+  EXPECT_FALSE(fs::exists(joined_.string() + ".partial"));
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <string>
 
+#include "tools/stop_on_signals.h"
+
 namespace mocap {
 
 void ResultSink::OnSet(const TrackedSet& set) {
+  EndIfStopAsked();
   const auto is_tracked = [](const PersonView& person) {
     return person.capture->result().state == CaptureState::kTracking;
   };

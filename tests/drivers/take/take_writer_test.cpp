@@ -9,6 +9,7 @@
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
 #include "tests/support/images.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,7 +65,10 @@ TEST_F(WrittenTake, NeverReplacesAnotherOne) {
   EXPECT_THROW(TakeWriter(layout_.folder / "", SmallDescription(take_)), SetupError);
   const TakeLayout other{folder_.path() / "other"};
   std::filesystem::create_directory(other.folder.string() + ".partial");
-  EXPECT_THROW(TakeWriter(other.folder, SmallDescription(take_)), SetupError);
+  EXPECT_EQ(testing::SetupErrorOf([&] { TakeWriter(other.folder, SmallDescription(take_)); }),
+            other.folder.string() +
+                ": other.partial beside it is being written, or is of a command that was killed; "
+                "expected another name, or remove it");
 }
 
 TEST_F(WrittenTake, InterruptedRecordingKeepsItsWholeFrames) {
