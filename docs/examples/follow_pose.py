@@ -19,7 +19,9 @@ def follow(url=None, seconds="10", prefix=""):
 
 
 def main():
-    if len(sys.argv) > 4 or "--help" in sys.argv:
+    if "--help" in sys.argv:
+        return print(__doc__)
+    if len(sys.argv) > 4:
         sys.exit(__doc__)
     try:
         follow(*sys.argv[1:])

@@ -34,6 +34,10 @@ def plot(result):
 
 
 def main():
+    if "--help" in sys.argv:
+        return print(__doc__)
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     path, *picture = sys.argv[1:]
     try:
         result = mocapd.read_result(path) if os.path.isdir(path) else mocapd.read_log(path)

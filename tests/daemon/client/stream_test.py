@@ -228,6 +228,14 @@ class StreamTest(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(len(done.stdout.splitlines()), 3)
 
+    def test_examples_tell_how_they_are_used(self):
+        for name, wrong in (("follow_pose.py", ["", "1", "left.", "more"]), ("plot_take.py", []), ("plot_take.py", ["a", "b", "c"])):
+            self.assertIn(f"usage: {name} ", example(name, "--help"))
+            done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, name), *wrong], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn(f"usage: {name} ", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
     def test_an_example_that_hears_nothing_says_so_in_a_line(self):
         need_multicast(self)
         done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, "follow_pose.py"), "udpm://239.255.76.65:7667", "0.1"],
