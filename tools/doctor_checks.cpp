@@ -301,7 +301,8 @@ std::vector<Diagnosis> CheckNodes(const Config& config) {
     if (is_good) {
       diagnoses.push_back({Verdict::kGood, name + " answers", ""});
     } else {
-      diagnoses.push_back({Verdict::kBad, answer.reply ? answer.reply->text : answer.problem,
+      diagnoses.push_back({Verdict::kBad,
+                           answer.reply ? name + ": " + answer.reply->text : answer.problem,
                            "see docs/operating.md, Nodes: requests"});
     }
   }

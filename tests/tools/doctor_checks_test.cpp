@@ -39,5 +39,15 @@ TEST(DoctorChecks, AnAddressIsToldOnce) {
   EXPECT_EQ(wrong.fix, "") << "the line itself says what is expected";
 }
 
+TEST(DoctorChecks, ANodeWhoseMocapdDoesNotAnswerIsNamed) {
+  Config config;
+  config.nodes = {{"left", {}, {"/bin/sh", "-c", "printf 'failed\\nnothing answers at x'"}},
+                  {"right", {}, {"/bin/false"}}};
+  const std::vector<Diagnosis> nodes = CheckNodes(config);
+  ASSERT_EQ(nodes.size(), 2u);
+  EXPECT_EQ(nodes[0].what, "node left: nothing answers at x");
+  EXPECT_THAT(nodes[1].what, ::testing::StartsWith("node right: "));
+}
+
 }  // namespace
 }  // namespace mocap
