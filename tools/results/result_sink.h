@@ -24,6 +24,10 @@ class ResultSink : public PoseSink {
   /// @param take  what is tracked; empty: no take.
   ResultSink(KeptPeople kept, bool shows_progress, std::optional<TakeMark> take = {})
       : kept_(kept), shows_progress_(shows_progress), take_(std::move(take)) {}
+  /// Clears the progress line, which a failure may have left.
+  ~ResultSink() { EndProgress(); }
+  ResultSink(const ResultSink&) = delete;
+  ResultSink& operator=(const ResultSink&) = delete;
 
   void OnSet(const TrackedSet& set) override;
   /// Clears the progress line.

@@ -12,6 +12,7 @@
 #include "core/body/body_sizes.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/results/result_sink.h"
 
 namespace mocap {
 namespace {
@@ -334,6 +335,12 @@ TEST(Result, ABodysNameMayHoldAnything) {
   result.body.model = "a \"b\"\n\\c";
   WriteResult(folder.path(), result);
   EXPECT_EQ(ReadResult(folder.path()).body.model, result.body.model);
+}
+
+TEST(ResultSink, ClearsItsLineOnTheTerminalAlsoAfterAFailure) {
+  ::testing::internal::CaptureStderr();
+  { const ResultSink sink(KeptPeople::kFirst, true); }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "\r\x1b[K");
 }
 
 }  // namespace
