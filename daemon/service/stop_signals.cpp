@@ -77,8 +77,8 @@ void StopSignals::EndNow() const {
   if (is_starting_.load()) line = "mocapd: stopped while starting\n";
   if (has_take_.load()) {
     line =
-        "mocapd: stopped before the recording was complete; its folder keeps .partial in its "
-        "name\n";
+        "mocapd: stopped before the recording was complete; what is incomplete keeps .partial in "
+        "its name\n";
   }
   pollfd room{STDERR_FILENO, POLLOUT, 0};
   if (poll(&room, 1, 0) == 1) {
