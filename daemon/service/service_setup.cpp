@@ -79,7 +79,7 @@ PreparedService Prepare(const Config& config) {
   RequireBodyOf(config.tracker, prepared.body);
   prepared.studio = OpenStudio(config);
   RequireCameraCount(prepared.studio);
-  if (prepared.socket.empty()) {
+  if (ControlSocketOf(config.service.control.socket).empty()) {
     prepared.studio.remarks.push_back(
         "there is no control socket, so mocap status, record and the like cannot ask this mocapd: "
         "set [control] socket, or XDG_RUNTIME_DIR");
