@@ -128,7 +128,6 @@ class OscStream {
   explicit OscStream(const std::string& to) : to_(to), sender_(to) {}
 
   void Take(const StreamedPose& pose) {
-    works_.Tell("sending to " + to_);
     if (!begin_us_) begin_us_ = pose.message.utime;
     const double time_s = 1e-6 * static_cast<double>(pose.message.utime - *begin_us_);
     const auto bones = pose.is_tracked ? bones_.Of(pose) : std::nullopt;
@@ -148,7 +147,7 @@ class OscStream {
  private:
   const std::string to_;
   VmcSender sender_;
-  Notice works_, unknown_, trouble_;
+  Notice unknown_, trouble_;
   StreamedBones bones_;
   std::optional<std::int64_t> begin_us_;
 };

@@ -142,7 +142,7 @@ class StreamTest(unittest.TestCase):
             to = "127.0.0.1:%d" % udp.getsockname()[1]
             done = subprocess.run([os.path.join(BIN, "mocap"), "stream", "osc", "--to", to, "--url", f"file://{self.log}?speed=0"],
                                   check=True, capture_output=True, text=True)
-            self.assertEqual((done.stdout, done.stderr), ("", f"mocap stream: sending to {to}\n"))
+            self.assertEqual((done.stdout, done.stderr), ("", f"mocap stream: sends to {to}; Ctrl-C ends it\n"))
             heard = b""
             while LAST_BONE not in heard:
                 heard += udp.recv(65536)
