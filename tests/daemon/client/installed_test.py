@@ -130,6 +130,29 @@ class InstalledTest(unittest.TestCase):
         self.alone("/usr/bin/python3", "-B", "-c", "import mocapd; mocapd.listen", PYTHONPATH=package)
 
 
+class BuiltTest(unittest.TestCase):
+    """Before anything is installed."""
+
+    def test_the_demo_builds_all_that_is_installed_and_all_that_it_names(self):
+        demo = read(SOURCE, "tools/demo")
+        [target] = re.findall(r"tools/build --target (.*)", demo)
+        commands = run("ninja", "-C", BUILD, "-t", "commands", *target.split()).stdout
+        built = {"bin/mocap": " -o bin/mocap ", "bin/mocapd": " -o bin/mocapd ", "python": f" --ppath {BUILD}/python "}
+        for name, how in built.items():
+            self.assertTrue(how in commands, name)
+        self.assertLessEqual(set(re.findall(r"build/release/(bin/\w+|python)", demo)), set(built))
+
+    def test_an_incomplete_build_is_not_installed_at_all(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script, prefix = folder + "/install_folders.cmake", folder + "/prefix"
+            with open(script, "w", encoding="utf-8") as file:
+                file.write(read(BUILD, "systemd/install_folders.cmake").replace(BUILD, folder))
+            done = run("cmake", f"-DCMAKE_INSTALL_PREFIX={prefix}", "-P", script)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("mocapd: not built yet; run tools/build", " ".join(done.stderr.split()))
+            self.assertFalse(os.path.exists(prefix))
+
+
 class StagedTest(unittest.TestCase):
     """In a folder that stands for /, as packages are made."""
 
