@@ -26,14 +26,24 @@ const char* NameOfUnit(double unit_mm) {
   return unit_mm == 25.4 ? "inches" : "feet";
 }
 
-std::string FloorText(const PersonExtent& person) {
+/// Nobody who sits, and no two people, seem to be so far off the floor.
+constexpr double kSurelyOffFloor_mm = 300;
+
+bool IsSure(const StudioDiagnosis& diagnosis) {
+  if (diagnosis.fault == StudioFault::kFloor)
+    return std::abs(diagnosis.person.lowest_mm) > kSurelyOffFloor_mm;
+  return diagnosis.fault != StudioFault::kStature;
+}
+
+std::string FloorText(const PersonExtent& person, bool is_sure) {
   if (person.lowest_mm + person.highest_mm < 0) {
     return "the person is below the floor, from z = " + Millimetres(person.lowest_mm) + " to " +
            Millimetres(person.highest_mm) +
            ": z points down; set the floor again (mocap calibrate floor)";
   }
   return "the person's feet are at z = " + Millimetres(person.lowest_mm) +
-         ", not on the floor; set the floor again (mocap calibrate floor)";
+         ", not on the floor; " + (is_sure ? "" : "unless somebody sits or several people meet, ") +
+         "set the floor again (mocap calibrate floor)";
 }
 
 std::string Text(const StudioDiagnosis& diagnosis, std::span<const CameraCalibration> cameras) {
@@ -67,7 +77,7 @@ std::string Text(const StudioDiagnosis& diagnosis, std::span<const CameraCalibra
              " tall by this calibration: its lengths are in " + NameOfUnit(diagnosis.unit_mm) +
              "; expected millimetres";
     case StudioFault::kFloor:
-      return FloorText(diagnosis.person);
+      return FloorText(diagnosis.person, IsSure(diagnosis));
     case StudioFault::kStature:
       return "a person is " + Millimetres(height_mm) +
              " tall by this calibration: check the size of the board's squares (--board), and that "
@@ -81,8 +91,7 @@ std::string Text(const StudioDiagnosis& diagnosis, std::span<const CameraCalibra
 std::optional<Finding> FindingOf(const StudioDiagnosis& diagnosis,
                                  std::span<const CameraCalibration> cameras) {
   if (diagnosis.fault == StudioFault::kNone) return {};
-  const bool is_sure = diagnosis.fault != StudioFault::kStature;
-  return Finding{is_sure ? Severity::kWrong : Severity::kWarning, Text(diagnosis, cameras)};
+  return Finding{IsSure(diagnosis) ? Severity::kWrong : Severity::kWarning, Text(diagnosis, cameras)};
 }
 
 }  // namespace mocap

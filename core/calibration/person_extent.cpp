@@ -7,14 +7,10 @@
 #include <utility>
 
 #include "core/calibration/view_agreement.h"
-#include "core/degrees.h"
 #include "core/quantile.h"
 
 namespace mocap {
 namespace {
-
-/// Steeper rays tell little about heights.
-const double kSteepest = std::tan(55 / kDegreesPerRad);
 
 /// Several people beside each other, and somebody who lies, are wider than this, in heights.
 constexpr double kWidest = 1.2;
@@ -56,33 +52,61 @@ double FarthestFrom(const Vector3& place_W, const std::vector<SeenCone>& cones) 
   return farthest;
 }
 
-/// A foot or hand that is held towards a camera seems lower or higher than it is. Cameras from
-/// aside see it where it is.
-constexpr double kFarthest = 0.25;
+/// What all cameras share reaches below the feet, by this much of a height: cameras above look
+/// under them. By right floors it was 18 to 107 mm; docs/experiments/cameras.md.
+constexpr double kBelowFeet = 0.03;
 
-struct Heights {
-  std::vector<double> lowest, highest;
-};
+using Polygon = std::vector<Vector2>;
 
-/// Adds the heights of a cone's lowest and highest ray where they pass the person.
-void AddHeights(const SeenCone& cone, const Vector3& place_W, Heights& heights) {
-  const double away = (place_W - cone.eye_W).head<2>().norm();
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const Vector3& ray : cone.rays_W) {
-    const double slope = ray.z() / ray.head<2>().norm();
-    if (!(std::abs(slope) < kSteepest)) return;
-    low = std::min(low, cone.eye_W.z() + slope * away);
-    high = std::max(high, cone.eye_W.z() + slope * away);
+/// Cuts off what lies on the negative side of a plane (Sutherland and Hodgman, 1974).
+Polygon Clipped(const Polygon& polygon, double z, const Vector3& eye_W, const Vector3& normal_W) {
+  const auto above = [&](const Vector2& p) {
+    return normal_W.dot(Vector3(p.x(), p.y(), z) - eye_W);
+  };
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2& a = polygon[i];
+    const Vector2& b = polygon[(i + 1) % polygon.size()];
+    const double above_a = above(a), above_b = above(b);
+    if (above_a >= 0) kept.push_back(a);
+    if ((above_a >= 0) != (above_b >= 0))
+      kept.push_back(a + above_a / (above_a - above_b) * (b - a));
   }
-  heights.lowest.push_back(low);
-  heights.highest.push_back(high);
+  return kept;
+}
+
+/// Whether all cones share a point at this height, within `far` of a place.
+bool Share(const std::vector<SeenCone>& cones, const Vector3& place_W, double far, double z) {
+  Polygon shared;
+  for (const Vector2& corner : {Vector2(-1, -1), Vector2(1, -1), Vector2(1, 1), Vector2(-1, 1)})
+    shared.push_back(place_W.head<2>() + far * corner);
+  for (const SeenCone& cone : cones) {
+    const Vector3 middle = MiddleOf(cone);
+    for (std::size_t i = 0; i < cone.rays_W.size() && !shared.empty(); ++i) {
+      Vector3 normal = cone.rays_W[i].cross(cone.rays_W[(i + 1) % cone.rays_W.size()]);
+      if (normal.dot(middle) < 0) normal = -normal;
+      shared = Clipped(shared, z, cone.eye_W, normal);
+    }
+  }
+  return !shared.empty();
+}
+
+/// The end of what all cones share, upwards or downwards from a height at which they share points.
+double EndOf(const std::vector<SeenCone>& cones, const Vector3& place_W, double far) {
+  double inside = 0, outside = far;
+  constexpr int kHalvings = 14;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double half = (inside + outside) / 2;
+    (Share(cones, place_W, std::abs(far), place_W.z() + half) ? inside : outside) = half;
+  }
+  return place_W.z() + inside;
 }
 
 }  // namespace
 
 PersonExtent MeasureExtent(std::span<const CameraCalibration> cameras,
                            std::span<const SeenMoment> moments, std::span<const std::size_t> of) {
-  Heights all;
+  std::vector<double> lows, highs;
   for (const SeenMoment& moment : moments) {
     std::vector<SeenCone> cones;
     bool is_upright = true;
@@ -95,17 +119,16 @@ PersonExtent MeasureExtent(std::span<const CameraCalibration> cameras,
     if (cones.size() < 2 || !is_upright) continue;
     const Vector3 place_W = PlaceOf(cones);
     if (!place_W.allFinite()) continue;
-    Heights heights;
-    for (const SeenCone& cone : cones) AddHeights(cone, place_W, heights);
-    if (heights.lowest.empty()) continue;
-    const double lowest = QuantileOf(heights.lowest, 1 - kFarthest);
-    const double highest = QuantileOf(heights.highest, kFarthest);
+    double far = 0;
+    for (const SeenCone& cone : cones) far = std::max(far, (cone.eye_W - place_W).norm());
+    if (!Share(cones, place_W, far, place_W.z())) continue;
+    const double lowest = EndOf(cones, place_W, -far), highest = EndOf(cones, place_W, far);
     if (FarthestFrom(place_W, cones) > kMostApart * (highest - lowest)) continue;
-    all.lowest.push_back(lowest);
-    all.highest.push_back(highest);
+    lows.push_back(lowest + kBelowFeet * (highest - lowest));
+    highs.push_back(highest);
   }
-  if (all.lowest.empty()) return {};
-  return {static_cast<int>(all.lowest.size()), MedianOf(all.lowest), MedianOf(all.highest)};
+  if (lows.empty()) return {};
+  return {static_cast<int>(lows.size()), MedianOf(lows), MedianOf(highs)};
 }
 
 }  // namespace mocap

@@ -1,5 +1,5 @@
-// §4, beyond the paper: how high a person reaches, by triangulation without voxels, so that it
-// holds for any unit of length and on either side of the floor.
+// §4, beyond the paper: how high a person reaches, by what all cameras' cones share, without
+// voxels, so that it holds for any unit of length and on either side of the floor.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace mocap {
 /// How far a person reaches in height, in the calibration's frame and unit of length.
 struct PersonExtent {
   int moments = 0;                       ///< Those in which it could be measured.
-  double lowest_mm = 0, highest_mm = 0;  ///< Medians over these moments.
+  double lowest_mm = 0, highest_mm = 0;  ///< Soles and crown; medians over these moments.
 };
 
 /// Measures one upright person from the rims of the shapes that are whole in their pictures.

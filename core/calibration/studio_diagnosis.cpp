@@ -25,8 +25,8 @@ constexpr int kFewestMoments = 3;
 
 /// From somebody who crouches or sits to a tall man with raised arms.
 constexpr double kShortest_mm = 1000, kTallest_mm = 2600;
-/// Of the triangulated feet. A foot that is held towards a camera seems lower than it is.
-constexpr double kMostBelowFloor_mm = 350, kMostAboveFloor_mm = 100;
+/// Twice of what the feet of one person seem to be off a right floor; docs/experiments/cameras.md.
+constexpr double kMostOffFloor_mm = 100;
 /// Metres, feet, inches and centimetres. Hardly any height of a person fits two of them.
 constexpr std::array kUnits_mm = {1000.0, 304.8, 25.4, 10.0};
 
@@ -59,9 +59,7 @@ void JudgeExtent(StudioDiagnosis& diagnosis) {
   if (person.moments < kFewestMoments) return;
   const double height_mm = person.highest_mm - person.lowest_mm;
   if (IsStature(height_mm)) {
-    const bool is_on_floor =
-        person.lowest_mm > -kMostBelowFloor_mm && person.lowest_mm < kMostAboveFloor_mm;
-    if (!is_on_floor) diagnosis.fault = StudioFault::kFloor;
+    if (std::abs(person.lowest_mm) > kMostOffFloor_mm) diagnosis.fault = StudioFault::kFloor;
     return;
   }
   diagnosis.fault = StudioFault::kStature;

@@ -50,7 +50,7 @@ TEST(StudioDiagnosis, FindsNothingWrongWithARightCalibration) {
   const StudioDiagnosis diagnosis = DiagnosisOf(WalkingMoments());
   EXPECT_EQ(diagnosis.fault, StudioFault::kNone);
   for (const PairAgreement& pair : diagnosis.pairs) EXPECT_GT(pair.views.overlap, 0.95);
-  EXPECT_NEAR(diagnosis.person.lowest_mm, 0, 130);
+  EXPECT_NEAR(diagnosis.person.lowest_mm, 0, 50);
   EXPECT_NEAR(diagnosis.person.highest_mm, testing::kWalkerStature_mm, 80);
 }
 
@@ -118,8 +118,23 @@ TEST(StudioDiagnosis, TellsAFloorThatIsUpsideDownOrElsewhere) {
   const RigidTransform raised{Matrix3::Identity(), {0, 0, -400}};
   const std::vector<SeenMoment> moments =
       WithPoses([&](RigidTransform& X_CW) { X_CW = X_CW * raised; });
-  EXPECT_NEAR(DiagnosisOf(moments).person.lowest_mm, 400, 130);
+  EXPECT_NEAR(DiagnosisOf(moments).person.lowest_mm, 400, 50);
   EXPECT_THAT(TextOf(moments), HasSubstr("not on the floor"));
+}
+
+TEST(StudioDiagnosis, AFloorThatIsTooHighIsDoubtedAsMuchAsOneThatIsTooLow) {
+  const auto severity_at = [](double z_mm) {
+    const RigidTransform moved{Matrix3::Identity(), {0, 0, -z_mm}};
+    const auto finding = FindingOf(
+        DiagnosisOf(WithPoses([&](RigidTransform& X_CW) { X_CW = X_CW * moved; })), Cameras());
+    return finding ? finding->severity : Severity::kNote;
+  };
+  for (const int side : {-1, 1}) {
+    EXPECT_EQ(severity_at(side * 50), Severity::kNote) << side;
+    EXPECT_EQ(severity_at(side * 150), Severity::kWarning) << side;
+    EXPECT_EQ(severity_at(side * 200), Severity::kWarning) << side;
+    EXPECT_EQ(severity_at(side * 400), Severity::kWrong) << side;
+  }
 }
 
 TEST(StudioDiagnosis, CamerasThatSeeFewerOfSeveralPeopleAreNotBlamed) {
