@@ -64,6 +64,17 @@ std::string AgreementText(const StudioDiagnosis& diagnosis,
                      100 * worst->views.overlap);
 }
 
+// Small turns, which only hulls tell.
+void CheckMotions(const std::string& take, const TakeSamples& samples,
+                  const std::vector<CameraCalibration>& cameras, std::vector<Finding>& findings) {
+  try {
+    for (const std::string& change : ChangesOf(RefineFromSilhouettes(samples, cameras)))
+      findings.push_back({Severity::kWarning, take + ": " + change});
+  } catch (const SetupError& error) {
+    findings.push_back({Severity::kWarning, take + ": " + error.what()});
+  }
+}
+
 // Checks that the cameras agree on a person who stands on the floor.
 void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibration>& cameras,
                  std::vector<Finding>& findings) {
@@ -82,6 +93,9 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
   }
   const StudioDiagnosis diagnosis = Diagnose(calibrations, moments);
   if (const auto fault = FindingOf(diagnosis, calibrations)) add(fault->severity, fault->text);
+  const bool are_views_right =
+      diagnosis.fault == StudioFault::kNone || diagnosis.fault == StudioFault::kFloor;
+  if (are_views_right) CheckMotions(take.string(), samples, calibrations, findings);
   if (const std::string text = AgreementText(diagnosis, calibrations); !text.empty())
     add(Severity::kNote, text);
   if (diagnosis.person.moments == 0) return;
@@ -103,16 +117,23 @@ std::string DaysAgo(std::int64_t then_s, std::int64_t now_s) {
   return days < 1 ? "today" : days == 1 ? "yesterday" : std::to_string(days) + " days ago";
 }
 
-// The result of the last health check.
+// The result of the last health check, if no camera had moved.
 std::string HealthText(const std::vector<CameraOffset>& offsets) {
-  if (offsets.empty()) return "";
-  std::string moved;
-  for (const CameraOffset& offset : offsets) {
-    if (offset.has_moved) moved += fmt::format(", {} is {:.1f} px off", offset.camera, offset.px);
-  }
-  if (!moved.empty()) return moved;
+  if (offsets.empty() || std::ranges::any_of(offsets, &CameraOffset::has_moved)) return "";
   const CameraOffset& worst = *std::ranges::max_element(offsets, {}, &CameraOffset::px);
   return fmt::format(", no camera has moved (at most {:.1f} px, {})", worst.px, worst.camera);
+}
+
+// What a health check found stays a reason for doubt until the cameras are calibrated or corrected.
+void CheckNote(const CalibrationRecord& record, std::vector<Finding>& findings) {
+  for (const CameraOffset& offset : record.offsets) {
+    if (!offset.has_moved) continue;
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("{}: had moved or was zoomed, by {:.1f} px, when its health was checked; "
+                     "correct it with mocap calibrate refine, or calibrate it again with a board",
+                     offset.camera, offset.px)});
+  }
 }
 
 // The age, and the result of the last health check.
@@ -167,11 +188,12 @@ void AddCheck(CLI::App* parent) {
     fit.bundle.cameras = LoadCalibration(a->calibration);
     fit.has_floor = true;
     std::vector<Finding> findings = CheckAll(*a, fit);
+    const CalibrationRecord record = LoadCalibrationRecord(a->calibration);
+    CheckNote(record, findings);
     if (!a->footage.empty()) CheckPerson(*a, fit.bundle.cameras, findings);
     if (!against->empty()) Compare(fit.bundle.cameras, *against, findings);
     std::ranges::stable_sort(findings, std::greater(), &Finding::severity);
-    const std::string text =
-        RecordText(LoadCalibrationRecord(a->calibration), TimeOfDayS()) + FindingsText(findings);
+    const std::string text = RecordText(record, TimeOfDayS()) + FindingsText(findings);
     std::fputs(text.c_str(), stdout);
     RequireUsable(a->calibration, findings);
   });

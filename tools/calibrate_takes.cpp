@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "config/load_config.h"
@@ -105,7 +106,8 @@ const char* Directions(const Vector2& shift) {
   return shift.y() > 0 ? "down" : "up";
 }
 
-bool IsZoomed(const CameraShift& shift) { return std::abs(shift.growth) > kZoomedShare; }
+/// A number with one decimal place; no zero is negative.
+double Tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
 
 std::string ShiftText(const std::vector<CameraShift>& shifts) {
   std::string text = fmt::format("{:<12}{:>7}  {:<8}{:>16}{:>9}{:>9}{:>9}\n", "camera", "px",
@@ -115,8 +117,8 @@ std::string ShiftText(const std::vector<CameraShift>& shifts) {
                 ? fmt::format("{:<12}sees too little of the person for a check\n", s.camera)
                 : fmt::format("{:<12}{:>7.1f}  {:<8}{:>16}{:>9.1f}{:>7.1f} %{:>7.0f} %\n", s.camera,
                               s.shift_px.norm(), Directions(s.shift_px),
-                              fmt::format("({:+.1f}, {:+.1f})", s.shift_px.x(), s.shift_px.y()),
-                              s.spread_px, 100 * s.growth, 100 * s.overlap);
+                              fmt::format("({:+.1f}, {:+.1f})", Tenths(s.shift_px.x()), Tenths(s.shift_px.y())),
+                              s.spread_px, Tenths(100 * s.growth), 100 * s.overlap);
   }
   return text;
 }
@@ -146,17 +148,7 @@ std::string ShiftJson(const RefinedStudio& refined) {
 
 std::string VerdictText(const RefinedStudio& refined) {
   std::string text;
-  for (const std::string& name : refined.moved)
-    text += name +
-            ": has moved since it was calibrated; correct it with mocap calibrate refine, or "
-            "calibrate it again with a board\n";
-  for (const CameraShift& s : refined.before) {
-    if (IsZoomed(s))
-      text += fmt::format(
-          "{}: its picture has become {:.1f} % {}: its focus or zoom was touched; calibrate its "
-          "intrinsics again\n",
-          s.camera, 100 * std::abs(s.growth), s.growth > 0 ? "larger" : "smaller");
-  }
+  for (const std::string& change : ChangesOf(refined)) text += change + '\n';
   return text.empty() ? "no camera has moved\n" : text;
 }
 
@@ -180,12 +172,16 @@ void RequireRightPictures(const std::filesystem::path& take, const TakeSamples& 
   throw SetupError(take.string() + ": " + FindingOf(diagnosis, samples.cameras)->text);
 }
 
-TakeSamples Sample(const TakeArguments& a) {
-  TakeSamples samples =
+RefinedStudio Refined(const TakeArguments& a) {
+  const TakeSamples samples =
       SampleTake(a.take, ChooseHealthMoments(a.take, a.from_s, a.to_s, kHealthMoments), 50);
   TellRemarks("calibrate", samples.remarks);
   RequireRightPictures(a.take, samples);
-  return samples;
+  try {
+    return RefineFromSilhouettes(samples);
+  } catch (const SetupError& error) {
+    throw SetupError(a.take.string() + ": " + error.what());
+  }
 }
 
 /// What a take says of its cameras may only be noted in their own calibration.
@@ -200,27 +196,31 @@ void RequireOwnCalibration(const TakeArguments& a) {
 
 void RunHealth(const TakeArguments& a) {
   if (!a.note.empty()) RequireOwnCalibration(a);
-  const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
+  const RefinedStudio refined = Refined(a);
   const std::string text =
       a.json ? ShiftJson(refined) : ShiftText(refined.before) + VerdictText(refined);
   std::fputs(text.c_str(), stdout);
-  if (a.note.empty()) return;
-  CalibrationRecord record = LoadCalibrationRecord(a.note);
-  record.checked_s = TimeOfDayS();
-  record.offsets = OffsetsOf(refined.before, refined.moved);
-  WriteCalibration(a.note, LoadCalibration(a.note), record);
+  if (!a.note.empty()) {
+    CalibrationRecord record = LoadCalibrationRecord(a.note);
+    record.checked_s = TimeOfDayS();
+    record.offsets = OffsetsOf(refined.before, refined.moved);
+    WriteCalibration(a.note, LoadCalibration(a.note), record);
+  }
+  if (!ChangesOf(refined).empty())
+    throw std::runtime_error(a.take.string() + ": not all cameras are as calibrated, see above");
 }
 
 void RunRefine(const TakeArguments& a) {
-  const RefinedStudio refined = RefineFromSilhouettes(Sample(a));
+  const RefinedStudio refined = Refined(a);
   CalibrationRecord record = LoadCalibrationRecord(TakeLayout{a.take}.Calibration());
   record.refined_s = record.checked_s = TimeOfDayS();
   record.offsets = OffsetsOf(refined.after, {});
   WriteCalibration(a.out, refined.cameras, record);
-  const std::string text = a.json ? ShiftJson(refined)
-                                  : ShiftText(refined.before) + VerdictText(refined) + "after:\n" +
-                                        ShiftText(refined.after);
-  std::fputs(text.c_str(), stdout);
+  const bool is_own = std::filesystem::equivalent(a.out, TakeLayout{a.take}.Calibration());
+  std::string text = ShiftText(refined.before) + VerdictText(refined);
+  if (!refined.moved.empty()) text += "after:\n" + ShiftText(refined.after);
+  text += fmt::format("written: {}{}\n", a.out.string(), is_own ? ", the take's own" : "");
+  std::fputs((a.json ? ShiftJson(refined) : text).c_str(), stdout);
 }
 
 void AddTake(CLI::App* command, const std::shared_ptr<TakeArguments>& a) {

@@ -180,10 +180,11 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
   return shifts;
 }
 
-RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
+RefinedStudio RefineFromSilhouettes(const TakeSamples& samples,
+                                    const std::vector<CameraCalibration>& cameras) {
   RefinedStudio refined;
-  refined.cameras = samples.cameras;
-  refined.before = refined.after = MeasureShifts(samples, samples.cameras);
+  refined.cameras = cameras;
+  refined.before = refined.after = MeasureShifts(samples, cameras);
   const auto seeing =
       std::count_if(refined.before.begin(), refined.before.end(),
                     [](const CameraShift& s) { return s.moments >= kFewestMoments; });
@@ -209,6 +210,25 @@ RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
     refined.after = MeasureShifts(samples, refined.cameras);
   }
   return refined;
+}
+
+bool IsZoomed(const CameraShift& shift) { return std::abs(shift.growth) > kZoomedShare; }
+
+std::vector<std::string> ChangesOf(const RefinedStudio& refined) {
+  std::vector<std::string> changes;
+  for (const CameraShift& s : refined.before) {
+    if (std::ranges::count(refined.moved, s.camera) > 0)
+      changes.push_back(fmt::format(
+          "{}: has moved since it was calibrated, by {:.1f} px; correct it with mocap calibrate "
+          "refine, or calibrate it again with a board",
+          s.camera, s.shift_px.norm()));
+    if (IsZoomed(s))
+      changes.push_back(fmt::format(
+          "{}: its picture has become {:.1f} % {}: its focus or zoom was touched; calibrate its "
+          "intrinsics again",
+          s.camera, 100 * std::abs(s.growth), s.growth > 0 ? "larger" : "smaller"));
+  }
+  return changes;
 }
 
 }  // namespace mocap

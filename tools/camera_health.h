@@ -48,7 +48,19 @@ struct RefinedStudio {
 
 /// Rotates the cameras that moved, worst first, until all agree. Corrects only rotations, which are
 /// the main effect of a bump.
+/// @param cameras  as for MeasureShifts.
 /// @throws SetupError  when fewer than three cameras see the person or more than half have moved.
-RefinedStudio RefineFromSilhouettes(const TakeSamples& samples);
+RefinedStudio RefineFromSilhouettes(const TakeSamples& samples,
+                                    const std::vector<CameraCalibration>& cameras);
+/// By the take's own calibration.
+inline RefinedStudio RefineFromSilhouettes(const TakeSamples& samples) {
+  return RefineFromSilhouettes(samples, samples.cameras);
+}
+
+/// Whether the focus or zoom was touched.
+bool IsZoomed(const CameraShift& shift);
+
+/// Says of each camera that moved or was zoomed since it was calibrated, and what helps.
+std::vector<std::string> ChangesOf(const RefinedStudio& refined);
 
 }  // namespace mocap

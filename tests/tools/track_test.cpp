@@ -187,7 +187,38 @@ TEST_F(WalkTracked, CheckShowsWhatHealthNoted) {
   record.offsets[1] = {"cam2", 12.25, true};
   WriteCalibration(file, right_, record);
   EXPECT_THAT(Said(AddCalibrateCommand, "calibrate check " + file),
-              HasSubstr("health checked today, cam2 is 12.2 px off"));
+              AllOf(HasSubstr("health checked today\n"),
+                    HasSubstr("warning: cam2: had moved or was zoomed, by 12.2 px"),
+                    Not(HasSubstr("is good"))));
+}
+
+TEST_F(WalkTracked, ACameraThatMovedIsToldByHealthAndCheck) {
+  std::vector<CameraCalibration> bumped = right_;
+  const Matrix3 turn = ExpRotation({0.02, 0, 0});
+  bumped[2].X_CW = {turn * bumped[2].X_CW.R, turn * bumped[2].X_CW.p};
+  const fs::path file = folder_->path() / "bumped.toml";
+  Calibrate(bumped, file);
+  const std::string moved = "cam3: has moved since it was calibrated, by ";
+  EXPECT_THAT(Said(AddCalibrateCommand,
+                   "calibrate check --take " + Take().string() + " " + file.string()),
+              AllOf(HasSubstr("warning: " + Take().string() + ": " + moved),
+                    HasSubstr("but check the warnings"), Not(HasSubstr("is good"))));
+  Calibrate(bumped);
+  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate health " + Take().string()),
+              AllOf(HasSubstr(moved),
+                    HasSubstr(Take().string() + ": not all cameras are as calibrated")));
+}
+
+TEST_F(WalkTracked, RefiningCamerasThatHaveNotMovedSaysSoOnce) {
+  const fs::path own = Take() / "calibration.toml", other = folder_->path() / "refined.toml";
+  const std::string said =
+      Said(AddCalibrateCommand, "calibrate refine " + Take().string() + " --out " + own.string());
+  EXPECT_THAT(said, AllOf(HasSubstr("no camera has moved\nwritten: " + own.string() +
+                                    ", the take's own\n"),
+                          Not(HasSubstr("after:")), Not(HasSubstr("-0.0"))));
+  EXPECT_THAT(Said(AddCalibrateCommand,
+                   "calibrate refine " + Take().string() + " --out " + other.string()),
+              HasSubstr("written: " + other.string() + "\n"));
 }
 
 TEST_F(WalkTracked, CamerasThatGoByEachOthersNameAreTold) {
