@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
 #include "drivers/take/take_driver.h"
 #include "drivers/take/take_layout.h"
 
@@ -113,6 +114,11 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   const TakeLayout layout{take};
   const std::vector<CameraCalibration> calibrations = LoadCalibration(layout.Calibration());
   const std::vector<std::string> names = Choose(header, options.cameras, layout);
+  // Takes of a board are such.
+  if (!IsThere(layout.Background()))
+    throw SetupError(take.string() +
+                     ": has no pictures of the empty studio (the folder background); expected a "
+                     "take of people");
 
   Studio studio{header.name, header.fps_nominal, {}};
   RemarkOnPlaces(calibrations, layout.Calibration(), studio);

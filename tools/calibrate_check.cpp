@@ -87,10 +87,9 @@ void CheckPerson(const CalibrateArguments& a, const std::vector<CameraCalibratio
   const auto add = [&](Severity severity, const std::string& text) {
     findings.push_back({severity, take.string() + ": " + text});
   };
-  if (std::ranges::none_of(moments, ShowsPerson)) {
-    add(Severity::kWarning, "nobody is seen; expected a take in which a person stands or walks");
-    return;
-  }
+  if (std::ranges::none_of(moments, ShowsPerson))
+    throw SetupError(take.string() +
+                     ": nobody is seen; expected a take in which a person stands or walks");
   const StudioDiagnosis diagnosis = Diagnose(calibrations, moments);
   if (const auto fault = FindingOf(diagnosis, calibrations)) add(fault->severity, fault->text);
   const bool are_views_right =

@@ -34,11 +34,12 @@ struct TakeLayout {
   std::filesystem::path Table(const std::string& camera) const {
     return folder / (camera + ".csv");
   }
+  std::filesystem::path Background() const { return folder / "background"; }
   std::filesystem::path BackgroundVideo(const std::string& camera) const {
-    return folder / "background" / (camera + ".mkv");
+    return Background() / (camera + ".mkv");
   }
   std::filesystem::path BackgroundTable(const std::string& camera) const {
-    return folder / "background" / (camera + ".csv");
+    return Background() / (camera + ".csv");
   }
   std::filesystem::path Mask(const std::string& camera) const {
     return folder / "silhouette" / (camera + ".mkv");

@@ -194,6 +194,8 @@ TEST_F(OpenedTake, EveryDamageIsOneLineThatNamesTheFile) {
       {"empty calibration", [](const TakeLayout& t) { WriteText(t.Calibration(), ""); },
        "calibration.toml:1: cameras is empty; expected [cameras.cam1] (the file is empty)"},
       {"no background", [](const TakeLayout& t) { remove_all(t.folder / "background"); },
+       "take: has no pictures of the empty studio"},
+      {"no background of one", [](const TakeLayout& t) { remove(t.BackgroundVideo("cam1")); },
        "background/cam1.mkv"},
       {"no table", [](const TakeLayout& t) { remove(t.Table("cam2")); }, "cam2.csv"},
       {"no video", [](const TakeLayout& t) { remove(t.Video("cam3")); }, "cam3.mkv"},

@@ -209,6 +209,22 @@ TEST_F(WalkTracked, ACameraThatMovedIsToldByHealthAndCheck) {
                     HasSubstr(Take().string() + ": not all cameras are as calibrated")));
 }
 
+TEST_F(WalkTracked, ATakeOfNobodySaysNothingOfCameras) {
+  const std::string empty = (folder_->path() / "nobody").string();
+  Said(AddSimulateCommand,
+       "simulate --seconds 1 --fps 4 --cameras 4 --width 240 --height 180 --motion visit --out " +
+           empty);
+  const std::string file = (Take() / "calibration.toml").string();
+  for (const std::string& command : {"check " + file + " --take ", std::string("health "),
+                                     "refine --out " + file + ".refined "}) {
+    EXPECT_THAT(testing::SetupErrorOf([&] {
+                  testing::RunCommand(AddCalibrateCommand, "calibrate " + command + empty);
+                }),
+                HasSubstr(empty + ": "))
+        << command;
+  }
+}
+
 TEST_F(WalkTracked, RefiningCamerasThatHaveNotMovedSaysSoOnce) {
   const fs::path own = Take() / "calibration.toml", other = folder_->path() / "refined.toml";
   const std::string said =
