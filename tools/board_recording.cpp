@@ -205,11 +205,14 @@ bool AnyEnded(const std::vector<std::future<void>>& threads) {
 
 }  // namespace
 
+void RequireNew(const std::filesystem::path& folder) {
+  if (IsThere(folder))
+    throw SetupError(folder.string() + ": exists already; expected another folder to record into");
+}
+
 void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& options,
                  const HintListener& listener) {
-  if (IsThere(options.folder))
-    throw SetupError(options.folder.string() +
-                     ": exists already; expected another folder to record into");
+  RequireNew(options.folder);
   std::filesystem::create_directories(options.folder);
   UnfinishedFolder unfinished(options.folder);
   Looker looker(options.board, cameras);

@@ -20,6 +20,9 @@ struct BoardRecordingOptions {
 /// Called after each search in all cameras, with what is still missing. @return  true to stop.
 using HintListener = std::function<bool(const std::vector<CameraHint>&)>;
 
+/// Checks that a folder to record into does not exist. @throws SetupError
+void RequireNew(const std::filesystem::path& folder);
+
 /// Records until the listener stops it, the time is over or the cameras end. All cameras keep
 /// frames of the same times. The search for the board does not delay the recording. What was
 /// recorded stays, also when something is thrown.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -16,6 +15,7 @@
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/text_file.h"
 #include "tools/calibrate_board.h"
 #include "tools/calibrate_check.h"
 #include "tools/calibrate_convert.h"
@@ -28,13 +28,6 @@ namespace mocap {
 namespace {
 
 using Arguments = std::shared_ptr<CalibrateArguments>;
-
-void WriteFile(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
 
 /// Writes a calibration. One that should not be used gets another name, and replaces none.
 /// @throws std::runtime_error  if it should not be used, after `report`.
@@ -56,7 +49,7 @@ void Finish(const CalibrateArguments& arguments, const StudioFit& fit) {
   record.reprojection_px = fit.rms_px;
   Conclude(arguments, fit, record, findings, [&] {
     if (!arguments.report.empty())
-      WriteFile(arguments.report,
+      WriteText(arguments.report,
                 CalibrationReportHtml("Calibration of " + arguments.footage.filename().string(),
                                       record.made_s, fit, findings));
     const std::string text = arguments.json ? FitJson(fit, findings) : FitText(fit, findings);
@@ -95,6 +88,7 @@ void AddLive(CLI::App* command, const Arguments& a) {
 
 /// Runs a step that uses footage.
 void Run(const CalibrateArguments& a, StudioFit (*step)(const CalibrateArguments&)) {
+  RequireInputs(a);
   if (!a.config.empty()) RecordFootage(a);
   Finish(a, step(a));
 }
@@ -117,17 +111,24 @@ void AddLens(CLI::App* command, const Arguments& a) {
       ->expected(2);
 }
 
-void AddWorld(CLI::App* command, const Arguments& a) {
-  command->add_option("--floor", a->floor,
-                      "footage of the board on the floor, which sets origin and axes");
-  command->add_option("--floor-points", a->floor_points,
-                      "CSV file of three floor points, instead of --floor: origin|x|y,CAMERA,X,Y");
+/// @return  the option --floor.
+CLI::Option* AddWorld(CLI::App* command, const Arguments& a) {
+  CLI::Option* floor = command->add_option(
+      "--floor", a->floor, "footage of the board on the floor, which sets origin and axes");
+  command
+      ->add_option("--floor-points", a->floor_points,
+                   "CSV file of three floor points, instead of --floor: origin|x|y,CAMERA,X,Y")
+      ->excludes(floor);
   command->add_option("--thickness", a->thickness_mm,
                       "height of the board's printed side above the floor [mm]");
-  command->add_option("--distance", a->distance,
-                      "distance between two cameras, measured with a tape: CAMERA:CAMERA:MM");
-  command->add_flag("--set-scale", a->set_scale,
-                    "scale the world to match --distance, instead of checking against it");
+  CLI::Option* distance =
+      command->add_option("--distance", a->distance,
+                          "distance between two cameras, measured with a tape: CAMERA:CAMERA:MM");
+  command
+      ->add_flag("--set-scale", a->set_scale,
+                 "scale the world to match --distance, instead of checking against it")
+      ->needs(distance);
+  return floor;
 }
 
 void AddStudio(CLI::App* parent) {
@@ -176,14 +177,17 @@ void AddFloor(CLI::App* parent) {
   CLI::App* command =
       parent->add_subcommand("floor", "Set floor, origin, axes and scale of a calibration");
   command->add_option("CALIBRATION", a->calibration, "input calibration.toml")->required();
-  command->add_option("--board", a->board, "board on the floor, as for mocap calibrate studio");
+  CLI::Option* board = command->add_option("--board", a->board,
+                                           "board on the floor, as for mocap calibrate studio");
   AddOutput(command, a);
-  AddWorld(command, a);
+  AddWorld(command, a)->needs(board);
   command->callback([a] {
-    if (a->floor.empty() == a->floor_points.empty())
-      throw SetupError("mocap calibrate floor: expected either --floor or --floor-points");
+    if (a->floor.empty() && a->floor_points.empty() && !a->set_scale)
+      throw SetupError("expected --floor, --floor-points, or --distance with --set-scale");
+    RequireInputs(*a);
     StudioFit fit;
     fit.bundle.cameras = LoadCalibration(a->calibration);
+    fit.has_floor = true;
     SetWorld(*a, fit);
     const std::vector<Finding> findings = CheckAll(*a, fit);
     Conclude(*a, fit, LoadCalibrationRecord(a->calibration), findings, [&] {

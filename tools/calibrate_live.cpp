@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include "config/load_config.h"
 #include "config/open_studio.h"
@@ -78,6 +79,8 @@ std::string HintText(const std::vector<CameraHint>& hints) {
 }
 
 void RecordFootage(const CalibrateArguments& arguments) {
+  for (const std::filesystem::path& folder : {arguments.footage, arguments.floor})
+    if (!folder.empty()) RequireNew(folder);
   std::vector<LiveCamera> cameras = OpenCameras(LoadConfig(arguments.config));
   BoardRecordingOptions options;
   options.board = ParseBoard(arguments.board);
@@ -85,11 +88,14 @@ void RecordFootage(const CalibrateArguments& arguments) {
   options.most_seconds = arguments.most_seconds;
   EnterKey enter;
   Screen screen;
-  std::fputs(
-      "Carry the board through the room: near each camera, in all parts of its picture, tilted;\n"
-      "then where several cameras see it at once. Enter ends it.\n",
-      stderr);
+  bool is_begun = false;
   RecordBoard(cameras, options, [&](const std::vector<CameraHint>& hints) {
+    // Cameras that do not deliver have been named by now.
+    if (!std::exchange(is_begun, true))
+      std::fputs(
+          "Carry the board through the room: near each camera, in all parts of its picture, "
+          "tilted;\nthen where several cameras see it at once. Enter ends it.\n",
+          stderr);
     screen.Draw(HintText(hints));
     return enter.WasPressed() ||
            std::ranges::all_of(hints, [](const CameraHint& hint) { return hint.missing.empty(); });

@@ -15,6 +15,8 @@
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/text_file.h"
 #include "tools/calibration/floor.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/still_board.h"
@@ -58,12 +60,17 @@ BoardDetections Collect(const Footage& footage, const CalibrateArguments& argume
     progress.Show(fmt::format("{}: {}, frame {} of {}, {} views{}{}", step, camera, done, total,
                               found, hint.empty() ? "" : "; ", hint));
   };
-  const Board board = ParseBoard(arguments.board);
-  if (board.kind == BoardKind::kWand && still)
-    throw SetupError(
-        "--floor: a wand does not determine the floor; set it with mocap calibrate floor, from a "
-        "board or --floor-points");
-  return CollectDetections(footage, board, options);
+  return CollectDetections(footage, ParseBoard(arguments.board), options);
+}
+
+// Opens footage of cameras that the floor points and the tape know.
+Footage OpenWithWorld(const CalibrateArguments& arguments) {
+  Footage footage = OpenFootage(arguments.footage);
+  std::vector<CameraCalibration> named;
+  for (const FootageCamera& camera : footage.cameras) named.emplace_back().name = camera.name;
+  if (!arguments.floor_points.empty()) ReadFloorPoints(arguments.floor_points.string(), named);
+  if (!arguments.distance.empty()) DistanceMm(ParseDistance(arguments.distance), named);
+  return footage;
 }
 
 // Two lights hardly constrain the intrinsics.
@@ -134,6 +141,22 @@ StudioFit FitPoses(const BoardDetections& detections, const std::vector<CameraCa
 
 }  // namespace
 
+void RequireInputs(const CalibrateArguments& arguments) {
+  RequireWritable(arguments.out);
+  if (!arguments.report.empty()) RequireWritable(arguments.report);
+  if (!arguments.intrinsics.empty()) LoadCalibration(arguments.intrinsics);
+  if (!arguments.floor_points.empty())
+    RequireFile(arguments.floor_points, "a table of floor points");
+  if (!arguments.distance.empty()) ParseDistance(arguments.distance);
+  if (arguments.board.empty()) return;
+  const bool is_wand = ParseBoard(arguments.board).kind == BoardKind::kWand;
+  if (is_wand && (arguments.still || !arguments.floor.empty()))
+    throw SetupError(
+        "--floor: a wand does not determine the floor; set it with mocap calibrate floor, from a "
+        "board or --floor-points");
+  if (!arguments.floor.empty() && arguments.config.empty()) OpenFootage(arguments.floor);
+}
+
 StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
   RefuseWand(arguments);
   const Footage footage = OpenFootage(arguments.footage);
@@ -153,7 +176,7 @@ StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments) {
 }
 
 StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
-  const Footage footage = OpenFootage(arguments.footage);
+  const Footage footage = OpenWithWorld(arguments);
   const BoardDetections detections = Collect(footage, arguments, arguments.still, true);
   StudioFit fit = FitPoses(detections, LensesFor(detections, arguments.intrinsics), arguments);
   SetWorld(arguments, fit);
@@ -162,7 +185,7 @@ StudioFit CalibrateExtrinsics(const CalibrateArguments& arguments) {
 
 StudioFit CalibrateStudio(const CalibrateArguments& arguments) {
   RefuseWand(arguments);
-  const Footage footage = OpenFootage(arguments.footage);
+  const Footage footage = OpenWithWorld(arguments);
   const BoardDetections detections = Collect(footage, arguments, false, true);
   const std::vector<LensFit> lenses = FitLenses(detections, arguments);
   StudioFit fit = FitPoses(detections, CamerasWith(detections, lenses), arguments);
@@ -209,13 +232,14 @@ std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioF
   if (!arguments.distance.empty()) {
     const KnownDistance distance = ParseDistance(arguments.distance);
     const double found_mm = DistanceMm(distance, fit.bundle.cameras);
-    if (std::abs(found_mm / distance.mm - 1) > kDistanceTolerance)
-      findings.insert(
-          findings.begin(),
-          {Severity::kWrong,
-           fmt::format("{} and {} are {:.0f} mm apart here and {:.0f} mm by the tape: the board's "
-                       "squares are {:.2f} times as large as --board says",
-                       distance.from, distance.to, found_mm, distance.mm, distance.mm / found_mm)});
+    std::string text = fmt::format("{} and {} are {:.0f} mm apart here and {:.0f} mm by the tape",
+                                   distance.from, distance.to, found_mm, distance.mm);
+    const bool is_wrong = std::abs(found_mm / distance.mm - 1) > kDistanceTolerance;
+    if (is_wrong)
+      text += fmt::format(": the board's squares are {:.2f} times as large as --board says",
+                          distance.mm / found_mm);
+    findings.insert(is_wrong ? findings.begin() : findings.end(),
+                    {is_wrong ? Severity::kWrong : Severity::kNote, std::move(text)});
   }
   return findings;
 }

@@ -34,6 +34,10 @@ struct CalibrateArguments {
   bool json = false;
 };
 
+/// Checks what a command is given besides its footage, before work that takes minutes.
+/// @throws SetupError  for files that cannot be read or written, a board or distance that is none.
+void RequireInputs(const CalibrateArguments& arguments);
+
 /// Fits every camera's intrinsics to footage of a board; extrinsics stay the identity.
 StudioFit CalibrateIntrinsics(const CalibrateArguments& arguments);
 

@@ -17,6 +17,7 @@
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/text_file.h"
 #include "tools/calibration/detections.h"
 #include "tools/calibration/footage.h"
 #include "tools/calibration/head_fit.h"
@@ -68,6 +69,7 @@ PanTiltAngles PosedAt(const std::string& camera, const Footage& posed_by) {
 }
 
 void RunPanTilt(const PanTiltArguments& a) {
+  RequireWritable(a.out);
   const Board board = ParseBoard(a.board);
   std::vector<CameraCalibration> cameras = LoadCalibration(a.calibration);
   std::vector<BoardDetections> recordings;
@@ -195,7 +197,10 @@ void RequireOwnCalibration(const TakeArguments& a) {
 }
 
 void RunHealth(const TakeArguments& a) {
-  if (!a.note.empty()) RequireOwnCalibration(a);
+  if (!a.note.empty()) {
+    RequireWritable(a.note);
+    RequireOwnCalibration(a);
+  }
   const RefinedStudio refined = Refined(a);
   const std::string text =
       a.json ? ShiftJson(refined) : ShiftText(refined.before) + VerdictText(refined);
@@ -211,6 +216,7 @@ void RunHealth(const TakeArguments& a) {
 }
 
 void RunRefine(const TakeArguments& a) {
+  RequireWritable(a.out);
   const RefinedStudio refined = Refined(a);
   CalibrationRecord record = LoadCalibrationRecord(TakeLayout{a.take}.Calibration());
   record.refined_s = record.checked_s = TimeOfDayS();

@@ -7,7 +7,6 @@
 namespace mocap {
 namespace {
 
-constexpr double kNearest_mm = 50;
 constexpr double kHighest_mm = 10000;
 /// Cameras around a person stand farther apart. In inches or centimetres they would not.
 constexpr double kSmallestStudio_mm = 800;
@@ -24,14 +23,24 @@ void CheckRotation(const CameraCalibration& camera, std::vector<Finding>& findin
                                             "conversion has mirrored the calibration"});
 }
 
+bool HasNoPose(const CameraCalibration& camera) {
+  return camera.X_CW.p.isZero(0) && camera.X_CW.R == Matrix3::Identity();
+}
+
+void CheckPoses(std::span<const CameraCalibration> cameras, std::vector<Finding>& findings) {
+  std::string names;
+  for (const CameraCalibration& camera : cameras) {
+    if (HasNoPose(camera)) names += (names.empty() ? "" : ", ") + camera.name;
+  }
+  if (names.empty()) return;
+  findings.push_back({Severity::kWrong, names +
+                                            ": at the origin, looking straight up: intrinsics "
+                                            "without a pose (mocap calibrate extrinsics), or the "
+                                            "floor is not set (mocap calibrate floor)"});
+}
+
 void CheckHeight(const CameraCalibration& camera, std::vector<Finding>& findings) {
   const Vector3 p_WC = EyeOf(camera);
-  if (p_WC.isZero(0) && camera.X_CW.R == Matrix3::Identity()) {
-    findings.push_back(
-        {Severity::kWrong, camera.name +
-                               ": stands at the origin and looks straight up: it has intrinsics "
-                               "and no pose yet, or the floor is not set"});
-  }
   if (p_WC.z() < 0) {
     findings.push_back({Severity::kWrong,
                         camera.name + ": hangs " + Rounded(-p_WC.z()) +
@@ -53,27 +62,32 @@ void CheckHeights(std::span<const CameraCalibration> cameras, std::vector<Findin
                                " mm: z points down; set the floor again (mocap calibrate floor)"});
     return;
   }
+  CheckPoses(cameras, findings);
   for (const CameraCalibration& camera : cameras) CheckHeight(camera, findings);
 }
 
 void CheckDistances(std::span<const CameraCalibration> cameras, std::vector<Finding>& findings) {
   double widest_mm = 0;
+  std::vector<Finding> near;
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     for (std::size_t b = a + 1; b < cameras.size(); ++b) {
       const double apart_mm = (EyeOf(cameras[a]) - EyeOf(cameras[b])).norm();
       widest_mm = std::max(widest_mm, apart_mm);
-      if (apart_mm >= kNearest_mm) continue;
-      findings.push_back({Severity::kWrong, cameras[a].name + " and " + cameras[b].name +
-                                                ": stand " + Rounded(apart_mm) +
-                                                " mm apart; check that the two recordings differ, "
-                                                "and that lengths are in millimetres"});
+      const bool are_posed = !HasNoPose(cameras[a]) || !HasNoPose(cameras[b]);
+      if (apart_mm >= kNearestCameras_mm || !are_posed) continue;
+      near.push_back({Severity::kWrong, cameras[a].name + " and " + cameras[b].name + ": stand " +
+                                            Rounded(apart_mm) +
+                                            " mm apart; check that the two recordings differ, and "
+                                            "that lengths are in millimetres"});
     }
   }
-  if (widest_mm >= kNearest_mm && widest_mm < kSmallestStudio_mm) {
-    findings.push_back(
-        {Severity::kWarning, "all cameras stand within " + Rounded(widest_mm) +
-                                 " mm; expected lengths in millimetres, not in inches or "
-                                 "centimetres"});
+  const bool are_all_near = near.size() > 1 && widest_mm < kNearestCameras_mm;
+  if (!are_all_near) findings.insert(findings.end(), near.begin(), near.end());
+  if (are_all_near || (widest_mm >= kNearestCameras_mm && widest_mm < kSmallestStudio_mm)) {
+    findings.push_back({are_all_near ? Severity::kWrong : Severity::kWarning,
+                        "all cameras stand within " + Rounded(widest_mm) +
+                            " mm; expected lengths in millimetres, not in metres, inches or "
+                            "centimetres"});
   }
 }
 

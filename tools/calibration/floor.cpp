@@ -9,7 +9,9 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
 #include "tools/calibration/board_pose.h"
 #include "tools/calibration/bundle_errors.h"
@@ -153,10 +155,13 @@ std::vector<FloorPoint> ReadFloorPoints(const std::string& file,
     char* y_end = nullptr;
     FloorPoint point;
     point.pixel = {std::strtod(x.c_str(), &x_end), std::strtod(y.c_str(), &y_end)};
-    if (place == std::end(kFloorPointNames) || owner == cameras.end() || x_end == x.c_str() ||
+    if (place == std::end(kFloorPointNames) || camera.empty() || x_end == x.c_str() ||
         y_end == y.c_str() || !point.pixel.allFinite())
       throw SetupError(fmt::format("{}:{}: {} is not a floor point; expected origin|x|y,CAMERA,X,Y",
                                    file, number, Quoted(line)));
+    if (owner == cameras.end())
+      throw SetupError(fmt::format("{}:{}: there is no camera {}; {}", file, number, Quoted(camera),
+                                   ExpectedNames(camera, CameraNames(cameras))));
     point.point = static_cast<int>(place - std::begin(kFloorPointNames));
     point.camera = static_cast<int>(owner - cameras.begin());
     points.push_back(point);

@@ -170,6 +170,10 @@ KnownDistance ParseDistance(const std::string& text) {
     char* end = nullptr;
     distance.mm = std::strtod(text.c_str() + second + 1, &end);
     const bool is_length = std::isfinite(distance.mm) && distance.mm > 0;
+    if (is_length && distance.mm < kNearestCameras_mm)
+      throw SetupError(fmt::format("--distance {}: {:g} mm do not lie between two cameras; expected "
+                                   "millimetres",
+                                   Quoted(text), distance.mm));
     if (*end == '\0' && is_length && distance.from != distance.to) return distance;
   }
   throw SetupError("--distance " + Quoted(text) + ": expected CAMERA:CAMERA:MM");

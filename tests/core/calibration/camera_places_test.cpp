@@ -27,6 +27,19 @@ TEST(CameraPlaces, LengthsInInchesAreDoubted) {
               AllOf(HasSubstr("inches"), HasSubstr("expected lengths in millimetres")));
 }
 
+TEST(CameraPlaces, WhatConcernsAllCamerasIsToldOnce) {
+  std::vector<CameraCalibration> in_metres = Studio(), lenses = Studio();
+  for (CameraCalibration& camera : in_metres) camera.X_CW.p /= 1000;
+  for (CameraCalibration& camera : lenses) camera.X_CW = {};
+  const std::vector<Finding> metres = CheckPlaces(in_metres, true);
+  ASSERT_THAT(metres, SizeIs(1));
+  EXPECT_EQ(metres[0].severity, Severity::kWrong);
+  EXPECT_THAT(metres[0].text, AllOf(HasSubstr("all cameras stand within"), HasSubstr("metres")));
+  const std::vector<Finding> no_poses = CheckPlaces(lenses, true);
+  ASSERT_THAT(no_poses, SizeIs(1));
+  EXPECT_THAT(no_poses[0].text, HasSubstr("cam1, cam2, cam3, cam4, cam5, cam6: at the origin"));
+}
+
 TEST(CameraPlaces, AFloorThatIsUpsideDownIsToldOnce) {
   std::vector<CameraCalibration> cameras = Studio();
   for (CameraCalibration& camera : cameras) camera.X_CW.R.rightCols<2>() *= -1;

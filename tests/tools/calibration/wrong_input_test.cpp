@@ -322,7 +322,7 @@ const WrongInput kWrongWorlds[] = {
        WriteText(file, "point,camera,x_px,y_px\norigin,cam1,3,4\nx,cam77,3,4\n");
        return testing::SetupErrorOf([&] { ReadFloorPoints(file.string(), Rig()); });
      },
-     {"points.csv:3", "cam77", "origin|x|y,CAMERA,X,Y"}},
+     {"points.csv:3: there is no camera \"cam77\"; expected one of cam1"}},
     {"ABoardOfAnotherSizeThanTyped",
      [](Bench& b) {
        StudioFit fit;
@@ -348,7 +348,7 @@ const WrongInput kWrongWorlds[] = {
        for (CameraCalibration& camera : cameras) camera.X_CW.p /= 1000;
        return FirstOf(CheckCameras(cameras, true));
      },
-     {"cam1 and cam2", "metres"}},
+     {"all cameras stand within 8 mm", "expected lengths in millimetres, not in metres"}},
     {"AMirroredCalibration",
      [](Bench&) {
        std::vector<CameraCalibration> cameras = Rig();
