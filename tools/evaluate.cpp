@@ -32,6 +32,7 @@ struct EvaluateArguments {
 };
 
 void RequireRoomForReport(const EvaluateArguments& arguments) {
+  RequireSuffix(arguments.report, ".html");
   RequireWritable(arguments.report);
   RequireOwn(arguments.report, kReportBeginnings, "a report");
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -130,6 +131,14 @@ void RequireWritable(const std::filesystem::path& file) {
     throw SetupError(Problem(file));
   }
   if (!is_special) unlink(tried.c_str());
+}
+
+void RequireSuffix(const std::filesystem::path& file, std::string_view suffix) {
+  std::string its = file.extension().string();
+  std::ranges::transform(its, its.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  if (its == suffix) return;
+  throw SetupError(file.string() + ": does not end in " + std::string(suffix) +
+                   ", the suffix of what is written");
 }
 
 bool IsOwnFile(const std::filesystem::path& file, std::span<const std::string_view> beginnings) {

@@ -22,6 +22,10 @@ void ReplaceText(const std::filesystem::path& file, const std::string& text);
 /// @throws SetupError  naming the file and the reason.
 void RequireWritable(const std::filesystem::path& file);
 
+/// Checks that a file to write has the suffix by which other programs recognize it, in any case.
+/// @param suffix  such as ".html". @throws SetupError  naming both.
+void RequireSuffix(const std::filesystem::path& file, std::string_view suffix);
+
 /// Whether a file exists and begins like the program's own files.
 /// @throws SetupError  when it cannot be read.
 bool IsOwnFile(const std::filesystem::path& file, std::span<const std::string_view> beginnings);

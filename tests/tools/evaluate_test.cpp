@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "tests/support/box_take.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/evaluation_text.h"
@@ -14,6 +15,7 @@
 namespace mocap {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -62,8 +64,41 @@ TEST_F(EvaluateTest, PrintsOneJsonObjectWithTheFigures) {
 TEST_F(EvaluateTest, PrintsATableForPeople) {
   const std::string text = Run({"evaluate", take_.string(), result_.string()});
   EXPECT_THAT(text, HasSubstr("12.0 mm mean over 14 points"));
-  EXPECT_THAT(text, HasSubstr("tracked 100.0 % from frame 2 of 20"));
+  EXPECT_THAT(text, HasSubstr("tracked     100.0 % from frame 2 on"));
+  EXPECT_THAT(text, HasSubstr("tracked 100.0 % of 18 frames with truth (after 2 more in which"));
   EXPECT_THAT(text, HasSubstr("fingertips_r       12.0"));
+}
+
+TEST_F(EvaluateTest, AReportIsAPageByItsName) {
+  const std::string pdf = (folder_.path() / "report.pdf").string();
+  EXPECT_THAT(SetupErrorOf([&] {
+                Run({"evaluate", take_.string(), result_.string(), "--report", pdf});
+              }),
+              HasSubstr("report.pdf: does not end in .html"));
+}
+
+TEST_F(EvaluateTest, OfNobodyThereIsNoBody) {
+  Result result = ReadResult(result_);
+  for (PoseRow& row : result.poses) row.has_pose = false, row.state = CaptureState::kSearching;
+  WriteResult(result_, result);
+  const std::string text = Run({"evaluate", take_.string(), result_.string()});
+  EXPECT_THAT(text, AllOf(HasSubstr("20 frames, nobody was tracked\n"), Not(HasSubstr("stature")),
+                          Not(HasSubstr("length"))));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
+              AllOf(Not(HasSubstr("stature")), Not(HasSubstr("first_tracked_frame"))));
+}
+
+TEST_F(EvaluateTest, FramesAreThoseOfTheResultWhateverTruthThereIs) {
+  // The person came in later than the take begins.
+  const std::filesystem::path file = take_ / "truth.csv";
+  std::string truth = testing::ReadText(file);
+  const std::size_t first_row = truth.find('\n') + 1;
+  std::size_t row = first_row;
+  for (int i = 0; i < 5; ++i) row = truth.find('\n', row) + 1;
+  testing::WriteText(file, truth.erase(first_row, row - first_row));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
+              AllOf(HasSubstr("\"frames\": 20, \"truth_frames\": 15"),
+                    HasSubstr("\"first_tracked_frame\": 2,")));
 }
 
 TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {

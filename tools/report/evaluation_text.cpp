@@ -19,11 +19,16 @@ std::string AccuracyText(const Accuracy& accuracy) {
   std::string text = fmt::format(
       "accuracy    {:.1f} mm mean over 14 points (median {:.1f}, 95 % below {:.1f}, worst {:.1f}), "
       "{:.1f} mm without each point's own offset\n"
-      "            {:.2f}° mean over 8 angles; tracked {:.1f} % from frame {} of {}; head found in "
-      "{:.1f} %\n\n",
+      "            {:.2f}° mean over 8 angles; tracked {:.1f} % of {} frames with truth{}; head found "
+      "in {:.1f} %\n\n",
       d.mean, d.median, d.p95, d.worst, accuracy.spread_mm,
       accuracy.mean_angle_rad * kDegreesPerRad, 100 * accuracy.tracked_share,
-      accuracy.first_tracked_frame, accuracy.truth_frames, 100 * accuracy.head_found_share);
+      accuracy.truth_frames - accuracy.first_tracked_frame,
+      accuracy.first_tracked_frame == 0
+          ? ""
+          : fmt::format(" (after {} more in which nobody was found yet)",
+                        accuracy.first_tracked_frame),
+      100 * accuracy.head_found_share);
   text += fmt::format("  {:<14}{:>9}      {:<14}{:>9}\n", "point", "mm", "angle", "degrees");
   for (int i = 0; i < kScoredPointCount; ++i) {
     text += fmt::format("  {:<14}{:>9.1f}", PointName(i), accuracy.point_mm[i]);
@@ -37,7 +42,7 @@ std::string AccuracyText(const Accuracy& accuracy) {
 }
 
 std::string LengthsText(const Evaluation& evaluation) {
-  if (evaluation.lengths.empty()) return {};
+  if (evaluation.lengths.empty() || evaluation.first_tracked_pose < 0) return {};
   std::string text = fmt::format("\n  {:<14}{:>9}{:>9}{:>9}\n", "length", "mm", "true", "error");
   const auto add = [&](const std::string& name, double acquired_mm, double true_mm) {
     text += fmt::format("  {:<14}{:>9.1f}{:>9.1f}{:>+9.1f}\n", name, acquired_mm, true_mm,
@@ -92,7 +97,6 @@ void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
     lengths.Add(pair.name + "_mm", pair.acquired_mm - pair.true_mm, 1);
   }
   const DistanceSummary& d = accuracy.distance_mm;
-  json.Add("first_tracked_frame", accuracy.first_tracked_frame);
   json.Add("mpjpe_mm", d.mean, 1);
   json.Add("median_mm", d.median, 1);
   json.Add("p95_mm", d.p95, 1);
@@ -109,14 +113,18 @@ void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
 
 std::string EvaluationText(const Evaluation& evaluation) {
   const BodyRecord& body = evaluation.result.body;
+  const bool is_tracked = evaluation.first_tracked_pose >= 0;
   std::string text = fmt::format(
-      "{}: {}, body {}, stature {:.0f} mm\n\nstates     ", Printable(evaluation.take),
-      Counted(evaluation.result.poses.size(), "frame"), Printable(body.model), body.stature_mm);
+      "{}: {}, {}\n\nstates     ", Printable(evaluation.take),
+      Counted(evaluation.result.poses.size(), "frame"),
+      is_tracked
+          ? fmt::format("body {}, stature {:.0f} mm", Printable(body.model), body.stature_mm)
+          : "nobody was tracked");
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
     text += fmt::format(" {} {}{}", kCaptureStateNames[i], evaluation.frames_in_state[i],
                         i + 1 < kCaptureStateNames.size() ? "," : "\n");
   }
-  if (evaluation.first_tracked_pose >= 0) {
+  if (is_tracked) {
     text += fmt::format("tracked     {:.1f} % from frame {} on\n", 100 * evaluation.tracked_share,
                         evaluation.result.poses[evaluation.first_tracked_pose].frame);
   }
@@ -142,9 +150,13 @@ void AddEvaluation(const Evaluation& evaluation, JsonObject& json) {
     states.Add(kCaptureStateNames[i], evaluation.frames_in_state[i]);
   }
   json.Add("body", evaluation.result.body.model);
-  json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
-  json.Add("frames",
-           accuracy ? accuracy->truth_frames : static_cast<int>(evaluation.result.poses.size()));
+  const bool is_tracked = evaluation.first_tracked_pose >= 0;
+  if (is_tracked) json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
+  json.Add("frames", static_cast<int>(evaluation.result.poses.size()));
+  if (accuracy) json.Add("truth_frames", accuracy->truth_frames);
+  if (is_tracked)
+    json.Add("first_tracked_frame",
+             static_cast<int>(evaluation.result.poses[evaluation.first_tracked_pose].frame));
   json.Add("states", states);
   json.Add("tracked_share", accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
   json.Add("residual_mm", evaluation.mean_residual_mm, 2);
