@@ -50,16 +50,6 @@ std::vector<std::string> FormatNames() {
   return names;
 }
 
-/// Other programs recognize a file by its suffix.
-void RequireSuffix(const ExportFormat& format, const std::filesystem::path& out) {
-  std::string suffix = out.extension().string();
-  std::ranges::transform(suffix, suffix.begin(),
-                         [](unsigned char letter) { return std::tolower(letter); });
-  if (suffix == fmt::format(".{}", format.name)) return;
-  throw SetupError(fmt::format("--out {}: does not end in .{}, the suffix of that format",
-                               out.string(), format.name));
-}
-
 /// Only a former export may be overwritten.
 void RequireRoomForExport(const ExportFormat& format, const std::filesystem::path& out) {
   RequireWritable(out);
@@ -78,6 +68,7 @@ void WriteScene(const ExportFormat& format, const ExportScene& scene, const std:
     throw SetupError(source + ": " + whose + error.what());
   }
   ReplaceText(file, out.str());
+  fmt::print("{}\n", Printable(file.string()));
 }
 
 /// Whether a name is that of person K's file beside `out`.
@@ -161,7 +152,6 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
                          const std::string& whose, const std::filesystem::path& file) {
     const ExportScene scene{whom, moments, file.filename().string(), is_of_all};
     WriteScene(format, scene, arguments.result.string(), whose, file);
-    fmt::print("{}\n", Printable(file.string()));
     written.push_back(file);
   };
   if (format.holds_everybody) write(subjects, true, "", arguments.out);
@@ -177,7 +167,7 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
 
 void Export(const ExportArguments& arguments) {
   const ExportFormat& format = FindExportFormat(arguments.format);
-  RequireSuffix(format, arguments.out);
+  RequireSuffix(arguments.out, fmt::format(".{}", format.name));
   const bool is_of_people = arguments.people || IsOfPeople(arguments.result);
   is_of_people ? ExportPeople(format, arguments) : ExportOne(format, arguments);
 }

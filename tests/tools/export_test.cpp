@@ -59,7 +59,9 @@ TEST_F(Export, AFileWithAnothersSuffixIsTold) {
   EXPECT_THAT(SetupErrorOf([&] { Run("result", "c3d", "walk.bvh"); }),
               HasSubstr("walk.bvh: does not end in .c3d"));
   EXPECT_THAT(SetupErrorOf([&] { Run("result", "c3d", "walk"); }), HasSubstr("does not end in"));
+  ::testing::internal::CaptureStdout();
   Run("result", "c3d", "WALK.C3D");
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(), HasSubstr("WALK.C3D\n"));
 }
 
 TEST_F(Export, SeveralPeopleHaveAFileEachAndOneOfAllWhereTheFormatHoldsThem) {

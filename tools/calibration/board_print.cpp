@@ -214,6 +214,7 @@ void WriteBoardPdf(const std::filesystem::path& file, const Board& board, const 
                                  board.Spec(), needed_mm.x(), needed_mm.y(), kLongestPage_mm));
   const Vector2 page = PageFor(needed_mm, page_mm);
   constexpr std::array<std::string_view, 1> kPdf = {"%PDF-"};
+  RequireSuffix(file, ".pdf");
   RequireWritable(file);
   RequireOwn(file, kPdf, "a PDF");
   std::string pdf;

@@ -92,11 +92,14 @@ TEST(BoardPdf, APageThatIsTooSmallIsRefused) {
 
 TEST(BoardPdf, ReplacesNothingButPdfs) {
   testing::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "calibration.toml";
+  const std::filesystem::path file = folder.path() / "board.pdf";
   const Board board = ParseBoard("chess:8x5:20");
+  EXPECT_THAT(testing::SetupErrorOf(
+                  [&] { WriteBoardPdf(folder.path() / "board.png", board, Vector2::Zero()); }),
+              HasSubstr("board.png: does not end in .pdf"));
   testing::WriteText(file, "[cameras]\n");
   EXPECT_THAT(testing::SetupErrorOf([&] { WriteBoardPdf(file, board, Vector2::Zero()); }),
-              HasSubstr("calibration.toml: exists"));
+              HasSubstr("board.pdf: exists"));
   EXPECT_EQ(testing::ReadText(file), "[cameras]\n");
   testing::WriteText(file, "%PDF-1.5\n");
   WriteBoardPdf(file, board, Vector2::Zero());
