@@ -12,7 +12,9 @@
 #include "core/calibration/tsai.h"
 #include "core/errors.h"
 #include "daemon/base/choice_option.h"
+#include "daemon/base/number_option.h"
 #include "drivers/clock.h"
+#include "drivers/printable_text.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/text_file.h"
@@ -30,6 +32,7 @@ namespace {
 using Arguments = std::shared_ptr<CalibrateArguments>;
 
 /// Writes a calibration. One that should not be used gets another name, and replaces none.
+/// Says what it wrote, unless as JSON.
 /// @throws std::runtime_error  if it should not be used, after `report`.
 void Conclude(const CalibrateArguments& arguments, const StudioFit& fit,
               const CalibrationRecord& record, const std::vector<Finding>& findings,
@@ -39,6 +42,11 @@ void Conclude(const CalibrateArguments& arguments, const StudioFit& fit,
   if (!is_usable) out += ".rejected";
   WriteCalibration(out, fit.bundle.cameras, record);
   report();
+  if (!arguments.json) {
+    std::printf("written: %s\n", Printable(out.string()).c_str());
+    if (!arguments.report.empty())
+      std::printf("written: %s\n", Printable(arguments.report.string()).c_str());
+  }
   RequireUsable(out, findings);
 }
 
@@ -72,7 +80,7 @@ void AddFootage(CLI::App* command, const Arguments& a) {
   command
       ->add_option("--most-frames", a->most_frames, "maximum number of frames to search per camera")
       ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
+      ->check(NumberFrom(1, 100000));
 }
 
 void AddLive(CLI::App* command, const Arguments& a) {
@@ -83,7 +91,7 @@ void AddLive(CLI::App* command, const Arguments& a) {
   command->add_option("--seconds", a->most_seconds, "maximum recording time of FOOTAGE [s]")
       ->needs(config)
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 3600.0));
+      ->check(NumberFrom(1, 3600));
 }
 
 /// Runs a step that uses footage.

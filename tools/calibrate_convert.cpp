@@ -1,14 +1,21 @@
 #include "tools/calibrate_convert.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/errors.h"
 #include "daemon/base/choice_option.h"
 #include "daemon/base/number_option.h"
+#include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
+#include "tools/calibrate_steps.h"
 #include "tools/calibration/exchange.h"
 #include "tools/calibration/studio_check.h"
 
@@ -39,21 +46,47 @@ std::array<int, 2> ParseSize(const std::string& text) {
                    ": expected WIDTHxHEIGHT in pixels, such as 1280x720");
 }
 
+Imported Import(const ConvertArguments& a) {
+  try {
+    return ImportCameras(a.from, a.in, a.options);
+  } catch (const SetupError& error) {
+    if (a.from != "mocap") throw;
+    throw SetupError(std::string(error.what()) + "; if another program wrote it, name the program: "
+                                                 "--from FORMAT");
+  }
+}
+
+// What the files say is not overruled.
+void RequireSize(const ConvertArguments& a, const std::vector<CameraCalibration>& cameras) {
+  if (!a.options.size_px) return;
+  for (const CameraCalibration& camera : cameras) {
+    if (std::array{camera.width_px, camera.height_px} == *a.options.size_px) continue;
+    throw SetupError(fmt::format("--size {}: {} says that the pictures of {} have {}x{}; leave "
+                                 "--size out",
+                                 a.size, a.in.string(), camera.name, camera.width_px,
+                                 camera.height_px));
+  }
+}
+
 void RunConvert(ConvertArguments a) {
   if (!a.size.empty()) a.options.size_px = ParseSize(a.size);
-  const Imported imported = ImportCameras(a.from, a.in, a.options);
+  const Imported imported = Import(a);
   for (const std::string& note : imported.notes) std::fprintf(stderr, "mocap: %s\n", note.c_str());
   if (imported.are_lenses_alone && a.to != "mocap")
     throw SetupError("--to " + a.to +
                      ": needs poses, which the input does not have; intrinsics without poses can "
                      "be written --to mocap");
+  RequireSize(a, imported.cameras);
+  std::vector<Finding> findings;
+  if (!imported.are_lenses_alone) findings = CheckCameras(imported.cameras, a.from != "kalibr");
+  if (a.to == "mocap" && CountOf(Severity::kWrong, findings) > 0) a.out += ".rejected";
   ExportCameras(a.to, a.out, imported.cameras, a.options);
-  if (imported.are_lenses_alone) return;
-  for (const Finding& finding : CheckCameras(imported.cameras, a.from != "kalibr"))
-    std::fprintf(stdout, "check: %s\n", finding.text.c_str());
-  if (a.from == "kalibr")
-    std::fputs("check: the world is the first camera's; set the floor with mocap calibrate floor\n",
-               stdout);
+  for (const Finding& finding : findings)
+    std::printf("%s: %s\n", NameOf(finding.severity), finding.text.c_str());
+  if (a.from == "kalibr" && !imported.are_lenses_alone)
+    std::puts("note: the world is the first camera's; set the floor with mocap calibrate floor");
+  std::printf("written: %s\n", Printable(a.out.string()).c_str());
+  RequireUsable(a.out, findings);
 }
 
 }  // namespace

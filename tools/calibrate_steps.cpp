@@ -143,7 +143,10 @@ StudioFit FitPoses(const BoardDetections& detections, const std::vector<CameraCa
 
 void RequireInputs(const CalibrateArguments& arguments) {
   RequireWritable(arguments.out);
-  if (!arguments.report.empty()) RequireWritable(arguments.report);
+  if (!arguments.report.empty()) {
+    RequireSuffix(arguments.report, ".html");
+    RequireWritable(arguments.report);
+  }
   if (!arguments.intrinsics.empty()) LoadCalibration(arguments.intrinsics);
   if (!arguments.floor_points.empty())
     RequireFile(arguments.floor_points, "a table of floor points");
@@ -257,6 +260,15 @@ void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>
     throw std::runtime_error(file.string() + ": has " + Counted(errors, "error") + ", see above");
 }
 
+namespace {
+
+/// What was measured is above 0.
+std::string Measured(double value, int decimals) {
+  return value > 0 ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+}  // namespace
+
 std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) {
   const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
   std::string text =
@@ -264,10 +276,10 @@ std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) 
                   "camera", "views", "lens px", "px", "mm (person)", "covered");
   for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
     const CameraFit& camera = fit.cameras[c];
-    text += fmt::format("{:<10}{:>7}{:>9.3f}{:>9.3f}{:>12.2f}{:>9.0f}%\n", camera.name,
-                        camera.views, camera.lens_rms_px, camera.rms_px,
-                        camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W),
-                        100 * camera.coverage.share);
+    const double rms_mm = camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W);
+    text += fmt::format("{:<10}{:>7}{:>9}{:>9}{:>12}{:>9.0f}%\n", camera.name, camera.views,
+                        Measured(camera.lens_rms_px, 3), Measured(camera.rms_px, 3),
+                        Measured(rms_mm, 2), 100 * camera.coverage.share);
   }
   for (std::size_t c = 1; c < fit.bundle.lateness_s.size(); ++c) {
     if (std::abs(fit.bundle.lateness_s[c]) < 0.0005) continue;
@@ -286,9 +298,11 @@ std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) 
     const CameraFit& camera = fit.cameras[c];
     JsonObject one;
     one.Add("views", camera.views);
-    one.Add("lens_rms_px", camera.lens_rms_px, 4);
-    one.Add("rms_px", camera.rms_px, 4);
-    one.Add("rms_mm", camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W), 3);
+    if (camera.lens_rms_px > 0) one.Add("lens_rms_px", camera.lens_rms_px, 4);
+    if (camera.rms_px > 0) {
+      one.Add("rms_px", camera.rms_px, 4);
+      one.Add("rms_mm", camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W), 3);
+    }
     one.Add("coverage", camera.coverage.share, 3);
     cameras.Add(camera.name, one);
   }

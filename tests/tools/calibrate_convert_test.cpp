@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "drivers/take/calibration_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/walking_moments.h"
 
 namespace mocap {
 namespace {
@@ -44,6 +46,30 @@ TEST_F(ConvertTest, TakesTheSizeOfPicturesFromWhoeverKnowsIt) {
   EXPECT_FALSE(std::filesystem::exists(out_));
   EXPECT_EQ(Convert("--from ros --size 640x480"), "done");
   EXPECT_THAT(testing::ReadText(out_), HasSubstr("size_px = [640, 480]"));
+}
+
+TEST_F(ConvertTest, RefusesASizeThatTheFilesContradict) {
+  testing::WriteText(folder_.path() / "ros/cam1.yaml",
+                     "image_width: 640\nimage_height: 480\n" +
+                         testing::ReadText(folder_.path() / "ros/cam1.yaml"));
+  EXPECT_THAT(Convert("--from ros --size 1280x720"), HasSubstr("640x480; leave --size out"));
+  EXPECT_EQ(Convert("--from ros --size 640x480"), "done");
+}
+
+TEST_F(ConvertTest, AFileOfAnotherProgramNeedsItsName) {
+  std::filesystem::rename(folder_.path() / "ros/cam1.yaml", folder_.path() / "c.yaml");
+  std::filesystem::remove(folder_.path() / "ros");
+  std::filesystem::rename(folder_.path() / "c.yaml", folder_.path() / "ros");
+  EXPECT_THAT(Convert(""), HasSubstr("name the program: --from FORMAT"));
+}
+
+TEST_F(ConvertTest, ACalibrationThatShouldNotBeUsedGetsAnotherName) {
+  std::vector<CameraCalibration> cameras = testing::WalkCameras();
+  for (CameraCalibration& camera : cameras) camera.X_CW.p /= 1000;
+  std::filesystem::remove_all(folder_.path() / "ros");
+  WriteCalibration(folder_.path() / "ros", cameras);
+  EXPECT_THAT(Convert(""), HasSubstr("out.rejected: has 1 error, see above"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
 TEST_F(ConvertTest, GivesLensesWithoutPosesToNoFormatThatHoldsPoses) {

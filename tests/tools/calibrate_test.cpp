@@ -13,6 +13,7 @@
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/walking_moments.h"
+#include "tools/calibrate_steps.h"
 
 namespace mocap {
 namespace {
@@ -55,6 +56,7 @@ TEST_F(CalibrateCommand, WhatCannotBeReadOrWrittenIsToldBeforeTheSearch) {
        {std::pair("--out " + In("none/c.toml"), "none/c.toml: cannot be written"),
         std::pair("--out " + In("folder"), "folder: cannot be written"),
         std::pair("--out c.toml --report " + In("none/c.html"), "none/c.html: cannot be written"),
+        std::pair("--out c.toml --report " + In("c.pdf"), "c.pdf: does not end in .html"),
         std::pair("--out " + In("c.toml") + " --floor " + In("lying"), "lying: not found"),
         std::pair("--out " + In("c.toml") + " --floor-points " + In("p.csv"), "p.csv: not found"),
         std::pair("--out " + In("c.toml") + " --distance cam1:cam4", "CAMERA:CAMERA:MM")}) {
@@ -89,7 +91,8 @@ TEST_F(CalibrateCommand, ATapeAloneSetsTheScale) {
       Says("floor " + In("right.toml") + " --set-scale --distance cam1:cam4:" +
            std::to_string(1.1 * before_mm) + " --out " + In("c.toml"));
   EXPECT_THAT(said, AllOf(HasSubstr("note: cam1 and cam4 are "), HasSubstr(" mm by the tape"),
-                          HasSubstr("is good"), Not(HasSubstr("the floor is not set"))));
+                          HasSubstr("is good"), Not(HasSubstr("the floor is not set")),
+                          HasSubstr("written: " + In("c.toml") + "\n")));
   EXPECT_NEAR(DistanceOf(LoadCalibration(In("c.toml"))), 1.1 * before_mm, 0.01);
 }
 
@@ -100,6 +103,20 @@ TEST_F(CalibrateCommand, WhatAnOptionNeedsIsNamed) {
   EXPECT_THAT(Says(floor + " --set-scale"), HasSubstr("--set-scale requires --distance"));
   EXPECT_THAT(Says(floor + " --floor-points a --board chess:8x5:100 --floor b"),
               HasSubstr("--floor excludes --floor-points"));
+}
+
+TEST_F(CalibrateCommand, WhatWasNotMeasuredIsNoZero) {
+  StudioFit fit;
+  fit.detections.board = ParseBoard("chess:8x5:100");
+  fit.bundle.cameras = testing::WalkCameras();
+  for (const CameraCalibration& camera : fit.bundle.cameras) {
+    CameraFit& one = fit.cameras.emplace_back();
+    one.name = camera.name;
+    one.lens_rms_px = 0.25;
+  }
+  EXPECT_THAT(FitText(fit, {}), HasSubstr("cam1            0    0.250        -           -"));
+  EXPECT_THAT(FitJson(fit, {}), AllOf(HasSubstr("\"lens_rms_px\": 0.25"),
+                                      Not(HasSubstr("\"rms_mm\""))));
 }
 
 TEST_F(CalibrateCommand, ATapeInMetresIsNoDistanceOfCameras) {

@@ -32,6 +32,13 @@ std::string Refusal(const std::string& arguments) {
   return "accepted";
 }
 
+TEST(Commands, HelpWritesBoundsInOneWay) {
+  CLI::App app("", "mocap");
+  AddCommands(app);
+  const std::string help = app.help("", CLI::AppFormatMode::All);
+  EXPECT_THAT(help, AllOf(HasSubstr("from 1 to "), Not(HasSubstr(" in ["))));
+}
+
 TEST(Commands, NumbersThatCannotBeAreToldShortAndPlain) {
   const char* wrong[] = {"0", "-1", "-0", "1e300", "-1e300", "nan", "inf", "abc", "1.5.5"};
   const char* options[] = {"simulate --out x --seconds",

@@ -127,7 +127,7 @@ std::string PeopleSummaryText(std::span<const PeopleRow> rows) {
 
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   std::string text = fmt::format(
-      "# Accuracy on simulated people\n\nWritten by `mocap benchmark --out docs`: takes of {:.0f} "
+      "# Accuracy on simulated people\n\nWritten by `mocap benchmark`: takes of {:.0f} "
       "s, six VGA cameras and voxels of 25 mm unless stated otherwise. Errors are over 14 "
       "points\nand 8 angles, as in `mocap evaluate`; *wrong* is the longest run of tracked frame "
       "sets with a mean error above {:.0f} mm.\n\n",
