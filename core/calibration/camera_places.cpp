@@ -28,12 +28,12 @@ bool HasNoPose(const CameraCalibration& camera) {
 }
 
 void CheckPoses(std::span<const CameraCalibration> cameras, std::vector<Finding>& findings) {
-  std::string names;
-  for (const CameraCalibration& camera : cameras) {
-    if (HasNoPose(camera)) names += (names.empty() ? "" : ", ") + camera.name;
+  std::vector<std::size_t> without;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    if (HasNoPose(cameras[c])) without.push_back(c);
   }
-  if (names.empty()) return;
-  findings.push_back({Severity::kWrong, names +
+  if (without.empty()) return;
+  findings.push_back({Severity::kWrong, NamesOf(without, cameras) +
                                             ": at the origin, looking straight up: intrinsics "
                                             "without a pose (mocap calibrate extrinsics), or the "
                                             "floor is not set (mocap calibrate floor)"});
@@ -92,6 +92,17 @@ void CheckDistances(std::span<const CameraCalibration> cameras, std::vector<Find
 }
 
 }  // namespace
+
+std::string NamesOf(const std::vector<std::size_t>& indices,
+                    std::span<const CameraCalibration> cameras) {
+  std::string names;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const bool is_last = i + 1 == indices.size();
+    if (i > 0) names += is_last ? " and " : ", ";
+    names += cameras[indices[i]].name;
+  }
+  return names;
+}
 
 std::vector<Finding> CheckPlaces(std::span<const CameraCalibration> cameras, bool has_floor) {
   std::vector<Finding> findings;

@@ -3,22 +3,12 @@
 #include <cmath>
 #include <string>
 
+#include "core/calibration/camera_places.h"
+
 namespace mocap {
 namespace {
 
 std::string Millimetres(double mm) { return std::to_string(std::lround(mm)) + " mm"; }
-
-/// "cam2", "cam2 and cam5", "cam1, cam2 and cam5".
-std::string NamesOf(const std::vector<std::size_t>& indices,
-                    std::span<const CameraCalibration> cameras) {
-  std::string names;
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    const bool is_last = i + 1 == indices.size();
-    if (i > 0) names += is_last ? " and " : ", ";
-    names += cameras[indices[i]].name;
-  }
-  return names;
-}
 
 const char* NameOfUnit(double unit_mm) {
   if (unit_mm == 1000) return "metres";

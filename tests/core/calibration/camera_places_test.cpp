@@ -37,7 +37,7 @@ TEST(CameraPlaces, WhatConcernsAllCamerasIsToldOnce) {
   EXPECT_THAT(metres[0].text, AllOf(HasSubstr("all cameras stand within"), HasSubstr("metres")));
   const std::vector<Finding> no_poses = CheckPlaces(lenses, true);
   ASSERT_THAT(no_poses, SizeIs(1));
-  EXPECT_THAT(no_poses[0].text, HasSubstr("cam1, cam2, cam3, cam4, cam5, cam6: at the origin"));
+  EXPECT_THAT(no_poses[0].text, HasSubstr("cam1, cam2, cam3, cam4, cam5 and cam6: at the origin"));
 }
 
 TEST(CameraPlaces, AFloorThatIsUpsideDownIsToldOnce) {
