@@ -79,6 +79,11 @@ StudioPlan PlanFor(const StudioOptions& options) {
       throw SetupError(plan.ips.back() + ": is not an address of this host; as root, ip addr add " +
                        plan.ips.back() + "/8 dev lo");
     }
+    if (IsServed(plan.ips.back())) {
+      throw SetupError(plan.ips.back() +
+                       ": a camera is served there already; end that program, or choose another "
+                       "--address");
+    }
   }
   return plan;
 }

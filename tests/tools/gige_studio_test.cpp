@@ -19,8 +19,11 @@
 #include "drivers/aravis/aravis_driver.h"
 #include "tests/support/images.h"
 #include "tests/support/private_network.h"
+#include "tests/support/run_command.h"
+#include "tests/support/setup_error.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/gige_studio.h"
 
 extern char** environ;
 
@@ -120,6 +123,12 @@ TEST(GigeStudio, ServesATakeToTheBitAndCamerasThatDieReturn) {
     ASSERT_THAT(serving.name, HasSubstr("cam"));
     processes[serving.name.back() - '1'] = serving.process;
   }
+
+  EXPECT_THAT(testing::SetupErrorOf([&] {
+                testing::RunCommand(AddGigeStudioCommand,
+                                    "gige-studio " + (folder.path() / "take").string());
+              }),
+              HasSubstr("127.0.0.11: a camera is served there already"));
 
   const Config config = LoadConfig(config_file);
   std::vector<std::unique_ptr<AravisDriver>> drivers;

@@ -9,11 +9,14 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 
 #include "core/errors.h"
+#include "daemon/base/file_descriptor.h"
+#include "drivers/aravis/gvcp_socket.h"
 #include "drivers/quoted.h"
 
 namespace mocap {
@@ -74,6 +77,18 @@ bool EnsureLoopbackAddress(const std::string& ip) {
   ioctl(fd, SIOCSIFNETMASK, &mask);
   close(fd);
   return HasAddress(wanted);
+}
+
+bool IsServed(const std::string& ip) {
+  const FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_port = htons(kGvcpPort);
+  here.sin_addr.s_addr = htonl(Parse(ip));
+  sockaddr place{};
+  std::memcpy(&place, &here, sizeof(here));
+  // Aravis shares the port, even with another that serves the same camera.
+  return bind(fd.get(), &place, sizeof(place)) != 0 && errno == EADDRINUSE;
 }
 
 std::string AddressAfter(const std::string& ip, int count) {
