@@ -61,6 +61,13 @@ Cylinder RoundCylinder(const Vector3& anchor_W, const Vector3& axis_W, double le
   return {anchor_W, axis_W, axis_W.unitOrthogonal(), length_mm, radius_mm, radius_mm};
 }
 
+Cylinder WithRim(const Cylinder& torso) {
+  Cylinder round = torso;
+  round.half_width_mm = std::max(torso.half_width_mm, torso.half_depth_mm) + kTorsoRimMm;
+  round.half_depth_mm = round.half_width_mm;
+  return round;
+}
+
 VoxelIndices VoxelsInside(const VoxelCloud& cloud, std::span<const int> voxels,
                           const Cylinder& cylinder) {
   VoxelIndices inside;

@@ -7,6 +7,7 @@ namespace mocap::mikic2003 {
 namespace {
 
 constexpr double kPaperVoxelMm = 25;
+constexpr double kAlmostMost = 0.75;
 
 // Counts the surface voxels in a crust around a cell.
 class CrustCounter {
@@ -56,10 +57,49 @@ class CrustCounter {
   std::vector<std::ptrdiff_t> crust_;  ///< Offsets of the crust's cells from its centre.
 };
 
+struct Candidate {
+  int voxel;
+  std::ptrdiff_t count;
+};
+
+// The candidates from the top down.
+std::vector<Candidate> CandidatesIn(const VoxelCloud& cloud, const HeadCrust& crust,
+                                    const std::optional<SearchRegion>& region) {
+  const CrustCounter counter(cloud, crust);
+  std::vector<Candidate> candidates;
+  // Voxels are listed from the bottom up.
+  for (int i = cloud.size() - 1; i >= 0; --i) {
+    const Voxel& voxel = cloud.voxels()[i];
+    if (voxel.surface || !counter.IsTried(voxel.cell)) continue;
+    if (region && (voxel.center_W - region->center_W).norm() > region->radius_mm) continue;
+    candidates.push_back({i, counter.CountAround(voxel.cell)});
+  }
+  return candidates;
+}
+
+// The voxel whose crust holds the most.
+std::optional<int> FindCenter(const VoxelCloud& cloud, const HeadCrust& crust,
+                              const std::optional<SearchRegion>& region) {
+  const std::vector<Candidate> candidates = CandidatesIn(cloud, crust, region);
+  const auto most = std::ranges::max_element(candidates, {}, &Candidate::count);
+  if (most == candidates.end() || most->count == 0) return std::nullopt;
+  if (region) return most->voxel;
+  const auto height = [&](const Candidate& at) { return cloud.voxels()[at.voxel].center_W.z(); };
+  const auto first = std::ranges::find_if(candidates, [&](const Candidate& at) {
+    return static_cast<double>(at.count) >= kAlmostMost * static_cast<double>(most->count);
+  });
+  const auto end = std::find_if(first, candidates.end(), [&](const Candidate& at) {
+    return height(at) < height(*first) - crust.inner_mm;
+  });
+  return std::ranges::max_element(first, end, {}, &Candidate::count)->voxel;
+}
+
 // Adds hair to the head: pieces connected with the head alone.
 void TakeHair(const VoxelCloud& cloud, Labels& labels, HeadFit& head) {
   std::vector<VoxelIndices> rest = ConnectedRegions(cloud, VoxelsLabeled(labels, kUnlabeled));
+  const std::size_t sphere = head.voxels.size();
   for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (rest[i].size() > sphere) continue;
     if (BorderWith(cloud, labels, rest[i], LabelOf(BodyPart::kHead)).empty()) continue;
     head.voxels.insert(head.voxels.end(), rest[i].begin(), rest[i].end());
   }
@@ -77,22 +117,12 @@ HeadCrust CrustOf(const BodySizes& sizes, double voxel_mm) {
 
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,
                                 const std::optional<SearchRegion>& region) {
-  const CrustCounter counter(cloud, crust);
-  std::ptrdiff_t most = 0;
-  int best = -1;
-  // Voxels are listed from the bottom up.
-  for (int i = cloud.size() - 1; i >= 0; --i) {
-    const Voxel& voxel = cloud.voxels()[i];
-    if (voxel.surface || !counter.IsTried(voxel.cell)) continue;
-    if (region && (voxel.center_W - region->center_W).norm() > region->radius_mm) continue;
-    const std::ptrdiff_t count = counter.CountAround(voxel.cell);
-    if (count > most) most = count, best = i;
-  }
-  if (best < 0) return std::nullopt;
+  const std::optional<int> center = FindCenter(cloud, crust, region);
+  if (!center) return std::nullopt;
 
   HeadFit head;
   Labels labels(cloud.size(), kUnlabeled);
-  const Vector3 center_W = cloud.voxels()[best].center_W;
+  const Vector3 center_W = cloud.voxels()[*center].center_W;
   for (int i = 0; i < cloud.size(); ++i) {
     if ((cloud.voxels()[i].center_W - center_W).norm() <= crust.reach_mm) head.voxels.push_back(i);
   }

@@ -45,7 +45,9 @@ struct HeadFit {
 ///
 /// The paper does not say which positions are tried. Here they are the voxels inside the body; of
 /// two equally good ones, the upper wins. Of voxels finer than 25 mm (the paper's) only a part is
-/// tried. Pieces outside the sphere that are connected with the head alone are hair, not neck.
+/// tried. A child's waist fills the crust of any head as well as the head does. So in the whole
+/// volume the uppermost place wins whose crust holds at least three quarters of the most. Pieces
+/// outside the sphere that are connected with the head alone, and are smaller, are hair, not neck.
 /// @param region  nothing: the whole volume is searched.
 /// @return  nothing if no voxel lies inside the body there.
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,

@@ -11,34 +11,49 @@ namespace {
 // The paper limits the search "to some neighborhood": here 4 m/s for 0.1 s, as a person runs.
 constexpr double kHeadSearchMm = 400;
 
-// Limbs are not cylinders. The template is wider than the limb, so that the limb's rim is not taken
-// for the lower part.
-constexpr double kTemplateShare = 1.5;
-// Variance of a voxel's position, as of a measured point [mm²].
-constexpr double kMeasurementVariance = 50.0 * 50.0;
+// Limbs are not cylinders. The template is twice as wide as the limb, so that the limb's rim is not
+// taken for the lower part.
+constexpr double kTemplateShare = 2;
 
-// One part of a limb: mean and covariance of a solid cylinder with an uncertain position.
-class PartDistance {
+// Mean and covariance of a solid [mm, mm²].
+struct Solid {
+  double volume;
+  Vector3 mean_W;
+  Matrix3 covariance;
+};
+
+Solid CylinderBetween(const Vector3& from_W, const Vector3& to_W, double width_mm) {
+  const double length_mm = (to_W - from_W).norm();
+  const Vector3 axis_W = (to_W - from_W) / length_mm;
+  const double along = length_mm * length_mm / 12;
+  const double across = width_mm * width_mm / 16;
+  return {length_mm * width_mm * width_mm, (from_W + to_W) / 2,
+          across * Matrix3::Identity() + (along - across) * axis_W * axis_W.transpose()};
+}
+
+Solid Join(const Solid& a, const Solid& b) {
+  const double volume = a.volume + b.volume;
+  const double share = b.volume / volume;
+  const Vector3 apart_W = b.mean_W - a.mean_W;
+  return {volume, a.mean_W + share * apart_W,
+          (1 - share) * a.covariance + share * b.covariance +
+              share * (1 - share) * apart_W * apart_W.transpose()};
+}
+
+// Distance to a limb whose voxels' places are uncertain by a voxel.
+class LimbDistance {
  public:
-  PartDistance(const Vector3& from_W, const Vector3& to_W, double width_mm,
-               const Matrix3& place_covariance)
-      : center_W_((from_W + to_W) / 2) {
-    const Vector3 axis_W = (to_W - from_W).normalized();
-    const double along = (to_W - from_W).squaredNorm() / 12;
-    const double across = width_mm * width_mm / 16;
-    const Matrix3 shape =
-        across * Matrix3::Identity() + (along - across) * axis_W * axis_W.transpose();
-    information_ =
-        (shape + place_covariance + kMeasurementVariance * Matrix3::Identity()).inverse();
-  }
+  LimbDistance(const Solid& limb, double voxel_mm)
+      : mean_W_(limb.mean_W),
+        information_((limb.covariance + voxel_mm * voxel_mm * Matrix3::Identity()).inverse()) {}
 
   double SquaredTo(const Vector3& p_WQ) const {
-    const Vector3 offset = p_WQ - center_W_;
+    const Vector3 offset = p_WQ - mean_W_;
     return offset.dot(information_ * offset);
   }
 
  private:
-  Vector3 center_W_;
+  Vector3 mean_W_;
   Matrix3 information_;
 };
 
@@ -85,31 +100,28 @@ PoseState MoveToTorso(const BodyModel& body, const PoseState& predicted, const V
 
 std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,
                                                    std::span<const int> voxels,
-                                                   const BodyModel& body, const PoseState& pose,
-                                                   const PartCovariances& part_covariances) {
+                                                   const BodyModel& body, const PoseState& pose) {
   const BodyPoints points_W = body.PointsAt(body.PostureAt(pose));
   const auto at = [&](Point point) { return Vector3(points_W.col(static_cast<int>(point))); };
-  std::vector<PartDistance> distances;
-  for (int i = 0; i < kLimbCount; ++i) {
-    const Limb& limb = kLimbs[i];
-    distances.emplace_back(at(limb.root), at(limb.joint), body.sizes().*limb.upper_width,
-                           part_covariances[2 * i]);
-    distances.emplace_back(at(limb.joint), at(limb.end), body.sizes().*limb.lower_width,
-                           part_covariances[2 * i + 1]);
+  std::vector<LimbDistance> distances;
+  for (const Limb& limb : kLimbs) {
+    distances.emplace_back(
+        Join(CylinderBetween(at(limb.root), at(limb.joint), body.sizes().*limb.upper_width),
+             CylinderBetween(at(limb.joint), at(limb.end), body.sizes().*limb.lower_width)),
+        cloud.voxel_mm());
   }
   std::array<VoxelIndices, kLimbCount> limbs;
   for (const int voxel : voxels) {
     const Vector3& p_W = cloud.voxels()[voxel].center_W;
     const auto nearest = std::ranges::min_element(
-        distances, {}, [&](const PartDistance& part) { return part.SquaredTo(p_W); });
-    limbs[(nearest - distances.begin()) / 2].push_back(voxel);
+        distances, {}, [&](const LimbDistance& limb) { return limb.SquaredTo(p_W); });
+    limbs[nearest - distances.begin()].push_back(voxel);
   }
   return limbs;
 }
 
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted,
-                                        const PartCovariances& part_covariances) {
+                                        const PoseState& predicted) {
   LabeledFrame frame;
   frame.labels.assign(cloud.size(), kUnlabeled);
   const Vector3 expected_head_W =
@@ -122,14 +134,13 @@ std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel
 
   const VoxelIndices rest = VoxelsLabeled(frame.labels, kUnlabeled);
   const Cylinder torso = LocateTorso(cloud, body.sizes(), rest, head->neck_W);
-  const VoxelIndices torso_voxels = VoxelsInside(cloud, rest, torso);
+  const VoxelIndices torso_voxels = VoxelsInside(cloud, rest, WithRim(torso));
   if (torso_voxels.empty()) return std::nullopt;
   SetLabel(torso_voxels, LabelOf(BodyPart::kTorso), frame.labels);
 
   const PoseState moved = MoveToTorso(body, predicted, head->neck_W, torso.axis_W);
   const BodyPoints moved_points_W = body.PointsAt(body.PostureAt(moved));
-  const auto limbs =
-      AssignToLimbs(cloud, VoxelsLabeled(frame.labels, kUnlabeled), body, moved, part_covariances);
+  const auto limbs = AssignToLimbs(cloud, VoxelsLabeled(frame.labels, kUnlabeled), body, moved);
   for (int limb = 0; limb < kLimbCount; ++limb) {
     const Vector3 root_W = moved_points_W.col(static_cast<int>(kLimbs[limb].root));
     frame.upper_axes_W[limb] =

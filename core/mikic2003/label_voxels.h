@@ -9,18 +9,15 @@
 
 namespace mocap::mikic2003 {
 
-/// Covariances of the predicted centroids of each limb's upper and lower part, alternating [mm²].
-using PartCovariances = std::array<Matrix3, 2 * kLimbCount>;
-
 /// Labels a frame's voxels. Fig. 8 (c)–(f): first head and torso by their shapes, independent of
 /// the prediction; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms
 /// and thighs by templates in the limbs.
 ///
+/// A trunk is no cylinder: the torso gets the voxels up to kTorsoRimMm outside its template, too.
 /// @param predicted  Fig. 8 (b).
 /// @return  nothing if there is no head or no torso.
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted,
-                                        const PartCovariances& part_covariances);
+                                        const PoseState& predicted);
 
 /// Moves a predicted body to the measured torso, and keeps its joint angles. Fig. 8 (d).
 ///
@@ -30,15 +27,14 @@ std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel
 PoseState MoveToTorso(const BodyModel& body, const PoseState& predicted, const Vector3& neck_W,
                       const Vector3& down_W);
 
-/// Labels each voxel with the limb (0 to 3) whose nearer part has the least Mahalanobis distance.
-/// Fig. 8 (e).
+/// Labels each voxel with the limb (0 to 3) with the least Mahalanobis distance. Fig. 8 (e).
 ///
-/// A part's covariance is the sum of a solid cylinder's of its length and width, and of its
-/// prediction's. So a part that was not seen for a while is searched for in a larger region.
+/// The paper does not say whose covariance. Here a limb has the mean and the covariance of its two
+/// parts as solid cylinders, each with the variance of a voxel's place. The uncertainty of the
+/// prediction is left out, because it would give everybody's voxels to a limb that was not seen.
 /// @return  the voxels of each limb.
 std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,
                                                    std::span<const int> voxels,
-                                                   const BodyModel& body, const PoseState& pose,
-                                                   const PartCovariances& part_covariances);
+                                                   const BodyModel& body, const PoseState& pose);
 
 }  // namespace mocap::mikic2003

@@ -48,6 +48,16 @@ Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels) {
   return voxels.empty() ? sum : Vector3(sum / static_cast<double>(voxels.size()));
 }
 
+Matrix3 CovarianceOf(const VoxelCloud& cloud, std::span<const int> voxels) {
+  const Vector3 mean_W = CentroidOf(cloud, voxels);
+  Matrix3 covariance = Matrix3::Zero();
+  for (const int voxel : voxels) {
+    const Vector3 offset = cloud.voxels()[voxel].center_W - mean_W;
+    covariance += offset * offset.transpose();
+  }
+  return covariance / std::max<double>(1, static_cast<double>(voxels.size()));
+}
+
 VoxelIndices BorderWith(const VoxelCloud& cloud, const Labels& labels, std::span<const int> voxels,
                         std::int8_t neighbour) {
   VoxelIndices border;

@@ -30,6 +30,9 @@ void SetLabel(std::span<const int> voxels, std::int8_t label, Labels& labels);
 /// Returns the mean position of voxels; zero if there are none.
 Vector3 CentroidOf(const VoxelCloud& cloud, std::span<const int> voxels);
 
+/// Returns the covariance of voxels' positions [mm²]; zero if there are none.
+Matrix3 CovarianceOf(const VoxelCloud& cloud, std::span<const int> voxels);
+
 /// Returns those voxels that have a direct neighbour (of six) labelled `neighbour`.
 VoxelIndices BorderWith(const VoxelCloud& cloud, const Labels& labels, std::span<const int> voxels,
                         std::int8_t neighbour);

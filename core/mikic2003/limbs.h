@@ -46,6 +46,12 @@ inline constexpr std::array<Limb, kLimbCount> kLimbs = {
          &BodySizes::thigh, &BodySizes::calf, &BodySizes::thigh_width, &BodySizes::calf_width,
          kThighShare}};
 
+/// Returns the mean of what was measured on the left and on the right.
+inline std::optional<double> MeanOf(std::optional<double> left, std::optional<double> right) {
+  if (left && right) return (*left + *right) / 2;
+  return left ? left : right;
+}
+
 /// The 23 points of Table 2, p_WQ [mm]. Points of parts with too few voxels are absent.
 using MeasuredPoints = std::array<std::optional<Vector3>, kPointCount>;
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/mikic2003/find_head.h"
+#include "core/mikic2003/part_widths.h"
 #include "core/mikic2003/size_network.h"
 
 namespace mocap::mikic2003 {
@@ -15,27 +17,21 @@ constexpr double kAverageStatureMm = 1700;
 // Small templates to be grown.
 constexpr double kSmallTorsoMm = 150, kSmallTorsoRadiusMm = 60;
 constexpr double kSmallLimbMm = 60, kSmallLimbRadiusMm = 30;
-// A template has the size of its part if half of the next step would be void.
-constexpr double kSizeShare = 0.5;
-// The template for the torso's voxels grows while a quarter of a step is flesh. Otherwise the
-// trunk's rim connects the limbs, and there are not four regions (Fig. 11 (f)).
-constexpr double kRimShare = 0.25;
+// Growth ends where a step "starts including empty voxels": where less than this is flesh. With
+// half of a trunk's step, its width would be that of the trunk and both arms; the end of a limb's
+// upper part is rounder.
+constexpr double kTrunkShare = 0.8, kLimbShare = 0.5;
+// Two standard deviations of a trunk's breadth and depth among people of one stature (ANSUR, Gordon
+// et al. 1989).
+constexpr double kTrunkVariation = 0.15;
+// Two pieces of a section are legs if they are of similar size. A hand beside a thigh is smaller.
+constexpr double kSimilar = 0.4;
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
-// A smaller share of the body is a stray piece of the torso and no limb. An arm has 0.05 of a
-// body's mass (Winter 2009, Table 4.1), but a part of it may be in the torso's template.
-constexpr double kLeastLimbShare = 0.025;
+// A smaller share of the body is a stray piece of the torso and no limb. Forearm and hand have
+// 0.022 of a body's mass (Winter 2009, Table 4.1); a part of them may be in the torso's template.
+constexpr double kLeastLimbShare = 0.015;
 
 const BodySizes kAverage = AverageSizes(kAverageStatureMm);
-
-Matrix3 CovarianceOf(const VoxelCloud& cloud, std::span<const int> voxels) {
-  const Vector3 mean_W = CentroidOf(cloud, voxels);
-  Matrix3 covariance = Matrix3::Zero();
-  for (const int voxel : voxels) {
-    const Vector3 offset = cloud.voxels()[voxel].center_W - mean_W;
-    covariance += offset * offset.transpose();
-  }
-  return covariance / std::max<double>(1, static_cast<double>(voxels.size()));
-}
 
 // Distance between the lowest and the highest position along a direction.
 double ExtentOf(const VoxelCloud& cloud, std::span<const int> voxels, const Vector3& direction_W) {
@@ -69,13 +65,57 @@ void MeasureHead(const VoxelCloud& cloud, const HeadFit& head, BodySizes& sizes)
   sizes.head_width = (dimensions_mm[0] + dimensions_mm[1]) / 2;
 }
 
-void MeasureTorso(const Cylinder& torso, BodySizes& sizes) {
+// Arms beside the trunk may be in its template: its dimensions are bounded by those of people of
+// that height.
+void MeasureTorso(const Cylinder& torso, double height_mm, BodySizes& sizes) {
+  const auto bounded = [](double measured_mm, double average_mm) {
+    return std::clamp(measured_mm, (1 - kTrunkVariation) * average_mm,
+                      (1 + kTrunkVariation) * average_mm);
+  };
+  const BodySizes expected = AverageSizes(height_mm);
   sizes.torso = torso.length_mm;
-  sizes.torso_width = 2 * std::max(torso.half_width_mm, torso.half_depth_mm);
-  sizes.torso_depth = 2 * std::min(torso.half_width_mm, torso.half_depth_mm);
+  sizes.torso_width =
+      bounded(2 * std::max(torso.half_width_mm, torso.half_depth_mm), expected.torso_width);
+  sizes.torso_depth =
+      bounded(2 * std::min(torso.half_width_mm, torso.half_depth_mm), expected.torso_depth);
   // Fig. 3: joints lie at fixed shares of the torso's width, here those of average people.
   sizes.shoulder_width = sizes.torso_width * kAverage.shoulder_width / kAverage.torso_width;
   sizes.hip_width = sizes.torso_width * kAverage.hip_width / kAverage.torso_width;
+}
+
+// Voxels in sections of a voxel's thickness across the torso's axis, from its end on.
+std::vector<VoxelIndices> SectionsBelow(const VoxelCloud& cloud, const Cylinder& torso,
+                                        std::span<const int> voxels) {
+  std::vector<VoxelIndices> sections;
+  for (const int voxel : voxels) {
+    const double below_mm = torso.axis_W.dot(cloud.voxels()[voxel].center_W - torso.End());
+    if (below_mm < 0) continue;
+    const auto section = static_cast<std::size_t>(below_mm / cloud.voxel_mm());
+    if (section >= sections.size()) sections.resize(section + 1);
+    sections[section].push_back(voxel);
+  }
+  return sections;
+}
+
+// "In the direction of the legs, the growing will stop at the place where legs part": gives the
+// torso what lies below its template, section by section, until a section falls into two pieces.
+void GrowToTheLegs(const VoxelCloud& cloud, const Cylinder& torso, Labels& labels) {
+  const auto sections = SectionsBelow(cloud, torso, VoxelsLabeled(labels, kUnlabeled));
+  for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
+    // A slanted section is connected only together with the next.
+    VoxelIndices both = sections[i];
+    both.insert(both.end(), sections[i + 1].begin(), sections[i + 1].end());
+    const std::vector<VoxelIndices> pieces = ConnectedRegions(cloud, both);
+    if (pieces.empty()) return;
+    const auto largest = static_cast<double>(pieces[0].size());
+    if (pieces.size() > 1 && static_cast<double>(pieces[1].size()) > kSimilar * largest) return;
+    VoxelIndices of_torso = pieces[0];
+    std::erase_if(of_torso, [&](int voxel) {
+      return torso.axis_W.dot(cloud.voxels()[voxel].center_W - torso.End()) >=
+             static_cast<double>(i + 1) * cloud.voxel_mm();
+    });
+    SetLabel(of_torso, LabelOf(BodyPart::kTorso), labels);
+  }
 }
 
 // A limb's region and the joint where it meets the torso.
@@ -140,7 +180,7 @@ Cylinder GrowUpper(const VoxelCloud& cloud, const Region& region, const Limb& li
                                 kAverage.*limb.upper_width / 2));
   return GrowCylinder(
       cloud, region.voxels,
-      RoundCylinder(region.root_W, average.axis_W, kSmallLimbMm, kSmallLimbRadiusMm), kSizeShare,
+      RoundCylinder(region.root_W, average.axis_W, kSmallLimbMm, kSmallLimbRadiusMm), kLimbShare,
       longest_mm);
 }
 
@@ -154,21 +194,6 @@ VoxelIndices FindLower(const VoxelCloud& cloud, const Labels& labels, const Regi
   return PieceNearest(cloud, rest, upper.End());
 }
 
-double WidthOf(const Cylinder& grown) { return grown.half_width_mm + grown.half_depth_mm; }
-
-// Fig. 11 (h): grows a template in the rest of the limb, starting where it meets the upper part.
-Cylinder GrowLower(const VoxelCloud& cloud, const Labels& labels, const VoxelIndices& lower,
-                   const Limb& limb) {
-  const VoxelIndices meeting = BorderWith(cloud, labels, lower, LabelOf(limb.upper));
-  const Vector3 joint_W = CentroidOf(cloud, meeting.empty() ? lower : meeting);
-  const Vector3 to_centroid_W = CentroidOf(cloud, lower) - joint_W;
-  const Vector3 axis_W =
-      to_centroid_W.norm() < 1 ? Vector3::UnitZ() : Vector3(to_centroid_W.normalized());
-  return GrowCylinder(cloud, lower,
-                      RoundCylinder(joint_W, axis_W, kSmallLimbMm, kSmallLimbRadiusMm), kSizeShare,
-                      kAnyLength);
-}
-
 void LabelLimb(const VoxelCloud& cloud, const Region& region, int limb, LocatedBody& located) {
   const Limb& parts = kLimbs[limb];
   const Cylinder upper = GrowUpper(cloud, region, parts);
@@ -176,11 +201,8 @@ void LabelLimb(const VoxelCloud& cloud, const Region& region, int limb, LocatedB
   const VoxelIndices lower = FindLower(cloud, located.frame.labels, region, upper);
   SetLabel(lower, LabelOf(parts.lower), located.frame.labels);
   located.frame.upper_axes_W[limb] = upper.axis_W;
-  BodySizes& sizes = located.sizes;
   // Both sides have one size: the mean of their measurements.
-  sizes.*parts.upper_length += upper.length_mm / 2;
-  sizes.*parts.upper_width += WidthOf(upper) / 2;
-  sizes.*parts.lower_width += WidthOf(GrowLower(cloud, located.frame.labels, lower, parts)) / 2;
+  located.sizes.*parts.upper_length += upper.length_mm / 2;
 }
 
 // Parts that are too small to measure get their length from their proportion to the torso.
@@ -203,7 +225,7 @@ Cylinder GrowTorso(const VoxelCloud& cloud, std::span<const int> voxels, const V
   const Eigen::SelfAdjointEigenSolver<Matrix3> axes(
       across * CovarianceOf(cloud, VoxelsInside(cloud, voxels, average)) * across);
   small.side_W = axes.eigenvectors().col(2);
-  return GrowCylinder(cloud, voxels, small, kSizeShare, kAnyLength);
+  return GrowCylinder(cloud, voxels, small, kTrunkShare, kAnyLength);
 }
 
 std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
@@ -215,14 +237,15 @@ std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
   SetLabel(head->voxels, LabelOf(BodyPart::kHead), labels);
   located.frame.neck_W = head->neck_W;
   MeasureHead(cloud, *head, located.sizes);
-  located.height_less_head_mm = HeightOf(cloud) - located.sizes.head;
+  const double height_mm = HeightOf(cloud);
+  located.height_less_head_mm = height_mm - located.sizes.head;
 
   const VoxelIndices rest = VoxelsLabeled(labels, kUnlabeled);
   if (rest.empty()) return std::nullopt;
   const Cylinder torso = GrowTorso(cloud, rest, head->neck_W);
-  const Cylinder with_rim = GrowCylinder(cloud, rest, torso, kRimShare, kAnyLength);
-  SetLabel(VoxelsInside(cloud, rest, with_rim), LabelOf(BodyPart::kTorso), labels);
-  MeasureTorso(torso, located.sizes);
+  SetLabel(VoxelsInside(cloud, rest, WithRim(torso)), LabelOf(BodyPart::kTorso), labels);
+  GrowToTheLegs(cloud, torso, labels);
+  MeasureTorso(torso, height_mm, located.sizes);
 
   std::optional<Regions> limbs = FindLimbs(cloud, labels);
   if (!limbs) return std::nullopt;
@@ -230,6 +253,7 @@ std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
   located.R_WT << side_W.cross(-torso.axis_W), side_W, -torso.axis_W;
   for (int limb = 0; limb < kLimbCount; ++limb) LabelLimb(cloud, (*limbs)[limb], limb, located);
   MeasureLowerLengths(cloud, located);
+  MeasureLimbWidths(cloud, labels, located.sizes);
   return located;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSignificant = 0.8;
 // "Usually several iterations"; the first frame's rough start needs more.
-constexpr int kIterations = 5;
+constexpr int kIterations = 10;
 constexpr int kFirstIterations = 30;
 constexpr double kSlightBendRad = 0.3;
 

@@ -44,11 +44,6 @@ std::optional<double> LengthOf(const MeasuredPoints& points, Point from, Point t
   return (*At(points, from) - *At(points, to)).norm();
 }
 
-std::optional<double> MeanOf(std::optional<double> left, std::optional<double> right) {
-  if (left && right) return (*left + *right) / 2;
-  return left ? left : right;
-}
-
 }  // namespace
 
 LengthMeasurements MeasureLengths(const MeasuredPoints& points, double height_less_head_mm) {
@@ -84,10 +79,10 @@ double SizeNetwork::Update(LengthMeasurements measured, BodySizes& sizes) {
   const Lengths mean = density.Mean();
   double change_mm = 0;
   for (int node = kTorso; node < kNodeCount; ++node) {
-    change_mm += std::abs(mean[node] - sizes.*kMembers[node]);
+    change_mm += mean[node] - sizes.*kMembers[node];
     sizes.*kMembers[node] = mean[node];
   }
-  return change_mm;
+  return std::abs(change_mm);
 }
 
 }  // namespace mocap::mikic2003

@@ -23,8 +23,9 @@ class SizeNetwork {
   /// Computes the mean of every length given all leaves. It is exact, because all nodes are linear
   /// and Gaussian. Eq. (22).
   ///
-  /// If the torso, the measured thigh and the measured calf are together clearly longer than the height, their sum
-  /// replaces the height: the person does not stand upright. ("Significantly" is 10 %.)
+  /// If the torso, the measured thigh and the measured calf are together clearly longer than the
+  /// height, their sum replaces the height: the person does not stand upright. ("Significantly" is
+  /// 10 %.)
   /// @param sizes  gets the new lengths.
   /// @return  the sum of the lengths' changes [mm].
   double Update(LengthMeasurements measured, BodySizes& sizes);

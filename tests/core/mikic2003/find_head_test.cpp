@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/mikic2003/paper_person.h"
+#include "tests/support/voxelized_shapes.h"
 
 namespace mocap::mikic2003 {
 namespace {
@@ -14,6 +15,28 @@ TEST(Figure6, HeadIsFoundInTheWholeVolumeWithoutAPrediction) {
     const auto head = FindHead(person.Cloud(pose), kAnyHead, std::nullopt);
     ASSERT_TRUE(head);
     EXPECT_LT((head->center_W - person.Place(pose, Point::kHead)).norm(), 60);
+  }
+}
+
+// A child's waist is as round as a head, and about as wide.
+TEST(Figure6, AChildsHeadIsFoundAboveTheWaist) {
+  const PaperPerson child(1200);
+  const PoseState pose = child.Pose(kSpread, 0.4, {0, 0, 850});
+  const auto head = FindHead(child.Cloud(pose), kAnyHead, std::nullopt);
+  ASSERT_TRUE(head);
+  EXPECT_LT((head->center_W - child.Place(pose, Point::kHead)).norm(), 60);
+}
+
+// The sphere cuts a rod of 1.2 m into three pieces; hair would be a smaller one.
+TEST(Figure6, WhatIsLargerThanTheHeadIsNoHair) {
+  VoxelCloud rod;
+  rod.Build(FillGrid({-200, -200, -100}, {200, 200, 1300}, 25, [](const Vector3& p_W) {
+    return p_W.head<2>().norm() < 60 && p_W.z() > 0 && p_W.z() < 1200;
+  }));
+  const auto head = FindHead(rod, kAnyHead, SearchRegion{{0, 0, 520}, 50});
+  ASSERT_TRUE(head);
+  for (const int voxel : head->voxels) {
+    EXPECT_LT((rod.voxels()[voxel].center_W - Vector3(0, 0, 520)).norm(), 50 + kAnyHead.reach_mm);
   }
 }
 

@@ -42,12 +42,42 @@ TEST(Figure11, ArmsAreAtTheShouldersAndLegsAtTheHips) {
   }
 }
 
-TEST(Figure11, LimbsThatTouchAreNoFourRegions) {
+// §7.2: "the initial torso will be very long and include much of the legs".
+TEST(Figure10, TorsoIncludesLegsThatAreCloseTogetherUntilTheyPart) {
+  PaperPerson person;
+  BodySizes sizes = person.body.sizes();
+  sizes.thigh_width = sizes.hip_width + 20;
+  person.body.Resize(sizes);
+  Stance closed = kSpread;
+  closed.leg_l = closed.leg_r = {.hip = 0, .spread = 0, .knee = 0};
+  const PoseState truth = person.Pose(closed);
+  const VoxelCloud cloud = person.Cloud(truth);
+  const auto located = LocateBody(cloud);
+  ASSERT_TRUE(located);
+  const int thigh = cloud.IndexAt(person.Place(truth, Point::kThighL));
+  const int calf = cloud.IndexAt(Vector3(person.Place(truth, Point::kFootL) + Vector3(0, 0, 60)));
+  ASSERT_TRUE(thigh >= 0 && calf >= 0);
+  EXPECT_EQ(located->frame.labels[thigh], LabelOf(BodyPart::kTorso));
+  EXPECT_NE(located->frame.labels[calf], LabelOf(BodyPart::kTorso));
+}
+
+TEST(Figure11, LegsThatNeverPartAreNoFourRegions) {
   const PaperPerson person;
   Stance closed = kSpread;
-  closed.leg_l = {.hip = 0, .spread = -6, .knee = 0};
+  closed.leg_l = {.hip = 0, .spread = -7, .knee = 0};
   closed.leg_r = closed.leg_l;
   EXPECT_FALSE(LocateBody(person.Cloud(person.Pose(closed))));
+}
+
+TEST(Figure11, WidthsAreThoseOfTheLabeledVoxels) {
+  const PaperPerson person;
+  const auto located = LocateBody(person.Cloud(person.Pose(kSpread)));
+  ASSERT_TRUE(located);
+  const BodySizes& truth = person.body.sizes();
+  EXPECT_NEAR(located->sizes.torso_width, truth.torso_width, 0.16 * truth.torso_width);
+  EXPECT_NEAR(located->sizes.torso_depth, truth.torso_depth, 0.16 * truth.torso_depth);
+  EXPECT_NEAR(located->sizes.lower_arm_width, truth.lower_arm_width, 25);
+  EXPECT_NEAR(located->sizes.calf_width, truth.calf_width, 50);
 }
 
 TEST(Figure10, TorsoGrowsFromTheNeckDownToWhereTheLegsPart) {

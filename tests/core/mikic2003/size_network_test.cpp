@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace mocap::mikic2003 {
 namespace {
 
@@ -41,6 +43,22 @@ TEST(Figure13, ALongTorsoAndShortLegsComeToTheirProportionsInAFewFrames) {
   EXPECT_NEAR(sizes.torso, truth.torso, 40);
   EXPECT_NEAR(sizes.thigh, truth.thigh, 40);
   EXPECT_NEAR(sizes.calf, truth.calf, 40);
+}
+
+// §8.1: the iterations end when "the sum of body part length changes" is small. A thigh that grows
+// as much as the calf shrinks does not count.
+TEST(Figure13, TheSumOfChangesIsThatOfTheWholeBody) {
+  const BodySizes before = Proportioned(500);
+  BodySizes sizes = before;
+  LengthMeasurements lengths = LengthsOf(before);
+  *lengths.thigh += 30, *lengths.calf -= 30;
+  const double change_mm = SizeNetwork().Update(lengths, sizes);
+  EXPECT_GT(sizes.thigh - before.thigh, 3);
+  EXPECT_LT(change_mm, 1);
+  const auto sum = [](const BodySizes& of) {
+    return of.torso + of.thigh + of.calf + of.upper_arm + of.lower_arm;
+  };
+  EXPECT_NEAR(change_mm, std::abs(sum(sizes) - sum(before)), 1e-9);
 }
 
 // With the leaf of height alone the posterior has a closed form: height = 2.9 torso + noise of
