@@ -232,8 +232,8 @@ TEST_F(MocapdTest, ATakeIsCompletedEverywhereWhenTheStudioStopsAndItsLogSaysSo) 
   EXPECT_EQ(daemon.Wait(), 0);
   EXPECT_EQ(testing::ReadText(asked), "record start walk\nrecord stop\n");
   EXPECT_THAT(daemon.Errors(),
-              AllOf(HasSubstr("stopping on a signal"), HasSubstr("takes/walk: "),
-                    HasSubstr("dropped while recording"), HasSubstr("node left: record stop")));
+              AllOf(HasSubstr("stopping on a signal"), HasSubstr("recorded "),
+                    HasSubstr("takes/walk: "), HasSubstr("node left: record stop")));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "takes" / "walk" / "take.toml"));
 }
 

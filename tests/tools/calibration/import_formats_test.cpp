@@ -72,7 +72,7 @@ TEST_F(ImportTest, ACheckTellsOfLensesThatFoldAndOfLensesWithoutAPose) {
       ImportCameras("pose2sim", Write("c.toml", "[cam1]\n" + std::string(kLens) + kFive),
                     {.lenses_alone = true})
           .cameras;
-  EXPECT_THAT(CheckCameras(cameras, true).at(0).text, HasSubstr("no pose yet"));
+  EXPECT_THAT(CheckCameras(cameras, true).at(0).text, HasSubstr("intrinsics without a pose"));
   cameras[0].X_CW.p = {0, 1000, 3000};
   cameras[0].X_CW.R = ExpRotation({1.8, 0, 0});
   EXPECT_THAT(CheckCameras(cameras, true), IsEmpty());
