@@ -28,12 +28,8 @@ struct Cylinder {
 Cylinder RoundCylinder(const Vector3& anchor_W, const Vector3& axis_W, double length_mm,
                        double radius_mm);
 
-/// A voxel is the torso's if its place may be in the template: about the diagonal of the paper's
-/// voxels of 25 mm [mm].
-inline constexpr double kTorsoRimMm = 40;
-
-/// Returns a torso's template with a round section of its larger width (§6.2), and a rim.
-Cylinder WithRim(const Cylinder& torso);
+/// Returns a torso's template with a round section of its larger width (§6.2), and a rim. [mm]
+Cylinder WithRim(const Cylinder& torso, double rim_mm);
 
 /// Returns those of the voxels that lie in the cylinder.
 VoxelIndices VoxelsInside(const VoxelCloud& cloud, std::span<const int> voxels,

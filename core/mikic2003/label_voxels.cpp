@@ -134,7 +134,7 @@ std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel
 
   const VoxelIndices rest = VoxelsLabeled(frame.labels, kUnlabeled);
   const Cylinder torso = LocateTorso(cloud, body.sizes(), rest, head->neck_W);
-  const VoxelIndices torso_voxels = VoxelsInside(cloud, rest, WithRim(torso));
+  const VoxelIndices torso_voxels = VoxelsInside(cloud, rest, WithRim(torso, cloud.voxel_mm()));
   if (torso_voxels.empty()) return std::nullopt;
   SetLabel(torso_voxels, LabelOf(BodyPart::kTorso), frame.labels);
 

@@ -13,7 +13,7 @@ namespace mocap::mikic2003 {
 /// the prediction; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms
 /// and thighs by templates in the limbs.
 ///
-/// A trunk is no cylinder: the torso gets the voxels up to kTorsoRimMm outside its template, too.
+/// A trunk is no cylinder: the torso gets the voxels up to a voxel outside its template, too.
 /// @param predicted  Fig. 8 (b).
 /// @return  nothing if there is no head or no torso.
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "core/mikic2003/find_head.h"
@@ -243,7 +244,9 @@ std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
   const VoxelIndices rest = VoxelsLabeled(labels, kUnlabeled);
   if (rest.empty()) return std::nullopt;
   const Cylinder torso = GrowTorso(cloud, rest, head->neck_W);
-  SetLabel(VoxelsInside(cloud, rest, WithRim(torso)), LabelOf(BodyPart::kTorso), labels);
+  // A rim that is left would connect the limbs: a voxel that touches the template belongs to it.
+  const double rim_mm = std::numbers::sqrt3 * cloud.voxel_mm();
+  SetLabel(VoxelsInside(cloud, rest, WithRim(torso, rim_mm)), LabelOf(BodyPart::kTorso), labels);
   GrowToTheLegs(cloud, torso, labels);
   MeasureTorso(torso, height_mm, located.sizes);
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mikic2003/cylinder.h"
 #include "tests/core/mikic2003/paper_person.h"
 
 namespace mocap::mikic2003 {
@@ -103,7 +102,7 @@ TEST_F(Figure8, AFootBesideTheOtherCalfStaysWithItsOwnLeg) {
 TEST_F(Figure8, TheTorsoGetsTheRimOutsideItsTemplate) {
   const VoxelCloud cloud = person_.Cloud(truth_);
   BodySizes slim = person_.body.sizes();
-  slim.torso_width -= kTorsoRimMm;
+  slim.torso_width -= cloud.voxel_mm();
   BodyModel body = person_.body;
   body.Resize(slim);
   const auto frame = LabelVoxels(cloud, body, truth_);
