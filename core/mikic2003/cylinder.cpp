@@ -61,7 +61,7 @@ Cylinder RoundCylinder(const Vector3& anchor_W, const Vector3& axis_W, double le
   return {anchor_W, axis_W, axis_W.unitOrthogonal(), length_mm, radius_mm, radius_mm};
 }
 
-Cylinder WithRim(const Cylinder& torso, double rim_mm) {
+Cylinder RoundWithRim(const Cylinder& torso, double rim_mm) {
   Cylinder round = torso;
   round.half_width_mm = std::max(torso.half_width_mm, torso.half_depth_mm) + rim_mm;
   round.half_depth_mm = round.half_width_mm;

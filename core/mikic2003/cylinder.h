@@ -28,8 +28,9 @@ struct Cylinder {
 Cylinder RoundCylinder(const Vector3& anchor_W, const Vector3& axis_W, double length_mm,
                        double radius_mm);
 
-/// Returns a torso's template with a round section of its larger width (§6.2), and a rim. [mm]
-Cylinder WithRim(const Cylinder& torso, double rim_mm);
+/// Returns a round template of the torso's larger width (§6.2), `rim_mm` wider on all sides; its
+/// length stays.
+Cylinder RoundWithRim(const Cylinder& torso, double rim_mm);
 
 /// Returns those of the voxels that lie in the cylinder.
 VoxelIndices VoxelsInside(const VoxelCloud& cloud, std::span<const int> voxels,

@@ -7,6 +7,7 @@ namespace mocap::mikic2003 {
 namespace {
 
 constexpr double kPaperVoxelMm = 25;
+// Share of the most surface voxels in a crust that a head has at least; chosen on simulated people.
 constexpr double kAlmostMost = 0.75;
 
 // Counts the surface voxels in a crust around a cell.
@@ -77,7 +78,8 @@ std::vector<Candidate> CandidatesIn(const VoxelCloud& cloud, const HeadCrust& cr
   return candidates;
 }
 
-// The voxel whose crust holds the most.
+// The voxel whose crust holds the most: near the prediction, or else near the uppermost that could
+// be a head.
 std::optional<int> FindCenter(const VoxelCloud& cloud, const HeadCrust& crust,
                               const std::optional<SearchRegion>& region) {
   const std::vector<Candidate> candidates = CandidatesIn(cloud, crust, region);

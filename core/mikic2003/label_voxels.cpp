@@ -24,7 +24,7 @@ struct Solid {
 
 Solid CylinderBetween(const Vector3& from_W, const Vector3& to_W, double width_mm) {
   const double length_mm = (to_W - from_W).norm();
-  const Vector3 axis_W = (to_W - from_W) / length_mm;
+  const Vector3 axis_W = (to_W - from_W).normalized();
   const double along = length_mm * length_mm / 12;
   const double across = width_mm * width_mm / 16;
   return {length_mm * width_mm * width_mm, (from_W + to_W) / 2,
@@ -33,7 +33,7 @@ Solid CylinderBetween(const Vector3& from_W, const Vector3& to_W, double width_m
 
 Solid Join(const Solid& a, const Solid& b) {
   const double volume = a.volume + b.volume;
-  const double share = b.volume / volume;
+  const double share = volume > 0 ? b.volume / volume : 0.5;
   const Vector3 apart_W = b.mean_W - a.mean_W;
   return {volume, a.mean_W + share * apart_W,
           (1 - share) * a.covariance + share * b.covariance +
@@ -134,7 +134,8 @@ std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel
 
   const VoxelIndices rest = VoxelsLabeled(frame.labels, kUnlabeled);
   const Cylinder torso = LocateTorso(cloud, body.sizes(), rest, head->neck_W);
-  const VoxelIndices torso_voxels = VoxelsInside(cloud, rest, WithRim(torso, cloud.voxel_mm()));
+  const VoxelIndices torso_voxels =
+      VoxelsInside(cloud, rest, RoundWithRim(torso, cloud.voxel_mm()));
   if (torso_voxels.empty()) return std::nullopt;
   SetLabel(torso_voxels, LabelOf(BodyPart::kTorso), frame.labels);
 

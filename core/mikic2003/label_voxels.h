@@ -1,7 +1,9 @@
 // §6.2: labelling of voxels by the predicted body. Fig. 8.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 
 #include "core/body/body_model.h"
 #include "core/mikic2003/measured_points.h"
@@ -13,7 +15,7 @@ namespace mocap::mikic2003 {
 /// the prediction; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms
 /// and thighs by templates in the limbs.
 ///
-/// A trunk is no cylinder: the torso gets the voxels up to a voxel outside its template, too.
+/// A trunk is no cylinder: the torso gets the voxels up to a voxel beside its template, too.
 /// @param predicted  Fig. 8 (b).
 /// @return  nothing if there is no head or no torso.
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
@@ -30,7 +32,7 @@ PoseState MoveToTorso(const BodyModel& body, const PoseState& predicted, const V
 /// Labels each voxel with the limb (0 to 3) with the least Mahalanobis distance. Fig. 8 (e).
 ///
 /// The paper does not say whose covariance. Here a limb has the mean and the covariance of its two
-/// parts as solid cylinders, each with the variance of a voxel's place. The uncertainty of the
+/// parts as solid cylinders, plus the square of a voxel's edge. The uncertainty of the
 /// prediction is left out, because it would give everybody's voxels to a limb that was not seen.
 /// @return  the voxels of each limb.
 std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,

@@ -22,8 +22,8 @@ constexpr double kSmallLimbMm = 60, kSmallLimbRadiusMm = 30;
 // half of a trunk's step, its width would be that of the trunk and both arms; the end of a limb's
 // upper part is rounder.
 constexpr double kTrunkShare = 0.8, kLimbShare = 0.5;
-// Two standard deviations of a trunk's breadth and depth among people of one stature (ANSUR, Gordon
-// et al. 1989).
+// Two standard deviations of a chest's breadth among people of one stature (ANSUR, Gordon et al.
+// 1989).
 constexpr double kTrunkVariation = 0.15;
 // Two pieces of a section are legs if they are of similar size. A hand beside a thigh is smaller.
 constexpr double kSimilar = 0.4;
@@ -195,7 +195,7 @@ VoxelIndices FindLower(const VoxelCloud& cloud, const Labels& labels, const Regi
   return PieceNearest(cloud, rest, upper.End());
 }
 
-void LabelLimb(const VoxelCloud& cloud, const Region& region, int limb, LocatedBody& located) {
+void LocateLimb(const VoxelCloud& cloud, const Region& region, int limb, LocatedBody& located) {
   const Limb& parts = kLimbs[limb];
   const Cylinder upper = GrowUpper(cloud, region, parts);
   SetLabel(VoxelsInside(cloud, region.voxels, upper), LabelOf(parts.upper), located.frame.labels);
@@ -246,7 +246,8 @@ std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
   const Cylinder torso = GrowTorso(cloud, rest, head->neck_W);
   // A rim that is left would connect the limbs: a voxel that touches the template belongs to it.
   const double rim_mm = std::numbers::sqrt3 * cloud.voxel_mm();
-  SetLabel(VoxelsInside(cloud, rest, WithRim(torso, rim_mm)), LabelOf(BodyPart::kTorso), labels);
+  SetLabel(VoxelsInside(cloud, rest, RoundWithRim(torso, rim_mm)), LabelOf(BodyPart::kTorso),
+           labels);
   GrowToTheLegs(cloud, torso, labels);
   MeasureTorso(torso, height_mm, located.sizes);
 
@@ -254,7 +255,7 @@ std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud) {
   if (!limbs) return std::nullopt;
   const Vector3 side_W = SortLimbs(torso, *limbs);
   located.R_WT << side_W.cross(-torso.axis_W), side_W, -torso.axis_W;
-  for (int limb = 0; limb < kLimbCount; ++limb) LabelLimb(cloud, (*limbs)[limb], limb, located);
+  for (int limb = 0; limb < kLimbCount; ++limb) LocateLimb(cloud, (*limbs)[limb], limb, located);
   MeasureLowerLengths(cloud, located);
   MeasureLimbWidths(cloud, labels, located.sizes);
   return located;

@@ -1,4 +1,5 @@
-// §7.1: body parts and their sizes in the first frame, without a prediction. Figs. 10 and 11.
+// §7.1: body parts and their sizes without a prediction: in the first frame, and after loss of
+// track. Figs. 10 and 11.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace mocap::mikic2003 {
 
-/// A body in the first frame. Left and right are not distinguished yet (§7.3).
+/// A body without a prediction. Left and right are not distinguished yet (§7.3).
 struct LocatedBody {
   LabeledFrame frame;
   BodySizes sizes;
@@ -19,7 +20,10 @@ struct LocatedBody {
 };
 
 /// Locates head, torso and limbs. Fig. 11 (b)–(i).
-/// @return  nothing if a part is not found: the next frame is then the first.
+///
+/// What lies between the torso's template and the place where the legs part is labelled as torso.
+/// The trunk's width and depth are bounded by those of people of that height.
+/// @return  nothing if a part is not found.
 std::optional<LocatedBody> LocateBody(const VoxelCloud& cloud);
 
 /// Fits the template of an average torso, then grows a small one there. Fig. 10 (a)–(d).

@@ -19,10 +19,9 @@ namespace {
 
 // §8.1: refinement stops when the sum of the changes of lengths falls below this.
 constexpr double kSettledMm = 3;
-// The paper does not define loss of track. Here a person is lost while the measured points are
-// three voxels of the paper away from the body's, in the mean: 75 to 100 mm is the error that §8.1
-// expects of lengths. Somebody who is lost is located again as in the first frame, and forgotten
-// after a second.
+// The paper does not define loss of track. Here a person is lost while the measured points are so
+// far from the body's in the mean; §8.1 reports lengths that vary by 75 to 100 mm. Somebody who is
+// lost is located again as in the first frame, and forgotten after a second.
 constexpr double kLostResidualMm = 80;
 constexpr double kForgottenAfterS = 1;
 // A child of 1.1 m has about 18 litres of flesh; less is nobody.
@@ -140,7 +139,6 @@ class MikicCapture::Impl {
     const std::optional<LocatedBody> located = LocateBody(cloud_);
     if (!located) return;
     tracked_.emplace(body_, located->R_WT, MeasurePoints(cloud_, located->frame));
-    bad_s_ = 0;
   }
 
   void Report() {

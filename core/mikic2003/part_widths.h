@@ -9,8 +9,8 @@ namespace mocap::mikic2003 {
 
 /// Measures the widths of arms and legs from labelled voxels.
 ///
-/// A width is that of a solid cylinder with the same second moments across its axis. The two
-/// smaller dimensions are averaged (§5.2), and so are left and right.
+/// A width is that of a solid cylinder with the same two smaller principal moments. These are
+/// averaged (§5.2), and so are left and right.
 /// @param sizes  gets the widths of all parts that have enough voxels.
 void MeasureLimbWidths(const VoxelCloud& cloud, const Labels& labels, BodySizes& sizes);
 

@@ -27,7 +27,7 @@ class SizeNetwork {
   /// height, their sum replaces the height: the person does not stand upright. ("Significantly" is
   /// 10 %.)
   /// @param sizes  gets the new lengths.
-  /// @return  the sum of the lengths' changes [mm].
+  /// @return  the amount of the sum of all changes, in which growth and shrinking cancel [mm].
   double Update(LengthMeasurements measured, BodySizes& sizes);
 
  private:

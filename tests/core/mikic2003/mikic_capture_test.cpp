@@ -98,7 +98,20 @@ TEST_F(Figure9, WhoIsLostIsLocatedAgainWithTheSameSizes) {
   }
   EXPECT_TRUE(was_lost);
   EXPECT_EQ(result.state, CaptureState::kTracking);
+  const BodyPoints truth_W = person_.body.PointsAt(person_.body.PostureAt(elsewhere(frame)));
+  EXPECT_LT((result.points_W - truth_W).colwise().norm().mean(), 100);
   EXPECT_EQ(capture_.body().sizes(), settled);
+}
+
+TEST_F(Figure9, WhoNeverFitsIsForgottenAfterASecond) {
+  capture_.Expect(PaperPerson::SizesOf(1000));
+  bool was_lost = false, was_forgotten = false;
+  for (int frame = 0; frame < 30 && !was_forgotten; ++frame) {
+    const CaptureState state = See(frame).state;
+    was_lost = was_lost || state == CaptureState::kLost;
+    was_forgotten = was_lost && state == CaptureState::kSearching;
+  }
+  EXPECT_TRUE(was_forgotten);
 }
 
 TEST_F(Figure9, WhoIsGoneForASecondIsForgotten) {
