@@ -121,13 +121,15 @@ std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,
 }
 
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted) {
+                                        const PoseState& predicted,
+                                        const std::optional<Vector3>& expected_head_W) {
   LabeledFrame frame;
   frame.labels.assign(cloud.size(), kUnlabeled);
-  const Vector3 expected_head_W =
+  const Vector3 predicted_head_W =
       body.PointsAt(body.PostureAt(predicted)).col(static_cast<int>(Point::kHead));
-  const auto head = FindHead(cloud, CrustOf(body.sizes(), cloud.voxel_mm()),
-                             SearchRegion{expected_head_W, kHeadSearchMm});
+  const auto head =
+      FindHead(cloud, CrustOf(body.sizes(), cloud.voxel_mm()),
+               SearchRegion{expected_head_W.value_or(predicted_head_W), kHeadSearchMm});
   if (!head) return std::nullopt;
   SetLabel(head->voxels, LabelOf(BodyPart::kHead), frame.labels);
   frame.neck_W = head->neck_W;

@@ -16,10 +16,12 @@ namespace mocap::mikic2003 {
 /// and thighs by templates in the limbs.
 ///
 /// A trunk is no cylinder: the torso gets the voxels up to a voxel beside its template, too.
-/// @param predicted  Fig. 8 (b).
+/// @param predicted        Fig. 8 (b).
+/// @param expected_head_W  where the head is searched; nothing: where it is predicted.
 /// @return  nothing if there is no head or no torso.
 std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted);
+                                        const PoseState& predicted,
+                                        const std::optional<Vector3>& expected_head_W = {});
 
 /// Moves a predicted body to the measured torso, and keeps its joint angles. Fig. 8 (d).
 ///

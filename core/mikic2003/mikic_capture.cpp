@@ -24,6 +24,9 @@ constexpr double kSettledMm = 3;
 // lost is located again as in the first frame, and forgotten after a second.
 constexpr double kLostResidualMm = 80;
 constexpr double kForgottenAfterS = 1;
+// "Usually several iterations of the extended Kalman filter algorithm are performed in each frame":
+// each labels the voxels by the pose that the one before has found.
+constexpr int kPasses = 3;
 // A child of 1.1 m has about 18 litres of flesh; less is nobody.
 constexpr double kLeastLitres = 12;
 
@@ -97,17 +100,25 @@ class MikicCapture::Impl {
   // Fig. 4, and Fig. 12 while sizes are refined.
   void Follow(bool somebody, double dt_s, UpdateObserver* observer) {
     tracked_->Predict(dt_s);
-    std::optional<LabeledFrame> labeled;
-    if (somebody) {
-      labeled = LabelVoxels(cloud_, body_, tracked_->best().Pose(body_));
-    }
-    if (observer) observer->OnStageEnd(UpdateStage::kLabel);
-    if (labeled) {
+    const OrientedBody predicted = *tracked_;
+    const Vector3 head_W = body_.PointsAt(body_.PostureAt(predicted.best().Pose(body_)))
+                               .col(static_cast<int>(Point::kHead));
+    bool is_labeled = false;
+    for (int pass = 0; somebody && pass < kPasses; ++pass) {
+      const auto labeled = LabelVoxels(cloud_, body_, tracked_->best().Pose(body_), head_W);
+      if (observer) observer->OnStageEnd(UpdateStage::kLabel);
+      if (!labeled) break;
       const MeasuredPoints points = MeasurePoints(cloud_, *labeled);
-      if (result_.state == CaptureState::kAcquiring) RefineSizes(points, labeled->labels);
+      if (!is_labeled && result_.state == CaptureState::kAcquiring)
+        RefineSizes(points, labeled->labels);
+      is_labeled = true;
+      *tracked_ = predicted;
       tracked_->Update(body_, points, result_.state != CaptureState::kAcquiring);
+      if (observer) observer->OnStageEnd(UpdateStage::kFilter);
+      // Labels of the other orientation would have its sides.
+      if (!tracked_->is_decided()) break;
     }
-    NoticeLoss(labeled.has_value(), dt_s);
+    NoticeLoss(is_labeled, dt_s);
     if (somebody && result_.state == CaptureState::kLost) LocateAgain();
   }
 

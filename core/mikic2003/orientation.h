@@ -31,6 +31,8 @@ class OrientedBody {
 
   /// The orientation that fits better so far.
   const PoseEkf& best() const { return filters_[best_]; }
+  /// Whether one orientation has fitted clearly better.
+  bool is_decided() const { return is_decided_; }
   /// Mean distance between measured points and those of best() [mm].
   double residual_mm() const { return residual_mm_; }
 
