@@ -120,28 +120,32 @@ std::array<VoxelIndices, kLimbCount> AssignToLimbs(const VoxelCloud& cloud,
   return limbs;
 }
 
-std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted,
-                                        const std::optional<Vector3>& expected_head_W) {
-  LabeledFrame frame;
-  frame.labels.assign(cloud.size(), kUnlabeled);
-  const Vector3 predicted_head_W =
+std::optional<LabeledTrunk> LabelTrunk(const VoxelCloud& cloud, const BodyModel& body,
+                                       const PoseState& predicted) {
+  const Vector3 expected_head_W =
       body.PointsAt(body.PostureAt(predicted)).col(static_cast<int>(Point::kHead));
-  const auto head =
-      FindHead(cloud, CrustOf(body.sizes(), cloud.voxel_mm()),
-               SearchRegion{expected_head_W.value_or(predicted_head_W), kHeadSearchMm});
+  const auto head = FindHead(cloud, CrustOf(body.sizes(), cloud.voxel_mm()),
+                             SearchRegion{expected_head_W, kHeadSearchMm});
   if (!head) return std::nullopt;
-  SetLabel(head->voxels, LabelOf(BodyPart::kHead), frame.labels);
-  frame.neck_W = head->neck_W;
+  LabeledTrunk trunk;
+  trunk.labels.assign(cloud.size(), kUnlabeled);
+  SetLabel(head->voxels, LabelOf(BodyPart::kHead), trunk.labels);
+  trunk.neck_W = head->neck_W;
 
-  const VoxelIndices rest = VoxelsLabeled(frame.labels, kUnlabeled);
+  const VoxelIndices rest = VoxelsLabeled(trunk.labels, kUnlabeled);
   const Cylinder torso = LocateTorso(cloud, body.sizes(), rest, head->neck_W);
   const VoxelIndices torso_voxels =
       VoxelsInside(cloud, rest, RoundWithRim(torso, cloud.voxel_mm()));
   if (torso_voxels.empty()) return std::nullopt;
-  SetLabel(torso_voxels, LabelOf(BodyPart::kTorso), frame.labels);
+  SetLabel(torso_voxels, LabelOf(BodyPart::kTorso), trunk.labels);
+  trunk.down_W = torso.axis_W;
+  return trunk;
+}
 
-  const PoseState moved = MoveToTorso(body, predicted, head->neck_W, torso.axis_W);
+LabeledFrame LabelLimbs(const VoxelCloud& cloud, const BodyModel& body, const LabeledTrunk& trunk,
+                        const PoseState& predicted) {
+  LabeledFrame frame{.labels = trunk.labels, .neck_W = trunk.neck_W};
+  const PoseState moved = MoveToTorso(body, predicted, trunk.neck_W, trunk.down_W);
   const BodyPoints moved_points_W = body.PointsAt(body.PostureAt(moved));
   const auto limbs = AssignToLimbs(cloud, VoxelsLabeled(frame.labels, kUnlabeled), body, moved);
   for (int limb = 0; limb < kLimbCount; ++limb) {

@@ -11,17 +11,26 @@
 
 namespace mocap::mikic2003 {
 
-/// Labels a frame's voxels. Fig. 8 (c)–(f): first head and torso by their shapes, independent of
-/// the prediction; then the limbs, moved with the torso, by Mahalanobis distance; then upper arms
-/// and thighs by templates in the limbs.
+/// Head and torso of a frame. Fig. 8 (c).
+struct LabeledTrunk {
+  Labels labels;
+  Vector3 neck_W;
+  Vector3 down_W;  ///< The torso's axis, away from the neck; unit length.
+};
+
+/// Labels head and torso by their shapes, independent of the prediction. Fig. 8 (c).
 ///
 /// A trunk is no cylinder: the torso gets the voxels up to a voxel beside its template, too.
-/// @param predicted        Fig. 8 (b).
-/// @param expected_head_W  where the head is searched; nothing: where it is predicted.
+/// @param predicted  where the head is searched.
 /// @return  nothing if there is no head or no torso.
-std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
-                                        const PoseState& predicted,
-                                        const std::optional<Vector3>& expected_head_W = {});
+std::optional<LabeledTrunk> LabelTrunk(const VoxelCloud& cloud, const BodyModel& body,
+                                       const PoseState& predicted);
+
+/// Labels the limbs, moved with the torso, by Mahalanobis distance; then upper arms and thighs by
+/// templates in the limbs. Fig. 8 (d)–(f).
+/// @param predicted  Fig. 8 (b).
+LabeledFrame LabelLimbs(const VoxelCloud& cloud, const BodyModel& body, const LabeledTrunk& trunk,
+                        const PoseState& predicted);
 
 /// Moves a predicted body to the measured torso, and keeps its joint angles. Fig. 8 (d).
 ///

@@ -101,24 +101,22 @@ class MikicCapture::Impl {
   void Follow(bool somebody, double dt_s, UpdateObserver* observer) {
     tracked_->Predict(dt_s);
     const OrientedBody predicted = *tracked_;
-    const Vector3 head_W = body_.PointsAt(body_.PostureAt(predicted.best().Pose(body_)))
-                               .col(static_cast<int>(Point::kHead));
-    bool is_labeled = false;
-    for (int pass = 0; somebody && pass < kPasses; ++pass) {
-      const auto labeled = LabelVoxels(cloud_, body_, tracked_->best().Pose(body_), head_W);
+    std::optional<LabeledTrunk> trunk;
+    if (somebody) trunk = LabelTrunk(cloud_, body_, predicted.best().Pose(body_));
+    if (observer && !trunk) observer->OnStageEnd(UpdateStage::kLabel);
+    for (int pass = 0; trunk && pass < kPasses; ++pass) {
+      const LabeledFrame labeled = LabelLimbs(cloud_, body_, *trunk, tracked_->best().Pose(body_));
+      const MeasuredPoints points = MeasurePoints(cloud_, labeled);
       if (observer) observer->OnStageEnd(UpdateStage::kLabel);
-      if (!labeled) break;
-      const MeasuredPoints points = MeasurePoints(cloud_, *labeled);
-      if (!is_labeled && result_.state == CaptureState::kAcquiring)
-        RefineSizes(points, labeled->labels);
-      is_labeled = true;
+      if (pass == 0 && result_.state == CaptureState::kAcquiring)
+        RefineSizes(points, labeled.labels);
       *tracked_ = predicted;
       tracked_->Update(body_, points, result_.state != CaptureState::kAcquiring);
       if (observer) observer->OnStageEnd(UpdateStage::kFilter);
       // Labels of the other orientation would have its sides.
       if (!tracked_->is_decided()) break;
     }
-    NoticeLoss(is_labeled, dt_s);
+    NoticeLoss(trunk.has_value(), dt_s);
     if (somebody && result_.state == CaptureState::kLost) LocateAgain();
   }
 
@@ -134,8 +132,8 @@ class MikicCapture::Impl {
     acquisition_frames_ = frames_acquiring_;
   }
 
-  void NoticeLoss(bool is_labeled, double dt_s) {
-    const bool is_bad = !is_labeled || tracked_->residual_mm() > kLostResidualMm ||
+  void NoticeLoss(bool has_trunk, double dt_s) {
+    const bool is_bad = !has_trunk || tracked_->residual_mm() > kLostResidualMm ||
                         !tracked_->best().Pose(body_).IsFinite();
     bad_s_ = is_bad ? bad_s_ + dt_s : 0;
     if (bad_s_ >= kForgottenAfterS) {

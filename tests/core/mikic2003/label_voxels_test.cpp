@@ -7,6 +7,13 @@
 namespace mocap::mikic2003 {
 namespace {
 
+std::optional<LabeledFrame> LabelVoxels(const VoxelCloud& cloud, const BodyModel& body,
+                                        const PoseState& predicted) {
+  const auto trunk = LabelTrunk(cloud, body, predicted);
+  if (!trunk) return std::nullopt;
+  return LabelLimbs(cloud, body, *trunk, predicted);
+}
+
 class Figure8 : public ::testing::Test {
  protected:
   /// The share of the limbs' voxels whose label is that of the nearest part's axis.
