@@ -17,12 +17,9 @@
 #include <vector>
 
 #include "config/open_studio.h"
-#include "core/errors.h"
 #include "daemon/control/control_socket.h"
-#include "daemon/messages/pose_publisher.h"
 #include "tests/daemon/daemon_program.h"
-#include "tests/support/small_take.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/daemon/mocapd_fixture.h"
 
 namespace mocap {
 namespace {
@@ -31,25 +28,10 @@ using ::testing::AllOf;
 using testing::Daemon;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using testing::MocapdTest;
 using testing::SmallTake;
 using ::testing::StartsWith;
-using testing::TemporaryFolder;
-
-/// Nobody comes: there is next to nothing to compute, so that even a slow machine keeps up.
-void WriteEmptyTake(const std::filesystem::path& folder, const SmallTake& take = {}) {
-  constexpr int kBackgroundFrames = 10;
-  const Image<Bgr> room = testing::SmallPicture(take, 0, 0);
-  TakeWriter writer(folder, testing::SmallDescription(take));
-  for (int camera = 0; camera < take.cameras; ++camera) {
-    for (int frame = 0; frame < kBackgroundFrames; ++frame) {
-      writer.WriteBackground(camera, room.view(), take.TimeNs(camera, frame), {});
-    }
-    for (int frame = 0; frame < take.frames; ++frame) {
-      writer.WriteFrame(camera, room.view(), take.TimeNs(camera, frame), {});
-    }
-  }
-  writer.Finish();
-}
+using testing::WriteEmptyTake;
 
 /// Collects what the daemon says.
 class Listener {
@@ -72,32 +54,6 @@ class Listener {
   }
   void OnStatus(const lcm::ReceiveBuffer*, const std::string&, const status_t* message) {
     statuses.push_back(*message);
-  }
-};
-
-class MocapdTest : public ::testing::Test {
- protected:
-  /// A port of this process's own, so that tests at the same time do not hear each other.
-  const std::string url_ =
-      "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 40000) + "?ttl=0";
-  TemporaryFolder folder_;
-  const std::filesystem::path log_ = folder_.path() / "errors";
-
-  std::string WriteConfig(const std::string& source, const std::string& more = "",
-                          const std::string& top = "") {
-    const std::filesystem::path file = folder_.path() / "mocapd.toml";
-    testing::WriteText(file, top + "[source]\n" + source + "[lcm]\nurl = \"" + url_ +
-                                 "\"\nprefix = \"T_\"\n" + more);
-    return file;
-  }
-  /// Null, with the reason, where LCM has no way out.
-  std::unique_ptr<lcm::LCM> Open(std::string& reason) {
-    try {
-      return OpenLcm(url_);
-    } catch (const SetupError& error) {
-      reason = error.what();
-      return nullptr;
-    }
   }
 };
 
@@ -334,84 +290,6 @@ TEST_F(MocapdTest, RunsWithoutStandardFiles) {
   const int status = std::system((command + " <&- >&- 2>&-").c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
-}
-
-TEST_F(MocapdTest, WhatTheStartRefusesTheCheckRefusesWithTheSameWords) {
-  WriteEmptyTake(folder_.path() / "take");
-  testing::WriteText(folder_.path() / "file", "x");
-  const std::string take = "driver = \"take\"\ntake = \"take\"\n";
-  const std::pair<std::string, std::string> wrong[] = {
-      {"driver = \"simulated\"\ncameras = 65\nwidth = 32\nheight = 32\n", ""},
-      {take, "[realtime]\nprocessors = [1023]\n"},
-      {take, "[metrics]\nfile = \"m.txt\"\n"},
-      {take, "[metrics]\nfile = \"nowhere/m.prom\"\n"},
-      {take, "[recording]\nfolder = \"file/takes\"\n"},
-      {take, "[control]\nsocket = \"file\"\n"},
-      {take, "[control]\nsocket = \"file/control\"\n"},
-      {take, "[control]\nsocket = \"" + std::string(200, 'x') + "\"\n"}};
-  for (const auto& [source, more] : wrong) {
-    const std::string config = WriteConfig(source, more);
-    Daemon start({"--config", config}, log_);
-    EXPECT_EQ(start.Wait(), 2) << source << more;
-    const std::string said = start.Errors();
-    Daemon check({"--config", config, "--check-config"}, log_);
-    EXPECT_EQ(check.Wait(), 2) << source << more;
-    EXPECT_THAT(said, HasSubstr(check.Errors())) << source << more;
-  }
-  for (const char* url : {"udpm://192.168.1.5:7667", "udpm://239.255.76.67:7667?ttl=300",
-                          "tcpq://127.0.0.1:9", "file:///nowhere/x?mode=w", "file:///tmp/x"}) {
-    const std::string config = folder_.path() / "url.toml";
-    testing::WriteText(config, "[source]\n" + take + "[lcm]\nurl = \"" + url + "\"\n");
-    EXPECT_EQ(Daemon({"--config", config}, log_).Wait(), 2) << url;
-    EXPECT_EQ(Daemon({"--config", config, "--check-config"}, log_).Wait(), 2) << url;
-  }
-}
-
-TEST_F(MocapdTest, AMisspeltProgramThatAsksANodeIsRefused) {
-  const std::string config = folder_.path() / "studio.toml";
-  const std::string missing = folder_.path() / "ssh";
-  for (const std::string& program : {std::string("shh"), missing, folder_.path().string()}) {
-    testing::WriteText(config,
-                       "role = \"studio\"\ncalibration = \"c.toml\"\n[source]\ndriver = \"none\"\n"
-                       "fps = 60\n[lcm]\nurl = \"memq://\"\n[[nodes]]\nname = \"left\"\n"
-                       "cameras = [\"cam1\"]\ncontrol = [\"" +
-                           program + "\", \"left\"]\n");
-    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--check-config"}}) {
-      std::vector<std::string> arguments = {"--config", config};
-      arguments.insert(arguments.end(), more.begin(), more.end());
-      Daemon daemon(arguments, log_);
-      EXPECT_EQ(daemon.Wait(), 2);
-      EXPECT_THAT(daemon.Errors(), AllOf(HasSubstr("control of the node \"left\""),
-                                         HasSubstr("which is no program here")));
-    }
-  }
-}
-
-TEST_F(MocapdTest, CheckConfigLeavesNothing) {
-  WriteEmptyTake(folder_.path() / "take");
-  const std::string config = folder_.path() / "mocapd.toml";
-  testing::WriteText(config,
-                     "[source]\ndriver = \"take\"\ntake = \"take\"\n[lcm]\nurl = \"file://" +
-                         (folder_.path() / "log.lcm").string() +
-                         "?mode=w\"\n[recording]\nfolder = \"takes\"\n[metrics]\nfile = "
-                         "\"m.prom\"\n[control]\nsocket = \"run/control\"\n");
-  Daemon check({"--config", config, "--check-config"}, log_);
-  EXPECT_EQ(check.Wait(), 0) << check.Errors();
-  std::vector<std::string> there;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-    there.push_back(entry.path().filename());
-  }
-  EXPECT_THAT(there, ::testing::UnorderedElementsAre("take", "mocapd.toml", "errors"));
-}
-
-TEST_F(MocapdTest, CheckConfigAcceptsWhatCanBeUsedAndSaysWhatIsDoubtful) {
-  WriteEmptyTake(folder_.path() / "take");
-  const std::string config = WriteConfig("driver = \"take\"\ntake = \"take\"\n");
-  Daemon check({"--config", config, "--check-config"}, log_);
-  EXPECT_EQ(check.Wait(), 0);
-  EXPECT_THAT(check.Errors(), HasSubstr("mocapd: warning: "));
-  EXPECT_THAT(check.Errors(), HasSubstr("calibration.toml: all cameras hang below the floor"));
-  EXPECT_EQ(Daemon({"--check-config"}, log_).Wait(), 0) << "the simulated studio";
 }
 
 }  // namespace
