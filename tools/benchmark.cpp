@@ -19,6 +19,7 @@
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/paper_report.h"
 #include "tools/accuracy/sweep_plan.h"
 #include "tools/accuracy/variety_trial.h"
 
@@ -26,18 +27,20 @@ namespace mocap {
 namespace {
 
 // Defaults of a part.
-constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2;
+constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2, kPaperSeconds = 4;
 constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200;
 const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
                                            "step", "lie", "stand", "gesture"};
 const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
 const std::vector<std::string> kSweepMotions = {"walk", "dance", "sit"};
+const std::vector<std::string> kPaperMotions = {"walk", "run", "dance", "sit", "step", "jump"};
+const std::vector<double> kStatures_mm = {1150, 1550, 1950}, kPaperStatures_mm = {1300, 1750, 1880};
 
 struct BenchmarkOptions {
   std::filesystem::path out;
-  double seconds = 0;  ///< 0: the part's default below; also if motions or seeds are empty.
+  double seconds = 0;  ///< 0: the part's default above; also if others are empty or 0.
   std::vector<std::string> motions;
-  std::vector<double> statures_mm = {1150, 1550, 1950};
+  std::vector<double> statures_mm;
   int seeds = 0;
   std::vector<std::string> parts = {"grid",        "cameras", "voxels", "covered",
                                     "calibration", "mishap",  "tracker"};
@@ -45,12 +48,16 @@ struct BenchmarkOptions {
   std::vector<std::string> MotionsOr(const std::vector<std::string>& usual) const {
     return motions.empty() ? usual : motions;
   }
+  std::vector<double> StaturesOr(const std::vector<double>& usual) const {
+    return statures_mm.empty() ? usual : statures_mm;
+  }
   double SecondsOr(double usual) const { return seconds > 0 ? seconds : usual; }
   int SeedsOr(int usual) const { return seeds > 0 ? seeds : usual; }
 };
 
 // Each takes as long as all others together or longer, so they run only on request.
-const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio";
+const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio",
+                  kPaperPart = "paper";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
@@ -75,19 +82,44 @@ struct TakeGrid {
   double seconds = 0;  ///< Length of a take.
 };
 
-std::vector<AccuracyRow> RunGrid(const TakeGrid& grid, const AccuracyTrial& usual) {
-  std::vector<AccuracyRow> rows;
+/// The studio of each take; what the grid does not say is as usual.
+std::vector<SimulatedStudioOptions> StudiosOf(const TakeGrid& grid,
+                                              const SimulatedStudioOptions& usual) {
+  std::vector<SimulatedStudioOptions> studios;
   for (const std::string& motion : grid.motions) {
     for (const double stature_mm : grid.statures_mm) {
       for (int seed = 1; seed <= grid.seeds; ++seed) {
-        AccuracyTrial trial = usual;
-        trial.studio.motion = motion;
-        trial.studio.stature_mm = stature_mm;
-        trial.studio.seed = static_cast<std::uint64_t>(seed);
-        trial.studio.seconds = grid.seconds;
-        rows.push_back(MeasureAndPrint(trial));
+        SimulatedStudioOptions& studio = studios.emplace_back(usual);
+        studio.motion = motion;
+        studio.stature_mm = stature_mm;
+        studio.seed = static_cast<std::uint64_t>(seed);
+        studio.seconds = grid.seconds;
       }
     }
+  }
+  return studios;
+}
+
+std::vector<AccuracyRow> RunGrid(const TakeGrid& grid, const AccuracyTrial& usual) {
+  std::vector<AccuracyRow> rows;
+  for (const SimulatedStudioOptions& studio : StudiosOf(grid, usual.studio)) {
+    AccuracyTrial trial = usual;
+    trial.studio = studio;
+    rows.push_back(MeasureAndPrint(trial));
+  }
+  return rows;
+}
+
+std::vector<PaperRow> RunPaper(const BenchmarkOptions& options) {
+  const TakeGrid grid{.motions = options.MotionsOr(kPaperMotions),
+                      .statures_mm = options.StaturesOr(kPaperStatures_mm),
+                      .seeds = options.SeedsOr(kSeeds),
+                      .seconds = options.SecondsOr(kPaperSeconds)};
+  std::vector<PaperRow> rows;
+  PrintNow(PaperHeader());
+  for (const SimulatedStudioOptions& studio : StudiosOf(grid, RecordedSimulation())) {
+    rows.push_back(RunPaperTrial(studio));
+    PrintNow(PaperLine(rows.back()));
   }
   return rows;
 }
@@ -127,7 +159,7 @@ std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
 
 bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
   return std::ranges::any_of(options.parts, [](const std::string& part) {
-    return part != kPeoplePart && part != kVarietyPart;
+    return part != kPeoplePart && part != kVarietyPart && part != kPaperPart;
   });
 }
 
@@ -156,7 +188,7 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
 
 AccuracySweep RunStudios(const BenchmarkOptions& options) {
   return RunSweep(PlannedStudios(), {.motions = options.MotionsOr(kSweepMotions),
-                                     .statures_mm = options.statures_mm,
+                                     .statures_mm = options.StaturesOr(kStatures_mm),
                                      .seeds = options.SeedsOr(kStudioSeeds),
                                      .seconds = options.SecondsOr(kStudioSeconds)});
 }
@@ -179,7 +211,7 @@ void RunBenchmark(const BenchmarkOptions& options) {
   if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
   if (Wants(options, "grid")) {
     benchmark.grid = RunGrid({.motions = options.MotionsOr(kMotions),
-                              .statures_mm = options.statures_mm,
+                              .statures_mm = options.StaturesOr(kStatures_mm),
                               .seeds = options.SeedsOr(kSeeds),
                               .seconds = options.SecondsOr(kSeconds)},
                              {});
@@ -196,8 +228,15 @@ void RunBenchmark(const BenchmarkOptions& options) {
   }
   std::vector<VarietyGrid> variety;
   if (Wants(options, kVarietyPart)) variety = RunVariety(options);
+  std::vector<PaperRow> paper;
+  if (Wants(options, kPaperPart)) {
+    paper = RunPaper(options);
+    PrintNow(PaperTables(paper));
+  }
   if (options.out.empty()) return;
-  ReplaceText(options.out / "accuracy.md", AccuracyMarkdown(benchmark) + VarietyMarkdown(variety));
+  ReplaceText(options.out / "accuracy.md",
+              AccuracyMarkdown(benchmark) + VarietyMarkdown(variety) +
+                  PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)));
   if (!benchmark.sweeps.empty()) {
     ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
   }
@@ -212,18 +251,22 @@ void AddBenchmarkCommand(CLI::App& app) {
   command
       ->add_option(
           "--seconds", options->seconds,
-          fmt::format("length of each take [s] (default: {}; several people: {}; studio: {})",
-                      kSeconds, kPeopleSeconds, kStudioSeconds))
+          fmt::format(
+              "length of each take [s] (default: {}; several people: {}; studio: {}; paper: {})",
+              kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds))
       ->check(NumberFrom(1, 600));
   command
       ->add_option("--motions", options->motions,
-                   fmt::format("motions of the people (default: {}; several people: {})",
-                               fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ",")))
+                   fmt::format("motions of the people (default: {}; several people: {}; paper: {})",
+                               fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ","),
+                               fmt::join(kPaperMotions, ",")))
       ->delimiter(',');
-  command->add_option("--statures", options->statures_mm, "statures of the people [mm]")
+  command
+      ->add_option("--statures", options->statures_mm,
+                   fmt::format("statures of the people [mm] (default: {}; paper: {})",
+                               fmt::join(kStatures_mm, ","), fmt::join(kPaperStatures_mm, ",")))
       ->delimiter(',')
-      ->check(NumberFrom(1000, 2100))
-      ->capture_default_str();
+      ->check(NumberFrom(1000, 2100));
   command
       ->add_option(
           "--seeds", options->seeds,
@@ -232,12 +275,12 @@ void AddBenchmarkCommand(CLI::App& app) {
                       kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople))
       ->check(NumberFrom(1, 1000));
   std::vector<std::string> parts = options->parts;
-  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart});
+  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart, kPaperPart});
   command
       ->add_option("--parts", options->parts,
                    "parts to run; people (two to four at once), variety (of builds, hair, clothes "
-                   "and loads) and studio (number, place and pictures of the cameras) run only on "
-                   "request")
+                   "and loads), studio (number, place and pictures of the cameras) and paper (its "
+                   "tracker, with truth in place of stages) run only on request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();
