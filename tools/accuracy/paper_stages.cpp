@@ -15,7 +15,6 @@ using mikic2003::OrientedBody;
 constexpr int kPasses = 3;
 constexpr double kLostResidualMm = 80;
 constexpr double kForgottenAfterS = 1;
-constexpr double kLeastLitres = 12;
 
 // What truly belongs to the trunk, though its templates missed it, stays unlabelled.
 LabeledFrame LabelTrueParts(const VoxelCloud& cloud, const LabeledTrunk& trunk,
@@ -40,12 +39,11 @@ void PaperStages::Start(const BodyModel& body, const OrientedBody& first) {
 
 void PaperStages::Follow(const VoxelGrid& flesh, double dt_s, const TrueParts* true_parts) {
   cloud_.Build(flesh);
-  const bool somebody = cloud_.volume_litres() >= kLeastLitres;
   auto& [body, tracked] = *person_;
   tracked.Predict(dt_s);
   const OrientedBody predicted = tracked;
-  std::optional<LabeledTrunk> trunk;
-  if (somebody) trunk = mikic2003::LabelTrunk(cloud_, body, predicted.best().Pose(body));
+  const std::optional<LabeledTrunk> trunk =
+      mikic2003::LabelTrunk(cloud_, body, predicted.best().Pose(body));
   for (int pass = 0; trunk && pass < kPasses; ++pass) {
     const LabeledFrame labeled = true_parts
                                      ? LabelTrueParts(cloud_, *trunk, *true_parts)
@@ -55,7 +53,7 @@ void PaperStages::Follow(const VoxelGrid& flesh, double dt_s, const TrueParts* t
     if (!tracked.is_decided()) break;
   }
   NoticeLoss(trunk.has_value(), dt_s);
-  if (somebody && person_ && is_bad_) LocateAgain();
+  if (person_ && is_bad_) LocateAgain();
 }
 
 void PaperStages::NoticeLoss(bool has_trunk, double dt_s) {

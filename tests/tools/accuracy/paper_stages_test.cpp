@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/mikic2003/locate_body.h"
 #include "core/mikic2003/measured_points.h"
@@ -38,14 +39,26 @@ class PaperStagesTest : public ::testing::Test {
     nothing.Reset({0, 0, 0}, {0, 0, 0}, 25);
     return nothing;
   }
-  /// Locates the person as the tracker does.
-  void StartAsPublished(const VoxelGrid& flesh) {
+  /// Locates a person of known sizes as the tracker does.
+  void StartAsPublished(const VoxelGrid& flesh, const BodyModel& body) {
     VoxelCloud cloud;
     cloud.Build(flesh);
     const auto located = mikic2003::LocateBody(cloud);
     if (!located) return;
-    stages_.Start(person_.body,
-                  {person_.body, located->R_WT, MeasurePoints(cloud, located->frame)});
+    stages_.Start(body, {body, located->R_WT, MeasurePoints(cloud, located->frame)});
+  }
+  /// Follows the person as the tracker does, and expects the same of both.
+  void FollowAsPublished(const VoxelGrid& flesh, int frame, const BodyModel& body,
+                         mikic2003::MikicCapture& capture) {
+    const CaptureResult& published =
+        capture.Update({flesh, {}}, std::llround(frame * kPeriodS * 1e9), nullptr);
+    stages_.has_started() ? stages_.Follow(flesh, kPeriodS, nullptr)
+                          : StartAsPublished(flesh, body);
+    ASSERT_EQ(stages_.has_started(), published.state != CaptureState::kSearching) << frame;
+    EXPECT_EQ(stages_.is_tracked(), published.state == CaptureState::kTracking) << frame;
+    if (stages_.has_started()) {
+      EXPECT_EQ(stages_.points_W(), published.points_W) << frame;
+    }
   }
   double ErrorAt(int frame) const {
     const BodyPoints truth_W = person_.body.PointsAt(person_.body.PostureAt(Truth(frame)));
@@ -61,21 +74,32 @@ TEST_F(PaperStagesTest, WithoutTruthAreThoseOfTheTracker) {
   capture.Expect(person_.body.sizes());
   bool was_lost = false, was_forgotten = false;
   for (int frame = 0; frame < kEnd; ++frame) {
-    const VoxelGrid flesh = See(frame);
-    const CaptureResult& published =
-        capture.Update({flesh, {}}, std::llround(frame * kPeriodS * 1e9), nullptr);
-    stages_.has_started() ? stages_.Follow(flesh, kPeriodS, nullptr) : StartAsPublished(flesh);
-    ASSERT_EQ(stages_.has_started(), published.state != CaptureState::kSearching) << frame;
-    EXPECT_EQ(stages_.is_tracked(), published.state == CaptureState::kTracking) << frame;
-    if (stages_.has_started()) {
-      EXPECT_EQ(stages_.points_W(), published.points_W) << frame;
-    }
-    was_lost = was_lost || (published.state == CaptureState::kLost && frame < kGone);
+    FollowAsPublished(See(frame), frame, person_.body, capture);
+    was_lost = was_lost || (frame < kGone && !stages_.is_tracked());
     was_forgotten = was_forgotten || !stages_.has_started();
   }
   EXPECT_TRUE(was_lost);
   EXPECT_TRUE(was_forgotten);
   EXPECT_TRUE(stages_.is_tracked());
+}
+
+TEST_F(PaperStagesTest, AreLostAtTheSameDistance) {
+  std::vector<VoxelGrid> seen;
+  for (int frame = 0; frame < kLeap; ++frame) seen.push_back(See(frame));
+  int tracked = 0, lost = 0;
+  // The worse the sizes, the larger the distance.
+  for (int stature_mm = 1000; stature_mm < 1500; stature_mm += 50) {
+    const BodyModel body(person_.body.table(), PaperPerson::SizesOf(stature_mm));
+    mikic2003::MikicCapture capture(body.table());
+    capture.Expect(body.sizes());
+    stages_ = {};
+    for (int frame = 0; frame < kLeap; ++frame) {
+      FollowAsPublished(seen[frame], frame, body, capture);
+      stages_.is_tracked() ? ++tracked : ++lost;
+    }
+  }
+  EXPECT_GT(tracked, 0);
+  EXPECT_GT(lost, 0);
 }
 
 TEST_F(PaperStagesTest, TruePartsAreFoundWhereThePredictionMissesThem) {

@@ -70,5 +70,18 @@ TEST(TrueParts, TouchingLimbsKeepTheirOwnVoxels) {
   }
 }
 
+TEST(TrueParts, WhatLiesBesideAThinPartBelongsToTheThickOne) {
+  const PaperPerson person(kStatureMm);
+  Stance hanging;
+  hanging.arm_l = hanging.arm_r = {.raise = -88, .elbow = 5};
+  const PoseState pose = person.Pose(hanging);
+  const TrueSubject truth = TruthOf(person, pose);
+  const Vector3 arm_W = (truth.At(Point::kShoulderL) + truth.At(Point::kElbowL)) / 2;
+  const Vector3 right_W = -pose.X_WT.R.col(1);
+  // The bone of the arm, of a radius of 51 mm, is nearer than that of the torso's side.
+  EXPECT_EQ(TrueParts(truth).PartAt(arm_W + 30 * right_W), BodyPart::kUpperArmL);
+  EXPECT_EQ(TrueParts(truth).PartAt(arm_W + 65 * right_W), BodyPart::kTorso);
+}
+
 }  // namespace
 }  // namespace mocap
