@@ -1,7 +1,7 @@
 #include "tools/accuracy/paper_trial.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "config/config.h"
 #include "config/load_config.h"
