@@ -78,14 +78,13 @@ std::vector<Candidate> CandidatesIn(const VoxelCloud& cloud, const HeadCrust& cr
   return candidates;
 }
 
-// The voxel whose crust holds the most: near the prediction, or else near the uppermost that could
-// be a head.
+// The voxel whose crust holds the most, near the uppermost that could be a head: the waist of a
+// child fills a crust as well.
 std::optional<int> FindCenter(const VoxelCloud& cloud, const HeadCrust& crust,
                               const std::optional<SearchRegion>& region) {
   const std::vector<Candidate> candidates = CandidatesIn(cloud, crust, region);
   const auto most = std::ranges::max_element(candidates, {}, &Candidate::count);
   if (most == candidates.end() || most->count == 0) return std::nullopt;
-  if (region) return most->voxel;
   const auto height = [&](const Candidate& at) { return cloud.voxels()[at.voxel].center_W.z(); };
   const auto first = std::ranges::find_if(candidates, [&](const Candidate& at) {
     return static_cast<double>(at.count) >= kAlmostMost * static_cast<double>(most->count);

@@ -45,10 +45,10 @@ struct HeadFit {
 ///
 /// The paper does not say which positions are tried. Here they are the voxels inside the body; of
 /// two equally good ones, the upper wins. Of voxels finer than 25 mm (the paper's) only a part is
-/// tried. A child's waist fills the crust of any head as well as the head does. So in the whole
-/// volume, the uppermost place whose crust holds three quarters of the most shows where the head
-/// is, and the best place down to an inner radius below it wins. Pieces outside the sphere that are
-/// connected with the head alone, and are smaller, are hair, not neck.
+/// tried. A child's waist fills the crust as well as the head does. So the uppermost place whose
+/// crust holds three quarters of the most shows where the head is, and the best place down to an
+/// inner radius below it wins. Pieces outside the sphere that are connected with the head alone,
+/// and are smaller, are hair, not neck.
 /// @param region  nothing: the whole volume is searched.
 /// @return  nothing if no voxel lies inside the body there.
 std::optional<HeadFit> FindHead(const VoxelCloud& cloud, const HeadCrust& crust,

@@ -27,6 +27,23 @@ TEST(Figure6, AChildsHeadIsFoundAboveTheWaist) {
   EXPECT_LT((head->center_W - child.Place(pose, Point::kHead)).norm(), 60);
 }
 
+// The ball fills the crust; the longer head above it does not.
+TEST(Figure6, TheUpperOfTwoLikelyHeadsIsTheHead) {
+  const Vector3 head_W(0, 0, 400), ball_W(0, 0, 100);
+  VoxelCloud both;
+  both.Build(FillGrid({-200, -200, -100}, {200, 200, 600}, 25, [&](const Vector3& p_W) {
+    const Vector3 from_head = p_W - head_W;
+    return (p_W - ball_W).norm() < 90 ||
+           Vector3(from_head.x(), from_head.y(), 0.78 * from_head.z()).norm() < 85;
+  }));
+  for (const std::optional<SearchRegion>& region :
+       {std::optional<SearchRegion>(), {SearchRegion{ball_W, 400}}}) {
+    const auto head = FindHead(both, kAnyHead, region);
+    ASSERT_TRUE(head);
+    EXPECT_LT((head->center_W - head_W).norm(), 60);
+  }
+}
+
 // The sphere cuts a rod of 1.2 m into three pieces; hair would be a smaller one.
 TEST(Figure6, WhatIsLargerThanTheHeadIsNoHair) {
   VoxelCloud rod;
