@@ -69,6 +69,10 @@ TakeDescription Describe(const SimulateOptions& options,
     if (options.studio.people > 1)
       description.notes.emplace_back("people", std::to_string(options.studio.people));
     description.notes.emplace_back("stature_mm", Text(options.studio.stature_mm));
+    if (options.studio.contrast > 0)
+      description.notes.emplace_back("contrast", Text(options.studio.contrast));
+    if (options.studio.misled_share > 0)
+      description.notes.emplace_back("misled", Text(options.studio.misled_share));
   }
   description.notes.emplace_back("seed", std::to_string(options.studio.seed));
   return description;
@@ -205,6 +209,22 @@ void Simulate(const SimulateOptions& options) {
              static_cast<double>(BytesIn(options.out)) / 1e6, Printable(options.out.string()));
 }
 
+// What makes people hard to see. Nobody is there with a board.
+void AddEvidenceOptions(CLI::App& command, CLI::Option& board, SimulatedStudioOptions& studio) {
+  command
+      .add_option("--contrast", studio.contrast,
+                  "let clothes differ from wall and floor behind them by at most this many of 256 "
+                  "grey values, in every picture")
+      ->check(NumberFrom(5, 100))
+      ->excludes(&board);
+  command
+      .add_option("--misled", studio.misled_share,
+                  "share of the cameras that are misled, rounded up: to each, either shirts or "
+                  "trousers look exactly like the empty room")
+      ->check(NumberFrom(0, 1))
+      ->excludes(&board);
+}
+
 }  // namespace
 
 void AddSimulateCommand(CLI::App& app) {
@@ -255,15 +275,17 @@ void AddSimulateCommand(CLI::App& app) {
       ->add_option("--seed", options->studio.seed,
                    "random seed for people, clothes, room, intrinsics and paths")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--board", options->board,
-          "show a chessboard (8x5 inner corners, 100 mm squares) at this place instead of people")
-      ->check(OneOf(BoardPlaceNames()));
+  CLI::Option* const board =
+      command
+          ->add_option("--board", options->board,
+                       "show a chessboard (8x5 inner corners, 100 mm squares) at this place "
+                       "instead of people")
+          ->check(OneOf(BoardPlaceNames()));
   command
       ->add_option("--desk", options->desk,
                    "position number of the desk, for --board desk; pan-tilt heads scan around it")
       ->capture_default_str();
+  AddEvidenceOptions(*command, *board, options->studio);
   command->callback([options] { Simulate(*options); });
 }
 

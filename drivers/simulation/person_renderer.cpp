@@ -24,6 +24,14 @@ float Shade(const Vector3f& n_W) {
   return 0.42f + 0.14f * n_W.z() * inverse + 0.34f * a + 0.26f * b;
 }
 
+bool IsCloth(Material material) { return material != kSkin && material != kHair; }
+
+bool IsHidden(Material material, HiddenClothes hidden) {
+  const bool is_shirt = material == kShirt || material == kStripe;
+  return (hidden == HiddenClothes::kShirts && is_shirt) ||
+         (hidden == HiddenClothes::kTrousers && material == kTrousers);
+}
+
 std::uint8_t Byte(float v) { return static_cast<std::uint8_t>(std::min(v + 0.5f, 255.0f)); }
 
 // Rounds up without calling the library's function.
@@ -62,9 +70,10 @@ void Include(PixelBox& box, const PixelBox& other) {
 
 }  // namespace
 
-PersonRenderer::PersonRenderer(const CameraCalibration& camera)
+PersonRenderer::PersonRenderer(const CameraCalibration& camera, const FigureStyle& style)
     : width_px_(camera.width_px),
       height_px_(camera.height_px),
+      hidden_(style.hidden),
       lens_(std::get<TsaiLens>(camera.lens)),
       fx_(static_cast<float>(lens_.focal_mm * lens_.sx / lens_.pitch_mm.x())),
       fy_(static_cast<float>(lens_.focal_mm / lens_.pitch_mm.y())),
@@ -74,6 +83,7 @@ PersonRenderer::PersonRenderer(const CameraCalibration& camera)
       nearness_(width_px_, height_px_),
       shades_(width_px_, height_px_),
       figures_(width_px_, height_px_) {
+  if (style.contrast > 0) low_contrast_.emplace(style.contrast);
   // g = rd / ru solves g (1 + q g²) = 1 with q = κ1 ru²: Newton's method from above.
   shrink_.reserve(kShrinkSteps + 2);
   double g = 1;
@@ -131,6 +141,7 @@ void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BoneP
       std::copy_n(view.image.row(y) + dirty_.x0, dirty_.x1 - dirty_.x0, canvas.row(y) + dirty_.x0);
   } else {
     canvas = view.image;
+    if (low_contrast_) low_contrast_->SetView(view.image);
   }
   for (int y = people_.y0; y < people_.y1; ++y)
     std::fill_n(figures_.row(y) + people_.x0, people_.x1 - people_.x0, std::uint8_t{0});
@@ -155,7 +166,7 @@ void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BoneP
     for (const PersonMesh::Triangle& t : figures[i].mesh.triangles)
       DrawTriangle(screens_[i][t.v[0]], screens_[i][t.v[1]], screens_[i][t.v[2]],
                    FigurePixel::Of(i, t.material));
-  Compose(figures, canvas);
+  Compose(figures, view.image, canvas);
   SoftenEdges(canvas);
   Include(dirty_, people_);
 }
@@ -242,7 +253,8 @@ void PersonRenderer::DrawTriangle(const ScreenVertex& a, const ScreenVertex& b,
   }
 }
 
-void PersonRenderer::Compose(std::span<const Figure> figures, Image<Bgr>& canvas) {
+void PersonRenderer::Compose(std::span<const Figure> figures, const Image<Bgr>& empty,
+                             Image<Bgr>& canvas) {
   for (int y = people_.y0; y < people_.y1; ++y)
     for (int x = people_.x0; x < people_.x1; ++x) {
       const std::uint8_t pixel = figures_(x, y);
@@ -250,11 +262,17 @@ void PersonRenderer::Compose(std::span<const Figure> figures, Image<Bgr>& canvas
         while (x + kBytes < people_.x1 && FlagsOf(figures_.row(y) + x + 1) == 0) x += kBytes;
         continue;
       }
-      const Bgr color =
-          figures[FigurePixel::FigureOf(pixel)].outfit.colors[FigurePixel::MaterialOf(pixel)];
+      const Material material = FigurePixel::MaterialOf(pixel);
       const float shade = shades_(x, y);
-      canvas(x, y) = {Byte(float(color.b) * shade), Byte(float(color.g) * shade),
-                      Byte(float(color.r) * shade)};
+      if (IsHidden(material, hidden_)) {
+        canvas(x, y) = empty(x, y);
+      } else if (low_contrast_ && IsCloth(material)) {
+        canvas(x, y) = low_contrast_->ColorAt(x, y, empty(x, y), shade);
+      } else {
+        const Bgr color = figures[FigurePixel::FigureOf(pixel)].outfit.colors[material];
+        canvas(x, y) = {Byte(float(color.b) * shade), Byte(float(color.g) * shade),
+                        Byte(float(color.r) * shade)};
+      }
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/simulation/empty_view.h"
 #include "drivers/simulation/floor_shadow.h"
+#include "drivers/simulation/low_contrast.h"
 #include "drivers/simulation/person_mesh.h"
 
 namespace mocap::simulation {
@@ -44,10 +46,19 @@ class FigurePixel {
   static_assert(kMaterialCount <= 1 << kMaterialBits);
 };
 
+/// What of people cannot be seen: it looks exactly like the empty room behind it.
+enum class HiddenClothes { kNone, kShirts, kTrousers };
+
+/// How people look to one camera.
+struct FigureStyle {
+  double contrast = 0;  ///< As in SimulatedStudioOptions.
+  HiddenClothes hidden = HiddenClothes::kNone;
+};
+
 /// A z-buffer for one camera; reuses its memory. Thread-bound.
 class PersonRenderer {
  public:
-  explicit PersonRenderer(const CameraCalibration& camera);
+  explicit PersonRenderer(const CameraCalibration& camera, const FigureStyle& style = {});
 
   /// Draws shadows and figures over the empty view.
   ///
@@ -79,12 +90,14 @@ class PersonRenderer {
   void Darken(std::span<const FloorPlace> floor, Bgr* pixels) const;
   void DrawTriangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                     std::uint8_t pixel);
-  void Compose(std::span<const Figure> figures, Image<Bgr>& canvas);
+  void Compose(std::span<const Figure> figures, const Image<Bgr>& empty, Image<Bgr>& canvas);
   void SoftenEdges(Image<Bgr>& canvas);
   bool IsOutlineWithin(int x, int y) const;
   bool ToScreen(const Eigen::Vector3f& p_C, float& x, float& y) const;
 
   int width_px_, height_px_;
+  HiddenClothes hidden_;
+  std::optional<LowContrast> low_contrast_;
   TsaiLens lens_;
   float fx_, fy_, cx_, cy_, kappa_;
   std::vector<float> shrink_;  // rd / ru as a function of κ1 ru².

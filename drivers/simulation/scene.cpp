@@ -34,6 +34,10 @@ void Check(const SimulatedStudioOptions& options) {
     refuse("width_px", options.width_px, "16 to 8192");
   if (options.height_px < 16 || options.height_px > 8192)
     refuse("height_px", options.height_px, "16 to 8192");
+  if (options.contrast != 0 && !(options.contrast >= 5 && options.contrast <= 100))
+    refuse("contrast", options.contrast, "5 to 100, or 0 for clothes of any colours");
+  if (!(options.misled_share >= 0 && options.misled_share <= 1))
+    refuse("misled_share", options.misled_share, "0 to 1");
   // Pictures of the empty studio are kept: some hundred bytes per pixel.
   const double megapixels = 1e-6 * options.cameras * options.width_px * options.height_px;
   if (megapixels > kMostMegapixels) {
@@ -72,6 +76,17 @@ std::vector<Block> FurnitureOf(const std::vector<Person>& people) {
   for (const Person& person : people)
     for (const Block& block : person.motion().furniture()) furniture.push_back(block);
   return furniture;
+}
+
+// Whether a camera is among those who draw the lowest lots.
+bool IsMisled(const SimulatedStudioOptions& options, int camera) {
+  const auto lot = [&options](int drawing) {
+    return Mix(options.seed, Tag("misled"), static_cast<std::uint64_t>(drawing));
+  };
+  int before = 0;
+  for (int other = 0; other < options.cameras; ++other) before += lot(other) < lot(camera);
+  constexpr double kRounding = 1e-9;  // 14 % of 50 are 7, though their product is a little more.
+  return before < std::ceil(options.misled_share * options.cameras - kRounding);
 }
 
 bool IsInPicture(const CameraCalibration& camera, const Vector3& p_C) {
@@ -144,6 +159,15 @@ PersonPresence Scene::PresenceOf(int person, std::int64_t capture_ns) const {
     });
   }
   return presence;
+}
+
+FigureStyle Scene::StyleOf(int camera) const {
+  FigureStyle style{.contrast = options_.contrast};
+  if (IsMisled(options_, camera)) {
+    Random random(Mix(options_.seed, Tag("hidden"), static_cast<std::uint64_t>(camera)));
+    style.hidden = random.Uniform(0, 1) < 0.5 ? HiddenClothes::kShirts : HiddenClothes::kTrousers;
+  }
+  return style;
 }
 
 std::int64_t Scene::NominalTime(std::int64_t frame) const {
@@ -237,7 +261,8 @@ std::vector<BackgroundFrame> SceneView::Background(int frames) const {
 }
 
 ScenePainter::ScenePainter(std::shared_ptr<const SceneView> view)
-    : view_(std::move(view)), renderer_(view_->calibration()) {}
+    : view_(std::move(view)),
+      renderer_(view_->calibration(), view_->scene().StyleOf(view_->camera())) {}
 
 void ScenePainter::Paint(std::int64_t capture_ns) {
   Paint(capture_ns, view_->scene().AnglesAt(view_->camera(), capture_ns));

@@ -56,6 +56,8 @@ class Scene {
   const Sensor& sensor() const { return sensor_; }
   const std::vector<CameraCalibration>& cameras() const { return cameras_; }
 
+  /// How people look to a camera, which may be misled.
+  FigureStyle StyleOf(int camera) const;
   /// Nominal time of frame number `frame`, the same for all cameras.
   std::int64_t NominalTime(std::int64_t frame) const;
   /// Actual capture time of a camera, within 0.3 ms of the nominal time.

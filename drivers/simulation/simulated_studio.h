@@ -30,6 +30,12 @@ struct SimulatedStudioOptions {
   int width_px = 640, height_px = 480;
   double camera_height_mm = 2550;                ///< As in simulation::RigOptions,
   double camera_arc_rad = 2 * std::numbers::pi;  ///< and this.
+  /// Clothes differ from what is behind them, in every picture, by at most this many of 256 grey
+  /// values: 5 to 100. Skin and hair keep their colours. 0: clothes have any colours.
+  double contrast = 0;
+  /// Share of the cameras, rounded up and chosen at random, that are misled: to such a camera,
+  /// either all shirts or all trousers look exactly like the empty room behind them.
+  double misled_share = 0;
   bool pan_tilt = false;  ///< Heads follow the person by themselves; slower to render.
   /// With pan_tilt: heads turn on command, as tracking demands.
   bool follow = false;

@@ -124,11 +124,23 @@ TEST_F(Simulate, PicturesHaveTheSizeThatIsAskedFor) {
   EXPECT_EQ(camera.height_px, 200);
 }
 
+TEST_F(Simulate, TheTakeSaysWhatMakesPeopleHardToSee) {
+  const std::string small = "--seconds 0.1 --cameras 2 --width 160 --height 120";
+  const std::string usual = Content(Run("usual", small) / "take.toml");
+  EXPECT_EQ(usual.find("contrast"), std::string::npos);
+  EXPECT_EQ(usual.find("misled"), std::string::npos);
+  const std::string hard =
+      Content(Run("hard", small + " --contrast 15 --misled 0.5") / "take.toml");
+  EXPECT_NE(hard.find("contrast = \"15\"\nmisled = \"0.5\"\n"), std::string::npos) << hard;
+}
+
 TEST_F(Simulate, RefusesWhatCannotBe) {
   EXPECT_THROW(Run("take", "--motion fly"), SetupError);
-  for (const char* option : {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300",
-                             "--fps 1e9", "--cameras 0", "--cameras 1000000000", "--people 0",
-                             "--people 5", "--width 4", "--height 1000000000"}) {
+  for (const char* option :
+       {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300", "--fps 1e9",
+        "--cameras 0", "--cameras 1000000000", "--people 0", "--people 5", "--width 4",
+        "--height 1000000000", "--contrast 4", "--misled 1.1", "--contrast 15 --board floor",
+        "--misled 0.5 --board floor"}) {
     EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
   }
   EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);
