@@ -71,6 +71,7 @@ TakeDescription Describe(const SimulateOptions& options,
     description.notes.emplace_back("stature_mm", Text(options.studio.stature_mm));
     if (options.studio.contrast > 0)
       description.notes.emplace_back("contrast", Text(options.studio.contrast));
+    if (options.studio.soft_shadows) description.notes.emplace_back("shadows", "soft");
     if (options.studio.misled_share > 0)
       description.notes.emplace_back("misled", Text(options.studio.misled_share));
   }
@@ -216,6 +217,10 @@ void AddEvidenceOptions(CLI::App& command, CLI::Option& board, SimulatedStudioOp
                   "let clothes differ from wall and floor behind them by at most this many of 256 "
                   "grey values, in every picture")
       ->check(NumberFrom(5, 100))
+      ->excludes(&board);
+  command
+      .add_flag("--soft-shadows", studio.soft_shadows,
+                "let people cast shadows with wide penumbras on floor, walls and furniture")
       ->excludes(&board);
   command
       .add_option("--misled", studio.misled_share,

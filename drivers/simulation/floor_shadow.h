@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/simulation/empty_view.h"
+#include "drivers/simulation/lamps.h"
 #include "drivers/simulation/person_mesh.h"
 
 namespace mocap::simulation {
@@ -30,7 +31,7 @@ class FloorShadow {
     // Interpolates between the centres of four cells.
     const int px = place.x - 128, py = place.y - 128;
     const int x = px >> 8, y = py >> 8;
-    if (x < x0_ || y < y0_ || x >= x1_ || y >= y1_) return 256;
+    if (x < hidden_.x0 || y < hidden_.y0 || x >= hidden_.x1 || y >= hidden_.y1) return 256;
     const std::uint16_t* row = &light_[y * columns_ + x];
     if ((row[0] & row[1] & row[columns_] & row[columns_ + 1]) == 256) return 256;
     const int u = px & 255, v = py & 255;
@@ -40,15 +41,10 @@ class FloorShadow {
   }
 
  private:
-  void CastFrom(const Eigen::Vector3f& lamp_W, std::uint8_t bit, const PersonMesh& mesh,
-                const std::vector<Eigen::Vector3f>& p_W);
-
-  std::vector<std::uint8_t> lamps_hidden_;  // One bit per lamp.
+  HiddenCells hidden_;
   std::vector<std::uint16_t> light_, scratch_;
   std::vector<std::uint16_t> line_;  // A line of cells with its ends repeated.
-  std::vector<Eigen::Vector2f> projected_;
   int columns_;
-  int x0_ = 0, y0_ = 0, x1_ = -1, y1_ = -1;  // Cells in use, inclusive.
 };
 
 }  // namespace mocap::simulation

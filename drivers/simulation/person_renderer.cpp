@@ -59,15 +59,6 @@ std::uint64_t WhoOf(const std::uint8_t* pixels) {
   return word & FigurePixel::kWhoOfEight;
 }
 
-void Include(PixelBox& box, const PixelBox& other) {
-  if (other.empty()) return;
-  if (box.empty())
-    box = other;
-  else
-    box = {std::min(box.x0, other.x0), std::min(box.y0, other.y0), std::max(box.x1, other.x1),
-           std::max(box.y1, other.y1)};
-}
-
 }  // namespace
 
 PersonRenderer::PersonRenderer(const CameraCalibration& camera, const FigureStyle& style)
@@ -84,6 +75,7 @@ PersonRenderer::PersonRenderer(const CameraCalibration& camera, const FigureStyl
       shades_(width_px_, height_px_),
       figures_(width_px_, height_px_) {
   if (style.contrast > 0) low_contrast_.emplace(style.contrast);
+  if (style.soft_shadows) soft_shadows_.emplace(camera);
   // g = rd / ru solves g (1 + q g²) = 1 with q = κ1 ru²: Newton's method from above.
   shrink_.reserve(kShrinkSteps + 2);
   double g = 1;
@@ -142,6 +134,7 @@ void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BoneP
   } else {
     canvas = view.image;
     if (low_contrast_) low_contrast_->SetView(view.image);
+    if (soft_shadows_) soft_shadows_->SetView(view, X_CW);
   }
   for (int y = people_.y0; y < people_.y1; ++y)
     std::fill_n(figures_.row(y) + people_.x0, people_.x1 - people_.x0, std::uint8_t{0});
@@ -150,14 +143,11 @@ void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BoneP
   skins_.resize(figures.size());
   screens_.resize(figures.size());
   people_ = {};
-  shadow_.Clear();
   for (std::size_t i = 0; i < figures.size(); ++i) {
     SkinMesh(figures[i].mesh, poses[i], skins_[i].p_W, skins_[i].n_W);
-    shadow_.Cast(figures[i].mesh, skins_[i].p_W);
-    Include(people_, Project(figures[i].mesh, skins_[i], X_CW, screens_[i]));
+    people_.Include(Project(figures[i].mesh, skins_[i], X_CW, screens_[i]));
   }
-  shadow_.Blur();
-  DrawShadow(view, X_CW, canvas);
+  soft_shadows_ ? DrawSoftShadows(figures, canvas) : DrawShadow(figures, view, X_CW, canvas);
   if (people_.empty()) return;
   for (int y = people_.y0; y < people_.y1; ++y)
     std::copy_n(view.nearness.row(y) + people_.x0, people_.x1 - people_.x0,
@@ -168,11 +158,21 @@ void PersonRenderer::Draw(std::span<const Figure> figures, std::span<const BoneP
                    FigurePixel::Of(i, t.material));
   Compose(figures, view.image, canvas);
   SoftenEdges(canvas);
-  Include(dirty_, people_);
+  dirty_.Include(people_);
 }
 
-void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_CW,
-                                Image<Bgr>& canvas) {
+void PersonRenderer::DrawSoftShadows(std::span<const Figure> figures, Image<Bgr>& canvas) {
+  soft_shadows_->Clear();
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    soft_shadows_->Cast(figures[i].mesh, skins_[i].p_W);
+  dirty_.Include(soft_shadows_->Darken(canvas));
+}
+
+void PersonRenderer::DrawShadow(std::span<const Figure> figures, const EmptyView& view,
+                                const RigidTransform& X_CW, Image<Bgr>& canvas) {
+  shadow_.Clear();
+  for (std::size_t i = 0; i < figures.size(); ++i) shadow_.Cast(figures[i].mesh, skins_[i].p_W);
+  shadow_.Blur();
   Eigen::Vector2f low, high;
   if (!shadow_.Bounds(low, high)) return;
   const Eigen::Matrix3f R_CW = X_CW.R.cast<float>();
@@ -203,7 +203,7 @@ void PersonRenderer::DrawShadow(const EmptyView& view, const RigidTransform& X_C
     for (int x = box.x0; x < box.x1; x += kPlaces)
       Darken({view.floor.row(y) + x, static_cast<std::size_t>(std::min(kPlaces, box.x1 - x))},
              canvas.row(y) + x);
-  Include(dirty_, box);
+  dirty_.Include(box);
 }
 
 void PersonRenderer::Darken(std::span<const FloorPlace> floor, Bgr* pixels) const {

@@ -12,14 +12,10 @@
 #include "drivers/simulation/floor_shadow.h"
 #include "drivers/simulation/low_contrast.h"
 #include "drivers/simulation/person_mesh.h"
+#include "drivers/simulation/pixel_box.h"
+#include "drivers/simulation/soft_shadows.h"
 
 namespace mocap::simulation {
-
-/// Half-open rectangle of pixels.
-struct PixelBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
 
 /// A person to draw; at most 31.
 struct Figure {
@@ -51,7 +47,8 @@ enum class HiddenClothes { kNone, kShirts, kTrousers };
 
 /// How people look to one camera.
 struct FigureStyle {
-  double contrast = 0;  ///< As in SimulatedStudioOptions.
+  double contrast = 0;        ///< As in SimulatedStudioOptions,
+  bool soft_shadows = false;  ///< and this.
   HiddenClothes hidden = HiddenClothes::kNone;
 };
 
@@ -85,7 +82,9 @@ class PersonRenderer {
   // Projects a skin's vertices; returns the pixels that may show it.
   PixelBox Project(const PersonMesh& mesh, const Skin& skin, const RigidTransform& X_CW,
                    std::vector<ScreenVertex>& screen) const;
-  void DrawShadow(const EmptyView& view, const RigidTransform& X_CW, Image<Bgr>& canvas);
+  void DrawSoftShadows(std::span<const Figure> figures, Image<Bgr>& canvas);
+  void DrawShadow(std::span<const Figure> figures, const EmptyView& view,
+                  const RigidTransform& X_CW, Image<Bgr>& canvas);
   // Applies the shadow to pixels that show these places.
   void Darken(std::span<const FloorPlace> floor, Bgr* pixels) const;
   void DrawTriangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
@@ -98,6 +97,7 @@ class PersonRenderer {
   int width_px_, height_px_;
   HiddenClothes hidden_;
   std::optional<LowContrast> low_contrast_;
+  std::optional<SoftShadows> soft_shadows_;  // In place of shadow_.
   TsaiLens lens_;
   float fx_, fy_, cx_, cy_, kappa_;
   std::vector<float> shrink_;  // rd / ru as a function of κ1 ru².

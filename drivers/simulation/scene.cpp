@@ -162,7 +162,7 @@ PersonPresence Scene::PresenceOf(int person, std::int64_t capture_ns) const {
 }
 
 FigureStyle Scene::StyleOf(int camera) const {
-  FigureStyle style{.contrast = options_.contrast};
+  FigureStyle style{.contrast = options_.contrast, .soft_shadows = options_.soft_shadows};
   if (IsMisled(options_, camera)) {
     Random random(Mix(options_.seed, Tag("hidden"), static_cast<std::uint64_t>(camera)));
     style.hidden = random.Uniform(0, 1) < 0.5 ? HiddenClothes::kShirts : HiddenClothes::kTrousers;

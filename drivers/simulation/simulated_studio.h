@@ -33,6 +33,9 @@ struct SimulatedStudioOptions {
   /// Clothes differ from what is behind them, in every picture, by at most this many of 256 grey
   /// values: 5 to 100. Skin and hair keep their colours. 0: clothes have any colours.
   double contrast = 0;
+  /// Lamps are panels as wide as a person: shadows have wide penumbras, and fall on walls and
+  /// furniture, too.
+  bool soft_shadows = false;
   /// Share of the cameras, rounded up and chosen at random, that are misled: to such a camera,
   /// either all shirts or all trousers look exactly like the empty room behind them.
   double misled_share = 0;

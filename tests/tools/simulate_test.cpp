@@ -129,9 +129,12 @@ TEST_F(Simulate, TheTakeSaysWhatMakesPeopleHardToSee) {
   const std::string usual = Content(Run("usual", small) / "take.toml");
   EXPECT_EQ(usual.find("contrast"), std::string::npos);
   EXPECT_EQ(usual.find("misled"), std::string::npos);
+  EXPECT_EQ(usual.find("shadows"), std::string::npos);
   const std::string hard =
-      Content(Run("hard", small + " --contrast 15 --misled 0.5") / "take.toml");
-  EXPECT_NE(hard.find("contrast = \"15\"\nmisled = \"0.5\"\n"), std::string::npos) << hard;
+      Content(Run("hard", small + " --contrast 15 --soft-shadows --misled 0.5") / "take.toml");
+  EXPECT_NE(hard.find("contrast = \"15\"\nshadows = \"soft\"\nmisled = \"0.5\"\n"),
+            std::string::npos)
+      << hard;
 }
 
 TEST_F(Simulate, RefusesWhatCannotBe) {
