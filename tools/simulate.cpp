@@ -22,6 +22,7 @@
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/picture_coder.h"
 #include "drivers/take/take_writer.h"
 #include "drivers/take/unfinished_folder.h"
 #include "tools/stop_on_signals.h"
@@ -74,6 +75,8 @@ TakeDescription Describe(const SimulateOptions& options,
     if (options.studio.soft_shadows) description.notes.emplace_back("shadows", "soft");
     if (options.studio.misled_share > 0)
       description.notes.emplace_back("misled", Text(options.studio.misled_share));
+    if (options.studio.crf)
+      description.notes.emplace_back("crf", std::to_string(*options.studio.crf));
   }
   description.notes.emplace_back("seed", std::to_string(options.studio.seed));
   return description;
@@ -210,6 +213,21 @@ void Simulate(const SimulateOptions& options) {
              static_cast<double>(BytesIn(options.out)) / 1e6, Printable(options.out.string()));
 }
 
+// Returns the one that asks for a board.
+CLI::Option& AddBoardOptions(CLI::App& command, SimulateOptions& options) {
+  CLI::Option* const board =
+      command
+          .add_option("--board", options.board,
+                      "show a chessboard (8x5 inner corners, 100 mm squares) at this place instead "
+                      "of people")
+          ->check(OneOf(BoardPlaceNames()));
+  command
+      .add_option("--desk", options.desk,
+                  "position number of the desk, for --board desk; pan-tilt heads scan around it")
+      ->capture_default_str();
+  return *board;
+}
+
 // What makes people hard to see. Nobody is there with a board.
 void AddEvidenceOptions(CLI::App& command, CLI::Option& board, SimulatedStudioOptions& studio) {
   command
@@ -227,6 +245,12 @@ void AddEvidenceOptions(CLI::App& command, CLI::Option& board, SimulatedStudioOp
                   "share of the cameras that are misled, rounded up: to each, either shirts or "
                   "trousers look exactly like the empty room")
       ->check(NumberFrom(0, 1))
+      ->excludes(&board);
+  command
+      .add_option("--crf", studio.crf,
+                  "code the pictures, with those of the empty room, by x264 at this constant rate "
+                  "factor, and store them decoded")
+      ->check(NumberFrom(0, PictureCoder::kMostCrf))
       ->excludes(&board);
 }
 
@@ -280,17 +304,8 @@ void AddSimulateCommand(CLI::App& app) {
       ->add_option("--seed", options->studio.seed,
                    "random seed for people, clothes, room, intrinsics and paths")
       ->capture_default_str();
-  CLI::Option* const board =
-      command
-          ->add_option("--board", options->board,
-                       "show a chessboard (8x5 inner corners, 100 mm squares) at this place "
-                       "instead of people")
-          ->check(OneOf(BoardPlaceNames()));
-  command
-      ->add_option("--desk", options->desk,
-                   "position number of the desk, for --board desk; pan-tilt heads scan around it")
-      ->capture_default_str();
-  AddEvidenceOptions(*command, *board, options->studio);
+  CLI::Option& board = AddBoardOptions(*command, *options);
+  AddEvidenceOptions(*command, board, options->studio);
   command->callback([options] { Simulate(*options); });
 }
 

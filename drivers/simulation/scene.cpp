@@ -10,6 +10,7 @@
 #include "drivers/simulation/company.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/room_plan.h"
+#include "drivers/take/picture_coder.h"
 
 namespace mocap::simulation {
 namespace {
@@ -18,35 +19,47 @@ constexpr double kJitter_ns = 300'000;
 constexpr double kMostMegapixels = 128;
 constexpr double kLeastStature_mm = 1000, kMostStature_mm = 2100;
 
+[[noreturn]] void Refuse(const char* name, double found, const std::string& wanted) {
+  std::ostringstream message;
+  message << "simulated studio: " << name << " is " << found << "; expected " << wanted;
+  throw SetupError(message.str());
+}
+
+void CheckCoding(const SimulatedStudioOptions& options) {
+  if (*options.crf < 0 || *options.crf > PictureCoder::kMostCrf)
+    Refuse("crf", *options.crf, "0 to " + std::to_string(PictureCoder::kMostCrf));
+  if (options.width_px % 2 != 0) Refuse("width_px", options.width_px, "an even number, with crf");
+  if (options.height_px % 2 != 0)
+    Refuse("height_px", options.height_px, "an even number, with crf");
+  if (options.realtime || options.follow)
+    Refuse("crf", *options.crf, "none in real time or with heads that follow");
+}
+
 void Check(const SimulatedStudioOptions& options) {
-  const auto refuse = [](const char* name, double found, const std::string& wanted) {
-    std::ostringstream message;
-    message << "simulated studio: " << name << " is " << found << "; expected " << wanted;
-    throw SetupError(message.str());
-  };
   if (!(options.stature_mm >= kLeastStature_mm && options.stature_mm <= kMostStature_mm))
-    refuse("stature_mm", options.stature_mm, "1000 to 2100");
+    Refuse("stature_mm", options.stature_mm, "1000 to 2100");
   if (options.people < 1 || options.people > kMostSimulatedPeople)
-    refuse("people", options.people, "1 to " + std::to_string(kMostSimulatedPeople));
-  if (!(options.fps >= 1 && options.fps <= 1000)) refuse("fps", options.fps, "1 to 1000");
-  if (options.cameras < 1 || options.cameras > 64) refuse("cameras", options.cameras, "1 to 64");
+    Refuse("people", options.people, "1 to " + std::to_string(kMostSimulatedPeople));
+  if (!(options.fps >= 1 && options.fps <= 1000)) Refuse("fps", options.fps, "1 to 1000");
+  if (options.cameras < 1 || options.cameras > 64) Refuse("cameras", options.cameras, "1 to 64");
   if (options.width_px < 16 || options.width_px > 8192)
-    refuse("width_px", options.width_px, "16 to 8192");
+    Refuse("width_px", options.width_px, "16 to 8192");
   if (options.height_px < 16 || options.height_px > 8192)
-    refuse("height_px", options.height_px, "16 to 8192");
+    Refuse("height_px", options.height_px, "16 to 8192");
   if (options.contrast != 0 && !(options.contrast >= 5 && options.contrast <= 100))
-    refuse("contrast", options.contrast, "5 to 100, or 0 for clothes of any colours");
+    Refuse("contrast", options.contrast, "5 to 100, or 0 for clothes of any colours");
   if (!(options.misled_share >= 0 && options.misled_share <= 1))
-    refuse("misled_share", options.misled_share, "0 to 1");
+    Refuse("misled_share", options.misled_share, "0 to 1");
+  if (options.crf) CheckCoding(options);
   // Pictures of the empty studio are kept: some hundred bytes per pixel.
   const double megapixels = 1e-6 * options.cameras * options.width_px * options.height_px;
   if (megapixels > kMostMegapixels) {
-    refuse("the size of all pictures together", megapixels, "at most 128 megapixels");
+    Refuse("the size of all pictures together", megapixels, "at most 128 megapixels");
   }
   if (!(options.seconds >= 0 && options.seconds < 1e6))
-    refuse("seconds", options.seconds, "0 to 1000000");
+    Refuse("seconds", options.seconds, "0 to 1000000");
   if (!(options.begin_s >= 0 && options.begin_s < 1e6))
-    refuse("begin_s", options.begin_s, "0 to 1000000");
+    Refuse("begin_s", options.begin_s, "0 to 1000000");
 }
 
 // The middle of the trunk, limited to where heads can follow it.

@@ -7,6 +7,7 @@
 #include "drivers/clock.h"
 #include "drivers/head_follower.h"
 #include "drivers/pan_tilt_camera.h"
+#include "drivers/simulation/coded_frames.h"
 #include "drivers/simulation/picture_ahead.h"
 #include "drivers/simulation/random.h"
 #include "drivers/simulation/scene.h"
@@ -68,6 +69,10 @@ void SimulatedCamera::Start() {
         std::ceil(static_cast<double>(TimelineNs() - options.start_ns) * 1e-9 * options.fps));
   next_ = first_;
   if (options.realtime && !head_) ahead_ = std::make_unique<simulation::PictureAhead>(view_);
+  if (options.crf) {
+    coded_ = std::make_unique<simulation::CodedFrames>(options.width_px, options.height_px,
+                                                       options.fps, *options.crf);
+  }
   started_ = true;
   prepared_ = false;
 }
@@ -109,6 +114,19 @@ bool SimulatedCamera::IsLost(std::int64_t time_ns) const {
 
 GrabStatus SimulatedCamera::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   MOCAP_CHECK(started_);
+  if (!coded_) return GrabPainted(frame, timeout);
+  while (!coded_->Take(frame)) {
+    if (coded_->is_finished()) return GrabStatus::kEnd;
+    if (GrabPainted(frame, timeout) == GrabStatus::kFrame) {
+      coded_->Add(frame, painter_->figures());
+    } else {
+      coded_->Finish();
+    }
+  }
+  return GrabStatus::kFrame;
+}
+
+GrabStatus SimulatedCamera::GrabPainted(Frame& frame, std::chrono::milliseconds timeout) {
   if (view_->scene().options().realtime && IsLost(TimelineNs())) {
     prepared_ = false;
     return GrabStatus::kLost;
@@ -137,7 +155,7 @@ void SimulatedCamera::Stop() {
 }
 
 ImageView<const std::uint8_t> SimulatedCamera::TrueMask() {
-  mask_ = painter_->figures();
+  mask_ = coded_ ? coded_->figures() : painter_->figures();
   for (std::uint8_t& value : mask_.pixels()) value = value != 0 ? 255 : 0;
   return static_cast<const Image<std::uint8_t>&>(mask_).view();
 }
@@ -164,7 +182,10 @@ std::unique_ptr<CameraDriver> SimulatedStudio::OpenFollowing(
 }
 
 std::vector<BackgroundFrame> SimulatedStudio::Background(int camera) const {
-  return views_[camera]->Background(kBackgroundFrames);
+  std::vector<BackgroundFrame> background = views_[camera]->Background(kBackgroundFrames);
+  const SimulatedStudioOptions& options = scene_->options();
+  if (options.crf) simulation::CodePictures(options.fps, *options.crf, background);
+  return background;
 }
 
 std::int64_t SimulatedStudio::NominalTime(std::int64_t frame) const {

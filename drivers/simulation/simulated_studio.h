@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,9 @@ struct SimulatedStudioOptions {
   /// Share of the cameras, rounded up and chosen at random, that are misled: to such a camera,
   /// either all shirts or all trousers look exactly like the empty room behind them.
   double misled_share = 0;
+  /// Pictures, with those of the empty room, are coded by x264 at this constant rate factor and
+  /// decoded again: 0 to 51. Not in real time, nor with heads that follow commands.
+  std::optional<int> crf = {};
   bool pan_tilt = false;  ///< Heads follow the person by themselves; slower to render.
   /// With pan_tilt: heads turn on command, as tracking demands.
   bool follow = false;
@@ -67,6 +71,7 @@ class Scene;
 class SceneView;
 class ScenePainter;
 class PictureAhead;
+class CodedFrames;
 }  // namespace simulation
 
 /// How much of a person is visible.
@@ -110,6 +115,7 @@ class SimulatedCamera : public CameraDriver {
   ImageView<const std::uint8_t> TrueMask();
 
  private:
+  GrabStatus GrabPainted(Frame& frame, std::chrono::milliseconds timeout);
   bool PrepareNext();
   void Paint();
   bool IsLost(std::int64_t time_ns) const;
@@ -118,6 +124,7 @@ class SimulatedCamera : public CameraDriver {
   std::shared_ptr<SimulatedHead> head_;
   std::unique_ptr<simulation::ScenePainter> painter_;
   std::unique_ptr<simulation::PictureAhead> ahead_;
+  std::unique_ptr<simulation::CodedFrames> coded_;  ///< If they are coded.
   std::int64_t first_ = 0, next_ = 0;
   bool started_ = false, prepared_ = false;
   std::int64_t due_ns_ = 0;

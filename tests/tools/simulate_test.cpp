@@ -130,9 +130,10 @@ TEST_F(Simulate, TheTakeSaysWhatMakesPeopleHardToSee) {
   EXPECT_EQ(usual.find("contrast"), std::string::npos);
   EXPECT_EQ(usual.find("misled"), std::string::npos);
   EXPECT_EQ(usual.find("shadows"), std::string::npos);
-  const std::string hard =
-      Content(Run("hard", small + " --contrast 15 --soft-shadows --misled 0.5") / "take.toml");
-  EXPECT_NE(hard.find("contrast = \"15\"\nshadows = \"soft\"\nmisled = \"0.5\"\n"),
+  EXPECT_EQ(usual.find("crf"), std::string::npos);
+  const std::string hard = Content(
+      Run("hard", small + " --contrast 15 --soft-shadows --misled 0.5 --crf 28") / "take.toml");
+  EXPECT_NE(hard.find("contrast = \"15\"\nshadows = \"soft\"\nmisled = \"0.5\"\ncrf = \"28\"\n"),
             std::string::npos)
       << hard;
 }
@@ -147,6 +148,7 @@ TEST_F(Simulate, RefusesWhatCannotBe) {
     EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
   }
   EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);
+  EXPECT_THROW(Run("take", "--crf 28 --width 161"), SetupError);
   EXPECT_FALSE(fs::exists(folder_ / "take"));
 }
 
