@@ -19,6 +19,7 @@
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/evidence_report.h"
 #include "tools/accuracy/paper_report.h"
 #include "tools/accuracy/sweep_plan.h"
 #include "tools/accuracy/variety_trial.h"
@@ -27,14 +28,18 @@ namespace mocap {
 namespace {
 
 // Defaults of a part.
-constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2, kPaperSeconds = 4;
-constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200;
+constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2, kPaperSeconds = 4,
+                 kEvidenceSeconds = 2;
+constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200,
+              kEvidenceSeeds = 1;
 const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
                                            "step", "lie", "stand", "gesture"};
 const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
 const std::vector<std::string> kSweepMotions = {"walk", "dance", "sit"};
 const std::vector<std::string> kPaperMotions = {"walk", "run", "dance", "sit", "step", "jump"};
-const std::vector<double> kStatures_mm = {1150, 1550, 1950}, kPaperStatures_mm = {1300, 1750, 1880};
+const std::vector<std::string> kEvidenceMotions = {"walk"};
+const std::vector<double> kStatures_mm = {1150, 1550, 1950}, kPaperStatures_mm = {1300, 1750, 1880},
+                          kEvidenceStatures_mm = {1750};
 
 struct BenchmarkOptions {
   std::filesystem::path out;
@@ -57,7 +62,7 @@ struct BenchmarkOptions {
 
 // Each takes as long as all others together or longer, so they run only on request.
 const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio",
-                  kPaperPart = "paper";
+                  kPaperPart = "paper", kEvidencePart = "evidence";
 
 bool Wants(const BenchmarkOptions& options, const std::string& part) {
   return std::ranges::find(options.parts, part) != options.parts.end();
@@ -124,6 +129,23 @@ std::vector<PaperRow> RunPaper(const BenchmarkOptions& options) {
   return rows;
 }
 
+std::vector<EvidenceRow> RunEvidence(const BenchmarkOptions& options) {
+  const TakeGrid grid{.motions = options.MotionsOr(kEvidenceMotions),
+                      .statures_mm = options.StaturesOr(kEvidenceStatures_mm),
+                      .seeds = options.SeedsOr(kEvidenceSeeds),
+                      .seconds = options.SecondsOr(kEvidenceSeconds)};
+  std::vector<EvidenceRow> rows;
+  PrintNow(EvidenceHeader());
+  for (const EvidenceKind& kind : PlannedEvidence()) {
+    for (SimulatedStudioOptions studio : StudiosOf(grid, RecordedSimulation())) {
+      ApplyEvidence(kind, studio);
+      rows.push_back(RunEvidenceTrial(studio));
+      PrintNow(EvidenceLine(rows.back()));
+    }
+  }
+  return rows;
+}
+
 std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
   std::vector<PeopleRow> rows;
   PrintNow(PeopleHeader());
@@ -159,7 +181,8 @@ std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
 
 bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
   return std::ranges::any_of(options.parts, [](const std::string& part) {
-    return part != kPeoplePart && part != kVarietyPart && part != kPaperPart;
+    return part != kPeoplePart && part != kVarietyPart && part != kPaperPart &&
+           part != kEvidencePart;
   });
 }
 
@@ -233,13 +256,20 @@ void RunBenchmark(const BenchmarkOptions& options) {
     paper = RunPaper(options);
     PrintNow(PaperTables(paper));
   }
+  std::vector<EvidenceRow> evidence;
+  if (Wants(options, kEvidencePart)) {
+    evidence = RunEvidence(options);
+    PrintNow(EvidenceTable(evidence));
+  }
   if (options.out.empty()) return;
   ReplaceText(options.out / "accuracy.md",
               AccuracyMarkdown(benchmark) + VarietyMarkdown(variety) +
-                  PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)));
+                  PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)) +
+                  EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)));
   if (!benchmark.sweeps.empty()) {
     ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
   }
+  if (!evidence.empty()) ReplaceText(options.out / "evidence.svg", EvidenceSvg(evidence));
 }
 
 }  // namespace
@@ -251,40 +281,44 @@ void AddBenchmarkCommand(CLI::App& app) {
   command
       ->add_option(
           "--seconds", options->seconds,
-          fmt::format(
-              "length of each take [s] (default: {}; several people: {}; studio: {}; paper: {})",
-              kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds))
+          fmt::format("length of each take [s] (default: {}; several people: {}; studio: {}; "
+                      "paper: {}; evidence: {})",
+                      kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds, kEvidenceSeconds))
       ->check(NumberFrom(1, 600));
   command
-      ->add_option("--motions", options->motions,
-                   fmt::format("motions of the people (default: {}; several people: {}; paper: {})",
-                               fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ","),
-                               fmt::join(kPaperMotions, ",")))
+      ->add_option(
+          "--motions", options->motions,
+          fmt::format(
+              "motions of the people (default: {}; several people: {}; paper: {}; evidence: {})",
+              fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ","),
+              fmt::join(kPaperMotions, ","), fmt::join(kEvidenceMotions, ",")))
       ->delimiter(',');
   command
       ->add_option("--statures", options->statures_mm,
-                   fmt::format("statures of the people [mm] (default: {}; paper: {})",
-                               fmt::join(kStatures_mm, ","), fmt::join(kPaperStatures_mm, ",")))
+                   fmt::format("statures of the people [mm] (default: {}; paper: {}; evidence: {})",
+                               fmt::join(kStatures_mm, ","), fmt::join(kPaperStatures_mm, ","),
+                               fmt::join(kEvidenceStatures_mm, ",")))
       ->delimiter(',')
       ->check(NumberFrom(1000, 2100));
   command
       ->add_option(
           "--seeds", options->seeds,
           fmt::format("number of random seeds per combination (default: {}; several people: {}; "
-                      "studio: {}; variety: {})",
-                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople))
+                      "studio: {}; variety: {}; evidence: {})",
+                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople, kEvidenceSeeds))
       ->check(NumberFrom(1, 1000));
   std::vector<std::string> parts = options->parts;
-  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart, kPaperPart});
+  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart, kPaperPart, kEvidencePart});
   command
       ->add_option("--parts", options->parts,
                    "parts to run; people (two to four at once), variety (of builds, hair, clothes "
-                   "and loads), studio (number, place and pictures of the cameras) and paper (its "
-                   "tracker, with truth in place of stages) run only on request")
+                   "and loads), studio (number, place and pictures of the cameras), paper (its "
+                   "tracker, with truth in place of stages) and evidence (clothes like the wall, "
+                   "and lossy pictures, of 4 to 16 cameras) run only on request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();
-  command->add_option("--out", options->out, "output folder for accuracy.md and accuracy.svg");
+  command->add_option("--out", options->out, "output folder for accuracy.md and its plots");
   command->callback([options] { RunBenchmark(*options); });
 }
 

@@ -7,8 +7,9 @@
 
 namespace mocap {
 
-AccuracyRow Measure(const AccuracyTrial& trial) {
-  const TrialOutcome outcome = RunTrial(trial);
+AccuracyRow Measure(const AccuracyTrial& trial) { return RowOf(trial, RunTrial(trial)); }
+
+AccuracyRow RowOf(const AccuracyTrial& trial, const TrialOutcome& outcome) {
   const Accuracy& accuracy = *outcome.evaluation.accuracy;
   AccuracyRow row{.motion = trial.studio.motion,
                   .stature_mm = trial.studio.stature_mm,

@@ -25,6 +25,8 @@ struct AccuracyRow {
   int longest_loss = 0;           ///< In frame sets, as in TrialOutcome.
 };
 
+/// Summarizes what a trial gave.
+AccuracyRow RowOf(const AccuracyTrial& trial, const TrialOutcome& outcome);
 /// Runs a trial and summarizes it.
 AccuracyRow Measure(const AccuracyTrial& trial);
 

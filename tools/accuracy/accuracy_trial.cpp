@@ -83,16 +83,33 @@ int LongestLoss(const std::vector<PoseRow>& poses) {
   return longest;
 }
 
+class NoSink : public PoseSink {
+ public:
+  void OnSet(const TrackedSet& /*set*/) override {}
+};
+
+class TwoSinks : public PoseSink {
+ public:
+  TwoSinks(PoseSink& first, PoseSink& second) : first_(first), second_(second) {}
+  void OnSet(const TrackedSet& set) override {
+    first_.OnSet(set);
+    second_.OnSet(set);
+  }
+
+ private:
+  PoseSink& first_;
+  PoseSink& second_;
+};
+
 }  // namespace
 
-TrialOutcome RunTrial(const AccuracyTrial& trial) {
-  Studio studio = OpenSimulatedStudio(trial.studio);
-  Disturb(trial, studio);
+TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also) {
   ResultSink sink(KeptPeople::kFirst, false);
+  TwoSinks both(sink, also);
   Pipeline pipeline(
       std::move(studio),
       {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait, .tracker = trial.tracker},
-      LoadBodyTable(trial.body), sink);
+      LoadBodyTable(trial.body), both);
   pipeline.Start();
   pipeline.Join();
   TrialOutcome outcome;
@@ -101,6 +118,13 @@ TrialOutcome RunTrial(const AccuracyTrial& trial) {
   outcome.longest_loss = LongestLoss(outcome.evaluation.result.poses);
   outcome.longest_wrong_stretch = LongestWrongStretch(*outcome.evaluation.accuracy);
   return outcome;
+}
+
+TrialOutcome RunTrial(const AccuracyTrial& trial) {
+  Studio studio = OpenSimulatedStudio(trial.studio);
+  Disturb(trial, studio);
+  NoSink none;
+  return TrackStudio(trial, std::move(studio), none);
 }
 
 }  // namespace mocap

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "config/config.h"
+#include "daemon/pipeline/pose_sink.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "drivers/studio.h"
 #include "tools/accuracy/disturbed_camera.h"
 #include "tools/report/evaluation.h"
 
@@ -36,5 +38,9 @@ inline constexpr double kWrongMm = 150;
 /// Runs a trial. The same trial gives the same outcome.
 /// @throws SetupError  for invalid studio options.
 TrialOutcome RunTrial(const AccuracyTrial& trial);
+
+/// Tracks a studio that shows the trial's people, whatever its cameras do. @param also  gets every
+/// set.
+TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also);
 
 }  // namespace mocap

@@ -80,7 +80,7 @@ TEST(CodedFrames, AreTheSameEachTime) {
   SimulatedStudioOptions options = SmallCodedStudio();
   options.width_px = 320;
   options.height_px = 240;
-  options.cameras = 4;
+  options.cameras = 2;
   options.crf = 28;
   const SimulatedStudio studio(options);
   std::vector<std::vector<BackgroundFrame>> first;

@@ -1,0 +1,110 @@
+#include "tools/accuracy/evidence_trial.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tools/accuracy/evidence_report.h"
+
+namespace mocap {
+namespace {
+
+using ::testing::HasSubstr;
+
+EvidenceRow WeakRow(const EvidenceKind& kind, double mpjpe_mm, double hull_share = 0.5) {
+  return {.kind = kind,
+          .accuracy = {.motion = "walk",
+                       .stature_mm = 1750,
+                       .seed = 1,
+                       .mpjpe_mm = mpjpe_mm,
+                       .tracked_share = mpjpe_mm > 0 ? 1.0 : 0.0},
+          .hull_share = hull_share};
+}
+
+SimulatedStudioOptions FewFrames() {
+  SimulatedStudioOptions studio = RecordedSimulation();
+  studio.width_px = 320;
+  studio.height_px = 240;
+  studio.seconds = 0.5;
+  return studio;
+}
+
+TEST(EvidencePlan, HasEveryContrastWithEveryCrfAndNumberOfCameras) {
+  const std::vector<EvidenceKind> kinds = PlannedEvidence();
+  EXPECT_EQ(kinds.size(), 36u);
+  for (const double contrast : {40, 20, 15, 10}) {
+    for (const std::optional<int> crf : {std::optional<int>(), {18}, {28}}) {
+      for (const int cameras : {4, 8, 16})
+        EXPECT_EQ(std::ranges::count(kinds, EvidenceKind{contrast, crf, cameras}), 1);
+    }
+  }
+}
+
+TEST(EvidenceTrial, TheHullOfClothesOfFullContrastIsNearlyTheTrueOneAndThatOfWeakOnesSmaller) {
+  SimulatedStudioOptions studio = FewFrames();
+  const EvidenceRow clear = RunEvidenceTrial(studio);
+  EXPECT_EQ(clear.kind, (EvidenceKind{0, std::nullopt, studio.cameras}));
+  EXPECT_GT(clear.hull_share, 0.8);
+  EXPECT_LT(clear.hull_share, 1.25);
+  EXPECT_EQ(clear.accuracy.tracked_share, 1);
+  ApplyEvidence({.contrast = 5, .crf = 30, .cameras = 5}, studio);
+  const EvidenceRow weak = RunEvidenceTrial(studio);
+  EXPECT_EQ(weak.kind, (EvidenceKind{5, 30, 5}));
+  EXPECT_LT(weak.hull_share, 0.9 * clear.hull_share);
+  EXPECT_GT(weak.hull_share, 0);
+}
+
+TEST(EvidenceTrial, TheSameOptionsGiveTheSameRow) {
+  SimulatedStudioOptions studio = FewFrames();
+  ApplyEvidence({.contrast = 40, .crf = 28, .cameras = 4}, studio);
+  const EvidenceRow first = RunEvidenceTrial(studio), again = RunEvidenceTrial(studio);
+  EXPECT_EQ(first.hull_share, again.hull_share);
+  EXPECT_EQ(first.accuracy.mpjpe_mm, again.accuracy.mpjpe_mm);
+}
+
+TEST(EvidenceReport, FindsTheLargestRiseByMoreCameras) {
+  const std::vector<EvidenceRow> rows = {WeakRow({40, std::nullopt, 4}, 30),
+                                         WeakRow({40, std::nullopt, 8}, 20),
+                                         WeakRow({40, std::nullopt, 16}, 24),
+                                         WeakRow({40, 28, 4}, 90),
+                                         WeakRow({40, 28, 8}, 80),
+                                         WeakRow({10, 28, 16}, 300)};
+  const std::vector<EvidenceSummary> kinds = SummarizeEvidence(rows);
+  const std::optional<EvidenceRise> rise = LargestRise(kinds);
+  ASSERT_TRUE(rise);
+  EXPECT_DOUBLE_EQ(rise->mm(), 4);
+  EXPECT_EQ(rise->fewer, (EvidenceKind{40, std::nullopt, 8}));
+  EXPECT_EQ(rise->more, (EvidenceKind{40, std::nullopt, 16}));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("+4.0 mm, from 8 to 16 cameras"));
+  EXPECT_FALSE(LargestRise(std::vector{kinds.front()}));
+}
+
+TEST(EvidenceReport, WhoIsNoLongerTrackedIsTheWorstRise) {
+  const std::vector<EvidenceRow> rows = {WeakRow({10, 18, 4}, 30), WeakRow({10, 18, 8}, 50),
+                                         WeakRow({10, 18, 16}, 0)};
+  const std::optional<EvidenceRise> rise = LargestRise(SummarizeEvidence(rows));
+  ASSERT_TRUE(rise);
+  EXPECT_EQ(rise->mm(), std::numeric_limits<double>::infinity());
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("nobody is tracked any more, from 4 to 16 cameras"));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("| – | 0 | 50 |"));
+}
+
+TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
+  const std::vector<EvidenceRow> rows = {
+      WeakRow({15, 28, 4}, 30, 0.4), WeakRow({15, 28, 4}, 40, 0.6), WeakRow({15, 28, 8}, 20, 0.7),
+      WeakRow({15, 28, 16}, 10, 1.2)};
+  EXPECT_THAT(EvidenceTable(rows),
+              HasSubstr("| 15 | 28 | 35.0 | 100 | 50 | 20.0 | 100 | 70 | 10.0 | 100 | 120 |"));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("-10.0 mm"));
+  EXPECT_THAT(EvidenceMarkdown(rows, 2), HasSubstr("evidence.svg"));
+  EXPECT_THAT(EvidenceSvg(rows), HasSubstr("cameras, crf 28"));
+  EXPECT_EQ(EvidenceMarkdown({}, 2), "");
+  EXPECT_EQ(EvidenceTable({}), "");
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,139 @@
+#include "tools/accuracy/evidence_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/report/svg_plot.h"
+
+namespace mocap {
+namespace {
+
+std::string CrfText(const std::optional<int>& crf) { return crf ? std::to_string(*crf) : "none"; }
+
+std::string ErrorOrDash(const EvidenceSummary& kind) {
+  return kind.is_tracked() ? fmt::format("{:.1f}", kind.error_mm()) : "–";
+}
+
+bool DifferInCamerasOnly(const EvidenceKind& a, const EvidenceKind& b) {
+  return a.contrast == b.contrast && a.crf == b.crf && a.cameras != b.cameras;
+}
+
+std::string RiseText(const std::optional<EvidenceRise>& rise) {
+  if (!rise) return "\nNo kind was tracked that has more cameras in another line.\n";
+  const std::string where =
+      fmt::format("from {} to {} cameras at a contrast of {:.0f} and crf {}", rise->fewer.cameras,
+                  rise->more.cameras, rise->fewer.contrast, CrfText(rise->fewer.crf));
+  if (rise->mm() == std::numeric_limits<double>::infinity())
+    return fmt::format(
+        "\nThe largest rise of the error by more cameras: nobody is tracked any "
+        "more, {}.\n",
+        where);
+  return fmt::format("\nThe largest rise of the error by more cameras: {:+.1f} mm, {}.\n",
+                     rise->mm(), where);
+}
+
+}  // namespace
+
+std::vector<EvidenceSummary> SummarizeEvidence(std::span<const EvidenceRow> rows) {
+  std::vector<EvidenceSummary> kinds;
+  for (const EvidenceRow& first : rows) {
+    const auto is_same = [&first](const auto& other) { return other.kind == first.kind; };
+    if (std::ranges::any_of(kinds, is_same)) continue;
+    std::vector<AccuracyRow> takes;
+    double hull_shares = 0;
+    for (const EvidenceRow& row : rows) {
+      if (!is_same(row)) continue;
+      takes.push_back(row.accuracy);
+      hull_shares += row.hull_share;
+    }
+    kinds.push_back({.kind = first.kind,
+                     .accuracy = Summarize(takes),
+                     .hull_share = hull_shares / static_cast<double>(takes.size())});
+  }
+  return kinds;
+}
+
+std::optional<EvidenceRise> LargestRise(std::span<const EvidenceSummary> kinds) {
+  std::optional<EvidenceRise> largest;
+  for (const EvidenceSummary& fewer : kinds) {
+    for (const EvidenceSummary& more : kinds) {
+      if (!DifferInCamerasOnly(fewer.kind, more.kind) || more.kind.cameras < fewer.kind.cameras ||
+          !fewer.is_tracked())
+        continue;
+      const EvidenceRise rise{fewer.kind, more.kind, fewer.error_mm(), more.error_mm()};
+      if (!largest || rise.mm() > largest->mm()) largest = rise;
+    }
+  }
+  return largest;
+}
+
+std::string EvidenceHeader() {
+  return fmt::format("{:>8}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}\n", "contrast", "crf",
+                     "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %");
+}
+
+std::string EvidenceLine(const EvidenceRow& row) {
+  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9.1f}{:>11.1f}{:>8.0f}\n",
+                     row.kind.contrast, CrfText(row.kind.crf), row.kind.cameras,
+                     row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.seed,
+                     row.accuracy.mpjpe_mm, 100 * row.accuracy.tracked_share, 100 * row.hull_share);
+}
+
+std::string EvidenceTable(std::span<const EvidenceRow> rows) {
+  if (rows.empty()) return {};
+  std::string text = "\n| contrast | crf |";
+  for (const int cameras : kEvidenceCameras)
+    text += fmt::format(" {} cameras: mean mm | tracked % | hull % |", cameras);
+  text += "\n|---|---|";
+  for (std::size_t i = 0; i < kEvidenceCameras.size(); ++i) text += "---|---|---|";
+  const std::vector<EvidenceSummary> kinds = SummarizeEvidence(rows);
+  const EvidenceKind* last = nullptr;
+  for (const EvidenceSummary& kind : kinds) {
+    if (!last || !DifferInCamerasOnly(*last, kind.kind))
+      text += fmt::format("\n| {:.0f} | {} |", kind.kind.contrast, CrfText(kind.kind.crf));
+    last = &kind.kind;
+    text += fmt::format(" {} | {:.0f} | {:.0f} |", ErrorOrDash(kind),
+                        100 * kind.accuracy.tracked_share, 100 * kind.hull_share);
+  }
+  return text + "\n" + RiseText(LargestRise(kinds));
+}
+
+std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds) {
+  if (rows.empty()) return {};
+  return fmt::format(
+             "\n## Weak evidence\nClothes differ from what is behind them by at most the contrast "
+             "[of 256 grey values]. Pictures are coded by x264 at the crf. {} takes of {:.0f} s. "
+             "*Hull*\nis the volume that is carved, as a share of the hull of the true masks of "
+             "the same cameras.\n\n![Mean error by number of cameras](evidence.svg)\n",
+             rows.size(), seconds) +
+         EvidenceTable(rows);
+}
+
+std::string EvidenceSvg(std::span<const EvidenceRow> rows) {
+  const std::vector<EvidenceSummary> kinds = SummarizeEvidence(rows);
+  std::vector<std::string> plots;
+  for (const std::optional<int>& crf : kEvidenceCrfs) {
+    PlotAxes axes{.x_label = fmt::format("cameras, crf {}", CrfText(crf)),
+                  .y_label = "mm",
+                  .width = 480,
+                  .height = 180};
+    for (const int cameras : kEvidenceCameras) axes.x_names.push_back(std::to_string(cameras));
+    std::vector<PlotSeries> lines;
+    for (const double contrast : kEvidenceContrasts) {
+      PlotSeries& line = lines.emplace_back(PlotSeries{.label = fmt::format("{:.0f}", contrast),
+                                                       .points = {},
+                                                       .color = static_cast<int>(lines.size())});
+      for (const EvidenceSummary& kind : kinds) {
+        if (kind.kind.contrast != contrast || kind.kind.crf != crf) continue;
+        const auto place = std::ranges::find(kEvidenceCameras, kind.kind.cameras);
+        line.points.emplace_back(static_cast<double>(place - kEvidenceCameras.begin()),
+                                 kind.is_tracked() ? kind.error_mm() : kPlotGap);
+      }
+    }
+    plots.push_back(PlotSvg(axes, lines));
+  }
+  return StackedSvg(plots, 480, 180);
+}
+
+}  // namespace mocap
