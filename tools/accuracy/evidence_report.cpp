@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tools/report/svg_plot.h"
 
@@ -11,8 +12,8 @@ namespace {
 
 std::string CrfText(const std::optional<int>& crf) { return crf ? std::to_string(*crf) : "none"; }
 
-std::string ErrorOrDash(const EvidenceSummary& kind) {
-  return kind.is_tracked() ? fmt::format("{:.1f}", kind.error_mm()) : "–";
+std::string ErrorOrDash(double tracked_share, double error_mm) {
+  return tracked_share > 0 ? fmt::format("{:.1f}", error_mm) : "–";
 }
 
 bool DifferInCamerasOnly(const EvidenceKind& a, const EvidenceKind& b) {
@@ -21,16 +22,46 @@ bool DifferInCamerasOnly(const EvidenceKind& a, const EvidenceKind& b) {
 
 std::string RiseText(const std::optional<EvidenceRise>& rise) {
   if (!rise) return "\nNo kind was tracked that has more cameras in another line.\n";
-  const std::string where =
-      fmt::format("from {} to {} cameras at a contrast of {:.0f} and crf {}", rise->fewer.cameras,
-                  rise->more.cameras, rise->fewer.contrast, CrfText(rise->fewer.crf));
-  if (rise->mm() == std::numeric_limits<double>::infinity())
-    return fmt::format(
-        "\nThe largest rise of the error by more cameras: nobody is tracked any "
-        "more, {}.\n",
-        where);
-  return fmt::format("\nThe largest rise of the error by more cameras: {:+.1f} mm, {}.\n",
-                     rise->mm(), where);
+  const bool is_lost = rise->mm() == std::numeric_limits<double>::infinity();
+  return fmt::format(
+      "\nThe largest rise of the error by more cameras: {}, from {} to {} cameras at a contrast of "
+      "{:.0f} and crf {} (wanted: at most {:.0f} mm).\n",
+      is_lost ? "nobody is tracked any more" : fmt::format("{:+.1f} mm", rise->mm()),
+      rise->fewer.cameras, rise->more.cameras, rise->fewer.contrast, CrfText(rise->fewer.crf),
+      kMostRise_mm);
+}
+
+bool IsWorseThanWithFewer(const EvidenceSummary& kind, std::span<const EvidenceSummary> kinds) {
+  return std::ranges::any_of(kinds, [&kind](const EvidenceSummary& other) {
+    return DifferInCamerasOnly(other.kind, kind.kind) && other.kind.cameras < kind.kind.cameras &&
+           kind.error_mm() > other.error_mm() + kMostRise_mm;
+  });
+}
+
+// The errors of one crf; the last series are those that rise.
+std::vector<PlotSeries> LinesOf(const std::optional<int>& crf,
+                                std::span<const EvidenceSummary> kinds) {
+  std::vector<PlotSeries> lines;
+  PlotSeries rises{.label = fmt::format("rises by more than {:.0f} mm", kMostRise_mm),
+                   .points = {},
+                   .color = static_cast<int>(kEvidenceContrasts.size()),
+                   .mark = PlotMark::kCrosses};
+  for (const double contrast : kEvidenceContrasts) {
+    PlotSeries line{.label = fmt::format("{}{:.0f}", lines.empty() ? "contrast " : "", contrast),
+                    .points = {},
+                    .color = static_cast<int>(lines.size())};
+    for (const EvidenceSummary& kind : kinds) {
+      if (kind.kind.contrast != contrast || kind.kind.crf != crf) continue;
+      const auto place = std::ranges::find(kEvidenceCameras, kind.kind.cameras);
+      line.points.emplace_back(static_cast<double>(place - kEvidenceCameras.begin()),
+                               kind.is_tracked() ? kind.error_mm() : kPlotGap);
+      if (kind.is_tracked() && IsWorseThanWithFewer(kind, kinds))
+        rises.points.push_back(line.points.back());
+    }
+    lines.push_back(std::move(line));
+  }
+  lines.push_back(std::move(rises));
+  return lines;
 }
 
 }  // namespace
@@ -74,10 +105,11 @@ std::string EvidenceHeader() {
 }
 
 std::string EvidenceLine(const EvidenceRow& row) {
-  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9.1f}{:>11.1f}{:>8.0f}\n",
+  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}\n",
                      row.kind.contrast, CrfText(row.kind.crf), row.kind.cameras,
                      row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.seed,
-                     row.accuracy.mpjpe_mm, 100 * row.accuracy.tracked_share, 100 * row.hull_share);
+                     ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
+                     100 * row.accuracy.tracked_share, 100 * row.hull_share);
 }
 
 std::string EvidenceTable(std::span<const EvidenceRow> rows) {
@@ -93,7 +125,8 @@ std::string EvidenceTable(std::span<const EvidenceRow> rows) {
     if (!last || !DifferInCamerasOnly(*last, kind.kind))
       text += fmt::format("\n| {:.0f} | {} |", kind.kind.contrast, CrfText(kind.kind.crf));
     last = &kind.kind;
-    text += fmt::format(" {} | {:.0f} | {:.0f} |", ErrorOrDash(kind),
+    text += fmt::format(" {} | {:.0f} | {:.0f} |",
+                        ErrorOrDash(kind.accuracy.tracked_share, kind.accuracy.mpjpe_mm),
                         100 * kind.accuracy.tracked_share, 100 * kind.hull_share);
   }
   return text + "\n" + RiseText(LargestRise(kinds));
@@ -119,19 +152,7 @@ std::string EvidenceSvg(std::span<const EvidenceRow> rows) {
                   .width = 480,
                   .height = 180};
     for (const int cameras : kEvidenceCameras) axes.x_names.push_back(std::to_string(cameras));
-    std::vector<PlotSeries> lines;
-    for (const double contrast : kEvidenceContrasts) {
-      PlotSeries& line = lines.emplace_back(PlotSeries{.label = fmt::format("{:.0f}", contrast),
-                                                       .points = {},
-                                                       .color = static_cast<int>(lines.size())});
-      for (const EvidenceSummary& kind : kinds) {
-        if (kind.kind.contrast != contrast || kind.kind.crf != crf) continue;
-        const auto place = std::ranges::find(kEvidenceCameras, kind.kind.cameras);
-        line.points.emplace_back(static_cast<double>(place - kEvidenceCameras.begin()),
-                                 kind.is_tracked() ? kind.error_mm() : kPlotGap);
-      }
-    }
-    plots.push_back(PlotSvg(axes, lines));
+    plots.push_back(PlotSvg(axes, LinesOf(crf, kinds)));
   }
   return StackedSvg(plots, 480, 180);
 }

@@ -24,6 +24,9 @@ struct EvidenceSummary {
   }
 };
 
+/// An error that rises by more, when cameras are added, is a fault.
+inline constexpr double kMostRise_mm = 1;
+
 /// Summarizes the takes of each kind, in the order of their first takes.
 std::vector<EvidenceSummary> SummarizeEvidence(std::span<const EvidenceRow> rows);
 
@@ -49,7 +52,7 @@ std::string EvidenceTable(std::span<const EvidenceRow> rows);
 /// The same as a chapter of a page. It shows evidence.svg, which lies beside it.
 std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds);
 /// Plots the errors over the number of cameras, as an SVG file: a plot for each crf and a line for
-/// each contrast.
+/// each contrast. Crosses mark those that are larger than with fewer cameras, by kMostRise_mm.
 std::string EvidenceSvg(std::span<const EvidenceRow> rows);
 
 }  // namespace mocap

@@ -225,7 +225,8 @@ std::string StackedSvg(std::span<const std::string> plots, int width, int height
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<style>.c0{{stroke:#0072b2;fill:#0072b2}}"
       ".c1{{stroke:#d55e00;fill:#d55e00}}.c2{{stroke:#009e73;fill:#009e73}}"
-      ".c3{{stroke:#cc79a7;fill:#cc79a7}}.axis{{stroke:#444;fill:none}}.grid{{stroke:#ddd}}"
+      ".c3{{stroke:#cc79a7;fill:#cc79a7}}.c4{{stroke:#000;fill:#000}}"
+      ".axis{{stroke:#444;fill:none}}.grid{{stroke:#ddd}}"
       ".line{{fill:none;stroke-width:2}}text{{stroke:none;fill:#222}}</style>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
       width, total);

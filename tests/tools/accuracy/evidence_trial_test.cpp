@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tools/accuracy/evidence_report.h"
@@ -91,6 +92,25 @@ TEST(EvidenceReport, WhoIsNoLongerTrackedIsTheWorstRise) {
   EXPECT_EQ(rise->mm(), std::numeric_limits<double>::infinity());
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("nobody is tracked any more, from 4 to 16 cameras"));
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("| – | 0 | 50 |"));
+  EXPECT_THAT(EvidenceLine(rows.back()), HasSubstr("–"));
+}
+
+int CrossesIn(const std::string& svg) {
+  int count = 0;
+  for (std::size_t at = svg.find("l8 8m-8 0l8 -8"); at != std::string::npos;
+       at = svg.find("l8 8m-8 0l8 -8", at + 1))
+    ++count;
+  return count;
+}
+
+TEST(EvidenceReport, MarksTheErrorsThatRise) {
+  const std::vector<EvidenceRow> well = {WeakRow({10, 18, 4}, 30), WeakRow({10, 18, 8}, 30.9),
+                                         WeakRow({10, 18, 16}, 0)};
+  const std::vector<EvidenceRow> ill = {WeakRow({10, 18, 4}, 30), WeakRow({10, 18, 8}, 20),
+                                        WeakRow({10, 18, 16}, 21.1)};
+  // Each plot has one in its legend.
+  EXPECT_EQ(CrossesIn(EvidenceSvg(well)), 3);
+  EXPECT_EQ(CrossesIn(EvidenceSvg(ill)), 4);
 }
 
 TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
@@ -102,6 +122,7 @@ TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("-10.0 mm"));
   EXPECT_THAT(EvidenceMarkdown(rows, 2), HasSubstr("evidence.svg"));
   EXPECT_THAT(EvidenceSvg(rows), HasSubstr("cameras, crf 28"));
+  EXPECT_THAT(EvidenceSvg(rows), HasSubstr("contrast 40"));
   EXPECT_EQ(EvidenceMarkdown({}, 2), "");
   EXPECT_EQ(EvidenceTable({}), "");
 }
