@@ -25,17 +25,20 @@ Studio OpenStudio(const Config& config);
 struct TakeOptions {
   ReplayRate rate = ReplayRate::kFast;
   bool loop = false;
-  bool in_memory = false;            ///< Decodes the whole take in advance.
-  std::vector<std::string> cameras;  ///< Empty: all.
+  bool in_memory = false;                 ///< Decodes the whole take in advance.
+  std::vector<std::string> cameras = {};  ///< Empty: all.
   /// In real time, gives the capture time of the first frame of all cameras, including those that
   /// are not opened. Null: the start of the first camera.
   std::function<std::int64_t()> begin_ns = nullptr;
+  /// A folder of masks, CAMERA.mkv. The drivers deliver them instead of pictures, and no background
+  /// is needed or given. Empty: pictures.
+  std::filesystem::path masks = {};
 };
 
 /// Opens a take: its take.toml, calibration, videos, tables and background. A camera that delivered
 /// nothing during the recording is omitted, unless it is named.
 /// @throws SetupError  if a part is missing or damaged. A video that was cut off opens up to its
-/// last complete frame; it must have at least one.
+/// last complete frame; it must have at least one. If masks are wanted, every frame needs one.
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options);
 
 }  // namespace mocap

@@ -10,6 +10,7 @@
 #include "config/take_header.h"
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
+#include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_driver.h"
@@ -107,6 +108,43 @@ ReplaySpan SpanOf(const std::vector<TakeTable>& tables, double fps_nominal,
   return span;
 }
 
+/// Counts frames, from the first on. @param most  stops there.
+std::size_t CountFrames(VideoReader& video, std::size_t most) {
+  std::size_t count = 0;
+  while (count < most && video.Skip() != VideoStatus::kEnd) ++count;
+  return count;
+}
+
+/// Opens masks of a camera's frames.
+/// @param rows  of the camera's table. A video that was cut off may have fewer frames.
+VideoReader OpenMasks(const std::filesystem::path& masks, const std::filesystem::path& pictures,
+                      std::size_t rows, const CameraCalibration& camera) {
+  RequireFile(masks, "masks of " + camera.name + ", one for each frame");
+  VideoReader video = OpenCameraVideo(masks, camera);
+  const std::size_t count = CountFrames(video, rows);
+  if (count < rows) {
+    VideoReader recorded = OpenCameraVideo(pictures, camera);
+    const std::size_t frames = CountFrames(recorded, rows);
+    if (count < frames) {
+      throw SetupError(masks.string() + ": has " + Counted(count, "mask") + "; expected one for " +
+                       "each of the " + Counted(frames, "frame") + " of " + camera.name);
+    }
+  }
+  video.Rewind();
+  return video;
+}
+
+/// Checks the folder of masks, or of the pictures of the empty studio.
+void RequireReference(const TakeLayout& layout, const TakeOptions& options) {
+  if (!options.masks.empty())
+    return RequireFolder(options.masks, "a folder of masks, named CAMERA.mkv");
+  // Takes of a board are such.
+  if (!IsThere(layout.Background()))
+    throw SetupError(layout.folder.string() +
+                     ": has no pictures of the empty studio (the folder background); expected a "
+                     "take of people");
+}
+
 }  // namespace
 
 Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
@@ -114,11 +152,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   const TakeLayout layout{take};
   const std::vector<CameraCalibration> calibrations = LoadCalibration(layout.Calibration());
   const std::vector<std::string> names = Choose(header, options.cameras, layout);
-  // Takes of a board are such.
-  if (!IsThere(layout.Background()))
-    throw SetupError(take.string() +
-                     ": has no pictures of the empty studio (the folder background); expected a "
-                     "take of people");
+  RequireReference(layout, options);
 
   Studio studio{header.name, header.fps_nominal, {}};
   RemarkOnPlaces(calibrations, layout.Calibration(), studio);
@@ -127,9 +161,10 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
     const CameraCalibration& camera = Find(calibrations, name, layout.Calibration());
     tables.push_back(ReadCameraTable(layout.Table(name), camera));
     CheckTimes(tables.back(), header.fps_nominal, layout.Table(name), studio.remarks);
-    studio.cameras.push_back(
-        {camera, nullptr,
-         OpenCameraBackground(layout.BackgroundVideo(name), layout.BackgroundTable(name), camera)});
+    studio.cameras.push_back({camera, nullptr, {}});
+    if (options.masks.empty())
+      studio.cameras.back().background =
+          OpenCameraBackground(layout.BackgroundVideo(name), layout.BackgroundTable(name), camera);
   }
   const bool realtime = options.rate == ReplayRate::kRealtime;
   studio.times = realtime ? CaptureTimes::kPresent : CaptureTimes::kRecorded;
@@ -146,7 +181,11 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
                                realtime ? MakeTimelineClock() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
-    VideoReader video = OpenCameraVideo(layout.Video(names[i]), camera.calibration);
+    const std::filesystem::path pictures = layout.Video(names[i]);
+    VideoReader video = options.masks.empty()
+                            ? OpenCameraVideo(pictures, camera.calibration)
+                            : OpenMasks(options.masks / pictures.filename(), pictures,
+                                        tables[i].rows.size(), camera.calibration);
     if (options.in_memory) video.KeepInMemory();
     camera.driver = std::make_unique<TakeDriver>(std::move(video), std::move(tables[i]), replay);
   }

@@ -23,6 +23,7 @@
 #include "daemon/base/choice_option.h"
 #include "daemon/base/json_object.h"
 #include "daemon/base/number_option.h"
+#include "daemon/pipeline/masked_camera.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/clock.h"
 #include "drivers/nearest_name.h"
@@ -46,7 +47,8 @@ struct TrackOptions {
   std::string body;  ///< Empty: the tracker's default.
   std::string tracker = Trackers().front().name;
   std::vector<std::string> cameras;
-  std::optional<int> people;  ///< Without: one, whose result is the take's.
+  std::optional<std::filesystem::path> masks;  ///< Empty: the take's own.
+  std::optional<int> people;                   ///< Without: one, whose result is the take's.
   bool measure = false;
   bool json = false;
 };
@@ -71,6 +73,12 @@ std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double
 // @pre  the name is valid.
 const NamedTracker& TrackerOf(const std::string& name) {
   return *std::ranges::find(Trackers(), name, &NamedTracker::name);
+}
+
+/// The folder of the given masks; empty: pictures are segmented.
+std::filesystem::path MasksOf(const TrackOptions& options) {
+  if (!options.masks) return {};
+  return options.masks->empty() ? TakeLayout{options.take}.Masks() : *options.masks;
 }
 
 /// One camera gives no depth.
@@ -139,7 +147,7 @@ void Write(const TrackOptions& options, const ResultSink& sink) {
 void Track(const TrackOptions& options) {
   StopOnSignals();
   const NamedTracker& tracker = TrackerOf(options.tracker);
-  Studio studio = OpenTake(options.take, {.cameras = options.cameras});
+  Studio studio = OpenTake(options.take, {.cameras = options.cameras, .masks = MasksOf(options)});
   RequireTwoCameras(options, studio);
   const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
   RequireRoom(cameras, options.voxel_mm, TakeLayout{options.take}.Calibration().string());
@@ -149,12 +157,14 @@ void Track(const TrackOptions& options) {
   RequireRoomForResult(options.out);
   ResultSink sink(options.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1, MarkOf(options.take));
+  const OpenElsewhere masked = options.masks ? TakeMaskedCameras(studio) : nullptr;
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
                      .overflow = Overflow::kWait,
                      .latency_origin = LatencyOrigin::kArrival,
                      .tracker = tracker.kind,
-                     .people = options.people.value_or(1)},
+                     .people = options.people.value_or(1),
+                     .elsewhere = masked},
                     LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
   if (!options.measure && IsThere(subject)) {
@@ -207,6 +217,13 @@ void AddTrackCommand(CLI::App& app) {
                    "track up to this many people; one result folder each, person-1 and so on "
                    "(default: one person)")
       ->check(NumberFrom(1, kMostPeople));
+  command
+      ->add_option_function<std::string>(
+          "--masks", [options](const std::string& folder) { options->masks = folder; },
+          "take silhouettes from masks, CAMERA.mkv with white people, instead of the pictures "
+          "(default folder: the take's silhouette)")
+      ->expected(0, 1)
+      ->type_name("[DIR]");
   command->add_flag("--measure", options->measure,
                     "measure the person's sizes even if the take contains them");
   command->add_flag("--json", options->json, "print one JSON object");

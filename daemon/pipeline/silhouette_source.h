@@ -37,7 +37,8 @@ class SilhouetteSource {
   virtual CameraStatus Status() const = 0;
 };
 
-/// Opens the source of a camera whose driver is on another computer.
+/// Opens the source of a camera without a driver of pictures here: it is on another computer, or
+/// masks are given.
 /// @param rays  maximum number per outline.
 using OpenElsewhere =
     std::function<std::unique_ptr<SilhouetteSource>(const CameraCalibration& camera, int rays)>;

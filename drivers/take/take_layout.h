@@ -41,8 +41,9 @@ struct TakeLayout {
   std::filesystem::path BackgroundTable(const std::string& camera) const {
     return Background() / (camera + ".csv");
   }
+  std::filesystem::path Masks() const { return folder / "silhouette"; }
   std::filesystem::path Mask(const std::string& camera) const {
-    return folder / "silhouette" / (camera + ".mkv");
+    return Masks() / (camera + ".mkv");
   }
   /// Sizes of the subject, if they were known.
   std::filesystem::path Subject() const { return folder / "subject.toml"; }

@@ -167,7 +167,7 @@ class TakeWriter::Impl {
     std::optional<VideoWriter>& video = masks_[Checked(camera)];
     if (!video) {
       const CameraCalibration& calibration = calibrations_[camera];
-      std::filesystem::create_directory(layout_.Mask("x").parent_path());
+      std::filesystem::create_directory(layout_.Masks());
       video.emplace(layout_.Mask(calibration.name), calibration.width_px, calibration.height_px,
                     fps_, VideoPixels::kGray);
     }

@@ -6,6 +6,7 @@
 #include "config/open_studio.h"
 #include "core/errors.h"
 #include "drivers/take/take_layout.h"
+#include "tests/support/gray_video.h"
 #include "tests/support/images.h"
 #include "tests/support/small_take.h"
 #include "tests/support/temporary_folder.h"
@@ -262,6 +263,67 @@ TEST_F(OpenedTake, EveryDamageIsOneLineThatNamesTheFile) {
                                         Not(HasSubstr("\n"))))
         << damage.name;
   }
+}
+
+/// Writes masks that are white where x < 7 + frame.
+void WriteMasks(const std::filesystem::path& file, const SmallTake& take, int frames) {
+  std::filesystem::create_directories(file.parent_path());
+  testing::GrayVideo video{.width_px = take.width_px, .height_px = take.height_px};
+  for (int i = 0; i < frames; ++i) video.times.push_back(i);
+  video.pixel = [](int frame, int x, int) { return x < 7 + frame ? 255 : 0; };
+  WriteGrayVideo(file, video);
+}
+
+class MaskedTake : public OpenedTake {
+ protected:
+  void SetUp() override {
+    WriteSmallTake(layout_.folder, take_);
+    for (int camera = 1; camera <= take_.cameras; ++camera) WriteMasks(MaskOf(camera), take_, 12);
+  }
+  std::filesystem::path MaskOf(int camera) const {
+    return options_.masks / ("cam" + std::to_string(camera) + ".mkv");
+  }
+
+  const TakeOptions options_{.masks = folder_.path() / "masks"};
+};
+
+TEST_F(MaskedTake, GivesTheMaskOfEachFrameAndNeedsNoBackground) {
+  remove_all(layout_.Background());
+  const Studio studio = OpenTake(layout_.folder, options_);
+  CameraDriver& driver = *studio.cameras[1].driver;
+  driver.Start();
+  Frame frame;
+  for (int i = 0; i < take_.frames; ++i) {
+    ASSERT_EQ(driver.Grab(frame, milliseconds(0)), GrabStatus::kFrame);
+    EXPECT_EQ(frame.capture_ns, take_.TimeNs(1, i));
+    EXPECT_EQ(frame.image(6 + i, 20).g, 255);
+    EXPECT_EQ(frame.image(7 + i, 20).g, 0);
+  }
+  EXPECT_EQ(driver.Grab(frame, milliseconds(0)), GrabStatus::kEnd);
+}
+
+TEST_F(MaskedTake, WhatLacksIsOneLineThatNamesTheFile) {
+  WriteMasks(MaskOf(2), take_, 11);
+  EXPECT_THAT(ErrorOnOpening(options_),
+              HasSubstr("masks/cam2.mkv: has 11 masks; expected one for each of the 12 frames of "
+                        "cam2"));
+  SmallTake wide = take_;
+  wide.width_px = 70;
+  WriteMasks(MaskOf(2), wide, 12);
+  EXPECT_THAT(ErrorOnOpening(options_), HasSubstr("masks/cam2.mkv: has pictures of 70 x 50; cam2 "
+                                                  "is calibrated for 68 x 50"));
+  std::filesystem::remove(MaskOf(2));
+  EXPECT_THAT(ErrorOnOpening(options_),
+              HasSubstr("masks/cam2.mkv: not found; expected masks of cam2, one for each frame"));
+  remove_all(options_.masks);
+  EXPECT_THAT(ErrorOnOpening(options_),
+              HasSubstr("masks: not found; expected a folder of masks, named CAMERA.mkv"));
+}
+
+TEST_F(MaskedTake, FramesThatWereCutOffNeedNoMasks) {
+  testing::CutFile(layout_.Video("cam2"), 0.5);
+  WriteMasks(MaskOf(2), take_, 6);
+  EXPECT_EQ(CountFrames(*OpenTake(layout_.folder, options_).cameras[1].driver), 6);
 }
 
 // Recordings of other makers: H.264, MPEG-4 with B-frames, sizes that are no multiple of eight.

@@ -20,11 +20,11 @@ struct GrayVideo {
   int width_px = 64, height_px = 32;
   AVRational time_base = {1, 25};
   int keyframe_every = 1;
-  std::vector<std::int64_t> times;  ///< Of the frames, in units of the time base.
-  std::int64_t duration = 0;        ///< Of a frame; 0: not told.
+  std::vector<std::int64_t> times = {};  ///< Of the frames, in units of the time base.
+  std::int64_t duration = 0;             ///< Of a frame; 0: not told.
   std::optional<std::array<std::int32_t, 9>> display_matrix = {};
   /// The brightness of a pixel of a frame.
-  std::function<std::uint8_t(int frame, int x, int y)> pixel;
+  std::function<std::uint8_t(int frame, int x, int y)> pixel = nullptr;
 };
 
 inline void WriteGrayFrame(const GrayVideo& video, int number, AVCodecContext& encoder,

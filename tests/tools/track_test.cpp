@@ -12,6 +12,7 @@
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/text_file.h"
+#include "tests/support/gray_video.h"
 #include "tests/support/run_command.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
@@ -121,6 +122,25 @@ TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
   EXPECT_EQ(testing::ReadText(Result() / "poses.csv"), before);
   EXPECT_THAT(Said(AddTrackCommand, track + (folder_->path() / "new").string()),
               HasSubstr("4 frame sets, 0 tracked"));
+}
+
+TEST_F(WalkTracked, SilhouettesAreTheGivenMasks) {
+  const fs::path masked = folder_->path() / "masked", dark = folder_->path() / "dark";
+  fs::copy(Take(), masked, fs::copy_options::recursive);
+  fs::remove_all(masked / "background");
+  const std::string track =
+      "track --voxel-size 40 " + masked.string() + " --out " + (masked / "result").string();
+  EXPECT_THAT(Said(AddTrackCommand, track + " --masks"), HasSubstr("16 frame sets, 15 tracked"));
+  for (const fs::path& file : fs::directory_iterator(masked / "silhouette")) {
+    testing::GrayVideo black{.width_px = 240, .height_px = 180};
+    for (int i = 0; i < 16; ++i) black.times.push_back(i);
+    black.pixel = [](int, int, int) { return 0; };
+    fs::create_directory(dark);
+    WriteGrayVideo(dark / file.filename(), black);
+  }
+  fs::remove_all(masked / "result");
+  EXPECT_THAT(Said(AddTrackCommand, track + " --masks " + dark.string()),
+              HasSubstr("16 frame sets, 0 tracked"));
 }
 
 TEST_F(WalkTracked, CheckFailsIfTheCalibrationShouldNotBeUsed) {
