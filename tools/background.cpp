@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@
 #include "daemon/base/number_option.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/unfinished_folder.h"
+#include "tools/background_occupied.h"
 #include "tools/background_recorder.h"
 #include "tools/control.h"
 #include "tools/stop_on_signals.h"
@@ -29,8 +31,13 @@ struct LearnOptions {
   std::filesystem::path config;
   std::filesystem::path socket;
   bool anyway = false;
-  double seconds = 4;
+  bool is_occupied = false;
+  std::filesystem::path take;
+  std::optional<double> seconds;
+  std::vector<std::string> accepted;
 };
+
+constexpr double kEmptySeconds = 4;
 
 /// Records all cameras at the same time. If several fail, the first camera's error is thrown.
 std::vector<BackgroundRecord> RecordAll(std::vector<LiveCamera>& cameras,
@@ -61,20 +68,31 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
 
 void Learn(const LearnOptions& options) {
   StopOnSignals();
+  const double seconds = options.seconds.value_or(kEmptySeconds);
   const Config config = LoadConfig(options.config);
   std::vector<LiveCamera> cameras = OpenLiveCameras(config);
   const std::filesystem::path partial = BeginBackground(config.background);
   UnfinishedFolder unfinished(partial);
   if (isatty(STDERR_FILENO)) {
-    std::fprintf(stderr, "recording the background for %g s\n", options.seconds);
+    std::fprintf(stderr, "recording the background for %g s\n", seconds);
   }
-  const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, options.seconds);
+  const std::vector<BackgroundRecord> records = RecordAll(cameras, partial, seconds);
   RequireStillRoom(cameras, records);
   ReplaceBackground(config.background, partial);
   unfinished.Finish();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::printf("%s: %s\n", cameras[i].name.c_str(), Counted(records[i].frames, "frame").c_str());
   }
+}
+
+void LearnWhileOccupied(const LearnOptions& options) {
+  OccupiedOptions occupied{.accepted = options.accepted};
+  if (options.seconds) occupied.seconds = *options.seconds;
+  if (!options.take.empty()) return LearnFromOccupiedTake(options.take, occupied);
+  if (!options.config.empty()) return LearnFromOccupiedStudio(options.config, occupied);
+  throw SetupError(
+      "--occupied needs --config FILE, to learn from its cameras while no mocapd uses "
+      "them, or --take TAKE");
 }
 
 }  // namespace
@@ -84,7 +102,9 @@ void AddBackgroundCommand(CLI::App& app) {
       app.add_subcommand("background", "Learn the background or show its status");
   background->require_subcommand(1);
   CLI::App* learn = background->add_subcommand(
-      "learn", "Learn the background from the empty studio; nobody may be in view");
+      "learn",
+      "Learn the background from the empty studio, or with --occupied from people who move "
+      "about in it");
   auto options = std::make_shared<LearnOptions>();
   auto* config =
       learn->add_option("--config", options->config,
@@ -92,14 +112,30 @@ void AddBackgroundCommand(CLI::App& app) {
                         "uses them (default: the running mocapd learns)");
   learn
       ->add_option("--seconds", options->seconds,
-                   "recording time of cameras without a pan-tilt head [s]")
+                   "recording time of cameras without a pan-tilt head [s] (default: 4; 60 with "
+                   "--occupied)")
       ->check(NumberFrom(1, 600))
-      ->capture_default_str()
       ->needs(config);
+  auto* occupied = learn->add_flag(
+      "--occupied", options->is_occupied,
+      "learn while people move about: each pixel, where its wall is seen often enough; needs "
+      "--config or --take");
+  learn
+      ->add_option("--take", options->take,
+                   "take folder: learn from its pictures, and replace its background")
+      ->needs(occupied)
+      ->excludes(config);
+  learn
+      ->add_option("--accept", options->accepted,
+                   "cameras, such as cam1,cam2, in which furniture that was moved becomes part of "
+                   "the background")
+      ->delimiter(',')
+      ->needs(occupied);
   learn
       ->add_flag("--anyway", options->anyway,
                  "learn even if a person is tracked, such as a chair that is taken for one")
-      ->excludes(config);
+      ->excludes(config)
+      ->excludes(occupied);
   CLI::App* status = background->add_subcommand(
       "status", "Show the age of the background and the light in which it is valid");
   for (CLI::App* command : {learn, status}) {
@@ -107,6 +143,7 @@ void AddBackgroundCommand(CLI::App& app) {
                         "mocapd control socket (default: the system's, else the user's own)");
   }
   learn->callback([options] {
+    if (options->is_occupied) return LearnWhileOccupied(*options);
     if (!options->config.empty()) return Learn(*options);
     AskAndPrint(options->socket, options->anyway ? "background learn anyway" : "background learn");
   });

@@ -11,6 +11,7 @@
 #include "core/reconstruction/background/change_meter.h"
 #include "drivers/clock.h"
 #include "drivers/take/video_writer.h"
+#include "tools/occupied_room.h"
 #include "tools/stop_on_signals.h"
 
 namespace mocap {
@@ -75,15 +76,15 @@ void LookThere(LiveCamera& camera, const PanTiltAngles& direction, Frame& frame)
 }
 
 BackgroundRecord RecordStill(LiveCamera& camera, const std::filesystem::path& base, Frame& frame,
-                             double seconds) {
+                             double seconds, int frames) {
   const std::int64_t begin_ns = frame.capture_ns + kSettle_ns;
-  const auto interval_ns = static_cast<std::int64_t>(std::llround(seconds * 1e9 / kFrames));
+  const auto interval_ns = static_cast<std::int64_t>(std::llround(seconds * 1e9 / frames));
   VideoWriter writer(base.string() + ".mkv", frame.image.width(), frame.image.height(),
-                     kFrames / seconds, VideoPixels::kBgr);
+                     frames / seconds, VideoPixels::kBgr);
   ChangeMeter meter;
   BackgroundRecord record;
   std::int64_t due_ns = begin_ns;
-  while (frame.capture_ns < begin_ns + interval_ns * kFrames && record.frames < kFrames) {
+  while (frame.capture_ns < begin_ns + interval_ns * frames && record.frames < frames) {
     GrabNext(camera, frame);
     if (frame.capture_ns < due_ns) continue;
     due_ns = std::max(due_ns + interval_ns, frame.capture_ns);
@@ -155,9 +156,19 @@ BackgroundRecord RecordBackground(LiveCamera& camera, const std::filesystem::pat
   const bool turns = camera.head && camera.calibration;
   const std::filesystem::path base = folder / camera.name;
   const BackgroundRecord record =
-      turns ? RecordSweep(camera, base, frame) : RecordStill(camera, base, frame, seconds);
+      turns ? RecordSweep(camera, base, frame) : RecordStill(camera, base, frame, seconds, kFrames);
   camera.driver->Stop();
   return record;
+}
+
+void RecordOccupied(LiveCamera& camera, const std::filesystem::path& folder, double seconds) {
+  camera.driver->Start();
+  Frame frame;
+  GrabNext(camera, frame);
+  const auto wanted = static_cast<int>(std::lround(seconds * kOccupiedFps));
+  RecordStill(camera, folder / camera.name, frame, seconds,
+              std::min(wanted, kMostOccupiedPictures));
+  camera.driver->Stop();
 }
 
 }  // namespace mocap

@@ -24,6 +24,9 @@ struct BackgroundRecord {
 BackgroundRecord RecordBackground(LiveCamera& camera, const std::filesystem::path& folder,
                                   double seconds);
 
+/// Records a fixed camera's pictures for some time, at kOccupiedFps or less. @throws likewise.
+void RecordOccupied(LiveCamera& camera, const std::filesystem::path& folder, double seconds);
+
 /// Returns the directions of a scan, in an order that keeps steps small.
 /// @pre  the camera is calibrated and its head was started.
 std::vector<PanTiltAngles> SweepDirections(const LiveCamera& camera);

@@ -109,6 +109,12 @@ TEST_F(BackgroundRecorder, NoticesSomebodyWhoComesIn) {
   EXPECT_GT(RecordBackground(camera, folder_.path(), kRecordedSeconds).changed, kMostChange);
 }
 
+TEST_F(BackgroundRecorder, AnOccupiedStudioIsRecordedAtTwoPicturesASecond) {
+  LiveCamera camera = Camera(std::make_unique<StillCamera>(take_));
+  RecordOccupied(camera, folder_.path(), 20);
+  EXPECT_EQ(Read().size(), 40u);
+}
+
 TEST_F(BackgroundRecorder, HeadLooksInAllDirectionsThatTheStudioAllows) {
   LiveCamera camera = CameraOnHead();
   const BackgroundRecord record = RecordBackground(camera, folder_.path(), kRecordedSeconds);

@@ -1,0 +1,33 @@
+// Beyond the paper: the empty studio, from pictures in which people move about.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/reconstruction/empty_room/shown_colors.h"
+
+namespace mocap {
+
+/// What pictures of an occupied studio tell about the empty one.
+struct EmptyRoom {
+  enum class Place : std::uint8_t {
+    kSeen,    ///< Its colour is the empty studio's.
+    kMoved,   ///< Likewise, but clearly another one than before.
+    kUnseen,  ///< No colour was frequent enough.
+  };
+
+  Image<Bgr> color;           ///< Smooth; without meaning where it is unseen.
+  std::vector<Place> places;  ///< Of each pixel, row by row.
+
+  /// Share of pixels that are of a kind.
+  double ShareOf(Place place) const;
+};
+
+/// Decides for each pixel which colour is the empty studio's: the one that was shown in a quarter
+/// of the pictures and twice as often as any other, or in some of them if the studio had it before.
+/// Its shades by shadows are no other colours, and the brightest of them counts if it is frequent.
+/// @param earlier  the empty studio before, in the present light; null: unknown.
+EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier);
+
+}  // namespace mocap

@@ -1,0 +1,116 @@
+#include "core/reconstruction/empty_room/empty_room.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/reconstruction/empty_room/moved_things.h"
+#include "tests/core/reconstruction/empty_room/walked_room.h"
+
+namespace mocap {
+namespace {
+
+using testing::ColorsOf;
+using testing::kRoomHeight;
+using testing::kRoomWidth;
+using testing::LargestDifference;
+using testing::RoomPictures;
+using testing::SmoothWall;
+using testing::Walker;
+using Place = EmptyRoom::Place;
+
+/// A box in which something is shown instead of what else is there.
+testing::RoomPainter WithBox(const PixelBox& box, const testing::RoomPainter& inside,
+                             const testing::RoomPainter& outside = Walker) {
+  return [=](int picture, int x, int y, const Bgr& wall) {
+    const bool is_inside = x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
+    return (is_inside ? inside : outside)(picture, x, y, wall);
+  };
+}
+
+/// A colour that is another one in every picture.
+Bgr Unsteady(int picture, int, int, const Bgr&) {
+  const auto value = static_cast<std::uint8_t>(10 + picture * 97 % 230);
+  return {value, static_cast<std::uint8_t>(picture * 53 % 250), 128};
+}
+
+int WorstDifference(const EmptyRoom& room, const Image<Bgr>& wall) {
+  int worst = 0;
+  for (std::size_t i = 0; i < room.places.size(); ++i) {
+    if (room.places[i] == Place::kUnseen) continue;
+    worst = std::max(worst, LargestDifference(room.color.pixels()[i], wall.pixels()[i]));
+  }
+  return worst;
+}
+
+TEST(EmptyRoom, IsSeenBehindSomebodyWhoWalksInFlickeringLight) {
+  const EmptyRoom room = FindEmptyRoom(ColorsOf(RoomPictures(Walker)), nullptr);
+  EXPECT_EQ(room.ShareOf(Place::kUnseen), 0);
+  EXPECT_LE(WorstDifference(room, SmoothWall()), 2);
+}
+
+TEST(EmptyRoom, AShadowThatLiesThereHalfOfTheTimeIsNotItsColour) {
+  const auto shaded = [](int picture, int, int, const Bgr& wall) {
+    const double light = picture % 9 < 5 ? 0.85 + 0.01 * (picture % 5) : 1;
+    return Bgr{static_cast<std::uint8_t>(wall.b * light), static_cast<std::uint8_t>(wall.g * light),
+               static_cast<std::uint8_t>(wall.r * light)};
+  };
+  const EmptyRoom room =
+      FindEmptyRoom(ColorsOf(RoomPictures(WithBox({20, 20, 50, 50}, shaded))), nullptr);
+  EXPECT_EQ(room.ShareOf(Place::kUnseen), 0);
+  EXPECT_LE(WorstDifference(room, SmoothWall()), 3);
+}
+
+TEST(EmptyRoom, WhatNeverSettlesIsUnseen) {
+  const EmptyRoom room =
+      FindEmptyRoom(ColorsOf(RoomPictures(WithBox({20, 20, 50, 50}, Unsteady))), nullptr);
+  // Means around two pixels at each side show it, too.
+  constexpr double kBoxShare = 35.0 * 35 / (kRoomWidth * kRoomHeight);
+  EXPECT_NEAR(room.ShareOf(Place::kUnseen), kBoxShare, 0.01);
+  EXPECT_LE(WorstDifference(room, SmoothWall()), 4);
+}
+
+TEST(EmptyRoom, SomebodyWhoStaysForHalfOfTheTimeIsUnseenUnlessTheWallIsKnown) {
+  const auto stays = [](int picture, int, int, const Bgr& wall) {
+    return picture >= 30 ? Bgr{30, 160, 40} : wall;
+  };
+  const ShownColors shown = ColorsOf(RoomPictures(WithBox({20, 20, 50, 50}, stays)));
+  const EmptyRoom unknown = FindEmptyRoom(shown, nullptr);
+  EXPECT_EQ(unknown.places[35 * kRoomWidth + 35], Place::kUnseen);
+  EXPECT_LE(WorstDifference(unknown, SmoothWall()), 3);
+  const Image<Bgr> wall = SmoothWall();
+  const EmptyRoom known = FindEmptyRoom(shown, &wall);
+  EXPECT_EQ(known.places[35 * kRoomWidth + 35], Place::kSeen);
+  EXPECT_LE(LargestDifference(known.color(35, 35), wall(35, 35)), 2);
+}
+
+TEST(MovedThings, AreNamedByTheirPlaceUnlessTheyAreTiny) {
+  const auto chair = [](int, int, int, const Bgr&) { return Bgr{40, 60, 200}; };
+  const PixelBox seat{24, 16, 47, 39}, speck{80, 50, 82, 52};
+  const Image<Bgr> wall = SmoothWall();
+  EmptyRoom room =
+      FindEmptyRoom(ColorsOf(RoomPictures(WithBox(seat, chair, WithBox(speck, chair)))), &wall);
+  const std::vector<MovedThing> things = FindMoved(room, 50);
+  ASSERT_EQ(things.size(), 1u);
+  EXPECT_NEAR(things[0].box.left, seat.left, MovedThing::kTile_px);
+  EXPECT_NEAR(things[0].box.top, seat.top, MovedThing::kTile_px);
+  EXPECT_NEAR(things[0].box.right, seat.right, MovedThing::kTile_px);
+  EXPECT_NEAR(things[0].box.bottom, seat.bottom, MovedThing::kTile_px);
+  EXPECT_NEAR(things[0].area_px, 24 * 24, 100);
+  EXPECT_EQ(room.places[20 * kRoomWidth + 30], Place::kMoved);
+  Forget(things[0], room);
+  EXPECT_EQ(room.places[20 * kRoomWidth + 30], Place::kUnseen);
+  EXPECT_TRUE(FindMoved(room, 50).empty());
+}
+
+TEST(PictureSteadier, TellsTheLightOfEachPictureWhateverWalksThere) {
+  PictureSteadier steadier;
+  steadier.Steady(testing::RoomPicture(0, Walker).view());
+  for (const double light : {0.8, 1.0, 1.1}) {
+    const SteadyPicture steady = steadier.Steady(testing::RoomPicture(1, Walker, light).view());
+    for (const double gain : steady.light) EXPECT_NEAR(gain, light, 0.01);
+    EXPECT_LE(LargestDifference(steady.color(2, 3), SmoothWall()(2, 3)), 3);
+  }
+}
+
+}  // namespace
+}  // namespace mocap

@@ -1,0 +1,172 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/camera_files.h"
+#include "config/load_config.h"
+#include "core/errors.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/video_writer.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/background.h"
+#include "tools/simulate.h"
+
+namespace mocap {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string Simulate(const fs::path& take, const std::string& options) {
+  ::testing::internal::CaptureStdout();
+  testing::RunCommand(AddSimulateCommand, "simulate --width 160 --height 120 --cameras 3 --out " +
+                                              take.string() + " " + options);
+  return ::testing::internal::GetCapturedStdout();
+}
+
+/// Two people walk about for a minute.
+class WalkedStudio : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new testing::TemporaryFolder;
+    Simulate(Minute(), "--people 2 --seconds 60 --fps 2");
+  }
+  static void TearDownTestSuite() { delete std::exchange(folder_, nullptr); }
+
+  void SetUp() override {
+    fs::remove_all(take_.folder);
+    fs::copy(Minute(), take_.folder, fs::copy_options::recursive);
+  }
+
+  static fs::path Minute() { return folder_->path() / "minute"; }
+  /// Why learning failed; empty: it did not.
+  static std::string Refusal(const std::string& options) {
+    try {
+      testing::RunCommand(AddBackgroundCommand, "background learn --occupied " + options);
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string Learn(const std::string& options = "") const {
+    ::testing::internal::CaptureStdout();
+    const std::string refusal = Refusal("--take " + take_.folder.string() + options);
+    const std::string said = ::testing::internal::GetCapturedStdout();
+    return refusal.empty() ? said : refusal;
+  }
+  static std::vector<BackgroundFrame> Background(const TakeLayout& take, const std::string& name) {
+    for (const CameraCalibration& camera : LoadCalibration(take.Calibration())) {
+      if (camera.name == name)
+        return OpenCameraBackground(take.BackgroundVideo(name), take.BackgroundTable(name),
+                                    camera)();
+    }
+    return {};
+  }
+  /// The mean green of a pixel.
+  static double GreenAt(const std::vector<BackgroundFrame>& frames, int x, int y) {
+    double sum = 0;
+    for (const BackgroundFrame& frame : frames) sum += frame.image(x, y).g;
+    return sum / static_cast<double>(frames.size());
+  }
+  /// Changes the stored background of cam2. @param right  the last column that is changed.
+  void Store(int right, int top, const std::function<Bgr(const Bgr&)>& change) const {
+    const std::vector<BackgroundFrame> frames = Background(take_, "cam2");
+    VideoWriter video(take_.BackgroundVideo("cam2"), 160, 120, 10, VideoPixels::kBgr);
+    for (BackgroundFrame frame : frames) {
+      for (int y = top; y < 110; ++y) {
+        for (int x = 10; x <= right; ++x) frame.image(x, y) = change(frame.image(x, y));
+      }
+      video.Write(frame.image.view());
+    }
+    video.Finish();
+  }
+  void StoreBox() const {
+    Store(33, 80, [](const Bgr&) { return Bgr{220, 20, 220}; });
+  }
+
+  static inline testing::TemporaryFolder* folder_ = nullptr;
+  const TakeLayout take_{folder_->path() / "take"};
+};
+
+TEST_F(WalkedStudio, GetsTheBackgroundThatItHasWhenItIsEmpty) {
+  fs::remove_all(take_.Background());
+  EXPECT_THAT(Learn(), ContainsRegex("cam1: 120 pictures, 0[0-9.]* % of its picture was never"));
+  for (const char* camera : {"cam1", "cam2", "cam3"}) {
+    const std::vector<BackgroundFrame> learned = Background(take_, camera);
+    const std::vector<BackgroundFrame> empty = Background(TakeLayout{Minute()}, camera);
+    ASSERT_EQ(learned.size(), 50u);
+    int wrong = 0;
+    double sum = 0;
+    for (int y = 0; y < 120; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        const double off = std::abs(GreenAt(learned, x, y) - GreenAt(empty, x, y));
+        sum += off;
+        wrong += off > 5;
+      }
+    }
+    EXPECT_LT(sum / (160 * 120), 1) << camera;
+    EXPECT_LT(wrong, 160 * 120 / 100) << camera;
+  }
+}
+
+TEST_F(WalkedStudio, WhatWasMovedIsNamedAndStaysAsItWasStored) {
+  StoreBox();
+  EXPECT_THAT(Learn(), AllOf(HasSubstr("cam2: something was moved at the bottom left, x 8 to 39, y "
+                                       "80 to 111 px ("),
+                             HasSubstr(" % of the picture); the stored background remains there, "
+                                       "unless you use --accept cam2\n"),
+                             Not(HasSubstr("cam1: something")), Not(HasSubstr("cam3: something"))));
+  EXPECT_NEAR(GreenAt(Background(take_, "cam2"), 20, 95), 20, 3);
+}
+
+TEST_F(WalkedStudio, WhatWasMovedIsLearnedOnRequest) {
+  StoreBox();
+  EXPECT_THAT(Learn(" --accept cam2,cam3"),
+              ContainsRegex("cam2: something was moved at the bottom left,.*; it is part of the "
+                            "background now"));
+  EXPECT_NEAR(GreenAt(Background(take_, "cam2"), 20, 95),
+              GreenAt(Background(TakeLayout{Minute()}, "cam2"), 20, 95), 5);
+}
+
+TEST_F(WalkedStudio, AnotherViewIsRefusedUnlessItIsAccepted) {
+  Store(159, 0, [](const Bgr& color) {
+    return color.g > 127 ? Bgr{20, 20, 90} : Bgr{200, 240, 200};
+  });
+  EXPECT_THAT(Learn(), ContainsRegex("cam2: [0-9]+ % of its picture differs from the stored "
+                                     "background; .* --accept cam2"));
+  EXPECT_FALSE(fs::exists(take_.Background().string() + ".partial"));
+  Learn(" --accept cam2");
+  EXPECT_NEAR(GreenAt(Background(take_, "cam2"), 20, 95),
+              GreenAt(Background(TakeLayout{Minute()}, "cam2"), 20, 95), 5);
+}
+
+TEST_F(WalkedStudio, WhatCannotBeLearnedIsOneLine) {
+  const fs::path still = folder_->path() / "still", turned = folder_->path() / "turned";
+  EXPECT_THAT(Refusal(""), HasSubstr("--occupied needs --config FILE"));
+  EXPECT_THAT(Refusal("--accept cam9 --take " + take_.folder.string()),
+              HasSubstr("--accept: there is no camera \"cam9\""));
+  Simulate(still, "--people 2 --motion sit --seconds 60 --fps 1");
+  EXPECT_THAT(Refusal("--take " + still.string()), "");
+  fs::remove_all(still / "background");
+  EXPECT_THAT(Refusal("--take " + still.string()),
+              ContainsRegex("cam1: [0-9.]+ % of its picture was never seen without people"));
+  Simulate(turned, "--seconds 2 --fps 4 --pan-tilt");
+  EXPECT_THAT(Refusal("--take " + turned.string()), HasSubstr("is on a pan-tilt head"));
+  Simulate(folder_->path() / "short", "--seconds 4 --fps 10");
+  EXPECT_THAT(Refusal("--take " + (folder_->path() / "short").string()),
+              HasSubstr("cam1: has only 8 pictures at 2 a second; expected at least 30"));
+}
+
+}  // namespace
+}  // namespace mocap

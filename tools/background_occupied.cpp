@@ -1,0 +1,139 @@
+#include "tools/background_occupied.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <future>
+#include <optional>
+#include <utility>
+
+#include "config/camera_files.h"
+#include "config/load_config.h"
+#include "config/take_header.h"
+#include "core/errors.h"
+#include "drivers/nearest_name.h"
+#include "drivers/printable_text.h"
+#include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/unfinished_folder.h"
+#include "drivers/take/video_reader.h"
+#include "tools/background_recorder.h"
+#include "tools/occupied_room.h"
+#include "tools/stop_on_signals.h"
+
+namespace mocap {
+namespace {
+
+/// Every `step`-th picture of a video.
+BackgroundSource PicturesOf(const std::filesystem::path& file, int step) {
+  return BackgroundSource::OneByOne([file, step](const BackgroundSource::Visit& visit) {
+    VideoReader video(file);
+    BackgroundFrame frame{Image<Bgr>(video.width_px(), video.height_px()), {}};
+    ImageView<const Bgr> view;
+    for (int i = 0;; ++i) {
+      EndIfStopAsked();
+      const VideoStatus status = i % step == 0 ? video.Read(view) : video.Skip();
+      if (status == VideoStatus::kEnd) return;
+      if (i % step != 0 || status == VideoStatus::kBroken) continue;
+      for (int y = 0; y < view.height(); ++y)
+        std::copy_n(view.row(y), view.width(), frame.image.row(y));
+      visit(frame);
+    }
+  });
+}
+
+void RequireCameras(const std::vector<std::string>& accepted,
+                    const std::vector<std::string>& cameras) {
+  for (const std::string& name : accepted) {
+    if (std::ranges::find(cameras, name) != cameras.end()) continue;
+    throw SetupError("--accept: there is no camera " + Quoted(name) + "; " +
+                     ExpectedNames(name, cameras));
+  }
+}
+
+void RequireFixed(const std::string& camera, bool is_on_head) {
+  if (!is_on_head) return;
+  throw SetupError(
+      camera +
+      ": is on a pan-tilt head, and --occupied learns fixed cameras only; learn in the "
+      "empty studio, without --occupied");
+}
+
+/// Learns one camera after the other, and replaces the folder of the background.
+/// @param partial  from BeginBackground.
+void LearnAll(const std::vector<std::string>& cameras,
+              const std::function<BackgroundSource(const std::string&)>& pictures,
+              const std::filesystem::path& folder, const std::filesystem::path& partial,
+              const OccupiedOptions& options) {
+  std::vector<OccupiedRecord> records;
+  for (const std::string& name : cameras) {
+    OccupiedRoom room{name, pictures(name), std::nullopt,
+                      std::ranges::count(options.accepted, name) > 0};
+    const std::filesystem::path stored = folder / (name + ".mkv"), here = partial / (name + ".mkv");
+    if (IsThere(stored)) room.stored = PicturesOf(stored, 1);
+    // A camera's name has no dot.
+    const std::filesystem::path learned = partial / (name + ".learned.mkv");
+    if (isatty(STDERR_FILENO)) std::fprintf(stderr, "learning %s\n", name.c_str());
+    records.push_back(LearnOccupied(room, learned));
+    std::filesystem::rename(learned, here);
+  }
+  ReplaceBackground(folder, partial);
+  for (const OccupiedRecord& record : records) {
+    for (const std::string& line : TextOf(record)) std::printf("%s\n", line.c_str());
+  }
+}
+
+}  // namespace
+
+void LearnFromOccupiedStudio(const std::filesystem::path& file, const OccupiedOptions& options) {
+  StopOnSignals();
+  const Config config = LoadConfig(file);
+  std::vector<LiveCamera> cameras = OpenLiveCameras(config);
+  std::vector<std::string> names;
+  for (const LiveCamera& camera : cameras) {
+    names.push_back(camera.name);
+    RequireFixed(camera.name, camera.head != nullptr);
+  }
+  RequireCameras(options.accepted, names);
+  const std::filesystem::path partial = BeginBackground(config.background);
+  UnfinishedFolder unfinished(partial);
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "recording for %g s\n", options.seconds);
+  std::vector<std::future<void>> recordings;
+  for (LiveCamera& camera : cameras) {
+    recordings.push_back(
+        std::async(std::launch::async, [&] { RecordOccupied(camera, partial, options.seconds); }));
+  }
+  for (std::future<void>& recording : recordings) recording.wait();
+  for (std::future<void>& recording : recordings) recording.get();
+  LearnAll(
+      names, [&](const std::string& name) { return PicturesOf(partial / (name + ".mkv"), 1); },
+      config.background, partial, options);
+  unfinished.Finish();
+}
+
+void LearnFromOccupiedTake(const std::filesystem::path& take, const OccupiedOptions& options) {
+  StopOnSignals();
+  const TakeHeader header = ReadTakeHeader(take);
+  const TakeLayout layout{take};
+  RequireCameras(options.accepted, header.cameras);
+  for (const CameraCalibration& camera : LoadCalibration(layout.Calibration()))
+    RequireFixed(camera.name, camera.head.has_value());
+  const std::filesystem::path partial = BeginBackground(layout.Background());
+  UnfinishedFolder unfinished(partial);
+  LearnAll(
+      header.cameras,
+      [&](const std::string& name) {
+        const std::size_t frames = ReadTakeTable(layout.Table(name)).rows.size();
+        const double apart = std::max(header.fps_nominal / kOccupiedFps,
+                                      static_cast<double>(frames) / kMostOccupiedPictures);
+        return PicturesOf(layout.Video(name), std::max(1, static_cast<int>(std::ceil(apart))));
+      },
+      layout.Background(), partial, options);
+  unfinished.Finish();
+}
+
+}  // namespace mocap

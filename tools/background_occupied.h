@@ -1,0 +1,25 @@
+// mocap background learn --occupied: the background of a studio in which people move about.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mocap {
+
+struct OccupiedOptions {
+  double seconds = 60;                ///< Recording time of live cameras.
+  std::vector<std::string> accepted;  ///< Cameras whose moved things become part of the background.
+};
+
+/// Records the configuration's cameras, all at the same time, and replaces their background. Prints
+/// what was learned.
+/// @throws SetupError  also for a camera on a pan-tilt head, as LearnOccupied, and for an accepted
+/// camera that is not there. Then the old background stays.
+void LearnFromOccupiedStudio(const std::filesystem::path& config, const OccupiedOptions& options);
+
+/// Learns from a take's own pictures, and replaces its background, or gives it one. @throws
+/// likewise.
+void LearnFromOccupiedTake(const std::filesystem::path& take, const OccupiedOptions& options);
+
+}  // namespace mocap
