@@ -15,12 +15,14 @@ namespace mocap::testing {
 
 inline constexpr int kRoomWidth = 96, kRoomHeight = 64, kRoomPictures = 60;
 
-/// Noise of about two grey levels, the same for the same number.
+/// Noise of some grey levels, the same for the same number.
 inline int RoomNoise(std::uint32_t number) {
-  std::uint32_t state = number * 2654435761u;
+  std::uint32_t state = number;
   int sum = 0;
   for (int i = 0; i < 4; ++i) {
-    state = state * 1664525u + 1013904223u;
+    // Mixes all bits: neighbours and successive pictures have nothing in common.
+    state = (state ^ state >> 16) * 0x7feb352du;
+    state = (state ^ state >> 15) * 0x846ca68bu + 1;
     sum += static_cast<int>(state >> 29) - 3;
   }
   return sum / 2;
