@@ -61,7 +61,7 @@ void RequireStillRoom(const std::vector<LiveCamera>& cameras,
     text.precision(2);
     text << cameras[i].name << ": " << 100 * records[i].changed
          << " % of its picture changed meanwhile; check that nobody is in the room and that its "
-            "exposure is fixed. The previous background is kept";
+            "exposure is fixed, or learn with --occupied. The previous background is kept";
     throw std::runtime_error(text.str());
   }
 }
@@ -88,7 +88,7 @@ void Learn(const LearnOptions& options) {
 void LearnWhileOccupied(const LearnOptions& options) {
   OccupiedOptions occupied{.accepted = options.accepted};
   if (options.seconds) occupied.seconds = *options.seconds;
-  if (!options.take.empty()) return LearnFromOccupiedTake(options.take, occupied);
+  if (!options.take.empty()) return LearnFromOccupiedTake(options.take, options.config, occupied);
   if (!options.config.empty()) return LearnFromOccupiedStudio(options.config, occupied);
   throw SetupError(
       "--occupied needs --config FILE, to learn from its cameras while no mocapd uses "
@@ -122,9 +122,9 @@ void AddBackgroundCommand(CLI::App& app) {
       "--config or --take");
   learn
       ->add_option("--take", options->take,
-                   "take folder: learn from its pictures, and replace its background")
-      ->needs(occupied)
-      ->excludes(config);
+                   "take folder: learn from its pictures, and replace its background, or with "
+                   "--config that of the studio which recorded it")
+      ->needs(occupied);
   learn
       ->add_option("--accept", options->accepted,
                    "cameras, such as cam1,cam2, in which furniture that was moved becomes part of "

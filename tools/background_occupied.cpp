@@ -63,6 +63,30 @@ void RequireFixed(const std::string& camera, bool is_on_head) {
       "empty studio, without --occupied");
 }
 
+/// Whose background is learned, and where it is stored.
+struct LearnedPlace {
+  std::vector<std::string> cameras;
+  std::filesystem::path folder;
+};
+
+/// @throws SetupError  unless the take has all cameras of the studio.
+LearnedPlace StudioOfTake(const std::filesystem::path& file,
+                          const std::vector<std::string>& recorded,
+                          const std::filesystem::path& take) {
+  const Config config = LoadConfig(file);
+  if (!IsLive(config.source))
+    throw SetupError(WhereOf(config, "source.driver") + " is " + Quoted(config.source.driver) +
+                     ", which has its own pictures of the empty studio; expected live cameras");
+  LearnedPlace place{{}, config.background};
+  for (const CameraConfig& camera : config.cameras) {
+    if (std::ranges::find(recorded, camera.name) == recorded.end())
+      throw SetupError(take.string() + ": has no camera " + Quoted(camera.name) + " of " +
+                       file.string() + "; expected a take of all of its cameras");
+    place.cameras.push_back(camera.name);
+  }
+  return place;
+}
+
 /// Learns one camera after the other, and replaces the folder of the background.
 /// @param partial  from BeginBackground.
 void LearnAll(const std::vector<std::string>& cameras,
@@ -115,24 +139,27 @@ void LearnFromOccupiedStudio(const std::filesystem::path& file, const OccupiedOp
   unfinished.Finish();
 }
 
-void LearnFromOccupiedTake(const std::filesystem::path& take, const OccupiedOptions& options) {
+void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesystem::path& config,
+                           const OccupiedOptions& options) {
   StopOnSignals();
   const TakeHeader header = ReadTakeHeader(take);
   const TakeLayout layout{take};
-  RequireCameras(options.accepted, header.cameras);
   for (const CameraCalibration& camera : LoadCalibration(layout.Calibration()))
     RequireFixed(camera.name, camera.head.has_value());
-  const std::filesystem::path partial = BeginBackground(layout.Background());
+  const LearnedPlace place = config.empty() ? LearnedPlace{header.cameras, layout.Background()}
+                                            : StudioOfTake(config, header.cameras, take);
+  RequireCameras(options.accepted, place.cameras);
+  const std::filesystem::path partial = BeginBackground(place.folder);
   UnfinishedFolder unfinished(partial);
   LearnAll(
-      header.cameras,
+      place.cameras,
       [&](const std::string& name) {
         const std::size_t frames = ReadTakeTable(layout.Table(name)).rows.size();
         const double apart = std::max(header.fps_nominal / kOccupiedFps,
                                       static_cast<double>(frames) / kMostOccupiedPictures);
         return PicturesOf(layout.Video(name), std::max(1, static_cast<int>(std::ceil(apart))));
       },
-      layout.Background(), partial, options);
+      place.folder, partial, options);
   unfinished.Finish();
 }
 

@@ -20,6 +20,9 @@ void LearnFromOccupiedStudio(const std::filesystem::path& config, const Occupied
 
 /// Learns from a take's own pictures, and replaces its background, or gives it one. @throws
 /// likewise.
-void LearnFromOccupiedTake(const std::filesystem::path& take, const OccupiedOptions& options);
+/// @param config  of the studio that recorded it, whose background is replaced instead; may be
+/// empty.
+void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesystem::path& config,
+                           const OccupiedOptions& options);
 
 }  // namespace mocap

@@ -151,6 +151,32 @@ TEST_F(WalkedStudio, AnotherViewIsRefusedUnlessItIsAccepted) {
               GreenAt(Background(TakeLayout{Minute()}, "cam2"), 20, 95), 5);
 }
 
+TEST_F(WalkedStudio, ATakeGivesTheBackgroundOfItsStudio) {
+  const fs::path file = folder_->path() / "studio.toml";
+  const auto configure = [&](const std::string& cameras) {
+    testing::WriteText(file,
+                       "calibration = \"take/calibration.toml\"\nbackground = \"empty\"\n[source]\n"
+                       "driver = \"v4l2\"\n" +
+                           cameras);
+  };
+  const auto camera = [](const std::string& name) {
+    return "[[cameras]]\nname = \"" + name + "\"\ndevice = \"/dev/" + name + "\"\n";
+  };
+  configure(camera("cam1") + camera("cam3"));
+  const std::string before = testing::ReadText(take_.BackgroundVideo("cam1"));
+  EXPECT_THAT(Learn(" --config " + file.string()),
+              AllOf(HasSubstr("cam1: 120 pictures"), HasSubstr("cam3: 120 pictures"),
+                    Not(HasSubstr("cam2"))));
+  EXPECT_TRUE(fs::exists(folder_->path() / "empty/cam1.mkv"));
+  EXPECT_FALSE(fs::exists(folder_->path() / "empty/cam2.mkv"));
+  EXPECT_EQ(testing::ReadText(take_.BackgroundVideo("cam1")), before);
+  configure(camera("cam1") + camera("cam7"));
+  EXPECT_THAT(Learn(" --config " + file.string()), HasSubstr("take: has no camera \"cam7\" of "));
+  testing::WriteText(file, "[source]\ndriver = \"simulated\"\n");
+  EXPECT_THAT(Learn(" --config " + file.string()),
+              HasSubstr("studio.toml: source.driver is \"simulated\""));
+}
+
 TEST_F(WalkedStudio, WhatCannotBeLearnedIsOneLine) {
   const fs::path still = folder_->path() / "still", turned = folder_->path() / "turned";
   EXPECT_THAT(Refusal(""), HasSubstr("--occupied needs --config FILE"));
