@@ -108,7 +108,9 @@ std::vector<Image<Bgr>> StoredPictures(const OccupiedRoom& room, const ShownColo
   return stored;
 }
 
-std::string Percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+std::string Percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
 
 void RequireEnough(const OccupiedRecord& record, double moved) {
   const std::string where = record.camera + ": ";
@@ -177,9 +179,7 @@ OccupiedRecord LearnOccupied(const OccupiedRoom& of, const std::filesystem::path
   record.unseen = room.ShareOf(Place::kUnseen);
   record.is_filled = !stored.empty();
   RequireEnough(record, moved);
-  if (!of.is_accepted) {
-    for (const MovedThing& thing : record.moved) Forget(thing, room);
-  }
+  if (!of.is_accepted) room.ForgetMoved();
   WriteCleared(of, room, shown, stored, video);
   return record;
 }

@@ -25,6 +25,9 @@ constexpr double kDarkestShade = 0.4;
 constexpr int kFewestOfKnown = 8;
 /// A smaller difference from before is a change of light [grey levels].
 constexpr int kMovedDifference = 20;
+/// But beside what was moved or never settled, this is part of it: somebody who sits there has
+/// places of the wall's colour, and throws a shadow [grey levels].
+constexpr int kSlightDifference = 6;
 
 int DifferenceOf(const Bgr& a, const Bgr& b) {
   return std::max({std::abs(a.b - b.b), std::abs(a.g - b.g), std::abs(a.r - b.r)});
@@ -74,12 +77,37 @@ std::optional<Color> ClearAmong(const std::array<Color, ShownColors::kColors>& c
   return clear;
 }
 
+/// Adds to what was moved, and to what is unseen, what differs slightly beside it.
+void Spread(const Image<Bgr>& earlier, EmptyRoom& room) {
+  const int width = earlier.width(), height = earlier.height();
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < room.places.size(); ++i)
+    if (room.places[i] != Place::kSeen) reached.push_back(i);
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const std::size_t from = reached[next];
+    const int x = static_cast<int>(from % width), y = static_cast<int>(from / width);
+    const auto reach = [&](bool is_inside, std::size_t to) {
+      if (!is_inside || room.places[to] != Place::kSeen ||
+          DifferenceOf(earlier.pixels()[to], room.color.pixels()[to]) <= kSlightDifference)
+        return;
+      room.places[to] = Place::kMoved;
+      reached.push_back(to);
+    };
+    reach(x > 0, from - 1);
+    reach(x + 1 < width, from + 1);
+    reach(y > 0, from - width);
+    reach(y + 1 < height, from + width);
+  }
+}
+
 }  // namespace
 
 double EmptyRoom::ShareOf(Place place) const {
   return static_cast<double>(std::ranges::count(places, place)) /
          static_cast<double>(places.size());
 }
+
+void EmptyRoom::ForgetMoved() { std::ranges::replace(places, Place::kMoved, Place::kUnseen); }
 
 EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier) {
   EmptyRoom room{Image<Bgr>(shown.width(), shown.height()), {}};
@@ -97,6 +125,7 @@ EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier) {
     room.color.pixels()[i] = settled->mean;
     room.places[i] = place;
   }
+  if (earlier) Spread(*earlier, room);
   return room;
 }
 

@@ -20,6 +20,8 @@ struct EmptyRoom {
   Image<Bgr> color;           ///< Smooth; without meaning where it is unseen.
   std::vector<Place> places;  ///< Of each pixel, row by row.
 
+  /// Makes unseen what was moved.
+  void ForgetMoved();
   /// Share of pixels that are of a kind.
   double ShareOf(Place place) const;
 };
@@ -27,6 +29,7 @@ struct EmptyRoom {
 /// Decides for each pixel which colour is the empty studio's: the one that was shown in a quarter
 /// of the pictures and twice as often as any other, or in some of them if the studio had it before.
 /// Its shades by shadows are no other colours, and the brightest of them counts if it is frequent.
+/// What differs clearly from before was moved, and so was what differs slightly beside it.
 /// @param earlier  the empty studio before, in the present light; null: unknown.
 EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier);
 

@@ -18,8 +18,8 @@ struct TileGrid {
   /// The pixels of some tiles.
   PixelBox Pixels(int left, int top, int right, int bottom) const {
     constexpr int kTile = MovedThing::kTile_px;
-    return {std::max(left, 0) * kTile, std::max(top, 0) * kTile,
-            std::min((right + 1) * kTile, width) - 1, std::min((bottom + 1) * kTile, height) - 1};
+    return {left * kTile, top * kTile, std::min((right + 1) * kTile, width) - 1,
+            std::min((bottom + 1) * kTile, height) - 1};
   }
 
   int width, height, columns, rows;
@@ -55,21 +55,25 @@ std::vector<int> MovedPixels(const EmptyRoom& room, const TileGrid& grid) {
   return moved;
 }
 
-void Grow(const TileGrid& grid, std::size_t first, std::vector<int>& moved, MovedThing& thing) {
+/// Takes a tile's thing out of `moved`.
+MovedThing ThingAt(const TileGrid& grid, std::size_t first, std::vector<int>& moved) {
+  MovedThing thing;
+  std::vector<std::size_t> tiles;
   int left = grid.columns, top = grid.rows, right = 0, bottom = 0;
   const auto take = [&](std::size_t tile) {
     if (moved[tile] == 0) return;
     thing.area_px += moved[tile];
     moved[tile] = 0;
-    thing.tiles.push_back(tile);
+    tiles.push_back(tile);
     const int column = static_cast<int>(tile) % grid.columns;
     const int row = static_cast<int>(tile) / grid.columns;
     left = std::min(left, column), right = std::max(right, column);
     top = std::min(top, row), bottom = std::max(bottom, row);
   };
   take(first);
-  for (std::size_t i = 0; i < thing.tiles.size(); ++i) ForEachAround(grid, thing.tiles[i], take);
+  for (std::size_t i = 0; i < tiles.size(); ++i) ForEachAround(grid, tiles[i], take);
   thing.box = grid.Pixels(left, top, right, bottom);
+  return thing;
 }
 
 }  // namespace
@@ -80,27 +84,11 @@ std::vector<MovedThing> FindMoved(const EmptyRoom& room, int smallest_px) {
   std::vector<MovedThing> things;
   for (std::size_t tile = 0; tile < moved.size(); ++tile) {
     if (moved[tile] == 0) continue;
-    MovedThing thing;
-    Grow(grid, tile, moved, thing);
-    if (thing.area_px >= smallest_px) things.push_back(std::move(thing));
+    const MovedThing thing = ThingAt(grid, tile, moved);
+    if (thing.area_px >= smallest_px) things.push_back(thing);
   }
   std::ranges::stable_sort(things, std::greater(), &MovedThing::area_px);
   return things;
-}
-
-void Forget(const MovedThing& thing, EmptyRoom& room) {
-  const TileGrid grid(room);
-  for (const std::size_t tile : thing.tiles) {
-    const int column = static_cast<int>(tile) % grid.columns;
-    const int row = static_cast<int>(tile) / grid.columns;
-    const PixelBox box = grid.Pixels(column - 1, row - 1, column + 1, row + 1);
-    for (int y = box.top; y <= std::min(box.bottom, grid.height - 1); ++y) {
-      for (int x = box.left; x <= std::min(box.right, grid.width - 1); ++x) {
-        Place& place = room.places[static_cast<std::size_t>(y) * grid.width + x];
-        if (place == Place::kMoved) place = Place::kUnseen;
-      }
-    }
-  }
 }
 
 }  // namespace mocap

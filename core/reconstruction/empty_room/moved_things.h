@@ -1,7 +1,6 @@
 // Beyond the paper: furniture that was moved since the empty studio was seen last.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "core/reconstruction/empty_room/empty_room.h"
@@ -11,18 +10,14 @@ namespace mocap {
 
 /// Part of a picture where the empty studio changed.
 struct MovedThing {
+  static constexpr int kTile_px = 8;  ///< Boxes consist of squares of this size.
+
   PixelBox box;
   int area_px = 0;
-
-  std::vector<std::size_t> tiles;  ///< Row by row, in squares of kTile_px pixels.
-  static constexpr int kTile_px = 8;
 };
 
 /// Finds connected parts of the picture that moved, the largest first.
 /// @param smallest_px  smaller ones are left out.
 std::vector<MovedThing> FindMoved(const EmptyRoom& room, int smallest_px);
-
-/// Makes the moved pixels of a thing, and beside it, unseen.
-void Forget(const MovedThing& thing, EmptyRoom& room);
 
 }  // namespace mocap

@@ -97,9 +97,27 @@ TEST(MovedThings, AreNamedByTheirPlaceUnlessTheyAreTiny) {
   EXPECT_NEAR(things[0].box.bottom, seat.bottom, MovedThing::kTile_px);
   EXPECT_NEAR(things[0].area_px, 24 * 24, 100);
   EXPECT_EQ(room.places[20 * kRoomWidth + 30], Place::kMoved);
-  Forget(things[0], room);
+  room.ForgetMoved();
   EXPECT_EQ(room.places[20 * kRoomWidth + 30], Place::kUnseen);
   EXPECT_TRUE(FindMoved(room, 50).empty());
+}
+
+TEST(MovedThings, HaveWhatDiffersSlightlyBesideThem) {
+  const auto darker = [](int by) {
+    return [by](int, int, int, const Bgr& wall) {
+      return Bgr{static_cast<std::uint8_t>(wall.b - by), static_cast<std::uint8_t>(wall.g - by),
+                 static_cast<std::uint8_t>(wall.r - by)};
+    };
+  };
+  const auto chair = [](int, int, int, const Bgr&) { return Bgr{40, 60, 200}; };
+  const PixelBox seat{24, 16, 39, 31}, shadow{40, 16, 55, 31}, sunless{70, 40, 85, 55};
+  const Image<Bgr> wall = SmoothWall();
+  const EmptyRoom room =
+      FindEmptyRoom(ColorsOf(RoomPictures(WithBox(
+                        seat, chair, WithBox(shadow, darker(12), WithBox(sunless, darker(12)))))),
+                    &wall);
+  EXPECT_EQ(room.places[22 * kRoomWidth + 48], Place::kMoved);
+  EXPECT_EQ(room.places[48 * kRoomWidth + 78], Place::kSeen) << "light alone changed";
 }
 
 TEST(PictureSteadier, TellsTheLightOfEachPictureWhateverWalksThere) {
