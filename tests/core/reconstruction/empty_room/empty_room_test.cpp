@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/reconstruction/empty_room/moved_things.h"
 #include "tests/core/reconstruction/empty_room/walked_room.h"
 
@@ -58,6 +60,21 @@ TEST(EmptyRoom, AShadowThatLiesThereHalfOfTheTimeIsNotItsColour) {
       FindEmptyRoom(ColorsOf(RoomPictures(WithBox({20, 20, 50, 50}, shaded))), nullptr);
   EXPECT_EQ(room.ShareOf(Place::kUnseen), 0);
   EXPECT_LE(WorstDifference(room, SmoothWall()), 3);
+}
+
+TEST(EmptyRoom, AShadowAsSoftAsTheNoiseDoesNotDarkenIt) {
+  const auto shaded = [](int picture, int, int, const Bgr& wall) {
+    const int by = picture % 9 < 4 ? 5 : 0;
+    return Bgr{static_cast<std::uint8_t>(wall.b - by), static_cast<std::uint8_t>(wall.g - by),
+               static_cast<std::uint8_t>(wall.r - by)};
+  };
+  const EmptyRoom room =
+      FindEmptyRoom(ColorsOf(RoomPictures(WithBox({20, 20, 50, 50}, shaded))), nullptr);
+  const Image<Bgr> wall = SmoothWall();
+  double darker = 0;
+  for (int y = 24; y < 47; ++y)
+    for (int x = 24; x < 47; ++x) darker += (wall(x, y).g - room.color(x, y).g) / (23.0 * 23.0);
+  EXPECT_LT(std::abs(darker), 0.5);
 }
 
 TEST(EmptyRoom, WhatNeverSettlesIsUnseen) {
