@@ -24,6 +24,8 @@ constexpr double kMostUnseen = 0.01, kMostFilled = 0.5;
 constexpr double kMostMoved = 0.3;
 /// Smaller things are dropped by segmentation, too [share of the picture].
 constexpr double kSmallestThing = 0.0005;
+/// More than this in one camera are changes of light, or a camera that was touched.
+constexpr std::size_t kMostNamed = 3;
 constexpr std::size_t kLearnedPictures = 50;
 constexpr std::size_t kNoisePictures = 20;
 /// Of the stored videos; nobody plays them.
@@ -192,7 +194,8 @@ std::vector<std::string> TextOf(const OccupiedRecord& record) {
       fmt::format("{}: {}, {} of its picture was never seen without people{}", record.camera,
                   Counted(record.pictures, "picture"), Percent(record.unseen), filling)};
   const double pixels = static_cast<double>(record.width_px) * record.height_px;
-  for (const MovedThing& thing : record.moved) {
+  for (std::size_t i = 0; i < std::min(record.moved.size(), kMostNamed); ++i) {
+    const MovedThing& thing = record.moved[i];
     lines.push_back(fmt::format(
         "{}: something was moved at the {} ({} of the picture); {}", record.camera,
         PlaceOf(record, thing.box), Percent(thing.area_px / pixels),
@@ -200,6 +203,10 @@ std::vector<std::string> TextOf(const OccupiedRecord& record) {
             ? "it is part of the background now"
             : fmt::format("the stored background remains there, unless you use --accept {}",
                           record.camera)));
+  }
+  if (record.moved.size() > kMostNamed) {
+    lines.push_back(fmt::format("{}: likewise at {}", record.camera,
+                                Counted(record.moved.size() - kMostNamed, "smaller place")));
   }
   return lines;
 }

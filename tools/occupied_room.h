@@ -41,7 +41,8 @@ struct OccupiedRecord {
 /// seen, or a picture that differs as a whole from the stored one.
 OccupiedRecord LearnOccupied(const OccupiedRoom& room, const std::filesystem::path& video);
 
-/// Describes a record for people, one line for the camera and one for each moved thing.
+/// Describes a record for people, one line for the camera and one for each of the largest moved
+/// things.
 std::vector<std::string> TextOf(const OccupiedRecord& record);
 
 }  // namespace mocap

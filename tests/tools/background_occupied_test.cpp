@@ -17,6 +17,7 @@
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/background.h"
+#include "tools/occupied_room.h"
 #include "tools/simulate.h"
 
 namespace mocap {
@@ -189,6 +190,16 @@ TEST_F(WalkedStudio, ATakeGivesTheBackgroundOfItsStudio) {
   testing::WriteText(file, "[source]\ndriver = \"simulated\"\n");
   EXPECT_THAT(Learn(" --config " + file.string()),
               HasSubstr("studio.toml: source.driver is \"simulated\""));
+}
+
+TEST(OccupiedRecord, NamesTheLargestThingsAndCountsTheOthers) {
+  OccupiedRecord record{.camera = "cam1", .width_px = 100, .height_px = 100, .pictures = 60};
+  for (int i = 0; i < 5; ++i) record.moved.push_back({{0, 0, 9, 9}, 90 - i});
+  const std::vector<std::string> lines = TextOf(record);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0], "cam1: 60 pictures, 0 % of its picture was never seen without people");
+  EXPECT_THAT(lines[1], HasSubstr("at the top left, x 0 to 9, y 0 to 9 px (0.9 % of the picture)"));
+  EXPECT_EQ(lines[4], "cam1: likewise at 2 smaller places");
 }
 
 TEST_F(WalkedStudio, WhatCannotBeLearnedIsOneLine) {
