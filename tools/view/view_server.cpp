@@ -85,8 +85,7 @@ class ViewServer::Impl {
       : options_(std::move(options)), acceptor_(OpenPort(io_, options_.port)) {}
 
   void Run() {
-    asio::signal_set signals(io_, SIGINT, SIGTERM);
-    signals.async_wait([this](ErrorCode, int) { io_.stop(); });
+    signals_.async_wait([this](ErrorCode, int) { io_.stop(); });
     asio::co_spawn(io_, Accept(), EndOnFailure);
     Every(kTellPeriod, [this] {
       const std::string line = refusals_.Line(SteadyNs());
@@ -371,6 +370,8 @@ class ViewServer::Impl {
   Refusals refusals_;
   // Members used by coroutines precede the loop; members that use the loop follow it.
   asio::io_context io_{1};
+  // From now on: whoever reads the address may end the server before it runs.
+  asio::signal_set signals_{io_, SIGINT, SIGTERM};
   std::list<std::shared_ptr<Connection>> connections_;
   tcp::acceptor acceptor_;
   asio::thread_pool pool_{kAnswerThreads};
