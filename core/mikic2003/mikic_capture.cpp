@@ -19,14 +19,6 @@ namespace {
 
 // §8.1: refinement stops when the sum of the changes of lengths falls below this.
 constexpr double kSettledMm = 3;
-// The paper does not define loss of track. Here a person is lost while the measured points are so
-// far from the body's in the mean; §8.1 reports lengths that vary by 75 to 100 mm. Somebody who is
-// lost is located again as in the first frame, and forgotten after a second.
-constexpr double kLostResidualMm = 80;
-constexpr double kForgottenAfterS = 1;
-// "Usually several iterations of the extended Kalman filter algorithm are performed in each frame":
-// each labels the voxels by the pose that the one before has found.
-constexpr int kPasses = 3;
 // A child of 1.1 m has about 18 litres of flesh; less is nobody.
 constexpr double kLeastLitres = 12;
 

@@ -7,6 +7,16 @@
 
 namespace mocap::mikic2003 {
 
+/// "Usually several iterations of the extended Kalman filter algorithm are performed in each
+/// frame": each labels the limbs by the pose that the one before has found.
+inline constexpr int kPasses = 3;
+
+/// The paper does not define loss of track. Here a person is lost while the measured points are so
+/// far from the body's in the mean; §8.1 reports lengths that vary by 75 to 100 mm. Somebody who is
+/// lost is located again as in the first frame, and forgotten after a time.
+inline constexpr double kLostResidualMm = 80;
+inline constexpr double kForgottenAfterS = 1;
+
 /// Checks that a table has exactly the sixteen axes of the paper's Table 1. @throws SetupError
 void RequirePaperAxes(const BodyTable& table);
 

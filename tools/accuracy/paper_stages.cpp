@@ -3,18 +3,17 @@
 #include "core/mikic2003/label_voxels.h"
 #include "core/mikic2003/locate_body.h"
 #include "core/mikic2003/measured_points.h"
+#include "core/mikic2003/mikic_capture.h"
 
 namespace mocap {
 namespace {
 
+using mikic2003::kForgottenAfterS;
+using mikic2003::kLostResidualMm;
+using mikic2003::kPasses;
 using mikic2003::LabeledFrame;
 using mikic2003::LabeledTrunk;
 using mikic2003::OrientedBody;
-
-// As in mikic2003::MikicCapture, which a test holds equal.
-constexpr int kPasses = 3;
-constexpr double kLostResidualMm = 80;
-constexpr double kForgottenAfterS = 1;
 
 // What truly belongs to the trunk, though its templates missed it, stays unlabelled.
 LabeledFrame LabelTrueParts(const VoxelCloud& cloud, const LabeledTrunk& trunk,
