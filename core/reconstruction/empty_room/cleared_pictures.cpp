@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/reconstruction/empty_room/neighbours.h"
 
 namespace mocap {
 namespace {
@@ -28,7 +29,6 @@ ClearedPictures::ClearedPictures(const EmptyRoom& room, const GreyTolerance& tol
 // Spreads from the pixels that are seen to their neighbours.
 void ClearedPictures::FindNearest() {
   constexpr std::size_t kNone = ~std::size_t{0};
-  const int width = cleared_.width(), height = cleared_.height();
   nearest_.assign(last_.size(), kNone);
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
@@ -38,16 +38,11 @@ void ClearedPictures::FindNearest() {
   }
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const std::size_t from = reached[next];
-    const int x = static_cast<int>(from % width), y = static_cast<int>(from / width);
-    const auto reach = [&](bool is_inside, std::size_t to) {
-      if (!is_inside || nearest_[to] != kNone) return;
+    ForEachNeighbour(from, cleared_.width(), cleared_.height(), [&](std::size_t to) {
+      if (nearest_[to] != kNone) return;
       nearest_[to] = nearest_[from];
       reached.push_back(to);
-    };
-    reach(x > 0, from - 1);
-    reach(x + 1 < width, from + 1);
-    reach(y > 0, from - width);
-    reach(y + 1 < height, from + width);
+    });
   }
 }
 

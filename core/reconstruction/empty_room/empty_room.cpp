@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/reconstruction/empty_room/neighbours.h"
+
 namespace mocap {
 namespace {
 
@@ -79,24 +81,18 @@ std::optional<Color> ClearAmong(const std::array<Color, ShownColors::kColors>& c
 
 /// Adds to what was moved, and to what is unseen, what differs slightly beside it.
 void Spread(const Image<Bgr>& earlier, EmptyRoom& room) {
-  const int width = earlier.width(), height = earlier.height();
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < room.places.size(); ++i)
     if (room.places[i] != Place::kSeen) reached.push_back(i);
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const std::size_t from = reached[next];
-    const int x = static_cast<int>(from % width), y = static_cast<int>(from / width);
-    const auto reach = [&](bool is_inside, std::size_t to) {
-      if (!is_inside || room.places[to] != Place::kSeen ||
+    ForEachNeighbour(from, earlier.width(), earlier.height(), [&](std::size_t to) {
+      if (room.places[to] != Place::kSeen ||
           DifferenceOf(earlier.pixels()[to], room.color.pixels()[to]) <= kSlightDifference)
         return;
       room.places[to] = Place::kMoved;
       reached.push_back(to);
-    };
-    reach(x > 0, from - 1);
-    reach(x + 1 < width, from + 1);
-    reach(y > 0, from - width);
-    reach(y + 1 < height, from + width);
+    });
   }
 }
 
