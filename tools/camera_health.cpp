@@ -43,7 +43,7 @@ VoxelGrid CarveWithout(const SampledMoment& moment, const std::vector<SensorPlan
   std::vector<CarvingView> views;
   for (std::size_t c = 0; c < tables.size(); ++c) {
     if (c != left_out && moment.views[c])
-      views.push_back({&tables[c], &moment.views[c]->silhouette, X_CW[c]});
+      views.push_back({&tables[c], &moment.views[c]->trimap.person, X_CW[c]});
   }
   VoxelGrid grid;
   if (views.size() >= 2) carver.Carve(views, grid);
@@ -151,7 +151,7 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
     std::vector<SilhouetteShift> matches;
     PictureChange change(cameras[c]);
     for (const SampledMoment& moment : samples.moments) {
-      if (!moment.views[c] || !moment.views[c]->silhouette.BoundingBox()) continue;
+      if (!moment.views[c] || !moment.views[c]->trimap.person.BoundingBox()) continue;
       std::vector<RigidTransform> X_CW(cameras.size());
       for (std::size_t k = 0; k < cameras.size(); ++k) {
         if (moment.views[k])
@@ -159,7 +159,7 @@ std::vector<CameraShift> MeasureShifts(const TakeSamples& samples,
       }
       const VoxelGrid hull = CarveWithout(moment, tables, X_CW, c, carver);
       const Silhouette expected = BitsOf(ProjectVoxels(hull, cameras[c], X_CW[c]));
-      const SilhouetteShift match = MeasureShift(moment.views[c]->silhouette, expected);
+      const SilhouetteShift match = MeasureShift(moment.views[c]->trimap.person, expected);
       if (match.overlap < kLeastOverlap) continue;
       matches.push_back(match);
       change.Add(match);

@@ -12,7 +12,7 @@ std::vector<SeenMoment> MomentsOf(const TakeSamples& samples,
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       if (!sampled.views[c]) continue;
       const RigidTransform X_CW = PoseNow(samples.cameras[c], cameras[c], sampled.views[c]->X_CW);
-      moment[c] = ShapeOf(sampled.views[c]->silhouette, X_CW);
+      moment[c] = ShapeOf(sampled.views[c]->trimap.person, X_CW);
     }
   }
   return moments;

@@ -63,7 +63,8 @@ void Carve(TakeSamples& samples, double voxel_mm) {
     std::vector<CarvingView> views;
     for (std::size_t c = 0; c < tables.size(); ++c) {
       if (!moment.views[c]) continue;
-      views.push_back({&tables[c], &moment.views[c]->silhouette, moment.views[c]->X_CW});
+      const SampledView& view = *moment.views[c];
+      views.push_back({&tables[c], &view.trimap.person, view.X_CW, &view.trimap.unknown});
     }
     carver.Carve(views, moment.voxels);
   }
@@ -104,7 +105,7 @@ TakeSamples SampleTake(const std::filesystem::path& take,
       if (nearest[i].image.empty()) continue;
       SampledView& view = samples.moments[i].views[c].emplace();
       view.X_CW = camera.calibration.PoseAt(nearest[i].angles);
-      segmenter.Segment(nearest[i].image.view(), nearest[i].angles, view.silhouette);
+      segmenter.Segment(nearest[i].image.view(), nearest[i].angles, view.trimap);
       if (requests[i].keep_images) view.image = std::move(nearest[i].image);
     }
   }

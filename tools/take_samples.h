@@ -10,14 +10,14 @@
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/carving/voxel_grid.h"
-#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/trimap.h"
 
 namespace mocap {
 
 /// One camera's picture at a moment.
 struct SampledView {
   RigidTransform X_CW;
-  Silhouette silhouette;
+  Trimap trimap;
   Image<Bgr> image;  ///< Only if requested.
 };
 

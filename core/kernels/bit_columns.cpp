@@ -10,32 +10,6 @@ namespace {
 
 constexpr int kBits = 32;
 
-void DilateAlong(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                 ColumnWord* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    to[i] = from[i] | from[i] << step | from[i - stride] >> (kBits - step) | from[i] >> step |
-            from[i + stride] << (kBits - step);
-}
-
-void ErodeAlong(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                ColumnWord* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i)
-    to[i] = from[i] & (from[i] << step | from[i - stride] >> (kBits - step)) &
-            (from[i] >> step | from[i + stride] << (kBits - step));
-}
-
-void DilateAcross(const ColumnWord* from, int count, int step, ColumnWord* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] | from[i - step] | from[i + step];
-}
-
-void ErodeAcross(const ColumnWord* from, int count, int step, ColumnWord* to) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) to[i] = from[i] & from[i - step] & from[i + step];
-}
-
 void Widen(ColumnWord* bits, int count, std::ptrdiff_t stride, int step) {
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) bits[i] &= bits[i] >> step | bits[i + stride] << (kBits - step);
@@ -63,28 +37,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace mocap::kernels {
-
-HWY_EXPORT(DilateAlong);
-void DilateSideways(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                    ColumnWord* to) {
-  HWY_DYNAMIC_DISPATCH(DilateAlong)(from, count, stride, step, to);
-}
-
-HWY_EXPORT(ErodeAlong);
-void ErodeSideways(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                   ColumnWord* to) {
-  HWY_DYNAMIC_DISPATCH(ErodeAlong)(from, count, stride, step, to);
-}
-
-HWY_EXPORT(DilateAcross);
-void DilateUpAndDown(const ColumnWord* from, int count, int step, ColumnWord* to) {
-  HWY_DYNAMIC_DISPATCH(DilateAcross)(from, count, step, to);
-}
-
-HWY_EXPORT(ErodeAcross);
-void ErodeUpAndDown(const ColumnWord* from, int count, int step, ColumnWord* to) {
-  HWY_DYNAMIC_DISPATCH(ErodeAcross)(from, count, step, to);
-}
 
 HWY_EXPORT(Widen);
 void WidenWindows(ColumnWord* bits, int count, std::ptrdiff_t stride, int step) {

@@ -1,9 +1,7 @@
 // Sets of pixels as bits in columns of words. A word holds 32 pixels of a row, and the word below
 // it those of the next row.
 //
-// Columns follow one another with margins between them, so that one loop shifts all of them. The
-// bits that two columns shift into their common margin do not meet there. `stride` words further on
-// lies the column to the right. Arrays do not overlap, unless they are the same.
+// Columns follow one another. `stride` words further on lies the column to the right.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +10,6 @@
 namespace mocap::kernels {
 
 using ColumnWord = std::uint32_t;
-
-/// Adds pixels `step` to the left and right.
-void DilateSideways(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                    ColumnWord* to);
-/// Keeps pixels that are also set `step` to the left and right.
-void ErodeSideways(const ColumnWord* from, int count, std::ptrdiff_t stride, int step,
-                   ColumnWord* to);
-/// Adds pixels `step` rows above and below.
-void DilateUpAndDown(const ColumnWord* from, int count, int step, ColumnWord* to);
-/// Keeps pixels that are also set `step` rows above and below.
-void ErodeUpAndDown(const ColumnWord* from, int count, int step, ColumnWord* to);
 
 /// Keeps pixels that are also set `step` to the right.
 void WidenWindows(ColumnWord* bits, int count, std::ptrdiff_t stride, int step);

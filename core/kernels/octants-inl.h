@@ -95,7 +95,7 @@ HWY_INLINE Ints Within(Ints number, int low, int high) {
 
 // What is known of rectangles.
 struct Answer {
-  Choice inside, outside, unseen, gap;
+  Choice inside, outside, unseen, unknown;
 };
 
 // Tests whether rectangles are inside or outside the silhouette.
@@ -145,8 +145,8 @@ HWY_INLINE Answer Judge(const Rectangles& r, const WindowPlanes& planes) {
       is_beyond,
       hn::Or(hn::AndNot(IsNegative(too_wide), HasBit(word, 1 << 16)), IsNegative(touches_region)));
   const Choice is_small = IsNegative(side - All(2));
-  const Choice gap = hn::AndNot(is_beyond, hn::AndNot(hn::Or(inside, outside), is_small));
-  return {inside, outside, IsNegative(touches_picture), gap};
+  const Choice unknown = hn::AndNot(is_beyond, hn::AndNot(hn::Or(inside, outside), is_small));
+  return {inside, outside, IsNegative(touches_picture), unknown};
 }
 
 }  // namespace

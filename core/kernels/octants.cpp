@@ -12,9 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mocap::kernels::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE OctantBits Packed(unsigned inside, unsigned outside, unsigned unseen, unsigned gap,
+HWY_INLINE OctantBits Packed(unsigned inside, unsigned outside, unsigned unseen, unsigned unknown,
                              std::size_t k) {
-  return (inside | outside << 8 | unseen << 16 | gap << 24) << k;
+  return (inside | outside << 8 | unseen << 16 | unknown << 24) << k;
 }
 
 HWY_INLINE void Store(Floats numbers, OctantFrames::Lanes& to, std::size_t k) {
@@ -107,7 +107,7 @@ HWY_INLINE OctantBits Project(const OctantCamera& camera, const std::array<float
   const Choice unseen = hn::Or(is_behind, hn::And(is_ahead, misses));
   return Packed(BitsOf(hn::And(answer.inside, is_valid)), BitsOf(hn::And(answer.outside, is_valid)),
                 BitsOf(hn::Or(hn::And(answer.unseen, is_valid), unseen)),
-                BitsOf(hn::And(answer.gap, is_valid)), k);
+                BitsOf(hn::And(answer.unknown, is_valid)), k);
 }
 
 OctantBits ProjectAll(const OctantCamera& camera, const std::array<float, 3>& middle, float spread,
@@ -173,7 +173,7 @@ OctantBits JudgeAll(const WindowPlanes& planes, const OctantFrames& frames, int 
                All(f.y) + (All(y.middle) + y.Beside(spread, k)) * per_z, reach_x, reach_y},
               planes);
     bits |= Packed(BitsOf(answer.inside), BitsOf(answer.outside), BitsOf(answer.unseen),
-                   BitsOf(answer.gap), k);
+                   BitsOf(answer.unknown), k);
   }
   return bits;
 }

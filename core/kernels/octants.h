@@ -86,7 +86,7 @@ inline constexpr int kWidestOctant_px = 2 * kWidestWindow_px;
 inline constexpr float kNoFrame_px = 1e6f;
 
 /// Decisions about eight octants, one bit per octant in each byte: inside the silhouette, outside,
-/// unseen, in a gap; the first byte is the lowest.
+/// unseen, in unknown pixels; the first byte is the lowest.
 using OctantBits = std::uint32_t;
 
 /// Projects octants by the camera's table, and looks them up in its windows.
@@ -102,7 +102,7 @@ OctantBits JudgeOctants(const WindowPlanes& planes, const OctantFrames& frames, 
 
 /// What a camera knows about the samples of eight voxels: one byte per sample, one bit per voxel.
 struct SampleDecisions {
-  std::uint64_t inside, outside, unseen, gap;
+  std::uint64_t inside, outside, unseen, unknown;
 };
 
 /// Tests the samples of eight voxels by windows of one or two pixels. Returns whether all of them

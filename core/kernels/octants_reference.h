@@ -50,9 +50,9 @@ inline OctantBits Judge(const Rectangle& r, const WindowPlanes& planes) {
   const bool is_covered = side <= kWidestOctant_px;
   const bool inside = in_region && in_picture && is_covered && all_corners(0);
   const bool outside = in_picture && (!touches_region || (is_covered && all_corners(16)));
-  const bool gap = in_picture && side < 2 && !inside && !outside;
+  const bool unknown = in_picture && side < 2 && !inside && !outside;
   return OctantBits{inside} | OctantBits{outside} << 8 | OctantBits{!touches_picture} << 16 |
-         OctantBits{gap} << 24;
+         OctantBits{unknown} << 24;
 }
 
 /// A linear function of position.
@@ -215,7 +215,7 @@ inline void JudgeSample(const WindowPlanes& planes, const OctantFrames& f, int o
   const bool inside = IsSet(planes, is_wide, x, y, 0), outside = IsSet(planes, is_wide, x, y, 16);
   if (inside) decisions.inside |= bit;
   if (outside) decisions.outside |= bit;
-  if (!inside && !outside && !is_wide) decisions.gap |= bit;
+  if (!inside && !outside && !is_wide) decisions.unknown |= bit;
 }
 
 inline bool JudgeSamples(const WindowPlanes& planes, const OctantFrames& f, int octant,

@@ -166,18 +166,18 @@ void UnpackShading(Reader& reader, int width_px, int height_px, Shading& shading
 
 }  // namespace
 
-void PackPicture(const Silhouette& silhouette, const Shading& shading,
-                 std::vector<std::uint8_t>& bytes) {
+void PackPicture(const Trimap& trimap, const Shading& shading, std::vector<std::uint8_t>& bytes) {
   Writer writer(bytes);
-  PackRuns(silhouette, writer);
+  PackRuns(trimap.person, writer);
+  PackRuns(trimap.unknown, writer);
   PackRuns(shading.dark, writer);
   PackShading(shading, writer);
 }
 
-bool UnpackPicture(std::span<const std::uint8_t> bytes, int width_px, int height_px,
-                   Silhouette& silhouette, Shading& shading) {
+bool UnpackPicture(std::span<const std::uint8_t> bytes, int width_px, int height_px, Trimap& trimap,
+                   Shading& shading) {
   Reader reader(bytes);
-  for (Silhouette* const picture : {&silhouette, &shading.dark}) {
+  for (Silhouette* const picture : {&trimap.person, &trimap.unknown, &shading.dark}) {
     picture->Reset(width_px, height_px);
     UnpackRuns(reader, *picture);
   }

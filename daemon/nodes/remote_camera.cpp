@@ -41,12 +41,12 @@ bool RemoteCamera::Await() {
 bool RemoteCamera::Unpack(SegmentedFrame& frame) {
   const ReceivedSilhouette& received = inbox_.queue.front();
   const CameraCalibration& camera = inbox_.calibration;
-  if (!UnpackPicture(received.packed, camera.width_px, camera.height_px, frame.silhouette,
+  if (!UnpackPicture(received.packed, camera.width_px, camera.height_px, frame.trimap,
                      frame.shading))
     return false;
   frame.angles = received.angles;
   frame.X_CW = camera.PoseAt(received.angles);
-  TraceOutline(camera, frame.X_CW, frame.silhouette, rays_, frame.outline);
+  TraceOutline(camera, frame.X_CW, frame.trimap, rays_, frame.outline);
   frame.capture_ns = received.capture_ns;
   frame.arrival_ns = received.arrival_ns;
   frame.segment_ns = received.segment_ns;

@@ -54,7 +54,7 @@ void SilhouetteSender::OnSilhouette(int camera, const SegmentedFrame& frame) {
   message.light = frame.light;
   message.nudged_px = frame.nudged_px;
   message.segment_ns = frame.segment_ns;
-  PackPicture(frame.silhouette, frame.shading, message.packed);
+  PackPicture(frame.trimap, frame.shading, message.packed);
   message.num_bytes = static_cast<std::int32_t>(message.packed.size());
   message.sent_ns = TimelineNs() + message.clock_set_ns;
   sender_.Send(silhouette_channel_, message, bytes_);

@@ -82,9 +82,9 @@ CameraWorker::Outcome CameraWorker::Next(const std::atomic<std::int64_t>& wanted
   out.angles = frame.angles;
   out.X_CW = camera_.calibration.PoseAt(frame.angles);
   const std::int64_t begin_ns = SteadyNs();
-  segmenter_.Segment(frame.image, frame.angles, out.silhouette);
+  segmenter_.Segment(frame.image, frame.angles, out.trimap);
   out.shading = segmenter_.shading();
-  if (rays_ > 0) TraceOutline(camera_.calibration, out.X_CW, out.silhouette, rays_, out.outline);
+  if (rays_ > 0) TraceOutline(camera_.calibration, out.X_CW, out.trimap, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   TellConditions(out);
   recorders_[Stage::kSegment].Record(out.segment_ns);
@@ -97,7 +97,7 @@ void CameraWorker::OfferPreview(const Frame& frame, const SegmentedFrame& segmen
   if (!preview_) return;
   preview_->Offer([&](SeenFrame& copy) {
     if (!preview_pacer_.IsDue(SteadyNs()) || !CopyPixels(frame.image, copy.image)) return false;
-    copy.silhouette = segmented.silhouette;
+    copy.silhouette = segmented.trimap.person;
     copy.X_CW = segmented.X_CW;
     copy.capture_ns = segmented.capture_ns;
     return true;
@@ -134,7 +134,7 @@ void CameraWorker::TellConditions(SegmentedFrame& frame) const {
   const float light = 1 / std::max(conditions.gain[kGreen], kLeastGain);
   frame.light = light;
   frame.nudged_px = std::hypot(conditions.displacement.x_px, conditions.displacement.y_px);
-  frame.is_blind = frame.silhouette.CoveredShare() > kBlindShare || light > kMostLightFactor ||
+  frame.is_blind = frame.trimap.person.CoveredShare() > kBlindShare || light > kMostLightFactor ||
                    light < 1 / kMostLightFactor || conditions.shift_px > kMostShift_px;
 }
 

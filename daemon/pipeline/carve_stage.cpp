@@ -59,7 +59,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   }
   if (verdict != Synchronizer::Verdict::kSet) return verdict;
   const std::int64_t begin_ns = SteadyNs();
-  CompleteSilhouettes();
+  DecideFloor();
   Gather(set);
   if (load_control_) {
     load_control_->AddSet(set.capture_ns, set.complete_ns, TimelineNs(), synchronizer_.PeriodNs());
@@ -86,7 +86,7 @@ void CarveStage::OfferToWatch() {
     copy.silhouettes.resize(views_.size());
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (!synchronizer_.members()[i] || cameras_[i].front.is_blind) continue;
-      copy.silhouettes[copy.cameras.size()] = cameras_[i].front.silhouette;
+      copy.silhouettes[copy.cameras.size()] = cameras_[i].front.trimap.person;
       copy.X_CW.push_back(cameras_[i].front.X_CW);
       copy.cameras.push_back(static_cast<int>(i));
     }
@@ -99,7 +99,7 @@ SeenMoment CarveStage::PresentMoment() const {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const SegmentedFrame& front = cameras_[i].front;
     if (!synchronizer_.members()[i] || front.is_blind) continue;
-    moment[i] = ShapeOf(front.silhouette, front.X_CW);
+    moment[i] = ShapeOf(front.trimap.person, front.X_CW);
   }
   return moment;
 }
@@ -122,20 +122,19 @@ void CarveStage::PublishLoad() {
 }
 
 // Uses what the cameras of a set see together.
-void CarveStage::CompleteSilhouettes() {
+void CarveStage::DecideFloor() {
   shaded_.clear();
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     SegmentedFrame& front = cameras_[i].front;
     if (!synchronizer_.members()[i] || front.is_blind) continue;
     shaded_.push_back(
-        {static_cast<int>(i), &cameras_[i].table, front.X_CW, &front.shading, &front.silhouette});
+        {static_cast<int>(i), &cameras_[i].table, front.X_CW, &front.shading, &front.trimap});
   }
   shadows_.Complete(shaded_);
   for (const ShadedView& view : shaded_) {
-    if (!view.is_completed) continue;
+    if (!view.has_changed) continue;
     Camera& camera = cameras_[static_cast<std::size_t>(view.camera)];
-    TraceOutline(camera.calibration, view.X_CW, camera.front.silhouette, rays_,
-                 camera.front.outline);
+    TraceOutline(camera.calibration, view.X_CW, camera.front.trimap, rays_, camera.front.outline);
   }
 }
 
@@ -151,7 +150,8 @@ void CarveStage::Gather(CarvedSet& set) {
     set.complete_ns = std::max(set.complete_ns, camera.front.arrival_ns);
     set.work_ns = std::max(set.work_ns, camera.front.segment_ns);
     if (camera.front.is_blind) continue;
-    views_.push_back({&camera.table, &camera.front.silhouette, camera.front.X_CW});
+    const Trimap& trimap = camera.front.trimap;
+    views_.push_back({&camera.table, &trimap.person, camera.front.X_CW, &trimap.unknown});
     set.cameras |= std::uint64_t{1} << i;
   }
   set.eyes.clear();

@@ -95,7 +95,7 @@ class CarveStage {
   };
 
   void Gather(CarvedSet& set);
-  void CompleteSilhouettes();
+  void DecideFloor();
   void OfferToWatch();
   SeenMoment PresentMoment() const;
   void PublishLoad();

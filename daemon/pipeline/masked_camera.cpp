@@ -71,9 +71,11 @@ SilhouetteSource::Outcome MaskedCamera::Next(const std::atomic<std::int64_t>& wa
   out.angles = mask.angles;
   out.X_CW = calibration_.PoseAt(mask.angles);
   const std::int64_t begin_ns = SteadyNs();
-  TakeWhite(mask.image, out.silhouette);
+  TakeWhite(mask.image, out.trimap.person);
+  out.trimap.unknown.Reset(mask.image.width(), mask.image.height());
+  out.trimap.unknown.KeepBox();
   SetUnshaded(mask.image.width(), mask.image.height(), out.shading);
-  TraceOutline(calibration_, out.X_CW, out.silhouette, rays_, out.outline);
+  TraceOutline(calibration_, out.X_CW, out.trimap, rays_, out.outline);
   out.segment_ns = SteadyNs() - begin_ns;
   counters_.Note(out);
   return Outcome::kFrame;

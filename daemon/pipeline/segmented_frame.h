@@ -5,7 +5,7 @@
 
 #include "core/reconstruction/silhouette/outline.h"
 #include "core/reconstruction/silhouette/shading.h"
-#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/trimap.h"
 
 namespace mocap {
 
@@ -13,10 +13,10 @@ namespace mocap {
 inline constexpr int kRaysPerPerson = 100;
 inline constexpr int kMostRays = 2 * kRaysPerPerson;
 
-/// Silhouette and outline of one picture.
+/// Trimap and outline of one picture.
 struct SegmentedFrame {
-  Silhouette silhouette;
-  Outline outline;       ///< The silhouette's border.
+  Trimap trimap;
+  Outline outline;       ///< The person's border.
   Shading shading;       ///< Information about shadows.
   PanTiltAngles angles;  ///< Of the pan-tilt head.
   RigidTransform X_CW;   ///< The camera's pose.

@@ -73,18 +73,18 @@ RecordedStudio::RecordedStudio(const StudioSize& size) : size_(size) {
     const std::unique_ptr<SimulatedCamera> camera = simulated.OpenCamera(c);
     camera->Start();
     auto& frames = frames_.emplace_back();
-    auto& silhouettes = silhouettes_.emplace_back();
+    auto& trimaps = trimaps_.emplace_back();
     for (Frame frame; static_cast<int>(frames.size()) < kSets;) {
       const GrabStatus status = camera->Grab(frame, std::chrono::milliseconds(1000));
       if (status == GrabStatus::kEnd) break;
       if (status != GrabStatus::kFrame) continue;
       frames.push_back(CopyOf(frame.image));
-      segmenter.Segment(frames.back().view(), {}, silhouettes.emplace_back());
+      segmenter.Segment(frames.back().view(), {}, trimaps.emplace_back());
     }
     // A camera may have missed the last.
     while (static_cast<int>(frames.size()) < kSets) {
       frames.push_back(frames.back());
-      silhouettes.push_back(silhouettes.back());
+      trimaps.push_back(trimaps.back());
     }
   }
 }
@@ -92,7 +92,8 @@ RecordedStudio::RecordedStudio(const StudioSize& size) : size_(size) {
 std::vector<CarvingView> RecordedStudio::Views(int set) const {
   std::vector<CarvingView> views;
   for (int c = 0; c < size_.cameras; ++c)
-    views.push_back({&tables_[c], &silhouettes_[c][set], cameras_[c].X_CW});
+    views.push_back(
+        {&tables_[c], &trimaps_[c][set].person, cameras_[c].X_CW, &trimaps_[c][set].unknown});
   return views;
 }
 

@@ -29,7 +29,7 @@ class RecordedStudio {
   const std::vector<CameraCalibration>& cameras() const { return cameras_; }
   const std::vector<BackgroundFrame>& background(int camera) const { return background_[camera]; }
   ImageView<const Bgr> frame(int camera, int set) const { return frames_[camera][set].view(); }
-  const Silhouette& silhouette(int camera, int set) const { return silhouettes_[camera][set]; }
+  const Trimap& trimap(int camera, int set) const { return trimaps_[camera][set]; }
   /// The set that comes so late, where the walk goes to its end and back again.
   static int SetAt(int index) {
     constexpr int kPeriod = 2 * (kSets - 1);
@@ -51,7 +51,7 @@ class RecordedStudio {
   std::vector<SensorPlaneTable> tables_;
   std::vector<std::vector<BackgroundFrame>> background_;
   std::vector<std::vector<Image<Bgr>>> frames_;
-  std::vector<std::vector<Silhouette>> silhouettes_;
+  std::vector<std::vector<Trimap>> trimaps_;
 };
 
 }  // namespace mocap::bench

@@ -40,9 +40,9 @@ SeenSets::SeenSets(int cameras) : sets_(kSets) {
       while (camera->Grab(frame, std::chrono::milliseconds(1000)) != GrabStatus::kFrame) {
       }
       Seen& seen = set.emplace_back();
-      segmenter.Segment(frame.image, {}, seen.silhouette);
+      segmenter.Segment(frame.image, {}, seen.trimap);
       seen.shading = segmenter.shading();
-      TraceOutline(calibration, calibration.X_CW, seen.silhouette, kRays, seen.outline);
+      TraceOutline(calibration, calibration.X_CW, seen.trimap, kRays, seen.outline);
     }
   }
 }
@@ -55,7 +55,7 @@ int SeenSets::SetAt(int index) {
 std::vector<CarvingView> SeenSets::Views(const std::vector<Seen>& set) const {
   std::vector<CarvingView> views;
   for (std::size_t c = 0; c < cameras_.size(); ++c)
-    views.push_back({&tables_[c], &set[c].silhouette, cameras_[c].X_CW});
+    views.push_back({&tables_[c], &set[c].trimap.person, cameras_[c].X_CW, &set[c].trimap.unknown});
   return views;
 }
 
@@ -63,7 +63,7 @@ std::vector<ShadedView> SeenSets::Shaded(std::vector<Seen>& set) const {
   std::vector<ShadedView> views;
   for (std::size_t c = 0; c < cameras_.size(); ++c)
     views.push_back(
-        {static_cast<int>(c), &tables_[c], cameras_[c].X_CW, &set[c].shading, &set[c].silhouette});
+        {static_cast<int>(c), &tables_[c], cameras_[c].X_CW, &set[c].shading, &set[c].trimap});
   return views;
 }
 

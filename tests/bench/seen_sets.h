@@ -18,7 +18,7 @@ class SeenSets {
 
   /// What one camera makes of its picture.
   struct Seen {
-    Silhouette silhouette;
+    Trimap trimap;
     Shading shading;
     Outline outline;
   };

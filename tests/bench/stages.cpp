@@ -51,9 +51,9 @@ void SegmentFrame(benchmark::State& state) {
   for (int camera = 0; camera < state.range(1); ++camera)
     segmenters.emplace_back(studio.cameras()[camera], studio.background(camera),
                             SegmentationOptions{});
-  Silhouette silhouette;
+  Trimap trimap;
   SegmentInTurn(state, studio, [&](int camera, ImageView<const Bgr> frame) {
-    segmenters[camera].Segment(frame, {}, silhouette);
+    segmenters[camera].Segment(frame, {}, trimap);
   });
 }
 
@@ -90,7 +90,7 @@ void TraceFrame(benchmark::State& state) {
   int set = 0;
   for (auto _ : state)
     TraceOutline(studio.cameras()[0], studio.cameras()[0].X_CW,
-                 studio.silhouette(0, set++ % RecordedStudio::kSets), kRays, outline);
+                 studio.trimap(0, set++ % RecordedStudio::kSets), kRays, outline);
 }
 
 // Arguments: height of the pictures [px], edge of a voxel [mm], cameras.

@@ -34,8 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   listener.OnNode(bytes);
   listener.LookRound();
   listener.Report();
-  mocap::Silhouette silhouette;
+  mocap::Trimap trimap;
   mocap::Shading shading;
-  mocap::UnpackPicture(bytes, kWidth, kHeight, silhouette, shading);
+  mocap::UnpackPicture(bytes, kWidth, kHeight, trimap, shading);
   return 0;
 }

@@ -85,7 +85,7 @@ class RoundStudio {
     CarvedBody carved{{}, std::vector<Outline>(cameras_.size())};
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       silhouettes.push_back(See(i, flesh[i]));
-      TraceOutline(cameras_[i], cameras_[i].X_CW, silhouettes[i], rays, carved.outlines[i]);
+      TraceOutline(cameras_[i], cameras_[i].X_CW, {silhouettes[i], {}}, rays, carved.outlines[i]);
     }
     std::vector<CarvingView> views;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {

@@ -25,7 +25,7 @@ const TakeSamples& Walk() {
     for (const std::vector<Silhouette>& silhouettes : seen.moments) {
       SampledMoment& moment = walk.moments.emplace_back();
       for (std::size_t c = 0; c < silhouettes.size(); ++c) {
-        moment.views.push_back(SampledView{walk.cameras[c].X_CW, silhouettes[c], {}});
+        moment.views.push_back(SampledView{walk.cameras[c].X_CW, {silhouettes[c], {}}, {}});
       }
     }
     return walk;
@@ -82,8 +82,8 @@ TEST(CameraHealthTest, PeopleWhomThePictureCutsOffAreComparedAsFarAsTheyAreSeen)
   TakeSamples cut = Bumped(Walk(), 3, kBump_rad * Vector3(0.5, -1, 0.2).normalized());
   // Camera 4 no longer shows what is below its 300th row.
   for (SampledMoment& moment : cut.moments) {
-    const Silhouette whole = moment.views[3]->silhouette;
-    Silhouette& upper = moment.views[3]->silhouette;
+    const Silhouette whole = moment.views[3]->trimap.person;
+    Silhouette& upper = moment.views[3]->trimap.person;
     upper.Reset(whole.width(), 300);
     for (int y = 0; y < 300; ++y) std::copy_n(whole.row(y), whole.words_per_row(), upper.row(y));
   }
@@ -96,7 +96,7 @@ TEST(CameraHealthTest, PeopleWhomThePictureCutsOffAreComparedAsFarAsTheyAreSeen)
 TEST(CameraHealthTest, SaysSoWhenNobodyIsSeen) {
   TakeSamples empty = Walk();
   for (SampledMoment& moment : empty.moments) {
-    for (auto& view : moment.views) view->silhouette = Silhouette(640, 480);
+    for (auto& view : moment.views) view->trimap.person = Silhouette(640, 480);
   }
   try {
     RefineFromSilhouettes(empty);

@@ -211,8 +211,8 @@ TEST_F(EvaluateTest, SamplesTheFrameNearestToEachMomentAndCarvesIt) {
   EXPECT_FALSE(samples.moments[1].views[2]);
   ASSERT_TRUE(samples.moments[1].views[0]);
   EXPECT_TRUE(samples.moments[1].views[0]->image.empty());
-  EXPECT_TRUE(samples.moments[1].views[0]->silhouette.Test(kWidth / 2, kHeight / 2));
-  EXPECT_FALSE(samples.moments[1].views[0]->silhouette.Test(20, 20));
+  EXPECT_TRUE(samples.moments[1].views[0]->trimap.person.Test(kWidth / 2, kHeight / 2));
+  EXPECT_FALSE(samples.moments[1].views[0]->trimap.person.Test(20, 20));
   for (const CameraOverlap& overlap : MeasureOverlaps(samples)) EXPECT_GT(overlap.mean(), 0.6);
 }
 

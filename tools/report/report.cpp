@@ -132,7 +132,7 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
       const auto& view = moment.views[c];
       overlap.iou.push_back(
           view ? OverlapOf(ProjectVoxels(moment.voxels, samples.cameras[c], view->X_CW),
-                           view->silhouette)
+                           view->trimap.person)
                : std::numeric_limits<double>::quiet_NaN());
     }
   }

@@ -155,7 +155,7 @@ std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& vi
     drawn += BodySvg(body, parts, camera, view.X_CW);
   }
   Contours contours;
-  cv::findContours(MaskOf(view.silhouette), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  cv::findContours(MaskOf(view.trimap.person), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   const cv::Size size(view.image.width(), view.image.height());
   const cv::Rect crop = CropAround(BoxOf(outlines, contours, size), size);
   // SVG coordinates start at a pixel's corner, the camera's at its centre.

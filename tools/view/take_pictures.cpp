@@ -80,7 +80,7 @@ std::vector<TakePicture> TakePictures::At(std::int64_t time_ns) {
                         .capture_ns = row.timestamp_ns,
                         .X_CW = calibrations_[i].PoseAt(row.angles),
                         .image = camera.image,
-                        .silhouette = Segment(camera, row.angles)});
+                        .trimap = Segment(camera, row.angles)});
   }
   return pictures;
 }
@@ -100,7 +100,7 @@ bool TakePictures::Seek(Camera& camera, std::size_t row) const {
   return camera.is_whole;
 }
 
-std::optional<Silhouette> TakePictures::Segment(Camera& camera, const PanTiltAngles& angles) const {
+std::optional<Trimap> TakePictures::Segment(Camera& camera, const PanTiltAngles& angles) const {
   const bool is_learned =
       camera.learning.valid() &&
       camera.learning.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -112,18 +112,18 @@ std::optional<Silhouette> TakePictures::Segment(Camera& camera, const PanTiltAng
     }
   }
   if (!camera.segmenter) return {};
-  std::optional<Silhouette> silhouette(std::in_place);
-  camera.segmenter->Segment(camera.image, angles, *silhouette);
-  return silhouette;
+  std::optional<Trimap> trimap(std::in_place);
+  camera.segmenter->Segment(camera.image, angles, *trimap);
+  return trimap;
 }
 
 VoxelGrid TakePictures::Carve(const std::vector<TakePicture>& pictures) {
   std::vector<CarvingView> views;
   VoxelGrid grid;
   for (const TakePicture& picture : pictures) {
-    if (!picture.silhouette) return grid;
-    views.push_back(
-        {&tables_[static_cast<std::size_t>(picture.camera)], &*picture.silhouette, picture.X_CW});
+    if (!picture.trimap) return grid;
+    views.push_back({&tables_[static_cast<std::size_t>(picture.camera)], &picture.trimap->person,
+                     picture.X_CW, &picture.trimap->unknown});
   }
   if (!views.empty()) carver_.Carve(views, grid);
   return grid;

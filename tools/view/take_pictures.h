@@ -22,7 +22,7 @@ struct TakePicture {
   std::int64_t capture_ns = 0;
   RigidTransform X_CW;
   ImageView<const Bgr> image;
-  std::optional<Silhouette> silhouette;  ///< Once the background has been learned.
+  std::optional<Trimap> trimap;  ///< Once the background has been learned.
 };
 
 /// Reads any moment of a take, in any order. Learns the background meanwhile, in separate threads.
@@ -44,7 +44,7 @@ class TakePictures {
 
   /// Pictures of all cameras that have a frame within half a period of a time.
   std::vector<TakePicture> At(std::int64_t time_ns);
-  /// Carves the pictures' silhouettes; empty while one is missing.
+  /// Carves the pictures' trimaps; empty while one is missing.
   VoxelGrid Carve(const std::vector<TakePicture>& pictures);
 
  private:
@@ -59,7 +59,7 @@ class TakePictures {
   };
 
   bool Seek(Camera& camera, std::size_t row) const;
-  std::optional<Silhouette> Segment(Camera& camera, const PanTiltAngles& angles) const;
+  std::optional<Trimap> Segment(Camera& camera, const PanTiltAngles& angles) const;
 
   std::string name_;
   std::vector<std::string> remarks_;

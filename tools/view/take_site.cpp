@@ -315,7 +315,7 @@ std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOut
                      .silhouette = {},
                      .bodies = std::move(bodies),
                      .jpeg = jpeg_};
-  if (picture.silhouette) drawn.silhouette = SilhouetteLines(*picture.silhouette, 1);
+  if (picture.trimap) drawn.silhouette = SilhouetteLines(picture.trimap->person, 1);
   return PictureBytes(drawn);
 }
 

@@ -23,8 +23,8 @@ constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
 constexpr int kMajority = kSamples / 2 + 1;
 
-// One camera in this many may be wrong about a gap.
-constexpr int kCamerasPerDoubt = 5;
+// This many cameras may not know a sample for each that shows the person there.
+constexpr int kUnknownPerPerson = 1;
 
 // Finds which of eight voxels have a majority of their samples: one byte per sample, one bit per
 // voxel. Adds all voxels at once, bit-sliced, halving the bytes in each step.
@@ -52,6 +52,9 @@ std::uint8_t SamplesOf(std::uint64_t samples, int voxel) {
   return static_cast<std::uint8_t>((samples >> voxel & 0x0101010101010101) * 0x0102040810204080 >>
                                    56);
 }
+
+// Cameras that must show the person at a sample that others do not know.
+int PersonsFor(int unknown) { return (unknown + kUnknownPerPerson - 1) / kUnknownPerPerson; }
 
 int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
 
@@ -91,7 +94,7 @@ class Carver::Walk {
   std::uint8_t OctantsInGrid(const Block& block) const;
   void Fill(const Block& block);
   bool AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
-                  unsigned agrees, unsigned unknown) const;
+                  unsigned agrees, unsigned open) const;
   bool SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                     int sample) const;
   std::optional<WindowMap::Kind> Look(int view, const Vector3& p_W) const;
@@ -110,7 +113,6 @@ class Carver::Walk {
   double voxel_mm_;
   bool several_people_;
   int fewest_ = 0;
-  int most_gaps_ = 0;
   VoxelGrid* grid_ = nullptr;
   RoomBlocks room_;
   VolumeOfInterest volume_;
@@ -151,7 +153,6 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
 
 // Measures the silhouettes of all cameras that see something.
 void Carver::Walk::Prepare(std::span<const CarvingView> views) {
-  most_gaps_ = static_cast<int>(views.size()) / kCamerasPerDoubt;
   views_.clear();
   if (windows_.size() < views.size()) {
     windows_.resize(views.size());
@@ -161,7 +162,7 @@ void Carver::Walk::Prepare(std::span<const CarvingView> views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::optional<PixelBox>& box = volume_.boxes()[i];
     if (!box) continue;
-    windows_[views_.size()].Measure(*views[i].silhouette, *box, most_gaps_ > 0);
+    windows_[views_.size()].Measure(*views[i].silhouette, views[i].unknown, *box);
     views_.push_back(views[i]);
   }
 }
@@ -264,7 +265,7 @@ void Carver::Walk::VisitVoxel(const Block& voxel) {
     std::uint8_t framed;
     const OctantDecisions samples = Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed);
     decisions[i] = {SpreadBits(samples.inside), SpreadBits(samples.outside),
-                    SpreadBits(samples.unseen), SpreadBits(samples.gap)};
+                    SpreadBits(samples.unseen), SpreadBits(samples.unknown)};
     alive &= ~decisions[i].outside;
     if (alive == 0) return;
   }
@@ -275,42 +276,49 @@ void Carver::Walk::VisitVoxel(const Block& voxel) {
 // samples.
 void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> decisions,
                           std::uint8_t asked, std::uint64_t alive) {
-  // Samples that at least n more cameras see, and samples that n cameras miss.
-  std::array<std::uint64_t, kMostViews + 1> seen, missed;
-  const int needed = std::max(fewest_ - block.seeing, 0);
-  const int too_many = most_gaps_ + 1;
-  seen[0] = missed[0] = ~std::uint64_t{0};
-  std::fill_n(seen.begin() + 1, needed, 0);
-  std::fill_n(missed.begin() + 1, too_many, 0);
-  std::uint64_t unknown = 0;
-  for (const SampleDecisions& v : decisions) {
-    for (int n = needed; n > 0; --n) seen[n] |= seen[n - 1] & v.inside;
-    for (int n = too_many; n > 0; --n) missed[n] |= missed[n - 1] & v.gap;
-    unknown |= ~(v.inside | v.outside | v.unseen | v.gap);
+  // Samples that at least n views show as the person, do not know, and do either.
+  std::array<std::uint64_t, kMostViews + 1> person, unknown, seen;
+  const auto views = static_cast<int>(decisions.size());
+  for (auto* const counts : {&person, &unknown, &seen}) {
+    (*counts)[0] = ~std::uint64_t{0};
+    std::fill_n(counts->begin() + 1, views, 0);
   }
-  alive &= ~missed[too_many];
-  unknown &= alive;
-  const std::uint64_t agrees = alive & seen[needed] & ~unknown;
-  asked &= Majorities(agrees | unknown);
+  std::uint64_t open = 0;
+  int counted = 0;
+  for (const SampleDecisions& v : decisions) {
+    ++counted;
+    for (int n = counted; n > 0; --n) {
+      person[n] |= person[n - 1] & v.inside;
+      unknown[n] |= unknown[n - 1] & v.unknown;
+      seen[n] |= seen[n - 1] & (v.inside | v.unknown);
+    }
+    open |= ~(v.inside | v.outside | v.unseen | v.unknown);
+  }
+  open &= alive;
+  const int needed = std::max(fewest_ - block.seeing, 0);
+  std::uint64_t agrees = needed <= views ? alive & seen[needed] & ~open : 0;
+  for (int n = 1; n <= views; ++n)
+    agrees &= ~unknown[n] | person[std::max(PersonsFor(n) - block.seeing, 0)];
+  asked &= Majorities(agrees | open);
   const std::uint8_t agreed = Majorities(agrees);
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
     const int voxel = std::countr_zero(asked);
     if (~agreed >> voxel & 1 &&
-        !AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel), SamplesOf(unknown, voxel)))
+        !AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel), SamplesOf(open, voxel)))
       continue;
     const Eigen::Vector3i at = VoxelAt(block, voxel);
     grid_->Set(at.x(), at.y(), at.z());
   }
 }
 
-// Tests a voxel's unknown samples exactly, as long as the result depends on them.
+// Tests a voxel's open samples exactly, as long as the result depends on them.
 bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleDecisions> decisions,
-                              int voxel, unsigned agrees, unsigned unknown) const {
-  for (; unknown != 0; unknown &= unknown - 1) {
-    const int sample = std::countr_zero(unknown);
+                              int voxel, unsigned agrees, unsigned open) const {
+  for (; open != 0; open &= open - 1) {
+    const int sample = std::countr_zero(open);
     if (SampleAgrees(block, decisions, voxel, sample)) agrees |= 1u << sample;
     if (std::popcount(agrees) >= kMajority) return true;
-    if (std::popcount(agrees | (unknown & (unknown - 1))) < kMajority) return false;
+    if (std::popcount(agrees | (open & (open - 1))) < kMajority) return false;
   }
   return false;
 }
@@ -324,23 +332,23 @@ bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisi
       corner_W + Vector3((sample & 1) + 0.5, (sample >> 1 & 1) + 0.5, (sample >> 2) + 0.5) *
                      (voxel_mm_ / kSamplesPerSide);
   const int bit = 8 * sample + voxel;
-  int seeing = block.seeing;
-  int gaps = 0;
+  int persons = block.seeing;
+  int unknown = 0;
   for (std::size_t i = 0; i < decisions.size(); ++i) {
     const SampleDecisions& known = decisions[i];
     if (known.unseen >> bit & 1) continue;
     std::optional<WindowMap::Kind> kind;
     if (known.inside >> bit & 1)
       kind = WindowMap::Kind::kInside;
-    else if (known.gap >> bit & 1)
-      kind = WindowMap::Kind::kGap;
+    else if (known.unknown >> bit & 1)
+      kind = WindowMap::Kind::kUnknown;
     else
       kind = Look(block.views[i], p_W);
     if (kind == WindowMap::Kind::kOutside) return false;
-    if (kind == WindowMap::Kind::kInside) ++seeing;
-    if (kind == WindowMap::Kind::kGap && ++gaps > most_gaps_) return false;
+    if (kind == WindowMap::Kind::kInside) ++persons;
+    if (kind == WindowMap::Kind::kUnknown) ++unknown;
   }
-  return seeing >= fewest_;
+  return persons + unknown >= fewest_ && persons >= PersonsFor(unknown);
 }
 
 // Evaluates the definition at one point; empty if the camera does not see it.

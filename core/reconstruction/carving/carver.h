@@ -23,9 +23,8 @@ struct CarvingOptions {
 /// A voxel has 2 × 2 × 2 samples and is kept if most of them agree with all silhouettes. A camera
 /// that cannot see a sample does not carve it. At least two cameras, and half of those in the set,
 /// must see it. A camera with an empty silhouette counts as one that cannot see the person. Mikić
-/// et al. 2003, §4. Beyond the paper, with five cameras or more, one in five may miss a sample that
-/// lies in a narrow gap of its silhouette (a closing by 6 px fills it), because clothes of the
-/// background's colour leave such gaps. Thread-bound; reuses its memory.
+/// et al. 2003, §4. Beyond the paper, an unknown pixel does not carve either, as long as one camera
+/// in four that see the sample shows the person there. Thread-bound; reuses its memory.
 class Carver {
  public:
   static constexpr int kMostViews = 64;

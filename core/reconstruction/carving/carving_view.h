@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "core/geometry.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
@@ -33,11 +34,15 @@ struct CameraEye {
   }
 };
 
-/// One camera's silhouette, and its pose at that moment. Borrowed for the call.
+/// What one camera sees, and its pose at that moment. Borrowed for the call.
 struct CarvingView {
   const SensorPlaneTable* table = nullptr;
   const Silhouette* silhouette = nullptr;
   RigidTransform X_CW;
+  const Silhouette* unknown = nullptr;  ///< As in a trimap; null: no pixel is.
+
+  /// Box around everything that may be a person; empty if no pixel shows one.
+  std::optional<PixelBox> Box() const;
 };
 
 }  // namespace mocap

@@ -83,25 +83,51 @@ FloorShadows::FloorShadows(std::span<const CameraCalibration> cameras) {
 void FloorShadows::Complete(std::span<ShadedView> views) {
   FindPeople(views);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    views[i].is_completed = false;
     Gather(views, i);
-    if (!added_.BoundingBox()) continue;
-    Open();
-    if (!opened_.BoundingBox()) continue;
-    Silhouette& silhouette = *views[i].silhouette;
-    Unite(opened_, silhouette);
-    cleaner_.Clean(kSmallestHole_px, views[i].shading->dark,
-                   static_cast<int>(kSmallestBlobShare * silhouette.width() * silhouette.height()),
-                   silhouette);
-    silhouette.KeepBox();
-    views[i].is_completed = true;
+    Trimap& trimap = *views[i].trimap;
+    const bool has_clothes = AddClothes(views[i].shading->dark, trimap);
+    const bool has_shadows = DropShadows(trimap.unknown);
+    views[i].has_changed = has_clothes || has_shadows;
   }
+}
+
+bool FloorShadows::AddClothes(const Silhouette& dark, Trimap& trimap) {
+  if (!added_.BoundingBox()) return false;
+  Open();
+  if (!opened_.BoundingBox()) return false;
+  Silhouette& person = trimap.person;
+  Unite(opened_, person);
+  cleaner_.Clean(kSmallestHole_px, dark,
+                 static_cast<int>(kSmallestBlobShare * person.width() * person.height()), person);
+  person.KeepBox();
+  Subtract(person, trimap.unknown);
+  trimap.unknown.KeepBox();
+  return true;
+}
+
+// Shadows fade out in the tiles around.
+bool FloorShadows::DropShadows(Silhouette& unknown) {
+  const std::optional<PixelBox> box = unknown.BoundingBox();
+  if (!box || !shadows_.BoundingBox()) return false;
+  Dilate(shadows_, 1, scratch_);
+  std::uint64_t dropped = 0;
+  for (int y = box->top; y <= box->bottom; ++y) {
+    std::uint64_t* const row = unknown.row(y);
+    for (int column = box->left / kTile_px; column <= box->right / kTile_px; ++column) {
+      if (!scratch_.Test(column, y / kTile_px)) continue;
+      const std::uint64_t tile = std::uint64_t{0xff} << column % 8 * 8;
+      dropped |= row[column / 8] & tile;
+      row[column / 8] &= ~tile;
+    }
+  }
+  unknown.KeepBox();
+  return dropped != 0;
 }
 
 void FloorShadows::FindPeople(std::span<const ShadedView> views) {
   people_.resize(std::max(people_.size(), views.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const Silhouette& silhouette = *views[i].silhouette;
+    const Silhouette& silhouette = views[i].trimap->person;
     scratch_.Reset(TilesAlong(silhouette.width()), TilesAlong(silhouette.height()));
     const PixelBox box = silhouette.BoundingBox().value_or(PixelBox{0, 0, -1, -1});
     for (int y = box.top; y <= box.bottom; ++y) {

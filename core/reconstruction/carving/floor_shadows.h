@@ -10,6 +10,7 @@
 #include "core/reconstruction/silhouette/shading.h"
 #include "core/reconstruction/silhouette/silhouette.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
+#include "core/reconstruction/silhouette/trimap.h"
 
 namespace mocap {
 
@@ -19,17 +20,19 @@ struct ShadedView {
   const SensorPlaneTable* table = nullptr;
   RigidTransform X_CW;
   const Shading* shading = nullptr;
-  Silhouette* silhouette = nullptr;
-  bool is_completed = false;  ///< Whether pixels were added to the silhouette.
+  Trimap* trimap = nullptr;
+  bool has_changed = false;  ///< Whether the trimap was.
 };
 
-/// Completes silhouettes by clothes whose only difference from the floor behind is being darker.
+/// Decides about unknown pixels of the floor: clothes whose only difference from the floor behind
+/// is being darker, or shadows.
 ///
 /// One picture cannot distinguish such clothes from a shadow. But a shadow lies on the floor: every
 /// camera that sees the place sees it dark. If a dark pixel's place on the floor has its usual
 /// brightness in at least two other cameras, and is dark in fewer, something stands in front of the
 /// floor. If the other cameras do not decide, a tile follows its neighbours. Thin rims are left
-/// out. With very many cameras, 31 others are asked. Thread-bound; reuses its memory.
+/// out. Where others see it dark, too, the place is empty, as are the tiles around it. With very
+/// many cameras, 31 others are asked. Thread-bound; reuses its memory.
 class FloorShadows {
  public:
   explicit FloorShadows(std::span<const CameraCalibration> cameras);
@@ -45,6 +48,9 @@ class FloorShadows {
                 Shading::Shade shade) const;
   void Gather(std::span<const ShadedView> views, std::size_t view);
   void Open();
+  // Return whether anything changed.
+  bool AddClothes(const Silhouette& dark, Trimap& trimap);
+  bool DropShadows(Silhouette& unknown);
 
   // For each camera, the direction of each tile's centre, at depth 1; zero if there is none.
   std::vector<std::vector<Vector3>> directions_C_;

@@ -66,7 +66,7 @@ SampleDecisions OctantView::CoarsePassSamples(const OctantFrames& frames, int la
     decisions.inside |= SpreadBits(samples.inside) << voxel;
     decisions.outside |= SpreadBits(samples.outside) << voxel;
     decisions.unseen |= SpreadBits(samples.unseen) << voxel;
-    decisions.gap |= SpreadBits(samples.gap) << voxel;
+    decisions.unknown |= SpreadBits(samples.unknown) << voxel;
   }
   return decisions;
 }

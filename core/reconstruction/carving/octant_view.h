@@ -14,9 +14,9 @@ namespace mocap {
 /// grows with the lowest bit, then y, then z.
 struct OctantDecisions {
   std::uint8_t inside;   ///< All of it is in the silhouette.
-  std::uint8_t outside;  ///< All of it is outside the silhouette with its gaps closed.
+  std::uint8_t outside;  ///< All of it is in empty pixels.
   std::uint8_t unseen;   ///< All of it is outside the picture.
-  std::uint8_t gap;      ///< All of it is in a gap; known for single pixels only.
+  std::uint8_t unknown;  ///< All of it is in an unknown pixel; told for single pixels only.
 };
 
 /// What a camera knows about the samples of eight voxels.

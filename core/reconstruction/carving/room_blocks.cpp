@@ -44,7 +44,7 @@ void RoomBlocks::Find(std::span<const CarvingView> views, int fewest, double vox
 void RoomBlocks::SetEyes(std::span<const CarvingView> views) {
   eyes_.clear();
   for (const CarvingView& view : views) {
-    const std::optional<PixelBox> box = view.silhouette->BoundingBox();
+    const std::optional<PixelBox> box = view.Box();
     if (!box) continue;
     const RigidTransform& X_CW = view.X_CW;
     const SensorPlaneTable& table = *view.table;

@@ -51,7 +51,7 @@ Eigen::AlignedBox3d RoomBefore(const RigidTransform& X_CW) {
 
 std::optional<Eigen::AlignedBox3d> VolumeOfInterest::Find(std::span<const CarvingView> views) {
   boxes_.clear();
-  for (const CarvingView& view : views) boxes_.push_back(view.silhouette->BoundingBox());
+  for (const CarvingView& view : views) boxes_.push_back(view.Box());
   if (views.empty()) return std::nullopt;
   volume_.Reset(LookedAt(views));
   int seeing = 0;

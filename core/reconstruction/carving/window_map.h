@@ -10,8 +10,7 @@
 
 namespace mocap {
 
-/// Tells for square windows whether they lie entirely in the silhouette, or entirely outside the
-/// silhouette with its gaps closed.
+/// Tells for square windows whether all of their pixels show the person, or all are empty.
 ///
 /// There is one plane per window size, with two bits per position of the window's top left pixel.
 /// Sixteen positions make a word, with `inside` in the lower half and `outside` in the upper half.
@@ -19,20 +18,19 @@ namespace mocap {
 /// than one word to the right. Thread-bound; reuses its memory.
 class WindowMap {
  public:
-  enum class Kind { kInside, kGap, kOutside };
+  enum class Kind { kInside, kUnknown, kOutside };
 
   /// Windows of the first plane are one pixel wide. Each further plane doubles the width.
   static constexpr int kPlanes = kernels::kWindowPlanes;
   static constexpr int kLargest_px = kernels::kWidestWindow_px;
-  /// Half the width of the gaps that are closed [px].
-  static constexpr int kGap_px = 6;
 
   /// The planes in the form that loops over many windows need.
   using Planes = kernels::WindowPlanes;
 
-  /// Measures a silhouette.
-  /// @param box  the silhouette's bounding box.
-  void Measure(const Silhouette& silhouette, const PixelBox& box, bool closes_gaps);
+  /// Measures a silhouette, and the unknown pixels if there are any.
+  /// @param unknown  may be null.
+  /// @param box  around both.
+  void Measure(const Silhouette& silhouette, const Silhouette* unknown, const PixelBox& box);
 
   /// Returns the kind of a pixel of the picture.
   Kind At(int x, int y) const {
@@ -41,7 +39,7 @@ class WindowMap {
     const std::uint32_t word =
         planes_[static_cast<std::size_t>(column >> 4) * rows_ + (y - top_)] >> (column & 15);
     if (word & 1) return Kind::kInside;
-    return word >> 16 & 1 ? Kind::kOutside : Kind::kGap;
+    return word >> 16 & 1 ? Kind::kOutside : Kind::kUnknown;
   }
 
   Planes planes() const {
@@ -50,26 +48,19 @@ class WindowMap {
   }
 
  private:
-  // Columns of words, one bit per pixel of a row, with margins all around.
+  // Columns of words, one bit per pixel of a row, with one more on each side.
   using Bits = std::vector<std::uint32_t>;
 
-  void Extract(const Silhouette& silhouette);
-  void CloseGaps();
-  void SetMargins(bool set_beyond_picture, Bits& bits) const;
+  void Extract(const Silhouette& silhouette, Bits& bits) const;
   void WritePlanes();
   void Grow(int step);
   // The topmost word of a column; also of the margins left and right.
-  std::uint32_t* Column(Bits& bits, int column) const {
-    return bits.data() + (column + 1) * stride_ + kGap_px;
-  }
-  // From the topmost word of the first column to the lowest word of the last.
-  int WordsBetween() const { return columns_ * stride_ - 2 * kGap_px; }
+  std::uint32_t* Column(Bits& bits, int column) const { return bits.data() + (column + 1) * rows_; }
 
   int width_px_ = 0, height_px_ = 0;
   int left_ = 0, top_ = 0, right_ = -1, bottom_ = -1;
   int rows_ = 0, columns_ = 0;
-  int stride_ = 0;  ///< From one column to the next.
-  Bits inside_, outside_, scratch_;
+  Bits inside_, outside_, unknown_;
   std::vector<std::uint32_t> planes_;
 };
 

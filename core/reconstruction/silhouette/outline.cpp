@@ -12,29 +12,44 @@ namespace {
 // Half the width of the window that gives the border's direction.
 constexpr int kWindow_px = 3;
 
-// The silhouette's pixels in a word of a row that have a neighbour outside.
-std::uint64_t BorderWord(const Silhouette& silhouette, int y, int word) {
-  const std::uint64_t* row = silhouette.row(y);
-  const std::uint64_t before = word > 0 ? row[word - 1] >> 63 : 0;
-  const std::uint64_t after = word + 1 < silhouette.words_per_row() ? row[word + 1] << 63 : 0;
-  const std::uint64_t inner = (row[word] << 1 | before) & (row[word] >> 1 | after) &
-                              silhouette.row(y - 1)[word] & silhouette.row(y + 1)[word];
-  return row[word] & ~inner;
+// The four neighbours of the pixels in a word of a row.
+struct Neighbours {
+  Neighbours(const Silhouette& pixels, int y, int word) {
+    const std::uint64_t* const row = pixels.row(y);
+    const std::uint64_t before = word > 0 ? row[word - 1] >> 63 : 0;
+    const std::uint64_t after = word + 1 < pixels.words_per_row() ? row[word + 1] << 63 : 0;
+    left = row[word] << 1 | before;
+    right = row[word] >> 1 | after;
+    above = pixels.row(y - 1)[word];
+    below = pixels.row(y + 1)[word];
+  }
+  std::uint64_t All() const { return left & right & above & below; }
+  std::uint64_t Any() const { return left | right | above | below; }
+
+  std::uint64_t left, right, above, below;
+};
+
+// The person's pixels in a word of a row that have an empty neighbour, and no unknown one.
+std::uint64_t BorderWord(const Trimap& trimap, int y, int word) {
+  const std::uint64_t border =
+      trimap.person.row(y)[word] & ~Neighbours(trimap.person, y, word).All();
+  if (border == 0 || trimap.unknown.width() == 0) return border;
+  return border & ~Neighbours(trimap.unknown, y, word).Any();
 }
 
 // Visits the border's pixels row by row, without those near the picture's edge.
 template <typename Visit>
-void ForEachBorderPixel(const Silhouette& silhouette, const PixelBox& box, const Visit& visit) {
+void ForEachBorderPixel(const Trimap& trimap, const PixelBox& box, const Visit& visit) {
   constexpr int kMargin_px = kWindow_px + 1;
   const int left = std::max(box.left, kMargin_px);
-  const int right = std::min(box.right, silhouette.width() - 1 - kMargin_px);
+  const int right = std::min(box.right, trimap.person.width() - 1 - kMargin_px);
   const int top = std::max(box.top, kMargin_px);
-  const int bottom = std::min(box.bottom, silhouette.height() - 1 - kMargin_px);
+  const int bottom = std::min(box.bottom, trimap.person.height() - 1 - kMargin_px);
   if (left > right) return;
   const std::uint64_t all = ~std::uint64_t{0};
   for (int y = top; y <= bottom; ++y) {
     for (int word = left / 64; word <= right / 64; ++word) {
-      std::uint64_t bits = BorderWord(silhouette, y, word);
+      std::uint64_t bits = BorderWord(trimap, y, word);
       if (word == left / 64) bits &= all << left % 64;
       if (word == right / 64) bits &= all >> (63 - right % 64);
       for (; bits != 0; bits &= bits - 1) visit(word * 64 + std::countr_zero(bits), y);
@@ -90,18 +105,18 @@ std::optional<Vector3> DirectionOf(const Lens& lens, const Vector2& pixel) {
 
 }  // namespace
 
-void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
-                  const Silhouette& silhouette, int most, Outline& outline) {
+void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW, const Trimap& trimap,
+                  int most, Outline& outline) {
   outline.clear();
-  const std::optional<PixelBox> box = silhouette.BoundingBox();
+  const std::optional<PixelBox> box = trimap.person.BoundingBox();
   if (!box) return;
   SpreadChoice choice;
-  ForEachBorderPixel(silhouette, *box, [&](int x, int y) { choice.Add(RankOfPixel(x, y)); });
+  ForEachBorderPixel(trimap, *box, [&](int x, int y) { choice.Add(RankOfPixel(x, y)); });
   const std::uint64_t limit = choice.LimitFor(static_cast<std::size_t>(most));
   const RigidTransform X_WC = X_CW.Inverse();
   const GrazingRay empty{X_WC.p, Vector3::UnitZ(), Vector3::Zero(), 0};
   const auto trace = [&](int x, int y) {
-    const std::optional<Vector2> outward = OutwardAt(silhouette, x, y);
+    const std::optional<Vector2> outward = OutwardAt(trimap.person, x, y);
     if (!outward) return empty;
     // The border runs between the last pixel inside and the first one outside.
     const Vector2 place = Vector2(x, y) + 0.5 * *outward;
@@ -112,7 +127,7 @@ void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
     const Vector3 outward_C = beside_C->cross(*ray_C).normalized();
     return GrazingRay{X_WC.p, X_WC.R * *ray_C, X_WC.R * outward_C, 0};
   };
-  ForEachBorderPixel(silhouette, *box, [&](int x, int y) {
+  ForEachBorderPixel(trimap, *box, [&](int x, int y) {
     const SpreadRank rank = RankOfPixel(x, y);
     if (rank >= limit) return;
     outline.push_back(trace(x, y));

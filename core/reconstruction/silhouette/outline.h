@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/trimap.h"
 #include "core/spread_choice.h"
 
 namespace mocap {
@@ -24,13 +24,14 @@ struct GrazingRay {
 /// The person's border in one camera.
 using Outline = std::vector<GrazingRay>;
 
-/// Traces a silhouette's border, holes included, by evenly spread rays. A part of the border that
-/// stays keeps its rays. At the picture's edge the border is not the person's and gives no rays.
+/// Traces a person's border, holes included, by evenly spread rays. A part of the border that stays
+/// keeps its rays. At the picture's edge, and beside unknown pixels, the border is not the person's
+/// and gives no rays.
 /// Empty rays are kept, so that ThinOutline yields the trace with fewer rays.
 /// @param most  limit for the number of rays.
 /// @param outline  overwritten; its memory is reused.
-void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW,
-                  const Silhouette& silhouette, int most, Outline& outline);
+void TraceOutline(const CameraCalibration& camera, const RigidTransform& X_CW, const Trimap& trimap,
+                  int most, Outline& outline);
 
 /// Copies the `step`-th part of the rays, evenly spread, without empty ones; reuses the memory of
 /// `thin`.

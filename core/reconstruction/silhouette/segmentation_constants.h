@@ -65,6 +65,11 @@ inline constexpr std::array<float, kernels::kWindows> kWindowMargins = {1.1f, 1.
 /// A single pixel must differ more, because there are many of them.
 inline constexpr float kPixelMargin = 1.6f;
 
+// Unknown pixels.
+
+/// Half the width of parts that are too thin to be more than a rim [pixels].
+inline constexpr int kRim_px = 1;
+
 // Clean-up.
 
 /// Smaller holes are noise [pixels]: first in the evidence, then in the refined outline.

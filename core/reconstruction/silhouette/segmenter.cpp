@@ -57,7 +57,8 @@ class Segmenter::Impl {
         largest_thing_px_(
             static_cast<int>(options.largest_thing_share * camera.width_px * camera.height_px)) {}
 
-  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette) {
+  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Trimap& trimap) {
+    Silhouette& silhouette = trimap.person;
     conditions_ = CoarsePass(image, angles);
     roi_.Set(coarse_.suspicious(), image.width(), image.height());
     const ExpectedPicture& expected = background_->Expect(roi_, conditions_);
@@ -67,6 +68,7 @@ class Segmenter::Impl {
     refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, silhouette);
     silhouette.KeepBox();
+    FindUnknown(trimap);
     MeasureShading(silhouette);
   }
 
@@ -74,6 +76,16 @@ class Segmenter::Impl {
   const Shading& shading() const { return shading_; }
 
  private:
+  // What the empty studio rarely shows. Thin rims are left out: the refined outline runs there.
+  void FindUnknown(Trimap& trimap) {
+    scratch_ = classifier_.doubtful();
+    Subtract(trimap.person, scratch_);
+    Erode(scratch_, kRim_px, opened_);
+    Dilate(opened_, kRim_px, trimap.unknown);
+    Intersect(scratch_, trimap.unknown);
+    trimap.unknown.KeepBox();
+  }
+
   void MeasureShading(const Silhouette& silhouette) {
     shading_.dark = classifier_.dark();
     Subtract(silhouette, shading_.dark);
@@ -110,6 +122,7 @@ class Segmenter::Impl {
   SilhouetteCleaner cleaner_;
   OutlineRefiner refiner_;
   Shading shading_;
+  Silhouette scratch_, opened_;
   int smallest_blob_px_, largest_thing_px_;
 };
 
@@ -120,9 +133,8 @@ Segmenter::Segmenter(Segmenter&&) noexcept = default;
 Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 Segmenter::~Segmenter() = default;
 
-void Segmenter::Segment(ImageView<const Bgr> image, const PanTiltAngles& angles,
-                        Silhouette& silhouette) {
-  impl_->Segment(image, angles, silhouette);
+void Segmenter::Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Trimap& trimap) {
+  impl_->Segment(image, angles, trimap);
 }
 
 const Shading& Segmenter::shading() const { return impl_->shading(); }

@@ -1,4 +1,4 @@
-// §4: from a picture to a silhouette, for one camera.
+// §4: from a picture to person, unknown and empty pixels, for one camera.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/shading.h"
-#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/trimap.h"
 
 namespace mocap {
 
@@ -41,8 +41,8 @@ class Segmenter {
   Segmenter& operator=(Segmenter&&) noexcept;
   ~Segmenter();
 
-  /// Segments one frame into `silhouette`, whose memory is reused.
-  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Silhouette& silhouette);
+  /// Segments one frame into `trimap`, whose memory is reused.
+  void Segment(ImageView<const Bgr> image, const PanTiltAngles& angles, Trimap& trimap);
 
   /// Shading of the last picture.
   const Shading& shading() const;

@@ -24,8 +24,8 @@ struct Sum {
 }  // namespace
 
 void ListDarkTiles(ImageView<const float> shade, Shading& shading) {
-  shading.dark_tiles.clear();
   const Silhouette& dark = shading.dark;
+  shading.dark_tiles.clear();
   const PixelBox box = dark.BoundingBox().value_or(PixelBox{0, 0, -1, -1});
   for (int row = box.top / kTile_px; row * kTile_px <= box.bottom; ++row) {
     const int end = std::min((row + 1) * kTile_px, dark.height());

@@ -44,47 +44,6 @@ Words By(const Kernel& kernel) {
   return to;
 }
 
-TEST(BitColumnKernels, ColumnsGrowAndShrinkAsPixelByPixel) {
-  const Words from = SomeWords();
-  const ColumnWord* const first = &from[kFirst];
-  for (const int step : {1, 2, 3}) {
-    ExpectSameBits(
-        [&] {
-          return Combined([&](std::size_t i, int bit) {
-            return At(from, i, bit) || At(from, i, bit - step) || At(from, i, bit + step);
-          });
-        },
-        [&] {
-          return By(
-              [&](ColumnWord* to) { DilateSideways(first, kBitCount, kBitStride, step, to); });
-        });
-    ExpectSameBits(
-        [&] {
-          return Combined([&](std::size_t i, int bit) {
-            return At(from, i, bit) && At(from, i, bit - step) && At(from, i, bit + step);
-          });
-        },
-        [&] {
-          return By([&](ColumnWord* to) { ErodeSideways(first, kBitCount, kBitStride, step, to); });
-        });
-    const auto rows = static_cast<std::size_t>(step);
-    ExpectSameBits(
-        [&] {
-          return Combined([&](std::size_t i, int bit) {
-            return At(from, i, bit) || At(from, i - rows, bit) || At(from, i + rows, bit);
-          });
-        },
-        [&] { return By([&](ColumnWord* to) { DilateUpAndDown(first, kBitCount, step, to); }); });
-    ExpectSameBits(
-        [&] {
-          return Combined([&](std::size_t i, int bit) {
-            return At(from, i, bit) && At(from, i - rows, bit) && At(from, i + rows, bit);
-          });
-        },
-        [&] { return By([&](ColumnWord* to) { ErodeUpAndDown(first, kBitCount, step, to); }); });
-  }
-}
-
 TEST(BitColumnKernels, WindowsGrowAsPixelByPixel) {
   const Words from = SomeWords();
   for (const int step : {1, 2, 4, 16}) {

@@ -129,7 +129,7 @@ TEST_F(OctantKernels, OctantsAndSamplesAreJudgedByAFrameOneByOne) {
           judge(camera_.planes, frames, octant, middle, 12.0f, 6.0f, asked, decisions);
       judged += is_in_region;
       return std::vector<std::uint64_t>{is_in_region, decisions.inside, decisions.outside,
-                                        decisions.unseen, decisions.gap};
+                                        decisions.unseen, decisions.unknown};
     };
     ExpectSameBits([&] { return decided(reference::JudgeSamples); },
                    [&] { return decided(JudgeSamples); });

@@ -86,7 +86,7 @@ class Division : public ::testing::Test {
 };
 
 TEST_F(Division, StrangersWhoTouchAreToldApart) {
-  const auto seen = Carve({At(-210, 1850), At(210, 1650)});
+  const auto seen = Carve({At(-200, 1850), At(200, 1650)});
   VoxelPieces pieces;
   pieces.Find(seen.hull);
   ASSERT_EQ(pieces.sizes().size(), 1u);
@@ -137,8 +137,8 @@ TEST_F(Division, FindsTheFleshOfWhomNobodyKnows) {
 TEST_F(Division, ASmallPieceGoesToWhoIsBesideIt) {
   const std::vector<PosedPerson> people = {At(0, 1750)};
   std::vector<PosedPerson> with_bag = people;
-  const Vector3 bag_W(520, 0, 900);
-  with_bag[0].capsules.emplace_back(bag_W, bag_W, 60, 60);
+  const Vector3 bag_W(500, 0, 900);
+  with_bag[0].capsules.emplace_back(bag_W, bag_W, 75, 75);
   flesh_.Divide(Carve(with_bag).hull, people);
   EXPECT_TRUE(flesh_.strangers().empty());
   EXPECT_GT(flesh_.shares()[0].box_W.max().x(), 500);

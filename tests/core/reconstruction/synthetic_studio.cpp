@@ -77,7 +77,8 @@ SyntheticStudio::SyntheticStudio(const std::vector<Vector3>& eyes_W) : table_(Ha
 }
 
 void SyntheticStudio::Show(const std::vector<DrawnCapsule>& capsules) {
-  silhouettes.assign(cameras.size(), Silhouette(kWidth_px, kHeight_px));
+  for (auto* const planes : {&silhouettes, &unknown})
+    planes->assign(cameras.size(), Silhouette(kWidth_px, kHeight_px));
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const RigidTransform& X_CW = cameras[c].X_CW;
     for (const DrawnCapsule& capsule : capsules) {
@@ -101,7 +102,7 @@ void SyntheticStudio::Show(const std::vector<DrawnCapsule>& capsules) {
 std::vector<CarvingView> SyntheticStudio::Views() const {
   std::vector<CarvingView> views;
   for (std::size_t c = 0; c < cameras.size(); ++c)
-    views.push_back({&table_, &silhouettes[c], cameras[c].X_CW});
+    views.push_back({&table_, &silhouettes[c], cameras[c].X_CW, &unknown[c]});
   return views;
 }
 

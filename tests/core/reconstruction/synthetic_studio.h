@@ -30,6 +30,7 @@ class SyntheticStudio {
 
   std::vector<CameraCalibration> cameras;
   std::vector<Silhouette> silhouettes;
+  std::vector<Silhouette> unknown;  ///< Beside them; nothing after Show().
 
   /// Draws what each camera sees of the capsules.
   void Show(const std::vector<DrawnCapsule>& capsules);

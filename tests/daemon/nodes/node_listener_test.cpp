@@ -131,8 +131,9 @@ TEST_F(NodeListenerTest, WhatArrivesIsWhatWasSegmentedBitForBit) {
     HearAll();
     const std::optional<SegmentedFrame> received = Receive(i % 2);
     ASSERT_TRUE(received);
-    EXPECT_TRUE(received->silhouette.BoundingBox()) << "the comparison must see somebody";
-    EXPECT_EQ(received->silhouette.words(), sent.silhouette.words());
+    EXPECT_TRUE(received->trimap.person.BoundingBox()) << "the comparison must see somebody";
+    EXPECT_EQ(received->trimap.person.words(), sent.trimap.person.words());
+    EXPECT_EQ(received->trimap.unknown.words(), sent.trimap.unknown.words());
     EXPECT_EQ(received->shading.dark.words(), sent.shading.dark.words());
     EXPECT_EQ(received->shading.dark_tiles, sent.shading.dark_tiles);
     EXPECT_EQ(received->shading.shades, sent.shading.shades);

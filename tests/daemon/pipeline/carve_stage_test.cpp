@@ -23,7 +23,8 @@ constexpr int kCameras = 3;
 SegmentedFrame EmptyFrame(const CameraCalibration& camera) {
   SegmentedFrame frame;
   frame.X_CW = camera.X_CW;
-  frame.silhouette.Reset(kFakeWidth, kFakeHeight);
+  for (Silhouette* const plane : {&frame.trimap.person, &frame.trimap.unknown})
+    plane->Reset(kFakeWidth, kFakeHeight);
   frame.shading.dark.Reset(kFakeWidth, kFakeHeight);
   frame.shading.tile_columns = kFakeWidth / Shading::kTile_px;
   frame.shading.shades.assign(

@@ -52,7 +52,7 @@ TEST(MaskedCamera, WhitePixelsAreTheSilhouette) {
   const std::atomic<std::int64_t> wanted_from_ns{0};
   SegmentedFrame frame;
   ASSERT_EQ(camera.Next(wanted_from_ns, frame), SilhouetteSource::Outcome::kFrame);
-  EXPECT_EQ(frame.silhouette.BoundingBox(), (PixelBox{kLeft, 8, kRight, kFakeHeight - 1}));
+  EXPECT_EQ(frame.trimap.person.BoundingBox(), (PixelBox{kLeft, 8, kRight, kFakeHeight - 1}));
   EXPECT_EQ(frame.capture_ns, 1000);
   EXPECT_FALSE(frame.outline.empty());
   EXPECT_EQ(camera.expectation(), Expectation::kCertain);
@@ -73,12 +73,13 @@ TEST(MaskedCamera, NothingIsAddedToAMaskAsIfItWereDark) {
     ASSERT_EQ(camera.Next({0}, frames[i]), SilhouetteSource::Outcome::kFrame);
     tables.emplace_back(cameras[i]);
   }
-  const Silhouette before = frames[0].silhouette;
+  const Silhouette before = frames[0].trimap.person;
   for (int i = 0; i < 3; ++i)
-    views.push_back({i, &tables[i], cameras[i].X_CW, &frames[i].shading, &frames[i].silhouette});
+    views.push_back({i, &tables[i], cameras[i].X_CW, &frames[i].shading, &frames[i].trimap});
   FloorShadows(cameras).Complete(views);
-  EXPECT_FALSE(views[0].is_completed);
-  EXPECT_EQ(frames[0].silhouette.words(), before.words());
+  EXPECT_FALSE(views[0].has_changed);
+  EXPECT_EQ(frames[0].trimap.person.words(), before.words());
+  EXPECT_FALSE(frames[0].trimap.unknown.BoundingBox()) << "nobody is in doubt";
 }
 
 }  // namespace

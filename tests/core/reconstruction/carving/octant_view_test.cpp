@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/reconstruction/silhouette/bit_filters.h"
 #include "tests/core/reconstruction/synthetic_studio.h"
 
 namespace mocap {
@@ -16,7 +17,9 @@ class OctantViewTest : public ::testing::Test {
     const std::vector<CarvingView> views = studio_.Views();
     windows_.resize(views.size());
     for (std::size_t c = 0; c < views.size(); ++c) {
-      windows_[c].Measure(*views[c].silhouette, *views[c].silhouette->BoundingBox(), true);
+      Dilate(studio_.silhouettes[c], 2, studio_.unknown[c]);
+      Subtract(studio_.silhouettes[c], studio_.unknown[c]);
+      windows_[c].Measure(*views[c].silhouette, views[c].unknown, *views[c].Box());
       eyes_.emplace_back().Set(views[c], kOrigin_W, windows_[c]);
     }
   }
@@ -27,10 +30,10 @@ class OctantViewTest : public ::testing::Test {
     const CarvingView view = studio_.Views()[camera];
     std::uniform_real_distribution<double> within(-half, half);
     const bool inside = decisions.inside >> octant & 1, outside = decisions.outside >> octant & 1;
-    const bool unseen = decisions.unseen >> octant & 1, gap = decisions.gap >> octant & 1;
-    inside_ += inside, outside_ += outside, unseen_ += unseen, gap_ += gap;
-    if (!inside && !outside && !unseen && !gap) return;
-    EXPECT_EQ(inside + outside + unseen + gap, 1);
+    const bool unseen = decisions.unseen >> octant & 1, unknown = decisions.unknown >> octant & 1;
+    inside_ += inside, outside_ += outside, unseen_ += unseen, unknown_ += unknown;
+    if (!inside && !outside && !unseen && !unknown) return;
+    EXPECT_EQ(inside + outside + unseen + unknown, 1);
     for (int i = 0; i < 20; ++i) {
       const Vector3 p_W = middle_W + Vector3(within(random_), within(random_), within(random_));
       const Vector3 p_C = view.X_CW * p_W;
@@ -54,7 +57,7 @@ class OctantViewTest : public ::testing::Test {
   std::vector<WindowMap> windows_;
   std::vector<OctantView> eyes_;
   std::mt19937 random_{4};
-  int inside_ = 0, outside_ = 0, unseen_ = 0, gap_ = 0;
+  int inside_ = 0, outside_ = 0, unseen_ = 0, unknown_ = 0;
 };
 
 TEST_F(OctantViewTest, ADecisionHoldsForEveryPlaceInTheOctant) {
@@ -85,7 +88,7 @@ TEST_F(OctantViewTest, WhatReachesBeyondTheSilhouettesBoxIsNotInside) {
   Silhouette block(width, height);
   for (int y = box.top; y <= box.bottom; ++y)
     for (int x = box.left; x <= box.right; ++x) block.Set(x, y);
-  windows_[0].Measure(block, box, false);
+  windows_[0].Measure(block, nullptr, box);
   eyes_[0].Set(view, kOrigin_W, windows_[0]);
   for (int i = 0; i < 20000; ++i) {
     const Vector3 middle_W(across(random_), across(random_), up(random_));
@@ -154,7 +157,7 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
           return samples_of_it;
         };
         const OctantDecisions decisions{of_voxel(samples.inside), of_voxel(samples.outside),
-                                        of_voxel(samples.unseen), of_voxel(samples.gap)};
+                                        of_voxel(samples.unseen), of_voxel(samples.unknown)};
         const Vector3 voxel_W = MiddleOf(frame_W, 12.5, voxel);
         for (int sample = 0; sample < OctantFrames::kLanes; ++sample)
           Check(camera, decisions, sample, MiddleOf(voxel_W, 6.25, sample), 0);
@@ -164,7 +167,7 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
   for (const int count : {inside_, outside_}) EXPECT_GT(count, 500);
 }
 
-TEST_F(OctantViewTest, OfSinglePixelsItTellsGaps) {
+TEST_F(OctantViewTest, OfSinglePixelsItTellsWhetherTheyAreUnknown) {
   std::uniform_real_distribution<double> across(-900, 900), up(0, 1800);
   for (int i = 0; i < 4000; ++i) {
     const std::size_t camera = i % eyes_.size();
@@ -176,7 +179,7 @@ TEST_F(OctantViewTest, OfSinglePixelsItTellsGaps) {
     for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
       Check(camera, decisions, octant, MiddleOf(middle_W, 6.25, octant), 0);
   }
-  EXPECT_GT(gap_, 50);
+  EXPECT_GT(unknown_, 50);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/reconstruction/carving/carving_view.h"
 #include "core/reconstruction/silhouette/bit_filters.h"
 
 namespace mocap {
@@ -26,17 +27,17 @@ Silhouette Block(int width, int height, const PixelBox& block, unsigned seed) {
   return s;
 }
 
-Silhouette Closed(const Silhouette& silhouette) {
-  Silhouette closed = silhouette, scratch;
-  for (int width = 0; width < WindowMap::kGap_px; width += 2) {
-    Dilate(closed, 2, scratch);
-    std::swap(closed, scratch);
-  }
-  for (int width = 0; width < WindowMap::kGap_px; width += 2) {
-    Erode(closed, 2, scratch);
-    std::swap(closed, scratch);
-  }
-  return closed;
+// All around a silhouette, by less than the width of a word.
+Silhouette UnknownBeside(const Silhouette& silhouette) {
+  Silhouette wide;
+  Dilate(silhouette, 3, wide);
+  Subtract(silhouette, wide);
+  wide.KeepBox();
+  return wide;
+}
+
+PixelBox BoxOf(const Silhouette& silhouette, const Silhouette* unknown) {
+  return *CarvingView{nullptr, &silhouette, {}, unknown}.Box();
 }
 
 struct Case {
@@ -49,18 +50,19 @@ const Case kCases[] = {{150, 110, {20, 15, 120, 90}},  {128, 100, {0, 0, 80, 60}
                        {64, 60, {0, 0, 63, 59}},       {150, 110, {70, 2, 76, 9}},
                        {100, 80, {31, 40, 94, 41}},    {97, 80, {90, 70, 96, 79}}};
 
-TEST(WindowMap, KnowsInsideGapAndOutsideOfEveryPixel) {
+TEST(WindowMap, KnowsTheKindOfEveryPixel) {
   WindowMap map;
   for (const Case& c : kCases) {
     const Silhouette s = Block(c.width, c.height, c.block, 5);
-    for (const bool closes_gaps : {true, false}) {
-      const Silhouette closed = closes_gaps ? Closed(s) : s;
-      map.Measure(s, *s.BoundingBox(), closes_gaps);
+    const Silhouette unknown = UnknownBeside(s);
+    for (const Silhouette* const beside : {&unknown, static_cast<const Silhouette*>(nullptr)}) {
+      map.Measure(s, beside, BoxOf(s, beside));
       for (int y = 0; y < c.height; ++y) {
         for (int x = 0; x < c.width; ++x) {
-          const WindowMap::Kind wanted = s.Test(x, y)        ? WindowMap::Kind::kInside
-                                         : closed.Test(x, y) ? WindowMap::Kind::kGap
-                                                             : WindowMap::Kind::kOutside;
+          const bool is_unknown = beside && beside->Test(x, y);
+          const WindowMap::Kind wanted = s.Test(x, y) ? WindowMap::Kind::kInside
+                                         : is_unknown ? WindowMap::Kind::kUnknown
+                                                      : WindowMap::Kind::kOutside;
           ASSERT_EQ(map.At(x, y), wanted) << x << " " << y << " of " << c.width;
         }
       }
@@ -72,8 +74,8 @@ TEST(WindowMap, KnowsOfWindowsWhetherAllOfThemIsInsideOrOutside) {
   WindowMap map;
   for (const Case& c : kCases) {
     const Silhouette s = Block(c.width, c.height, c.block, 8);
-    const Silhouette closed = Closed(s);
-    map.Measure(s, *s.BoundingBox(), true);
+    const Silhouette unknown = UnknownBeside(s);
+    map.Measure(s, &unknown, BoxOf(s, &unknown));
     const WindowMap::Planes planes = map.planes();
     for (int plane = 0; plane < WindowMap::kPlanes; ++plane) {
       const int side = 1 << plane;
@@ -84,7 +86,7 @@ TEST(WindowMap, KnowsOfWindowsWhetherAllOfThemIsInsideOrOutside) {
             for (int u = x; u < x + side; ++u) {
               const bool is_beside = u >= c.width || v >= c.height;
               is_inside = is_inside && !is_beside && s.Test(u, v);
-              is_outside = is_outside && (is_beside || !closed.Test(u, v));
+              is_outside = is_outside && (is_beside || !(s.Test(u, v) || unknown.Test(u, v)));
             }
           }
           const int column = x - planes.left;

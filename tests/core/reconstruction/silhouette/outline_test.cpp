@@ -38,7 +38,7 @@ TEST(Outline, RaysGrazeWhatTheLensShows) {
   const Vector3 center_W = X_CW.Inverse() * kCenter_C;
   for (const NamedCamera& camera : DistortedCameras()) {
     Outline outline;
-    TraceOutline(camera.calibration, X_CW, SphereSeenBy(camera.calibration), 100, outline);
+    TraceOutline(camera.calibration, X_CW, {SphereSeenBy(camera.calibration), {}}, 100, outline);
     ASSERT_GT(outline.size(), 90u) << camera.name;
     ASSERT_LE(outline.size(), 100u) << camera.name;
     double bias_mm = 0;
@@ -54,14 +54,32 @@ TEST(Outline, RaysGrazeWhatTheLensShows) {
   }
 }
 
+TEST(Outline, HasNoRaysBesideUnknownPixels) {
+  const CameraCalibration camera = DistortedCameras()[0].calibration;
+  const Silhouette sphere = SphereSeenBy(camera);
+  const PixelBox box = *sphere.BoundingBox();
+  const int middle = (box.left + box.right) / 2;
+  Silhouette unknown(camera.width_px, camera.height_px);
+  for (int y = 0; y < camera.height_px; ++y)
+    for (int x = middle; x < camera.width_px; ++x)
+      if (!sphere.Test(x, y)) unknown.Set(x, y);
+  Outline outline;
+  TraceOutline(camera, RigidTransform{}, {sphere, unknown}, 100, outline);
+  EXPECT_GT(outline.size(), 90u);
+  for (const GrazingRay& ray : outline) {
+    const Vector2 pixel = PixelFromNormalized(camera.lens, ray.direction_W.hnormalized()).value();
+    EXPECT_LT(pixel.x(), middle + 1);
+  }
+}
+
 TEST(Outline, KeepsItsRaysWhereNothingChanges) {
   const CameraCalibration camera = DistortedCameras()[0].calibration;
   Silhouette silhouette = SphereSeenBy(camera);
   Outline before, after;
-  TraceOutline(camera, RigidTransform{}, silhouette, 100, before);
+  TraceOutline(camera, RigidTransform{}, {silhouette, {}}, 100, before);
   for (int y = 20; y < 32; ++y)
     for (int x = 20; x < 32; ++x) silhouette.Set(x, y);
-  TraceOutline(camera, RigidTransform{}, silhouette, 100, after);
+  TraceOutline(camera, RigidTransform{}, {silhouette, {}}, 100, after);
   const auto is_old = [&](const GrazingRay& ray) {
     return std::ranges::any_of(before, [&](const GrazingRay& old) {
       return old.rank == ray.rank && old.direction_W == ray.direction_W;
@@ -76,8 +94,8 @@ TEST(Outline, EveryThirdPartIsATraceOfAThirdAsMany) {
   const RigidTransform X_CW{ExpRotation(Vector3(0.3, -0.8, 0.2)), Vector3(100, 200, 300)};
   const Silhouette sphere = SphereSeenBy(camera);
   Outline thin, dense, thinned;
-  TraceOutline(camera, X_CW, sphere, 60, thin);
-  TraceOutline(camera, X_CW, sphere, 180, dense);
+  TraceOutline(camera, X_CW, {sphere, {}}, 60, thin);
+  TraceOutline(camera, X_CW, {sphere, {}}, 180, dense);
   ThinOutline(dense, 3, thinned);
   std::erase_if(thin, [](const GrazingRay& ray) { return ray.empty(); });
   ASSERT_EQ(thinned.size(), thin.size());
@@ -96,7 +114,7 @@ TEST(Outline, HolesBorderOnTheirInside) {
     }
   }
   Outline outline;
-  TraceOutline(camera, RigidTransform{}, frame, 400, outline);
+  TraceOutline(camera, RigidTransform{}, {frame, {}}, 400, outline);
   const auto middle = NormalizedFromPixel(camera.lens, Vector2(200, 200));
   const Vector3 to_middle = Vector3(middle->x(), middle->y(), 1).normalized();
   int inward = 0;
@@ -113,9 +131,9 @@ TEST(Outline, EndsWhereThePictureEnds) {
     for (int x = 0; x < camera.width_px; ++x) everything.Set(x, y);
   }
   Outline outline(3);
-  TraceOutline(camera, RigidTransform{}, everything, 100, outline);
+  TraceOutline(camera, RigidTransform{}, {everything, {}}, 100, outline);
   EXPECT_TRUE(outline.empty());
-  TraceOutline(camera, RigidTransform{}, Silhouette(camera.width_px, camera.height_px), 100,
+  TraceOutline(camera, RigidTransform{}, {Silhouette(camera.width_px, camera.height_px), {}}, 100,
                outline);
   EXPECT_TRUE(outline.empty());
 }

@@ -48,9 +48,9 @@ class SegmenterTest : public ::testing::Test {
         segmenter_(SmallCamera(), TakeBackground(studio_, 30, sensor_), {}) {}
 
   Silhouette Segment(const ExactPicture& picture, float brightness = 1) {
-    Silhouette silhouette;
-    segmenter_.Segment(sensor_.Take(picture, brightness).view(), {}, silhouette);
-    return silhouette;
+    Trimap trimap;
+    segmenter_.Segment(sensor_.Take(picture, brightness).view(), {}, trimap);
+    return trimap.person;
   }
 
   NoisySensor sensor_;
@@ -174,10 +174,11 @@ void ExpectSameAsFresh(const CameraCalibration& camera,
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     SCOPED_TRACE(i);
     Segmenter fresh(camera, background, {});
-    Silhouette expected, silhouette;
+    Trimap expected, trimap;
     fresh.Segment(pictures[i].image.view(), pictures[i].angles, expected);
-    seasoned.Segment(pictures[i].image.view(), pictures[i].angles, silhouette);
-    EXPECT_EQ(silhouette.words(), expected.words());
+    seasoned.Segment(pictures[i].image.view(), pictures[i].angles, trimap);
+    EXPECT_EQ(trimap.person.words(), expected.person.words());
+    EXPECT_EQ(trimap.unknown.words(), expected.unknown.words());
     EXPECT_EQ(seasoned.shading().dark.words(), fresh.shading().dark.words());
     EXPECT_EQ(seasoned.shading().dark_tiles, fresh.shading().dark_tiles);
     EXPECT_EQ(seasoned.shading().shades, fresh.shading().shades);
@@ -224,11 +225,14 @@ TEST_F(SegmenterTest, AThingThatWasMovedIsLeftOutBesideAPerson) {
 }
 
 TEST_F(SegmenterTest, MemoryOfAnotherSizeIsReused) {
-  Silhouette silhouette(640, 480);
-  silhouette.Set(5, 5);
-  segmenter_.Segment(sensor_.Take(studio_).view(), {}, silhouette);
-  EXPECT_EQ(silhouette.width(), kWidth);
-  EXPECT_EQ(CountSet(silhouette), 0);
+  Trimap trimap{Silhouette(640, 480), Silhouette(640, 480)};
+  trimap.person.Set(5, 5);
+  trimap.unknown.Set(5, 5);
+  segmenter_.Segment(sensor_.Take(studio_).view(), {}, trimap);
+  for (const Silhouette* const plane : {&trimap.person, &trimap.unknown}) {
+    EXPECT_EQ(plane->width(), kWidth);
+    EXPECT_EQ(CountSet(*plane), 0);
+  }
 }
 
 TEST(Segmenter, TooFewBackgroundFramesAreRefused) {
@@ -271,12 +275,12 @@ TEST(Segmenter, ANudgedCameraIsFollowed) {
   };
   Segmenter segmenter(SmallCamera(), TakeBackground(look(0, 0), 30, sensor), {});
   ExactPicture picture = look(-0.3f, 1.3f);
-  Silhouette silhouette;
-  segmenter.Segment(sensor.Take(picture).view(), {}, silhouette);
-  EXPECT_EQ(CountSet(silhouette), 0);
+  Trimap trimap;
+  segmenter.Segment(sensor.Take(picture).view(), {}, trimap);
+  EXPECT_EQ(CountSet(trimap.person), 0);
   Paint(picture, {80, 40, 109, 119}, {40, 30, 170});
-  segmenter.Segment(sensor.Take(picture).view(), {}, silhouette);
-  EXPECT_NEAR(CountSet(silhouette), 30 * 80, 80);
+  segmenter.Segment(sensor.Take(picture).view(), {}, trimap);
+  EXPECT_NEAR(CountSet(trimap.person), 30 * 80, 80);
 }
 
 // A camera on a head in the middle of a large room with pictures on its walls.
@@ -323,9 +327,9 @@ TEST_F(PanTiltSegmenterTest, TheEmptyStudioHasNoSilhouetteBetweenTheLearnedDirec
   Segmenter segmenter(camera_, background_, {});
   for (const PanTiltAngles& angles :
        {PanTiltAngles{0.05, 0.05}, {-0.13, -0.02}, {0.24, 0.07}, {0, 0}}) {
-    Silhouette silhouette;
-    segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, silhouette);
-    EXPECT_EQ(CountSet(silhouette), 0) << angles.pan_rad;
+    Trimap trimap;
+    segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
+    EXPECT_EQ(CountSet(trimap.person), 0) << angles.pan_rad;
   }
 }
 
@@ -334,10 +338,10 @@ TEST_F(PanTiltSegmenterTest, APersonIsFoundInAnyDirection) {
   for (const PanTiltAngles& angles : {PanTiltAngles{0.05, 0.05}, {-0.17, -0.06}}) {
     ExactPicture picture = Look(angles);
     Paint(picture, {80, 40, 109, 120}, {40, 40, 160});
-    Silhouette silhouette;
-    segmenter.Segment(sensor_.Take(picture).view(), angles, silhouette);
-    EXPECT_NEAR(CountSet(silhouette), 30 * 81, 60);
-    EXPECT_NEAR(CountSet(silhouette, {80, 40, 109, 120}), 30 * 81, 60);
+    Trimap trimap;
+    segmenter.Segment(sensor_.Take(picture).view(), angles, trimap);
+    EXPECT_NEAR(CountSet(trimap.person), 30 * 81, 60);
+    EXPECT_NEAR(CountSet(trimap.person, {80, 40, 109, 120}), 30 * 81, 60);
   }
 }
 
@@ -383,9 +387,9 @@ TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClose
 TEST_F(PanTiltSegmenterTest, WhatWasNeverLearnedIsNotTakenForAPerson) {
   Segmenter segmenter(camera_, background_, {});
   const PanTiltAngles angles{0.55, 0};  // Half of it was never shown.
-  Silhouette silhouette;
-  segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, silhouette);
-  EXPECT_EQ(CountSet(silhouette), 0);
+  Trimap trimap;
+  segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
+  EXPECT_EQ(CountSet(trimap.person), 0);
 }
 
 }  // namespace
