@@ -38,6 +38,8 @@ struct Sighting {
   Eigen::AlignedBox3d box_W;          ///< Contains the person, with any carved-away flesh [mm].
   const VoxelGrid& room;              ///< Everybody's voxels in the same block of cells.
   std::span<const Outline> borders;   ///< The rays that graze anybody near the person.
+  /// Cells of `flesh` that no camera denies, but too few show.
+  std::span<const Eigen::Vector3i> doubtful;
 };
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;

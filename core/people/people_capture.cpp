@@ -65,6 +65,7 @@ class PeopleCapture::Impl {
   void Equip(Member& member) const;
   void NoteGap(std::int64_t capture_ns);
   void BringBack();
+  const VoxelGrid& Believe(const Sighting& room);
   void Thin(std::span<const Outline> outlines, int step);
   void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
   bool IsAlone(const VoxelGrid& grid);
@@ -96,6 +97,7 @@ class PeopleCapture::Impl {
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
+  VoxelGrid believed_;  // Flesh, and what is doubtful where bodies are predicted.
   VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
@@ -154,12 +156,13 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   NoteGap(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
-  if (IsAlone(room.flesh)) {
+  const Sighting believed(Believe(room), room.outlines, room.box_W);
+  if (IsAlone(believed.flesh)) {
     Thin(room.outlines, options_.fineness);
-    UpdateAlone(room, capture_ns, observer);
+    UpdateAlone(believed, capture_ns, observer);
   } else {
     Thin(room.outlines, 1);
-    Divide(room.flesh);
+    Divide(believed.flesh);
     MeetStrangers(eyes);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     UpdateMembers(capture_ns, observer);
@@ -193,6 +196,15 @@ void PeopleCapture::Impl::BringBack() {
   for (const auto& member : members_) {
     if (member->beside) Equip(*member);
   }
+}
+
+// What cameras cannot tell is flesh where a body is predicted.
+const VoxelGrid& PeopleCapture::Impl::Believe(const Sighting& room) {
+  if (room.doubtful.empty() || posed_.empty()) return room.flesh;
+  believed_ = room.flesh;
+  for (const PosedPerson& person : posed_)
+    if (person.handicap_mm == 0) AddCellsWithin(person, room.doubtful, believed_);
+  return believed_;
 }
 
 // Flesh beside the box of a single person is nobody's, though the grid may contain it.

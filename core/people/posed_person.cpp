@@ -20,6 +20,21 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
   }
 }
 
+void AddCellsWithin(const PosedPerson& person, std::span<const Eigen::Vector3i> cells,
+                    VoxelGrid& flesh) {
+  const auto is_within = [&](const Vector3& p_W) {
+    return std::ranges::any_of(person.capsules, [&](const PosedCapsule& capsule) {
+      const bool is_near = (p_W - capsule.middle_W).norm() <= capsule.reach_mm;
+      return is_near && capsule.DistanceTo(p_W).outside_mm <= 0;
+    });
+  };
+  for (const Eigen::Vector3i& cell : cells) {
+    const Vector3 middle_W = flesh.CenterOf(cell.x(), cell.y(), cell.z());
+    if (person.box_W.contains(middle_W) && is_within(middle_W))
+      flesh.Set(cell.x(), cell.y(), cell.z());
+  }
+}
+
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W) {
   constexpr double kBesideMm = 100, kStrideMm = 400;
   return DownToFloor(flesh_W, LacksLegs(flesh_W.min().z()) ? kStrideMm : kBesideMm);

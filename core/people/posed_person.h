@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/reconstruction/carving/voxel_grid.h"
 
 namespace mocap {
 
@@ -24,6 +26,10 @@ struct PosedPerson {
 /// Sets the capsules for a body and a pose; reuses the memory of `person`.
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
                 PosedPerson& person);
+
+/// Sets those cells of a grid whose centres are within the body.
+void AddCellsWithin(const PosedPerson& person, std::span<const Eigen::Vector3i> cells,
+                    VoxelGrid& flesh);
 
 /// Returns a box around flesh, with a margin and down to the floor: legs may have been carved away.
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm);

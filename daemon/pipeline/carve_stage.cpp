@@ -65,7 +65,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
     load_control_->AddSet(set.capture_ns, set.complete_ns, TimelineNs(), synchronizer_.PeriodNs());
     PublishLoad();
   }
-  carver_.Carve(views_, set.grid);
+  carver_.Carve(views_, set.grid, &set.doubtful);
   set.person_box_W = carver_.person_box_W();
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
   set.work_ns += carve_ns;

@@ -27,8 +27,9 @@ static_assert(kMaxCameras <= 64, "a set of cameras is one word");
 /// One frame set, carved.
 struct CarvedSet {
   VoxelGrid grid;
-  std::vector<Outline> outlines;  ///< One per camera; empty for cameras not in the set.
-  std::vector<CameraEye> eyes;    ///< Of the cameras in the set.
+  std::vector<Eigen::Vector3i> doubtful;  ///< Cells that no camera denies, but too few show.
+  std::vector<Outline> outlines;          ///< One per camera; empty for cameras not in the set.
+  std::vector<CameraEye> eyes;            ///< Of the cameras in the set.
   /// Bounds of a single person [mm, world]; empty without anybody.
   Eigen::AlignedBox3d person_box_W;
   std::int64_t frame = 0;        ///< Counts sets from 0.

@@ -85,8 +85,10 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
   const int rays = kRaysPerPerson * FinenessFor(options.people);
   carve_ = std::make_unique<CarveStage>(
       calibrations, MakeSynchronizer(studio, options.overflow),
-      CarvingOptions{.voxel_mm = options.voxel_mm, .several_people = options.people > 1}, rays,
-      recorders_);
+      CarvingOptions{.voxel_mm = options.voxel_mm,
+                     .several_people = options.people > 1,
+                     .hard_silhouettes = options.tracker == TrackerKind::kMikic2003},
+      rays, recorders_);
   if (options.overflow == Overflow::kDropOldest) {
     carve_->ControlLoad();
     health_ = std::make_unique<HealthWatch>(calibrations);

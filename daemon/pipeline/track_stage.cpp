@@ -76,8 +76,9 @@ void TrackStage::Process(const CarvedSet& set) {
   TakeRequests();
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
-  people_.Update({set.grid, set.outlines, set.person_box_W}, set.eyes, Onward(set.capture_ns),
-                 this);
+  Sighting room(set.grid, set.outlines, set.person_box_W);
+  room.doubtful = set.doubtful;
+  people_.Update(room, set.eyes, Onward(set.capture_ns), this);
   const MotionCapture& first = people_.first();
   const std::int64_t update_ns = SteadyNs() - begin_ns;
   recorders_[Stage::kLabel].Record(stage_ns_[0]);

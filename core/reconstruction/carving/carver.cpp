@@ -23,9 +23,6 @@ constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
 constexpr int kMajority = kSamples / 2 + 1;
 
-// This many cameras may not know a sample for each that shows the person there.
-constexpr int kUnknownPerPerson = 1;
-
 // Finds which of eight voxels have a majority of their samples: one byte per sample, one bit per
 // voxel. Adds all voxels at once, bit-sliced, halving the bytes in each step.
 std::uint8_t Majorities(std::uint64_t samples) {
@@ -53,9 +50,6 @@ std::uint8_t SamplesOf(std::uint64_t samples, int voxel) {
                                    56);
 }
 
-// Cameras that must show the person at a sample that others do not know.
-int PersonsFor(int unknown) { return (unknown + kUnknownPerPerson - 1) / kUnknownPerPerson; }
-
 int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
 
 }  // namespace
@@ -65,12 +59,16 @@ int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1)
 class Carver::Walk {
  public:
   explicit Walk(const CarvingOptions& options)
-      : voxel_mm_(options.voxel_mm), several_people_(options.several_people) {}
+      : voxel_mm_(options.voxel_mm),
+        several_people_(options.several_people),
+        is_hard_(options.hard_silhouettes) {}
 
-  void Carve(std::span<const CarvingView> views, VoxelGrid& grid);
+  void Carve(std::span<const CarvingView> views, VoxelGrid& grid,
+             std::vector<Eigen::Vector3i>* doubtful);
   const Eigen::AlignedBox3d& person_box_W() const { return person_box_W_; }
 
  private:
+  enum class Verdict { kEmpty, kDoubtful, kPerson };
   // A cube of voxels and what is known about it.
   struct Block {
     Eigen::Vector3i first;  // Within the grid.
@@ -84,7 +82,7 @@ class Carver::Walk {
   };
   static constexpr std::uint8_t kNoFrame = 255;
 
-  void Prepare(std::span<const CarvingView> views);
+  void Prepare();
   void Visit(const Block& block);
   bool VisitSamples(const Block& block);
   void VisitVoxel(const Block& voxel);
@@ -93,9 +91,9 @@ class Carver::Walk {
   OctantDecisions Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
   std::uint8_t OctantsInGrid(const Block& block) const;
   void Fill(const Block& block);
-  bool AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
-                  unsigned agrees, unsigned open) const;
-  bool SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
+  Verdict AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
+                     unsigned agrees, unsigned doubtful, unsigned open) const;
+  Verdict AskSample(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                     int sample) const;
   std::optional<WindowMap::Kind> Look(int view, const Vector3& p_W) const;
 
@@ -111,30 +109,37 @@ class Carver::Walk {
   }
 
   double voxel_mm_;
-  bool several_people_;
+  bool several_people_, is_hard_;
   int fewest_ = 0;
   VoxelGrid* grid_ = nullptr;
+  std::vector<Eigen::Vector3i>* doubtful_ = nullptr;
   RoomBlocks room_;
   VolumeOfInterest volume_;
   Eigen::AlignedBox3d person_box_W_;
-  std::vector<CarvingView> views_;
+  std::vector<CarvingView> all_;    // Of the set.
+  std::vector<CarvingView> views_;  // Those that see something.
   std::vector<WindowMap> windows_;
   std::vector<OctantView> octant_views_;
   // One per view, indexed by the level of the block that is split into octants.
   std::vector<std::array<OctantFrames, kLevels>> frames_;
 };
 
-void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
+void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid,
+                         std::vector<Eigen::Vector3i>* doubtful) {
   MOCAP_CHECK(views.size() <= kMostViews);
   grid.Reset(Eigen::Vector3i::Zero(), Eigen::Vector3i::Zero(), voxel_mm_);
-  fewest_ = Fewest(views.size());
-  person_box_W_ = volume_.Find(views).value_or(Eigen::AlignedBox3d());
+  if (doubtful) doubtful->clear();
+  all_.assign(views.begin(), views.end());
+  if (is_hard_) std::ranges::for_each(all_, [](CarvingView& view) { view.unknown = nullptr; });
+  fewest_ = Fewest(all_.size());
+  person_box_W_ = volume_.Find(all_).value_or(Eigen::AlignedBox3d());
   if (person_box_W_.isEmpty() && !several_people_) return;
-  room_.Find(views, fewest_, voxel_mm_, several_people_ ? Eigen::AlignedBox3d() : person_box_W_);
+  room_.Find(all_, fewest_, voxel_mm_, several_people_ ? Eigen::AlignedBox3d() : person_box_W_);
   if (room_.blocks().empty()) return;
   grid.Reset(room_.first_voxel(), room_.size_voxels(), voxel_mm_);
-  Prepare(views);
+  Prepare();
   grid_ = &grid;
+  doubtful_ = doubtful;
   for (std::size_t i = 0; i < views_.size(); ++i)
     octant_views_[i].Set(views_[i], grid.origin_W(), windows_[i]);
 
@@ -152,18 +157,18 @@ void Carver::Walk::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
 }
 
 // Measures the silhouettes of all cameras that see something.
-void Carver::Walk::Prepare(std::span<const CarvingView> views) {
+void Carver::Walk::Prepare() {
   views_.clear();
-  if (windows_.size() < views.size()) {
-    windows_.resize(views.size());
-    octant_views_.resize(views.size());
-    frames_.resize(views.size());
+  if (windows_.size() < all_.size()) {
+    windows_.resize(all_.size());
+    octant_views_.resize(all_.size());
+    frames_.resize(all_.size());
   }
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
     const std::optional<PixelBox>& box = volume_.boxes()[i];
     if (!box) continue;
-    windows_[views_.size()].Measure(*views[i].silhouette, views[i].unknown, *box);
-    views_.push_back(views[i]);
+    windows_[views_.size()].Measure(*all_[i].silhouette, all_[i].unknown, *box);
+    views_.push_back(all_[i]);
   }
 }
 
@@ -296,36 +301,44 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> d
   }
   open &= alive;
   const int needed = std::max(fewest_ - block.seeing, 0);
-  std::uint64_t agrees = needed <= views ? alive & seen[needed] & ~open : 0;
-  for (int n = 1; n <= views; ++n)
-    agrees &= ~unknown[n] | person[std::max(PersonsFor(n) - block.seeing, 0)];
-  asked &= Majorities(agrees | open);
+  const std::uint64_t possible = needed <= views ? alive & seen[needed] & ~open : 0;
+  std::uint64_t agrees = possible;
+  for (int n = 1; n <= views; ++n) agrees &= ~unknown[n] | person[std::max(n - block.seeing, 0)];
+  const std::uint64_t doubtful = doubtful_ ? possible & ~agrees : 0;
+  asked &= Majorities(agrees | doubtful | open);
   const std::uint8_t agreed = Majorities(agrees);
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
     const int voxel = std::countr_zero(asked);
-    if (~agreed >> voxel & 1 &&
-        !AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel), SamplesOf(open, voxel)))
-      continue;
+    const Verdict verdict = agreed >> voxel & 1
+                                ? Verdict::kPerson
+                                : AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel),
+                                             SamplesOf(doubtful, voxel), SamplesOf(open, voxel));
     const Eigen::Vector3i at = VoxelAt(block, voxel);
-    grid_->Set(at.x(), at.y(), at.z());
+    if (verdict == Verdict::kPerson) grid_->Set(at.x(), at.y(), at.z());
+    if (verdict == Verdict::kDoubtful && doubtful_) doubtful_->push_back(at);
   }
 }
 
 // Tests a voxel's open samples exactly, as long as the result depends on them.
-bool Carver::Walk::AskSamples(const Block& block, std::span<const SampleDecisions> decisions,
-                              int voxel, unsigned agrees, unsigned open) const {
+Carver::Walk::Verdict Carver::Walk::AskSamples(const Block& block,
+                                               std::span<const SampleDecisions> decisions,
+                                               int voxel, unsigned agrees, unsigned doubtful,
+                                               unsigned open) const {
   for (; open != 0; open &= open - 1) {
     const int sample = std::countr_zero(open);
-    if (SampleAgrees(block, decisions, voxel, sample)) agrees |= 1u << sample;
-    if (std::popcount(agrees) >= kMajority) return true;
-    if (std::popcount(agrees | (open & (open - 1))) < kMajority) return false;
+    const Verdict verdict = AskSample(block, decisions, voxel, sample);
+    if (verdict == Verdict::kPerson) agrees |= 1u << sample;
+    if (verdict == Verdict::kDoubtful) doubtful |= 1u << sample;
+    if (std::popcount(agrees) >= kMajority) return Verdict::kPerson;
+    if (std::popcount(agrees | doubtful | (open & (open - 1))) < kMajority) return Verdict::kEmpty;
   }
-  return false;
+  return std::popcount(agrees | doubtful) >= kMajority ? Verdict::kDoubtful : Verdict::kEmpty;
 }
 
 // Tests a sample exactly in those cameras that have not decided it yet.
-bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisions> decisions,
-                                int voxel, int sample) const {
+Carver::Walk::Verdict Carver::Walk::AskSample(const Block& block,
+                                              std::span<const SampleDecisions> decisions, int voxel,
+                                              int sample) const {
   const Vector3 corner_W =
       (grid_->first_voxel() + VoxelAt(block, voxel)).cast<double>() * voxel_mm_;
   const Vector3 p_W =
@@ -344,11 +357,12 @@ bool Carver::Walk::SampleAgrees(const Block& block, std::span<const SampleDecisi
       kind = WindowMap::Kind::kUnknown;
     else
       kind = Look(block.views[i], p_W);
-    if (kind == WindowMap::Kind::kOutside) return false;
+    if (kind == WindowMap::Kind::kOutside) return Verdict::kEmpty;
     if (kind == WindowMap::Kind::kInside) ++persons;
     if (kind == WindowMap::Kind::kUnknown) ++unknown;
   }
-  return persons + unknown >= fewest_ && persons >= PersonsFor(unknown);
+  if (persons + unknown < fewest_) return Verdict::kEmpty;
+  return persons >= unknown ? Verdict::kPerson : Verdict::kDoubtful;
 }
 
 // Evaluates the definition at one point; empty if the camera does not see it.
@@ -366,8 +380,9 @@ Carver::Carver(Carver&&) noexcept = default;
 Carver& Carver::operator=(Carver&&) noexcept = default;
 Carver::~Carver() = default;
 
-void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid) {
-  walk_->Carve(views, grid);
+void Carver::Carve(std::span<const CarvingView> views, VoxelGrid& grid,
+                   std::vector<Eigen::Vector3i>* doubtful) {
+  walk_->Carve(views, grid, doubtful);
 }
 const Eigen::AlignedBox3d& Carver::person_box_W() const { return walk_->person_box_W(); }
 

@@ -32,10 +32,17 @@ void SilhouetteCleaner::DropBlobs(int smallest, Silhouette& silhouette) {
   Write(silhouette);
 }
 
+void SilhouetteCleaner::FillHoles(Silhouette& silhouette) {
+  FindParts(silhouette, nullptr);
+  FillHolesIf([](const Part&) { return true; });
+  KeepBlobs(0);
+  Write(silhouette);
+}
+
 void SilhouetteCleaner::Clean(int smallest_hole, const Silhouette& doubtful, int smallest_blob,
                               Silhouette& silhouette) {
   FindParts(silhouette, &doubtful);
-  FillHoles([&](const Part& hole) {
+  FillHolesIf([&](const Part& hole) {
     return hole.area < smallest_hole || 3 * hole.doubtful > 2 * hole.area;
   });
   KeepBlobs(smallest_blob);
@@ -45,7 +52,7 @@ void SilhouetteCleaner::Clean(int smallest_hole, const Silhouette& doubtful, int
 void SilhouetteCleaner::KeepPerson(int smallest_hole, int smallest_blob, int largest_thing,
                                    Silhouette& silhouette) {
   FindParts(silhouette, nullptr);
-  FillHoles([&](const Part& hole) { return hole.area < smallest_hole; });
+  FillHolesIf([&](const Part& hole) { return hole.area < smallest_hole; });
   KeepBlobs(smallest_blob);
   DropThings(largest_thing);
   Write(silhouette);
@@ -113,7 +120,7 @@ int SilhouetteCleaner::Join(int a, int b) {
 
 // Blobs within a filled hole, and everything they are filled with, come after it.
 template <typename IsFilled>
-void SilhouetteCleaner::FillHoles(IsFilled is_filled) {
+void SilhouetteCleaner::FillHolesIf(IsFilled is_filled) {
   for (int i = 1; i < static_cast<int>(parts_.size()); ++i) {
     if (parts_[i].whole != i) continue;
     const int around = WholeOf(parts_[i].around);

@@ -18,6 +18,9 @@ class SilhouetteCleaner {
   /// Clears blobs of fewer than `smallest` pixels.
   void DropBlobs(int smallest, Silhouette& silhouette);
 
+  /// Fills all holes.
+  void FillHoles(Silhouette& silhouette);
+
   /// Fills holes of fewer than `smallest_hole` pixels, and holes of any size if two thirds of them
   /// are doubtful. A leg in front of a wall of its own colour leaves such holes; the gap between an
   /// arm and the trunk does not. Clears blobs of fewer than `smallest_blob` pixels.
@@ -53,7 +56,7 @@ class SilhouetteCleaner {
   int WholeOf(int part);
   int Join(int a, int b);
   template <typename IsFilled>
-  void FillHoles(IsFilled is_filled);
+  void FillHolesIf(IsFilled is_filled);
   void KeepBlobs(int smallest);
   void DropThings(int largest_thing);
   void Write(Silhouette& silhouette);

@@ -46,8 +46,7 @@ class Trousers : public ::testing::Test {
       Silhouette dark = shadows_[i];
       if (i == 0) Unite(legs, dark);
       shadings_.push_back(ShadingOf(dark));
-      // The camera does not know of its shadows.
-      trimaps_.push_back({person, shadows_[i]});
+      trimaps_.push_back({person, dark});
     }
   }
 

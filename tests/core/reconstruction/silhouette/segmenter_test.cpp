@@ -47,10 +47,13 @@ class SegmenterTest : public ::testing::Test {
         studio_(EmptyStudio(kWidth, kHeight)),
         segmenter_(SmallCamera(), TakeBackground(studio_, 30, sensor_), {}) {}
 
-  Silhouette Segment(const ExactPicture& picture, float brightness = 1) {
+  Trimap Classify(const ExactPicture& picture, float brightness = 1) {
     Trimap trimap;
     segmenter_.Segment(sensor_.Take(picture, brightness).view(), {}, trimap);
-    return trimap.person;
+    return trimap;
+  }
+  Silhouette Segment(const ExactPicture& picture, float brightness = 1) {
+    return Classify(picture, brightness).person;
   }
 
   NoisySensor sensor_;
@@ -124,6 +127,21 @@ TEST_F(SegmenterTest, AGapBetweenArmAndTrunkStaysOpen) {
   for (int y = 40; y < 80; ++y)
     for (int x = 86; x < 94; ++x) picture(x, y) = studio_(x, y);
   EXPECT_LT(CountSet(Segment(picture), {86, 40, 93, 79}), 20);
+}
+
+TEST_F(SegmenterTest, WhatThePersonEnclosesAndWhatMayBeAShadowIsUnknown) {
+  ExactPicture picture = studio_;
+  Paint(picture, {60, 20, 99, 99}, {50, 45, 120});
+  const PixelBox like_the_wall{72, 40, 87, 69}, shadow{110, 60, 139, 99};
+  for (int y = like_the_wall.top; y <= like_the_wall.bottom; ++y)
+    for (int x = like_the_wall.left; x <= like_the_wall.right; ++x) picture(x, y) = studio_(x, y);
+  Dim(picture, shadow, 0.85f);
+  const Trimap trimap = Classify(picture);
+  EXPECT_LT(CountSet(trimap.person, like_the_wall), 60);
+  EXPECT_GT(CountSet(trimap.unknown, like_the_wall), 0.85 * 16 * 30);
+  EXPECT_EQ(CountSet(trimap.person, shadow), 0);
+  EXPECT_GT(CountSet(trimap.unknown, shadow), 0.8 * 30 * 40);
+  EXPECT_EQ(CountSet(trimap.unknown, {150, 0, kWidth - 1, kHeight - 1}), 0);
 }
 
 TEST_F(SegmenterTest, SpecksAreDropped) {
