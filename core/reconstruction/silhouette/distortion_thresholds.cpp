@@ -1,6 +1,8 @@
 #include "core/reconstruction/silhouette/distortion_thresholds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/errors.h"
 #include "core/kernels/statistics.h"
@@ -9,6 +11,24 @@ namespace mocap {
 namespace {
 
 constexpr int kBlock = 256;
+
+// Quantile of the standard normal distribution, by bisection.
+double NormalQuantile(double rate) {
+  double low = -10, high = 10;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (std::erfc(-middle / std::numbers::sqrt2) / 2 < rate ? low : high) = middle;
+  }
+  return low;
+}
+
+// Quantile of the chi-square distribution (Wilson, Hilferty 1931).
+double ChiSquareQuantile(int freedom, double rate) {
+  const double variance = 2.0 / (9 * freedom);
+  return freedom * std::pow(1 - variance + NormalQuantile(rate) * std::sqrt(variance), 3);
+}
+
+void Raise(float least, float& threshold) { threshold = std::max(threshold, least); }
 
 // Minimum over the window around each pixel, in place.
 void Erode(int radius, int width, int height, Image<float>& image) {
@@ -27,6 +47,24 @@ void Erode(int radius, int width, int height, Image<float>& image) {
 }
 
 }  // namespace
+
+DistortionThresholds IndependentNoise(double detection_rate) {
+  // A colour has two dimensions beside brightness, and a plane through a window has three.
+  constexpr int kPlane = 3;
+  const double color = std::sqrt(-2 * std::log(1 - detection_rate));
+  const double brightness = NormalQuantile((1 + detection_rate) / 2);
+  DistortionThresholds thresholds;
+  thresholds.cd = static_cast<float>(color);
+  thresholds.alpha_low = static_cast<float>(-NormalQuantile(detection_rate));
+  for (std::size_t k = 0; k < kernels::kWindows; ++k) {
+    const int side = 2 * kernels::kWindowRadii_px[k] + 1, area = side * side;
+    const double squares = ChiSquareQuantile(area - kPlane, detection_rate);
+    thresholds.windows[k] = {static_cast<float>(color / side),
+                             static_cast<float>(brightness / side),
+                             static_cast<float>(std::sqrt(squares / area))};
+  }
+  return thresholds;
+}
 
 void DistortionHistograms::Histogram::Add(const float* values, int count) {
   std::array<int, kBlock> bins;
@@ -90,14 +128,16 @@ void DistortionHistograms::Add(const ExpectedPicture& expected, ImageView<const 
 }
 
 DistortionThresholds DistortionHistograms::At(double detection_rate) const {
-  MOCAP_CHECK(detection_rate > 0 && detection_rate < 1);
-  DistortionThresholds thresholds;
-  thresholds.cd = cd_.Quantile(detection_rate);
-  thresholds.alpha_low = -darker_.Quantile(detection_rate);
-  for (std::size_t k = 0; k < windows_.size(); ++k)
-    thresholds.windows[k] = {windows_[k].cd.Quantile(detection_rate),
-                             windows_[k].alpha.Quantile(detection_rate),
-                             windows_[k].roughness.Quantile(detection_rate)};
+  MOCAP_CHECK(detection_rate >= 0.5 && detection_rate < 1);
+  DistortionThresholds thresholds = IndependentNoise(detection_rate);
+  Raise(cd_.Quantile(detection_rate), thresholds.cd);
+  thresholds.alpha_low = std::min(thresholds.alpha_low, -darker_.Quantile(detection_rate));
+  for (std::size_t k = 0; k < windows_.size(); ++k) {
+    DistortionThresholds::Window& window = thresholds.windows[k];
+    Raise(windows_[k].cd.Quantile(detection_rate), window.cd);
+    Raise(windows_[k].alpha.Quantile(detection_rate), window.alpha);
+    Raise(windows_[k].roughness.Quantile(detection_rate), window.roughness);
+  }
   return thresholds;
 }
 

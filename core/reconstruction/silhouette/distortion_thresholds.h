@@ -23,6 +23,11 @@ struct DistortionThresholds {
   std::array<Window, kernels::kWindows> windows;
 };
 
+/// Returns what noise exceeds at the rate 1 - `detection_rate` if its deviation is σ and it is
+/// independent from pixel to pixel and between channels.
+/// @pre  0.5 <= detection_rate < 1.
+DistortionThresholds IndependentNoise(double detection_rate);
+
 /// Collects the distortions of training frames in histograms and derives thresholds.
 ///
 /// Horprasert, Harwood, Davis 1999, §3.2. A pixel counts with the least of the windows that contain
@@ -34,8 +39,10 @@ class DistortionHistograms {
   void Add(const ExpectedPicture& expected, ImageView<const Bgr> image,
            const std::array<float, 3>& gain);
 
-  /// Returns thresholds that a share `detection_rate` of the pixels stays within.
-  /// @pre  0 < detection_rate < 1, and at least one picture was added.
+  /// Returns thresholds that a share `detection_rate` of the pixels stays within, and independent
+  /// noise too. Of an empty studio, a codec keeps less noise than σ, or none; beside people who
+  /// move, it passes noise and adds its own.
+  /// @pre  0.5 <= detection_rate < 1, and at least one picture was added.
   DistortionThresholds At(double detection_rate) const;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/reconstruction/silhouette/coarse_scan.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
@@ -47,6 +49,36 @@ TEST(DistortionHistograms, ThresholdsKeepTheWantedRateOnPicturesThatWereNotLearn
       EXPECT_LT(exceeding, 1.4 * wanted);
       EXPECT_GT(exceeding, 0.6 * wanted);
     }
+  }
+}
+
+TEST(IndependentNoise, HasTheQuantilesOfStatisticalTables) {
+  const DistortionThresholds t = IndependentNoise(0.9999);
+  EXPECT_NEAR(t.cd * t.cd, 18.42, 0.01);    // Chi-square, 2 degrees of freedom.
+  EXPECT_NEAR(t.alpha_low, -3.719, 0.001);  // Normal, one side.
+  static_assert(kernels::kWindowRadii_px == std::array<int, 2>{2, 3});
+  for (std::size_t k = 0; k < kernels::kWindows; ++k) {
+    const float side = std::array<float, 2>{5, 7}[k];
+    EXPECT_NEAR(t.windows[k].cd * side, t.cd, 0.001);
+    EXPECT_NEAR(t.windows[k].alpha * side, 3.891, 0.001);  // Normal, both sides.
+    const float chi_square =
+        std::array<float, 2>{55.52f, 90.46f}[k];  // 22 and 46 degrees of freedom.
+    EXPECT_NEAR(t.windows[k].roughness * t.windows[k].roughness * side * side, chi_square,
+                0.01 * chi_square);
+  }
+}
+
+TEST(DistortionHistograms, APictureWithoutNoiseHasTheThresholdsOfIndependentNoise) {
+  NoisySensor coded(0.01f, 15);
+  const ExactPicture studio = EmptyStudio(kThresholdWidth, kThresholdHeight);
+  const auto background = LearnFixedBackground(TakeBackground(studio, 10, coded), 0.999);
+  const DistortionThresholds &t = background->thresholds(), least = IndependentNoise(0.999);
+  EXPECT_EQ(t.cd, least.cd);
+  EXPECT_EQ(t.alpha_low, least.alpha_low);
+  for (std::size_t k = 0; k < kernels::kWindows; ++k) {
+    EXPECT_EQ(t.windows[k].cd, least.windows[k].cd);
+    EXPECT_EQ(t.windows[k].alpha, least.windows[k].alpha);
+    EXPECT_EQ(t.windows[k].roughness, least.windows[k].roughness);
   }
 }
 

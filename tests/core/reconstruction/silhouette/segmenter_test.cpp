@@ -184,6 +184,33 @@ TEST_F(SegmenterTest, ADriftOfTheWallsHasNoSilhouette) {
   EXPECT_NEAR(CountSet(Segment(picture)), 30 * 80, 150);
 }
 
+// A codec removes the noise of an empty studio that does not move.
+constexpr float kNoNoise = 0.01f;
+
+TEST(Segmenter, NoiseThatACodecRemovedFromTheEmptyStudioHasNoSilhouette) {
+  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
+  NoisySensor coded(kNoNoise, 26), sensor(1.5f, 27);
+  Segmenter segmenter(SmallCamera(), TakeBackground(studio, 30, coded), {});
+  Trimap trimap;
+  for (int i = 0; i < 5; ++i) {
+    segmenter.Segment(sensor.Take(studio).view(), {}, trimap);
+    EXPECT_EQ(CountSet(trimap.person), 0);
+  }
+}
+
+TEST(Segmenter, TheHaloOfACodecBesideAPersonIsLeftOut) {
+  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
+  NoisySensor coded(kNoNoise, 28);
+  Segmenter segmenter(SmallCamera(), TakeBackground(studio, 30, coded), {});
+  ExactPicture picture = studio;
+  for (int y = 32; y < 128; ++y)
+    for (int x = 64; x < 128; ++x) picture(x, y)[2] += 1.2f;
+  Paint(picture, {80, 48, 111, 111}, {40, 50, 110});
+  Trimap trimap;
+  segmenter.Segment(coded.Take(picture).view(), {}, trimap);
+  EXPECT_NEAR(CountSet(trimap.person), 32 * 64, 40);
+}
+
 // Segments pictures in turn, and each by a segmenter that has seen nothing else.
 void ExpectSameAsFresh(const CameraCalibration& camera,
                        const std::vector<BackgroundFrame>& background,
@@ -345,6 +372,17 @@ TEST_F(PanTiltSegmenterTest, TheEmptyStudioHasNoSilhouetteBetweenTheLearnedDirec
   Segmenter segmenter(camera_, background_, {});
   for (const PanTiltAngles& angles :
        {PanTiltAngles{0.05, 0.05}, {-0.13, -0.02}, {0.24, 0.07}, {0, 0}}) {
+    Trimap trimap;
+    segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
+    EXPECT_EQ(CountSet(trimap.person), 0) << angles.pan_rad;
+  }
+}
+
+TEST_F(PanTiltSegmenterTest, NoiseThatACodecRemovedFromTheEmptyStudioHasNoSilhouette) {
+  NoisySensor coded(kNoNoise, 29);
+  for (BackgroundFrame& frame : background_) frame.image = coded.Take(Look(frame.angles));
+  Segmenter segmenter(camera_, background_, {});
+  for (const PanTiltAngles& angles : {PanTiltAngles{0, 0}, {0.2, 0.1}}) {
     Trimap trimap;
     segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
     EXPECT_EQ(CountSet(trimap.person), 0) << angles.pan_rad;
