@@ -160,6 +160,14 @@ bool HasSoundCounts(const preview_t&, std::span<const std::uint8_t> bytes) {
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const unknown_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Text();
+  skimmer.Skip(4 * skimmer.Count(4));
+  return skimmer.sound();
+}
+
 bool HasSoundCounts(const voxels_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
   // Times, origin, edge length, sizes.

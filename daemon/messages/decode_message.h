@@ -13,6 +13,7 @@
 #include <mocap/silhouette_t.hpp>
 #include <mocap/status_t.hpp>
 #include <mocap/studio_t.hpp>
+#include <mocap/unknown_t.hpp>
 #include <mocap/voxels_t.hpp>
 #include <optional>
 #include <span>
@@ -29,6 +30,7 @@ bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const studio_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const preview_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const unknown_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const silhouette_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const node_t& kind, std::span<const std::uint8_t> bytes);

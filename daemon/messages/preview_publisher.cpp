@@ -34,6 +34,7 @@ PreviewPublisher::PreviewPublisher(LcmSender& sender, const LcmConfig& config,
                                    CaptureTimes times)
     : sender_(sender),
       preview_channel_(config.prefix + "MOCAP_PREVIEW"),
+      unknown_channel_(config.prefix + "MOCAP_UNKNOWN"),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       cameras_(cameras),
       times_(times),
@@ -88,7 +89,7 @@ void PreviewPublisher::OpenOrClose() {
     for (std::size_t i = 0; i < taps_.size(); ++i) {
       const CameraCalibration& camera = cameras_[i];
       const Image<Bgr> picture(camera.width_px, camera.height_px);
-      taps_[i].Open(kQueued, {.image = picture, .silhouette = {}, .X_CW = {}}, bell_);
+      taps_[i].Open(kQueued, {.image = picture, .trimap = {}, .X_CW = {}}, bell_);
     }
     body_tap_.Open(kQueued, {}, bell_);
     return;
@@ -134,9 +135,19 @@ void PreviewPublisher::Publish(std::size_t camera, const SeenFrame& seen) {
   ReducePicture(seen.image.view(), preview_.reduction, reduced_);
   encoder_.Encode(reduced_.view(), kJpegQuality, preview_.jpeg);
   preview_.num_bytes = static_cast<std::int32_t>(preview_.jpeg.size());
-  ReduceSilhouette(seen.silhouette, preview_.reduction, preview_.run);
+  ReduceSilhouette(seen.trimap.person, preview_.reduction, preview_.run);
   preview_.num_runs = static_cast<std::int32_t>(preview_.run.size());
+  PublishUnknown(seen.trimap.unknown);
   sender_.Send(preview_channel_, preview_, bytes_);
+}
+
+// Of the picture in preview_.
+void PreviewPublisher::PublishUnknown(const Silhouette& unknown) {
+  unknown_.utime = preview_.utime;
+  unknown_.camera = preview_.camera;
+  ReduceSilhouette(unknown, preview_.reduction, unknown_.run);
+  unknown_.num_runs = static_cast<std::int32_t>(unknown_.run.size());
+  sender_.Send(unknown_channel_, unknown_, bytes_);
 }
 
 void PreviewPublisher::Publish(const SeenBodies& seen) {

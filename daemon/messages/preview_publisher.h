@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <mocap/preview_t.hpp>
+#include <mocap/unknown_t.hpp>
 #include <mocap/voxels_t.hpp>
 #include <optional>
 #include <string>
@@ -37,7 +38,7 @@ struct SeenBodies {
   VoxelGrid grid;
 };
 
-/// Publishes each camera's picture with its silhouette, and the voxels with their parts, while
+/// Publishes each camera's picture with its trimap, and the voxels with their parts, while
 /// somebody watches. It runs in its own thread of low priority. Without viewers it costs nothing.
 ///
 /// OnSet: the pipeline's last thread. Look: any thread.
@@ -63,11 +64,12 @@ class PreviewPublisher : public PoseSink {
   void OpenOrClose();
   bool PublishWhatIsThere();
   void Publish(std::size_t camera, const SeenFrame& seen);
+  void PublishUnknown(const Silhouette& unknown);
   void Publish(const SeenBodies& seen);
   std::int64_t Utime(std::int64_t capture_ns) const;
 
   LcmSender& sender_;
-  const std::string preview_channel_, voxels_channel_;
+  const std::string preview_channel_, unknown_channel_, voxels_channel_;
   const std::vector<CameraCalibration> cameras_;
   const CaptureTimes times_;
   std::deque<PreviewTap> taps_;
@@ -81,6 +83,7 @@ class PreviewPublisher : public PoseSink {
   JpegEncoder encoder_;
   Image<Bgr> reduced_;
   preview_t preview_;
+  unknown_t unknown_;
   voxels_t voxels_;
   std::vector<std::uint8_t> bytes_;
   std::thread thread_;

@@ -97,7 +97,7 @@ void CameraWorker::OfferPreview(const Frame& frame, const SegmentedFrame& segmen
   if (!preview_) return;
   preview_->Offer([&](SeenFrame& copy) {
     if (!preview_pacer_.IsDue(SteadyNs()) || !CopyPixels(frame.image, copy.image)) return false;
-    copy.silhouette = segmented.trimap.person;
+    copy.trimap = segmented.trimap;
     copy.X_CW = segmented.X_CW;
     copy.capture_ns = segmented.capture_ns;
     return true;

@@ -11,7 +11,7 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
-#include "core/reconstruction/silhouette/silhouette.h"
+#include "core/reconstruction/silhouette/trimap.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "drivers/camera_driver.h"
 
@@ -87,7 +87,7 @@ bool CopyPixels(ImageView<const Bgr> from, Image<Bgr>& to);
 /// A picture and its segmentation, for viewing.
 struct SeenFrame {
   Image<Bgr> image;
-  Silhouette silhouette;
+  Trimap trimap;
   RigidTransform X_CW;
   std::int64_t capture_ns = 0;
 };

@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::service_t>(bytes);
   mocap::DecodeMessage<mocap::studio_t>(bytes);
   mocap::DecodeMessage<mocap::preview_t>(bytes);
+  mocap::DecodeMessage<mocap::unknown_t>(bytes);
   mocap::DecodeMessage<mocap::voxels_t>(bytes);
   mocap::DecodeMessage<mocap::silhouette_t>(bytes);
   mocap::DecodeMessage<mocap::node_t>(bytes);

@@ -188,7 +188,7 @@ std::string PeopleViews(const PeopleEvaluation& evaluation, const TakeSamples& s
     html += fmt::format("<h3>Frame {}</h3><div class=\"views\">{}</div>\n",
                         bodies.front().row.frame, views);
   }
-  return "<h2>Camera views</h2>\n" + html;
+  return "<h2>Camera views</h2>\n<p class=\"key\">" + TrimapKey() + "</p>\n" + html;
 }
 
 std::string PlotFigure(const PlotAxes& axes, std::span<const PlotSeries> series,

@@ -95,9 +95,9 @@ std::string ViewsSection(const Evaluation& evaluation, const TakeSamples& sample
                         seconds, kCaptureStateNames[static_cast<std::size_t>(row.state)], views);
   }
   if (html.empty()) html = "<p>No frame of the take has the time of a frame of the result.</p>\n";
-  return "<h2>Camera views</h2>\n<p class=\"key\"><span><i class=\"silhouette\"></i>silhouette"
-         "</span><span><i class=\"left\"></i>the person’s left</span><span><i class=\"right\"></i>"
-         "right</span></p>\n" +
+  return "<h2>Camera views</h2>\n<p class=\"key\">" + TrimapKey() +
+         "<span><i class=\"left\"></i>the person’s left</span><span><i class=\"right\"></i>right"
+         "</span></p>\n" +
          html;
 }
 

@@ -67,6 +67,8 @@ svg.view { display: block; width: 100%; height: auto; border-radius: 4px; backgr
 .view path { fill: none; vector-effect: non-scaling-stroke; stroke-linejoin: round;
   stroke-linecap: round; }
 .silhouette { stroke: #d4ff2a; stroke-width: 1; } i.silhouette { background: #d4ff2a; }
+.view .unknown { fill: url(#hatch); fill-rule: evenodd; } .hatch { fill: #ff7ad9; }
+.key i.unknown { background: repeating-linear-gradient(135deg, #333 0 2px, #ff7ad9 2px 4px); }
 .part { stroke-width: .9; opacity: .85; } .stick { stroke-width: 1.8; }
 .view .left { stroke: #37a8ff; } .view .right { stroke: #ff7b3d; } .view .middle { stroke: #fff; }
 i.left { background: #37a8ff; } i.right { background: #ff7b3d; }

@@ -46,6 +46,13 @@ cv::Mat MaskOf(const Silhouette& silhouette) {
 
 using Contours = std::vector<std::vector<cv::Point>>;
 
+/// Borders, with those of holes.
+Contours ContoursOf(const Silhouette& silhouette) {
+  Contours contours;
+  cv::findContours(MaskOf(silhouette), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  return contours;
+}
+
 /// Region of interest: the body and the foreground around it. Without a tracked body, the whole
 /// foreground.
 cv::Rect BoxOf(const std::vector<BodyLine>& body, const Contours& contours, const cv::Size& size) {
@@ -154,17 +161,24 @@ std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& vi
     outlines.insert(outlines.end(), parts.begin(), parts.end());
     drawn += BodySvg(body, parts, camera, view.X_CW);
   }
-  Contours contours;
-  cv::findContours(MaskOf(view.trimap.person), contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  const Contours contours = ContoursOf(view.trimap.person);
   const cv::Size size(view.image.width(), view.image.height());
   const cv::Rect crop = CropAround(BoxOf(outlines, contours, size), size);
   // SVG coordinates start at a pixel's corner, the camera's at its centre.
   return fmt::format(
       "<svg class=\"view\" viewBox=\"{0} {1} {2} {3}\"><image x=\"{0}\" y=\"{1}\" width=\"{2}\" "
       "height=\"{3}\" href=\"data:image/jpeg;base64,{4}\"/><g transform=\"translate(.5 .5)\">"
-      "<path class=\"silhouette\" d=\"{5}\"/>{6}</g></svg>",
-      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop), ContourPath(contours),
-      drawn);
+      "<path class=\"unknown\" d=\"{5}\"/><path class=\"silhouette\" d=\"{6}\"/>{7}</g></svg>",
+      crop.x, crop.y, crop.width, crop.height, JpegOf(view.image, crop),
+      ContourPath(ContoursOf(view.trimap.unknown)), ContourPath(contours), drawn);
+}
+
+std::string TrimapKey() {
+  return "<svg width=\"0\" height=\"0\" aria-hidden=\"true\"><defs><pattern id=\"hatch\" "
+         "width=\"5\" height=\"5\" patternUnits=\"userSpaceOnUse\" "
+         "patternTransform=\"rotate(45)\"><rect class=\"hatch\" width=\"1.5\" height=\"5\"/>"
+         "</pattern></defs></svg><span><i class=\"silhouette\"></i>person</span><span><i "
+         "class=\"unknown\"></i>unknown: clothes like the wall, or a shadow</span>";
 }
 
 }  // namespace mocap

@@ -1,4 +1,4 @@
-// The report's camera pictures, overlaid with silhouette and body.
+// The report's camera pictures, overlaid with trimap and body.
 #pragma once
 
 #include <span>
@@ -22,5 +22,8 @@ struct ViewedBody {
 /// @param view  must contain the image.
 std::string CameraViewSvg(const CameraCalibration& camera, const SampledView& view,
                           std::span<const ViewedBody> bodies);
+
+/// Explains the pictures' outlines and hatching. A page with pictures needs it once, before them.
+std::string TrimapKey();
 
 }  // namespace mocap

@@ -83,6 +83,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
   lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
+  lcm.subscribe(named + "MOCAP_UNKNOWN", &LiveFeed::OnUnknown, this);
   lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
   PutNotice();
 }
@@ -200,6 +201,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
   }
   studio_ = std::move(*studio);
   waiting_.clear();
+  unknown_.clear();
   X_CW_.clear();
   for (const CameraCalibration& camera : cameras_) X_CW_.push_back(camera.X_CW);
   PutStudio();
@@ -235,6 +237,14 @@ void LiveFeed::MoveCamera(std::size_t camera, const preview_t& preview) {
   PutStudio();
 }
 
+void LiveFeed::OnUnknown(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  std::optional<unknown_t> unknown = Decoded<unknown_t>(*buffer);
+  const bool is_known_camera =
+      unknown &&
+      std::ranges::find(cameras_, unknown->camera, &CameraCalibration::name) != cameras_.end();
+  if (is_known_camera) unknown_[unknown->camera] = std::move(*unknown);
+}
+
 void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<preview_t> preview = Decoded<preview_t>(*buffer);
   if (!preview || !IsSound(*preview)) return;
@@ -249,16 +259,19 @@ void LiveFeed::OnPreview(const lcm::ReceiveBuffer* buffer, const std::string&) {
     PutPicture(camera, before->second);
     waiting_.erase(before);
   }
+  SeenPicture picture{std::move(*preview), {}};
+  unknown_t& unknown = unknown_[picture.preview.camera];
+  if (unknown.utime == picture.preview.utime) std::swap(picture.unknown_run, unknown.run);
   if (has_pose) {
-    PutPicture(camera, *preview);
+    PutPicture(camera, picture);
   } else {
-    waiting_.emplace(camera, std::move(*preview));
+    waiting_.emplace(camera, std::move(picture));
   }
 }
 
 void LiveFeed::PutPicturesOf(std::int64_t utime) {
   std::erase_if(waiting_, [&](const auto& waiting) {
-    const bool is_due = waiting.second.utime <= utime;
+    const bool is_due = waiting.second.preview.utime <= utime;
     if (is_due) PutPicture(waiting.first, waiting.second);
     return is_due;
   });
@@ -279,15 +292,19 @@ std::vector<DrawnOutlines> LiveFeed::OutlinesOf(const std::vector<DrawnPose>& po
   return bodies;
 }
 
-void LiveFeed::PutPicture(std::size_t camera, const preview_t& preview) {
+void LiveFeed::PutPicture(std::size_t camera, const SeenPicture& seen) {
+  const preview_t& preview = seen.preview;
   const int factor = preview.reduction;
-  const Silhouette silhouette =
-      SilhouetteFromRuns(preview.run, preview.width_px / factor, preview.height_px / factor);
+  const auto lines_of = [&](const std::vector<std::int32_t>& runs) {
+    return SilhouetteLines(
+        SilhouetteFromRuns(runs, preview.width_px / factor, preview.height_px / factor), factor);
+  };
   DrawnPicture picture{.camera = static_cast<int>(camera),
                        .width_px = preview.width_px,
                        .height_px = preview.height_px,
                        .capture_ms = static_cast<double>(preview.utime) / 1000,
-                       .silhouette = SilhouetteLines(silhouette, factor),
+                       .silhouette = lines_of(preview.run),
+                       .unknown = lines_of(seen.unknown_run),
                        .bodies = {},
                        .jpeg = preview.jpeg};
   if (const std::vector<DrawnPose>* poses = PosesAt(preview.utime)) {

@@ -9,6 +9,7 @@
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/studio_t.hpp>
+#include <mocap/unknown_t.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,11 @@ class LiveFeed {
   void Tick();
 
  private:
+  struct SeenPicture {
+    preview_t preview;
+    std::vector<std::int32_t> unknown_run;  ///< As in unknown_t; empty: none came.
+  };
+
   void OnPose(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -57,6 +63,7 @@ class LiveFeed {
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnUnknown(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void PutPose(const pose_t& pose);
   void PutPoses(std::vector<DrawnPose> poses);
@@ -65,7 +72,7 @@ class LiveFeed {
   void PutNotice();
   void MoveCamera(std::size_t camera, const preview_t& preview);
   void PutPicturesOf(std::int64_t utime);
-  void PutPicture(std::size_t camera, const preview_t& preview);
+  void PutPicture(std::size_t camera, const SeenPicture& seen);
   const std::vector<DrawnPose>* PosesAt(std::int64_t utime) const;
   std::vector<DrawnOutlines> OutlinesOf(const std::vector<DrawnPose>& poses,
                                         std::size_t camera) const;
@@ -86,7 +93,8 @@ class LiveFeed {
   /// Latest poses, for later pictures, without capsules.
   std::deque<std::vector<DrawnPose>> poses_;
   /// Pictures whose pose has not come yet, by camera.
-  std::map<std::size_t, preview_t> waiting_;
+  std::map<std::size_t, SeenPicture> waiting_;
+  std::map<std::string, unknown_t> unknown_;  ///< The latest, by camera.
 };
 
 }  // namespace mocap

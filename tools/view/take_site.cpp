@@ -313,9 +313,13 @@ std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOut
                      .height_px = picture.image.height(),
                      .capture_ms = static_cast<double>(picture.capture_ns) / kNsPerMs,
                      .silhouette = {},
+                     .unknown = {},
                      .bodies = std::move(bodies),
                      .jpeg = jpeg_};
-  if (picture.trimap) drawn.silhouette = SilhouetteLines(picture.trimap->person, 1);
+  if (picture.trimap) {
+    drawn.silhouette = SilhouetteLines(picture.trimap->person, 1);
+    drawn.unknown = SilhouetteLines(picture.trimap->unknown, 1);
+  }
   return PictureBytes(drawn);
 }
 

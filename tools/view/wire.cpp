@@ -66,9 +66,9 @@ OccupiedVoxels Unpack(const voxels_t& voxels) {
 }
 
 template <typename Points>
-void AddLine(int side, const Points& points, ByteWriter& writer) {
+void AddLine(int kind, const Points& points, ByteWriter& writer) {
   writer.Add(static_cast<float>(points.size()));
-  writer.Add(static_cast<float>(side));
+  writer.Add(static_cast<float>(kind));
   for (const Vector2& p : points) writer.AddFloats(p);
 }
 
@@ -132,14 +132,15 @@ std::string VoxelBytes(const voxels_t& voxels, int person) {
 
 std::string PictureBytes(const DrawnPicture& picture) {
   constexpr int kSides = 4;
-  ByteWriter silhouette, body;
-  for (const std::vector<Vector2>& line : picture.silhouette) AddLine(0, line, silhouette);
+  ByteWriter trimap, body;
+  for (const std::vector<Vector2>& line : picture.silhouette) AddLine(0, line, trimap);
+  for (const std::vector<Vector2>& line : picture.unknown) AddLine(1, line, trimap);
   for (const DrawnOutlines& one : picture.bodies) {
     for (const BodyLine& line : one.lines) {
       AddLine(static_cast<int>(line.side) + kSides * (one.person + 1), line.pixels, body);
     }
   }
-  const std::string lines = silhouette.Take(), body_lines = body.Take();
+  const std::string lines = trimap.Take(), body_lines = body.Take();
   ByteWriter writer;
   writer.Add(std::uint8_t{3});
   writer.Add(static_cast<std::uint8_t>(picture.camera));

@@ -102,6 +102,14 @@ preview_t SomePreview() {
   return preview;
 }
 
+unknown_t SomeUnknown() {
+  unknown_t unknown{};
+  unknown.camera = "cam1";
+  unknown.num_runs = 2;
+  unknown.run = {5, 7};
+  return unknown;
+}
+
 voxels_t SomeVoxels() {
   voxels_t voxels{};
   voxels.num_runs = 2;
@@ -132,6 +140,7 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomeService());
   ExpectWholeOrNothing(SomeStudio());
   ExpectWholeOrNothing(SomePreview());
+  ExpectWholeOrNothing(SomeUnknown());
   ExpectWholeOrNothing(SomeVoxels());
 }
 

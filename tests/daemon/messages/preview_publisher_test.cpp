@@ -24,6 +24,7 @@ class PreviewPublisherTest : public ::testing::Test {
     camera_.width_px = 802;
     camera_.height_px = 4;
     lcm_.subscribe("MOCAP_PREVIEW", &PreviewPublisherTest::OnPreview, this);
+    lcm_.subscribe("MOCAP_UNKNOWN", &PreviewPublisherTest::OnUnknown, this);
     lcm_.subscribe("MOCAP_VOXELS", &PreviewPublisherTest::OnVoxels, this);
   }
 
@@ -37,8 +38,11 @@ class PreviewPublisherTest : public ::testing::Test {
     }
   }
   static bool FillFrame(SeenFrame& frame) {
-    frame.silhouette = Silhouette(802, 4);
-    frame.silhouette.Set(0, 0);
+    frame.trimap = {Silhouette(802, 4), Silhouette(802, 4)};
+    frame.trimap.person.Set(0, 0);
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 3; x < 6; ++x) frame.trimap.unknown.Set(x, y);
+    }
     frame.X_CW.p = Vector3(1, 2, 3);
     frame.capture_ns = 5'000'000;
     return true;
@@ -47,6 +51,9 @@ class PreviewPublisherTest : public ::testing::Test {
   void OnPreview(const lcm::ReceiveBuffer*, const std::string&, const preview_t* preview) {
     preview_ = *preview;
     ++previews_;
+  }
+  void OnUnknown(const lcm::ReceiveBuffer*, const std::string&, const unknown_t* unknown) {
+    unknown_ = *unknown;
   }
   void OnVoxels(const lcm::ReceiveBuffer*, const std::string&, const voxels_t* voxels) {
     voxels_ = *voxels;
@@ -58,6 +65,7 @@ class PreviewPublisherTest : public ::testing::Test {
   LcmSender sender_{lcm_, LcmProvider::kMemory};
   int previews_ = 0, voxel_messages_ = 0;
   preview_t preview_;
+  unknown_t unknown_;
   voxels_t voxels_;
 };
 
@@ -91,7 +99,7 @@ TEST_F(PreviewPublisherTest, ViewersWhoComeAndGoLeaveNoMemoryBehind) {
   EXPECT_LT(HeapBytes() - before, 20'000);
 }
 
-TEST_F(PreviewPublisherTest, WhoLooksGetsPicturesWithTheirSilhouettes) {
+TEST_F(PreviewPublisherTest, WhoLooksGetsPicturesWithTheirTrimaps) {
   PreviewPublisher publisher(sender_, {}, {camera_}, CaptureTimes::kRecorded);
   publisher.Look(kLong);
   OfferUntil([&] { publisher.taps().front().Offer(FillFrame); }, previews_);
@@ -104,6 +112,9 @@ TEST_F(PreviewPublisherTest, WhoLooksGetsPicturesWithTheirSilhouettes) {
   EXPECT_EQ(preview_.num_bytes, static_cast<int>(preview_.jpeg.size()));
   EXPECT_EQ(preview_.jpeg[0], 0xff);
   EXPECT_EQ(preview_.run.size(), 1u) << "a single pixel is less than half of its square";
+  EXPECT_EQ(unknown_.camera, preview_.camera);
+  EXPECT_EQ(unknown_.utime, preview_.utime) << "it comes before its picture";
+  EXPECT_EQ(unknown_.run, (std::vector<std::int32_t>{1, 1, 265}));
 }
 
 TEST_F(PreviewPublisherTest, WhoLooksGetsVoxelsWithTheirParts) {

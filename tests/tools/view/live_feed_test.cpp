@@ -15,6 +15,7 @@
 #include "core/body/body_sizes.h"
 #include "daemon/messages/messages.h"
 #include "drivers/take/calibration_file.h"
+#include "tests/tools/view/number_at.h"
 
 namespace mocap {
 namespace {
@@ -267,6 +268,29 @@ TEST_F(LiveFeedTest, APictureOfAKnownCameraIsPassedOnWithItsLines) {
   Publish("left.MOCAP_PREVIEW", Preview());
   ASSERT_TRUE(board_.contains(LiveFeed::kPictures));
   EXPECT_NE(board_.at(LiveFeed::kPictures).substr(16, 4), kNothing) << "the silhouette's line";
+}
+
+TEST_F(LiveFeedTest, APictureHasTheUnknownPixelsOfItsMomentOnly) {
+  const auto trimap_floats = [this] {
+    return testing::NumberAt<std::uint32_t>(board_.at(LiveFeed::kPictures), 16);
+  };
+  unknown_t unknown{};
+  unknown.camera = "cam1";
+  unknown.utime = 5000;
+  unknown.run = {20 * 10, 20 * 5};
+  unknown.num_runs = 2;
+  preview_t next = Preview();
+  next.utime = 6000;
+  Publish("left.MOCAP_STUDIO", Studio());
+  Publish("left.MOCAP_UNKNOWN", unknown);
+  Publish("left.MOCAP_PREVIEW", Preview());
+  unknown.utime = 5500;
+  Publish("left.MOCAP_UNKNOWN", unknown);
+  Publish("left.MOCAP_PREVIEW", next);
+  constexpr std::uint32_t kRectangle = 2 + 2 * 4;
+  EXPECT_EQ(trimap_floats(), 2 * kRectangle) << "person and unknown pixels";
+  Publish("left.MOCAP_PREVIEW", next);
+  EXPECT_EQ(trimap_floats(), kRectangle) << "the person alone";
 }
 
 TEST_F(LiveFeedTest, APictureWaitsForThePoseOfItsMoment) {

@@ -92,18 +92,20 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   picture.width_px = 640;
   picture.height_px = 480;
   picture.silhouette = {{{1, 2}, {3, 4}, {5, 6}}};
+  picture.unknown = {{{11, 12}}};
   picture.bodies = {{.person = 0, .lines = {{BodySide::kRight, {{7, 8}, {9, 10}}}}}};
   picture.jpeg = jpeg;
   const std::string bytes = PictureBytes(picture);
   EXPECT_EQ(bytes.size() % 8, 0u);
   EXPECT_EQ(bytes[1], 3);
   EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 2), 640);
-  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 16), 8u);
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 16), 12u);
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 20), 6u);
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 24), 3u);
   EXPECT_EQ(testing::NumberAt<float>(bytes, 32), 3);
-  EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 8 * 4 + 4), 2 + 4 * 1);
-  EXPECT_EQ(bytes.substr(32 + 14 * 4, 3), "\1\2\3");
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 8 * 4 + 4), 1) << "unknown pixels";
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 12 * 4 + 4), 2 + 4 * 1);
+  EXPECT_EQ(bytes.substr(32 + 18 * 4, 3), "\1\2\3");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The strip of cameras: each picture with silhouette and body, and the camera's state.
+// The strip of cameras: each picture with trimap and body, and the camera's state.
 
 import {CAMERA_LOOKS} from './camera_models.js';
 import {fitCanvas, make, setText} from './dom.js';
@@ -6,13 +6,36 @@ import {color, figureColor, onTheme} from './theme.js';
 
 const SIDES = ['side-middle', 'side-left', 'side-right'];
 
-function path(context, points, isClosed) {
-  context.beginPath();
+const HATCH_PX = 5;
+
+function addPath(context, points, isClosed) {
   for (let i = 0; i + 1 < points.length; i += 2) {
     // Pixel centres are integers; a canvas counts from the corner.
-    context.lineTo(points[i] + 0.5, points[i + 1] + 0.5);
+    const place = [points[i] + 0.5, points[i + 1] + 0.5];
+    if (i === 0)
+      context.moveTo(...place);
+    else
+      context.lineTo(...place);
   }
   if (isClosed) context.closePath();
+}
+
+/** Hatches unknown pixels. People have an outline: the two differ without colours, too. */
+function hatch(context, {unknown, widthPx, heightPx}, scale) {
+  if (unknown.length === 0) return;
+  context.save();
+  context.beginPath();
+  for (const line of unknown) addPath(context, line.points, true);
+  context.clip('evenodd');
+  context.beginPath();
+  for (let x = -heightPx; x < widthPx; x += HATCH_PX / scale) {
+    context.moveTo(x, heightPx);
+    context.lineTo(x + heightPx, 0);
+  }
+  context.strokeStyle = color('unknown');
+  context.lineWidth = 1.5 / scale;
+  context.stroke();
+  context.restore();
 }
 
 /** Draws lines in the camera's picture on a canvas of any size. */
@@ -23,11 +46,13 @@ function drawLines(context, picture, width, height) {
   context.lineJoin = 'round';
   context.lineCap = 'round';
   const stroke = (line, isClosed, style, widthPx) => {
-    path(context, line.points, isClosed);
+    context.beginPath();
+    addPath(context, line.points, isClosed);
     context.strokeStyle = style;
     context.lineWidth = widthPx / scale;
     context.stroke();
   };
+  hatch(context, picture, scale);
   for (const line of picture.silhouette) stroke(line, true, color('silhouette'), 1.3);
   for (const line of picture.body) stroke(line, line.points.length > 4, 'rgba(0, 0, 0, 0.55)', 3.4);
   for (const line of picture.body) {

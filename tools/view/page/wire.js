@@ -94,19 +94,21 @@ export function splitLines(values) {
 export function decodePicture(buffer, begin = 0) {
   require(buffer, begin + PICTURE_HEADER_BYTES);
   const view = new DataView(buffer, begin);
-  const silhouetteFloats = view.getUint32(16, true);
+  const trimapFloats = view.getUint32(16, true);
   const bodyFloats = view.getUint32(20, true);
   const jpegBytes = view.getUint32(24, true);
-  const silhouette = begin + PICTURE_HEADER_BYTES;
-  const body = silhouette + 4 * silhouetteFloats;
+  const trimap = begin + PICTURE_HEADER_BYTES;
+  const body = trimap + 4 * trimapFloats;
   const jpeg = body + 4 * bodyFloats;
   require(buffer, jpeg + jpegBytes);
+  const trimapLines = splitLines(floats(buffer, trimap, trimapFloats));
   return {
     camera: view.getUint8(1),
     widthPx: view.getUint16(2, true),
     heightPx: view.getUint16(4, true),
     timeMs: view.getFloat64(8, true),
-    silhouette: splitLines(floats(buffer, silhouette, silhouetteFloats)),
+    silhouette: trimapLines.filter((line) => line.side === 0),
+    unknown: trimapLines.filter((line) => line.side === 1),
     body: splitLines(floats(buffer, body, bodyFloats)),
     jpeg: new Uint8Array(buffer, jpeg, jpegBytes),
     end: begin + 8 * Math.ceil((jpeg + jpegBytes - begin) / 8),

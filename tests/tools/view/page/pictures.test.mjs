@@ -31,6 +31,7 @@ function picture(timeMs, camera = 0, more = {}) {
     heightPx: 480,
     jpeg: new Uint8Array(2),
     silhouette: [],
+    unknown: [],
     body: [],
     ...more
   };
@@ -78,7 +79,7 @@ test('the same cameras keep their pictures, others begin anew', async () => {
 
 test('lines lie on pixel centres, scaled to the size of the page', async () => {
   const {pictures, decoding} = open();
-  const line = {points: Float32Array.from([0, 0, 320, 240]), side: 0, person: 2};
+  const line = {points: Float32Array.from([0, 0, 320, 240, 320, 0]), side: 0, person: 2};
   pictures.take(picture(1, 0, {body: [line]}));
   decoding[0].done();
   await settle();
@@ -86,8 +87,23 @@ test('lines lie on pixel centres, scaled to the size of the page', async () => {
   const {calls} = pictures.card('front').canvas.context;
   assert.deepEqual(calls.find(([name]) => name === 'scale'), ['scale', 200 / 640, 100 / 480]);
   assert.deepEqual(
-      calls.filter(([name]) => name === 'lineTo').slice(0, 2),
-      [['lineTo', 0.5, 0.5], ['lineTo', 320.5, 240.5]]);
+      calls.filter(([name]) => name.endsWith('To')).slice(0, 3),
+      [['moveTo', 0.5, 0.5], ['lineTo', 320.5, 240.5], ['lineTo', 320.5, 0.5]]);
+});
+
+test('unknown pixels are hatched within their lines, people are not', async () => {
+  const line = {points: Float32Array.from([0, 0, 320, 240, 320, 0])};
+  for (const [part, clips] of [['unknown', 1], ['silhouette', 0]]) {
+    const {pictures, decoding} = open();
+    pictures.take(picture(1, 0, {[part]: [line]}));
+    decoding[0].done();
+    await settle();
+    pictures.draw();
+    const {calls} = pictures.card('front').canvas.context;
+    assert.deepEqual(
+        calls.filter(([name]) => name === 'clip'), new Array(clips).fill(['clip', 'evenodd']));
+    assert.equal(calls.filter(([name]) => name === 'stroke').length, 1);
+  }
 });
 
 test('a grey picture says why, and a click chooses its camera', () => {

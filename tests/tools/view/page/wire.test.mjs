@@ -19,8 +19,8 @@ function poseBytes({person = 0, id = 0, capsules = 2, frame = 7} = {}) {
   return buffer;
 }
 
-function pictureBytes({camera = 0, silhouette = [], body = [], jpeg = [0xff, 0xd8]} = {}) {
-  const length = 32 + 4 * (silhouette.length + body.length) + jpeg.length;
+function pictureBytes({camera = 0, trimap = [], body = [], jpeg = [0xff, 0xd8]} = {}) {
+  const length = 32 + 4 * (trimap.length + body.length) + jpeg.length;
   const buffer = new ArrayBuffer(8 * Math.ceil(length / 8));
   const view = new DataView(buffer);
   view.setUint8(0, 3);
@@ -28,11 +28,11 @@ function pictureBytes({camera = 0, silhouette = [], body = [], jpeg = [0xff, 0xd
   view.setUint16(2, 640, true);
   view.setUint16(4, 480, true);
   view.setFloat64(8, 1234.5, true);
-  view.setUint32(16, silhouette.length, true);
+  view.setUint32(16, trimap.length, true);
   view.setUint32(20, body.length, true);
   view.setUint32(24, jpeg.length, true);
-  [...silhouette, ...body].forEach((value, i) => view.setFloat32(32 + 4 * i, value, true));
-  new Uint8Array(buffer).set(jpeg, 32 + 4 * (silhouette.length + body.length));
+  [...trimap, ...body].forEach((value, i) => view.setFloat32(32 + 4 * i, value, true));
+  new Uint8Array(buffer).set(jpeg, 32 + 4 * (trimap.length + body.length));
   return buffer;
 }
 
@@ -95,7 +95,7 @@ test('pictures that stand one after the other are found behind their padding', (
   const buffer = joined(
       pictureBytes({
         camera: 4,
-        silhouette: [3, 0, 1, 2, 3, 4, 5, 6],
+        trimap: [3, 0, 1, 2, 3, 4, 5, 6, 1, 1, 11, 12],
         body: [2, 1, 7, 8, 9, 10],
         jpeg: [1, 2, 3]
       }),
@@ -103,7 +103,8 @@ test('pictures that stand one after the other are found behind their padding', (
   const [first, second] = decodeAll(buffer, decodePicture);
   assert.equal(first.widthPx, 640);
   assert.equal(first.timeMs, 1234.5);
-  assert.deepEqual([...first.silhouette[0].points], [1, 2, 3, 4, 5, 6]);
+  assert.deepEqual(first.silhouette.map((line) => [...line.points]), [[1, 2, 3, 4, 5, 6]]);
+  assert.deepEqual(first.unknown.map((line) => [...line.points]), [[11, 12]]);
   assert.equal(first.body[0].side, 1);
   assert.deepEqual([...first.jpeg], [1, 2, 3]);
   assert.equal(second.camera, 5);
