@@ -12,6 +12,7 @@ inline constexpr const char* kBodyChannel = "MOCAP_BODY";
 inline constexpr const char* kPeopleChannel = "MOCAP_PEOPLE";
 inline constexpr const char* kStatusChannel = "MOCAP_STATUS";
 inline constexpr const char* kServiceChannel = "MOCAP_SERVICE";
+inline constexpr const char* kContrastChannel = "MOCAP_CONTRAST";
 inline constexpr const char* kBodiesChannel = "MOCAP_BODIES";
 
 /// LCM treats the channel of a subscription as a regular expression, where a dot matches anything.

@@ -142,6 +142,15 @@ bool HasSoundCounts(const service_t&, std::span<const std::uint8_t> bytes) {
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const contrast_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  const auto cameras = skimmer.Count(4 + kNumber);
+  skimmer.Texts(cameras);
+  skimmer.Skip(kNumber * cameras);
+  return skimmer.sound();
+}
+
 bool HasSoundCounts(const studio_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
   skimmer.Skip(kHash + kNumber);

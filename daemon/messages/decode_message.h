@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <mocap/body_t.hpp>
+#include <mocap/contrast_t.hpp>
 #include <mocap/node_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_body_t.hpp>
@@ -28,6 +29,7 @@ bool HasSoundCounts(const people_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const person_body_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const contrast_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const studio_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const preview_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const unknown_t& kind, std::span<const std::uint8_t> bytes);

@@ -243,4 +243,15 @@ void FillService(const ServiceReport& report, std::int64_t utime, service_t& mes
   message.recording_dropped = recording.dropped;
 }
 
+void FillContrast(const ServiceReport& report, std::int64_t utime, contrast_t& message) {
+  message.utime = utime;
+  message.camera.clear();
+  message.unknown_share.clear();
+  for (const CameraStatus& camera : report.now.status.cameras) {
+    message.camera.push_back(camera.name);
+    message.unknown_share.push_back(camera.health.unknown_share.value_or(-1));
+  }
+  message.num_cameras = static_cast<std::int32_t>(message.camera.size());
+}
+
 }  // namespace mocap

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <mocap/body_t.hpp>
+#include <mocap/contrast_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/service_t.hpp>
@@ -37,5 +38,7 @@ void FillVoxels(const TrackedSet& set, voxels_t& message);
 void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);
 
 void FillService(const ServiceReport& report, std::int64_t utime, service_t& message);
+
+void FillContrast(const ServiceReport& report, std::int64_t utime, contrast_t& message);
 
 }  // namespace mocap

@@ -18,6 +18,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + kStatusChannel),
       service_channel_(config.prefix + kServiceChannel),
+      contrast_channel_(config.prefix + kContrastChannel),
       studio_channel_(config.prefix + "MOCAP_STUDIO"),
       cameras_(cameras),
       times_(times),
@@ -93,6 +94,8 @@ void PosePublisher::PublishStatus(const ServiceReport& report) {
   sender_.Send(status_channel_, status_, status_bytes_);
   FillService(report, utime, service_);
   sender_.Send(service_channel_, service_, status_bytes_);
+  FillContrast(report, utime, contrast_);
+  sender_.Send(contrast_channel_, contrast_, status_bytes_);
   if (studio_.calibration.empty()) return;
   studio_.utime = utime;
   sender_.Send(studio_channel_, studio_, status_bytes_);

@@ -59,7 +59,7 @@ class PosePublisher : public PoseSink {
   std::vector<std::uint8_t> bytes_;  ///< Of the outgoing message.
   std::vector<std::uint8_t> status_bytes_;
   const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_, voxels_channel_,
-      status_channel_, service_channel_, studio_channel_;
+      status_channel_, service_channel_, contrast_channel_, studio_channel_;
   const int cameras_;
   const CaptureTimes times_;
   Pacer body_pacer_;
@@ -75,6 +75,7 @@ class PosePublisher : public PoseSink {
   voxels_t voxels_;
   status_t status_;
   service_t service_;
+  contrast_t contrast_;
   studio_t studio_;
 };
 

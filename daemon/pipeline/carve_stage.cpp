@@ -71,22 +71,23 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   set.work_ns += carve_ns;
   recorders_[Stage::kCarve].Record(carve_ns);
   recorders_[Stage::kSpread].Record(synchronizer_.spread_ns());
-  if (seen_ && seen_pacer_.IsDue(SteadyNs())) OfferToWatch();
+  if (seen_ && seen_pacer_.IsDue(SteadyNs())) OfferToWatch(set.grid);
   if (history_ && history_->Wants(set.frame)) history_->Add(PresentMoment());
   const bool complete = views_.size() == cameras_.size();
   (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
   return verdict;
 }
 
-void CarveStage::OfferToWatch() {
-  seen_->Offer([this](SeenSet& copy) {
+void CarveStage::OfferToWatch(const VoxelGrid& hull) {
+  seen_->Offer([this, &hull](SeenSet& copy) {
     copy.capture_ns = synchronizer_.set_ns();
     copy.cameras.clear();
     copy.X_CW.clear();
-    copy.silhouettes.resize(views_.size());
+    copy.hull = hull;
+    copy.trimaps.resize(views_.size());
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (!synchronizer_.members()[i] || cameras_[i].front.is_blind) continue;
-      copy.silhouettes[copy.cameras.size()] = cameras_[i].front.trimap.person;
+      copy.trimaps[copy.cameras.size()] = cameras_[i].front.trimap;
       copy.X_CW.push_back(cameras_[i].front.X_CW);
       copy.cameras.push_back(static_cast<int>(i));
     }

@@ -51,7 +51,7 @@ class CarveStage {
              const CarvingOptions& options, int rays, StageRecorders& recorders);
   /// Skips sets under overload. Without it, every set is carved.
   void ControlLoad() { load_control_.emplace(); }
-  /// Offers copies of a set's silhouettes now and then; borrowed for the stage's life.
+  /// Offers copies of a set's trimaps and voxels now and then; borrowed for the stage's life.
   void Show(SetTap& tap) { seen_ = &tap; }
   /// Keeps what is seen at some moments; borrowed likewise.
   void Keep(MomentHistory& history) { history_ = &history; }
@@ -97,7 +97,7 @@ class CarveStage {
 
   void Gather(CarvedSet& set);
   void DecideFloor();
-  void OfferToWatch();
+  void OfferToWatch(const VoxelGrid& hull);
   SeenMoment PresentMoment() const;
   void PublishLoad();
 

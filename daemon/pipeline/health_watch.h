@@ -10,6 +10,8 @@
 
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/hull_agreement.h"
+#include "core/reconstruction/carving/voxel_grid.h"
+#include "core/reconstruction/silhouette/trimap.h"
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/people_watch.h"
 #include "daemon/pipeline/tap.h"
@@ -21,19 +23,22 @@ struct CameraHealth {
   int moments = 0;                     ///< Comparisons made; the rest is valid if there are some.
   Vector2 shift_px = Vector2::Zero();  ///< Median, to the right and down: seen minus predicted.
   double overlap = 0;                  ///< Mean intersection over union.
+  /// Share of unknown pixels where the camera shows people, in the latest moments; empty before.
+  std::optional<double> unknown_share = {};
 };
 
-/// The silhouettes of a set that will be compared.
+/// The pictures of a set that will be compared, and what was carved.
 struct SeenSet {
   std::int64_t capture_ns = 0;
   std::vector<int> cameras;
-  std::vector<Silhouette> silhouettes;
+  std::vector<Trimap> trimaps;
   std::vector<RigidTransform> X_CW;
+  VoxelGrid hull;
 };
 using SetTap = Tap<SeenSet>;
 
-/// Occasionally compares a set's silhouettes with the hulls from the other cameras, and looks for
-/// people whom the cameras see, in a thread of low priority.
+/// Occasionally compares a set's silhouettes with the hulls from the other cameras, looks for
+/// people whom the cameras see, and measures what of them is unknown, in a thread of low priority.
 class HealthWatch {
  public:
   /// Maximum rate of sets.
@@ -58,6 +63,7 @@ class HealthWatch {
   void Run();
   void LookForPeople(const SeenSet& set);
   void CompareHulls(const SeenSet& set);
+  void MeasureUnknown(const SeenSet& set);
 
   const std::vector<SensorPlaneTable> tables_;
   HullAgreement agreement_;
@@ -65,6 +71,7 @@ class HealthWatch {
   std::optional<Vector3> last_place_W_;
   mutable std::mutex mutex_;
   std::vector<std::deque<SilhouetteShift>> shifts_;  ///< The latest per camera.
+  std::vector<std::deque<double>> unknown_;          ///< Likewise, shares.
   SeenPeople people_;
   Doorbell bell_;
   SetTap tap_;

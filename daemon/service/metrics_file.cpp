@@ -68,6 +68,11 @@ void WriteHealth(const ServiceReport& report, MetricsWriter& writer) {
     if (camera.health.moments < HealthWatch::kFewestMoments) continue;
     writer.Sample(fmt::format("camera=\"{}\"", camera.name), camera.health.overlap);
   }
+  writer.Family("camera_unknown_ratio", "gauge", "Share of unknown pixels where people are shown.");
+  for (const CameraStatus& camera : cameras) {
+    if (!camera.health.unknown_share) continue;
+    writer.Sample(fmt::format("camera=\"{}\"", camera.name), *camera.health.unknown_share);
+  }
 }
 
 void WriteStages(const ServiceReport& report, MetricsWriter& writer) {

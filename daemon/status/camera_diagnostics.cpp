@@ -18,6 +18,9 @@ constexpr double kNudged_px = 0.75;
 /// Beyond this, colours no longer match the background.
 constexpr double kDarkest = 0.6, kBrightest = 1.5;
 
+/// Where more of the people is unknown, poses become worse: docs/contrast.md has the measurement.
+constexpr double kMostUnknown = 0.3;
+
 using Lines = std::vector<std::string>;
 
 /// Cameras with one fault, and the range of the numbers that show it.
@@ -121,6 +124,22 @@ void ComplainOfMounts(const std::vector<CameraStatus>& cameras, Lines& lines) {
   }
 }
 
+/// Stays while nobody is there: who has walked in goes to look.
+void ComplainOfContrast(const std::vector<CameraStatus>& cameras, Lines& lines) {
+  Group alike;
+  for (const CameraStatus& camera : cameras) {
+    const double share = camera.health.unknown_share.value_or(0);
+    if (camera.state != CameraState::kStreaming || share < kMostUnknown) continue;
+    alike.Add(camera.name, 100 * share);
+  }
+  if (alike.names.empty()) return;
+  const std::string rest = fmt::format(
+      " tell {} % of the people from what is behind them: clothes look like the wall or the floor; "
+      "wear others, or change the light",
+      alike.Range(0));
+  lines.push_back(CamerasDo(alike.names, cameras.size(), "cannot" + rest, "cannot" + rest));
+}
+
 }  // namespace
 
 std::vector<std::string> CameraDiagnostics(const ServiceReport& report) {
@@ -128,6 +147,7 @@ std::vector<std::string> CameraDiagnostics(const ServiceReport& report) {
   ComplainOfFlow(report, lines);
   ComplainOfPictures(report.now.status.cameras, lines);
   ComplainOfMounts(report.now.status.cameras, lines);
+  ComplainOfContrast(report.now.status.cameras, lines);
   return lines;
 }
 

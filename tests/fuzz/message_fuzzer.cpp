@@ -8,6 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::person_body_t>(bytes);
   mocap::DecodeMessage<mocap::status_t>(bytes);
   mocap::DecodeMessage<mocap::service_t>(bytes);
+  mocap::DecodeMessage<mocap::contrast_t>(bytes);
   mocap::DecodeMessage<mocap::studio_t>(bytes);
   mocap::DecodeMessage<mocap::preview_t>(bytes);
   mocap::DecodeMessage<mocap::unknown_t>(bytes);

@@ -140,6 +140,7 @@ TEST_F(EvaluateTest, ReportStandsAlone) {
   const std::string json =
       Run({"evaluate", take_.string(), result_.string(), "--json", "--report", report.string()});
   EXPECT_THAT(json, HasSubstr("\"hull_iou\": {\"east\": "));
+  EXPECT_THAT(json, HasSubstr("\"unknown_share\": {\"east\": 0"));
   const std::string html = testing::ReadText(report);
   // Nothing is loaded: no script, no address, and pictures only from within.
   EXPECT_THAT(html, Not(HasSubstr("<script")));
@@ -147,6 +148,8 @@ TEST_F(EvaluateTest, ReportStandsAlone) {
   EXPECT_THAT(html, Not(HasSubstr("src=")));
   EXPECT_THAT(html, HasSubstr("href=\"data:image/jpeg;base64,"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
+  EXPECT_THAT(html, HasSubstr("pattern id=\"hatch\""));
+  EXPECT_THAT(html, HasSubstr("<path class=\"unknown\" d=\""));
   for (const char* part : {"Fig. 17", "Fig. 21", "Fig. 22", "Accuracy", "Precision", "IoU"}) {
     EXPECT_THAT(html, HasSubstr(part));
   }
@@ -181,6 +184,7 @@ TEST_F(EvaluateTest, OfSeveralPeopleEachHasARowAndAColour) {
               ::testing::MatchesRegex("\\{[^\n]*\\}\n"));
   const std::string html = testing::ReadText(report);
   EXPECT_THAT(html, HasSubstr("data:image/jpeg"));
+  EXPECT_THAT(html, HasSubstr("pattern id=\"hatch\""));
   EXPECT_THAT(html, HasSubstr("class=\"stick c0\""));
   EXPECT_THAT(html, HasSubstr("Phantom frames"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));

@@ -19,7 +19,8 @@ std::string AccuracyText(const Accuracy& accuracy) {
   std::string text = fmt::format(
       "accuracy    {:.1f} mm mean over 14 points (median {:.1f}, 95 % below {:.1f}, worst {:.1f}), "
       "{:.1f} mm without each point's own offset\n"
-      "            {:.2f}° mean over 8 angles; tracked {:.1f} % of {} frames with truth{}; head found "
+      "            {:.2f}° mean over 8 angles; tracked {:.1f} % of {} frames with truth{}; head "
+      "found "
       "in {:.1f} %\n\n",
       d.mean, d.median, d.p95, d.worst, accuracy.spread_mm,
       accuracy.mean_angle_rad * kDegreesPerRad, 100 * accuracy.tracked_share,
@@ -117,9 +118,8 @@ std::string EvaluationText(const Evaluation& evaluation) {
   std::string text = fmt::format(
       "{}: {}, {}\n\nstates     ", Printable(evaluation.take),
       Counted(evaluation.result.poses.size(), "frame"),
-      is_tracked
-          ? fmt::format("body {}, stature {:.0f} mm", Printable(body.model), body.stature_mm)
-          : "nobody was tracked");
+      is_tracked ? fmt::format("body {}, stature {:.0f} mm", Printable(body.model), body.stature_mm)
+                 : "nobody was tracked");
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
     text += fmt::format(" {} {}{}", kCaptureStateNames[i], evaluation.frames_in_state[i],
                         i + 1 < kCaptureStateNames.size() ? "," : "\n");
@@ -170,11 +170,13 @@ std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraO
   json.Add("take", evaluation.take);
   AddEvaluation(evaluation, json);
   if (!overlaps.empty()) {
-    JsonObject iou;
+    JsonObject iou, unknown;
     for (const CameraOverlap& overlap : overlaps) {
       if (overlap.frames() > 0) iou.Add(overlap.camera, overlap.mean(), 4);
+      if (overlap.unknown_share) unknown.Add(overlap.camera, *overlap.unknown_share, 4);
     }
     json.Add("hull_iou", iou);
+    json.Add("unknown_share", unknown);
   }
   return json.Text() + '\n';
 }

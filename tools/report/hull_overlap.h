@@ -1,6 +1,7 @@
 // Overlap of the projected voxels with the silhouettes from which they were carved.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ double OverlapOf(const Image<std::uint8_t>& painted, const Silhouette& silhouett
 struct CameraOverlap {
   std::string camera;
   std::vector<double> iou;  ///< One per sampled moment; NaN if the camera has no frame.
+  /// Mean share of unknown pixels where the camera shows people; empty if it never does.
+  std::optional<double> unknown_share = {};
 
   int frames() const;
   double mean() const;  ///< Over its frames; 0 without any.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/degrees.h"
+#include "core/reconstruction/carving/unknown_share.h"
 #include "drivers/printable_text.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_sections.h"
@@ -101,6 +102,23 @@ std::string ViewsSection(const Evaluation& evaluation, const TakeSamples& sample
          html;
 }
 
+std::optional<double> MeanUnknownShare(const TakeSamples& samples, std::size_t camera) {
+  const SensorPlaneTable table(samples.cameras[camera]);
+  double sum = 0;
+  int count = 0;
+  for (const SampledMoment& moment : samples.moments) {
+    const auto& view = moment.views[camera];
+    if (!view) continue;
+    const Trimap& trimap = view->trimap;
+    const std::optional<double> share =
+        UnknownShare(moment.voxels, {&table, &trimap.person, view->X_CW, &trimap.unknown});
+    sum += share.value_or(0);
+    count += share.has_value();
+  }
+  if (count == 0) return {};
+  return sum / count;
+}
+
 }  // namespace
 
 std::vector<SampleRequest> ChooseReportMoments(const Evaluation& evaluation) {
@@ -128,6 +146,7 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
   std::vector<CameraOverlap> overlaps;
   for (std::size_t c = 0; c < samples.cameras.size(); ++c) {
     CameraOverlap& overlap = overlaps.emplace_back(CameraOverlap{samples.cameras[c].name, {}});
+    overlap.unknown_share = MeanUnknownShare(samples, c);
     for (const SampledMoment& moment : samples.moments) {
       const auto& view = moment.views[c];
       overlap.iou.push_back(

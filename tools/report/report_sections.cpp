@@ -120,18 +120,22 @@ std::string OverlapSection(std::span<const double> frames,
                            const std::vector<CameraOverlap>& overlaps) {
   std::string html = fmt::format(
       "<h2>Voxels and silhouettes</h2>\n{}<table><tr><th>camera</th><th class=\"n\">frames</th><th "
-      "class=\"n\">mean IoU %</th><th class=\"n\">lowest %</th></tr>",
+      "class=\"n\">mean IoU %</th><th class=\"n\">lowest %</th><th class=\"n\">unknown "
+      "%</th></tr>",
       OverlapFigure(overlaps, frames));
   for (const CameraOverlap& overlap : overlaps) {
     html += fmt::format(
         "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td "
-        "class=\"n\">{:.1f}</td></tr>",
-        EscapeHtml(overlap.camera), overlap.frames(), 100 * overlap.mean(), 100 * overlap.lowest());
+        "class=\"n\">{:.1f}</td><td class=\"n\">{}</td></tr>",
+        EscapeHtml(overlap.camera), overlap.frames(), 100 * overlap.mean(), 100 * overlap.lowest(),
+        overlap.unknown_share ? fmt::format("{:.0f}", 100 * *overlap.unknown_share) : "–");
   }
-  return html + fmt::format(
-                    "</table><p>Segmented and carved anew for this report with voxels of "
-                    "{:.0f} mm.</p>\n",
-                    kReportVoxelMm);
+  return html +
+         fmt::format(
+             "</table><p>Unknown: pixels that show people, but cannot be told from the empty "
+             "studio. Segmented and carved anew for this report with voxels of "
+             "{:.0f} mm.</p>\n",
+             kReportVoxelMm);
 }
 
 std::string ReportPage(const std::string& title, const std::string& under,

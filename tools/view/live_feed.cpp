@@ -82,6 +82,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
+  lcm.subscribe(named + kContrastChannel, &LiveFeed::OnContrast, this);
   lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
   lcm.subscribe(named + "MOCAP_UNKNOWN", &LiveFeed::OnUnknown, this);
   lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
@@ -183,6 +184,10 @@ void LiveFeed::OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
   if (!service) return;
   service_ = std::move(service);
   put_(kService, For(kStatusHoldsNs, Text(ServiceJson(*service_))));
+}
+
+void LiveFeed::OnContrast(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  if (auto contrast = Decoded<contrast_t>(*buffer)) contrast_ = std::move(*contrast);
 }
 
 void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
@@ -305,8 +310,12 @@ void LiveFeed::PutPicture(std::size_t camera, const SeenPicture& seen) {
                        .capture_ms = static_cast<double>(preview.utime) / 1000,
                        .silhouette = lines_of(preview.run),
                        .unknown = lines_of(seen.unknown_run),
+                       .unknown_share = {},
                        .bodies = {},
                        .jpeg = preview.jpeg};
+  const auto told = std::ranges::find(contrast_.camera, preview.camera) - contrast_.camera.begin();
+  if (told < contrast_.num_cameras)
+    picture.unknown_share = contrast_.unknown_share[static_cast<std::size_t>(told)];
   if (const std::vector<DrawnPose>* poses = PosesAt(preview.utime)) {
     picture.bodies = OutlinesOf(*poses, camera);
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
+#include <mocap/contrast_t.hpp>
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/studio_t.hpp>
@@ -62,6 +63,7 @@ class LiveFeed {
   void OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnContrast(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnUnknown(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -87,6 +89,7 @@ class LiveFeed {
   std::optional<std::int64_t> people_ns_;  ///< Time of the last MOCAP_PEOPLE, by the steady clock.
   std::optional<pose_t> first_;            ///< Drawn while MOCAP_PEOPLE has nobody.
   std::optional<service_t> service_;
+  contrast_t contrast_;
   studio_t studio_;
   std::vector<CameraCalibration> cameras_;
   std::vector<RigidTransform> X_CW_;  ///< Current pose of each camera.

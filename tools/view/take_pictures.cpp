@@ -9,6 +9,7 @@
 #include "config/camera_files.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "core/reconstruction/carving/unknown_share.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
 
@@ -115,6 +116,14 @@ std::optional<Trimap> TakePictures::Segment(Camera& camera, const PanTiltAngles&
   std::optional<Trimap> trimap(std::in_place);
   camera.segmenter->Segment(camera.image, angles, *trimap);
   return trimap;
+}
+
+std::optional<double> TakePictures::UnknownShareOf(const TakePicture& picture,
+                                                   const VoxelGrid& hull) const {
+  if (!picture.trimap) return {};
+  const Trimap& trimap = *picture.trimap;
+  const auto camera = static_cast<std::size_t>(picture.camera);
+  return UnknownShare(hull, {&tables_[camera], &trimap.person, picture.X_CW, &trimap.unknown});
 }
 
 VoxelGrid TakePictures::Carve(const std::vector<TakePicture>& pictures) {

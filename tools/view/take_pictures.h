@@ -44,6 +44,8 @@ class TakePictures {
 
   /// Pictures of all cameras that have a frame within half a period of a time.
   std::vector<TakePicture> At(std::int64_t time_ns);
+  /// Returns the share of unknown pixels where a picture shows a hull of the same moment.
+  std::optional<double> UnknownShareOf(const TakePicture& picture, const VoxelGrid& hull) const;
   /// Carves the pictures' trimaps; empty while one is missing.
   VoxelGrid Carve(const std::vector<TakePicture>& pictures);
 

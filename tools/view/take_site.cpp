@@ -276,13 +276,13 @@ std::string TakeSite::Pictures(const ViewRequest& request) {
   const ShownResult* result = ResultOf(request);
   const std::scoped_lock lock(mutex_);
   const std::vector<TakePicture> pictures = pictures_.At(times_ns_[frame]);
+  const VoxelGrid grid = pictures_.Carve(pictures);
   std::string bytes;
   for (const TakePicture& picture : pictures) {
     std::vector<DrawnOutlines> bodies;
     if (result) bodies = BodiesOf(*result, frame, picture);
-    bytes += DrawnOver(picture, std::move(bodies));
+    bytes += DrawnOver(picture, pictures_.UnknownShareOf(picture, grid), std::move(bodies));
   }
-  const VoxelGrid grid = pictures_.Carve(pictures);
   if (grid.size().isZero()) return bytes;
   voxels_t voxels;
   FillVoxelGrid(grid, times_ns_[frame], static_cast<std::int64_t>(frame), voxels);
@@ -305,7 +305,8 @@ std::vector<DrawnOutlines> TakeSite::BodiesOf(const ShownResult& chosen, std::si
   return bodies;
 }
 
-std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOutlines> bodies) {
+std::string TakeSite::DrawnOver(const TakePicture& picture, std::optional<double> unknown_share,
+                                std::vector<DrawnOutlines> bodies) {
   ReducePicture(picture.image, ReductionFor(picture.image.width(), kWidest_px), reduced_);
   encoder_.Encode(reduced_.view(), kJpegQuality, jpeg_);
   DrawnPicture drawn{.camera = picture.camera,
@@ -314,6 +315,7 @@ std::string TakeSite::DrawnOver(const TakePicture& picture, std::vector<DrawnOut
                      .capture_ms = static_cast<double>(picture.capture_ns) / kNsPerMs,
                      .silhouette = {},
                      .unknown = {},
+                     .unknown_share = unknown_share,
                      .bodies = std::move(bodies),
                      .jpeg = jpeg_};
   if (picture.trimap) {

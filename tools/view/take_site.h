@@ -59,7 +59,8 @@ class TakeSite {
   std::string Pictures(const ViewRequest& request);
   std::vector<DrawnOutlines> BodiesOf(const ShownResult& result, std::size_t frame,
                                       const TakePicture& picture) const;
-  std::string DrawnOver(const TakePicture& picture, std::vector<DrawnOutlines> bodies);
+  std::string DrawnOver(const TakePicture& picture, std::optional<double> unknown_share,
+                        std::vector<DrawnOutlines> bodies);
   std::string PoseOf(const ShownResult& result, std::size_t frame) const;
   std::string TruthOf(const TruePerson& person, std::size_t frame) const;
   const PoseRow* RowOf(const ShownResult& result, std::size_t frame) const;

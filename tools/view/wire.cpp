@@ -151,7 +151,7 @@ std::string PictureBytes(const DrawnPicture& picture) {
   writer.Add(static_cast<std::uint32_t>(lines.size() / sizeof(float)));
   writer.Add(static_cast<std::uint32_t>(body_lines.size() / sizeof(float)));
   writer.Add(static_cast<std::uint32_t>(picture.jpeg.size()));
-  writer.Add(std::uint32_t{0});
+  writer.Add(static_cast<float>(picture.unknown_share.value_or(-1)));
   std::string bytes = writer.Take() + lines + body_lines;
   bytes.append(picture.jpeg.begin(), picture.jpeg.end());
   bytes.resize((bytes.size() + 7) / 8 * 8, '\0');

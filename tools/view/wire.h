@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <mocap/voxels_t.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,15 +52,16 @@ struct DrawnPicture {
   double capture_ms = 0;
   /// Closed lines around the people and around unknown pixels [px].
   std::vector<std::vector<Vector2>> silhouette, unknown;
+  std::optional<double> unknown_share;  ///< Of the pixels that show people; if known.
   std::vector<DrawnOutlines> bodies;
   std::span<const std::uint8_t> jpeg;
 };
 
 /// 32 bytes and the contents: u8 kind = 3, camera; u16 width, height, 0; f64 capture [ms]; u32
-/// floats of the trimap's lines, floats of the bodies', bytes of the JPEG, 0; then these, padded
-/// with zeros to a multiple of 8. A line is f32 count, f32 kind and count × f32 x, y. The kind is,
-/// in the trimap, 0 for people and 1 for unknown pixels; of bodies, the side (0 middle, 1 left, 2
-/// right) + 4 × (person + 1).
+/// floats of the trimap's lines, floats of the bodies', bytes of the JPEG; f32 share of unknown
+/// pixels where people are, -1 if not known; then these, padded with zeros to a multiple of 8. A
+/// line is f32 count, f32 kind and count × f32 x, y. The kind is, in the trimap, 0 for people and 1
+/// for unknown pixels; of bodies, the side (0 middle, 1 left, 2 right) + 4 × (person + 1).
 std::string PictureBytes(const DrawnPicture& picture);
 
 }  // namespace mocap

@@ -85,6 +85,14 @@ service_t SomeService() {
   return service;
 }
 
+contrast_t SomeContrast() {
+  contrast_t contrast{};
+  contrast.num_cameras = 2;
+  contrast.camera = {"cam1", "cam2"};
+  contrast.unknown_share = {0.4, -1};
+  return contrast;
+}
+
 studio_t SomeStudio() {
   studio_t studio{};
   studio.name = "small";
@@ -138,6 +146,7 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomePersonBody());
   ExpectWholeOrNothing(SomeStatus());
   ExpectWholeOrNothing(SomeService());
+  ExpectWholeOrNothing(SomeContrast());
   ExpectWholeOrNothing(SomeStudio());
   ExpectWholeOrNothing(SomePreview());
   ExpectWholeOrNothing(SomeUnknown());

@@ -257,6 +257,21 @@ TEST_F(PosePublisherTest, ThePrefixStandsBeforeEachChannelsName) {
   EXPECT_EQ(statuses.messages.size(), 1u);
 }
 
+TEST_F(PosePublisherTest, WithTheStatusComesWhatEachCameraDoesNotKnow) {
+  ServiceReport report;
+  report.now.status.cameras.resize(2);
+  report.now.status.cameras[0].name = "cam1";
+  report.now.status.cameras[1].name = "cam2";
+  report.now.status.cameras[1].health.unknown_share = 0.4;
+  report.now.frames_per_second.resize(2);
+  Inbox<contrast_t> inbox(lcm_, "MOCAP_CONTRAST");
+  PosePublisher(lcm_, {}, 2).PublishStatus(report);
+  Deliver();
+  ASSERT_EQ(inbox.messages.size(), 1u);
+  EXPECT_EQ(inbox.messages[0].camera, (std::vector<std::string>{"cam1", "cam2"}));
+  EXPECT_EQ(inbox.messages[0].unknown_share, (std::vector<double>{-1, 0.4}));
+}
+
 TEST_F(PosePublisherTest, TheStatusTellsCamerasAndStages) {
   PipelineStatus status;
   status.sets_complete = 90;

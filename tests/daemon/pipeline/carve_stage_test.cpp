@@ -53,7 +53,8 @@ TEST(CarveStage, WhatIsWatchedLacksCamerasThatAreBlind) {
   ASSERT_TRUE(tap.queue().TryPop());
   const SeenSet& seen = tap.queue().front();
   EXPECT_THAT(seen.cameras, ElementsAre(0, 2));
-  EXPECT_EQ(seen.silhouettes.size(), 2u);
+  EXPECT_EQ(seen.trimaps.size(), 2u);
+  EXPECT_EQ(seen.hull.voxel_mm(), set.grid.voxel_mm());
   EXPECT_EQ(seen.X_CW.size(), 2u);
 }
 

@@ -328,6 +328,26 @@ TEST(ServiceReport, ANodeThatNoStudioHearsIsNotGood) {
   EXPECT_THAT(Diagnostics(report), ElementsAre(HasSubstr("cam2 is lost")));
 }
 
+TEST(ServiceReport, ClothesLikeTheWallAreNamedByCamera) {
+  ServiceReport report = Good();
+  report.now.status.cameras[0].health.unknown_share = 0.1;
+  report.now.status.cameras[1].health.unknown_share = 0.4;
+  EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 cannot tell 40 % of the people")));
+  report.now.status.cameras[1].health.unknown_share = 0.2;
+  EXPECT_THAT(Diagnostics(report), IsEmpty());
+}
+
+TEST(ServiceReport, TellsTheUnknownShareOfEachCameraThatHasSeenPeople) {
+  ServiceReport report = Good();
+  report.now.status.cameras[1].health.unknown_share = 0.125;
+  EXPECT_THAT(ReportJson(report), HasSubstr("\"unknown_share\": -1"));
+  EXPECT_THAT(ReportJson(report), HasSubstr("\"unknown_share\": 0.125"));
+  EXPECT_THAT(ReportText(report), HasSubstr("     12 %\n"));
+  EXPECT_THAT(MetricsText(report),
+              HasSubstr("mocapd_camera_unknown_ratio{camera=\"cam2\"} 0.125\n"));
+  EXPECT_THAT(MetricsText(report), Not(HasSubstr("unknown_ratio{camera=\"cam1\"}")));
+}
+
 TEST(ServiceReport, NamesOnlyTheCameraThatIsFarthestFromTheOthers) {
   ServiceReport report = Good();
   report.now.status.cameras[0].health = {.moments = 9, .shift_px = {2.5, 0}, .overlap = 0.8};

@@ -293,6 +293,22 @@ TEST_F(LiveFeedTest, APictureHasTheUnknownPixelsOfItsMomentOnly) {
   EXPECT_EQ(trimap_floats(), kRectangle) << "the person alone";
 }
 
+TEST_F(LiveFeedTest, APictureTellsHowMuchOfThePeopleIsUnknown) {
+  const auto share = [this] {
+    return testing::NumberAt<float>(board_.at(LiveFeed::kPictures), 28);
+  };
+  Publish("left.MOCAP_STUDIO", Studio());
+  for (int i = 0; i < 2; ++i) Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_EQ(share(), -1);
+  contrast_t contrast{};
+  contrast.num_cameras = 2;
+  contrast.camera = {"cam0", "cam1"};
+  contrast.unknown_share = {-1, 0.5};
+  Publish("left.MOCAP_CONTRAST", contrast);
+  Publish("left.MOCAP_PREVIEW", Preview());
+  EXPECT_EQ(share(), 0.5F);
+}
+
 TEST_F(LiveFeedTest, APictureWaitsForThePoseOfItsMoment) {
   body_t body{};
   FillBody(body_, 0, body);

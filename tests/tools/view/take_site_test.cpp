@@ -103,6 +103,7 @@ TEST_F(TakeSiteTest, SilhouettesAndVoxelsComeOnceTheEmptyStudioIsLearned) {
   std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   while (!has_voxels(bytes)) bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});
   EXPECT_GT(testing::NumberAt<std::uint32_t>(bytes, 16), 0u) << "the silhouette's line";
+  EXPECT_GE(testing::NumberAt<float>(bytes, 28), 0) << "the share of unknown pixels";
 }
 
 TEST_F(TakeSiteTest, NumbersOfNothingAreRefused) {

@@ -102,10 +102,13 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 16), 12u);
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 20), 6u);
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 24), 3u);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 28), -1) << "nobody was seen";
   EXPECT_EQ(testing::NumberAt<float>(bytes, 32), 3);
   EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 8 * 4 + 4), 1) << "unknown pixels";
   EXPECT_EQ(testing::NumberAt<float>(bytes, 32 + 12 * 4 + 4), 2 + 4 * 1);
   EXPECT_EQ(bytes.substr(32 + 18 * 4, 3), "\1\2\3");
+  picture.unknown_share = 0.25;
+  EXPECT_EQ(testing::NumberAt<float>(PictureBytes(picture), 28), 0.25F);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 import {CAMERA_LOOKS} from './camera_models.js';
 import {fitCanvas, make, setText} from './dom.js';
+import {percent} from './text.js';
 import {color, figureColor, onTheme} from './theme.js';
 
 const SIDES = ['side-middle', 'side-left', 'side-right'];
@@ -38,29 +39,42 @@ function hatch(context, {unknown, widthPx, heightPx}, scale) {
   context.restore();
 }
 
+function strokeLine(context, line, isClosed, style, widthPx) {
+  context.beginPath();
+  addPath(context, line.points, isClosed);
+  context.lineJoin = 'round';
+  context.lineCap = 'round';
+  context.strokeStyle = style;
+  context.lineWidth = widthPx;
+  context.stroke();
+}
+
+function drawTrimap(context, picture, scale) {
+  hatch(context, picture, scale);
+  for (const line of picture.silhouette)
+    strokeLine(context, line, true, color('silhouette'), 1.3 / scale);
+}
+
 /** Draws lines in the camera's picture on a canvas of any size. */
 function drawLines(context, picture, width, height) {
   const scale = width / picture.widthPx;
   context.save();
   context.scale(scale, height / picture.heightPx);
-  context.lineJoin = 'round';
-  context.lineCap = 'round';
-  const stroke = (line, isClosed, style, widthPx) => {
-    context.beginPath();
-    addPath(context, line.points, isClosed);
-    context.strokeStyle = style;
-    context.lineWidth = widthPx / scale;
-    context.stroke();
-  };
-  hatch(context, picture, scale);
-  for (const line of picture.silhouette) stroke(line, true, color('silhouette'), 1.3);
-  for (const line of picture.body) stroke(line, line.points.length > 4, 'rgba(0, 0, 0, 0.55)', 3.4);
+  drawTrimap(context, picture, scale);
+  const stroke = (line, style, widthPx) =>
+      strokeLine(context, line, line.points.length > 4, style, widthPx / scale);
+  for (const line of picture.body) stroke(line, 'rgba(0, 0, 0, 0.55)', 3.4);
   for (const line of picture.body) {
     // With several people, the colour shows the person, not the side.
     const name = line.person === null ? SIDES[line.side] ?? SIDES[0] : figureColor(line.person);
-    stroke(line, line.points.length > 4, color(name), 1.8);
+    stroke(line, color(name), 1.8);
   }
   context.restore();
+}
+
+/** @return how much of the people a camera does not know. */
+function unknownText(share) {
+  return share < 0 ? '' : `${percent(share)} of the people unknown`;
 }
 
 /** One camera of the strip. */
@@ -87,6 +101,7 @@ class CameraCard {
     this.button.addEventListener('click', () => onChoose(camera.name));
     this.mark = make('span', {class: 'mark', 'aria-hidden': 'true'});
     this.look = make('span', {class: 'look'});
+    this.unknown = make('p', {class: 'unknown'});
     this.facts = make('p', {class: 'facts'});
     const key = number <= 9 ? make('kbd', {text: number, 'aria-hidden': 'true'}) : '';
     this.element = make(
@@ -94,7 +109,7 @@ class CameraCard {
         make(
             'p', {class: 'camera-name'}, this.mark, make('strong', {text: camera.name}), this.look,
             key),
-        this.facts);
+        this.unknown, this.facts);
   }
 
   take(picture) {
@@ -122,6 +137,7 @@ class CameraCard {
 
   draw() {
     this.isDrawn = true;
+    if (this.picture) setText(this.unknown, unknownText(this.picture.unknownShare));
     if (!this.bitmap || this.canvas.clientWidth === 0) return;
     const {clientWidth: width, clientHeight: height} = this.canvas;
     const context = fitCanvas(this.canvas);
@@ -196,12 +212,19 @@ export class Pictures {
     }
   }
 
-  /** Draws a camera's picture into a canvas behind the scene. @return whether there is one. */
+  /** Draws a camera's picture and trimap behind the scene. @return whether there is one. */
   drawBehind(name, canvas, box) {
     const card = this.card(name);
     canvas.hidden = !box || !card?.bitmap;
     if (canvas.hidden) return false;
-    fitCanvas(canvas).drawImage(card.bitmap, box.left, box.top, box.width, box.height);
+    const context = fitCanvas(canvas);
+    context.drawImage(card.bitmap, box.left, box.top, box.width, box.height);
+    const scale = box.width / card.picture.widthPx;
+    context.save();
+    context.translate(box.left, box.top);
+    context.scale(scale, box.height / card.picture.heightPx);
+    drawTrimap(context, card.picture, scale);
+    context.restore();
     return true;
   }
 }

@@ -108,6 +108,7 @@ export function decodePicture(buffer, begin = 0) {
     heightPx: view.getUint16(4, true),
     timeMs: view.getFloat64(8, true),
     silhouette: trimapLines.filter((line) => line.side === 0),
+    unknownShare: view.getFloat32(28, true),
     unknown: trimapLines.filter((line) => line.side === 1),
     body: splitLines(floats(buffer, body, bodyFloats)),
     jpeg: new Uint8Array(buffer, jpeg, jpegBytes),

@@ -32,6 +32,7 @@ function picture(timeMs, camera = 0, more = {}) {
     jpeg: new Uint8Array(2),
     silhouette: [],
     unknown: [],
+    unknownShare: -1,
     body: [],
     ...more
   };
@@ -103,6 +104,17 @@ test('unknown pixels are hatched within their lines, people are not', async () =
     assert.deepEqual(
         calls.filter(([name]) => name === 'clip'), new Array(clips).fill(['clip', 'evenodd']));
     assert.equal(calls.filter(([name]) => name === 'stroke').length, 1);
+  }
+});
+
+test('a camera tells how much of the people it does not know, if anybody was there', async () => {
+  for (const [unknownShare, text] of [[-1, ''], [0.4, '40\u00a0% of the people unknown']]) {
+    const {pictures, decoding} = open();
+    pictures.take(picture(1, 0, {unknownShare}));
+    decoding[0].done();
+    await settle();
+    pictures.draw();
+    assert.equal(pictures.card('front').unknown.textContent, text);
   }
 });
 

@@ -31,6 +31,7 @@ function pictureBytes({camera = 0, trimap = [], body = [], jpeg = [0xff, 0xd8]} 
   view.setUint32(16, trimap.length, true);
   view.setUint32(20, body.length, true);
   view.setUint32(24, jpeg.length, true);
+  view.setFloat32(28, 0.5, true);
   [...trimap, ...body].forEach((value, i) => view.setFloat32(32 + 4 * i, value, true));
   new Uint8Array(buffer).set(jpeg, 32 + 4 * (trimap.length + body.length));
   return buffer;
@@ -102,6 +103,7 @@ test('pictures that stand one after the other are found behind their padding', (
       pictureBytes({camera: 5}));
   const [first, second] = decodeAll(buffer, decodePicture);
   assert.equal(first.widthPx, 640);
+  assert.equal(first.unknownShare, 0.5);
   assert.equal(first.timeMs, 1234.5);
   assert.deepEqual(first.silhouette.map((line) => [...line.points]), [[1, 2, 3, 4, 5, 6]]);
   assert.deepEqual(first.unknown.map((line) => [...line.points]), [[11, 12]]);
