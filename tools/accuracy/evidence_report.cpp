@@ -72,15 +72,17 @@ std::vector<EvidenceSummary> SummarizeEvidence(std::span<const EvidenceRow> rows
     const auto is_same = [&first](const auto& other) { return other.kind == first.kind; };
     if (std::ranges::any_of(kinds, is_same)) continue;
     std::vector<AccuracyRow> takes;
-    double hull_shares = 0;
+    double hull_shares = 0, unknown_shares = 0;
     for (const EvidenceRow& row : rows) {
       if (!is_same(row)) continue;
       takes.push_back(row.accuracy);
       hull_shares += row.hull_share;
+      unknown_shares += row.unknown_share;
     }
     kinds.push_back({.kind = first.kind,
                      .accuracy = Summarize(takes),
-                     .hull_share = hull_shares / static_cast<double>(takes.size())});
+                     .hull_share = hull_shares / static_cast<double>(takes.size()),
+                     .unknown_share = unknown_shares / static_cast<double>(takes.size())});
   }
   return kinds;
 }
@@ -100,34 +102,36 @@ std::optional<EvidenceRise> LargestRise(std::span<const EvidenceSummary> kinds) 
 }
 
 std::string EvidenceHeader() {
-  return fmt::format("{:>8}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}\n", "contrast", "crf",
-                     "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %");
+  return fmt::format("{:>8}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}{:>11}\n", "contrast", "crf",
+                     "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %", "unknown %");
 }
 
 std::string EvidenceLine(const EvidenceRow& row) {
-  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}\n",
+  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}{:>11.0f}\n",
                      row.kind.contrast, CrfText(row.kind.crf), row.kind.cameras,
                      row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.seed,
                      ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
-                     100 * row.accuracy.tracked_share, 100 * row.hull_share);
+                     100 * row.accuracy.tracked_share, 100 * row.hull_share,
+                     100 * row.unknown_share);
 }
 
 std::string EvidenceTable(std::span<const EvidenceRow> rows) {
   if (rows.empty()) return {};
   std::string text = "\n| contrast | crf |";
   for (const int cameras : kEvidenceCameras)
-    text += fmt::format(" {} cameras: mean mm | tracked % | hull % |", cameras);
+    text += fmt::format(" {} cameras: mean mm | tracked % | hull % | unknown % |", cameras);
   text += "\n|---|---|";
-  for (std::size_t i = 0; i < kEvidenceCameras.size(); ++i) text += "---|---|---|";
+  for (std::size_t i = 0; i < kEvidenceCameras.size(); ++i) text += "---|---|---|---|";
   const std::vector<EvidenceSummary> kinds = SummarizeEvidence(rows);
   const EvidenceKind* last = nullptr;
   for (const EvidenceSummary& kind : kinds) {
     if (!last || !DifferInCamerasOnly(*last, kind.kind))
       text += fmt::format("\n| {:.0f} | {} |", kind.kind.contrast, CrfText(kind.kind.crf));
     last = &kind.kind;
-    text += fmt::format(" {} | {:.0f} | {:.0f} |",
+    text += fmt::format(" {} | {:.0f} | {:.0f} | {:.0f} |",
                         ErrorOrDash(kind.accuracy.tracked_share, kind.accuracy.mpjpe_mm),
-                        100 * kind.accuracy.tracked_share, 100 * kind.hull_share);
+                        100 * kind.accuracy.tracked_share, 100 * kind.hull_share,
+                        100 * kind.unknown_share);
   }
   return text + "\n" + RiseText(LargestRise(kinds));
 }
@@ -138,7 +142,8 @@ std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds) 
              "\n## Weak evidence\nClothes differ from what is behind them by at most the contrast "
              "[of 256 grey values]. Pictures are coded by x264 at the crf. {} takes of {:.0f} s. "
              "*Hull*\nis the volume that is carved, as a share of the hull of the true masks of "
-             "the same cameras.\n\n![Mean error by number of cameras](evidence.svg)\n",
+             "the same cameras. *Unknown* is the share of unknown pixels where cameras show the "
+             "person.\n\n![Mean error by number of cameras](evidence.svg)\n",
              rows.size(), seconds) +
          EvidenceTable(rows);
 }

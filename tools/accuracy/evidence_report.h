@@ -15,7 +15,8 @@ namespace mocap {
 struct EvidenceSummary {
   EvidenceKind kind;
   AccuracySummary accuracy;
-  double hull_share = 0;  ///< The mean.
+  double hull_share = 0;     ///< The mean.
+  double unknown_share = 0;  ///< Likewise.
 
   bool is_tracked() const { return accuracy.tracked_share > 0; }
   /// Infinite if nobody is tracked.

@@ -5,11 +5,16 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/carving/floor_shadows.h"
+#include "core/reconstruction/carving/unknown_share.h"
+#include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "tools/accuracy/accuracy_trial.h"
 
@@ -26,11 +31,21 @@ Silhouette SilhouetteOfMask(ImageView<const std::uint8_t> mask) {
   return silhouette;
 }
 
-// Keeps the true mask of every frame of a simulated camera.
-class MaskKeeper : public CameraDriver {
+// Unknown pixels change little from frame to frame.
+constexpr std::size_t kFramesPerTrimap = 10;
+
+// What one camera saw.
+struct CameraSight {
+  std::vector<Silhouette> masks;  // The true ones, of every frame.
+  std::vector<Trimap> trimaps;    // Of the first frame, and of each kFramesPerTrimap later.
+  std::vector<Shading> shadings;  // Likewise.
+};
+
+// Keeps what a simulated camera saw.
+class SightKeeper : public CameraDriver {
  public:
-  MaskKeeper(std::unique_ptr<CameraDriver> camera, std::vector<Silhouette>& masks)
-      : camera_(std::move(camera)), masks_(masks) {}
+  SightKeeper(std::unique_ptr<CameraDriver> camera, Segmenter segmenter, CameraSight& sight)
+      : camera_(std::move(camera)), segmenter_(std::move(segmenter)), sight_(sight) {}
 
   void Start() override { camera_->Start(); }
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds timeout) override {
@@ -38,7 +53,11 @@ class MaskKeeper : public CameraDriver {
     if (status == GrabStatus::kFrame) {
       auto* const simulated = dynamic_cast<SimulatedCamera*>(camera_.get());
       MOCAP_CHECK(simulated);
-      masks_.push_back(SilhouetteOfMask(simulated->TrueMask()));
+      if (sight_.masks.size() % kFramesPerTrimap == 0) {
+        segmenter_.Segment(frame.image, frame.angles, sight_.trimaps.emplace_back());
+        sight_.shadings.push_back(segmenter_.shading());
+      }
+      sight_.masks.push_back(SilhouetteOfMask(simulated->TrueMask()));
     }
     return status;
   }
@@ -46,7 +65,8 @@ class MaskKeeper : public CameraDriver {
 
  private:
   const std::unique_ptr<CameraDriver> camera_;
-  std::vector<Silhouette>& masks_;
+  Segmenter segmenter_;
+  CameraSight& sight_;
 };
 
 std::int64_t CountVoxels(const VoxelGrid& grid) {
@@ -60,15 +80,16 @@ class VolumeKeeper : public PoseSink {
   void OnSet(const TrackedSet& set) override {
     frames.push_back(static_cast<std::size_t>(set.frame));
     voxels += CountVoxels(set.grid);
+    if (frames.back() % kFramesPerTrimap == 0) hulls[frames.back()] = set.grid;
   }
 
   std::vector<std::size_t> frames;
   std::int64_t voxels = 0;
+  std::map<std::size_t, VoxelGrid> hulls;  // Of the frames that have trimaps.
 };
 
-// @param masks  by camera, then by frame.
 std::int64_t TrueVoxels(const std::vector<CameraCalibration>& cameras,
-                        const std::vector<std::vector<Silhouette>>& masks,
+                        const std::deque<CameraSight>& sights,
                         const std::vector<std::size_t>& frames, double voxel_mm) {
   std::deque<SensorPlaneTable> tables;
   for (const CameraCalibration& camera : cameras) tables.emplace_back(camera);
@@ -78,11 +99,37 @@ std::int64_t TrueVoxels(const std::vector<CameraCalibration>& cameras,
   for (const std::size_t frame : frames) {
     std::vector<CarvingView> views;
     for (std::size_t c = 0; c < cameras.size(); ++c)
-      views.push_back({&tables[c], &masks[c].at(frame), cameras[c].X_CW});
+      views.push_back({&tables[c], &sights[c].masks.at(frame), cameras[c].X_CW});
     carver.Carve(views, grid);
     voxels += CountVoxels(grid);
   }
   return voxels;
+}
+
+// The mean over cameras and frames, as carving knows them; 0 if nobody is ever seen.
+double MeanUnknownShareOf(const std::vector<CameraCalibration>& cameras,
+                          std::deque<CameraSight>& sights,
+                          const std::map<std::size_t, VoxelGrid>& hulls) {
+  const std::vector<SensorPlaneTable> tables(cameras.begin(), cameras.end());
+  FloorShadows shadows(cameras);
+  double sum = 0;
+  int count = 0;
+  for (const auto& [frame, hull] : hulls) {
+    std::vector<ShadedView> views;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      views.push_back({static_cast<int>(c), &tables[c], cameras[c].X_CW,
+                       &sights[c].shadings.at(frame / kFramesPerTrimap),
+                       &sights[c].trimaps.at(frame / kFramesPerTrimap)});
+    }
+    shadows.Complete(views);
+    for (const ShadedView& view : views) {
+      const std::optional<double> share =
+          UnknownShare(hull, {view.table, &view.trimap->person, view.X_CW, &view.trimap->unknown});
+      sum += share.value_or(0);
+      count += share.has_value();
+    }
+  }
+  return sum / std::max(1, count);
 }
 
 }  // namespace
@@ -109,19 +156,22 @@ EvidenceRow RunEvidenceTrial(const SimulatedStudioOptions& options) {
   trial.studio = options;
   Studio studio = OpenSimulatedStudio(options);
   std::vector<CameraCalibration> cameras;
-  std::vector<std::vector<Silhouette>> masks(studio.cameras.size());
+  std::deque<CameraSight> sights(studio.cameras.size());
   for (std::size_t c = 0; c < studio.cameras.size(); ++c) {
     StudioCamera& camera = studio.cameras[c];
     cameras.push_back(camera.calibration);
-    camera.driver = std::make_unique<MaskKeeper>(std::move(camera.driver), masks[c]);
+    Segmenter segmenter(camera.calibration, camera.background(), SegmentationOptions{});
+    camera.driver =
+        std::make_unique<SightKeeper>(std::move(camera.driver), std::move(segmenter), sights[c]);
   }
   VolumeKeeper volumes;
   const TrialOutcome outcome = TrackStudio(trial, std::move(studio), volumes);
-  const std::int64_t true_voxels = TrueVoxels(cameras, masks, volumes.frames, trial.voxel_mm);
+  const std::int64_t true_voxels = TrueVoxels(cameras, sights, volumes.frames, trial.voxel_mm);
   return {.kind = {options.contrast, options.crf, options.cameras},
           .accuracy = RowOf(trial, outcome),
           .hull_share = static_cast<double>(volumes.voxels) /
-                        static_cast<double>(std::max<std::int64_t>(1, true_voxels))};
+                        static_cast<double>(std::max<std::int64_t>(1, true_voxels)),
+          .unknown_share = MeanUnknownShareOf(cameras, sights, volumes.hulls)};
 }
 
 }  // namespace mocap

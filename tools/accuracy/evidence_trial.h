@@ -35,6 +35,9 @@ struct EvidenceRow {
   /// Volume of the carved hull, as a share of that of the hull of the same cameras' true masks.
   /// Both are summed over the frame sets.
   double hull_share = 0;
+  /// Share of unknown pixels where cameras show the person, as `mocap status` has it; the mean over
+  /// cameras.
+  double unknown_share = 0;
 };
 
 /// Simulates a take and tracks it. The same options give the same row.

@@ -52,11 +52,13 @@ TEST(EvidenceTrial, TheHullOfClothesOfFullContrastIsNearlyTheTrueOneAndThatOfWea
   EXPECT_GT(clear.hull_share, 0.8);
   EXPECT_LT(clear.hull_share, 1.25);
   EXPECT_EQ(clear.accuracy.tracked_share, 1);
+  EXPECT_LT(clear.unknown_share, 0.05);
   ApplyEvidence({.contrast = 5, .crf = 30, .cameras = 5}, studio);
   const EvidenceRow weak = RunEvidenceTrial(studio);
   EXPECT_EQ(weak.kind, (EvidenceKind{5, 30, 5}));
   EXPECT_LT(weak.hull_share, 0.9 * clear.hull_share);
   EXPECT_GT(weak.hull_share, 0);
+  EXPECT_GT(weak.unknown_share, 0.1);
 }
 
 TEST(EvidenceTrial, TheSameOptionsGiveTheSameRow) {
@@ -64,6 +66,7 @@ TEST(EvidenceTrial, TheSameOptionsGiveTheSameRow) {
   ApplyEvidence({.contrast = 40, .crf = 28, .cameras = 4}, studio);
   const EvidenceRow first = RunEvidenceTrial(studio), again = RunEvidenceTrial(studio);
   EXPECT_EQ(first.hull_share, again.hull_share);
+  EXPECT_EQ(first.unknown_share, again.unknown_share);
   EXPECT_EQ(first.accuracy.mpjpe_mm, again.accuracy.mpjpe_mm);
 }
 
@@ -91,7 +94,7 @@ TEST(EvidenceReport, WhoIsNoLongerTrackedIsTheWorstRise) {
   ASSERT_TRUE(rise);
   EXPECT_EQ(rise->mm(), std::numeric_limits<double>::infinity());
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("nobody is tracked any more, from 4 to 16 cameras"));
-  EXPECT_THAT(EvidenceTable(rows), HasSubstr("| – | 0 | 50 |"));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("| – | 0 | 50 | 0 |"));
   EXPECT_THAT(EvidenceLine(rows.back()), HasSubstr("–"));
 }
 
@@ -114,11 +117,13 @@ TEST(EvidenceReport, MarksTheErrorsThatRise) {
 }
 
 TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
-  const std::vector<EvidenceRow> rows = {
-      WeakRow({15, 28, 4}, 30, 0.4), WeakRow({15, 28, 4}, 40, 0.6), WeakRow({15, 28, 8}, 20, 0.7),
-      WeakRow({15, 28, 16}, 10, 1.2)};
-  EXPECT_THAT(EvidenceTable(rows),
-              HasSubstr("| 15 | 28 | 35.0 | 100 | 50 | 20.0 | 100 | 70 | 10.0 | 100 | 120 |"));
+  std::vector<EvidenceRow> rows = {WeakRow({15, 28, 4}, 30, 0.4), WeakRow({15, 28, 4}, 40, 0.6),
+                                   WeakRow({15, 28, 8}, 20, 0.7), WeakRow({15, 28, 16}, 10, 1.2)};
+  rows[0].unknown_share = 0.2;
+  rows[1].unknown_share = 0.4;
+  EXPECT_THAT(
+      EvidenceTable(rows),
+      HasSubstr("| 15 | 28 | 35.0 | 100 | 50 | 30 | 20.0 | 100 | 70 | 0 | 10.0 | 100 | 120 | 0 |"));
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("-10.0 mm"));
   EXPECT_THAT(EvidenceMarkdown(rows, 2), HasSubstr("evidence.svg"));
   EXPECT_THAT(EvidenceSvg(rows), HasSubstr("cameras, crf 28"));
