@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 
 #include "config/config.h"
 #include "config/load_config.h"
@@ -11,6 +12,7 @@
 #include "config/room_limits.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/carving/floor_shadows.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
@@ -56,10 +58,20 @@ std::vector<Nearest> NearestFrames(CameraDriver& driver, const std::vector<Sampl
   return nearest;
 }
 
-void Carve(TakeSamples& samples, double voxel_mm) {
+/// @param shadings  by camera, then by moment.
+void Carve(std::span<const std::vector<Shading>> shadings, double voxel_mm, TakeSamples& samples) {
   std::vector<SensorPlaneTable> tables(samples.cameras.begin(), samples.cameras.end());
+  FloorShadows shadows(samples.cameras);
   Carver carver({voxel_mm});
-  for (SampledMoment& moment : samples.moments) {
+  for (std::size_t m = 0; m < samples.moments.size(); ++m) {
+    SampledMoment& moment = samples.moments[m];
+    std::vector<ShadedView> shaded;
+    for (std::size_t c = 0; c < shadings.size(); ++c) {
+      if (!moment.views[c]) continue;
+      SampledView& view = *moment.views[c];
+      shaded.push_back({static_cast<int>(c), &tables[c], view.X_CW, &shadings[c][m], &view.trimap});
+    }
+    shadows.Complete(shaded);
     std::vector<CarvingView> views;
     for (std::size_t c = 0; c < tables.size(); ++c) {
       if (!moment.views[c]) continue;
@@ -95,22 +107,25 @@ TakeSamples SampleTake(const std::filesystem::path& take,
     samples.moments.push_back({request.timestamp_ns, {}, {}});
     samples.moments.back().views.resize(studio.cameras.size());
   }
+  std::vector<std::vector<Shading>> shadings(studio.cameras.size());
   // One camera at a time, to keep only its pictures and background in memory.
   for (std::size_t c = 0; c < studio.cameras.size(); ++c) {
     StudioCamera& camera = studio.cameras[c];
     samples.cameras.push_back(camera.calibration);
     Segmenter segmenter(camera.calibration, camera.background(), SegmentationOptions{});
     std::vector<Nearest> nearest = NearestFrames(*camera.driver, requests, tolerance_ns);
+    shadings[c].resize(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (nearest[i].image.empty()) continue;
       SampledView& view = samples.moments[i].views[c].emplace();
       view.X_CW = camera.calibration.PoseAt(nearest[i].angles);
       segmenter.Segment(nearest[i].image.view(), nearest[i].angles, view.trimap);
+      shadings[c][i] = segmenter.shading();
       if (requests[i].keep_images) view.image = std::move(nearest[i].image);
     }
   }
   AddSilentCameras(take, samples);
-  Carve(samples, voxel_mm);
+  Carve(shadings, voxel_mm, samples);
   return samples;
 }
 

@@ -51,6 +51,7 @@ TakePictures::TakePictures(const std::filesystem::path& take)
     cameras_.push_back(std::move(camera));
     tables_.emplace_back(calibration);
   }
+  shadows_.emplace(calibrations_);
 }
 
 std::vector<RigidTransform> TakePictures::FirstPoses() const {
@@ -83,7 +84,19 @@ std::vector<TakePicture> TakePictures::At(std::int64_t time_ns) {
                         .image = camera.image,
                         .trimap = Segment(camera, row.angles)});
   }
+  DecideFloor(pictures);
   return pictures;
+}
+
+void TakePictures::DecideFloor(std::vector<TakePicture>& pictures) {
+  std::vector<ShadedView> views;
+  for (TakePicture& picture : pictures) {
+    if (!picture.trimap) continue;
+    const auto camera = static_cast<std::size_t>(picture.camera);
+    views.push_back({picture.camera, &tables_[camera], picture.X_CW,
+                     &cameras_[camera].segmenter->shading(), &*picture.trimap});
+  }
+  shadows_->Complete(views);
 }
 
 bool TakePictures::Seek(Camera& camera, std::size_t row) const {

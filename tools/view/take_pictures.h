@@ -10,6 +10,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
+#include "core/reconstruction/carving/floor_shadows.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
@@ -42,7 +43,8 @@ class TakePictures {
   /// Frame times of the camera with most frames [ns].
   std::vector<std::int64_t> Times() const;
 
-  /// Pictures of all cameras that have a frame within half a period of a time.
+  /// Pictures of all cameras that have a frame within half a period of a time. Trimaps are those
+  /// that are carved: the floor is decided from all cameras' views.
   std::vector<TakePicture> At(std::int64_t time_ns);
   /// Returns the share of unknown pixels where a picture shows a hull of the same moment.
   std::optional<double> UnknownShareOf(const TakePicture& picture, const VoxelGrid& hull) const;
@@ -61,6 +63,7 @@ class TakePictures {
   };
 
   bool Seek(Camera& camera, std::size_t row) const;
+  void DecideFloor(std::vector<TakePicture>& pictures);
   std::optional<Trimap> Segment(Camera& camera, const PanTiltAngles& angles) const;
 
   std::string name_;
@@ -69,6 +72,7 @@ class TakePictures {
   std::vector<CameraCalibration> calibrations_;
   std::vector<Camera> cameras_;
   std::vector<SensorPlaneTable> tables_;
+  std::optional<FloorShadows> shadows_;
   Carver carver_;
 };
 
