@@ -18,8 +18,9 @@ constexpr double kNudged_px = 0.75;
 /// Beyond this, colours no longer match the background.
 constexpr double kDarkest = 0.6, kBrightest = 1.5;
 
-/// Where more of the people is unknown, poses become worse: docs/contrast.md has the measurement.
-constexpr double kMostUnknown = 0.3;
+/// Where simulated people were unknown to this share, errors were several times as large:
+/// docs/contrast.md has the table.
+constexpr double kMostUnknown = 0.1;
 
 using Lines = std::vector<std::string>;
 

@@ -330,10 +330,10 @@ TEST(ServiceReport, ANodeThatNoStudioHearsIsNotGood) {
 
 TEST(ServiceReport, ClothesLikeTheWallAreNamedByCamera) {
   ServiceReport report = Good();
-  report.now.status.cameras[0].health.unknown_share = 0.1;
+  report.now.status.cameras[0].health.unknown_share = 0.09;
   report.now.status.cameras[1].health.unknown_share = 0.4;
   EXPECT_THAT(Diagnostics(report), ElementsAre(StartsWith("cam2 cannot tell 40 % of the people")));
-  report.now.status.cameras[1].health.unknown_share = 0.2;
+  report.now.status.cameras[1].health.unknown_share = 0.09;
   EXPECT_THAT(Diagnostics(report), IsEmpty());
 }
 
