@@ -103,16 +103,16 @@ std::optional<EvidenceRise> LargestRise(std::span<const EvidenceSummary> kinds) 
 
 std::string EvidenceHeader() {
   return fmt::format("{:>8}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}{:>11}\n", "contrast", "crf",
-                     "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %", "unknown %");
+                     "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %",
+                     "unknown %");
 }
 
 std::string EvidenceLine(const EvidenceRow& row) {
-  return fmt::format("{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}{:>11.0f}\n",
-                     row.kind.contrast, CrfText(row.kind.crf), row.kind.cameras,
-                     row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.seed,
-                     ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
-                     100 * row.accuracy.tracked_share, 100 * row.hull_share,
-                     100 * row.unknown_share);
+  return fmt::format(
+      "{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}{:>11.0f}\n", row.kind.contrast,
+      CrfText(row.kind.crf), row.kind.cameras, row.accuracy.motion, row.accuracy.stature_mm,
+      row.accuracy.seed, ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
+      100 * row.accuracy.tracked_share, 100 * row.hull_share, 100 * row.unknown_share);
 }
 
 std::string EvidenceTable(std::span<const EvidenceRow> rows) {
