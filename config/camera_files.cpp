@@ -13,6 +13,8 @@
 #include "core/errors.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/mask_video.h"
+#include "drivers/take/take_layout.h"
 
 namespace mocap {
 namespace {
@@ -25,6 +27,7 @@ void ReadBackground(const std::filesystem::path& file, const CameraCalibration& 
                     const std::vector<TakeRow>& rows, const BackgroundSource::Visit& visit) {
   VideoReader video = OpenCameraVideo(file, camera);
   BackgroundFrame frame{Image<Bgr>(camera.width_px, camera.height_px), {}};
+  if (IsThere(UnseenBeside(file))) frame.unseen = ReadMask(UnseenBeside(file));
   ImageView<const Bgr> view;
   const std::size_t most = camera.head ? rows.size() : kMostStillFrames;
   for (std::size_t i = 0; i < most; ++i) {
@@ -101,6 +104,12 @@ BackgroundSource OpenCameraBackground(const std::filesystem::path& video,
                                       const std::filesystem::path& table,
                                       const CameraCalibration& camera) {
   OpenCameraVideo(video, camera);
+  if (const std::filesystem::path unseen = UnseenBeside(video); IsThere(unseen)) {
+    if (camera.head)
+      throw SetupError(unseen.string() + ": " + camera.name +
+                       " is on a pan-tilt head; expected such a mask only of fixed cameras");
+    OpenCameraVideo(unseen, camera);
+  }
   std::vector<TakeRow> rows;
   if (camera.head) rows = ReadCameraTable(table, camera).rows;
   return BackgroundSource::OneByOne(

@@ -16,7 +16,8 @@ VideoReader OpenCameraVideo(const std::filesystem::path& file, const CameraCalib
 /// Reads a table. @throws SetupError  also if a pan-tilt head has no angles, or vice versa.
 TakeTable ReadCameraTable(const std::filesystem::path& file, const CameraCalibration& camera);
 
-/// Checks that a camera's background pictures exist. The source reads them on demand, one by one,
+/// Checks that a camera's background pictures exist, and what is known of them (UnseenBeside). The
+/// source reads them on demand, one by one,
 /// in any thread.
 /// @param table  of angles; used only for a camera on a pan-tilt head.
 /// @throws SetupError  naming the file.

@@ -14,46 +14,17 @@
 #include "config/load_config.h"
 #include "config/take_header.h"
 #include "core/errors.h"
-#include "drivers/nearest_name.h"
+#include "daemon/service/occupied_room.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/unfinished_folder.h"
-#include "drivers/take/video_reader.h"
 #include "tools/background_recorder.h"
-#include "tools/occupied_room.h"
 #include "tools/stop_on_signals.h"
 
 namespace mocap {
 namespace {
-
-/// Every `step`-th picture of a video.
-BackgroundSource PicturesOf(const std::filesystem::path& file, int step) {
-  return BackgroundSource::OneByOne([file, step](const BackgroundSource::Visit& visit) {
-    VideoReader video(file);
-    BackgroundFrame frame{Image<Bgr>(video.width_px(), video.height_px()), {}};
-    ImageView<const Bgr> view;
-    for (int i = 0;; ++i) {
-      EndIfStopAsked();
-      const VideoStatus status = i % step == 0 ? video.Read(view) : video.Skip();
-      if (status == VideoStatus::kEnd) return;
-      if (i % step != 0 || status == VideoStatus::kBroken) continue;
-      for (int y = 0; y < view.height(); ++y)
-        std::copy_n(view.row(y), view.width(), frame.image.row(y));
-      visit(frame);
-    }
-  });
-}
-
-void RequireCameras(const std::vector<std::string>& accepted,
-                    const std::vector<std::string>& cameras) {
-  for (const std::string& name : accepted) {
-    if (std::ranges::find(cameras, name) != cameras.end()) continue;
-    throw SetupError("--accept: there is no camera " + Quoted(name) + "; " +
-                     ExpectedNames(name, cameras));
-  }
-}
 
 void RequireFixed(const std::string& camera, bool is_on_head) {
   if (!is_on_head) return;
@@ -97,13 +68,10 @@ void LearnAll(const std::vector<std::string>& cameras,
   for (const std::string& name : cameras) {
     OccupiedRoom room{name, pictures(name), std::nullopt,
                       std::ranges::count(options.accepted, name) > 0};
-    const std::filesystem::path stored = folder / (name + ".mkv"), here = partial / (name + ".mkv");
-    if (IsThere(stored)) room.stored = PicturesOf(stored, 1);
-    // A camera's name has no dot.
-    const std::filesystem::path learned = partial / (name + ".learned.mkv");
+    const std::filesystem::path stored = folder / (name + ".mkv");
+    if (IsThere(stored)) room.stored = PicturesOf(stored, 1, EndIfStopAsked);
     if (isatty(STDERR_FILENO)) std::fprintf(stderr, "learning %s\n", name.c_str());
-    records.push_back(LearnOccupied(room, learned));
-    std::filesystem::rename(learned, here);
+    records.push_back(LearnInPlace(room, partial));
   }
   ReplaceBackground(folder, partial);
   for (const OccupiedRecord& record : records) {
@@ -122,7 +90,7 @@ void LearnFromOccupiedStudio(const std::filesystem::path& file, const OccupiedOp
     names.push_back(camera.name);
     RequireFixed(camera.name, camera.head != nullptr);
   }
-  RequireCameras(options.accepted, names);
+  RequireAccepted(options.accepted, names);
   const std::filesystem::path partial = BeginBackground(config.background);
   UnfinishedFolder unfinished(partial);
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "recording for %g s\n", options.seconds);
@@ -134,7 +102,10 @@ void LearnFromOccupiedStudio(const std::filesystem::path& file, const OccupiedOp
   for (std::future<void>& recording : recordings) recording.wait();
   for (std::future<void>& recording : recordings) recording.get();
   LearnAll(
-      names, [&](const std::string& name) { return PicturesOf(partial / (name + ".mkv"), 1); },
+      names,
+      [&](const std::string& name) {
+        return PicturesOf(partial / (name + ".mkv"), 1, EndIfStopAsked);
+      },
       config.background, partial, options);
   unfinished.Finish();
 }
@@ -148,7 +119,7 @@ void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesys
     RequireFixed(camera.name, camera.head.has_value());
   const LearnedPlace place = config.empty() ? LearnedPlace{header.cameras, layout.Background()}
                                             : StudioOfTake(config, header.cameras, take);
-  RequireCameras(options.accepted, place.cameras);
+  RequireAccepted(options.accepted, place.cameras);
   const std::filesystem::path partial = BeginBackground(place.folder);
   UnfinishedFolder unfinished(partial);
   LearnAll(
@@ -157,7 +128,8 @@ void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesys
         const std::size_t frames = ReadTakeTable(layout.Table(name)).rows.size();
         const double apart = std::max(header.fps_nominal / kOccupiedFps,
                                       static_cast<double>(frames) / kMostOccupiedPictures);
-        return PicturesOf(layout.Video(name), std::max(1, static_cast<int>(std::ceil(apart))));
+        return PicturesOf(layout.Video(name), std::max(1, static_cast<int>(std::ceil(apart))),
+                          EndIfStopAsked);
       },
       place.folder, partial, options);
   unfinished.Finish();

@@ -9,9 +9,9 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
+#include "daemon/service/occupied_room.h"
 #include "drivers/clock.h"
 #include "drivers/take/video_writer.h"
-#include "tools/occupied_room.h"
 #include "tools/stop_on_signals.h"
 
 namespace mocap {

@@ -179,7 +179,8 @@ Sources SourcesOf(const std::vector<Part>& parts) {
       const TakeLayout& from = part.layout;
       for (const fs::path& file :
            {from.Video(camera.name), from.Table(camera.name), from.BackgroundVideo(camera.name),
-            from.BackgroundTable(camera.name), from.Mask(camera.name)}) {
+            from.BackgroundTable(camera.name), from.BackgroundUnseen(camera.name),
+            from.Mask(camera.name)}) {
         if (IsThere(file)) sources.emplace(file.lexically_relative(from.folder), file);
       }
     }

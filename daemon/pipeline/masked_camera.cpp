@@ -6,25 +6,13 @@
 #include <utility>
 
 #include "drivers/clock.h"
+#include "drivers/take/mask_video.h"
 
 namespace mocap {
 namespace {
 
 /// Limits the time that a stop can take.
 constexpr std::chrono::milliseconds kMaskTimeout{100};
-constexpr std::uint8_t kDarkestWhite = 128;
-
-void TakeWhite(ImageView<const Bgr> mask, Silhouette& silhouette) {
-  silhouette.Reset(mask.width(), mask.height());
-  for (int y = 0; y < mask.height(); ++y) {
-    const Bgr* const row = mask.row(y);
-    std::uint64_t* const words = silhouette.row(y);
-    for (int x = 0; x < mask.width(); ++x) {
-      words[x / 64] |= std::uint64_t{row[x].g >= kDarkestWhite} << x % 64;
-    }
-  }
-  silhouette.KeepBox();
-}
 
 /// The shading of a picture in which every place has its usual brightness.
 void SetUnshaded(int width, int height, Shading& shading) {

@@ -219,6 +219,8 @@ void Recording::RunCamera(std::size_t camera) {
   Guard([&] {
     std::int64_t time_ns = 0;
     recorded.background.ForEach([&](const BackgroundFrame& frame) {
+      if (time_ns == 0 && frame.unseen.BoundingBox())
+        writer_->WriteUnseen(static_cast<int>(camera), frame.unseen);
       writer_->WriteBackground(static_cast<int>(camera), frame.image.view(), time_ns++,
                                frame.angles);
     });

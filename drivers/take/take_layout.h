@@ -22,6 +22,12 @@ inline bool IsHidden(const std::filesystem::path& file) {
   return file.filename().native().starts_with('.');
 }
 
+/// The mask beside a background's video: white where the camera never saw the empty studio. Without
+/// the file, it saw all of it.
+inline std::filesystem::path UnseenBeside(std::filesystem::path background_video) {
+  return background_video.replace_extension(".unseen.mkv");
+}
+
 /// The files of the take in `folder`.
 struct TakeLayout {
   std::filesystem::path folder;
@@ -40,6 +46,9 @@ struct TakeLayout {
   }
   std::filesystem::path BackgroundTable(const std::string& camera) const {
     return Background() / (camera + ".csv");
+  }
+  std::filesystem::path BackgroundUnseen(const std::string& camera) const {
+    return UnseenBeside(BackgroundVideo(camera));
   }
   std::filesystem::path Masks() const { return folder / "silhouette"; }
   std::filesystem::path Mask(const std::string& camera) const {

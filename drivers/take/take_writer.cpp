@@ -12,6 +12,7 @@
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
 #include "drivers/take/toml_text.h"
@@ -163,6 +164,12 @@ class TakeWriter::Impl {
     return *video;
   }
 
+  void WriteUnseen(int camera, const Silhouette& unseen) {
+    const std::string& name = calibrations_[Checked(camera)].name;
+    std::filesystem::create_directory(layout_.Background());
+    mocap::WriteMask(layout_.BackgroundUnseen(name), unseen);
+  }
+
   VideoWriter& mask(int camera) {
     std::optional<VideoWriter>& video = masks_[Checked(camera)];
     if (!video) {
@@ -309,6 +316,9 @@ void TakeWriter::SkipFrames(int camera, std::uint64_t count) { impl_->frames(cam
 void TakeWriter::WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                                  const PanTiltAngles& angles) {
   impl_->background(camera).Write(image, capture_ns, angles);
+}
+void TakeWriter::WriteUnseen(int camera, const Silhouette& unseen) {
+  impl_->WriteUnseen(camera, unseen);
 }
 void TakeWriter::WriteMask(int camera, ImageView<const std::uint8_t> mask) {
   impl_->mask(camera).Write(mask);

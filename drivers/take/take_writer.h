@@ -11,6 +11,7 @@
 
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -51,8 +52,8 @@ void RequireNewTake(const std::filesystem::path& folder, const std::filesystem::
 /// Writes a take into FOLDER.partial, which is renamed to FOLDER when complete.
 ///
 /// After an interruption, FOLDER.partial opens as a take. The same calls give the same bytes.
-/// WriteFrame, SkipFrames and WriteBackground may be called from one thread per camera; everything
-/// else is thread-bound.
+/// WriteFrame, SkipFrames, WriteBackground and WriteUnseen may be called from one thread per
+/// camera; everything else is thread-bound.
 class TakeWriter {
  public:
   /// @throws SetupError  when the folder or its .partial exists or cannot be created, or when the
@@ -72,6 +73,8 @@ class TakeWriter {
   /// Appends a frame of the empty studio.
   void WriteBackground(int camera, ImageView<const Bgr> image, std::int64_t capture_ns,
                        const PanTiltAngles& angles = {});
+  /// Writes where a fixed camera never saw the empty studio, once.
+  void WriteUnseen(int camera, const Silhouette& unseen);
   /// Appends a true mask: 0 background, 255 person; one per frame.
   void WriteMask(int camera, ImageView<const std::uint8_t> mask);
 

@@ -5,6 +5,7 @@
 
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
 #include "tests/support/gray_video.h"
 #include "tests/support/images.h"
@@ -83,6 +84,31 @@ TEST_F(OpenedTake, BackgroundComesWithTheAnglesOfTheHead) {
     EXPECT_TRUE(testing::SamePixels<Bgr>(background[i].image.view(),
                                          SmallPicture(take_, 1, 100 + i).view()));
   }
+}
+
+TEST_F(OpenedTake, EachPictureOfTheBackgroundKnowsWhatWasNeverSeenEmpty) {
+  WriteSmallTake(layout_.folder, take_);
+  Silhouette unseen(take_.width_px, take_.height_px);
+  unseen.Set(7, 3);
+  WriteMask(layout_.BackgroundUnseen("cam2"), unseen);
+  const Studio studio = OpenTake(layout_.folder, {});
+  for (const BackgroundFrame& frame : studio.cameras[1].background())
+    EXPECT_EQ(frame.unseen.words(), unseen.words());
+  for (const BackgroundFrame& frame : studio.cameras[0].background())
+    EXPECT_FALSE(frame.unseen.BoundingBox()) << "all of it is known";
+}
+
+TEST_F(OpenedTake, AMaskOfTheBackgroundThatDoesNotFitIsNamed) {
+  WriteSmallTake(layout_.folder, take_);
+  WriteMask(layout_.BackgroundUnseen("cam2"), Silhouette(take_.width_px / 2, take_.height_px));
+  EXPECT_THAT(ErrorOnOpening({}), AllOf(HasSubstr("cam2.unseen.mkv: has pictures of "),
+                                        HasSubstr("cam2 is calibrated for ")));
+  fs::remove_all(layout_.folder);
+  take_.heads = true;
+  WriteSmallTake(layout_.folder, take_);
+  WriteMask(layout_.BackgroundUnseen("cam2"), Silhouette(take_.width_px, take_.height_px));
+  EXPECT_THAT(ErrorOnOpening({}),
+              HasSubstr("cam2.unseen.mkv: cam2 is on a pan-tilt head; expected such a mask only"));
 }
 
 TEST_F(OpenedTake, ChosenCamerasKeepTheOrderOfTheTake) {

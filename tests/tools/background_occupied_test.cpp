@@ -12,13 +12,17 @@
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/service/occupied_room.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
+#include "drivers/take/video_reader.h"
 #include "drivers/take/video_writer.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/background.h"
-#include "tools/occupied_room.h"
+#include "tools/evaluate.h"
 #include "tools/simulate.h"
+#include "tools/track.h"
 
 namespace mocap {
 namespace {
@@ -29,11 +33,12 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string Simulate(const fs::path& take, const std::string& options) {
+void Simulate(const fs::path& take, const std::string& options,
+              const std::string& studio = "--width 160 --height 120 --cameras 3") {
   ::testing::internal::CaptureStdout();
-  testing::RunCommand(AddSimulateCommand, "simulate --width 160 --height 120 --cameras 3 --out " +
-                                              take.string() + " " + options);
-  return ::testing::internal::GetCapturedStdout();
+  testing::RunCommand(AddSimulateCommand,
+                      "simulate --out " + take.string() + ' ' + studio + ' ' + options);
+  ::testing::internal::GetCapturedStdout();
 }
 
 /// Two people walk about for a minute.
@@ -202,13 +207,112 @@ TEST(OccupiedRecord, NamesTheLargestThingsAndCountsTheOthers) {
   EXPECT_EQ(lines[4], "cam1: likewise at 2 smaller places");
 }
 
+/// Somebody in a striped shirt stands before the wall of a camera all the time, swaying.
+Bgr StripedAt(int picture, int x, int y, const Bgr& wall) {
+  const int right = picture * 7 % 5, down = picture / 5 * 2 % 5;
+  if (x < 30 + right || x >= 70 + right || y < 60 + down || y >= 186 + down) return wall;
+  return (y - down) / 20 % 2 == 0 ? Bgr{190, 60, 40} : Bgr{40, 170, 190};
+}
+
+/// A place that changes all the time.
+Bgr BusyAt(int picture, int x, int y, const Bgr& wall) {
+  const auto grey = static_cast<std::uint8_t>(picture * 67 % 250);
+  return x >= 10 && x < 34 && y >= 80 && y < 110 ? Bgr{grey, 128, grey} : wall;
+}
+
+/// Paints each pixel of a video, in each of its pictures.
+void Repaint(const fs::path& file, Bgr (*paint)(int picture, int x, int y, const Bgr& wall)) {
+  const fs::path painted = file.string() + ".painted.mkv";
+  {
+    VideoReader from(file);
+    VideoWriter to(painted, from.width_px(), from.height_px(), 1, VideoPixels::kBgr);
+    ImageView<const Bgr> view;
+    for (int i = 0; from.Read(view) == VideoStatus::kFrame; ++i) {
+      Image<Bgr> image(view.width(), view.height());
+      for (int y = 0; y < view.height(); ++y)
+        for (int x = 0; x < view.width(); ++x) image(x, y) = paint(i, x, y, view(x, y));
+      to.Write(image.view());
+    }
+    to.Finish();
+  }
+  fs::rename(painted, file);
+}
+
+/// The mean error of two people's tracking [mm], and how many frames somebody was tracked in.
+std::pair<double, int> TrackedWithin(const fs::path& take) {
+  const auto number_in = [](const std::string& command, const std::string& key, auto add) {
+    ::testing::internal::CaptureStdout();
+    testing::RunCommand(add, command);
+    const std::string said = ::testing::internal::GetCapturedStdout();
+    const std::size_t at = said.find('"' + key + "\":");
+    return at == std::string::npos ? -1 : std::stod(said.substr(at + key.size() + 3));
+  };
+  const std::string result = take.string() + "-result";
+  const double tracked = number_in("track " + take.string() + " --people 2 --json --out " + result,
+                                   "tracked_frames", AddTrackCommand);
+  const double error_mm = number_in("evaluate " + take.string() + ' ' + result + "/person-1 --json",
+                                    "mpjpe_mm", AddEvaluateCommand);
+  return {error_mm, static_cast<int>(tracked)};
+}
+
+TEST(StayedStudio, SomebodyWhoStoodBeforeAWallAllTheTimeIsUnknownAndTrackingIsAsInTheEmptyRoom) {
+  const testing::TemporaryFolder folder;
+  const TakeLayout minute{folder.path() / "minute"}, walk{folder.path() / "walk"};
+  const std::string studio = "--width 320 --height 240 --cameras 5 --seed 4";
+  Simulate(minute.folder, "--people 2 --seconds 40 --fps 1", studio);
+  Simulate(walk.folder, "--seconds 1.5 --fps 20", studio);
+  const auto [error_mm, tracked] = TrackedWithin(walk.folder);
+  fs::remove_all(minute.Background());
+  Repaint(minute.Video("cam1"), StripedAt);
+  ::testing::internal::CaptureStdout();
+  testing::RunCommand(AddBackgroundCommand,
+                      "background learn --occupied --take " + minute.folder.string());
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(),
+              ContainsRegex("cam1: 40 pictures, [0-9.]+ % of its picture was never seen without "
+                            "people; it is unknown\n"));
+  const Silhouette unseen = ReadMask(minute.BackgroundUnseen("cam1"));
+  for (int y = 62; y < 188; ++y)
+    for (int x = 36; x < 68; ++x) ASSERT_TRUE(unseen.Test(x, y)) << x << " " << y;
+  EXPECT_LT(unseen.CoveredShare(), 0.1);
+  fs::remove_all(walk.Background());
+  fs::copy(minute.Background(), walk.Background(), fs::copy_options::recursive);
+  const auto [learned_mm, learned_tracked] = TrackedWithin(walk.folder);
+  EXPECT_GE(learned_tracked, tracked - 1);
+  EXPECT_NEAR(learned_mm, error_mm, 0.1 * error_mm);
+}
+
+TEST_F(WalkedStudio, WhatWasUnknownIsLearnedOnceItIsSeen) {
+  fs::remove_all(take_.Background());
+  const fs::path seen = folder_->path() / "seen.mkv";
+  fs::copy(take_.Video("cam2"), seen);
+  Repaint(take_.Video("cam2"), BusyAt);
+  Learn();
+  EXPECT_TRUE(ReadMask(take_.BackgroundUnseen("cam2")).Test(20, 95));
+  fs::copy(seen, take_.Video("cam2"), fs::copy_options::overwrite_existing);
+  EXPECT_THAT(Learn(), Not(HasSubstr("cam2: something was moved")));
+  EXPECT_FALSE(fs::exists(take_.BackgroundUnseen("cam2")) &&
+               ReadMask(take_.BackgroundUnseen("cam2")).Test(20, 95));
+  EXPECT_NEAR(GreenAt(Background(take_, "cam2"), 20, 95),
+              GreenAt(Background(TakeLayout{Minute()}, "cam2"), 20, 95), 5);
+}
+
 TEST_F(WalkedStudio, WhatCannotBeLearnedIsOneLine) {
   const fs::path still = folder_->path() / "still", turned = folder_->path() / "turned";
-  EXPECT_THAT(Refusal(""), HasSubstr("--occupied needs --config FILE"));
   EXPECT_THAT(Refusal("--accept cam9 --take " + take_.folder.string()),
               HasSubstr("--accept: there is no camera \"cam9\""));
   Simulate(still, "--people 2 --motion sit --seconds 60 --fps 1");
   fs::remove_all(still / "background");
+  {
+    VideoWriter busy(still / "cam1.mkv", 160, 120, 1, VideoPixels::kBgr);
+    for (int i = 0; i < 60; ++i) {
+      Image<Bgr> image(160, 120);
+      for (std::size_t k = 0; k < image.pixels().size(); ++k)
+        image.pixels()[k] =
+            k % 4 == 0 ? Bgr{static_cast<std::uint8_t>(i * 67), 90, 30} : Bgr{90, 100, 110};
+      busy.Write(image.view());
+    }
+    busy.Finish();
+  }
   EXPECT_THAT(Refusal("--take " + still.string()),
               ContainsRegex("cam1: [0-9.]+ % of its picture was never seen without people"));
   Simulate(turned, "--seconds 2 --fps 4 --pan-tilt");

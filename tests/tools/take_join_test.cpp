@@ -17,6 +17,7 @@
 #include "config/load_config.h"
 #include "config/open_studio.h"
 #include "drivers/take/calibration_file.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/toml_text.h"
@@ -59,7 +60,8 @@ void Part(const fs::path& take, const std::vector<std::string>& all,
     }
     for (const fs::path& file :
          {layout.Video(camera.name), layout.Table(camera.name), layout.BackgroundVideo(camera.name),
-          layout.BackgroundTable(camera.name), layout.Mask(camera.name)}) {
+          layout.BackgroundTable(camera.name), layout.BackgroundUnseen(camera.name),
+          layout.Mask(camera.name)}) {
       fs::remove(file);
     }
   }
@@ -72,6 +74,9 @@ class JoinedTakes : public ::testing::Test {
   /// Three cameras, of which one computer has two.
   void Split(const testing::SmallTake& take = {}) {
     testing::WriteSmallTake(whole_, take);
+    if (!take.heads)
+      WriteMask(TakeLayout{whole_}.BackgroundUnseen("cam3"),
+                Silhouette(take.width_px, take.height_px));
     const std::vector<std::string> all = {"cam1", "cam2", "cam3"};
     Part(whole_, all, {"cam1", "cam2"}, left_);
     Part(whole_, all, {"cam3"}, right_);
@@ -125,6 +130,7 @@ TEST_F(JoinedTakes, AWalkOfSixCamerasGivesTheSamePosesSplitAndJoined) {
 TEST_F(JoinedTakes, HaveTheCamerasOfAllInTheOrderOfTheTakes) {
   Split();
   EXPECT_EQ(Join().cameras, 3u);
+  EXPECT_TRUE(fs::exists(TakeLayout{joined_}.BackgroundUnseen("cam3")));
   std::vector<std::string> names;
   for (const StudioCamera& camera : OpenTake(joined_, {}).cameras)
     names.push_back(camera.calibration.name);

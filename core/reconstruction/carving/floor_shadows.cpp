@@ -86,7 +86,7 @@ void FloorShadows::Complete(std::span<ShadedView> views) {
     Gather(views, i);
     Trimap& trimap = *views[i].trimap;
     const bool has_clothes = AddClothes(views[i].shading->dark, trimap);
-    const bool has_shadows = DropShadows(trimap.unknown);
+    const bool has_shadows = DropShadows(*views[i].shading, trimap.unknown);
     views[i].has_changed = has_clothes || has_shadows;
   }
 }
@@ -105,16 +105,18 @@ bool FloorShadows::AddClothes(const Silhouette& dark, Trimap& trimap) {
   return true;
 }
 
-// Shadows fade out in the tiles around.
-bool FloorShadows::DropShadows(Silhouette& unknown) {
+// Shadows fade out in the tiles around, except where the camera does not know the floor.
+bool FloorShadows::DropShadows(const Shading& shading, Silhouette& unknown) {
   const std::optional<PixelBox> box = unknown.BoundingBox();
   if (!box || !shadows_.BoundingBox()) return false;
   Dilate(shadows_, 1, scratch_);
   std::uint64_t dropped = 0;
   for (int y = box->top; y <= box->bottom; ++y) {
     std::uint64_t* const row = unknown.row(y);
+    const Shading::Shade* const shades =
+        &shading.shades[static_cast<std::size_t>(y / kTile_px) * shading.tile_columns];
     for (int column = box->left / kTile_px; column <= box->right / kTile_px; ++column) {
-      if (!scratch_.Test(column, y / kTile_px)) continue;
+      if (!scratch_.Test(column, y / kTile_px) || shades[column] == Shading::kUnknown) continue;
       const std::uint64_t tile = std::uint64_t{0xff} << column % 8 * 8;
       dropped |= row[column / 8] & tile;
       row[column / 8] &= ~tile;

@@ -50,7 +50,7 @@ class FloorShadows {
   void Open();
   // Return whether anything changed.
   bool AddClothes(const Silhouette& dark, Trimap& trimap);
-  bool DropShadows(Silhouette& unknown);
+  bool DropShadows(const Shading& shading, Silhouette& unknown);
 
   // For each camera, the direction of each tile's centre, at depth 1; zero if there is none.
   std::vector<std::vector<Vector3>> directions_C_;

@@ -80,15 +80,17 @@ std::optional<Color> ClearAmong(const std::array<Color, ShownColors::kColors>& c
 }
 
 /// Adds to what was moved, and to what is unseen, what differs slightly beside it.
-void Spread(const Image<Bgr>& earlier, EmptyRoom& room) {
+void Spread(const EarlierRoom& earlier, EmptyRoom& room) {
+  const int width = earlier.color.width(), height = earlier.color.height();
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < room.places.size(); ++i)
     if (room.places[i] != Place::kSeen) reached.push_back(i);
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const std::size_t from = reached[next];
-    ForEachNeighbour(from, earlier.width(), earlier.height(), [&](std::size_t to) {
-      if (room.places[to] != Place::kSeen ||
-          DifferenceOf(earlier.pixels()[to], room.color.pixels()[to]) <= kSlightDifference)
+    ForEachNeighbour(from, width, height, [&](std::size_t to) {
+      const int x = static_cast<int>(to) % width, y = static_cast<int>(to) / width;
+      if (room.places[to] != Place::kSeen || !earlier.Knows(x, y) ||
+          DifferenceOf(earlier.color(x, y), room.color(x, y)) <= kSlightDifference)
         return;
       room.places[to] = Place::kMoved;
       reached.push_back(to);
@@ -105,15 +107,17 @@ double EmptyRoom::ShareOf(Place place) const {
 
 void EmptyRoom::ForgetMoved() { std::ranges::replace(places, Place::kMoved, Place::kUnseen); }
 
-EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier) {
+EmptyRoom FindEmptyRoom(const ShownColors& shown, const EarlierRoom* earlier) {
   EmptyRoom room{Image<Bgr>(shown.width(), shown.height()), {}};
   room.places.resize(room.color.pixels().size(), Place::kUnseen);
   for (std::size_t i = 0; i < room.places.size(); ++i) {
     const std::array<Color, ShownColors::kColors> colors = shown.At(i);
     std::optional<Color> settled = ClearAmong(colors, shown);
     Place place = Place::kSeen;
-    if (earlier && (!settled || HasMoved(earlier->pixels()[i], settled->mean))) {
-      const std::optional<Color> known = KnownAmong(colors, earlier->pixels()[i]);
+    const int x = static_cast<int>(i) % shown.width(), y = static_cast<int>(i) / shown.width();
+    const bool is_known = earlier && earlier->Knows(x, y);
+    if (is_known && (!settled || HasMoved(earlier->color(x, y), settled->mean))) {
+      const std::optional<Color> known = KnownAmong(colors, earlier->color(x, y));
       if (!known) place = Place::kMoved;
       if (known) settled = known;
     }

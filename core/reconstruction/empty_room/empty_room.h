@@ -6,8 +6,17 @@
 
 #include "core/image.h"
 #include "core/reconstruction/empty_room/shown_colors.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
+
+/// The empty studio as it was seen before.
+struct EarlierRoom {
+  Image<Bgr> color;   ///< Smooth, in the present light.
+  Silhouette unseen;  ///< Where it was not seen then, either; may be without size.
+
+  bool Knows(int x, int y) const { return unseen.width() == 0 || !unseen.Test(x, y); }
+};
 
 /// What pictures of an occupied studio tell about the empty one.
 struct EmptyRoom {
@@ -30,7 +39,7 @@ struct EmptyRoom {
 /// of the pictures and twice as often as any other, or in some of them if the studio had it before.
 /// Its shades by shadows are no other colours, and the brightest of them counts if it is frequent.
 /// What differs clearly from before was moved, and so was what differs slightly beside it.
-/// @param earlier  the empty studio before, in the present light; null: unknown.
-EmptyRoom FindEmptyRoom(const ShownColors& shown, const Image<Bgr>* earlier);
+/// @param earlier  null: unknown.
+EmptyRoom FindEmptyRoom(const ShownColors& shown, const EarlierRoom* earlier);
 
 }  // namespace mocap

@@ -10,9 +10,7 @@ namespace mocap {
 
 /// Part of a picture where the empty studio changed.
 struct MovedThing {
-  static constexpr int kTile_px = 8;  ///< Boxes consist of squares of this size.
-
-  PixelBox box;
+  PixelBox box;  ///< Of whole tiles.
   int area_px = 0;
 };
 

@@ -11,8 +11,7 @@
 namespace mocap {
 namespace {
 
-constexpr int kRadius_px = 2;
-constexpr int kWindow = 2 * kRadius_px + 1;
+constexpr int kWindow = 2 * kSmoothed_px + 1;
 /// Near black and near white, ratios mean nothing [grey levels].
 constexpr int kDarkestLit = 16, kBrightestLit = 250;
 /// A part of the pixels is enough to measure the light. Of these, those that differ from the median
@@ -39,14 +38,14 @@ void AverageRow(const RowSums& columns, Bgr* out) {
   const auto at = [&](int x) { return columns[std::clamp(x, 0, width - 1)]; };
   constexpr int kPixels = kWindow * kWindow;
   std::array<int, 3> sum{};
-  for (int x = -kRadius_px; x <= kRadius_px; ++x)
+  for (int x = -kSmoothed_px; x <= kSmoothed_px; ++x)
     for (int c = 0; c < 3; ++c) sum[c] += at(x)[c];
   for (int x = 0; x < width; ++x) {
     const auto mean = [&](int c) {
       return static_cast<std::uint8_t>((sum[c] + kPixels / 2) / kPixels);
     };
     out[x] = {mean(0), mean(1), mean(2)};
-    for (int c = 0; c < 3; ++c) sum[c] += at(x + kRadius_px + 1)[c] - at(x - kRadius_px)[c];
+    for (int c = 0; c < 3; ++c) sum[c] += at(x + kSmoothed_px + 1)[c] - at(x - kSmoothed_px)[c];
   }
 }
 
@@ -87,11 +86,11 @@ Image<Bgr> Smooth(ImageView<const Bgr> picture) {
   Image<Bgr> smooth(picture.width(), picture.height());
   const auto row = [&](int y) { return picture.row(std::clamp(y, 0, picture.height() - 1)); };
   RowSums columns(static_cast<std::size_t>(picture.width()));
-  for (int y = -kRadius_px; y <= kRadius_px; ++y) AddRow(row(y), 1, columns);
+  for (int y = -kSmoothed_px; y <= kSmoothed_px; ++y) AddRow(row(y), 1, columns);
   for (int y = 0; y < picture.height(); ++y) {
     AverageRow(columns, smooth.row(y));
-    AddRow(row(y + kRadius_px + 1), 1, columns);
-    AddRow(row(y - kRadius_px), -1, columns);
+    AddRow(row(y + kSmoothed_px + 1), 1, columns);
+    AddRow(row(y - kSmoothed_px), -1, columns);
   }
   return smooth;
 }

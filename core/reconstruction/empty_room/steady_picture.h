@@ -17,6 +17,9 @@ Image<Bgr> InLight(const Image<Bgr>& picture, const LightGain& gain);
 /// it may show something else.
 LightGain LightBetween(const Image<Bgr>& before, const Image<Bgr>& now);
 
+/// Smooth() mixes pixels up to this far apart in each direction.
+inline constexpr int kSmoothed_px = 2;
+
 /// Returns the means around each pixel: noise of single pixels would hide soft shadows.
 Image<Bgr> Smooth(ImageView<const Bgr> picture);
 

@@ -11,6 +11,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/distortion_thresholds.h"
 #include "core/reconstruction/silhouette/region_of_interest.h"
+#include "core/reconstruction/silhouette/silhouette.h"
 
 namespace mocap {
 
@@ -18,6 +19,9 @@ namespace mocap {
 struct BackgroundFrame {
   Image<Bgr> image;
   PanTiltAngles angles;
+  /// Pixels at which the empty studio was never seen: their colours mean nothing. May be without
+  /// size. Only of cameras that do not move.
+  Silhouette unseen = {};
 };
 
 /// The learned background of one camera. Thread-bound.

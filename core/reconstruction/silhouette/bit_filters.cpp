@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/kernels/bits.h"
+#include "core/reconstruction/silhouette/pixel_run.h"
 
 namespace mocap {
 namespace {
@@ -51,6 +52,18 @@ void Erode(const Silhouette& from, int radius, Silhouette& to) {
 
 void Dilate(const Silhouette& from, int radius, Silhouette& to) {
   Filter(from, radius, 0, kernels::AddAll, kernels::AddAllAlong, to);
+}
+
+void Shift(const Silhouette& from, int right_px, int down_px, Silhouette& to) {
+  to.Reset(from.width(), from.height());
+  const int first = std::max(down_px, 0), end = std::min(from.height(), from.height() + down_px);
+  for (int y = first; y < end; ++y) {
+    ForEachRun(from.row(y - down_px), 0, from.width(), 0, [&](const PixelRun& run) {
+      const int last = std::min(run.end + right_px, from.width());
+      for (int x = std::max(run.begin + right_px, 0); x < last; ++x) to.Set(x, y);
+    });
+  }
+  to.KeepBox();
 }
 
 void Unite(const Silhouette& from, Silhouette& to) {

@@ -20,6 +20,9 @@ void Unite(const Silhouette& from, Silhouette& to);
 /// Clears every pixel of `to` that is not set in `from`.
 void Intersect(const Silhouette& from, Silhouette& to);
 
+/// Copies a silhouette, shifted by whole pixels to the right and down. What comes in is clear.
+void Shift(const Silhouette& from, int right_px, int down_px, Silhouette& to);
+
 /// Clears every pixel of `to` that is set in `from`.
 void Subtract(const Silhouette& from, Silhouette& to);
 

@@ -12,6 +12,7 @@
 #include "core/reconstruction/silhouette/region_of_interest.h"
 #include "core/reconstruction/silhouette/segmentation_constants.h"
 #include "core/reconstruction/silhouette/silhouette_cleaner.h"
+#include "core/reconstruction/silhouette/unseen_places.h"
 
 namespace mocap {
 namespace {
@@ -50,6 +51,7 @@ class Segmenter::Impl {
   Impl(const CameraCalibration& camera, std::span<const BackgroundFrame> background,
        const SegmentationOptions& options)
       : background_(Learn(camera, background, options.detection_rate)),
+        unseen_(background),
         coarse_(static_cast<float>(options.darkest_shadow)),
         classifier_(background_->thresholds(), static_cast<float>(options.darkest_shadow)),
         smallest_blob_px_(
@@ -64,7 +66,7 @@ class Segmenter::Impl {
     const ExpectedPicture& expected = background_->Expect(roi_, conditions_);
     classifier_.Classify(expected, image, conditions_, roi_);
     silhouette = classifier_.foreground();
-    cleaner_.Clean(kSmallestGap_px, classifier_.doubtful(), smallest_blob_px_, silhouette);
+    cleaner_.Clean(kSmallestGap_px, LeaveUnseenOut(silhouette), smallest_blob_px_, silhouette);
     refiner_.Refine(expected, image, conditions_.gain, classifier_.alpha_shift(), silhouette);
     cleaner_.KeepPerson(kSmallestHole_px, smallest_blob_px_, largest_thing_px_, silhouette);
     silhouette.KeepBox();
@@ -76,6 +78,16 @@ class Segmenter::Impl {
   const Shading& shading() const { return shading_; }
 
  private:
+  // Clears pixels that were never seen empty. Returns what fills holes: these and the doubtful ones.
+  const Silhouette& LeaveUnseenOut(Silhouette& person) {
+    if (unseen_.empty()) return classifier_.doubtful();
+    const Silhouette& unseen = unseen_.At(conditions_.displacement);
+    Subtract(unseen, person);
+    scratch_ = classifier_.doubtful();
+    Unite(unseen, scratch_);
+    return scratch_;
+  }
+
   // What the empty studio rarely shows, what may be a shadow, and what these enclose together with
   // the person: clothes of the wall's colour are seen by their outline only. Thin rims are left
   // out, because the refined outline runs there.
@@ -91,6 +103,10 @@ class Segmenter::Impl {
     Erode(scratch_, kRim_px, opened_);
     Dilate(opened_, kRim_px, trimap.unknown);
     Intersect(scratch_, trimap.unknown);
+    if (!unseen_.empty()) {
+      Unite(unseen_.At(conditions_.displacement), trimap.unknown);
+      Subtract(trimap.person, trimap.unknown);
+    }
     trimap.unknown.KeepBox();
   }
 
@@ -99,6 +115,7 @@ class Segmenter::Impl {
     Subtract(silhouette, shading_.dark);
     shading_.tile_columns = coarse_.live().tile_columns();
     shading_.shades = coarse_.shades();
+    if (!unseen_.empty()) UnseenPlaces::LeaveOut(unseen_.At(conditions_.displacement), shading_);
     ListDarkTiles(classifier_.alpha_shift(), shading_);
   }
 
@@ -123,6 +140,7 @@ class Segmenter::Impl {
   }
 
   std::unique_ptr<BackgroundModel> background_;
+  UnseenPlaces unseen_;
   CoarseScan coarse_;
   Conditions conditions_;
   RegionOfInterest roi_;

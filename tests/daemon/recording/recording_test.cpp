@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recorder.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "tests/daemon/fake_studio.h"
@@ -330,6 +331,21 @@ TEST_F(RecordingTest, EachPictureOfTheEmptyStudioIsWrittenBeforeTheNextIsRead) {
   EXPECT_THAT(sizes, ::testing::SizeIs(3));
   EXPECT_LT(sizes[0], sizes[1]);
   EXPECT_LT(sizes[1], sizes[2]);
+}
+
+TEST_F(RecordingTest, WhatWasNeverSeenEmptyGoesIntoTheTake) {
+  RecordedStudio studio = TwoCameras();
+  const Image<Bgr> room = FakeRoom(0);
+  Silhouette unseen(room.width(), room.height());
+  unseen.Set(5, 4);
+  studio.cameras[1].background = [&] {
+    return std::vector<BackgroundFrame>(2, BackgroundFrame{room, {}, unseen});
+  };
+  recorder_.emplace(std::move(studio));
+  const TakeLayout layout{recorder_->Start("one", config_, {})};
+  recorder_->Stop();
+  EXPECT_EQ(ReadMask(layout.BackgroundUnseen("cam2")).words(), unseen.words());
+  EXPECT_FALSE(std::filesystem::exists(layout.BackgroundUnseen("cam1")));
 }
 
 TEST_F(RecordingTest, AStartThatFailsLeavesNothing) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/errors.h"
+#include "drivers/take/mask_video.h"
 #include "drivers/take/take_layout.h"
 #include "drivers/take/take_table.h"
 #include "drivers/take/video_reader.h"
@@ -103,6 +104,17 @@ TEST_F(WrittenTake, AnglesComeBackToTheLastBit) {
   writer.Finish();
   EXPECT_EQ(ReadTakeTable(layout_.Table("cam1")).rows.at(0).angles, angles);
   EXPECT_EQ(ReadTakeTable(layout_.BackgroundTable("cam1")).rows.at(0).angles, angles);
+}
+
+TEST_F(WrittenTake, WhatWasNeverSeenEmptyIsBesideTheBackground) {
+  Silhouette unseen(take_.width_px, take_.height_px);
+  for (int x = 3; x < 9; ++x) unseen.Set(x, 5);
+  TakeWriter writer(layout_.folder, SmallDescription(take_));
+  writer.WriteUnseen(1, unseen);
+  writer.WriteBackground(1, SmallPicture(take_, 1, 9).view(), 5);
+  writer.Finish();
+  EXPECT_EQ(layout_.BackgroundUnseen("cam2"), layout_.folder / "background" / "cam2.unseen.mkv");
+  EXPECT_EQ(ReadMask(layout_.BackgroundUnseen("cam2")).words(), unseen.words());
 }
 
 TEST_F(WrittenTake, TruthHasOneRowAFrame) {

@@ -129,6 +129,13 @@ TEST_F(Trousers, ShadowsThatOthersSeeAreNoLongerUnknown) {
     EXPECT_LT(CountOf(trimaps_[i].unknown), 0.1 * CountOf(shadows_[i])) << i;
 }
 
+TEST_F(Trousers, ShadowsWhereTheCameraDoesNotKnowTheFloorStayUnknown) {
+  const Trimap before = trimaps_[2];
+  shadings_[2].shades.assign(shadings_[2].shades.size(), Shading::kUnknown);
+  Complete(6);
+  EXPECT_EQ(trimaps_[2].unknown.words(), before.unknown.words());
+}
+
 TEST_F(Trousers, StayMissingWhereTooFewTellOfTheFloor) {
   const Silhouette before = trimaps_[0].person;
   Complete(2);

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/reconstruction/empty_room/moved_things.h"
+#include "core/reconstruction/empty_room/stayed_people.h"
+#include "core/reconstruction/empty_room/tile_groups.h"
 #include "tests/core/reconstruction/empty_room/walked_room.h"
 
 namespace mocap {
@@ -94,24 +97,70 @@ TEST(EmptyRoom, SomebodyWhoStaysForHalfOfTheTimeIsUnseenUnlessTheWallIsKnown) {
   const EmptyRoom unknown = FindEmptyRoom(shown, nullptr);
   EXPECT_EQ(unknown.places[35 * kRoomWidth + 35], Place::kUnseen);
   EXPECT_LE(WorstDifference(unknown, SmoothWall()), 3);
-  const Image<Bgr> wall = SmoothWall();
+  const EarlierRoom wall{SmoothWall(), {}};
   const EmptyRoom known = FindEmptyRoom(shown, &wall);
   EXPECT_EQ(known.places[35 * kRoomWidth + 35], Place::kSeen);
-  EXPECT_LE(LargestDifference(known.color(35, 35), wall(35, 35)), 2);
+  EXPECT_LE(LargestDifference(known.color(35, 35), wall.color(35, 35)), 2);
+}
+
+TEST(EmptyRoom, WhatWasUnknownBeforeIsSeenNowAndHasNotMoved) {
+  EarlierRoom earlier{SmoothWall(), Silhouette(kRoomWidth, kRoomHeight)};
+  for (int y = 20; y < 40; ++y) {
+    for (int x = 20; x < 40; ++x) {
+      earlier.unseen.Set(x, y);
+      earlier.color(x, y) = {10, 220, 240};
+    }
+  }
+  const EmptyRoom room = FindEmptyRoom(ColorsOf(RoomPictures(Walker)), &earlier);
+  EXPECT_EQ(room.ShareOf(Place::kSeen), 1);
+  EXPECT_LE(WorstDifference(room, SmoothWall()), 2);
+}
+
+/// Somebody in a striped shirt who stands there, swaying, on feet that stand still.
+Bgr Swaying(int picture, int x, int y, const Bgr& wall) {
+  const int sway = picture * 7 % 5, nod = picture / 5 * 2 % 5;
+  const bool is_trunk = x >= 40 + sway && x < 60 + sway && y >= 6 + nod && y < 46 + nod;
+  const bool is_feet = x >= 44 && x < 58 && y >= 50 && y < 53;
+  if (!is_trunk && !is_feet) return wall;
+  if (is_feet) return {20, 20, 25};
+  return y / 9 % 2 == 0 ? Bgr{200, 60, 30} : Bgr{20, 160, 60};
+}
+
+TEST(StayedPeople, AreUnseenWithWhatSettlesWithinThemAndWithTheirFeet) {
+  EmptyRoom room = FindEmptyRoom(ColorsOf(RoomPictures(Swaying)), nullptr);
+  ASSERT_EQ(room.places[30 * kRoomWidth + 52], Place::kSeen) << "nothing settled within";
+  HideStayedPeople(nullptr, 20, room);
+  for (int y = 12; y < 53; ++y) {
+    for (int x = 45; x < 58; ++x)
+      ASSERT_EQ(room.places[y * kRoomWidth + x], Place::kUnseen) << x << " " << y;
+  }
+  EXPECT_LT(room.ShareOf(Place::kUnseen), 40.0 * 60 / (kRoomWidth * kRoomHeight));
+  EXPECT_LE(WorstDifference(room, SmoothWall()), 10) << "a part of him is taken for a wall";
+}
+
+TEST(StayedPeople, AreNobodyWhereTooLittleIsUnseenOrTheWallIsKnown) {
+  const ShownColors shown = ColorsOf(RoomPictures(Swaying));
+  EmptyRoom room = FindEmptyRoom(shown, nullptr);
+  const std::vector<Place> before = room.places;
+  HideStayedPeople(nullptr, kRoomWidth * kRoomHeight, room);
+  EXPECT_EQ(room.places, before);
+  const EarlierRoom wall{SmoothWall(), {}};
+  HideStayedPeople(&wall, 20, room);
+  EXPECT_EQ(room.places, before);
 }
 
 TEST(MovedThings, AreNamedByTheirPlaceUnlessTheyAreTiny) {
   const auto chair = [](int, int, int, const Bgr&) { return Bgr{40, 60, 200}; };
   const PixelBox seat{24, 16, 47, 39}, speck{80, 50, 82, 52};
-  const Image<Bgr> wall = SmoothWall();
+  const EarlierRoom wall{SmoothWall(), {}};
   EmptyRoom room =
       FindEmptyRoom(ColorsOf(RoomPictures(WithBox(seat, chair, WithBox(speck, chair)))), &wall);
   const std::vector<MovedThing> things = FindMoved(room, 50);
   ASSERT_EQ(things.size(), 1u);
-  EXPECT_NEAR(things[0].box.left, seat.left, MovedThing::kTile_px);
-  EXPECT_NEAR(things[0].box.top, seat.top, MovedThing::kTile_px);
-  EXPECT_NEAR(things[0].box.right, seat.right, MovedThing::kTile_px);
-  EXPECT_NEAR(things[0].box.bottom, seat.bottom, MovedThing::kTile_px);
+  EXPECT_NEAR(things[0].box.left, seat.left, TileGrid::kTile_px);
+  EXPECT_NEAR(things[0].box.top, seat.top, TileGrid::kTile_px);
+  EXPECT_NEAR(things[0].box.right, seat.right, TileGrid::kTile_px);
+  EXPECT_NEAR(things[0].box.bottom, seat.bottom, TileGrid::kTile_px);
   EXPECT_NEAR(things[0].area_px, 24 * 24, 100);
   EXPECT_EQ(room.places[20 * kRoomWidth + 30], Place::kMoved);
   room.ForgetMoved();
@@ -128,7 +177,7 @@ TEST(MovedThings, HaveWhatDiffersSlightlyBesideThem) {
   };
   const auto chair = [](int, int, int, const Bgr&) { return Bgr{40, 60, 200}; };
   const PixelBox seat{24, 16, 39, 31}, shadow{40, 16, 55, 31}, sunless{70, 40, 85, 55};
-  const Image<Bgr> wall = SmoothWall();
+  const EarlierRoom wall{SmoothWall(), {}};
   const EmptyRoom room =
       FindEmptyRoom(ColorsOf(RoomPictures(WithBox(
                         seat, chair, WithBox(shadow, darker(12), WithBox(sunless, darker(12)))))),

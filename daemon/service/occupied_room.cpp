@@ -1,4 +1,4 @@
-#include "tools/occupied_room.h"
+#include "daemon/service/occupied_room.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,17 @@
 
 #include "core/errors.h"
 #include "core/reconstruction/empty_room/cleared_pictures.h"
+#include "core/reconstruction/empty_room/mean_picture.h"
+#include "core/reconstruction/empty_room/stayed_people.h"
+#include "core/reconstruction/silhouette/bit_filters.h"
+#include "daemon/status/moved_furniture.h"
+#include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
+#include "drivers/quoted.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/mask_video.h"
+#include "drivers/take/take_layout.h"
+#include "drivers/take/video_reader.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -18,8 +28,8 @@ using Place = EmptyRoom::Place;
 
 /// Fewer pictures than of fifteen seconds do not tell a wall from somebody who waits.
 constexpr std::size_t kFewestPictures = 30;
-/// Most that may be unknown: without a background until now, and with one [share of the picture].
-constexpr double kMostUnseen = 0.01, kMostFilled = 0.5;
+/// Most that may be unknown, and most that may remain as it is stored [share of the picture].
+constexpr double kMostUnknown = 0.1, kMostFilled = 0.5;
 /// If more than this share differs from the stored background, the camera was moved.
 constexpr double kMostMoved = 0.3;
 /// Smaller things are dropped by segmentation, too [share of the picture].
@@ -30,35 +40,6 @@ constexpr std::size_t kLearnedPictures = 50;
 constexpr std::size_t kNoisePictures = 20;
 /// Of the stored videos; nobody plays them.
 constexpr double kLearnedFps = 10;
-
-/// The mean of pictures.
-class MeanPicture {
- public:
-  void Add(const Image<Bgr>& picture) {
-    sums_.resize(picture.pixels().size());
-    size_ = {picture.width(), picture.height()};
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const Bgr& pixel = picture.pixels()[i];
-      sums_[i][0] += pixel.b, sums_[i][1] += pixel.g, sums_[i][2] += pixel.r;
-    }
-    ++count_;
-  }
-
-  Image<Bgr> Mean() const {
-    Image<Bgr> mean(size_.first, size_.second);
-    const auto of = [this](std::uint32_t sum) {
-      return static_cast<std::uint8_t>((sum + count_ / 2) / count_);
-    };
-    for (std::size_t i = 0; i < sums_.size(); ++i)
-      mean.pixels()[i] = {of(sums_[i][0]), of(sums_[i][1]), of(sums_[i][2])};
-    return mean;
-  }
-
- private:
-  std::vector<std::array<std::uint32_t, 3>> sums_;
-  std::pair<int, int> size_;
-  std::uint32_t count_ = 0;
-};
 
 /// Visits pictures that were made steady.
 void ForEachSteady(
@@ -92,9 +73,9 @@ ShownColors CountColors(const OccupiedRoom& room) {
 }
 
 /// The stored background in the present light, or empty where there is none of that size.
-/// @param mean  gets their mean, smooth.
+/// @param earlier  gets what it tells.
 std::vector<Image<Bgr>> StoredPictures(const OccupiedRoom& room, const ShownColors& shown,
-                                       Image<Bgr>& mean) {
+                                       EarlierRoom& earlier) {
   std::vector<Image<Bgr>> stored;
   MeanPicture sum;
   if (!room.stored) return stored;
@@ -105,25 +86,25 @@ std::vector<Image<Bgr>> StoredPictures(const OccupiedRoom& room, const ShownColo
     if (!fits || stored.size() == kLearnedPictures) return;
     stored.push_back(InLight(frame.image, LightBetween(Smooth(frame.image.view()), present)));
     sum.Add(stored.back());
+    earlier.unseen = frame.unseen;
   });
-  if (!stored.empty()) mean = Smooth(sum.Mean().view());
+  if (!stored.empty()) earlier.color = Smooth(sum.Mean().view());
+  // Smooth colours beside what is unknown have a part of it.
+  if (earlier.unseen.width() != 0) Dilate(Silhouette(earlier.unseen), kSmoothed_px, earlier.unseen);
   return stored;
-}
-
-std::string Percent(double share) {
-  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
 void RequireEnough(const OccupiedRecord& record, double moved) {
   const std::string where = record.camera + ": ";
   if (moved > kMostMoved && !record.is_accepted) {
-    throw SetupError(where + Percent(moved) +
+    throw SetupError(where + ShareText(moved) +
                      " of its picture differs from the stored background; if the camera was turned "
                      "or the room was changed, use --accept " +
                      record.camera);
   }
-  if (record.unseen <= (record.is_filled ? kMostFilled : kMostUnseen)) return;
-  throw SetupError(where + Percent(record.unseen) +
+  if (record.unknown <= kMostUnknown && record.unseen <= kMostFilled) return;
+  throw SetupError(where +
+                   ShareText(record.unknown > kMostUnknown ? record.unknown : record.unseen) +
                    " of its picture was never seen without people; let them move about everywhere, "
                    "or for longer (--seconds)");
 }
@@ -148,57 +129,105 @@ void WriteCleared(const OccupiedRoom& of, const EmptyRoom& room, const ShownColo
   video.Finish();
 }
 
-/// Where in the picture something is.
-std::string PlaceOf(const OccupiedRecord& record, const PixelBox& box) {
-  constexpr const char* kRows[] = {"top", "middle", "bottom"};
-  constexpr const char* kColumns[] = {"left", "middle", "right"};
-  const int row = std::min(3 * (box.top + box.bottom) / 2 / record.height_px, 2);
-  const int column = std::min(3 * (box.left + box.right) / 2 / record.width_px, 2);
-  const std::string words =
-      row == 1 && column == 1 ? "middle" : fmt::format("{} {}", kRows[row], kColumns[column]);
-  return fmt::format("{}, x {} to {}, y {} to {} px", words, box.left, box.right, box.top,
-                     box.bottom);
+/// What neither the pictures nor the stored background show empty.
+Silhouette UnknownOf(const EmptyRoom& room, const EarlierRoom* earlier) {
+  Silhouette unknown(room.color.width(), room.color.height());
+  for (int y = 0; y < unknown.height(); ++y) {
+    for (int x = 0; x < unknown.width(); ++x) {
+      const Place place = room.places[static_cast<std::size_t>(y) * unknown.width() + x];
+      if (place == Place::kUnseen && !(earlier && earlier->Knows(x, y))) unknown.Set(x, y);
+    }
+  }
+  return unknown;
 }
 
 }  // namespace
 
 OccupiedRecord LearnOccupied(const OccupiedRoom& of, const std::filesystem::path& video) {
   const ShownColors shown = CountColors(of);
-  Image<Bgr> mean;
-  std::vector<Image<Bgr>> stored = StoredPictures(of, shown, mean);
-  EmptyRoom room = FindEmptyRoom(shown, stored.empty() ? nullptr : &mean);
+  std::optional<EarlierRoom> earlier(std::in_place);
+  std::vector<Image<Bgr>> stored = StoredPictures(of, shown, *earlier);
+  if (stored.empty()) earlier.reset();
+  EmptyRoom room = FindEmptyRoom(shown, earlier ? &*earlier : nullptr);
   OccupiedRecord record{of.camera, shown.width(), shown.height(),
                         static_cast<std::size_t>(shown.pictures())};
+  const int smallest_px =
+      static_cast<int>(kSmallestThing * static_cast<double>(room.places.size()));
   record.is_accepted = of.is_accepted;
-  record.moved =
-      FindMoved(room, static_cast<int>(kSmallestThing * static_cast<double>(room.places.size())));
+  record.moved = FindMoved(room, smallest_px);
   const double moved = room.ShareOf(Place::kMoved);
   if (moved > kMostMoved && of.is_accepted) {
     // What shows another view tells nothing of this one.
-    stored.clear();
+    stored.clear(), earlier.reset();
     room = FindEmptyRoom(shown, nullptr);
   }
+  HideStayedPeople(earlier ? &*earlier : nullptr, smallest_px, room);
   record.unseen = room.ShareOf(Place::kUnseen);
-  record.is_filled = !stored.empty();
-  RequireEnough(record, moved);
+  record.is_filled = earlier.has_value();
   if (!of.is_accepted) room.ForgetMoved();
+  const Silhouette unknown = UnknownOf(room, earlier ? &*earlier : nullptr);
+  record.unknown = unknown.CoveredShare();
+  RequireEnough(record, moved);
   WriteCleared(of, room, shown, stored, video);
+  if (unknown.BoundingBox()) WriteMask(UnseenBeside(video), unknown);
   return record;
 }
 
+OccupiedRecord LearnInPlace(const OccupiedRoom& room, const std::filesystem::path& folder) {
+  // A camera's name has no dot.
+  const std::filesystem::path learned = folder / (room.camera + ".learned.mkv");
+  const std::filesystem::path here = folder / (room.camera + ".mkv");
+  const OccupiedRecord record = LearnOccupied(room, learned);
+  std::filesystem::rename(learned, here);
+  if (IsThere(UnseenBeside(learned)))
+    std::filesystem::rename(UnseenBeside(learned), UnseenBeside(here));
+  return record;
+}
+
+BackgroundSource PicturesOf(const std::filesystem::path& file, int step,
+                            std::function<void()> check) {
+  return BackgroundSource::OneByOne([file, step, check](const BackgroundSource::Visit& visit) {
+    VideoReader video(file);
+    BackgroundFrame frame{Image<Bgr>(video.width_px(), video.height_px()), {}};
+    if (IsThere(UnseenBeside(file))) frame.unseen = ReadMask(UnseenBeside(file));
+    ImageView<const Bgr> view;
+    for (int i = 0;; ++i) {
+      check();
+      const VideoStatus status = i % step == 0 ? video.Read(view) : video.Skip();
+      if (status == VideoStatus::kEnd) return;
+      if (i % step != 0 || status == VideoStatus::kBroken) continue;
+      for (int y = 0; y < view.height(); ++y)
+        std::copy_n(view.row(y), view.width(), frame.image.row(y));
+      visit(frame);
+    }
+  });
+}
+
+void RequireAccepted(const std::vector<std::string>& accepted,
+                     const std::vector<std::string>& cameras) {
+  for (const std::string& name : accepted) {
+    if (std::ranges::find(cameras, name) != cameras.end()) continue;
+    throw SetupError("--accept: there is no camera " + Quoted(name) + "; " +
+                     ExpectedNames(name, cameras));
+  }
+}
+
 std::vector<std::string> TextOf(const OccupiedRecord& record) {
-  const char* const filling = record.unseen == 0 ? ""
-                              : record.is_filled ? "; the stored background remains there"
-                                                 : "; what is beside it was taken for it";
+  std::string filling = record.unseen == 0 ? ""
+                        : record.is_filled ? "; the stored background remains there"
+                                           : "; it is unknown";
+  if (record.is_filled && record.unknown > 0)
+    filling += fmt::format(", and {} of the picture is unknown", ShareText(record.unknown));
   std::vector<std::string> lines = {
       fmt::format("{}: {}, {} of its picture was never seen without people{}", record.camera,
-                  Counted(record.pictures, "picture"), Percent(record.unseen), filling)};
+                  Counted(record.pictures, "picture"), ShareText(record.unseen), filling)};
   const double pixels = static_cast<double>(record.width_px) * record.height_px;
   for (std::size_t i = 0; i < std::min(record.moved.size(), kMostNamed); ++i) {
     const MovedThing& thing = record.moved[i];
     lines.push_back(fmt::format(
         "{}: something was moved at the {} ({} of the picture); {}", record.camera,
-        PlaceOf(record, thing.box), Percent(thing.area_px / pixels),
+        PlaceInPicture(thing.box, record.width_px, record.height_px),
+        ShareText(thing.area_px / pixels),
         record.is_accepted
             ? "it is part of the background now"
             : fmt::format("the stored background remains there, unless you use --accept {}",
