@@ -17,6 +17,7 @@
 #include "core/errors.h"
 #include "core/reconstruction/background/change_meter.h"
 #include "daemon/base/number_option.h"
+#include "daemon/control/control_request.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/unfinished_folder.h"
 #include "tools/background_occupied.h"
@@ -90,9 +91,7 @@ void LearnWhileOccupied(const LearnOptions& options) {
   if (options.seconds) occupied.seconds = *options.seconds;
   if (!options.take.empty()) return LearnFromOccupiedTake(options.take, options.config, occupied);
   if (!options.config.empty()) return LearnFromOccupiedStudio(options.config, occupied);
-  throw SetupError(
-      "--occupied needs --config FILE, to learn from its cameras while no mocapd uses "
-      "them, or --take TAKE");
+  AskToLearn(options.socket, occupied);
 }
 
 }  // namespace
@@ -113,13 +112,11 @@ void AddBackgroundCommand(CLI::App& app) {
   learn
       ->add_option("--seconds", options->seconds,
                    "recording time of cameras without a pan-tilt head [s] (default: 4; 60 with "
-                   "--occupied)")
-      ->check(NumberFrom(1, 600))
-      ->needs(config);
+                   "--occupied); without --occupied, needs --config")
+      ->check(NumberFrom(1, kLongestOccupied_s));
   auto* occupied = learn->add_flag(
       "--occupied", options->is_occupied,
-      "learn while people move about: each pixel, where its wall is seen often enough; needs "
-      "--config or --take");
+      "learn while people move about: each pixel, where its wall is seen often enough");
   learn
       ->add_option("--take", options->take,
                    "take folder: learn from its pictures, and replace its background, or with "
@@ -145,6 +142,8 @@ void AddBackgroundCommand(CLI::App& app) {
   learn->callback([options] {
     if (options->is_occupied) return LearnWhileOccupied(*options);
     if (!options->config.empty()) return Learn(*options);
+    if (options->seconds)
+      throw SetupError("--seconds needs --config FILE or --occupied: the running mocapd decides");
     AskAndPrint(options->socket, options->anyway ? "background learn anyway" : "background learn");
   });
   status->callback([options] { AskAndPrint(options->socket, "background status"); });

@@ -1,19 +1,25 @@
 #include "tools/background_occupied.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <future>
 #include <optional>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "config/camera_files.h"
 #include "config/load_config.h"
 #include "config/take_header.h"
 #include "core/errors.h"
+#include "daemon/control/control_socket.h"
+#include "daemon/service/occupied_learner.h"
 #include "daemon/service/occupied_room.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
@@ -25,6 +31,9 @@
 
 namespace mocap {
 namespace {
+
+/// Between questions to the daemon.
+constexpr std::chrono::milliseconds kProgressPause{500};
 
 void RequireFixed(const std::string& camera, bool is_on_head) {
   if (!is_on_head) return;
@@ -133,6 +142,29 @@ void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesys
       },
       place.folder, partial, options);
   unfinished.Finish();
+}
+
+void AskToLearn(const std::filesystem::path& socket, const OccupiedOptions& options) {
+  StopOnSignals();
+  const auto ask = [&socket](const std::string& request) {
+    const ControlReply reply = AskDaemon(socket, request);
+    if (reply.outcome == ControlOutcome::kFailed) throw std::runtime_error(reply.text);
+    if (reply.outcome == ControlOutcome::kWrong) throw SetupError(reply.text);
+    return reply.text;
+  };
+  std::string request = fmt::format("background occupied {:g}", options.seconds);
+  for (std::size_t i = 0; i < options.accepted.size(); ++i)
+    request += (i == 0 ? ' ' : ',') + options.accepted[i];
+  std::string said = ask(request), before;
+  while (said.starts_with(OccupiedLearner::kUnderWay)) {
+    if (isatty(STDERR_FILENO) && said != before)
+      std::fprintf(stderr, "%s", PrintableLines(said).c_str());
+    before = said;
+    std::this_thread::sleep_for(kProgressPause);
+    EndIfStopAsked();
+    said = ask("background result");
+  }
+  std::fputs(PrintableLines(said).c_str(), stdout);
 }
 
 }  // namespace mocap

@@ -25,4 +25,9 @@ void LearnFromOccupiedStudio(const std::filesystem::path& config, const Occupied
 void LearnFromOccupiedTake(const std::filesystem::path& take, const std::filesystem::path& config,
                            const OccupiedOptions& options);
 
+/// Asks the running mocapd to learn, waits for it, and prints what was learned. The cameras go on
+/// meanwhile. @param socket  empty: the system's daemon, or the user's own.
+/// @throws SetupError, std::runtime_error  for a refusal or failure.
+void AskToLearn(const std::filesystem::path& socket, const OccupiedOptions& options);
+
 }  // namespace mocap

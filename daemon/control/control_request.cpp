@@ -36,12 +36,28 @@ std::optional<ControlRequest> SaveOf(std::string_view name, std::string_view num
   return SubjectSaveRequest{std::string(name), person};
 }
 
+std::optional<ControlRequest> OccupiedOf(std::string_view seconds, std::string_view accepted) {
+  BackgroundOccupiedRequest request;
+  const auto [end, error] =
+      std::from_chars(seconds.data(), seconds.data() + seconds.size(), request.seconds);
+  const bool is_number = error == std::errc() && end == seconds.data() + seconds.size();
+  if (!is_number || !(request.seconds >= 1 && request.seconds <= kLongestOccupied_s)) return {};
+  while (!accepted.empty()) {
+    const std::size_t comma = std::min(accepted.find(','), accepted.size());
+    if (!IsFileName(accepted.substr(0, comma))) return {};
+    request.accepted.emplace_back(accepted.substr(0, comma));
+    accepted.remove_prefix(std::min(comma + 1, accepted.size()));
+  }
+  return request;
+}
+
 std::optional<ControlRequest> WithoutName(const std::string_view first,
                                           const std::string_view second) {
   if (first == "record" && second == "stop") return RecordStopRequest{};
   if (first == "subject" && second == "new") return SubjectNewRequest{};
   if (first == "subject" && second == "list") return SubjectListRequest{};
   if (first == "background" && second == "learn") return BackgroundLearnRequest{};
+  if (first == "background" && second == "result") return BackgroundResultRequest{};
   if (first == "background" && second == "status") return BackgroundStatusRequest{};
   if (first == "status" && second == "json") return StatusRequest{.as_json = true};
   return {};
@@ -69,6 +85,9 @@ std::optional<ControlRequest> ParseControlRequest(std::string_view line) {
   if (words.size() == 4 && words[0] == "subject" && words[1] == "save") {
     return SaveOf(words[2], words[3]);
   }
+  const bool is_occupied = words.size() >= 3 && words[0] == "background" && words[1] == "occupied";
+  if (is_occupied && words.size() <= 4)
+    return OccupiedOf(words[2], words.size() == 4 ? words[3] : std::string_view());
   if (words.size() != 3) return {};
   if (words[0] == "background" && words[1] == "learn" && words[2] == "anyway") {
     return BackgroundLearnRequest{.anyway = true};

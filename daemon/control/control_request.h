@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace mocap {
 
@@ -32,6 +33,13 @@ struct SubjectListRequest {};
 struct BackgroundLearnRequest {
   bool anyway = false;  ///< Even if somebody seems to be in the room.
 };
+/// Begins to learn from people who move about.
+struct BackgroundOccupiedRequest {
+  double seconds = 0;
+  std::vector<std::string> accepted = {};  ///< Cameras in which moved things are accepted.
+};
+/// What it does at present, or what was learned.
+struct BackgroundResultRequest {};
 struct BackgroundStatusRequest {};
 /// A viewer wants pictures and voxels for the next seconds.
 struct LookRequest {};
@@ -39,7 +47,8 @@ struct LookRequest {};
 using ControlRequest =
     std::variant<StatusRequest, ReloadRequest, RecordStartRequest, RecordStopRequest,
                  RecordCancelRequest, SubjectNewRequest, SubjectSaveRequest, SubjectLoadRequest,
-                 SubjectListRequest, BackgroundLearnRequest, BackgroundStatusRequest, LookRequest>;
+                 SubjectListRequest, BackgroundLearnRequest, BackgroundOccupiedRequest,
+                 BackgroundResultRequest, BackgroundStatusRequest, LookRequest>;
 
 /// The outcome, with the exit status for a program that asked.
 enum class ControlOutcome { kDone = 0, kFailed = 1, kWrong = 2 };
@@ -51,13 +60,17 @@ struct ControlReply {
   std::string text;
 };
 
+/// Longest recording of people who move about [s].
+inline constexpr double kLongestOccupied_s = 600;
+
 /// Longer requests and replies are refused.
 inline constexpr std::size_t kLongestRequest = 512;
 inline constexpr std::size_t kLongestReply = 65536;
 
 /// Parses "status [json]", "reload", "record start NAME", "record stop", "record cancel NAME",
 /// "subject new", "subject save NAME [NUMBER]", "subject load NAME", "subject list", "background
-/// learn [anyway]", "background status" and "look"; empty for anything else.
+/// learn [anyway]", "background occupied SECONDS [CAMERA,…]", "background result", "background
+/// status" and "look"; empty for anything else.
 std::optional<ControlRequest> ParseControlRequest(std::string_view line);
 
 /// Whether a name can be a file name: letters, digits, dots, underscores and hyphens. It must not

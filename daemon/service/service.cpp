@@ -204,7 +204,9 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
     path = std::move(tracking);
   }
   BackgroundLearner learner(*path, learning_taps, known, learning);
-  const ServiceParts parts{live, *path, pipeline, publisher, preview, view, recorder, learner};
+  OccupiedLearner occupied(*path, learning_taps, known, learning);
+  const ServiceParts parts{live, *path,    pipeline, publisher, preview,
+                           view, recorder, learner,  occupied};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   Watch watch(
       parts,
@@ -227,6 +229,7 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   allow(control.IsRecording());
   manager.Stopping(patience + kGrace);
   learner.RequestStop();
+  occupied.RequestStop();
   // A recording may be starting or ending.
   desk.Close();
   allow(control.IsRecording());

@@ -104,6 +104,7 @@ std::string ServiceControl::Do(const RecordStartRequest& request) {
 }
 
 std::string ServiceControl::StartRecording(const std::string& name) {
+  RequireNotLearning();
   const auto folder = parts_.recorder.Start(name, config().service.recording,
                                             Recorded(Tracked(parts_.view.people())));
   spdlog::info("recording {}", folder.c_str());
@@ -187,20 +188,47 @@ std::string ServiceControl::Do(const BackgroundLearnRequest& request) {
       [&] { return has_cameras ? LearnBackground(request.anyway) : ""; });
 }
 
+void ServiceControl::RequireNoRecording() const {
+  if (parts_.recorder.Status().state != RecordingStatus::State::kRunning) return;
+  throw std::runtime_error(
+      "a take is being recorded, and a take has only one background; stop it first: mocap record "
+      "stop");
+}
+
+void ServiceControl::RequireNotLearning() const {
+  if (!parts_.occupied.IsUnderWay()) return;
+  throw std::runtime_error(
+      "the background is being learned while people move about; mocap background status says when "
+      "it is done");
+}
+
 std::string ServiceControl::LearnBackground(bool anyway) {
-  if (parts_.recorder.Status().state == RecordingStatus::State::kRunning) {
-    throw std::runtime_error(
-        "a take is being recorded, and a take has only one background; stop it first: mocap record "
-        "stop");
-  }
+  RequireNoRecording();
+  RequireNotLearning();
   const std::string text = parts_.background.Learn(anyway);
   spdlog::info("the background was learned again");
   return text;
 }
 
+std::string ServiceControl::Do(const BackgroundOccupiedRequest& request) {
+  if (!nodes_.empty() && config().source.driver == "none")
+    throw SetupError(
+        "this studio has no cameras of its own: run mocap background learn --occupied on each of "
+        "its nodes");
+  RequireNoRecording();
+  parts_.occupied.Begin({request.seconds, request.accepted});
+  spdlog::info("learning the background while people move about");
+  return parts_.occupied.Progress();
+}
+
+std::string ServiceControl::Do(const BackgroundResultRequest&) {
+  return parts_.occupied.Progress();
+}
+
 std::string ServiceControl::Do(const BackgroundStatusRequest&) {
+  const std::string learning = parts_.occupied.Present();
   const std::scoped_lock lock(report_mutex_);
-  return BackgroundText(report_);
+  return BackgroundText(report_) + learning;
 }
 
 std::string ServiceControl::Do(const LookRequest&) {

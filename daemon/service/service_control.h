@@ -14,6 +14,7 @@
 #include "daemon/service/live_config.h"
 #include "daemon/service/live_view.h"
 #include "daemon/service/node_requests.h"
+#include "daemon/service/occupied_learner.h"
 #include "daemon/service/subjects.h"
 #include "daemon/status/service_report.h"
 
@@ -29,6 +30,7 @@ struct ServiceParts {
   LiveView& view;
   Recorder& recorder;
   BackgroundLearner& background;
+  OccupiedLearner& occupied;
 };
 
 /// Answers requests. Thread-safe.
@@ -64,6 +66,8 @@ class ServiceControl {
   std::string Do(const SubjectLoadRequest& request);
   std::string Do(const SubjectListRequest&);
   std::string Do(const BackgroundLearnRequest& request);
+  std::string Do(const BackgroundOccupiedRequest& request);
+  std::string Do(const BackgroundResultRequest&);
   std::string Do(const BackgroundStatusRequest&);
   std::string Do(const LookRequest&);
 
@@ -71,6 +75,8 @@ class ServiceControl {
   std::string StartRecording(const std::string& name);
   std::string StopRecording();
   std::string LearnBackground(bool anyway);
+  void RequireNoRecording() const;
+  void RequireNotLearning() const;
 
   const ServiceParts parts_;
   const Subjects subjects_;

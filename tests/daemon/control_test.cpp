@@ -40,15 +40,43 @@ TEST(ControlRequest, UnderstandsWhatMocapSends) {
   EXPECT_FALSE(std::get<BackgroundLearnRequest>(*ParseControlRequest("background learn")).anyway);
   EXPECT_TRUE(
       std::get<BackgroundLearnRequest>(*ParseControlRequest("background learn anyway")).anyway);
+  const auto occupied =
+      std::get<BackgroundOccupiedRequest>(*ParseControlRequest("background occupied 60"));
+  EXPECT_EQ(occupied.seconds, 60);
+  EXPECT_THAT(occupied.accepted, IsEmpty());
+  EXPECT_THAT(
+      std::get<BackgroundOccupiedRequest>(*ParseControlRequest("background occupied 7.5 cam1,cam3"))
+          .accepted,
+      ElementsAre("cam1", "cam3"));
+  EXPECT_TRUE(
+      std::holds_alternative<BackgroundResultRequest>(*ParseControlRequest("background result")));
   EXPECT_TRUE(
       std::holds_alternative<BackgroundStatusRequest>(*ParseControlRequest("background status")));
 }
 
 TEST(ControlRequest, RefusesEverythingElse) {
-  for (const char* line :
-       {"", " ", "status  json", "record", "record start", "record start a b", "record cancel",
-        "subject save", "subject save eve 0", "subject save eve -1", "subject save eve 1x",
-        "subject save ../eve 1", "subject load eve 1", "STATUS", "status\nreload"}) {
+  for (const char* line : {"",
+                           " ",
+                           "status  json",
+                           "record",
+                           "record start",
+                           "record start a b",
+                           "record cancel",
+                           "subject save",
+                           "subject save eve 0",
+                           "subject save eve -1",
+                           "subject save eve 1x",
+                           "subject save ../eve 1",
+                           "subject load eve 1",
+                           "STATUS",
+                           "background occupied",
+                           "background occupied x",
+                           "background occupied 0.5",
+                           "background occupied 601",
+                           "background occupied nan",
+                           "background occupied 60 a/b",
+                           "background occupied 60 cam1 cam2",
+                           "status\nreload"}) {
     EXPECT_FALSE(ParseControlRequest(line)) << line;
   }
   EXPECT_FALSE(ParseControlRequest(std::string(kLongestRequest + 1, 'a')));
