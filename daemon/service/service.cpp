@@ -180,7 +180,9 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
                            studio.times);
   Outlet outlet(publisher, view, preview);
   std::deque<FrameTap> learning_taps(studio.cameras.size());
-  PipelineOptions options = PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps});
+  std::deque<FrameTap> furniture_taps(studio.cameras.size());
+  PipelineOptions options =
+      PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps, &furniture_taps});
   options.previews = &preview.taps();
   options.stop = &signals.stop();
   std::optional<NodeListener> nodes;
@@ -208,9 +210,10 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   const ServiceParts parts{live, *path,    pipeline, publisher, preview,
                            view, recorder, learner,  occupied};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
+  FurnitureLooks furniture(*path, furniture_taps, known, learning.cameras);
   Watch watch(
       parts,
-      {control, manager, channels, log, nodes ? &*nodes : nullptr,
+      {control, manager, channels, log, furniture, nodes ? &*nodes : nullptr,
        silhouettes ? &*silhouettes : nullptr, studio_listener ? &*studio_listener : nullptr},
       about);
   const OpenDesk open_desk(desk, control);

@@ -18,6 +18,7 @@
 #include "daemon/service/clock_watch.h"
 #include "daemon/service/diagnostic_log.h"
 #include "daemon/service/disk_watch.h"
+#include "daemon/service/furniture_looks.h"
 #include "daemon/service/service_control.h"
 #include "daemon/service/service_log.h"
 #include "daemon/service/service_manager.h"
@@ -33,6 +34,7 @@ struct WatchParts {
   ServiceManager& manager;
   const ChannelWatch& channels;
   const ServiceLog& log;
+  const FurnitureLooks& furniture;
   NodeListener* nodes;            ///< At a studio; otherwise null.
   SilhouetteSender* silhouettes;  ///< At a node; otherwise null.
   StudioListener* studio;         ///< Likewise.

@@ -260,6 +260,15 @@ void ComplainOfLight(const ServiceReport& report, List& list) {
                   100 * (change.factor - 1), fmt::join(change.cameras, ", ")));
 }
 
+void ComplainOfFurniture(const ServiceReport& report, List& list) {
+  for (const MovedFurniture& thing : report.moved) {
+    list.push_back(fmt::format(
+        "{} has something else than its background at the {} ({} of the picture), for {}: put it "
+        "back, or run mocap background learn --occupied --accept {}",
+        thing.camera, thing.place, ShareText(thing.share), Duration(thing.age_ns), thing.camera));
+  }
+}
+
 void ComplainOfTime(const ServiceReport& report, List& list) {
   if (report.now.sets_dropped_lately > 0) {
     list.push_back(
@@ -298,6 +307,7 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfNobody(report, list);
   ComplainOfPlace(report.now.status, list);
   ComplainOfLight(report, list);
+  ComplainOfFurniture(report, list);
   ComplainOfTime(report, list);
   return list;
 }

@@ -169,6 +169,15 @@ JsonObject PersonJson(const FollowedPerson& person, const ServiceReport& report)
   return json;
 }
 
+JsonObject MovedJson(const MovedFurniture& thing) {
+  JsonObject json;
+  json.Add("camera", thing.camera);
+  json.Add("place", thing.place);
+  json.Add("share", thing.share, 4);
+  json.Add("seconds", thing.age_ns / 1'000'000'000);
+  return json;
+}
+
 JsonObject MadeJson(const Made& made) {
   JsonObject json;
   json.Add("where", made.where);
@@ -303,6 +312,9 @@ std::string ReportJson(const ServiceReport& report) {
   json.Add("nodes", nodes);
   json.Add("calibration", MadeJson(report.calibration));
   json.Add("background", MadeJson(report.background));
+  std::vector<JsonObject> moved;
+  for (const MovedFurniture& thing : report.moved) moved.push_back(MovedJson(thing));
+  json.Add("moved", moved);
   json.Add("takes", report.takes.string());
   json.Add("bytes_free", report.bytes_free);
   json.Add("recording", RecordingJson(report.recording));

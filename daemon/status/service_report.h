@@ -12,6 +12,7 @@
 #include "daemon/status/channel_status.h"
 #include "daemon/status/followed_person.h"
 #include "daemon/status/light_watch.h"
+#include "daemon/status/moved_furniture.h"
 #include "daemon/status/node_report.h"
 #include "daemon/status/status_window.h"
 #include "daemon/status/studio_link.h"
@@ -53,6 +54,7 @@ struct ServiceReport {
   std::int64_t nobody_ns = 0;     ///< How long nobody has been tracked; 0: somebody is.
   Made background;
   std::optional<LightChange> light_change;
+  std::vector<MovedFurniture> moved;  ///< By camera.
   RecordingStatus recording;
   std::filesystem::path takes;        ///< Folder for recordings.
   std::filesystem::path takes_place;  ///< The same, or its nearest existing parent.

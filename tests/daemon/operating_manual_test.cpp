@@ -90,6 +90,7 @@ std::vector<std::string> EveryComplaint() {
   report.bytes_free = 3'000'000;
   report.cut_off = {{"/takes/walk-01.partial", 12'300'000'000, 45'296'000'000'000}};
   report.light_change = LightChange{.time_ns = 1, .cameras = {"cam1"}, .factor = 1.4};
+  report.moved = {{"cam3", "bottom left, x 8 to 39, y 80 to 111 px", 0.023, 720'000'000'000}};
   StageRecorders recorders;
   recorders[Stage::kSpread].Record(15'000'000);
   report.now.recent = StageHistograms(recorders);
