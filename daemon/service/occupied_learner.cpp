@@ -107,11 +107,11 @@ std::string OccupiedLearner::Present() const {
 }
 
 void OccupiedLearner::Run(const OccupiedErrand& errand) {
-  GoBehind("occupied");
   try {
     const std::filesystem::path partial = BeginBackground(place_.folder);
     UnfinishedFolder unfinished(partial);
     Record(errand, partial);
+    GoBehind("occupied");
     const std::string text = LearnAll(errand, partial);
     ReplaceBackground(place_.folder, partial);
     unfinished.Finish();

@@ -23,12 +23,14 @@ using ::testing::ThrowsMessage;
 
 enum class Furniture { kAsLearned, kMoved, kAnotherRoom };
 
-/// A camera in a room that somebody furnishes; frames come as fast as they are wanted.
+/// A camera in a room that somebody furnishes; frames come faster than their times say.
 class FurnishedCamera : public CameraDriver {
  public:
   explicit FurnishedCamera(const std::atomic<Furniture>& furniture) : furniture_(furniture) {}
   void Start() override {}
   GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
+    // Otherwise threads of low priority would hardly run.
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
     picture_ = testing::FakeRoom(99);
     const Furniture furniture = furniture_.load();
     const bool is_other = furniture == Furniture::kAnotherRoom;
