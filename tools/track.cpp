@@ -108,7 +108,10 @@ void TellFault(const TrackOptions& options, const std::vector<CameraCalibration>
   const StudioDiagnosis diagnosis = Diagnose(cameras, moments);
   const std::string take = options.take.string() + ": ";
   const std::optional<Finding> fault = FindingOf(diagnosis, cameras);
-  if (tracked > 0) {
+  // What is tracked above the floor while people walk below it is nobody.
+  const bool is_nobody =
+      diagnosis.fault == StudioFault::kFloor && diagnosis.person.is_below_floor();
+  if (tracked > 0 && !is_nobody) {
     if (IsOfCameras(diagnosis.fault)) TellRemarks("track", {take + fault->text});
     return;
   }

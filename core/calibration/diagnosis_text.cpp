@@ -26,7 +26,7 @@ bool IsSure(const StudioDiagnosis& diagnosis) {
 }
 
 std::string FloorText(const PersonExtent& person, bool is_sure) {
-  if (person.lowest_mm + person.highest_mm < 0) {
+  if (person.is_below_floor()) {
     return "the person is below the floor, from z = " + Millimetres(person.lowest_mm) + " to " +
            Millimetres(person.highest_mm) +
            ": z points down; set the floor again (mocap calibrate floor)";

@@ -13,6 +13,8 @@ namespace mocap {
 struct PersonExtent {
   int moments = 0;                       ///< Those in which it could be measured.
   double lowest_mm = 0, highest_mm = 0;  ///< Soles and crown; medians over these moments.
+
+  bool is_below_floor() const { return lowest_mm + highest_mm < 0; }
 };
 
 /// Measures one upright person from the rims of the shapes that are whole in their pictures.

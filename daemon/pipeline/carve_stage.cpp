@@ -14,10 +14,12 @@ CarvedSet RoomySet(std::size_t cameras, double voxel_mm) {
   constexpr double kHandsUp_mm = 2400;
   // No memory is reserved for finer voxels: they are not for real time.
   constexpr double kFinest_mm = 20;
+  constexpr std::size_t kUsuallyDoubtful = 4000;
   CarvedSet set;
   const Vector3 voxels =
       Vector3(kLongest_mm, kLongest_mm, kHandsUp_mm) / std::max(voxel_mm, kFinest_mm);
   set.grid.Reset(Eigen::Vector3i::Zero(), voxels.cast<int>(), voxel_mm);
+  set.doubtful.reserve(kUsuallyDoubtful);
   set.outlines.assign(cameras, Outline(kMostRays));
   set.eyes.reserve(cameras);
   return set;

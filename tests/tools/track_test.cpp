@@ -47,7 +47,7 @@ class WalkTracked : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new testing::TemporaryFolder;
     Said(AddSimulateCommand,
-         "simulate --seconds 4 --fps 4 --cameras 4 --width 240 --height 180 "
+         "simulate --seconds 4 --fps 4 --cameras 4 --width 320 --height 240 "
          "--motion walk --out " +
              Take().string());
     right_ = LoadCalibration(Take() / "calibration.toml");
@@ -114,7 +114,7 @@ TEST_F(WalkTracked, AnEmptyRoomReplacesNoResult) {
   const std::string before = testing::ReadText(Result() / "poses.csv");
   const fs::path empty = folder_->path() / "empty";
   Said(AddSimulateCommand,
-       "simulate --seconds 1 --fps 4 --cameras 4 --width 240 --height 180 --motion visit --out " +
+       "simulate --seconds 1 --fps 4 --cameras 4 --width 320 --height 240 --motion visit --out " +
            empty.string());
   const std::string track = "track --voxel-size 40 " + empty.string() + " --out ";
   EXPECT_THAT(Said(AddTrackCommand, track + Result().string()),
@@ -132,7 +132,7 @@ TEST_F(WalkTracked, SilhouettesAreTheGivenMasks) {
       "track --voxel-size 40 " + masked.string() + " --out " + (masked / "result").string();
   EXPECT_THAT(Said(AddTrackCommand, track + " --masks"), HasSubstr("16 frame sets, 15 tracked"));
   for (const fs::path& file : fs::directory_iterator(masked / "silhouette")) {
-    testing::GrayVideo black{.width_px = 240, .height_px = 180};
+    testing::GrayVideo black{.width_px = 320, .height_px = 240};
     for (int i = 0; i < 16; ++i) black.times.push_back(i);
     black.pixel = [](int, int, int) { return 0; };
     fs::create_directory(dark);
@@ -219,20 +219,20 @@ TEST_F(WalkTracked, ACameraThatMovedIsToldByHealthAndCheck) {
   const fs::path file = folder_->path() / "bumped.toml";
   Calibrate(bumped, file);
   const std::string moved = "cam3: has moved since it was calibrated, by ";
-  EXPECT_THAT(Said(AddCalibrateCommand,
-                   "calibrate check --take " + Take().string() + " " + file.string()),
-              AllOf(HasSubstr("warning: " + Take().string() + ": " + moved),
-                    HasSubstr("but check the warnings"), Not(HasSubstr("is good"))));
+  EXPECT_THAT(
+      Said(AddCalibrateCommand, "calibrate check --take " + Take().string() + " " + file.string()),
+      AllOf(HasSubstr("warning: " + Take().string() + ": " + moved),
+            HasSubstr("but check the warnings"), Not(HasSubstr("is good"))));
   Calibrate(bumped);
-  EXPECT_THAT(Said(AddCalibrateCommand, "calibrate health " + Take().string()),
-              AllOf(HasSubstr(moved),
-                    HasSubstr(Take().string() + ": not all cameras are as calibrated")));
+  EXPECT_THAT(
+      Said(AddCalibrateCommand, "calibrate health " + Take().string()),
+      AllOf(HasSubstr(moved), HasSubstr(Take().string() + ": not all cameras are as calibrated")));
 }
 
 TEST_F(WalkTracked, ATakeOfNobodySaysNothingOfCameras) {
   const std::string empty = (folder_->path() / "nobody").string();
   Said(AddSimulateCommand,
-       "simulate --seconds 1 --fps 4 --cameras 4 --width 240 --height 180 --motion visit --out " +
+       "simulate --seconds 1 --fps 4 --cameras 4 --width 320 --height 240 --motion visit --out " +
            empty);
   const std::string file = (Take() / "calibration.toml").string();
   for (const std::string& command : {"check " + file + " --take ", std::string("health "),
@@ -249,12 +249,12 @@ TEST_F(WalkTracked, RefiningCamerasThatHaveNotMovedSaysSoOnce) {
   const fs::path own = Take() / "calibration.toml", other = folder_->path() / "refined.toml";
   const std::string said =
       Said(AddCalibrateCommand, "calibrate refine " + Take().string() + " --out " + own.string());
-  EXPECT_THAT(said, AllOf(HasSubstr("no camera has moved\nwritten: " + own.string() +
-                                    ", the take's own\n"),
-                          Not(HasSubstr("after:")), Not(HasSubstr("-0.0"))));
-  EXPECT_THAT(Said(AddCalibrateCommand,
-                   "calibrate refine " + Take().string() + " --out " + other.string()),
-              HasSubstr("written: " + other.string() + "\n"));
+  EXPECT_THAT(
+      said, AllOf(HasSubstr("no camera has moved\nwritten: " + own.string() + ", the take's own\n"),
+                  Not(HasSubstr("after:")), Not(HasSubstr("-0.0"))));
+  EXPECT_THAT(
+      Said(AddCalibrateCommand, "calibrate refine " + Take().string() + " --out " + other.string()),
+      HasSubstr("written: " + other.string() + "\n"));
 }
 
 TEST_F(WalkTracked, CamerasThatGoByEachOthersNameAreTold) {

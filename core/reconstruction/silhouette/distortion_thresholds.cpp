@@ -49,16 +49,18 @@ void Erode(int radius, int width, int height, Image<float>& image) {
 }  // namespace
 
 DistortionThresholds IndependentNoise(double detection_rate) {
-  // A colour has two dimensions beside brightness, and a plane through a window has three.
-  constexpr int kPlane = 3;
-  const double color = std::sqrt(-2 * std::log(1 - detection_rate));
-  const double brightness = NormalQuantile((1 + detection_rate) / 2);
+  // A colour has two dimensions beside brightness, and a plane through a window has three. The
+  // windows with a pixel at one of their four corners hardly overlap, and the least of them counts.
+  constexpr int kPlane = 3, kCorners = 4;
+  const double rate = 1 - std::pow(1 - detection_rate, 1.0 / kCorners);
+  const double color = std::sqrt(-2 * std::log(1 - rate));
+  const double brightness = NormalQuantile((1 + rate) / 2);
   DistortionThresholds thresholds;
-  thresholds.cd = static_cast<float>(color);
+  thresholds.cd = static_cast<float>(std::sqrt(-2 * std::log(1 - detection_rate)));
   thresholds.alpha_low = static_cast<float>(-NormalQuantile(detection_rate));
   for (std::size_t k = 0; k < kernels::kWindows; ++k) {
     const int side = 2 * kernels::kWindowRadii_px[k] + 1, area = side * side;
-    const double squares = ChiSquareQuantile(area - kPlane, detection_rate);
+    const double squares = ChiSquareQuantile(area - kPlane, rate);
     thresholds.windows[k] = {static_cast<float>(color / side),
                              static_cast<float>(brightness / side),
                              static_cast<float>(std::sqrt(squares / area))};

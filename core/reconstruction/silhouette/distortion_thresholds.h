@@ -24,7 +24,8 @@ struct DistortionThresholds {
 };
 
 /// Returns what noise exceeds at the rate 1 - `detection_rate` if its deviation is σ and it is
-/// independent from pixel to pixel and between channels.
+/// independent from pixel to pixel and between channels. The windows' are lower bounds: only four
+/// of those around a pixel are counted.
 /// @pre  0.5 <= detection_rate < 1.
 DistortionThresholds IndependentNoise(double detection_rate);
 

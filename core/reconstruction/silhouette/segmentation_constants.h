@@ -67,8 +67,9 @@ inline constexpr float kPixelMargin = 1.6f;
 
 // Unknown pixels.
 
-/// Half the width of parts that are too thin to be more than a rim [pixels].
-inline constexpr int kRim_px = 1;
+/// Half the width of parts that are too thin to be more than a rim, and of gaps in what encloses
+/// others [pixels]. A codec's colours have half the resolution, so halos are up to four wide.
+inline constexpr int kRim_px = 2;
 
 // Clean-up.
 

@@ -88,17 +88,17 @@ class Segmenter::Impl {
     return scratch_;
   }
 
-  // What the empty studio rarely shows, what may be a shadow, and what these enclose together with
-  // the person: clothes of the wall's colour are seen by their outline only. Thin rims are left
-  // out, because the refined outline runs there.
+  // What the empty studio rarely shows, what this and the person enclose, because clothes of the
+  // wall's colour are seen by their outline only, and what may be a shadow. Thin rims are left out:
+  // the refined outline runs there.
   void FindUnknown(Trimap& trimap) {
     scratch_ = classifier_.doubtful();
-    Unite(classifier_.dark(), scratch_);
     Unite(trimap.person, scratch_);
     Dilate(scratch_, kRim_px, opened_);
     Erode(opened_, kRim_px, scratch_);
     scratch_.KeepBox();
     cleaner_.FillHoles(scratch_);
+    Unite(classifier_.dark(), scratch_);
     Subtract(trimap.person, scratch_);
     Erode(scratch_, kRim_px, opened_);
     Dilate(opened_, kRim_px, trimap.unknown);

@@ -47,12 +47,15 @@ TEST(EvidencePlan, HasEveryContrastWithEveryCrfAndNumberOfCameras) {
 
 TEST(EvidenceTrial, TheHullOfClothesOfFullContrastIsNearlyTheTrueOneAndThatOfWeakOnesSmaller) {
   SimulatedStudioOptions studio = FewFrames();
+  studio.width_px = 640;
+  studio.height_px = 480;
   const EvidenceRow clear = RunEvidenceTrial(studio);
   EXPECT_EQ(clear.kind, (EvidenceKind{0, std::nullopt, studio.cameras}));
   EXPECT_GT(clear.hull_share, 0.8);
   EXPECT_LT(clear.hull_share, 1.25);
   EXPECT_EQ(clear.accuracy.tracked_share, 1);
   EXPECT_LT(clear.unknown_share, 0.05);
+  studio = FewFrames();
   ApplyEvidence({.contrast = 5, .crf = 30, .cameras = 5}, studio);
   const EvidenceRow weak = RunEvidenceTrial(studio);
   EXPECT_EQ(weak.kind, (EvidenceKind{5, 30, 5}));

@@ -59,10 +59,11 @@ TEST(IndependentNoise, HasTheQuantilesOfStatisticalTables) {
   static_assert(kernels::kWindowRadii_px == std::array<int, 2>{2, 3});
   for (std::size_t k = 0; k < kernels::kWindows; ++k) {
     const float side = std::array<float, 2>{5, 7}[k];
-    EXPECT_NEAR(t.windows[k].cd * side, t.cd, 0.001);
-    EXPECT_NEAR(t.windows[k].alpha * side, 3.891, 0.001);  // Normal, both sides.
+    // All four windows with the pixel at a corner exceed these: each does at a rate of 0.1.
+    EXPECT_NEAR(t.windows[k].cd * side, 2.146, 0.001);
+    EXPECT_NEAR(t.windows[k].alpha * side, 1.645, 0.001);  // Normal, both sides.
     const float chi_square =
-        std::array<float, 2>{55.52f, 90.46f}[k];  // 22 and 46 degrees of freedom.
+        std::array<float, 2>{30.81f, 58.64f}[k];  // 22 and 46 degrees of freedom.
     EXPECT_NEAR(t.windows[k].roughness * t.windows[k].roughness * side * side, chi_square,
                 0.01 * chi_square);
   }

@@ -204,7 +204,7 @@ TEST(Segmenter, TheHaloOfACodecBesideAPersonIsLeftOut) {
   Segmenter segmenter(SmallCamera(), TakeBackground(studio, 30, coded), {});
   ExactPicture picture = studio;
   for (int y = 32; y < 128; ++y)
-    for (int x = 64; x < 128; ++x) picture(x, y)[2] += 1.2f;
+    for (int x = 64; x < 128; ++x) picture(x, y)[2] += 0.5f;
   Paint(picture, {80, 48, 111, 111}, {40, 50, 110});
   Trimap trimap;
   segmenter.Segment(coded.Take(picture).view(), {}, trimap);
