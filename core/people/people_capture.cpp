@@ -9,6 +9,7 @@
 
 #include "core/counted_time.h"
 #include "core/errors.h"
+#include "core/people/believed_flesh.h"
 #include "core/people/flesh_division.h"
 #include "core/people/member.h"
 #include "core/people/outline_division.h"
@@ -65,7 +66,6 @@ class PeopleCapture::Impl {
   void Equip(Member& member) const;
   void NoteGap(std::int64_t capture_ns);
   void BringBack();
-  const VoxelGrid& Believe(const Sighting& room);
   void Thin(std::span<const Outline> outlines, int step);
   void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
   bool IsAlone(const VoxelGrid& grid);
@@ -97,7 +97,7 @@ class PeopleCapture::Impl {
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
-  VoxelGrid believed_;  // Flesh, and what is doubtful where bodies are predicted.
+  BelievedFlesh believed_;
   VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
@@ -156,7 +156,7 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   NoteGap(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
-  const Sighting believed(Believe(room), room.outlines, room.box_W);
+  const Sighting believed(believed_.Of(room, posed_), room.outlines, room.box_W);
   if (IsAlone(believed.flesh)) {
     Thin(room.outlines, options_.fineness);
     UpdateAlone(believed, capture_ns, observer);
@@ -196,15 +196,6 @@ void PeopleCapture::Impl::BringBack() {
   for (const auto& member : members_) {
     if (member->beside) Equip(*member);
   }
-}
-
-// What cameras cannot tell is flesh where a body is predicted.
-const VoxelGrid& PeopleCapture::Impl::Believe(const Sighting& room) {
-  if (room.doubtful.empty() || posed_.empty()) return room.flesh;
-  believed_ = room.flesh;
-  for (const PosedPerson& person : posed_)
-    if (person.handicap_mm == 0) AddCellsWithin(person, room.doubtful, believed_);
-  return believed_;
 }
 
 // Flesh beside the box of a single person is nobody's, though the grid may contain it.
@@ -393,7 +384,6 @@ PeopleCapture::PeopleCapture(MakeCapture make, const PeopleOptions& options)
     : impl_(std::make_unique<Impl>(std::move(make), options)) {}
 PeopleCapture::PeopleCapture(PeopleCapture&&) noexcept = default;
 PeopleCapture::~PeopleCapture() = default;
-
 void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes,
                            std::int64_t capture_ns, UpdateObserver* observer) {
   impl_->Update(room, eyes, capture_ns, observer);

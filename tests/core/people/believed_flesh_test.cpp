@@ -1,0 +1,43 @@
+#include "core/people/believed_flesh.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "config/load_config.h"
+#include "core/body/stance.h"
+
+namespace mocap {
+namespace {
+
+constexpr double kVoxel_mm = 50;
+
+PosedPerson StandingBeliever(double handicap_mm) {
+  const BodyModel body(LoadBodyTable("full"), AverageSizes(1750));
+  PoseState pose;
+  pose.X_WT.p = Vector3(0, 0, 1200);
+  pose.theta.setZero(body.joint_count());
+  PosedPerson person;
+  PosePerson(body, pose, 250, handicap_mm, person);
+  return person;
+}
+
+TEST(BelievedFlesh, IsWhatCamerasCannotTellWithinABodyAndNothingElse) {
+  VoxelGrid flesh;
+  flesh.Reset({-10, -10, 0}, {20, 20, 40}, kVoxel_mm);
+  const Eigen::Vector3i trunk(10, 10, 24), beside(1, 1, 24), empty(10, 10, 25);
+  const std::vector<Eigen::Vector3i> doubtful = {trunk, beside};
+  Sighting room(flesh, {});
+  room.doubtful = doubtful;
+  BelievedFlesh believed;
+  const std::vector<PosedPerson> known = {StandingBeliever(0)}, lost = {StandingBeliever(250)};
+  const VoxelGrid& grid = believed.Of(room, known);
+  EXPECT_TRUE(grid.Test(trunk.x(), trunk.y(), trunk.z()));
+  EXPECT_FALSE(grid.Test(beside.x(), beside.y(), beside.z()));
+  EXPECT_FALSE(grid.Test(empty.x(), empty.y(), empty.z())) << "a camera calls it empty";
+  EXPECT_FALSE(believed.Of(room, lost).Test(trunk.x(), trunk.y(), trunk.z()));
+  EXPECT_EQ(&believed.Of(room, {}), &flesh);
+}
+
+}  // namespace
+}  // namespace mocap
