@@ -7,22 +7,11 @@
 
 #include "core/errors.h"
 #include "tests/core/reconstruction/lenses.h"
+#include "tests/core/reconstruction/silhouette/segmenter_studio.h"
 #include "tests/core/reconstruction/synthetic_pictures.h"
 
 namespace mocap {
 namespace {
-
-constexpr int kWidth = 200;
-constexpr int kHeight = 150;
-
-CameraCalibration SmallCamera() {
-  CameraCalibration camera;
-  camera.name = "cam3";
-  camera.width_px = kWidth;
-  camera.height_px = kHeight;
-  camera.lens = OpenCvLens{PinholeMatrix(200, 200, 100, 75), {}};
-  return camera;
-}
 
 // Paints by the share of each pixel that a shape covers, as a lens does.
 template <typename Contains>
@@ -44,7 +33,7 @@ class SegmenterTest : public ::testing::Test {
  protected:
   SegmenterTest()
       : sensor_(2.0f, 21),
-        studio_(EmptyStudio(kWidth, kHeight)),
+        studio_(EmptyStudio(kSmallWidth, kSmallHeight)),
         segmenter_(SmallCamera(), TakeBackground(studio_, 30, sensor_), {}) {}
 
   Trimap Classify(const ExactPicture& picture, float brightness = 1) {
@@ -72,15 +61,15 @@ TEST_F(SegmenterTest, FlickeringLightHasNoSilhouette) {
 
 TEST_F(SegmenterTest, ACastShadowIsLeftOut) {
   ExactPicture picture = studio_;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kSmallHeight; ++y)
+    for (int x = 0; x < kSmallWidth; ++x)
       Dim(picture, {x, y, x, y},
           1 - 0.25f / (1 + std::exp((std::hypot((x - 120) / 2.0f, y - 120.0f) - 18) / 3)));
   PaintSmoothly(picture, {40, 50, 110},
                 [](double x, double y) { return std::hypot((x - 80) / 0.4, y - 70) < 50; });
   const Silhouette silhouette = Segment(picture);
   EXPECT_GT(CountSet(silhouette), 2800);
-  EXPECT_EQ(CountSet(silhouette, {106, 0, kWidth - 1, kHeight - 1}), 0);
+  EXPECT_EQ(CountSet(silhouette, {106, 0, kSmallWidth - 1, kSmallHeight - 1}), 0);
 }
 
 TEST_F(SegmenterTest, TheOutlineLiesWhereThePersonCoversHalfAPixel) {
@@ -141,7 +130,7 @@ TEST_F(SegmenterTest, WhatThePersonEnclosesAndWhatMayBeAShadowIsUnknown) {
   EXPECT_GT(CountSet(trimap.unknown, like_the_wall), 0.85 * 16 * 30);
   EXPECT_EQ(CountSet(trimap.person, shadow), 0);
   EXPECT_GT(CountSet(trimap.unknown, shadow), 0.8 * 30 * 40);
-  EXPECT_EQ(CountSet(trimap.unknown, {150, 0, kWidth - 1, kHeight - 1}), 0);
+  EXPECT_EQ(CountSet(trimap.unknown, {150, 0, kSmallWidth - 1, kSmallHeight - 1}), 0);
 }
 
 TEST_F(SegmenterTest, SpecksAreDropped) {
@@ -155,10 +144,10 @@ TEST_F(SegmenterTest, SpecksAreDropped) {
 
 TEST_F(SegmenterTest, APersonAtTheEdgeIsKeptUpToTheEdge) {
   ExactPicture picture = studio_;
-  Paint(picture, {0, 60, 30, kHeight - 1}, {40, 50, 110});
+  Paint(picture, {0, 60, 30, kSmallHeight - 1}, {40, 50, 110});
   const Silhouette silhouette = Segment(picture);
   EXPECT_NEAR(CountSet(silhouette), 31 * 90, 40);
-  EXPECT_TRUE(silhouette.Test(0, kHeight - 1));
+  EXPECT_TRUE(silhouette.Test(0, kSmallHeight - 1));
 }
 
 TEST_F(SegmenterTest, SomebodyWhoWalksInIsSeenFromTheFirstPixelsOn) {
@@ -171,8 +160,8 @@ TEST_F(SegmenterTest, SomebodyWhoWalksInIsSeenFromTheFirstPixelsOn) {
 
 TEST_F(SegmenterTest, ADriftOfTheWallsHasNoSilhouette) {
   ExactPicture picture = studio_;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSmallHeight; ++y) {
+    for (int x = 0; x < kSmallWidth; ++x) {
       const auto drift = static_cast<float>(
           0.8 * (std::sin(x / 15.0) + std::cos(y / 20.0) + std::sin((x + y) / 27.0)));
       picture(x, y)[0] += drift;
@@ -184,11 +173,8 @@ TEST_F(SegmenterTest, ADriftOfTheWallsHasNoSilhouette) {
   EXPECT_NEAR(CountSet(Segment(picture)), 30 * 80, 150);
 }
 
-// A codec removes the noise of an empty studio that does not move.
-constexpr float kNoNoise = 0.01f;
-
 TEST(Segmenter, NoiseThatACodecRemovedFromTheEmptyStudioHasNoSilhouette) {
-  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
+  const ExactPicture studio = EmptyStudio(kSmallWidth, kSmallHeight);
   NoisySensor coded(kNoNoise, 26), sensor(1.5f, 27);
   Segmenter segmenter(SmallCamera(), TakeBackground(studio, 30, coded), {});
   Trimap trimap;
@@ -199,7 +185,7 @@ TEST(Segmenter, NoiseThatACodecRemovedFromTheEmptyStudioHasNoSilhouette) {
 }
 
 TEST(Segmenter, TheHaloOfACodecBesideAPersonIsLeftOut) {
-  const ExactPicture studio = EmptyStudio(kWidth, kHeight);
+  const ExactPicture studio = EmptyStudio(kSmallWidth, kSmallHeight);
   NoisySensor coded(kNoNoise, 28);
   Segmenter segmenter(SmallCamera(), TakeBackground(studio, 30, coded), {});
   ExactPicture picture = studio;
@@ -209,29 +195,6 @@ TEST(Segmenter, TheHaloOfACodecBesideAPersonIsLeftOut) {
   Trimap trimap;
   segmenter.Segment(coded.Take(picture).view(), {}, trimap);
   EXPECT_NEAR(CountSet(trimap.person), 32 * 64, 40);
-}
-
-// Segments pictures in turn, and each by a segmenter that has seen nothing else.
-void ExpectSameAsFresh(const CameraCalibration& camera,
-                       const std::vector<BackgroundFrame>& background,
-                       const std::vector<BackgroundFrame>& pictures) {
-  Segmenter seasoned(camera, background, {});
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    SCOPED_TRACE(i);
-    Segmenter fresh(camera, background, {});
-    Trimap expected, trimap;
-    fresh.Segment(pictures[i].image.view(), pictures[i].angles, expected);
-    seasoned.Segment(pictures[i].image.view(), pictures[i].angles, trimap);
-    EXPECT_EQ(trimap.person.words(), expected.person.words());
-    EXPECT_EQ(trimap.unknown.words(), expected.unknown.words());
-    EXPECT_EQ(seasoned.shading().dark.words(), fresh.shading().dark.words());
-    EXPECT_EQ(seasoned.shading().dark_tiles, fresh.shading().dark_tiles);
-    EXPECT_EQ(seasoned.shading().shades, fresh.shading().shades);
-    EXPECT_EQ(seasoned.conditions().gain, fresh.conditions().gain);
-    EXPECT_EQ(seasoned.conditions().drift, fresh.conditions().drift);
-    EXPECT_EQ(seasoned.conditions().shift_px, fresh.conditions().shift_px);
-    EXPECT_EQ(seasoned.conditions().displacement, fresh.conditions().displacement);
-  }
 }
 
 TEST_F(SegmenterTest, WhatWentBeforeDoesNotMatter) {
@@ -247,13 +210,13 @@ TEST_F(SegmenterTest, WhatWentBeforeDoesNotMatter) {
     if (left == 120) Paint(picture, {10, 10, 21, 21}, {40, 50, 110});
     take(picture, left == 26 ? 0.95f : 1);
     if (left != 20) continue;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < kSmallHeight; ++y)
+      for (int x = 0; x < kSmallWidth; ++x)
         picture(x, y)[2] += static_cast<float>(8 * std::sin(x / 11.0));
     take(picture, 1);
     // A nudge.
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x + 1 < kWidth; ++x) picture(x, y) = picture(x + 1, y);
+    for (int y = 0; y < kSmallHeight; ++y)
+      for (int x = 0; x + 1 < kSmallWidth; ++x) picture(x, y) = picture(x + 1, y);
     take(picture, 1);
   }
   NoisySensor sensor(2.0f, 21);
@@ -265,7 +228,7 @@ TEST_F(SegmenterTest, AThingThatWasMovedIsLeftOutBesideAPerson) {
   Paint(picture, {20, 30, 49, 109}, {40, 50, 110});
   Paint(picture, {150, 60, 164, 74}, {200, 190, 60});
   const Silhouette silhouette = Segment(picture);
-  EXPECT_EQ(CountSet(silhouette, {100, 0, kWidth - 1, kHeight - 1}), 0);
+  EXPECT_EQ(CountSet(silhouette, {100, 0, kSmallWidth - 1, kSmallHeight - 1}), 0);
   EXPECT_NEAR(CountSet(silhouette), 30 * 80, 50);
 }
 
@@ -275,14 +238,14 @@ TEST_F(SegmenterTest, MemoryOfAnotherSizeIsReused) {
   trimap.unknown.Set(5, 5);
   segmenter_.Segment(sensor_.Take(studio_).view(), {}, trimap);
   for (const Silhouette* const plane : {&trimap.person, &trimap.unknown}) {
-    EXPECT_EQ(plane->width(), kWidth);
+    EXPECT_EQ(plane->width(), kSmallWidth);
     EXPECT_EQ(CountSet(*plane), 0);
   }
 }
 
 TEST(Segmenter, TooFewBackgroundFramesAreRefused) {
   NoisySensor sensor(2.0f, 23);
-  const auto background = TakeBackground(EmptyStudio(kWidth, kHeight), 3, sensor);
+  const auto background = TakeBackground(EmptyStudio(kSmallWidth, kSmallHeight), 3, sensor);
   try {
     Segmenter segmenter(SmallCamera(), background, {});
     FAIL();
@@ -293,7 +256,7 @@ TEST(Segmenter, TooFewBackgroundFramesAreRefused) {
 
 TEST(Segmenter, ABackgroundOfAnotherSizeIsRefused) {
   NoisySensor sensor(2.0f, 24);
-  auto background = TakeBackground(EmptyStudio(kWidth, kHeight), 9, sensor);
+  auto background = TakeBackground(EmptyStudio(kSmallWidth, kSmallHeight), 9, sensor);
   background[4].image = Image<Bgr>(64, 48);
   try {
     Segmenter segmenter(SmallCamera(), background, {});
@@ -308,9 +271,9 @@ TEST(Segmenter, ABackgroundOfAnotherSizeIsRefused) {
 TEST(Segmenter, ANudgedCameraIsFollowed) {
   NoisySensor sensor(2.0f, 26);
   const auto look = [](float dx, float dy) {
-    ExactPicture picture(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    ExactPicture picture(kSmallWidth, kSmallHeight);
+    for (int y = 0; y < kSmallHeight; ++y) {
+      for (int x = 0; x < kSmallWidth; ++x) {
         const float u = (static_cast<float>(x) - dx) / 6, v = (static_cast<float>(y) - dy) / 7;
         const float grey = 130 + 50 * std::sin(u) * std::cos(v);
         picture(x, y) = {grey, 0.95f * grey, 0.9f * grey};
@@ -326,126 +289,6 @@ TEST(Segmenter, ANudgedCameraIsFollowed) {
   Paint(picture, {80, 40, 109, 119}, {40, 30, 170});
   segmenter.Segment(sensor.Take(picture).view(), {}, trimap);
   EXPECT_NEAR(CountSet(trimap.person), 30 * 80, 80);
-}
-
-// A camera on a head in the middle of a large room with pictures on its walls.
-class PanTiltSegmenterTest : public ::testing::Test {
- protected:
-  PanTiltSegmenterTest() : sensor_(1.5f, 25), camera_(SmallCamera()) {
-    camera_.X_CW.R << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-    camera_.X_CW.p = {0, 1500, 0};
-    camera_.head = PanTiltHead{.pan_axis_W = Vector3::UnitZ(),
-                               .pan_point_W = {0, -40, 1450},
-                               .tilt_axis_W = Vector3::UnitX(),
-                               .tilt_point_W = {0, -30, 1500}};
-    for (const double tilt : {-0.1, 0.0, 0.1})
-      for (int i = -3; i <= 3; ++i)
-        background_.push_back({sensor_.Take(Look({0.1 * i, tilt})), {0.1 * i, tilt}});
-  }
-
-  // What the camera sees of walls 4 m away and the floor.
-  ExactPicture Look(const PanTiltAngles& angles) const {
-    const RigidTransform X_WC = camera_.PoseAt(angles).Inverse();
-    ExactPicture picture(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const Vector3 ray =
-            X_WC.R * NormalizedFromPixel(camera_.lens, Vector2(x, y))->homogeneous();
-        double reach = (4000 - X_WC.p.y()) / ray.y();
-        if (ray.z() < 0) reach = std::min(reach, -X_WC.p.z() / ray.z());
-        const Vector3 p = X_WC.p + reach * ray;
-        const double u = p.x() / 300, v = (p.z() + p.y()) / 260;
-        const double pattern = std::sin(u) * std::cos(v) + 0.3 * std::sin(3 * u + 2 * v);
-        const auto grey = static_cast<float>(110 + 30 * pattern);
-        picture(x, y) = {0.9f * grey, grey, static_cast<float>(grey + 10 * std::sin(v))};
-      }
-    }
-    return picture;
-  }
-
-  NoisySensor sensor_;
-  CameraCalibration camera_;
-  std::vector<BackgroundFrame> background_;
-};
-
-TEST_F(PanTiltSegmenterTest, TheEmptyStudioHasNoSilhouetteBetweenTheLearnedDirections) {
-  Segmenter segmenter(camera_, background_, {});
-  for (const PanTiltAngles& angles :
-       {PanTiltAngles{0.05, 0.05}, {-0.13, -0.02}, {0.24, 0.07}, {0, 0}}) {
-    Trimap trimap;
-    segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
-    EXPECT_EQ(CountSet(trimap.person), 0) << angles.pan_rad;
-  }
-}
-
-TEST_F(PanTiltSegmenterTest, NoiseThatACodecRemovedFromTheEmptyStudioHasNoSilhouette) {
-  NoisySensor coded(kNoNoise, 29);
-  for (BackgroundFrame& frame : background_) frame.image = coded.Take(Look(frame.angles));
-  Segmenter segmenter(camera_, background_, {});
-  for (const PanTiltAngles& angles : {PanTiltAngles{0, 0}, {0.2, 0.1}}) {
-    Trimap trimap;
-    segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
-    EXPECT_EQ(CountSet(trimap.person), 0) << angles.pan_rad;
-  }
-}
-
-TEST_F(PanTiltSegmenterTest, APersonIsFoundInAnyDirection) {
-  Segmenter segmenter(camera_, background_, {});
-  for (const PanTiltAngles& angles : {PanTiltAngles{0.05, 0.05}, {-0.17, -0.06}}) {
-    ExactPicture picture = Look(angles);
-    Paint(picture, {80, 40, 109, 120}, {40, 40, 160});
-    Trimap trimap;
-    segmenter.Segment(sensor_.Take(picture).view(), angles, trimap);
-    EXPECT_NEAR(CountSet(trimap.person), 30 * 81, 60);
-    EXPECT_NEAR(CountSet(trimap.person, {80, 40, 109, 120}), 30 * 81, 60);
-  }
-}
-
-TEST_F(PanTiltSegmenterTest, WhatWentBeforeDoesNotMatter) {
-  std::vector<BackgroundFrame> pictures;
-  for (const PanTiltAngles& angles :
-       {PanTiltAngles{0.05, 0.05}, {-0.17, -0.06}, {0.24, 0.07}, {0.05, 0.05}}) {
-    ExactPicture picture = Look(angles);
-    const int left = pictures.size() == 3 ? 20 : 80;
-    Paint(picture, {left, 40, left + 29, 120}, {40, 40, 160});
-    pictures.push_back({sensor_.Take(picture), angles});
-  }
-  ExpectSameAsFresh(camera_, background_, pictures);
-}
-
-TEST_F(PanTiltSegmenterTest, WhatIsExpectedDoesNotDependOnWhereItIsLookedAtClosely) {
-  const auto background = LearnPanTiltBackground(camera_, background_, 0.999);
-  const PanTiltAngles angles{0.17, -0.04};
-  RegionOfInterest everything, part;
-  everything.SetAll(kWidth, kHeight);
-  background->CoarsePass(angles, {});
-  const ExpectedPicture whole = background->Expect(everything, {});
-  Silhouette suspicious((kWidth + 7) / 8, (kHeight + 7) / 8);
-  suspicious.Set(3, 0);
-  suspicious.Set(12, 9);
-  suspicious.Set(24, 18);
-  part.Set(suspicious, kWidth, kHeight);
-  background->CoarsePass({0.1, 0}, {});
-  background->Expect(everything, {});
-  background->CoarsePass(angles, {});
-  const ExpectedPicture& partly = background->Expect(part, {});
-  for (int y = 0; y < kHeight; ++y) {
-    part.ForEachMeasured(y, [&](const PixelRun& run) {
-      for (int x = run.begin; x < run.end; ++x) {
-        const auto i = static_cast<std::size_t>(y * kWidth + x);
-        ASSERT_EQ(partly.mean[1][i], whole.mean[1][i]) << x << " " << y;
-        ASSERT_EQ(partly.InverseSigmaAt(x, y, 1), whole.InverseSigmaAt(x, y, 1)) << x << " " << y;
-      }
-    });
-  }
-}
-
-TEST_F(PanTiltSegmenterTest, WhatWasNeverLearnedIsNotTakenForAPerson) {
-  Segmenter segmenter(camera_, background_, {});
-  const PanTiltAngles angles{0.55, 0};  // Half of it was never shown.
-  Trimap trimap;
-  segmenter.Segment(sensor_.Take(Look(angles)).view(), angles, trimap);
-  EXPECT_EQ(CountSet(trimap.person), 0);
 }
 
 }  // namespace
