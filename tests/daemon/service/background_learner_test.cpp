@@ -7,7 +7,7 @@
 #include "config/load_config.h"
 #include "core/errors.h"
 #include "daemon/pipeline/pipeline.h"
-#include "tests/daemon/fake_studio.h"
+#include "tests/daemon/painted_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -19,39 +19,18 @@ using ::testing::ThrowsMessage;
 
 constexpr double kBrighter = 1.2;
 
-/// A camera in a room whose lamps burn brighter than when its background was learned; frames come
-/// as fast as they are wanted.
-class BrightCamera : public CameraDriver {
- public:
-  explicit BrightCamera(const std::atomic<bool>& somebody_moves)
-      : somebody_moves_(somebody_moves), picture_(testing::FakeRoom(99)) {
-    for (Bgr& pixel : picture_.pixels()) {
+/// Paints a room whose lamps burn brighter than when its background was learned.
+auto BrighterWhile(const std::atomic<bool>& somebody_moves) {
+  return [&somebody_moves](Image<Bgr>& picture, std::int64_t frame) {
+    for (Bgr& pixel : picture.pixels()) {
       const auto value = static_cast<std::uint8_t>(kBrighter * pixel.g);
       pixel = {value, value, value};
     }
-  }
-  void Start() override {}
-  GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
-    const bool is_dark = somebody_moves_.load() && frames_ % 3 == 1;
-    for (int y = 10; y < 30; ++y) {
-      for (int x = 10; x < 30; ++x) picture_(x, y).r = is_dark ? 0 : picture_(x, y).g;
-    }
-    frame.image = std::as_const(picture_).view();
-    frame.capture_ns = frames_ * testing::kFakePeriodNs;
-    frame.sequence = static_cast<std::uint64_t>(frames_++);
-    return GrabStatus::kFrame;
-  }
-  void Stop() override {}
-
- private:
-  const std::atomic<bool>& somebody_moves_;
-  Image<Bgr> picture_;
-  std::int64_t frames_ = 0;
-};
-
-class Nowhere : public PoseSink {
-  void OnSet(const TrackedSet&) override {}
-};
+    const bool is_dark = somebody_moves.load() && frame % 3 == 1;
+    for (int y = 10; y < 30; ++y)
+      for (int x = 10; is_dark && x < 30; ++x) picture(x, y).r = 0;
+  };
+}
 
 class BackgroundLearnerTest : public ::testing::Test {
  protected:
@@ -59,7 +38,7 @@ class BackgroundLearnerTest : public ::testing::Test {
     Studio studio = testing::FakeStudio({testing::SteadyFrames(1), testing::SteadyFrames(1)});
     std::vector<BackgroundSource> sources;
     for (StudioCamera& camera : studio.cameras) {
-      camera.driver = std::make_unique<BrightCamera>(somebody_moves_);
+      camera.driver = std::make_unique<testing::PaintedCamera>(BrighterWhile(somebody_moves_));
       place_.cameras.push_back(camera.calibration);
       sources.push_back(camera.background);
     }
@@ -87,7 +66,7 @@ class BackgroundLearnerTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   std::atomic<bool> somebody_moves_{false};
-  Nowhere sink_;
+  testing::NoPoses sink_;
   LearningPlace place_;
   std::deque<FrameTap> taps_;
   std::optional<KnownBackgrounds> known_;

@@ -7,40 +7,20 @@
 
 #include "config/load_config.h"
 #include "daemon/pipeline/pipeline.h"
-#include "tests/daemon/fake_studio.h"
+#include "tests/daemon/painted_camera.h"
 
 namespace mocap {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// A camera before which a box is put; frames come faster than their times say.
-class BoxCamera : public CameraDriver {
- public:
-  explicit BoxCamera(const std::atomic<bool>& has_box) : has_box_(has_box) {}
-  void Start() override {}
-  GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
-    // Otherwise threads of low priority would hardly run.
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    picture_ = testing::FakeRoom(99);
-    for (int y = 8; has_box_.load() && y < 24; ++y)
-      for (int x = 40; x < 56; ++x) picture_(x, y) = {40, 50, 210};
-    frame.image = std::as_const(picture_).view();
-    frame.capture_ns = frames_ * testing::kFakePeriodNs;
-    frame.sequence = static_cast<std::uint64_t>(frames_++);
-    return GrabStatus::kFrame;
-  }
-  void Stop() override {}
-
- private:
-  const std::atomic<bool>& has_box_;
-  Image<Bgr> picture_;
-  std::int64_t frames_ = 0;
-};
-
-class IgnoredPoses : public PoseSink {
-  void OnSet(const TrackedSet&) override {}
-};
+/// Paints a box while there is one.
+auto BoxIf(const std::atomic<bool>& has_box) {
+  return [&has_box](Image<Bgr>& picture, std::int64_t) {
+    for (int y = 8; has_box.load() && y < 24; ++y)
+      for (int x = 40; x < 56; ++x) picture(x, y) = {40, 50, 210};
+  };
+}
 
 class FurnitureLooksTest : public ::testing::Test {
  protected:
@@ -49,7 +29,8 @@ class FurnitureLooksTest : public ::testing::Test {
     std::vector<BackgroundSource> sources;
     std::vector<CameraCalibration> cameras;
     for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-      studio.cameras[i].driver = std::make_unique<BoxCamera>(i == 1 ? has_box_ : never_);
+      studio.cameras[i].driver =
+          std::make_unique<testing::PaintedCamera>(BoxIf(i == 1 ? has_box_ : never_));
       cameras.push_back(studio.cameras[i].calibration);
       sources.push_back(studio.cameras[i].background);
     }
@@ -74,7 +55,7 @@ class FurnitureLooksTest : public ::testing::Test {
   }
 
   std::atomic<bool> has_box_{false}, never_{false};
-  IgnoredPoses sink_;
+  testing::NoPoses sink_;
   std::deque<FrameTap> taps_;
   std::optional<KnownBackgrounds> known_;
   std::optional<Pipeline> pipeline_;

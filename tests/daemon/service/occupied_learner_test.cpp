@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
-#include "tests/daemon/fake_studio.h"
+#include "tests/daemon/painted_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -23,37 +23,17 @@ using ::testing::ThrowsMessage;
 
 enum class Furniture { kAsLearned, kMoved, kAnotherRoom };
 
-/// A camera in a room that somebody furnishes; frames come faster than their times say.
-class FurnishedCamera : public CameraDriver {
- public:
-  explicit FurnishedCamera(const std::atomic<Furniture>& furniture) : furniture_(furniture) {}
-  void Start() override {}
-  GrabStatus Grab(Frame& frame, std::chrono::milliseconds) override {
-    // Otherwise threads of low priority would hardly run.
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    picture_ = testing::FakeRoom(99);
-    const Furniture furniture = furniture_.load();
+/// Paints a room that somebody furnishes.
+auto FurnishedAs(const std::atomic<Furniture>& known) {
+  return [&known](Image<Bgr>& picture, std::int64_t) {
+    const Furniture furniture = known.load();
     const bool is_other = furniture == Furniture::kAnotherRoom;
     for (int y = is_other ? 0 : 12; y < (is_other ? testing::kFakeHeight : 30); ++y) {
       for (int x = is_other ? 0 : 10; x < (is_other ? 40 : 30); ++x)
-        if (furniture != Furniture::kAsLearned) picture_(x, y) = {40, 50, 210};
+        if (furniture != Furniture::kAsLearned) picture(x, y) = {40, 50, 210};
     }
-    frame.image = std::as_const(picture_).view();
-    frame.capture_ns = frames_ * testing::kFakePeriodNs;
-    frame.sequence = static_cast<std::uint64_t>(frames_++);
-    return GrabStatus::kFrame;
-  }
-  void Stop() override {}
-
- private:
-  const std::atomic<Furniture>& furniture_;
-  Image<Bgr> picture_;
-  std::int64_t frames_ = 0;
-};
-
-class NoPoses : public PoseSink {
-  void OnSet(const TrackedSet&) override {}
-};
+  };
+}
 
 class OccupiedLearnerTest : public ::testing::Test {
  protected:
@@ -61,7 +41,8 @@ class OccupiedLearnerTest : public ::testing::Test {
     Studio studio = testing::FakeStudio({testing::SteadyFrames(1), testing::SteadyFrames(1)});
     std::vector<BackgroundSource> sources;
     for (std::size_t i = 0; i < studio.cameras.size(); ++i) {
-      studio.cameras[i].driver = std::make_unique<FurnishedCamera>(furniture_[i]);
+      studio.cameras[i].driver =
+          std::make_unique<testing::PaintedCamera>(FurnishedAs(furniture_[i]));
       place_.cameras.push_back(studio.cameras[i].calibration);
       sources.push_back(studio.cameras[i].background);
     }
@@ -94,7 +75,7 @@ class OccupiedLearnerTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   std::array<std::atomic<Furniture>, 2> furniture_{Furniture::kAsLearned, Furniture::kAsLearned};
-  NoPoses sink_;
+  testing::NoPoses sink_;
   LearningPlace place_;
   std::deque<FrameTap> taps_;
   std::optional<KnownBackgrounds> known_;
